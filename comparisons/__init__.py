@@ -1,0 +1,1 @@
+"""Closed forms, the judge, tables, figures and the command line."""

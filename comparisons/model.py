@@ -1,0 +1,98 @@
+"""What a model is, what it answers, and how it says that a question does not apply to it.
+
+Data flow: a `fscm.problem.Problem` and the name of a quantity go in, a `Result` comes out.  A model that
+does not define the quantity raises `NotApplicable` with one sentence; a computation that did not converge
+raises `ComputationFailed`.  No model ever returns an unconverged number.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fscm.problem import Problem
+
+__all__ = ["ComputationFailed", "Curve", "Model", "NotApplicable", "Result"]
+
+
+class NotApplicable(Exception):
+    """The model does not define this quantity for this problem; the message says why."""
+
+
+class ComputationFailed(Exception):
+    """The model defines the quantity but its computation did not converge; the message says what to change."""
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """One answer of one model.
+
+    Attributes
+    ----------
+    value : float
+        Dimensionless value, in the unit the quantity registry states.
+    u_num : float
+        Bound on the numerical error of `value` (same unit, >= 0).  For a closed form this is the rounding
+        and root-finding error; it says nothing about how good the model is.
+    size : int
+        Number of unknowns of the discrete problem (0 for a closed form).
+    iterations : int
+        Newton or root-finding iterations (0 when none).
+    residual : float
+        Largest residual of the discrete equations at the answer (0 when none).
+    seconds : float
+        Wall-clock time of the computation.
+    """
+
+    value: float
+    u_num: float
+    size: int = 0
+    iterations: int = 0
+    residual: float = 0.0
+    seconds: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not math.isfinite(self.value):
+            raise ComputationFailed(f"the model produced {self.value}, which is not a finite number")
+        if not (math.isfinite(self.u_num) and self.u_num >= 0):
+            raise ComputationFailed(f"the model stated u_num = {self.u_num}; it must be finite and >= 0")
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """A force-displacement curve along the equilibrium path (all arrays of one length, dimensionless).
+
+    Attributes
+    ----------
+    displacement : ndarray, shape (m,)
+        Approach delta / z0, positive towards the half-space.
+    load : ndarray, shape (m,)
+        P / (pi Q^(2/n) dgamma z0^(2/n - 1)), tension negative.
+    columns : dict of str to ndarray, shape (m,)
+        What else the model knows along the path, e.g. ``central_gap``, ``contact_radius``, ``cohesive_radius``.
+    """
+
+    displacement: NDArray[np.float64]
+    load: NDArray[np.float64]
+    columns: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+
+
+@runtime_checkable
+class Model(Protocol):
+    """The contract of every model, ours or foreign.
+
+    Attributes are plain data; `evaluate` is a pure function of its arguments.
+    """
+
+    name: str
+    version: str
+    citation: str
+    domain: str
+
+    def evaluate(self, problem: Problem, quantity: str) -> Result:
+        """Return the quantity for the problem, or raise `NotApplicable` or `ComputationFailed`."""
+        ...

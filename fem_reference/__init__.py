@@ -1,0 +1,1 @@
+"""An independent axisymmetric finite-element model of adhesive contact of graded materials."""

@@ -1,0 +1,1 @@
+"""The full self-consistent model of adhesive contact of power-law graded materials."""
