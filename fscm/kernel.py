@@ -1,0 +1,272 @@
+r"""The ring response of the graded half-space and its primitives, to rounding error.
+
+A ring of unit pressure at radius t lifts the surface at radius r by (Eqs. 6 and 8, without 2 b c0^k / E*)
+
+    G_k(r, t) = t (r+t)^{-(1+k)} F((k+1)/2, 1/2; 1; 4rt/(r+t)^2),
+
+whose primitives are Phi_k and Psi_k = Phi_k - s^{1-k} (Eqs. 18-22).  With a = (k+1)/2 they equal
+
+    Phi_k(s) = (1-k) (s^2/2) F(a, a; 2; s^2),  s <= 1,        Phi_k(s) = s^{1-k} F(a, a-1; 1; s^-2),  s >= 1,
+
+which follows from integrating the Gauss series of Eq. 6 term by term; both sides agree at s = 1.
+
+Each F is used in two zones.  Far from the singular circle its Taylor polynomial converges fast.  Near it the
+connection formula F = A(y) + y^-c B(y) holds, but A and B grow like 1/k and cancel as k -> 0.  It is written as
+
+    F = D(y) + C(y) L_c(y),     D = A + B,   C = c B,   L_c = (y^-c - 1)/c  (-log y at c = 0),
+
+where D and C stay finite.  Their expansion coefficients are computed once for each k in extended precision,
+so nothing cancels in double precision for any 0 <= k < 1.  y comes from the *distance* of the radii, never from
+1 - x^2, and the logarithm is taken of the distance, so distances down to 1e-300 are exact.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import lru_cache
+
+import mpmath
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+__all__ = ["Kernel", "Phi", "Psi", "box_cox", "ring_response"]
+
+Array = NDArray[np.float64]
+
+# The near form is expanded on 0 <= y <= 1/2; its nearest singularity is y = 1, so Chebyshev coefficients
+# fall like (3 + sqrt 8)^-m and 24 of them reach 1e-18.
+_NEAR_DEGREE = 24
+_NEAR_LIMIT = 0.5
+# Terms of the Taylor series summed in extended precision at y <= 1/2: 2^-110 < 1e-33.
+_SERIES_TERMS = 110
+# Below this exponent the k = 0 limit is exact in double precision even for distances of 1e-300, where the
+# relative change of the kernel is k log(1e300) < 700 k.
+_SMALLEST_K = 1e-22
+# Stand-in for k = 0: the O(k) remainder is below double precision.
+_ZERO_K = "1e-30"
+# D loses 2 log10(1/k) digits: k - 1 rounds relative to 1, then the gamma function has its pole there.
+_DIGITS = 100
+
+
+def box_cox(log_y: Array, c: float) -> Array:
+    """(y^-c - 1)/c from log y, with the limit -log y at c = 0."""
+    return -log_y if c == 0.0 else np.expm1(-c * log_y) / c
+
+
+def _gauss_series(a: mpmath.mpf, b: mpmath.mpf, c: mpmath.mpf, terms: int) -> list[mpmath.mpf]:
+    """Taylor coefficients of F(a, b; c; x)."""
+    coefficients = [mpmath.mpf(1)]
+    for m in range(terms - 1):
+        coefficients.append(coefficients[-1] * (a + m) * (b + m) / ((c + m) * (m + 1)))
+    return coefficients
+
+
+def _polynomial(taylor: list[mpmath.mpf], limit: float) -> Array:
+    """Economised power coefficients, in u = 2 y / limit - 1, of a Taylor series on 0 <= y <= limit."""
+    nodes = chebyshev.chebpts1(_NEAR_DEGREE + 1)
+    values = [float(mpmath.polyval(taylor[::-1], (mpmath.mpf(float(u)) + 1) * limit / 2)) for u in nodes]
+    return chebyshev.cheb2poly(chebyshev.chebfit(nodes, np.array(values), _NEAR_DEGREE))
+
+
+def _horner(coefficients: Array, u: Array) -> Array:
+    """Evaluate a polynomial with coefficients in ascending order, without temporaries."""
+    total = np.full_like(u, coefficients[-1])
+    for c in coefficients[-2::-1]:
+        total *= u
+        total += c
+    return total
+
+
+class Kernel:
+    """The ring response for one gradient exponent.
+
+    Parameters
+    ----------
+    k : float
+        Gradient exponent, 0 <= k < 1.
+
+    Raises
+    ------
+    ValueError
+        When k is outside [0, 1).
+
+    Examples
+    --------
+    >>> kernel = Kernel(0.0)
+    >>> r, t = np.array([1.0]), np.array([2.0])
+    >>> float(kernel.response(r, t, np.abs(r - t))[0])   # (2/pi) (2/3) K(8/9)
+    1.0731820...
+    """
+
+    def __init__(self, k: float) -> None:
+        if not 0.0 <= k < 1.0:
+            raise ValueError(f"gradient exponent k = {k} is outside [0, 1): the ring response diverges at k = 1")
+        self.k = 0.0 if k < _SMALLEST_K else float(k)
+        with mpmath.workdps(_DIGITS):
+            q = mpmath.mpf(self.k) if self.k > 0 else mpmath.mpf(_ZERO_K)
+            a = (1 + q) / 2
+            half = mpmath.mpf(1) / 2
+            gamma: Callable[[mpmath.mpf], mpmath.mpf] = mpmath.gamma
+            terms = _SERIES_TERMS
+            # F(a, 1/2; 1; 1 - y) = A + y^{-k/2} B
+            A = _scaled(_gauss_series(a, half, 1 + q / 2, terms), gamma(-q / 2) / (gamma(1 - a) * gamma(half)))
+            B = _scaled(_gauss_series(1 - a, half, 1 - q / 2, terms), gamma(q / 2) / (gamma(a) * gamma(half)))
+            self._near_D = _polynomial([x + y for x, y in zip(A, B, strict=True)], _NEAR_LIMIT)
+            self._near_C = _polynomial([x * q / 2 for x in B], _NEAR_LIMIT)
+            self._far = np.array([float(c) for c in _gauss_series(a, a, mpmath.mpf(1), 12)])
+            self._inner = _Primitive(a, a, mpmath.mpf(2), q)
+            self._outer = _Primitive(a, a - 1, mpmath.mpf(1), q)
+
+    def near_parts(self, r: Array, t: Array, distance: Array) -> tuple[Array, Array]:
+        """Factors (S, C) of G = S + C L_k(distance / (r + t)), smooth in t across t = r.
+
+        Valid where distance / (r + t) <= sqrt(1/2); all arguments are arrays of one shape.
+        """
+        total = r + t
+        ratio = distance / total
+        u = ratio * ratio
+        u *= 2.0 / _NEAR_LIMIT
+        u -= 1.0
+        front = t * total ** (-1.0 - self.k)
+        # y = ratio^2, so L_{k/2}(y) = 2 L_k(ratio).
+        return front * _horner(self._near_D, u), 2.0 * front * _horner(self._near_C, u)
+
+    def response(self, r: Array, t: Array, distance: Array) -> Array:
+        """G_k(r, t), dimension radius^-k; `distance` is abs(r - t), > 0, to full relative accuracy.
+
+        All arguments are arrays of one shape; r may be 0.
+        """
+        out = np.empty(np.shape(distance))
+        near = distance <= math.sqrt(_NEAR_LIMIT) * (r + t)
+        rn, tn, dn = r[near], t[near], distance[near]
+        S, C = self.near_parts(rn, tn, dn)
+        with np.errstate(divide="ignore"):
+            C *= box_cox(np.log(dn / (rn + tn)), self.k)
+        out[near] = S + C
+        far = ~near
+        rf, tf = r[far], t[far]
+        larger = np.maximum(rf, tf)
+        x = np.minimum(rf, tf) / larger
+        out[far] = tf * larger ** (-1.0 - self.k) * _horner(self._far, x * x)
+        return out
+
+    def Phi(self, s: Array, offset: Array) -> Array:
+        """Primitive Phi_k(s) of Eq. 18; `offset` is s - 1 to full relative accuracy."""
+        return self._primitive(s, offset, subtract_power=False)
+
+    def Psi(self, s: Array, offset: Array) -> Array:
+        """Psi_k(s) = Phi_k(s) - s^{1-k} (Eq. 22), without cancellation at large s."""
+        return self._primitive(s, offset, subtract_power=True)
+
+    def _primitive(self, s: Array, offset: Array, subtract_power: bool) -> Array:
+        d = np.abs(offset)
+        out = np.empty_like(s)
+        inside = offset <= 0.0
+        si = s[inside]
+        Fi = self._inner.value(si, d[inside] * (1.0 + si))
+        out[inside] = 0.5 * (1.0 - self.k) * si * si * Fi
+        if subtract_power:
+            out[inside] -= si ** (1.0 - self.k)
+        so = s[~inside]
+        x = 1.0 / so
+        Fo = self._outer.value(x, d[~inside] * x * (1.0 + x), minus_one=subtract_power)
+        out[~inside] = so ** (1.0 - self.k) * Fo
+        return out
+
+
+def _scaled(series: list[mpmath.mpf], factor: mpmath.mpf) -> list[mpmath.mpf]:
+    return [c * factor for c in series]
+
+
+class _Primitive:
+    """F(a, b; c; x^2) with c - a - b = 1 - k on 0 <= x <= 1; the case behind Phi and Psi."""
+
+    def __init__(self, a: mpmath.mpf, b: mpmath.mpf, c: mpmath.mpf, k: mpmath.mpf) -> None:
+        gamma = mpmath.gamma
+        terms = _SERIES_TERMS
+        # F(a, b; c; 1 - y) = A(y) + y^{1-k} B(y); y^{m+1} of A and y^m of B are paired so that 1/k cancels.
+        A = _scaled(_gauss_series(a, b, k, terms + 1), gamma(c) * gamma(1 - k) / (gamma(c - a) * gamma(c - b)))
+        B = _scaled(_gauss_series(c - a, c - b, 2 - k, terms), gamma(c) * gamma(k - 1) / (gamma(a) * gamma(b)))
+        self._k = float(k) if k >= _SMALLEST_K else 0.0
+        self._at_one = float(A[0])
+        self._at_one_minus_one = float(A[0] - 1)
+        self._D = _polynomial([x + y for x, y in zip(A[1:], B, strict=True)], _NEAR_LIMIT)
+        self._C = _polynomial([x * k for x in B], _NEAR_LIMIT)
+        taylor = _gauss_series(a, b, c, terms)
+        self._taylor_minus_one = _polynomial(taylor[1:], _NEAR_LIMIT)
+
+    def value(self, x: Array, y: Array, minus_one: bool = False) -> Array:
+        """F(x^2), or F - 1; `y` is 1 - x^2 to full relative accuracy."""
+        out = np.empty_like(x)
+        near = y <= _NEAR_LIMIT
+        yn = y[near]
+        u = yn * (2.0 / _NEAR_LIMIT) - 1.0
+        # y = 0 is the value at one; the smallest float stands in for it under the logarithm.
+        L = box_cox(np.log(np.maximum(yn, np.finfo(float).tiny)), self._k)
+        start = self._at_one_minus_one if minus_one else self._at_one
+        out[near] = start + yn * (_horner(self._D, u) + _horner(self._C, u) * L)
+        x2 = x[~near] ** 2
+        out[~near] = x2 * _horner(self._taylor_minus_one, x2 * (2.0 / _NEAR_LIMIT) - 1.0) + (0.0 if minus_one else 1.0)
+        return out
+
+
+@lru_cache(maxsize=64)
+def _kernel(k: float) -> Kernel:
+    return Kernel(k)
+
+
+def ring_response(k: float, r: Array, t: Array, distance: Array | None = None) -> Array:
+    """G_k(r, t) of Eq. 8 without the factor 2 b c0^k / E*.
+
+    Parameters
+    ----------
+    k : float
+        Gradient exponent in [0, 1).
+    r, t : array_like
+        Radii of the point (>= 0) and of the ring (> 0), any consistent unit, broadcast together.
+    distance : array_like, optional
+        abs(r - t) where the radii cannot carry it to full relative accuracy.
+
+    Returns
+    -------
+    ndarray
+        Radius^-k; infinite at r = t.
+
+    Examples
+    --------
+    >>> ring_response(0.5, 0.0, 4.0)          # t^-k on the axis
+    array(0.5)
+    """
+    r, t = np.broadcast_arrays(np.asarray(r, float), np.asarray(t, float))
+    d = np.abs(r - t) if distance is None else np.broadcast_to(np.asarray(distance, float), r.shape)
+    return _kernel(k).response(np.atleast_1d(r), np.atleast_1d(t), np.atleast_1d(d)).reshape(r.shape)
+
+
+def _of_ratio(method: Callable[[Array, Array], Array], s: Array, offset: Array | None) -> Array:
+    s = np.asarray(s, float)
+    delta = s - 1.0 if offset is None else np.broadcast_to(np.asarray(offset, float), s.shape)
+    return method(np.atleast_1d(s), np.atleast_1d(delta)).reshape(s.shape)
+
+
+def Phi(k: float, s: Array, offset: Array | None = None) -> Array:
+    """Primitive Phi_k(s) of (1-k) G_k (Eq. 18), s >= 0; `offset` is s - 1 where s cannot carry it.
+
+    Examples
+    --------
+    >>> float(Phi(0.0, 1.0))                  # 2 / pi at s = 1, k = 0
+    0.6366197...
+    """
+    return _of_ratio(_kernel(k).Phi, s, offset)
+
+
+def Psi(k: float, s: Array, offset: Array | None = None) -> Array:
+    """Psi_k(s) = Phi_k(s) - s^{1-k} (Eq. 22), s >= 0; bounded, 0 at both ends.
+
+    Examples
+    --------
+    >>> bool(abs(Psi(0.4, 1e8)) < 1e-9)
+    True
+    """
+    return _of_ratio(_kernel(k).Psi, s, offset)
