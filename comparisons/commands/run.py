@@ -142,7 +142,7 @@ def _write(folder: Path, table: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.Da
     write_table(maxima, folder / "largest_kappa")
     figure = kappa_figure.draw(kappa)
     for suffix in (".png", ".pdf"):
-        save(figure, (folder / "kappa_k0.4").with_suffix(suffix))
+        save(figure, folder / f"fig16b_kappa{suffix}")
 
 
 def _print(table: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame) -> None:
@@ -163,4 +163,4 @@ def _print(table: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame) -> No
     console.print(rich_table(statuses(table), "computations"))
     shown = maxima.assign(kappa=100 * maxima["kappa"], u_kappa=100 * maxima["u_kappa"])
     formats = {"kappa": "+.3f", "u_kappa": ".0e"}
-    console.print(rich_table(shown, "largest abs(kappa) in percent , beside the published", formats))
+    console.print(rich_table(shown, "largest abs(kappa) in percent, beside the published", formats))
