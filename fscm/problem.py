@@ -1,29 +1,36 @@
 """The problem as pure data: what is pressed on what, dimensionless (Eqs. 24-31).
 
-Lengths normal to the surface are in z0, radii in (Q z0)^(1/n), tractions in dgamma / z0.  Tension is negative.
+Lengths normal to the surface are in z0, radii in (Q z0)^(1/n), tractions in dgamma / z0.  Tension is
+negative.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from fscm.profile import PowerLaw, Profile
 from fscm.surface_law import LennardJones93, SurfaceLaw
+from fscm.validation import real_number
 
 __all__ = ["Problem"]
 
+# m * growth has to exceed this for the load integral of p ~ r^(-m growth) times r dr to converge.
+_LOAD_INTEGRAL = 2.0
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(frozen=True, slots=True, init=False)
 class Problem:
     """Adhesive contact of a rigid punch with a power-law graded half-space, dimensionless.
+
+    Immutable, hashable, and picklable when its profile and law are.
 
     Parameters
     ----------
     n : float
-        Shape index of the punch, > 0; it also enters the definition of `mu` (Eq. 29).
+        Shape index of the punch, > 0; it also enters the definition of `mu` (Eq. 29), which needs 2n + k > 1.
     k : float
-        Gradient exponent of E = E0 (z/c0)^k, 0 <= k < 1 (k = 1, the Gibson solid, is `fscm.gibson`).
+        Gradient exponent of E = E0 (z/c0)^k, 0 <= k <= 1 (k = 1, the Gibson solid, is `fscm.gibson`).
     mu : float
         Generalised Tabor number (Eq. 29), > 0.
     profile : Profile, optional
@@ -45,18 +52,54 @@ class Problem:
     n: float
     k: float
     mu: float
-    profile: Profile = None  # type: ignore[assignment]
-    law: SurfaceLaw = field(default_factory=LennardJones93)
+    profile: Profile
+    law: SurfaceLaw
 
-    def __post_init__(self) -> None:
-        if not (math.isfinite(self.n) and self.n > 0):
-            raise ValueError(f"shape index n = {self.n} is outside (0, infinity): f = r^n / n must grow with r")
-        if not 0 <= self.k <= 1:
-            raise ValueError(f"gradient exponent k = {self.k} is outside [0, 1]: E = E0 (z/c0)^k has no finite surface response there")
-        if not (math.isfinite(self.mu) and self.mu > 0):
-            raise ValueError(f"Tabor number mu = {self.mu} is outside (0, infinity)")
-        if self.profile is None:
-            object.__setattr__(self, "profile", PowerLaw(float(self.n)))
+    def __init__(
+        self, n: float, k: float, mu: float, profile: Profile | None = None, law: SurfaceLaw | None = None
+    ) -> None:
+        inf = math.inf
+        n = real_number("shape index n", n, low=0.0, high=inf, reason="f = r^n / n must grow with r")
+        k = real_number(
+            "gradient exponent k",
+            k,
+            low=0.0,
+            high=1.0,
+            reason="E = E0 (z/c0)^k has no finite surface response there",
+            closed_low=True,
+            closed_high=True,
+        )
+        mu = real_number("Tabor number mu", mu, low=0.0, high=inf, reason="it is a positive ratio of lengths")
+        if 2.0 * n + k <= 1.0:
+            raise ValueError(
+                f"shape index n = {n:g} is outside ({(1.0 - k) / 2.0:g}, inf) for k = {k:g}: "
+                "the Tabor number of Eq. 29 is a power 1 / (2n + k - 1)"
+            )
+        profile = PowerLaw(n) if profile is None else profile
+        law = LennardJones93() if law is None else law
+        if not isinstance(profile, Profile):
+            raise ValueError(
+                f"profile = {profile!r} is not a punch shape: it needs growth, height(r) and slope(r)"
+            )
+        if not isinstance(law, SurfaceLaw):
+            raise ValueError(
+                f"law = {law!r} is not a surface law: it needs traction, slope, curvature and energy "
+                "of the gap and singular_gap, peak_gap and decay"
+            )
+        if isinstance(profile, PowerLaw) and profile.n != n:
+            raise ValueError(
+                f"profile = {profile!r} does not fit n = {n:g}: a power-law punch has one shape index, "
+                "the one in the scale (Q z0)^(1/n) of its radii"
+            )
+        C, m = law.decay
+        if C != 0.0 and not m * profile.growth > _LOAD_INTEGRAL:
+            raise ValueError(
+                f"growth f ~ r^{profile.growth:g} of the punch is outside ({_LOAD_INTEGRAL / m:g}, inf): "
+                f"with p ~ H^-{m:g} far away, the load integral of p r dr diverges at infinity"
+            )
+        # The generated __setattr__ of a frozen class refuses; writing through object is its own idiom.
+        for name, value in (("n", n), ("k", k), ("mu", mu), ("profile", profile), ("law", law)):
+            object.__setattr__(self, name, value)
 
     @property
     def compliance(self) -> float:

@@ -1,0 +1,60 @@
+"""The front door: what a number has to be before anything is computed with it."""
+
+from __future__ import annotations
+
+import math
+from numbers import Real
+
+__all__ = ["real_number"]
+
+
+def real_number(
+    name: str,
+    value: object,
+    *,
+    low: float,
+    high: float,
+    reason: str,
+    closed_low: bool = False,
+    closed_high: bool = False,
+) -> float:
+    """Return `value` as a float when it is a real number of the given interval.
+
+    Parameters
+    ----------
+    name : str
+        What the number is, as the message shall call it.
+    value : object
+        Python or numpy real scalar; bool, complex, str and arrays are not real numbers.
+    low, high : float
+        Ends of the admissible interval; infinite where there is no bound.
+    reason : str
+        Why the interval ends there, completing "... is outside (low, high): reason".
+    closed_low, closed_high : bool
+        Whether the ends belong to the interval.
+
+    Raises
+    ------
+    ValueError
+        With the value, the admissible interval and the reason.
+
+    Examples
+    --------
+    >>> real_number("k", 2, low=0.0, high=1.0, reason="no finite response")
+    Traceback (most recent call last):
+    ...
+    ValueError: k = 2 is outside (0, 1): no finite response
+    """
+    interval = f"{'[' if closed_low else '('}{low:g}, {high:g}{']' if closed_high else ')'}"
+    # bool is an int for Python, but never a length or an exponent.
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise ValueError(f"{name} = {value!r} is not a real number in {interval}: {reason}")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    above = number >= low if closed_low else number > low
+    below = number <= high if closed_high else number < high
+    if not (above and below and math.isfinite(number)):
+        raise ValueError(f"{name} = {value} is outside {interval}: {reason}")
+    return number

@@ -1,0 +1,103 @@
+"""The dimensionless problem: what it accepts, what it refuses and why."""
+
+import math
+import pickle
+from dataclasses import FrozenInstanceError, replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fscm.problem import Problem
+from fscm.profile import PowerLaw, RoundedCone
+from fscm.surface_law import LennardJones93, Mie
+
+
+def test_defaults_are_the_power_law_punch_and_the_nine_three_law():
+    problem = Problem(n=2, k=0.4, mu=1)
+    assert problem.profile == PowerLaw(2.0)
+    assert problem.law == LennardJones93()
+
+
+@given(st.floats(0.7, 50.0), st.floats(0.0, 1.0), st.floats(1e-3, 100.0))
+def test_compliance_is_the_factor_of_eq_28(n, k, mu):
+    problem = Problem(n, k, mu)
+    assert problem.compliance == pytest.approx(2 * math.exp((2 * n + k - 1) / n * math.log(mu)), rel=1e-12)
+
+
+@pytest.mark.parametrize("number", [2, 2.0, np.float64(2), np.float32(2), np.int64(2), Fraction(2)])
+def test_real_scalars_of_any_type_become_floats(number):
+    problem = Problem(number, np.float64(0.5), number)
+    assert [type(x) for x in (problem.n, problem.k, problem.mu)] == [float] * 3
+    assert problem == Problem(2.0, 0.5, 2.0)
+
+
+BAD = [
+    math.nan,
+    math.inf,
+    -math.inf,
+    -1.0,
+    10**400,
+    "1",
+    True,
+    1j,
+    None,
+    np.array([1.0]),
+    np.array(1.0),
+    [1.0],
+]
+
+
+@pytest.mark.parametrize("bad", [*BAD, 0, 0.0])
+@pytest.mark.parametrize("name", ["n", "mu"])
+def test_bad_shape_index_and_tabor_number(name, bad):
+    with pytest.raises(ValueError, match=r"(shape index n|Tabor number mu) = .*\(0, inf\)") as caught:
+        Problem(**{"n": 2.0, "k": 0.4, "mu": 1.0, name: bad})
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("bad", [*BAD, -1e-12, 1.0000001])
+def test_bad_gradient_exponent(bad):
+    with pytest.raises(ValueError, match=r"gradient exponent k = .*\[0, 1\]"):
+        Problem(2.0, bad, 1.0)
+
+
+@pytest.mark.parametrize("k", [0, 1])
+def test_the_homogeneous_and_the_gibson_solid_are_problems(k):
+    assert Problem(2, k, 1).k == k
+
+
+def test_a_divergent_load_integral_is_refused():
+    with pytest.raises(ValueError, match="load integral") as caught:
+        Problem(2 / 3, 0.4, 1.0)
+    assert "0.666667" in str(caught.value)
+    assert Problem(0.67, 0.4, 1.0).n == 0.67
+    # A shorter-ranged law admits the sharper punch, a longer-ranged one does not admit the cone.
+    assert Problem(2 / 3, 0.4, 1.0, law=Mie(12, 6)).n == 2 / 3
+    with pytest.raises(ValueError, match="load integral"):
+        Problem(1.0, 0.4, 1.0, law=Mie(9, 2))
+
+
+def test_the_tabor_number_of_a_punch_too_sharp_is_undefined():
+    with pytest.raises(ValueError, match=r"Eq\. 29"):
+        Problem(0.5, 0.0, 1.0, law=Mie(12, 6))
+
+
+def test_what_is_not_a_profile_or_a_law_is_refused():
+    with pytest.raises(ValueError, match="punch shape"):
+        Problem(2, 0, 1, profile=lambda r: r)
+    with pytest.raises(ValueError, match="surface law"):
+        Problem(2, 0, 1, law=np.sin)
+    with pytest.raises(ValueError, match="one shape index"):
+        replace(Problem(2, 0, 1), n=3.0)
+
+
+def test_a_problem_is_a_value():
+    problem = Problem(1, 0.4, 1.0, profile=RoundedCone(0.5), law=Mie(12, 6))
+    assert replace(problem, mu=2.0) == Problem(1, 0.4, 2.0, RoundedCone(0.5), Mie(12, 6))
+    assert pickle.loads(pickle.dumps(problem)) == problem
+    assert len({problem, pickle.loads(pickle.dumps(problem))}) == 1
+    with pytest.raises(FrozenInstanceError):
+        problem.mu = 2.0

@@ -1,0 +1,145 @@
+"""Punch shapes: closed forms, derivatives, promises that are checked."""
+
+import math
+import pickle
+
+import numpy as np
+import pytest
+
+from fscm.callable_profile import CallableProfile
+from fscm.profile import PowerLaw, PowerSum, Profile, RoundedCone
+
+RADII = np.array([1e-3, 0.1, 0.5, 1.0, 2.0, 30.0, 1e3])
+
+
+def paraboloid(r):
+    return 0.5 * r**2
+
+
+SHAPES = [
+    PowerLaw(1.0),
+    PowerLaw(1.5),
+    PowerLaw(2),
+    PowerLaw(5.0),
+    PowerLaw(0.7),
+    RoundedCone(0.3),
+    RoundedCone(2.0, 0.25),
+    PowerSum([0.5, 0.125], [2, 4]),
+    PowerSum([1.0, -0.2, 0.5], [1.0, 1.5, 2.0]),
+    CallableProfile(paraboloid, 2.0),
+]
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_slope_is_the_derivative_of_the_height(shape):
+    h = 1e-4 * RADII
+    # Fourth-order central differences with h = 1e-4 r: truncation 1e-16, rounding about 1e-11.
+    d = [shape.height(RADII + i * h) for i in (-2, -1, 1, 2)]
+    numerical = (d[0] - 8 * d[1] + 8 * d[2] - d[3]) / (12 * h)
+    np.testing.assert_allclose(shape.slope(RADII), numerical, rtol=1e-9)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_growth_is_the_exponent_at_infinity_and_the_tip_is_at_zero(shape):
+    assert isinstance(shape, Profile)
+    far = np.array([1e9, 2e9])
+    low, high = shape.height(far)
+    # PowerSum([1, -0.2, 0.5], [1, 1.5, 2]) is the slowest to settle: 0.2 / 0.5 r^-1/2.
+    assert math.log2(high / low) == pytest.approx(shape.growth, abs=1e-5)
+    assert shape.height(np.zeros(1))[0] == 0.0
+
+
+def test_rounded_cone_is_a_paraboloid_at_the_tip_and_a_cone_far_away():
+    punch = RoundedCone(rounding=2.0, cone_slope=0.5)
+    # f = s r^2 / (2c) (1 - r^2 / (4 c^2) + ...), without cancellation however small r is
+    assert punch.height(np.array([1e-9]))[0] == pytest.approx(0.5 * 1e-18 / 4.0, rel=1e-15)
+    assert punch.height(np.array([1e9]))[0] == pytest.approx(0.5 * (1e9 - 2.0), rel=1e-15)
+
+
+def test_slope_at_the_tip():
+    tip = np.zeros(1)
+    assert PowerLaw(1).slope(tip)[0] == 1.0
+    assert PowerLaw(2).slope(tip)[0] == 0.0
+    assert PowerLaw(0.8).slope(tip)[0] == math.inf
+    assert RoundedCone(1.0).slope(tip)[0] == 0.0
+    assert CallableProfile(paraboloid, 2).slope(tip)[0] == pytest.approx(0.0, abs=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("f", "df", "growth"),
+    [
+        (lambda r: r**1.5 / 1.5, np.sqrt, 1.5),
+        (lambda r: r**5 / 5, lambda r: r**4, 5),
+        (lambda r: r**2 / 2 + 0.1 * (1 - np.cos(3 * r)), lambda r: r + 0.3 * np.sin(3 * r), 2),
+        # Dyadic steps at r = 32 would all fall near multiples of this wavelength.
+        (lambda r: r**2 / 2 + 0.01 * (1 - np.cos(100 * r)), lambda r: r + np.sin(100 * r), 2),
+    ],
+)
+def test_numerical_slope(f, df, growth):
+    r = np.array([1e-2, 0.3, 1.0, 2.7, 4.0, 31.9, 32.0])
+    punch = CallableProfile(f, growth)
+    # Measured worst 3e-11, on the punch with 100 waves.
+    np.testing.assert_allclose(punch.slope(r), df(r), rtol=1e-9)
+    assert punch.slope(r.reshape(7, 1)).shape == (7, 1)
+    np.testing.assert_array_equal(CallableProfile(f, growth, df).slope(r), df(r))
+
+
+@pytest.mark.parametrize(
+    ("f", "growth", "reason"),
+    [
+        (np.log1p, 1.0, "does not grow"),
+        (np.sin, 1.0, "does not grow"),
+        (lambda r: 0.0 * r, 1.0, "does not grow"),
+        (lambda r: -(r**2), 2.0, "does not grow"),
+        (np.expm1, 2.0, "not the exponent"),
+        (lambda r: r**2, 1.9, "not the exponent"),
+        (lambda r: r**2, math.nan, "growth"),
+        (lambda r: r**2, -1.0, "growth"),
+        (lambda r: r**2, "2", "growth"),
+        (lambda r: 1.0 + r, 1.0, "subtract"),
+        (lambda r: r**2 / (r > 0.01), 2.0, "finite"),
+        (lambda r: 1.0, 1.0, "shape"),
+        (math.sqrt, 0.5, "numpy array"),
+    ],
+)
+def test_functions_that_break_a_promise_are_refused(f, growth, reason):
+    with pytest.raises(ValueError, match=reason) as caught:
+        CallableProfile(f, growth)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_wrong_derivative_is_refused():
+    with pytest.raises(ValueError, match="not the slope"):
+        CallableProfile(paraboloid, 2.0, lambda r: 1.01 * r)
+
+
+@pytest.mark.parametrize(
+    "build",
+    [
+        lambda: PowerLaw(0),
+        lambda: PowerLaw(-1.0),
+        lambda: PowerLaw(math.inf),
+        lambda: PowerLaw(math.nan),
+        lambda: PowerLaw(True),
+        lambda: PowerLaw("2"),
+        lambda: PowerLaw(1j),
+        lambda: RoundedCone(0.0),
+        lambda: RoundedCone(1.0, -1.0),
+        lambda: PowerSum([], []),
+        lambda: PowerSum([1.0], [1.0, 2.0]),
+        lambda: PowerSum([1.0, 1.0], [2.0, 2.0]),
+        lambda: PowerSum([1.0, -1.0], [1.0, 2.0]),
+        lambda: PowerSum([1.0], [0.0]),
+    ],
+)
+def test_bad_parameters_are_refused_in_one_sentence(build):
+    with pytest.raises(ValueError, match=r"outside|real number|pair up") as caught:
+        build()
+    assert "\n" not in str(caught.value)
+
+
+def test_profiles_are_values():
+    for shape in SHAPES:
+        assert pickle.loads(pickle.dumps(shape)) == shape
+        assert hash(pickle.loads(pickle.dumps(shape))) == hash(shape)
+    assert PowerLaw(2) == PowerLaw(np.float64(2.0))
