@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
 
 from rich.console import Console
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
     Progress,
+    ProgressColumn,
     TextColumn,
     TimeElapsedColumn,
     TimeRemainingColumn,
@@ -23,19 +24,6 @@ def log(text: str) -> None:
     Console(stderr=True, soft_wrap=True, highlight=False, markup=False).print(text)
 
 
-def _bar(*columns: TextColumn | MofNCompleteColumn | TimeElapsedColumn | TimeRemainingColumn) -> Progress:
-    console = Console(stderr=True)
-    # Without a terminal (a file, a CI log) a redrawn bar is only noise.
-    return Progress(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        *columns,
-        console=console,
-        transient=True,
-        disable=not console.is_terminal,
-    )
-
-
 @contextmanager
 def waiting(description: str) -> Iterator[None]:
     """Show that one computation of unknown length is under way."""
@@ -44,20 +32,18 @@ def waiting(description: str) -> Iterator[None]:
         yield
 
 
-class Counter:
-    """Counts finished computations on a bar."""
-
-    def __init__(self, bar: Progress, description: str, total: int) -> None:
-        self._bar = bar
-        self._task = bar.add_task(description, total=total)
-
-    def step(self) -> None:
-        """Count one more."""
-        self._bar.advance(self._task)
+@contextmanager
+def counting(description: str, total: int) -> Iterator[Callable[[], None]]:
+    """Show how many of `total` computations are done; call what this gives when one more is."""
+    with _bar(MofNCompleteColumn(), TimeElapsedColumn(), TimeRemainingColumn()) as bar:
+        task = bar.add_task(description, total=total)
+        yield lambda: bar.advance(task)
 
 
 @contextmanager
-def counting(description: str, total: int) -> Iterator[Counter]:
-    """Show how many of `total` computations are done and how long the rest will take."""
-    with _bar(MofNCompleteColumn(), TimeElapsedColumn(), TimeRemainingColumn()) as bar:
-        yield Counter(bar, description, total)
+def _bar(*columns: ProgressColumn) -> Iterator[Progress]:
+    console = Console(stderr=True)
+    bar = Progress(TextColumn("{task.description}"), BarColumn(), *columns, console=console, transient=True)
+    # Without a terminal (a file, a CI log) a redrawn bar is only noise: it counts, but is not started.
+    with bar if console.is_terminal else nullcontext():
+        yield bar

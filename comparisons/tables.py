@@ -15,7 +15,17 @@ import pandas as pd
 from rich.table import Table
 from rich.text import Text
 
-__all__ = ["Published", "by_case", "largest", "published", "relative_error", "rich_table", "statuses"]
+__all__ = [
+    "Published",
+    "beside_published",
+    "by_case",
+    "largest",
+    "largest_by_gradient",
+    "published",
+    "relative_error",
+    "rich_table",
+    "statuses",
+]
 
 _CASE = ["quantity", "n", "k", "mu", "nu"]
 _SERIES = ["quantity", "model", "n", "k"]
@@ -143,13 +153,30 @@ def by_case(kappa: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
     return shown, {"reference_value": ".9f", "u_reference": ".0e"} | dict.fromkeys(wide.columns, "+.3f")
 
 
+def largest_by_gradient(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
+    """Return the largest abs(kappa) in percent, signed: one row a model and n, one column a gradient exponent.
+
+    The second value holds the formats of its columns, for `rich_table`.
+    """
+    wide = maxima.pivot(index=["quantity", "model", "n"], columns="k", values="kappa")
+    wide.columns = pd.Index([f"k = {k:g}" for k in wide.columns])
+    return (100 * wide).reset_index(), dict.fromkeys(wide.columns, "+.2f")
+
+
+def beside_published(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
+    """Return the maxima a paper states, in percent, with the verdict; and the formats of the columns."""
+    stated = maxima[maxima["published_percent"] != ""].drop(columns=["quantity", "cases"])
+    shown = stated.assign(kappa=100 * stated["kappa"], u_kappa=100 * stated["u_kappa"])
+    return shown, {"kappa": "+.4f", "u_kappa": ".0e"}
+
+
 def statuses(rows: pd.DataFrame) -> pd.DataFrame:
     """Return how many rows of each model ended with each status."""
     return rows.groupby(["model", "status"]).size().unstack(fill_value=0).reset_index()
 
 
 def rich_table(table: pd.DataFrame, title: str, formats: dict[str, str] | None = None) -> Table:
-    """Return a pandas table for the terminal: numbers to the right, blank where missing, one format each."""
+    """Return a pandas table for the terminal: numbers to the right, blank where missing."""
     shown = Table(title=title, title_justify="left", title_style="bold")
     for name in table:
         shown.add_column(str(name), justify="right" if pd.api.types.is_numeric_dtype(table[name]) else "left")

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
+from rich.table import Table
 
 from comparisons.cases import TIERS, grids
 from comparisons.commands.options import FAILED, OK, output
@@ -24,7 +25,15 @@ from comparisons.progress import counting, log
 from comparisons.provenance import code_digest, environment
 from comparisons.run import Task, compute, plan
 from comparisons.store import Journal, Row, frame, prepare_folder, write_json, write_results, write_table
-from comparisons.tables import by_case, largest, relative_error, rich_table, statuses
+from comparisons.tables import (
+    beside_published,
+    by_case,
+    largest,
+    largest_by_gradient,
+    relative_error,
+    rich_table,
+    statuses,
+)
 
 __all__ = ["add", "call"]
 
@@ -123,10 +132,10 @@ def _complete(tasks: list[Task], journal: Journal, jobs: int) -> list[Row]:
         f"{len(missing)} computations on {jobs} processes"
         + (f", {len(tasks) - len(missing)} are stored" if stored else "")
     )
-    with counting("computing", len(missing)) as counter:
+    with counting("computing", len(missing)) as count:
         for row in compute(missing, jobs):
             journal.add(row)
-            counter.step()
+            count()
     wanted = {task.key for task in tasks}
     return [row for row in journal.rows if row.key in wanted]
 
@@ -149,18 +158,17 @@ def _print(table: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame) -> No
     """Print the details first: what is read first on a terminal is what was printed last."""
     console = output()
     for (quantity, reference), group in kappa.groupby(["quantity", "reference"]):
-        shown, formats = by_case(group)
-        console.print(
-            rich_table(
-                shown,
-                f"{quantity} of {reference} with its u_num, and kappa of each model in percent",
-                formats,
-            )
-        )
+        title = f"{quantity} of {reference} with its u_num, and kappa of each model in percent"
+        console.print(_titled(by_case(group), title))
     troubles = table.loc[table["status"] == "failed", ["model", "quantity", "n", "k", "mu", "reason"]]
     if len(troubles):
         console.print(rich_table(troubles, "failed computations"))
     console.print(rich_table(statuses(table), "computations"))
-    shown = maxima.assign(kappa=100 * maxima["kappa"], u_kappa=100 * maxima["u_kappa"])
-    formats = {"kappa": "+.3f", "u_kappa": ".0e"}
-    console.print(rich_table(shown, "largest abs(kappa) in percent, beside the published", formats))
+    console.print(_titled(largest_by_gradient(maxima), "largest abs(kappa) in percent"))
+    title = "largest abs(kappa) in percent beside the published (at_end: at an end of the range of mu)"
+    console.print(_titled(beside_published(maxima), title))
+
+
+def _titled(shown: tuple[pd.DataFrame, dict[str, str]], title: str) -> Table:
+    table, formats = shown
+    return rich_table(table, title, formats)

@@ -26,10 +26,10 @@ def test_fig_16b_shows_both_models_for_every_shape_at_one_k():
     axes = figure.axes[0]
     assert axes.get_xscale() == "log"
     lines = {line.get_label(): line for line in axes.get_lines() if not line.get_label().startswith("_")}
-    assert set(lines) == {f"n = {n}, {model}" for n in (1, 2) for model in ("original", "improved")}
-    np.testing.assert_allclose(lines["n = 2, improved"].get_xdata(), [0.1, 1, 2])
-    np.testing.assert_allclose(lines["n = 2, improved"].get_ydata(), [0.2, 2, 4])
-    assert lines["n = 2, improved"].get_linestyle() != lines["n = 2, original"].get_linestyle()
+    assert set(lines) == {f"n = {n}, {model}" for n in (1, 2) for model in ("md-original", "md-improved")}
+    np.testing.assert_allclose(lines["n = 2, md-improved"].get_xdata(), [0.1, 1, 2])
+    np.testing.assert_allclose(lines["n = 2, md-improved"].get_ydata(), [0.2, 2, 4])
+    assert lines["n = 2, md-improved"].get_linestyle() != lines["n = 2, md-original"].get_linestyle()
 
 
 def test_fig_16b_of_nothing_is_empty():

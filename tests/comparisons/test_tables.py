@@ -9,7 +9,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.console import Console
 
-from comparisons.tables import Published, by_case, largest, published, relative_error, rich_table, statuses
+from comparisons.tables import (
+    Published,
+    beside_published,
+    by_case,
+    largest,
+    largest_by_gradient,
+    published,
+    relative_error,
+    rich_table,
+    statuses,
+)
 
 
 def stored(model, mu, value, u_num=0.0, **other):
@@ -105,3 +115,15 @@ def test_text_from_outside_is_not_markup():
     assert "[bold]k in [0, 1]" in stream.getvalue()
     assert "nan" not in stream.getvalue()
     assert "0.500" in stream.getvalue()
+
+
+def test_maxima_for_reading_keep_their_sign_and_their_place():
+    rows = [stored("ref", mu, 1.0, k=k) for mu in (0.1, 1, 10) for k in (0, 0.4)]
+    rows += [stored("md-improved", mu, 0.9, k=k) for mu in (0.1, 1, 10) for k in (0, 0.4)]
+    maxima = largest(relative_error(pd.DataFrame(rows), "ref"))
+    wide, _ = largest_by_gradient(maxima)
+    assert wide[["k = 0", "k = 0.4"]].to_numpy().tolist() == [[pytest.approx(-10)] * 2]
+    stated, _ = beside_published(maxima)
+    assert stated[["n", "k", "kappa", "published_percent", "verdict"]].to_numpy().tolist() == [
+        [2, 0.4, pytest.approx(-10), "0.73", "differs"]
+    ]
