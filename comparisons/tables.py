@@ -154,7 +154,7 @@ def by_case(kappa: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
 
 
 def largest_by_gradient(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
-    """Return the largest abs(kappa) in percent, signed: one row a model and n, one column a gradient exponent.
+    """Return the largest abs(kappa) in percent, signed: one row a model and n, one column a k.
 
     The second value holds the formats of its columns, for `rich_table`.
     """
