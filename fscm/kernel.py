@@ -31,7 +31,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-__all__ = ["Kernel", "Phi", "Psi", "box_cox", "ring_response"]
+__all__ = ["Kernel", "Phi", "Psi", "box_cox", "kernel_of", "ring_response"]
 
 Array = NDArray[np.float64]
 
@@ -213,7 +213,8 @@ class _Primitive:
 
 
 @lru_cache(maxsize=64)
-def _kernel(k: float) -> Kernel:
+def kernel_of(k: float) -> Kernel:
+    """The kernel of an exponent, made once."""
     return Kernel(k)
 
 
@@ -241,7 +242,7 @@ def ring_response(k: float, r: Array, t: Array, distance: Array | None = None) -
     """
     r, t = np.broadcast_arrays(np.asarray(r, float), np.asarray(t, float))
     d = np.abs(r - t) if distance is None else np.broadcast_to(np.asarray(distance, float), r.shape)
-    return _kernel(k).response(np.atleast_1d(r), np.atleast_1d(t), np.atleast_1d(d)).reshape(r.shape)
+    return kernel_of(k).response(np.atleast_1d(r), np.atleast_1d(t), np.atleast_1d(d)).reshape(r.shape)
 
 
 def _of_ratio(method: Callable[[Array, Array], Array], s: Array, offset: Array | None) -> Array:
@@ -258,7 +259,7 @@ def Phi(k: float, s: Array, offset: Array | None = None) -> Array:
     >>> float(Phi(0.0, 1.0))                  # 2 / pi at s = 1, k = 0
     0.6366197...
     """
-    return _of_ratio(_kernel(k).Phi, s, offset)
+    return _of_ratio(kernel_of(k).Phi, s, offset)
 
 
 def Psi(k: float, s: Array, offset: Array | None = None) -> Array:
@@ -269,4 +270,4 @@ def Psi(k: float, s: Array, offset: Array | None = None) -> Array:
     >>> bool(abs(Psi(0.4, 1e8)) < 1e-9)
     True
     """
-    return _of_ratio(_kernel(k).Psi, s, offset)
+    return _of_ratio(kernel_of(k).Psi, s, offset)

@@ -1,0 +1,141 @@
+"""Fitting the panel mesh to the pressure: split where it is unresolved, merge where it is over-resolved.
+
+A panel is resolved when the last Legendre coefficients e of the pressure on it are too small to matter: the load
+moves by 2 c^2 s h e, the work of adhesion (which fixes the edge, as in fracture) by e times the change of the gap
+over the panel, and the central gap, from the innermost panel, by M (1-k) (c h)^{1-k} e.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from fscm.equilibrium import Control, Discretisation, State, newton
+from fscm.errors import NotConverged
+from fscm.panels import Array, PanelMesh
+from fscm.problem import Problem
+
+__all__ = ["fit", "indicator", "initial_mesh", "rescaled_mesh"]
+
+# The mesh ends where the undeformed gap is this large.  The closed tail behind it is wrong by (1/F)^2 relative.
+END_HEIGHT = 1e6
+# A pair of panels is merged when the merged panel would still be this much below the tolerance.
+_MERGE_MARGIN = 0.02
+_MAX_ROUNDS = 60
+# r^n at the tip of a punch is not smooth: coefficients of the innermost panel fall algebraically, so that the
+# omitted ones together exceed the last.  Measured on n = 1.5, k = 0.6, mu = 3: by up to 10.
+_ALGEBRAIC = 30.0
+
+
+def _end_radius(problem: Problem) -> float:
+    """A radius with f >= END_HEIGHT, found by doubling."""
+    r = 1.0
+    while problem.profile.height(np.array([r]))[0] < END_HEIGHT:
+        r *= 2.0
+        if r > 1e200:
+            raise ValueError(f"profile does not grow: f is still below {END_HEIGHT} at r = {r}")
+    while problem.profile.height(np.array([r / 2.0]))[0] > END_HEIGHT:
+        r /= 2.0
+    return r
+
+
+def _extended(breaks: Array, end: float) -> Array:
+    """Breaks cut or continued by factors of four to reach `end`."""
+    inside = breaks[breaks < end]
+    outer = [inside[-1] if len(inside) else 0.0]
+    while outer[-1] < end:
+        outer.append(4.0 * outer[-1])
+    return np.concatenate([inside, outer[1:]])
+
+
+def initial_mesh(problem: Problem, order: int) -> PanelMesh:
+    """A coarse mesh for the separated punch, scale 1, with a break at s = 1."""
+    return PanelMesh(_extended(np.array([0.0, 0.5, 1.0, 2.0]), _end_radius(problem)), order)
+
+
+def rescaled_mesh(problem: Problem, mesh: PanelMesh, old_scale: float, new_scale: float) -> PanelMesh:
+    """The same radii for another scale, with a break at s = 1 and an end where it should be."""
+    breaks = mesh.breaks * (old_scale / new_scale)
+    if not np.any(breaks == 1.0):
+        i = int(np.searchsorted(breaks, 1.0))
+        length = breaks[i] - breaks[i - 1]
+        # A break too close to s = 1 gives way to it.
+        drop = [j for j in (i - 1, i) if j > 0 and abs(breaks[j] - 1.0) < 0.2 * length]
+        breaks = np.sort(np.append(np.delete(breaks, drop), 1.0))
+    return PanelMesh(_extended(breaks, max(_end_radius(problem) / new_scale, 4.0)), mesh.order)
+
+
+def _weights(state: State, starts: Array, lengths: Array) -> Array:
+    """Effect of a unit pressure error on a panel on the three results, whichever is largest."""
+    d, c = state.disc, state.scale
+    load = 2.0 * c * c * (starts + lengths) * lengths / max(1.0, abs(state.load))
+    gap = np.interp(np.append(starts, starts + lengths), d.mesh.nodes, state.gap).reshape(2, -1)
+    central = np.where(starts == 0.0, _ALGEBRAIC * d.stiffness_scale(c) * lengths ** (1.0 - d.problem.k), 0.0)
+    return np.maximum(np.maximum(load, np.abs(gap[1] - gap[0])), central)
+
+
+def _last_modes(modes: Array) -> Array:
+    return np.max(np.abs(modes[:, -2:]), axis=1)
+
+
+def indicator(state: State) -> Array:
+    """Estimated effect of the unresolved pressure of each panel, shape (m,), dimensionless."""
+    mesh = state.disc.mesh
+    return _last_modes(mesh.modes(state.pressure)) * _weights(state, mesh.starts, mesh.lengths)
+
+
+def _refined_breaks(state: State, tolerance: float) -> Array | None:
+    mesh = state.disc.mesh
+    bad = indicator(state) > tolerance
+    if not bad.any():
+        return None
+    middle = mesh.starts[bad] + 0.5 * mesh.lengths[bad]
+    return np.sort(np.concatenate([mesh.breaks, middle]))
+
+
+def _coarsened_breaks(state: State, tolerance: float) -> Array:
+    """Breaks without those whose removal leaves the pressure resolved; no two neighbours are removed."""
+    mesh = state.disc.mesh
+    starts, lengths = mesh.starts[:-1], mesh.lengths[:-1] + mesh.lengths[1:]
+    ends = starts + lengths
+    merged = PanelMesh(np.concatenate([[0.0], [1.0]]), mesh.order)  # only its rule is used
+    nodes = starts[:, None] + lengths[:, None] * merged.rule.nodes
+    pressure = mesh.evaluate(state.pressure, nodes.ravel()).reshape(nodes.shape)
+    effect = _last_modes(pressure @ merged.rule.to_modes.T) * _weights(state, starts, lengths)
+    keep = np.ones(len(mesh.breaks), bool)
+    previous = 0
+    for i, (small, end) in enumerate(zip(effect < _MERGE_MARGIN * tolerance, ends, strict=True), start=1):
+        ratio_ok = end <= 8.0 * max(mesh.breaks[i - 1], 1e-3 * end)
+        if small and ratio_ok and mesh.breaks[i] != 1.0 and previous < i - 1:
+            keep[i] = False
+            previous = i
+    return mesh.breaks[keep]
+
+
+def on_mesh(state: State, mesh: PanelMesh) -> State:
+    """The state interpolated to another mesh at the same scale: a guess, not an equilibrium."""
+    disc = Discretisation(state.disc.problem, mesh, state.disc)
+    return State(disc, state.scale, state.disc.mesh.transfer(state.gap, mesh), state.displacement, state.follows_edge)
+
+
+def fit(state: State, control: Control, tolerance: float, coarsen: bool = False) -> State:
+    """Solve on meshes refined until every panel is resolved to `tolerance`.
+
+    Raises
+    ------
+    NotConverged
+        When the refinement does not end.
+    """
+    if coarsen:
+        breaks = _coarsened_breaks(state, tolerance)
+        if len(breaks) < len(state.disc.mesh.breaks):
+            state = newton(on_mesh(state, PanelMesh(breaks, state.disc.mesh.order)), control)
+    iterations = state.iterations
+    for _ in range(_MAX_ROUNDS):
+        breaks = _refined_breaks(state, tolerance)
+        if breaks is None:
+            return replace(state, iterations=iterations)
+        state = newton(on_mesh(state, PanelMesh(breaks, state.disc.mesh.order)), control)
+        iterations += state.iterations
+    raise NotConverged(f"the mesh was refined {_MAX_ROUNDS} times without resolving the pressure to {tolerance:.0e}")

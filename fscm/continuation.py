@@ -1,0 +1,191 @@
+"""The equilibrium path from far separation through both folds into contact.
+
+The path has two stretches.  While the punch is apart the scale is fixed and the central gap leads.  Once the
+central gap has passed the gap of largest tension, the mesh is scaled so that this gap sits at s = 1: the mesh
+follows the edge, and log c leads.  On both, steps are taken in arc length in the space of the leading variable,
+delta and P, so folds in any of them are passed.  In the moving mesh the solution changes slowly however sharp the
+edge is.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.optimize import brentq
+
+from fscm.adaptivity import fit, initial_mesh, rescaled_mesh
+from fscm.equilibrium import Control, Discretisation, Rates, State, newton
+from fscm.errors import NotConverged
+from fscm.problem import Problem
+
+__all__ = ["Point", "equilibrium_path", "lead_control", "lead_of", "moved", "rates_of"]
+
+_FIRST_STEP = 0.25
+_SMALLEST_STEP = 1e-6
+# Newton iterations after which the next step is longer or shorter.
+_EASY, _HARD = 4, 7
+_LONGER, _SHORTER, _RETRY = 1.4, 0.7, 0.4
+# The edge is followed from where the central gap has fallen below the gap of largest tension by this fraction
+# of that gap's distance to the singular gap: nearer to it the edge radius is a poor variable (it starts as a root).
+_HAND_OVER = 0.05
+
+
+@dataclass(frozen=True)
+class Point:
+    """A state on the path and its unit tangent in arc length, oriented from separation into contact."""
+
+    state: State
+    rates: Rates
+
+
+@dataclass(frozen=True)
+class _ArcLength:
+    """Units in which displacement and load enter the arc length; the leading variable enters as it is."""
+
+    displacement: float
+    load: float
+
+    def lead_unit(self, state: State) -> float:
+        """Unit of the leading variable: 1 for log c, the distance to the singular gap for the central gap."""
+        return 1.0 if state.follows_edge else state.central_gap - state.disc.problem.law.singular_gap
+
+    def tangent(self, state: State) -> Rates:
+        rates = rates_of(state)
+        lead = 1.0 / self.lead_unit(state)
+        norm = math.hypot(lead, rates.displacement / self.displacement, rates.load / self.load)
+        return rates.scaled((1.0 if state.follows_edge else -1.0) / norm)
+
+    def control(self, state: State, tangent: Rates, step: float) -> Control:
+        """The condition that the projection of the move on the tangent is `step`."""
+        unit = self.lead_unit(state) ** 2
+        a = (tangent.log_scale if state.follows_edge else tangent.central_gap) / unit
+        b = tangent.displacement / self.displacement**2
+        c = tangent.load / self.load**2
+        value = a * lead_of(state) + b * state.displacement + c * state.load + step
+        if state.follows_edge:
+            return Control(value, log_scale=a, displacement=b, load=c)
+        return Control(value, gap=a, displacement=b, load=c)
+
+
+def lead_of(state: State) -> float:
+    """The leading variable: log c when the mesh follows the edge, else the central gap."""
+    return math.log(state.scale) if state.follows_edge else state.central_gap
+
+
+def lead_control(state: State, value: float) -> Control:
+    """The condition that the leading variable has a value."""
+    return Control(value, log_scale=1.0) if state.follows_edge else Control(value, gap=1.0)
+
+
+def rates_of(state: State) -> Rates:
+    """Exact derivatives per unit of the leading variable."""
+    return state.rates("log_scale" if state.follows_edge else "gap")
+
+
+def _predicted(state: State, rates: Rates, step: float) -> State:
+    return replace(
+        state,
+        scale=state.scale * math.exp(step * rates.log_scale),
+        gap=state.gap + step * rates.gap,
+        displacement=state.displacement + step * rates.displacement,
+    )
+
+
+def moved(state: State, rates: Rates, value: float) -> State:
+    """Equilibrium at another value of the leading variable, from the tangent predictor."""
+    return newton(_predicted(state, rates, value - lead_of(state)), lead_control(state, value))
+
+
+def _far_state(problem: Problem, central_gap: float, order: int, tolerance: float) -> State:
+    """Equilibrium at a large central gap, from the rigid solution."""
+    disc = Discretisation(problem, initial_mesh(problem, order))
+    gap = central_gap + problem.profile.height(disc.mesh.nodes)
+    control = Control(central_gap, gap=1.0)
+    return fit(newton(State(disc, 1.0, gap, -central_gap, False), control), control, tolerance)
+
+
+def _follow_edge(state: State) -> State:
+    """Guess on a mesh scaled so that the outermost gap of largest tension sits at s = 1."""
+    problem, mesh = state.disc.problem, state.disc.mesh
+    target = problem.law.peak_gap
+    outer = int(np.flatnonzero(state.gap < target)[-1]) if np.any(state.gap < target) else -1
+    low = 0.0 if outer < 0 else float(mesh.nodes[outer])
+    ratio = brentq(lambda s: mesh.evaluate(state.gap, np.array([s]))[0] - target, low, mesh.nodes[outer + 1])
+    new = rescaled_mesh(problem, mesh, state.scale, state.scale * ratio)
+    known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
+    gap = mesh.evaluate(state.gap, known)
+    gap += problem.profile.height(state.scale * ratio * new.nodes) - problem.profile.height(state.scale * known)
+    return State(Discretisation(problem, new), state.scale * ratio, gap, state.displacement, True)
+
+
+def _start_gap(problem: Problem) -> float:
+    """A central gap beyond the far branch at jump-out, whose displacement is at most 3 mu below zero."""
+    return 10.0 + 5.0 * problem.mu
+
+
+def equilibrium_path(
+    problem: Problem,
+    order: int,
+    tolerance: float,
+    longest_step: float = 0.5,
+    start_gap: float | None = None,
+) -> Iterator[Point]:
+    """Walk along the path, one converged state after another, without end: the caller stops.
+
+    Parameters
+    ----------
+    problem : Problem
+    order : int
+        Nodes per panel.
+    tolerance : float
+        Resolution of the pressure (see `fscm.adaptivity`).
+    longest_step : float
+        Longest step of arc length, dimensionless.
+    start_gap : float, optional
+        Central gap of the first state.
+
+    Yields
+    ------
+    Point
+        At the change of mesh the same state is given twice, before and after.
+
+    Raises
+    ------
+    NotConverged
+        When the step becomes too small.
+    """
+    arc = _ArcLength(1.0 + problem.mu, 2.0 * max(1.0, problem.mu ** ((2.0 - problem.n) / problem.n)))
+    state = _far_state(problem, _start_gap(problem) if start_gap is None else start_gap, order, tolerance)
+    peak, singular = problem.law.peak_gap, problem.law.singular_gap
+    hand_over = peak - _HAND_OVER * (peak - singular)
+    step = min(_FIRST_STEP, longest_step)
+    while True:
+        tangent = arc.tangent(state)
+        yield Point(state, tangent)
+        if not state.follows_edge and state.central_gap < hand_over:
+            guess = _follow_edge(state)
+            control = lead_control(guess, lead_of(guess))
+            state = fit(newton(guess, control), control, tolerance)
+            continue
+        while True:
+            control = arc.control(state, tangent, step)
+            try:
+                new = newton(_predicted(state, tangent, step), control)
+                used = new.iterations
+                new = fit(new, control, tolerance, coarsen=True)
+                break
+            except NotConverged as error:
+                step *= _RETRY
+                if step < _SMALLEST_STEP:
+                    raise NotConverged(
+                        f"the path of {problem} ends at delta = {state.displacement:.6g}, P = {state.load:.6g}: no step "
+                        f"of arc length down to {_SMALLEST_STEP} converges ({error})"
+                    ) from error
+        if used <= _EASY:
+            step = min(_LONGER * step, longest_step)
+        elif used >= _HARD:
+            step *= _SHORTER
+        state = new

@@ -1,0 +1,141 @@
+"""The critical Tabor number: where the two folds of the displacement merge and hysteresis begins.
+
+At given n and k the smallest rate of displacement along the path, d(delta)/d(lead), falls with the Tabor number;
+it is zero at the critical one.  The rate is exact, so the root is as sharp as the path itself.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import replace
+
+from scipy.optimize import brentq
+
+from fscm.analysis import CHECK_MESH, COARSE_ORDER, COARSE_TOLERANCE, FLOOR, SAFETY, VALUE_MESH, Solution
+from fscm.continuation import Point, equilibrium_path, lead_control, lead_of, moved, rates_of
+from fscm.equilibrium import Discretisation, State, newton
+from fscm.errors import NoSuchEvent, NotConverged
+from fscm.events import least_displacement_rate, refined
+from fscm.problem import Problem
+
+__all__ = ["critical_tabor_number"]
+
+# Where the search begins, and how it widens; critical Tabor numbers of power-law punches are near 0.7.
+_FIRST_GUESS, _WIDEN, _WIDEST = 0.75, 1.25, 30.0
+# Tolerance of log mu on the coarse mesh, where the root only picks the mesh.
+_COARSE_ROOT_TOLERANCE = 1e-3
+_LONGEST_STEP = 0.15
+_FIRST_SECANT_STEP, _SECANT_STEPS, _TOLERANCE = 1e-4, 15, 1e-9
+# Spacing of the three rates in the leading variable.  The vertex ends at the middle one, where the parabola is exact
+# to the fourth order.
+_SPACING = 1e-3
+# Second differences of the rate amplify its rounding; measured scatter of mu between meshes is below 1e-10.
+_AMPLIFICATION = 1e3
+
+
+def _slowest(problem: Problem) -> tuple[State, float]:
+    """State of the smallest rate of displacement on a path of short steps, and the rate."""
+    points = []
+    for point in equilibrium_path(problem, COARSE_ORDER, COARSE_TOLERANCE, longest_step=_LONGEST_STEP):
+        points.append(point)
+        if point.state.follows_edge and point.state.load > 0.0:
+            break
+    slowest = min(range(1, len(points) - 1), key=lambda i: points[i].rates.displacement)
+    ends = [i for i in (slowest - 1, slowest, slowest + 1) if _same_stretch(points[i], points[slowest])]
+    point, rate = least_displacement_rate(points[ends[0]], points[ends[-1]])
+    return point.state, rate
+
+
+def _same_stretch(a: Point, b: Point) -> bool:
+    return a.state.follows_edge == b.state.follows_edge
+
+
+def _coarse_root(problem: Problem) -> State:
+    """State where the displacement is slowest, at about the critical Tabor number."""
+    states: dict[float, State] = {}
+
+    def rate(log_mu: float) -> float:
+        states[log_mu], value = _slowest(replace(problem, mu=math.exp(log_mu)))
+        return value
+
+    low = high = math.log(_FIRST_GUESS)
+    while rate(high) > 0.0:
+        low, high = high, high + math.log(_WIDEN)
+        if high > math.log(_WIDEST):
+            raise NoSuchEvent(f"no jump up to mu = {_WIDEST} at n = {problem.n}, k = {problem.k}")
+    while low == high or rate(low) < 0.0:
+        low, high = low - math.log(_WIDEN), low
+        if low < -math.log(_WIDEST):
+            raise NoSuchEvent(f"jumps persist down to mu = {1 / _WIDEST:.3g} at n = {problem.n}, k = {problem.k}")
+    root = brentq(rate, low, high, xtol=_COARSE_ROOT_TOLERANCE)
+    return states[min(states, key=lambda x: abs(x - root))]
+
+
+def _at_tabor_number(state: State, mu: float) -> State:
+    """The state at the same leading variable and mesh for another Tabor number."""
+    problem = replace(state.disc.problem, mu=mu)
+    disc = Discretisation(problem, state.disc.mesh, state.disc)
+    return newton(replace(state, disc=disc), lead_control(state, lead_of(state)))
+
+
+def _least_rate(state: State) -> tuple[State, float]:
+    """Vertex of the parabola through three exact rates around a state, and the state moved to it."""
+    rates = rates_of(state)
+    x = lead_of(state)
+    before, after = (rates_of(moved(state, rates, x + h)).displacement for h in (-_SPACING, _SPACING))
+    slope = (after - before) / (2.0 * _SPACING)
+    curvature = (after - 2.0 * rates.displacement + before) / _SPACING**2
+    step = -slope / curvature
+    return moved(state, rates, x + step), rates.displacement + 0.5 * slope * step
+
+
+def _on_mesh(state: State) -> tuple[float, State]:
+    """Root in mu of the least rate on the mesh of a state, by the secant method."""
+    mu = state.disc.problem.mu
+    state, rate = _least_rate(state)
+    step = _FIRST_SECANT_STEP * mu
+    for _ in range(_SECANT_STEPS):
+        mu += step
+        state, new = _least_rate(_at_tabor_number(state, mu))
+        if abs(step) < _TOLERANCE * mu:
+            return mu, state
+        step *= -new / (new - rate)
+        rate = new
+    raise NotConverged("the secant method for the critical Tabor number did not settle")
+
+
+def critical_tabor_number(problem: Problem) -> Solution:
+    """The Tabor number above which approach under displacement control jumps; `problem.mu` is not used.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    Solution
+        Dimensionless.
+
+    Raises
+    ------
+    NoSuchEvent
+        When no jump begins between mu = 1/30 and 30.
+    NotConverged
+
+    Examples
+    --------
+    >>> round(critical_tabor_number(Problem(n=2, k=0, mu=1)).value, 2)      # 0.70 in Sec. 3.3
+    0.7
+    """
+    start = time.perf_counter()
+    coarse = _coarse_root(problem)
+    (check, _), (value, state) = (_on_mesh(refined(coarse, *mesh)) for mesh in (CHECK_MESH, VALUE_MESH))
+    return Solution(
+        value,
+        SAFETY * abs(value - check) + FLOOR * _AMPLIFICATION,
+        len(state.gap) + 2,
+        state.iterations,
+        state.residual,
+        time.perf_counter() - start,
+    )

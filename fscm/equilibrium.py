@@ -1,0 +1,368 @@
+r"""Equilibrium of the surface: residual, exact tangent and bordered Newton.
+
+Radii are r = c s with the mesh in s.  The half-space has no length of its own, so one response matrix W serves
+every scale c:  w(c s) = M (1-k) c^{1-k} (W p)(s).  Unknowns are the gaps H at the nodes, the displacement
+delta and log c; the equations are
+
+    R_i = H_i + delta - f(c s_i) - w_i = 0          (Eq. 4)
+    an anchor that fixes the scale:  c = given,  or  H(s = 1) = edge gap  (the mesh then follows the edge)
+    a control:  linear in  (H_0, delta, P, log c)   (central gap, displacement, load, arc length: all alike)
+
+The bordered matrix is regular at the folds, where the tangent of R alone is singular.
+
+Beyond the last node f is so large that p = -C f^-m (1 - m e/f), e = w - delta - singular gap, which gives the
+tail of P and of w in closed form.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.linalg.lapack import dgesv
+
+from fscm.deformation import axis_row, response_matrix
+from fscm.errors import NotConverged
+from fscm.kernel import kernel_of
+from fscm.panels import Array, PanelMesh
+from fscm.problem import Problem
+
+__all__ = ["Control", "Discretisation", "State", "newton"]
+
+# Newton stops when the last step changes no gap by more than this, relative to 1 + |H|; the step after it
+# would be at rounding level, since convergence is quadratic.
+_STEP_TOLERANCE = 1e-9
+_MAX_ITERATIONS = 25
+# A gap may fall to this fraction of its distance to the singular gap in one iteration, and not below
+# _LOWEST of it: at a quarter of the distance the 9-3 law reaches 7e5 times its strength.
+_SHRINK = 0.4
+_LOWEST = 0.25
+
+
+@dataclass(frozen=True)
+class Control:
+    """A linear condition gap * H_0 + displacement * delta + load * P + log_scale * log c = value."""
+
+    value: float
+    gap: float = 0.0
+    displacement: float = 0.0
+    load: float = 0.0
+    log_scale: float = 0.0
+
+
+class Discretisation:
+    """A problem on a mesh: everything that does not depend on the state.
+
+    Parameters
+    ----------
+    problem : Problem
+    mesh : PanelMesh
+        In the scaled radius s; must have a break at s = 1.
+    previous : Discretisation, optional
+        Blocks of its response matrix are reused.
+    """
+
+    def __init__(self, problem: Problem, mesh: PanelMesh, previous: Discretisation | None = None) -> None:
+        self.problem, self.mesh = problem, mesh
+        kernel = kernel_of(problem.k)
+        known = (previous.mesh, previous.matrix) if previous is not None and previous.problem.k == problem.k else None
+        self.matrix = response_matrix(kernel, mesh, known)
+        self.axis = axis_row(kernel, mesh)
+        edge = int(np.searchsorted(mesh.breaks, 1.0))
+        self.edge = mesh.row_at_end(max(edge - 1, 0), 1.0)
+
+    def stiffness_scale(self, c: float) -> float:
+        """M (1-k) c^{1-k}, the factor of W."""
+        p = self.problem
+        return p.compliance * (1.0 - p.k) * c ** (1.0 - p.k)
+
+
+@dataclass(frozen=True)
+class _Tail:
+    """Load and displacement from radii beyond the mesh, and their derivatives by log c."""
+
+    load: float
+    displacement: float
+    load_rate: float
+    displacement_rate: float
+
+
+def _tail(d: Discretisation, c: float, shift: float) -> _Tail:
+    """The tail at scale c for the gap f + shift - singular gap at the end of the mesh."""
+    problem = d.problem
+    C, m = problem.law.decay
+    if C == 0.0:
+        return _Tail(0.0, 0.0, 0.0, 0.0)
+    T = c * d.mesh.breaks[-1]
+    F = float(problem.profile.height(np.array([T]))[0])
+    g, k = problem.profile.growth, problem.k
+    e = (shift - problem.law.singular_gap) / F
+    strength = C * F**-m
+
+    def integral(power: float) -> float:  # of t^{power-1} p from T on, over -C F^-m T^power
+        return 1.0 / (m * g - power) - m * e / ((m + 1.0) * g - power)
+
+    load = -2.0 * strength * T**2 * integral(2.0)
+    displacement = -problem.compliance * (1.0 - k) * strength * T ** (1.0 - k) * integral(1.0 - k)
+    return _Tail(load, displacement, (2.0 - m * g) * load, (1.0 - k - m * g) * displacement)
+
+
+@dataclass(frozen=True)
+class State:
+    """One equilibrium state on its discretisation.
+
+    Attributes
+    ----------
+    disc : Discretisation
+    scale : float
+        c; radii are c s.
+    gap : ndarray, shape (N,)
+        H at the nodes, in z0.
+    displacement : float
+        delta / z0.
+    iterations, residual
+        Of the Newton solve that produced it.
+    follows_edge : bool
+        The anchor: H(s=1) is the edge gap (True) or the scale is fixed (False).
+    """
+
+    disc: Discretisation
+    scale: float
+    gap: Array
+    displacement: float
+    follows_edge: bool
+    iterations: int = 0
+    residual: float = 0.0
+
+    @cached_property
+    def radius(self) -> Array:
+        """Node radii r = c s, shape (N,)."""
+        return self.scale * self.disc.mesh.nodes
+
+    @cached_property
+    def pressure(self) -> Array:
+        """p at the nodes, shape (N,)."""
+        return self.disc.problem.law.traction(self.gap)
+
+    @cached_property
+    def tail(self) -> _Tail:
+        """Contribution of radii beyond the mesh."""
+        return _tail(self.disc, self.scale, -self.displacement)
+
+    @cached_property
+    def deformation(self) -> Array:
+        """w at the nodes, shape (N,)."""
+        d = self.disc
+        return d.stiffness_scale(self.scale) * (d.matrix @ self.pressure) + self.tail.displacement
+
+    @cached_property
+    def central_gap(self) -> float:
+        """H_0 from Eq. 32."""
+        d = self.disc
+        w0 = d.stiffness_scale(self.scale) * float(d.axis @ self.pressure) + self.tail.displacement
+        return w0 - self.displacement
+
+    @cached_property
+    def load(self) -> float:
+        """P of Eq. 31, tension negative."""
+        mesh = self.disc.mesh
+        area = 2.0 * self.scale**2 * mesh.weights * mesh.nodes
+        return float(area @ self.pressure) + self.tail.load
+
+    @property
+    def tail_uncertainty(self) -> float:
+        """Bound on the error of the closed tail: the next term of its expansion, on the load."""
+        problem = self.disc.problem
+        C, m = problem.law.decay
+        if C == 0.0:
+            return 0.0
+        F = float(problem.profile.height(np.array([self.scale * self.disc.mesh.breaks[-1]]))[0])
+        e = (-self.displacement - problem.law.singular_gap) / F
+        return 0.5 * m * (m + 1.0) * e * e * abs(self.tail.load)
+
+    @cached_property
+    def energy(self) -> float:
+        """Elastic plus surface energy, unit pi Q^(2/n) dgamma z0^(2/n); along the path it changes by P d(delta).
+
+        The elastic part is (1/2) int p w 2 r dr, the surface part int e(H) 2 r dr with e from the law.  When the
+        surface part is infinite (a cone under the 9-3 law) its finite part is taken: the divergent constant is
+        the same for all states of a problem, so differences are right.
+        """
+        d, law = self.disc, self.disc.problem.law
+        area = 2.0 * self.scale**2 * d.mesh.weights * d.mesh.nodes
+        density = 0.5 * self.pressure * self.deformation + law.energy(self.gap)
+        return float(area @ density) + self._energy_tail()
+
+    def _energy_tail(self) -> float:
+        """int e(H) 2 r dr beyond the mesh, e = -C/(m-1) f^(1-m) (1 - (m-1) e/f)."""
+        problem = self.disc.problem
+        C, m = problem.law.decay
+        if C == 0.0:
+            return 0.0
+        T = self.scale * self.disc.mesh.breaks[-1]
+        F = float(problem.profile.height(np.array([T]))[0])
+        g = problem.profile.growth
+        excess = (m - 1.0) * g - 2.0
+        leading = -math.log(T) if excess == 0.0 else 1.0 / excess
+        shift = (-self.displacement - problem.law.singular_gap) / F
+        return -2.0 * C / (m - 1.0) * F ** (1.0 - m) * T**2 * (leading - (m - 1.0) * shift / (m * g - 2.0))
+
+    @cached_property
+    def _system(self) -> _Linearisation:
+        return _Linearisation(self)
+
+    def rates(self, follow: str = "log_scale") -> Rates:
+        """Exact derivatives along the path, per unit of `follow` ("log_scale" or "gap")."""
+        return self._system.rates(Control(0.0, **{follow: 1.0}))
+
+
+@dataclass(frozen=True)
+class Rates:
+    """Derivatives along the equilibrium path."""
+
+    gap: Array
+    displacement: float
+    log_scale: float
+    central_gap: float
+    load: float
+
+    def scaled(self, factor: float) -> Rates:
+        """The same derivatives in another unit."""
+        return Rates(
+            factor * self.gap,
+            factor * self.displacement,
+            factor * self.log_scale,
+            factor * self.central_gap,
+            factor * self.load,
+        )
+
+
+class _Linearisation:
+    """Residual, tangent and functionals at a state (which need not be in equilibrium)."""
+
+    def __init__(self, state: State) -> None:
+        self.state = s = state
+        d, problem = s.disc, s.disc.problem
+        K = d.stiffness_scale(s.scale)
+        slope = problem.law.slope(s.gap)
+        mesh = d.mesh
+        k = problem.k
+        height = problem.profile.height(s.radius)
+        self.residual = s.gap + s.displacement - height - s.deformation
+        # dR / d log c
+        elastic = s.deformation - s.tail.displacement
+        self.scale_column = -(
+            s.radius * problem.profile.slope(s.radius) + (1.0 - k) * elastic + s.tail.displacement_rate
+        )
+        N = mesh.size
+        self.matrix = np.empty((N + 2, N + 2), order="F")
+        J = self.matrix[:N, :N]
+        np.multiply(d.matrix, -K * slope, out=J)
+        J[np.arange(N), np.arange(N)] += 1.0
+        self.matrix[:N, N] = 1.0
+        self.matrix[:N, N + 1] = self.scale_column
+        self.matrix[N, :] = 0.0
+        if s.follows_edge:
+            self.matrix[N, :N] = d.edge
+            self.anchor = float(d.edge @ s.gap) - problem.law.peak_gap
+        else:
+            self.matrix[N, N + 1] = 1.0
+            self.anchor = 0.0
+        area = 2.0 * s.scale**2 * mesh.weights * mesh.nodes
+        self.load_row = area * slope
+        self.load_scale = 2.0 * (s.load - s.tail.load) + s.tail.load_rate
+        self.axis_gap_row = K * d.axis * slope
+        self.axis_gap_scale = (1.0 - k) * (s.central_gap + s.displacement - s.tail.displacement) + s.tail.displacement_rate
+
+    def solve(self, control: Control, rhs: Array) -> Array:
+        """Solve the bordered system with the control as its last row."""
+        N = len(rhs) - 2
+        row = self.matrix[N + 1]
+        row[:N] = control.gap * self.axis_gap_row + control.load * self.load_row
+        row[N] = control.displacement - control.gap
+        row[N + 1] = control.log_scale + control.gap * self.axis_gap_scale + control.load * self.load_scale
+        # dgesv directly: the rows differ by many orders of magnitude on purpose, which partial pivoting does not
+        # mind, while the condition estimate of the wrapper does.
+        *_, x, info = dgesv(self.matrix, rhs)
+        if info != 0:
+            raise NotConverged("Newton met a singular tangent; use another control")
+        return x
+
+    def violation(self, control: Control) -> float:
+        s = self.state
+        return (
+            control.gap * s.central_gap
+            + control.displacement * s.displacement
+            + control.load * s.load
+            + control.log_scale * math.log(s.scale)
+            - control.value
+        )
+
+    def rates(self, control: Control) -> Rates:
+        N = len(self.residual)
+        rhs = np.zeros(N + 2)
+        rhs[N + 1] = 1.0
+        x = self.solve(control, rhs)
+        dH, dd, dc = x[:N], float(x[N]), float(x[N + 1])
+        return Rates(
+            dH,
+            dd,
+            dc,
+            float(self.axis_gap_row @ dH) - dd + self.axis_gap_scale * dc,
+            float(self.load_row @ dH) + self.load_scale * dc,
+        )
+
+
+def newton(guess: State, control: Control) -> State:
+    """Solve for equilibrium under a control, from a guess.
+
+    Parameters
+    ----------
+    guess : State
+        Its discretisation, anchor and (when the scale is fixed) scale are kept.
+    control : Control
+
+    Returns
+    -------
+    State
+        Converged: the last step is below the tolerance relative to 1 + |H|.
+
+    Raises
+    ------
+    NotConverged
+        After too many iterations, or when a gap is driven towards the singular gap.
+    """
+    law = guess.disc.problem.law
+    floor = law.singular_gap
+    state = guess
+    for iteration in range(1, _MAX_ITERATIONS + 1):
+        system = _Linearisation(state)
+        rhs = np.concatenate([system.residual, [system.anchor, system.violation(control)]])
+        if not np.all(np.isfinite(rhs)):
+            raise NotConverged("Newton met a residual that is not finite; start from a closer state")
+        step = -system.solve(control, rhs)
+        N = len(state.gap)
+        dH = step[:N]
+        clearance = state.gap - floor
+        with np.errstate(divide="ignore", invalid="ignore"):
+            limit = np.where(dH < 0.0, (clearance - np.maximum(_SHRINK * clearance, _LOWEST * -floor)) / -dH, np.inf)
+        damping = float(min(1.0, max(limit.min(), 0.0), 0.7 / max(abs(step[N + 1]), 1e-300)))
+        if damping < 1e-3:
+            raise NotConverged("Newton is driven into the singular gap of the surface law; take a smaller step")
+        state = State(
+            state.disc,
+            state.scale * math.exp(damping * step[N + 1]),
+            state.gap + damping * dH,
+            state.displacement + damping * float(step[N]),
+            state.follows_edge,
+            iteration,
+            float(np.max(np.abs(rhs[:N]) / (1.0 + np.abs(state.gap)))),
+        )
+        change = float(np.max(np.abs(dH) / (1.0 + np.abs(state.gap))))
+        if not math.isfinite(change) or change > 1e6:
+            raise NotConverged("Newton diverged; take a smaller step")
+        if damping == 1.0 and change < _STEP_TOLERANCE:
+            return state
+    raise NotConverged(f"Newton did not converge in {_MAX_ITERATIONS} iterations (last change {change:.1e})")

@@ -1,0 +1,149 @@
+"""Points of the equilibrium path that have names, found as roots of exact derivatives.
+
+The coarse path brackets an event; inside the bracket the leading variable is solved for on the coarse mesh
+and then, from that root, on finer meshes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from scipy.optimize import brentq, minimize_scalar
+
+from fscm.adaptivity import fit, on_mesh
+from fscm.continuation import Point, lead_control, lead_of, moved, rates_of
+from fscm.equilibrium import Rates, State, newton
+from fscm.errors import NotConverged
+from fscm.panels import PanelMesh
+
+__all__ = [
+    "Condition",
+    "brackets",
+    "displacement_fold",
+    "least_displacement_rate",
+    "load_fold",
+    "locate",
+    "sharpen",
+    "zero_load",
+]
+
+Condition = Callable[[State, Rates], float]
+Bracket = tuple[Point, Point]
+
+# The secant method ends when the leading variable moves by less than this; the next error is its power 1.6.
+_LEAD_TOLERANCE = 1e-9
+_SECANT_STEPS = 15
+# First step of the secant method: large against rounding of the derivative, small against its curvature.
+_FIRST_SECANT_STEP = 1e-4
+_COARSE_LEAD_TOLERANCE = 1e-6
+
+
+def load_fold(state: State, rates: Rates) -> float:
+    """dP, zero where the load is extreme."""
+    return rates.load
+
+
+def displacement_fold(state: State, rates: Rates) -> float:
+    """d(delta), zero where the displacement is extreme."""
+    return rates.displacement
+
+
+def zero_load(state: State, rates: Rates) -> float:
+    """P."""
+    return state.load
+
+
+def brackets(points: Sequence[Point], condition: Condition, rising: bool) -> list[Bracket]:
+    """Neighbouring points between which the condition changes sign: to positive when `rising`, else to negative."""
+    found = []
+    for a, b in zip(points, points[1:], strict=False):
+        if a.state.follows_edge != b.state.follows_edge:
+            continue  # the same state on two meshes
+        before, after = condition(a.state, a.rates), condition(b.state, b.rates)
+        if (before < 0.0 <= after) if rising else (before >= 0.0 > after):
+            found.append((a, b))
+    return found
+
+
+class _Between:
+    """States between two points of the path, as a function of the leading variable."""
+
+    def __init__(self, a: Point, b: Point) -> None:
+        self._known = {lead_of(p.state): (p.state, rates_of(p.state)) for p in (a, b)}
+        self.low, self.high = sorted(self._known)
+
+    def __call__(self, lead: float) -> tuple[State, Rates]:
+        if lead not in self._known:
+            nearest = sorted(self._known, key=lambda x: abs(x - lead))
+            for i, start in enumerate(nearest):
+                try:
+                    state = moved(*self._known[start], lead)
+                    break
+                except NotConverged:
+                    if i == len(nearest) - 1:
+                        raise
+            self._known[lead] = (state, rates_of(state))
+        return self._known[lead]
+
+
+def locate(a: Point, b: Point, condition: Condition) -> State:
+    """Root of the condition between two neighbouring points, on their coarse mesh."""
+    between = _Between(a, b)
+    root = brentq(lambda x: condition(*between(x)), between.low, between.high, xtol=_COARSE_LEAD_TOLERANCE, rtol=1e-12)
+    return between(root)[0]
+
+
+def least_displacement_rate(a: Point, b: Point) -> tuple[Point, float]:
+    """Point of the smallest rate of displacement between two points, and that rate.
+
+    The rate is taken per unit of the leading variable, oriented from separation into contact.
+    """
+    between = _Between(a, b)
+    orientation = 1.0 if a.state.follows_edge else -1.0
+    best = minimize_scalar(
+        lambda x: orientation * between(x)[1].displacement,
+        bounds=(between.low, between.high),
+        method="bounded",
+        options={"xatol": 1e-5 * (between.high - between.low)},
+    )
+    state, rates = between(float(best.x))
+    return Point(state, rates.scaled(orientation)), float(best.fun)
+
+
+def refined(state: State, order: int, tolerance: float) -> State:
+    """The state at the same leading variable, on a mesh of the given order refined to the tolerance."""
+    control = lead_control(state, lead_of(state))
+    mesh = PanelMesh(state.disc.mesh.breaks, order)
+    return fit(newton(on_mesh(state, mesh), control), control, tolerance, coarsen=True)
+
+
+def sharpen(state: State, condition: Condition, order: int, tolerance: float) -> State:
+    """Root of the condition near a state, on a mesh of the given order refined to the tolerance.
+
+    Raises
+    ------
+    NotConverged
+        When the secant method does not settle.
+    """
+    state = refined(state, order, tolerance)
+    iterations = state.iterations
+    rates = rates_of(state)
+    value = condition(state, rates)
+    step = _FIRST_SECANT_STEP
+    for _ in range(_SECANT_STEPS):
+        new = moved(state, rates, lead_of(state) + step)
+        new_rates = rates_of(new)
+        new_value = condition(new, new_rates)
+        change = new_value - value
+        state, rates, value = new, new_rates, new_value
+        iterations += state.iterations
+        if abs(step) < _LEAD_TOLERANCE or value == 0.0:
+            return replace(state, iterations=iterations)
+        if change == 0.0:
+            break
+        step *= -value / change
+    raise NotConverged(
+        "the root of an event did not settle on the refined mesh; the event may be about to vanish (Tabor number "
+        "close to critical)"
+    )

@@ -1,0 +1,129 @@
+"""The force-displacement curve as arrays, and surface profiles at a state: what a user looks at."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fscm.analysis import SAFETY, Analysis
+from fscm.continuation import equilibrium_path, lead_of
+from fscm.equilibrium import State
+from fscm.errors import NotConverged
+from fscm.events import refined
+from fscm.panels import Array
+from fscm.problem import Problem
+
+__all__ = ["EquilibriumPath", "SurfaceProfiles", "profiles", "profiles_of", "trace"]
+
+# Mesh and longest step of the curves: they are drawn and integrated, so they carry more digits than the coarse path
+# that brackets events.
+_ORDER, _TOLERANCE, _LONGEST_STEP = 10, 1e-6, 0.15
+# Every so many points the state is solved again on this finer mesh, for the uncertainty.
+_CHECK_EVERY, _CHECK_MESH = 12, (14, 1e-8)
+_MAX_POINTS = 5000
+
+
+@dataclass(frozen=True)
+class EquilibriumPath:
+    """The equilibrium path from far separation into contact; all arrays have shape (m,), dimensionless.
+
+    Attributes
+    ----------
+    central_gap, displacement, load, energy : ndarray
+        H_0, delta, P, and elastic plus surface energy (unit pi Q^(2/n) dgamma z0^(2/n)).
+    edge_radius : ndarray
+        Radius where the tension is largest; nan while the central gap is above the gap of largest tension.
+    u_displacement, u_load : float
+        Numerical uncertainty of every delta and P.
+    """
+
+    central_gap: Array
+    displacement: Array
+    load: Array
+    energy: Array
+    edge_radius: Array
+    u_displacement: float
+    u_load: float
+
+
+@dataclass(frozen=True)
+class SurfaceProfiles:
+    """Gap, pressure and deformation over the radius at one state; arrays of shape (m,), dimensionless."""
+
+    radius: Array
+    gap: Array
+    pressure: Array
+    deformation: Array
+    displacement: float
+    load: float
+
+
+def trace(problem: Problem, max_load: float | None = None, start_gap: float | None = None) -> EquilibriumPath:
+    """Follow the whole equilibrium path.
+
+    Parameters
+    ----------
+    problem : Problem
+        With 0 <= k < 1.
+    max_load : float, optional
+        The path ends in contact at this load; by default where the compression equals the largest tension.
+    start_gap : float, optional
+        Central gap at the far end; by default 10 + 5 mu.
+
+    Raises
+    ------
+    NotConverged
+        When the path cannot be followed to the end.
+
+    Examples
+    --------
+    >>> path = trace(Problem(n=2, k=0.4, mu=1.0))
+    >>> bool(abs(path.load.min() + 1.788) < 1e-2)
+    True
+    """
+    states: list[State] = []
+    deepest = 0.0
+    for point in equilibrium_path(problem, _ORDER, _TOLERANCE, _LONGEST_STEP, start_gap):
+        state = point.state
+        if states and state.follows_edge and not states[-1].follows_edge:
+            states.pop()  # the same state on the mesh that follows the edge
+        states.append(state)
+        deepest = min(deepest, state.load)
+        if state.follows_edge and state.load > (-deepest if max_load is None else max_load):
+            break
+        if len(states) > _MAX_POINTS:
+            raise NotConverged(f"the path of {problem} has not reached its end in {_MAX_POINTS} steps")
+    checks = [(state, refined(state, *_CHECK_MESH)) for state in states[:: _CHECK_EVERY]]
+    return EquilibriumPath(
+        np.array([s.central_gap for s in states]),
+        np.array([s.displacement for s in states]),
+        np.array([s.load for s in states]),
+        np.array([s.energy for s in states]),
+        np.array([s.scale if s.follows_edge else np.nan for s in states]),
+        SAFETY * max(abs(fine.displacement - s.displacement) for s, fine in checks),
+        SAFETY * max(abs(fine.load - s.load) for s, fine in checks),
+    )
+
+
+def profiles_of(state: State) -> SurfaceProfiles:
+    """The surface at a state, at the nodes of its mesh."""
+    return SurfaceProfiles(
+        state.radius, state.gap, state.pressure, state.deformation, state.displacement, state.load
+    )
+
+
+def profiles(problem: Problem, event: str = "pull_off") -> SurfaceProfiles:
+    """The surface at an event: "pull_off", "jump_in", "jump_out" or "zero_load".
+
+    Raises
+    ------
+    NoSuchEvent, NotConverged, ValueError
+
+    Examples
+    --------
+    >>> at_pull_off = profiles(Problem(n=2, k=0.4, mu=1.0))
+    >>> bool(abs(at_pull_off.pressure.min() + 1.0264) < 1e-3)      # the theoretical strength, at the edge
+    True
+    """
+    return profiles_of(Analysis(problem).event(event).value)
