@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from fscm.problem import Problem
 
-__all__ = ["ComputationFailed", "Curve", "Model", "NotApplicable", "Result"]
+__all__ = ["ComputationFailed", "Curve", "Model", "NotApplicable", "Result", "TracesCurve"]
 
 
 class NotApplicable(Exception):
@@ -24,7 +24,7 @@ class NotApplicable(Exception):
 
 
 class ComputationFailed(Exception):
-    """The model defines the quantity but its computation did not converge; the message says what to change."""
+    """The computation of the quantity did not converge; the message says what to change."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +73,7 @@ class Curve:
     load : ndarray, shape (m,)
         P / (pi Q^(2/n) dgamma z0^(2/n - 1)), tension negative.
     columns : dict of str to ndarray, shape (m,)
-        What else the model knows along the path, e.g. ``central_gap``, ``contact_radius``, ``cohesive_radius``.
+        What else the model knows on the path, e.g. ``central_gap``, ``contact_radius``, ``cohesive_radius``.
     """
 
     displacement: NDArray[np.float64]
@@ -95,4 +95,13 @@ class Model(Protocol):
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the quantity for the problem, or raise `NotApplicable` or `ComputationFailed`."""
+        ...
+
+
+@runtime_checkable
+class TracesCurve(Protocol):
+    """A model that also knows its whole force-displacement curve."""
+
+    def curve(self, problem: Problem) -> Curve:
+        """Return the curve, or raise `NotApplicable` or `ComputationFailed`."""
         ...

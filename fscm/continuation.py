@@ -185,7 +185,8 @@ def equilibrium_path(
                 if step < _SMALLEST_STEP:
                     raise NotConverged(
                         f"the path of {problem} ends at delta = {state.displacement:.6g}, "
-                        f"P = {state.load:.6g}: no arc-length step down to {_SMALLEST_STEP} converges ({error})"
+                        f"P = {state.load:.6g}: no step of arc length down to {_SMALLEST_STEP} converges "
+                        f"({error})"
                     ) from error
         if used <= _EASY:
             step = min(_LONGER * step, longest_step)

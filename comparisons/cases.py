@@ -1,0 +1,176 @@
+"""Cases as data: which problems a run computes, read from a TOML file.
+
+A case is one dimensionless problem; a grid is the product of lists of n, k and mu with an id, a tier and the
+quantities and models asked.  Unknown keys are refused, so that a misspelt one cannot pass unnoticed.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+from itertools import product
+from typing import Any
+
+from comparisons.models import MODELS
+from comparisons.quantities import QUANTITIES
+from fscm.problem import Problem
+
+__all__ = ["TIERS", "Case", "Grid", "grids", "load_grids"]
+
+#: A tier holds its own grids and those of every tier before it.
+TIERS = ("quick", "full")
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Case:
+    """One dimensionless problem with the default punch and surface law.
+
+    Parameters
+    ----------
+    n, k, mu : float
+        Shape index, gradient exponent and Tabor number (see `fscm.problem.Problem`).
+    nu : float, optional
+        Poisson's ratio in [0, 0.5), for models that solve the physical problem; None leaves it to them.
+
+    Raises
+    ------
+    ValueError
+        With the value, the admissible range and the reason.
+
+    Examples
+    --------
+    >>> Case(2, 0.4, 1.0).label
+    'n = 2, k = 0.4, mu = 1'
+    """
+
+    n: float
+    k: float
+    mu: float
+    nu: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("n", "k", "mu"):
+            object.__setattr__(self, name, float(getattr(self, name)))
+        if self.nu is not None and not 0 <= self.nu < 0.5:
+            raise ValueError(
+                f"Poisson's ratio nu = {self.nu:g} is outside [0, 0.5): "
+                "at 0.5 the solid is incompressible and displacements alone do not give the stress"
+            )
+        self.problem()
+
+    def problem(self) -> Problem:
+        """Return the problem as the models take it."""
+        return Problem(n=self.n, k=self.k, mu=self.mu)
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The parameters that were given, by name."""
+        given = {"n": self.n, "k": self.k, "mu": self.mu}
+        return given if self.nu is None else {**given, "nu": self.nu}
+
+    @property
+    def label(self) -> str:
+        """The parameters in one line for people."""
+        return ", ".join(f"{name} = {value:g}" for name, value in self.parameters.items())
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """A named set of cases: the product of its parameter lists.
+
+    Attributes
+    ----------
+    id : str
+        Stable name, to be cited.
+    title : str
+        What the grid is for, one line.
+    tier : str
+        The first of `TIERS` that computes it.
+    reference : str
+        The model the others are compared with.
+    models : tuple of str
+        The candidates.
+    quantities : tuple of str
+        What is asked of every model.
+    cases : tuple of Case
+        Sorted, without duplicates.
+    """
+
+    id: str
+    title: str
+    tier: str
+    reference: str
+    models: tuple[str, ...]
+    quantities: tuple[str, ...]
+    cases: tuple[Case, ...]
+
+
+_LISTS = ("models", "quantities", "n", "k", "mu")
+_TEXTS = ("id", "title", "tier", "reference")
+
+
+def _known(what: str, names: list[str], register: Mapping[str, object] | tuple[str, ...], where: str) -> None:
+    for name in names:
+        if name not in register:
+            raise ValueError(f"{where}: unknown {what} {name!r}; known are {', '.join(register)}")
+
+
+def _grid(table: dict[str, Any], where: str) -> Grid:
+    expected = {*_LISTS, *_TEXTS}
+    if wrong := sorted(expected ^ table.keys()):
+        raise ValueError(
+            f"{where}: {', '.join(wrong)} missing or unknown; a grid has {', '.join(sorted(expected))}"
+        )
+    for key in _LISTS:
+        if not (isinstance(table[key], list) and table[key]):
+            raise ValueError(f"{where}: {key} must be a list with at least one entry")
+    _known("tier", [table["tier"]], TIERS, where)
+    _known("model", [table["reference"], *table["models"]], MODELS, where)
+    _known("quantity", table["quantities"], QUANTITIES, where)
+    cases = {Case(n, k, mu) for n, k, mu in product(table["n"], table["k"], table["mu"])}
+    return Grid(
+        id=table["id"],
+        title=table["title"],
+        tier=table["tier"],
+        reference=table["reference"],
+        models=tuple(table["models"]),
+        quantities=tuple(table["quantities"]),
+        cases=tuple(sorted(cases, key=lambda case: (case.n, case.k, case.mu))),
+    )
+
+
+def load_grids(text: str) -> list[Grid]:
+    """Read grids from TOML text.
+
+    Raises
+    ------
+    ValueError
+        If the text is not TOML, or a grid has a missing, unknown or inadmissible entry; the message names it.
+    """
+    tables = tomllib.loads(text)
+    if tables.keys() != {"grid"}:
+        raise ValueError(
+            f"a case file holds [[grid]] tables and nothing else, not {', '.join(sorted(tables))}"
+        )
+    read = [
+        _grid(table, f"grid {table.get('id', number)}")
+        for number, table in enumerate(tables["grid"], start=1)
+    ]
+    ids = [grid.id for grid in read]
+    if len(set(ids)) < len(ids):
+        raise ValueError(f"the id of a grid must be its own; found {', '.join(sorted(ids))}")
+    return read
+
+
+def grids(tier: str) -> list[Grid]:
+    """Return the standing grids of a tier and of the tiers before it.
+
+    Examples
+    --------
+    >>> [grid.id for grid in grids("quick")][0]
+    'transition'
+    """
+    every = load_grids(files("comparisons").joinpath("cases.toml").read_text(encoding="utf-8"))
+    return [grid for grid in every if TIERS.index(grid.tier) <= TIERS.index(tier)]

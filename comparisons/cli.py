@@ -1,0 +1,105 @@
+"""The command line: parses, calls the command, turns what went wrong into one sentence and an exit status.
+
+Results go to stdout, progress and messages to stderr.  Exit status: 0 done, 2 wrong input, 4 a computation
+failed (and, as shells have it, 130 after Ctrl-C and 141 when the reader of a pipe went away).
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from typing import NoReturn
+
+from threadpoolctl import threadpool_limits
+
+from comparisons.commands import bench, curve, listing, run, solve
+from comparisons.commands.options import WRONG_INPUT
+from comparisons.progress import log
+from comparisons.provenance import package_version
+
+__all__ = ["main"]
+
+_COMMANDS = (run, solve, curve, listing, bench)
+_INTERRUPTED, _BROKEN_PIPE = 130, 141
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser that says what is wrong in one sentence, without the usage."""
+
+    def error(self, message: str) -> NoReturn:
+        raise ValueError(f"{message}; see {self.prog} --help")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(
+        prog="fscm-bench",
+        description="How wrong is a model of adhesive contact of graded materials, and how sure are we?",
+        epilog="Exit status: 0 done, 2 wrong input, 4 a computation failed.",
+    )
+    parser.add_argument("--version", action="version", version=f"fscm-bench {package_version()}")
+    parsers = parser.add_subparsers(metavar="COMMAND", required=True)
+    for command in _COMMANDS:
+        command.add(parsers)
+    return parser
+
+
+def _keep_negative_numbers(arguments: Sequence[str]) -> list[str]:
+    """Join ``--k -1e-3`` into ``--k=-1e-3``: argparse takes some negative numbers for options.
+
+    Examples
+    --------
+    >>> _keep_negative_numbers(["solve", "--k", "-1e-3", "--n", "2"])
+    ['solve', '--k=-1e-3', '--n', '2']
+    """
+    joined: list[str] = []
+    for argument in arguments:
+        if joined and joined[-1].startswith("--") and "=" not in joined[-1] and _is_negative(argument):
+            joined[-1] += f"={argument}"
+        else:
+            joined.append(argument)
+    return joined
+
+
+def _is_negative(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return text.startswith("-")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        What follows the program's name; by default that of this process.
+
+    Returns
+    -------
+    int
+        The exit status.
+    """
+    arguments = sys.argv[1:] if arguments is None else arguments
+    try:
+        args = _parser().parse_args(_keep_negative_numbers(arguments))
+        # One thread for BLAS: processes share the work, and sums come in the same order every time.
+        with threadpool_limits(1):
+            status: int = args.call(args)
+        sys.stdout.flush()
+        return status
+    except SystemExit as end:  # --help and --version
+        return int(end.code or 0)
+    except ValueError as error:
+        log(f"fscm-bench: {error}")
+        return WRONG_INPUT
+    except KeyboardInterrupt:
+        log("fscm-bench: interrupted")
+        return _INTERRUPTED
+    except BrokenPipeError:
+        # Nobody reads any more; point stdout elsewhere so that the last flush does not complain.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return _BROKEN_PIPE

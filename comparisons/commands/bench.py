@@ -1,0 +1,42 @@
+"""``fscm-bench bench``: time, memory and error of the accurate solver beside the paper's own scheme."""
+
+from __future__ import annotations
+
+import argparse
+
+from comparisons.bench import compare, measure
+from comparisons.cases import Case
+from comparisons.commands.options import FAILED, OK, output
+from comparisons.progress import log, waiting
+from comparisons.run import Task
+from comparisons.tables import rich_table
+
+__all__ = ["add", "call"]
+
+ACCURATE, BASELINE = "fscm", "fscm-stieltjes"
+QUANTITY, CASE = "pull_off_force", Case(n=2, k=0.4, mu=1)
+
+
+def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the arguments: there are none."""
+    parser = parsers.add_parser(
+        "bench", help="speed, memory and error beside the paper's own scheme", description=__doc__
+    )
+    parser.set_defaults(call=call)
+
+
+def call(args: argparse.Namespace) -> int:
+    """Measure and print; return the exit status."""
+    measured = []
+    for model in (ACCURATE, BASELINE):
+        with waiting(f"{model}: {QUANTITY} at {CASE.label}"):
+            measured.append(measure(Task(model, QUANTITY, CASE)))
+    failed = [one.row for one in measured if one.row.status != "ok"]
+    for row in failed:
+        log(f"{row.model}: {row.status}: {row.reason}")
+    if failed:
+        return FAILED
+    output().print(
+        rich_table(compare(*measured), f"{QUANTITY} at {CASE.label}, one thread", {"ratio": ".0f"})
+    )
+    return OK

@@ -1,0 +1,72 @@
+"""``fscm-bench list``: what there is to ask for."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import asdict
+
+import pandas as pd
+
+from comparisons.cases import TIERS, grids
+from comparisons.commands.options import OK, output
+from comparisons.models import MODELS, create
+from comparisons.progress import log
+from comparisons.quantities import QUANTITIES
+from comparisons.tables import rich_table
+
+__all__ = ["add", "call"]
+
+
+def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the arguments."""
+    parser = parsers.add_parser(
+        "list", help="the models, quantities, cases or gates there are", description=__doc__
+    )
+    parser.add_argument("what", choices=_TABLES)
+    parser.set_defaults(call=call)
+
+
+def call(args: argparse.Namespace) -> int:
+    """Print the table; return the exit status."""
+    table = _TABLES[args.what]()
+    if table.empty:
+        log(f"no {args.what} are declared")
+    else:
+        output().print(rich_table(table, args.what))
+    return OK
+
+
+def _models() -> pd.DataFrame:
+    every = [create(name) for name in MODELS]
+    return pd.DataFrame(
+        {
+            name: [getattr(model, name) for model in every]
+            for name in ("name", "version", "domain", "citation")
+        }
+    )
+
+
+def _quantities() -> pd.DataFrame:
+    return pd.DataFrame([asdict(quantity) for quantity in QUANTITIES.values()])
+
+
+def _cases() -> pd.DataFrame:
+    return pd.DataFrame(
+        {
+            "id": grid.id,
+            "tier": grid.tier,
+            "title": grid.title,
+            "quantities": ", ".join(grid.quantities),
+            "reference": grid.reference,
+            "models": ", ".join(grid.models),
+            "cases": len(grid.cases),
+        }
+        for grid in grids(TIERS[-1])
+    )
+
+
+def _gates() -> pd.DataFrame:
+    return pd.DataFrame()
+
+
+_TABLES = {"models": _models, "quantities": _quantities, "cases": _cases, "gates": _gates}

@@ -1,0 +1,55 @@
+"""What several commands share: exit statuses, the arguments of a case, the output console."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import NoReturn
+
+from rich.console import Console
+
+from comparisons.cases import Case
+
+__all__ = ["FAILED", "OK", "WRONG_INPUT", "add_case", "case_of", "number", "output"]
+
+OK, WRONG_INPUT, FAILED = 0, 2, 4
+
+#: Columns of a table when stdout is no terminal, where rich would assume 80 and break the lines.
+_WIDTH = 160
+
+
+class _Output(Console):
+    def on_broken_pipe(self) -> NoReturn:
+        raise BrokenPipeError
+
+
+def output() -> Console:
+    """Return the console for results, which is stdout."""
+    return _Output(width=None if sys.stdout.isatty() else _WIDTH, highlight=False)
+
+
+def number(text: str) -> float:
+    """Read a real number.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        If the text is not one.
+    """
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number") from None
+
+
+def add_case(parser: argparse.ArgumentParser) -> None:
+    """Declare the parameters of one problem."""
+    add = parser.add_argument
+    add("--n", type=number, required=True, help="shape index of the punch r^n/n, > 0 (1 cone, 2 paraboloid)")
+    add("--k", type=number, required=True, help="gradient exponent of E = E0 (z/c0)^k, 0 to 1")
+    add("--mu", type=number, required=True, help="generalised Tabor number (Eq. 29), > 0")
+
+
+def case_of(args: argparse.Namespace) -> Case:
+    """Return the case the arguments describe; `ValueError` if it is inadmissible."""
+    return Case(args.n, args.k, args.mu, getattr(args, "nu", None))

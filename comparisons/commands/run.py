@@ -1,0 +1,166 @@
+"""``fscm-bench run``: compute the standing cases and every model's error; write tables and a figure."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+from concurrent.futures import BrokenExecutor
+from datetime import UTC, datetime
+from hashlib import sha256
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from comparisons.cases import TIERS, grids
+from comparisons.commands.options import FAILED, OK, output
+from comparisons.figures import kappa as kappa_figure
+from comparisons.figures.style import save
+from comparisons.models import create
+from comparisons.progress import counting, log
+from comparisons.provenance import code_digest, environment
+from comparisons.run import Task, compute, plan
+from comparisons.store import Journal, Row, frame, prepare_folder, write_json, write_results, write_table
+from comparisons.tables import by_case, largest, relative_error, rich_table, statuses
+
+__all__ = ["add", "call"]
+
+
+def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the arguments."""
+    parser = parsers.add_parser(
+        "run", help="compute the standing cases and the models' errors", description=__doc__
+    )
+    parser.add_argument(
+        "--tier", choices=TIERS, default=TIERS[0], help="how much to compute (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--model",
+        metavar="SPEC",
+        nargs="+",
+        action="extend",
+        help="compare these models instead of those each grid names",
+    )
+    parser.add_argument(
+        "--jobs", metavar="N", type=int, default=_cores(), help="processes (default: one a core)"
+    )
+    parser.add_argument(
+        "--out",
+        metavar="DIR",
+        type=Path,
+        help="folder for the results (default: results/runs/TIME); resumed if it has some",
+    )
+    parser.set_defaults(call=call)
+
+
+def _cores() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def call(args: argparse.Namespace) -> int:
+    """Compute what is missing, write and print; return the exit status."""
+    if args.jobs < 1:
+        raise ValueError(
+            f"--jobs {args.jobs} is outside 1, 2, ...: the computations need at least one process"
+        )
+    for name in args.model or []:
+        create(name)
+    started = datetime.now(UTC)
+    folder = prepare_folder(
+        args.out or Path("results", "runs", started.astimezone().strftime("%Y-%m-%dT%H-%M-%S"))
+    )
+    chosen = grids(args.tier)
+    tasks = plan(chosen, args.model)
+    journal = Journal(folder / "journal.jsonl", code_digest())
+    resumed = len(journal.rows)
+    clock = time.perf_counter()
+    try:
+        rows = _complete(tasks, journal, args.jobs)
+    except KeyboardInterrupt:
+        log(_safe(journal, folder))
+        raise
+    except BrokenExecutor:
+        log(f"a worker process died (out of memory?); {_safe(journal, folder)}")
+        return FAILED
+    table = frame(rows)
+    kappa = pd.concat(
+        [relative_error(table, name) for name in sorted({grid.reference for grid in chosen})],
+        ignore_index=True,
+    )
+    maxima = largest(kappa)
+    _write(folder, table, kappa, maxima)
+    write_json(
+        {
+            "format": 1,
+            "arguments": {"tier": args.tier, "model": args.model, "jobs": args.jobs, "out": str(folder)},
+            "command": [Path(sys.argv[0]).name, *sys.argv[1:]],
+            "started": started.isoformat(timespec="seconds"),
+            "finished": datetime.now(UTC).isoformat(timespec="seconds"),
+            "seconds": {"run": time.perf_counter() - clock, **_seconds(table)},
+            "rows": {"all": len(rows), "resumed": resumed, **table["status"].value_counts().to_dict()},
+            "cases_sha256": sha256(files("comparisons").joinpath("cases.toml").read_bytes()).hexdigest(),
+            **environment(),
+        },
+        folder / "run.json",
+    )
+    _print(table, kappa, maxima)
+    log(f"results are in {folder}")
+    return FAILED if (table["status"] == "failed").any() else OK
+
+
+def _safe(journal: Journal, folder: Path) -> str:
+    return f"{len(journal.rows)} finished computations are safe; go on with --out {folder}"
+
+
+def _complete(tasks: list[Task], journal: Journal, jobs: int) -> list[Row]:
+    """Return the rows of all tasks, computing those the journal does not have."""
+    stored = {row.key for row in journal.rows}
+    missing = [task for task in tasks if task.key not in stored]
+    log(
+        f"{len(missing)} computations on {jobs} processes"
+        + (f", {len(tasks) - len(missing)} are stored" if stored else "")
+    )
+    with counting("computing", len(missing)) as counter:
+        for row in compute(missing, jobs):
+            journal.add(row)
+            counter.step()
+    wanted = {task.key for task in tasks}
+    return [row for row in journal.rows if row.key in wanted]
+
+
+def _seconds(table: pd.DataFrame) -> dict[str, Any]:
+    """Return the computing time summed over the processes, by model."""
+    return {"by_model": table.groupby("model")["seconds"].sum().to_dict()}
+
+
+def _write(folder: Path, table: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame) -> None:
+    write_results(table, folder / "results")
+    write_table(kappa, folder / "kappa")
+    write_table(maxima, folder / "largest_kappa")
+    figure = kappa_figure.draw(kappa)
+    for suffix in (".png", ".pdf"):
+        save(figure, folder / f"fig16b_kappa{suffix}")
+
+
+def _print(table: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame) -> None:
+    """Print the details first: what is read first on a terminal is what was printed last."""
+    console = output()
+    for (quantity, reference), group in kappa.groupby(["quantity", "reference"]):
+        shown, formats = by_case(group)
+        console.print(
+            rich_table(
+                shown,
+                f"{quantity} of {reference} with its u_num, and kappa of each model in percent",
+                formats,
+            )
+        )
+    troubles = table.loc[table["status"] == "failed", ["model", "quantity", "n", "k", "mu", "reason"]]
+    if len(troubles):
+        console.print(rich_table(troubles, "failed computations"))
+    console.print(rich_table(statuses(table), "computations"))
+    shown = maxima.assign(kappa=100 * maxima["kappa"], u_kappa=100 * maxima["u_kappa"])
+    formats = {"kappa": "+.3f", "u_kappa": ".0e"}
+    console.print(rich_table(shown, "largest abs(kappa) in percent, beside the published", formats))

@@ -1,0 +1,37 @@
+"""Force-displacement curves of several models in one picture (as Figs. 3(b) and 13)."""
+
+from __future__ import annotations
+
+from matplotlib.figure import Figure
+
+from comparisons.figures.style import COLOURS, styled
+from comparisons.model import Curve
+
+__all__ = ["draw"]
+
+_LINES = ("-", "--", "-.", ":")
+
+
+def draw(curves: dict[str, Curve], title: str) -> Figure:
+    """Draw the load against the displacement.
+
+    Parameters
+    ----------
+    curves : dict of str to Curve
+        By model name.
+    title : str
+        Which problem it is.
+    """
+    with styled():
+        figure = Figure(figsize=(5.0, 3.8), layout="constrained")
+        axes = figure.subplots()
+        for index, (name, curve) in enumerate(curves.items()):
+            colour, line = COLOURS[index % len(COLOURS)], _LINES[index % len(_LINES)]
+            axes.plot(curve.displacement, curve.load, label=name, color=colour, ls=line)
+        axes.axhline(0, color="0.4", lw=0.8)
+        axes.set_xlabel(r"displacement $\delta / z_0$")
+        axes.set_ylabel(r"load $P / (\pi Q^{2/n} \Delta\gamma z_0^{2/n-1})$, tension negative")
+        axes.set_title(title)
+        if curves:
+            axes.legend()
+    return figure

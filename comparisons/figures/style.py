@@ -1,0 +1,68 @@
+"""One look for every figure: legible in print and in grey, told apart by colour, line style and marker."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+
+from comparisons.store import atomic
+
+__all__ = ["COLOURS", "FORMATS", "MARKERS", "picture_path", "save", "styled"]
+
+#: Okabe and Ito's colours that stay apart for every kind of colour vision and, in this order, in grey.
+COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
+
+#: File formats of a figure, by suffix.
+FORMATS = (".png", ".pdf", ".svg")
+
+_SETTINGS: Any = {
+    "font.size": 9,
+    "axes.grid": True,
+    "grid.alpha": 0.25,
+    "grid.linewidth": 0.5,
+    "lines.linewidth": 1.3,
+    "legend.frameon": False,
+    "legend.fontsize": 8,
+    "figure.dpi": 100,
+    "savefig.dpi": 200,
+    "pdf.fonttype": 42,
+    "svg.hashsalt": "fscm-bench",
+}
+
+#: The clock and the program stay out of the files, so that the same data give the same bytes.
+_METADATA = {
+    ".png": {"Software": None},
+    ".pdf": {"CreationDate": None, "Producer": None, "Creator": None},
+    ".svg": {"Date": None, "Creator": None},
+}
+
+
+def styled() -> Any:
+    """Return the context in which figures are drawn and saved."""
+    return rc_context(_SETTINGS)
+
+
+def picture_path(path: Path) -> Path:
+    """Return `path` if its suffix is one of `FORMATS`, else raise `ValueError`."""
+    if path.suffix.lower() not in FORMATS:
+        raise ValueError(
+            f"the picture {path} must end in one of {', '.join(FORMATS)}, which chooses its format"
+        )
+    return path
+
+
+def save(figure: Figure, path: Path) -> None:
+    """Write a figure; the suffix of `path`, one of `FORMATS`, chooses the format.
+
+    Raises
+    ------
+    ValueError
+        If the suffix is another one, or the file cannot be written.
+    """
+    suffix = picture_path(path).suffix.lower()
+    with styled(), atomic(path) as file:
+        figure.savefig(file, format=suffix[1:], metadata=_METADATA[suffix])

@@ -1,0 +1,183 @@
+"""The computations of a run: which questions are asked, and asking them on every core.
+
+A `Task` is one question to one model; `answer` turns it into a stored `Row` whatever happens, so that a model
+which fails costs its own rows and nothing else.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+from collections.abc import Iterable, Iterator
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass
+from multiprocessing import get_context, parent_process
+from multiprocessing.process import BaseProcess
+from traceback import extract_tb
+
+from threadpoolctl import threadpool_limits
+
+from comparisons.cases import Case, Grid
+from comparisons.model import ComputationFailed, Model, NotApplicable, Result
+from comparisons.models import create
+from comparisons.quantities import QUANTITIES
+from comparisons.store import Row
+
+__all__ = ["Task", "answer", "ask", "compute", "plan"]
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """One question to one model, by names only: cheap to send to another process."""
+
+    model: str
+    quantity: str
+    case: Case
+
+    @property
+    def key(self) -> tuple[str, str, float, float, float, float | None]:
+        """The key of the row that answers it."""
+        return self.model, self.quantity, self.case.n, self.case.k, self.case.mu, self.case.nu
+
+
+def plan(grids: Iterable[Grid], models: list[str] | None = None) -> list[Task]:
+    """Return every question once: the reference and the candidates of each grid, in all its cases.
+
+    Parameters
+    ----------
+    grids : iterable of Grid
+        What to compute.
+    models : list of str, optional
+        Candidates that take the place of those each grid names; the reference is always computed.
+
+    Returns
+    -------
+    list of Task
+        Largest Tabor numbers first: they take longest, and a core that starts one last would finish alone.
+    """
+    tasks = {
+        Task(model, quantity, case)
+        for grid in grids
+        for model in {grid.reference, *(models or grid.models)}
+        for quantity in grid.quantities
+        for case in grid.cases
+    }
+    return sorted(
+        tasks, key=lambda task: (-task.case.mu, task.case.n, task.case.k, task.model, task.quantity)
+    )
+
+
+def ask(model: Model, quantity: str, case: Case) -> Row:
+    """Ask a model and return its row.
+
+    Raises
+    ------
+    ValueError
+        If the model refuses the case as inadmissible; any other failure is a row with status and reason.
+
+    Examples
+    --------
+    >>> ask(create("bradley"), "pull_off_force", Case(2, 0, 1)).status
+    'ok'
+    """
+    started = time.perf_counter()
+    try:
+        result = model.evaluate(case.problem(), quantity)
+    except NotApplicable as refusal:
+        return _row(model, quantity, case, started, status="not-applicable", reason=str(refusal))
+    except ComputationFailed as failure:
+        return _row(model, quantity, case, started, status="failed", reason=str(failure))
+    except ValueError:
+        raise
+    except Exception as error:
+        # A defect of the model: its row says where, the other models go on.
+        place = extract_tb(error.__traceback__)[-1].name
+        return _row(
+            model,
+            quantity,
+            case,
+            started,
+            status="failed",
+            reason=f"{type(error).__name__} in {place}: {error}",
+        )
+    return _row(model, quantity, case, started, status="ok", result=result)
+
+
+def _row(
+    model: Model,
+    quantity: str,
+    case: Case,
+    started: float,
+    *,
+    status: str,
+    reason: str = "",
+    result: Result | None = None,
+) -> Row:
+    return Row(
+        model=model.name,
+        model_version=model.version,
+        quantity=quantity,
+        n=case.n,
+        k=case.k,
+        mu=case.mu,
+        nu=case.nu,
+        value=result.value if result else None,
+        u_num=result.u_num if result else None,
+        unit=QUANTITIES[quantity].unit,
+        status=status,
+        reason=reason,
+        size=result.size if result else None,
+        iterations=result.iterations if result else None,
+        residual=result.residual if result else None,
+        seconds=time.perf_counter() - started,
+    )
+
+
+def answer(task: Task) -> Row:
+    """Answer a task, whatever happens: among many cases, one that its model refuses is a failed row."""
+    started = time.perf_counter()
+    model = create(task.model, task.case.nu)
+    try:
+        return ask(model, task.quantity, task.case)
+    except ValueError as refusal:
+        return _row(model, task.quantity, task.case, started, status="failed", reason=str(refusal))
+
+
+def _start_worker() -> None:
+    """Prepare a worker: one thread (the cores are taken by the workers), and no life after the parent's."""
+    threadpool_limits(1)
+    # Ctrl-C reaches the whole process group; the parent alone decides.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = parent_process()
+    if parent is not None:
+        threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
+
+
+def _end_with(parent: BaseProcess) -> None:
+    parent.join()
+    os._exit(1)
+
+
+def compute(tasks: list[Task], jobs: int) -> Iterator[Row]:
+    """Answer tasks on `jobs` processes and yield each row as it is finished.
+
+    Closing the iterator early (an error or Ctrl-C in the caller) drops what has not begun.
+
+    Raises
+    ------
+    RuntimeError
+        If a worker process dies (`concurrent.futures.BrokenExecutor`), as one short of memory does.
+    """
+    if jobs == 1 or len(tasks) <= 1:
+        yield from map(answer, tasks)
+        return
+    # "spawn": a fresh interpreter, the same on every platform, and safe beside the threads of a progress bar.
+    with ProcessPoolExecutor(min(jobs, len(tasks)), get_context("spawn"), initializer=_start_worker) as pool:
+        pending = [pool.submit(answer, task) for task in tasks]
+        try:
+            for future in as_completed(pending):
+                yield future.result()
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)

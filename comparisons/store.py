@@ -1,0 +1,280 @@
+"""Stored results: one tidy row per model, quantity and case; a crash-safe journal; atomic files.
+
+The journal (`journal.jsonl`) gains a line as each computation ends, so an interrupted run loses no finished
+one and the same folder can be resumed.  The tables written at the end (`results.csv`, `results.parquet`) are
+sorted, and the CSV depends on the code and the cases alone: wall-clock times are only in the Parquet.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import IO, Any
+
+import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+__all__ = [
+    "COLUMNS",
+    "Journal",
+    "Row",
+    "atomic",
+    "csv_text",
+    "frame",
+    "prepare_folder",
+    "writable_file",
+    "write_json",
+    "write_results",
+    "write_table",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """What one model answered to one question.
+
+    Attributes
+    ----------
+    model, model_version, quantity : str
+        Who was asked what.
+    n, k, mu : float
+        The problem.
+    nu : float or None
+        Poisson's ratio, if one was prescribed.
+    value, u_num : float or None
+        The answer and its numerical uncertainty, in `unit`; None unless `status` is ``"ok"``.
+    unit : str
+        The scale of the dimensionless value.
+    status : str
+        ``"ok"``, ``"not-applicable"`` or ``"failed"``.
+    reason : str
+        One sentence when there is no value, else empty.
+    size, iterations, residual
+        Of the discrete problem; None when there is no value.
+    seconds : float
+        Wall-clock time.
+    """
+
+    model: str
+    model_version: str
+    quantity: str
+    n: float
+    k: float
+    mu: float
+    nu: float | None
+    value: float | None
+    u_num: float | None
+    unit: str
+    status: str
+    reason: str
+    size: int | None
+    iterations: int | None
+    residual: float | None
+    seconds: float
+
+    @property
+    def key(self) -> tuple[str, str, float, float, float, float | None]:
+        """What identifies the question; a run asks each once."""
+        return self.model, self.quantity, self.n, self.k, self.mu, self.nu
+
+
+_TEXT, _REAL, _COUNT = pa.string(), pa.float64(), pa.int64()
+
+#: Column types of the stored table, in order.
+COLUMNS = pa.schema(
+    [
+        ("model", _TEXT),
+        ("model_version", _TEXT),
+        ("quantity", _TEXT),
+        ("n", _REAL),
+        ("k", _REAL),
+        ("mu", _REAL),
+        ("nu", _REAL),
+        ("value", _REAL),
+        ("u_num", _REAL),
+        ("unit", _TEXT),
+        ("status", _TEXT),
+        ("reason", _TEXT),
+        ("size", _COUNT),
+        ("iterations", _COUNT),
+        ("residual", _REAL),
+        ("seconds", _REAL),
+    ]
+)
+
+_ORDER = ["quantity", "model", "n", "k", "mu", "nu"]
+_PARAMETERS = ("n", "k", "mu", "nu")
+
+
+def prepare_folder(path: Path) -> Path:
+    """Create a folder for results and make sure that files can be written there.
+
+    Raises
+    ------
+    ValueError
+        If it cannot be created or written; the sentence gives the system's reason.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=path):
+            pass
+    except OSError as error:
+        raise ValueError(
+            f"the output folder {path} cannot be written ({error.strerror}); choose another one with --out"
+        ) from None
+    return path
+
+
+def writable_file(path: Path) -> Path:
+    """Make sure, before anything is computed, that a file can be written.
+
+    Raises
+    ------
+    ValueError
+        If it cannot; the sentence gives the system's reason.
+    """
+    if path.is_dir():
+        raise ValueError(f"the file {path} cannot be written (it is a folder); choose another place")
+    with _explained(path), tempfile.TemporaryFile(dir=path.parent):
+        return path
+
+
+@contextmanager
+def _explained(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise ValueError(
+            f"the file {path} cannot be written ({error.strerror}); choose another place"
+        ) from None
+
+
+@contextmanager
+def atomic(path: Path) -> Iterator[IO[bytes]]:
+    """Open a temporary file beside `path` that takes its place only when the block ends without an error.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be written there; the sentence gives the system's reason.
+    """
+    with _explained(path):
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    temporary = Path(name)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            yield file
+        umask = os.umask(0)
+        os.umask(umask)
+        temporary.chmod(0o666 & ~umask)
+        temporary.replace(path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise
+
+
+def frame(rows: Iterable[Row]) -> pd.DataFrame:
+    """Return the rows as a sorted pandas table with the columns of `COLUMNS`."""
+    table = pa.Table.from_pylist([asdict(row) for row in rows], schema=COLUMNS)
+    return table.to_pandas().sort_values(_ORDER, ignore_index=True)
+
+
+def csv_text(table: pd.DataFrame) -> str:
+    """Return a table as CSV with 17 significant digits, which give every double back exactly.
+
+    The parameters of a case are written as short as they can be exactly: 0.4, not 0.40000000000000002.
+
+    Examples
+    --------
+    >>> print(csv_text(pd.DataFrame({"mu": [0.4], "value": [0.4]})), end="")
+    mu,value
+    0.4,0.40000000000000002
+    """
+    short = {
+        name: table[name].map(lambda x: "" if pd.isna(x) else repr(float(x)).removesuffix(".0"))
+        for name in _PARAMETERS
+        if name in table
+    }
+    return table.assign(**short).to_csv(index=False, float_format="%.17g", lineterminator="\n")
+
+
+def write_results(table: pd.DataFrame, stem: Path) -> None:
+    """Write a table of rows, as `frame` returns it; the CSV leaves out the wall-clock seconds."""
+    write_table(table, stem, schema=COLUMNS, leave_out_of_csv=["seconds"])
+
+
+def write_table(
+    table: pd.DataFrame, stem: Path, *, schema: pa.Schema | None = None, leave_out_of_csv: Iterable[str] = ()
+) -> None:
+    """Write a table as `stem`.csv and `stem`.parquet, the latter with the types of `schema` if given."""
+    with atomic(stem.with_suffix(".csv")) as file:
+        file.write(csv_text(table.drop(columns=list(leave_out_of_csv))).encode())
+    with atomic(stem.with_suffix(".parquet")) as file:
+        pq.write_table(pa.Table.from_pandas(table, schema=schema, preserve_index=False), file)
+
+
+def write_json(content: dict[str, Any], path: Path) -> None:
+    """Write a JSON object; NaN and infinity are refused."""
+    with atomic(path) as file:
+        file.write(json.dumps(content, indent=2, allow_nan=False).encode() + b"\n")
+
+
+class Journal:
+    """The finished rows of a run, on disk as soon as they exist.
+
+    Parameters
+    ----------
+    path : Path
+        The journal file; made when it does not exist.
+    fingerprint : str
+        Identifies the code and the cases.  A journal of another fingerprint is refused: its rows may differ.
+
+    Raises
+    ------
+    ValueError
+        If the file is not a journal, or one of another fingerprint.
+    """
+
+    def __init__(self, path: Path, fingerprint: str) -> None:
+        self.path = path
+        self.rows: list[Row] = []
+        if path.exists():
+            self._read(fingerprint)
+        if not path.exists():
+            self._append({"fingerprint": fingerprint})
+
+    def _read(self, fingerprint: str) -> None:
+        text = self.path.read_text(encoding="utf-8")
+        # A line without its end was being written when the run was stopped: that computation is done again.
+        whole, _, torn = text.rpartition("\n")
+        try:
+            header, *lines = [json.loads(line) for line in whole.splitlines()] or [{}]
+            self.rows = [Row(**line) for line in lines]
+            found = header.get("fingerprint")
+        except (ValueError, TypeError, AttributeError):
+            raise ValueError(
+                f"{self.path} is not a journal of a run; choose another folder with --out"
+            ) from None
+        if found is None and not self.rows:
+            self.path.unlink()
+        elif found != fingerprint:
+            raise ValueError(
+                f"{self.path.parent} holds results of another version of the code; choose another --out"
+            )
+        elif torn:
+            os.truncate(self.path, len(f"{whole}\n".encode()))
+
+    def _append(self, content: dict[str, Any]) -> None:
+        with self.path.open("a", encoding="utf-8") as file:
+            file.write(json.dumps(content, allow_nan=False) + "\n")
+
+    def add(self, row: Row) -> None:
+        """Store a finished row."""
+        self._append(asdict(row))
+        self.rows.append(row)

@@ -1,0 +1,176 @@
+"""Tables made from stored results: relative errors, and the largest of them beside the published.
+
+kappa = (model - reference) / reference (Sec. 4.3.2 of the paper), here for any quantity.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from decimal import Decimal
+from importlib.resources import files
+
+import numpy as np
+import pandas as pd
+from rich.table import Table
+from rich.text import Text
+
+__all__ = ["Published", "by_case", "largest", "published", "relative_error", "rich_table", "statuses"]
+
+_CASE = ["quantity", "n", "k", "mu", "nu"]
+_SERIES = ["quantity", "model", "n", "k"]
+
+
+def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
+    """Return kappa of every candidate in every case where it and the reference have a value.
+
+    Parameters
+    ----------
+    rows : DataFrame
+        Stored results (`comparisons.store.COLUMNS`).
+    reference : str
+        Name of the model the others are compared with.
+
+    Returns
+    -------
+    DataFrame
+        Columns quantity, model, n, k, mu, nu, value, u_num, reference (its name), reference_value,
+        u_reference, kappa, u_kappa, sorted.  `u_kappa` is what the two uncertainties, as bounds, allow:
+        (u_num + abs(1 + kappa) u_reference) / abs(reference_value).
+
+    Examples
+    --------
+    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "mu": 1.0, "nu": np.nan, "status": "ok"}
+    >>> rows = pd.DataFrame([case | {"model": "a", "value": 1.1, "u_num": 0.0},
+    ...                      case | {"model": "b", "value": 1.0, "u_num": 0.01}])
+    >>> relative_error(rows, "b")[["model", "kappa", "u_kappa"]].round(3).values.tolist()
+    [['a', 0.1, 0.011]]
+    """
+    usable = rows.loc[rows["status"] == "ok", [*_CASE, "model", "value", "u_num"]]
+    is_reference = usable["model"] == reference
+    truth = (
+        usable[is_reference]
+        .drop(columns="model")
+        .rename(columns={"value": "reference_value", "u_num": "u_reference"})
+    )
+    table = usable[~is_reference].merge(truth, on=_CASE, validate="many_to_one")
+    true, u_true = table["reference_value"], table["u_reference"]
+    table["reference"] = reference
+    table["kappa"] = table["value"] / true - 1.0
+    table["u_kappa"] = (table["u_num"] + abs(1.0 + table["kappa"]) * u_true) / abs(true)
+    table = table.sort_values(["quantity", "model", "n", "k", "mu", "nu"], ignore_index=True)
+    return table[
+        [
+            "quantity",
+            "model",
+            *_CASE[1:],
+            "value",
+            "u_num",
+            "reference",
+            "reference_value",
+            "u_reference",
+            "kappa",
+            "u_kappa",
+        ]
+    ]
+
+
+@dataclass(frozen=True, slots=True)
+class Published:
+    """A number a paper prints: its text, so that the number of digits is known, and what it is of."""
+
+    source: str
+    quantity: str
+    model: str
+    n: float
+    k: float
+    percent: str
+
+    def verdict(self, kappa: float, u_kappa: float) -> str:
+        """Say whether a computed largest abs(kappa) rounds to the published digits.
+
+        Examples
+        --------
+        >>> Published("Sec. 4.3.2", "pull_off_force", "md-improved", 5, 0.4, "6.7").verdict(0.0668, 1e-6)
+        'agrees'
+        """
+        step = Decimal(1).scaleb(Decimal(self.percent).as_tuple().exponent)  # type: ignore[arg-type]
+        low, high = (Decimal(100 * (abs(kappa) + sign * u_kappa)).quantize(step) for sign in (-1, 1))
+        if low == high:
+            return "agrees" if low == Decimal(self.percent) else "differs"
+        return "undecided" if low <= Decimal(self.percent) <= high else "differs"
+
+
+def published() -> list[Published]:
+    """Return the published maxima of abs(kappa)."""
+    text = files("comparisons").joinpath("published.toml").read_text(encoding="utf-8")
+    return [Published(**table) for table in tomllib.loads(text)["largest_relative_error"]]
+
+
+def largest(kappa: pd.DataFrame) -> pd.DataFrame:
+    """Return the largest abs(kappa) for each quantity, model, n and k, beside the published number.
+
+    Returns
+    -------
+    DataFrame
+        Columns quantity, model, n, k, cases, mu (where the largest is), at_end (whether that is an end of
+        the range of mu, so that a wider one may give more), kappa, u_kappa, published_percent, verdict.
+    """
+    known = {(p.quantity, p.model, p.n, p.k): p for p in published()}
+    worst = kappa.loc[kappa["kappa"].abs().groupby([kappa[name] for name in _SERIES]).idxmax()]
+    table = worst[[*_SERIES, "mu", "kappa", "u_kappa"]].sort_values(_SERIES, ignore_index=True)
+    ends = kappa.groupby(_SERIES)["mu"].agg(["size", "min", "max"]).reset_index(drop=True)
+    table.insert(4, "cases", ends["size"])
+    table.insert(6, "at_end", (table["mu"] == ends["min"]) | (table["mu"] == ends["max"]))
+    papers = [known.get(key) for key in table[_SERIES].itertuples(index=False, name=None)]
+    table["published_percent"] = [paper.percent if paper else "" for paper in papers]
+    table["verdict"] = [
+        paper.verdict(value, bound) if paper else ""
+        for paper, value, bound in zip(papers, table["kappa"], table["u_kappa"], strict=True)
+    ]
+    return table
+
+
+def by_case(kappa: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
+    """Return one row a case: the reference with its uncertainty, and kappa of each model in percent.
+
+    The second value holds the formats of its columns, for `rich_table`.
+    """
+    wide = kappa.pivot(
+        index=["n", "k", "mu", "reference_value", "u_reference"], columns="model", values="kappa"
+    )
+    shown = (100 * wide).reset_index().rename_axis(columns=None)
+    return shown, {"reference_value": ".9f", "u_reference": ".0e"} | dict.fromkeys(wide.columns, "+.3f")
+
+
+def statuses(rows: pd.DataFrame) -> pd.DataFrame:
+    """Return how many rows of each model ended with each status."""
+    return rows.groupby(["model", "status"]).size().unstack(fill_value=0).reset_index()
+
+
+def rich_table(table: pd.DataFrame, title: str, formats: dict[str, str] | None = None) -> Table:
+    """Return a pandas table for the terminal: numbers to the right, blank where missing, one format each."""
+    shown = Table(title=title, title_justify="left", title_style="bold")
+    for name in table:
+        shown.add_column(str(name), justify="right" if pd.api.types.is_numeric_dtype(table[name]) else "left")
+    for record in table.itertuples(index=False):
+        shown.add_row(
+            *(
+                _cell(value, (formats or {}).get(str(name), ""))
+                for name, value in zip(table, record, strict=True)
+            )
+        )
+    return shown
+
+
+def _cell(value: object, form: str) -> Text:
+    # As `Text`: a bracket in a message is not markup.
+    return Text(_words(value, form))
+
+
+def _words(value: object, form: str) -> str:
+    if isinstance(value, bool | np.bool_):
+        return "yes" if value else ""
+    if isinstance(value, float | np.floating):
+        return "" if np.isnan(value) else format(value, form or "g")
+    return str(value)

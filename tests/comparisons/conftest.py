@@ -1,0 +1,81 @@
+"""Models made for tests: one of each kind of answer, and a small grid to run them on."""
+
+import sys
+from types import ModuleType, SimpleNamespace
+
+import numpy as np
+import pytest
+
+from comparisons.cases import load_grids
+from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
+from comparisons.models import MODELS
+
+
+class Toy:
+    """Answers `answer(problem)`; an answer that is an exception is raised."""
+
+    version = "7"
+    citation = "none"
+    domain = "tests"
+
+    def __init__(self, name, answer):
+        self.name = name
+        self._answer = answer
+
+    def _give(self, problem):
+        answer = self._answer(problem)
+        if isinstance(answer, BaseException):
+            raise answer
+        return answer
+
+    def evaluate(self, problem, quantity):
+        return Result(value=self._give(problem), u_num=1e-9, size=3, iterations=2, residual=1e-12)
+
+    def curve(self, problem):
+        self._give(problem)
+        grid = np.linspace(-1.0, 1.0, 3)
+        return Curve(displacement=grid, load=-grid, columns={"central_gap": -grid})
+
+
+ANSWERS = {
+    "truth": lambda problem: 2.0,
+    "ten-percent": lambda problem: 2.2,
+    "refuses": lambda problem: NotApplicable("it has no such [thing]"),
+    "fails": lambda problem: ComputationFailed("100 iterations were not enough; start nearer"),
+    "broken": lambda problem: ZeroDivisionError("float division by zero"),
+    "picky": lambda problem: ValueError(
+        f"k = {problem.k} is outside [0, 0.1]: the model is for nearly homogeneous solids"
+    ),
+    "nonsense": lambda problem: float("nan"),
+}
+
+
+@pytest.fixture
+def toys(monkeypatch):
+    """Register the toy models for the length of a test."""
+    module = ModuleType("toy_models")
+    for name, answer in ANSWERS.items():
+        setattr(module, name.replace("-", "_"), lambda name=name, answer=answer: Toy(name, answer))
+        monkeypatch.setitem(MODELS, name, f"toy_models:{name.replace('-', '_')}")
+    monkeypatch.setitem(sys.modules, "toy_models", module)
+    return SimpleNamespace(names=list(ANSWERS))
+
+
+GRID = """
+[[grid]]
+id = "toys"
+title = "Four cases"
+tier = "quick"
+reference = "truth"
+models = ["ten-percent", "refuses"]
+quantities = ["pull_off_force"]
+n = [2]
+k = [0, 0.4]
+mu = [0.1, 1]
+"""
+
+
+@pytest.fixture
+def small_grid(toys, monkeypatch):
+    """Make `fscm-bench run` compute four cases of toy models."""
+    monkeypatch.setattr("comparisons.commands.run.grids", lambda tier: load_grids(GRID))

@@ -1,0 +1,167 @@
+"""Stored results: exact, ordered, and never half written."""
+
+import math
+import os
+
+import pandas as pd
+import pyarrow.parquet as pq
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from comparisons.store import (
+    COLUMNS,
+    Journal,
+    Row,
+    atomic,
+    csv_text,
+    frame,
+    prepare_folder,
+    writable_file,
+    write_json,
+    write_results,
+)
+
+
+def row(model="jkr", mu=1.0, value=1.5, **other):
+    content = {
+        "model": model,
+        "model_version": "1",
+        "quantity": "pull_off_force",
+        "n": 2.0,
+        "k": 0.4,
+        "mu": mu,
+        "nu": None,
+        "value": value,
+        "u_num": 1e-15,
+        "unit": "1",
+        "status": "ok",
+        "reason": "",
+        "size": 0,
+        "iterations": 0,
+        "residual": 0.0,
+        "seconds": 0.25,
+    }
+    return Row(**(content | other))
+
+
+REFUSED = {"value": None, "u_num": None, "size": None, "iterations": None, "residual": None}
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False))
+def test_csv_gives_every_double_back(value):
+    text = csv_text(frame([row(value=value)]))
+    assert float(text.splitlines()[1].split(",")[7]) == value
+
+
+@given(st.floats(min_value=1e-3, max_value=1e3))
+def test_parameters_are_short_and_exact(mu):
+    assert float(csv_text(frame([row(mu=mu)])).splitlines()[1].split(",")[5]) == mu
+
+
+def test_values_have_17_digits_and_parameters_do_not():
+    cells = csv_text(frame([row(mu=0.1, value=0.1)])).splitlines()[1].split(",")
+    assert cells[5] == "0.1"
+    assert cells[7] == "0.10000000000000001"
+
+
+def test_the_table_does_not_depend_on_the_order_of_completion(tmp_path):
+    rows = [
+        row("jkr", 2.0),
+        row("dmt", 1.0, **REFUSED, status="not-applicable", reason='no, "not" here'),
+        row("jkr", 0.5),
+    ]
+    write_results(frame(rows), tmp_path / "a")
+    write_results(frame(reversed(rows)), tmp_path / "b")
+    assert (tmp_path / "a.csv").read_bytes() == (tmp_path / "b.csv").read_bytes()
+    assert (tmp_path / "a.parquet").read_bytes() == (tmp_path / "b.parquet").read_bytes()
+
+
+def test_parquet_keeps_types_and_csv_leaves_out_the_clock(tmp_path):
+    rows = [row(), row("dmt", **REFUSED, status="failed", reason="why")]
+    write_results(frame(rows), tmp_path / "results")
+    stored = pq.read_table(tmp_path / "results.parquet")
+    assert stored.schema.equals(COLUMNS)
+    assert stored.to_pylist()[0]["value"] is None
+    assert stored.to_pylist()[1]["size"] == 0
+    csv = pd.read_csv(tmp_path / "results.csv")
+    assert list(csv) == [name for name in COLUMNS.names if name != "seconds"]
+    assert csv.loc[1, "value"] == 1.5
+
+
+def test_an_error_while_writing_leaves_the_old_file_and_no_other(tmp_path):
+    path = tmp_path / "a.txt"
+    path.write_text("old")
+    with pytest.raises(TypeError), atomic(path) as file:
+        file.writelines([b"half of the new", None])
+    assert path.read_text() == "old"
+    assert os.listdir(tmp_path) == ["a.txt"]
+
+
+def test_written_files_can_be_read_by_others(tmp_path):
+    with atomic(tmp_path / "a") as file:
+        file.write(b"x")
+    (tmp_path / "b").touch()
+    assert (tmp_path / "a").stat().st_mode == (tmp_path / "b").stat().st_mode
+
+
+def test_json_refuses_nan(tmp_path):
+    with pytest.raises(ValueError, match="JSON"):
+        write_json({"a": math.nan}, tmp_path / "a.json")
+    assert os.listdir(tmp_path) == []
+
+
+def test_places_that_cannot_be_written_are_refused(tmp_path):
+    (tmp_path / "file").touch()
+    with pytest.raises(ValueError, match="cannot be written"):
+        prepare_folder(tmp_path / "file" / "folder")
+    with pytest.raises(ValueError, match="cannot be written"):
+        writable_file(tmp_path / "missing" / "a.csv")
+    with pytest.raises(ValueError, match="it is a folder"):
+        writable_file(tmp_path)
+    assert sorted(os.listdir(tmp_path)) == ["file"]
+
+
+def test_a_journal_gives_back_what_was_added(tmp_path):
+    path = tmp_path / "journal.jsonl"
+    first = Journal(path, "x")
+    first.add(row(value=math.pi))
+    first.add(row("dmt", **REFUSED, status="failed", reason="line\nbreak"))
+    assert Journal(path, "x").rows == first.rows
+
+
+@pytest.mark.parametrize("cut", range(1, 60, 7))
+def test_a_line_cut_by_a_crash_is_forgotten_and_the_rest_kept(tmp_path, cut):
+    path = tmp_path / "journal.jsonl"
+    journal = Journal(path, "x")
+    journal.add(row(mu=1.0))
+    journal.add(row(mu=2.0))
+    os.truncate(path, path.stat().st_size - cut)
+    again = Journal(path, "x")
+    assert [r.mu for r in again.rows] == [1.0]
+    again.add(row(mu=3.0))
+    assert [r.mu for r in Journal(path, "x").rows] == [1.0, 3.0]
+
+
+def test_a_journal_cut_in_its_first_line_starts_again(tmp_path):
+    path = tmp_path / "journal.jsonl"
+    path.write_text('{"finger')
+    assert Journal(path, "x").rows == []
+    Journal(path, "x").add(row())
+    assert len(Journal(path, "x").rows) == 1
+
+
+def test_results_of_other_code_are_not_mixed_in(tmp_path):
+    path = tmp_path / "journal.jsonl"
+    Journal(path, "x").add(row())
+    with pytest.raises(ValueError, match="another version of the code"):
+        Journal(path, "y")
+
+
+@pytest.mark.parametrize("text", ["hello\n", "[1, 2]\n", '{"fingerprint": "x"}\n{"model": "jkr"}\n'])
+def test_another_file_is_not_taken_for_a_journal(tmp_path, text):
+    path = tmp_path / "journal.jsonl"
+    path.write_text(text)
+    with pytest.raises(ValueError, match="not a journal"):
+        Journal(path, "x")
+    assert path.read_text() == text

@@ -1,0 +1,107 @@
+"""Relative errors, their uncertainty, and the verdict on published digits."""
+
+import io
+import math
+
+import pandas as pd
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from rich.console import Console
+
+from comparisons.tables import Published, by_case, largest, published, relative_error, rich_table, statuses
+
+
+def stored(model, mu, value, u_num=0.0, **other):
+    content = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": math.nan, "status": "ok"}
+    return content | {"model": model, "mu": mu, "value": value, "u_num": u_num} | other
+
+
+def test_kappa_is_relative_to_the_reference_of_the_same_case():
+    rows = [stored("m", 1, 3.0), stored("ref", 1, math.nan, status="failed")]
+    rows += [stored("m", 2, math.nan, status="failed"), stored("ref", 2, 2.0), stored("ref", 3, 2.0)]
+    assert relative_error(pd.DataFrame(rows), "ref").empty
+
+
+def test_two_reference_rows_of_one_case_are_an_error():
+    rows = pd.DataFrame([stored("m", 1, 3.0), stored("ref", 1, 2.0), stored("ref", 1, 2.1)])
+    with pytest.raises(pd.errors.MergeError):
+        relative_error(rows, "ref")
+
+
+unit = st.floats(min_value=-1, max_value=1)
+
+
+@given(st.floats(0.1, 10), st.floats(0.5, 10), st.floats(0, 1e-3), st.floats(0, 1e-3), unit, unit)
+def test_u_kappa_bounds_what_the_true_values_can_give(value, reference, u, u_ref, a, b):
+    rows = pd.DataFrame([stored("m", 1, value, u), stored("ref", 1, reference, u_ref)])
+    (kappa,) = relative_error(rows, "ref").itertuples()
+    true = (value + a * u) / (reference + b * u_ref) - 1
+    # To first order: the second-order term is u_ref / reference times the first, at most 2e-3 of it.
+    assert abs(true - kappa.kappa) <= kappa.u_kappa * 1.003 + 1e-13
+
+
+@pytest.mark.parametrize(
+    ("percent", "kappa", "u", "verdict"),
+    [
+        ("6.7", 0.0674, 1e-6, "agrees"),
+        ("6.7", -0.0666, 1e-6, "agrees"),
+        ("6.7", 0.0676, 1e-6, "differs"),
+        ("6.7", 0.06749, 1e-3, "undecided"),
+        ("0.73", 0.00734, 1e-7, "agrees"),
+        ("0.73", 0.00736, 1e-7, "differs"),
+        ("65.0", 0.6504, 1e-6, "agrees"),
+        ("65.0", 0.651, 1e-6, "differs"),
+    ],
+)
+def test_verdict_is_on_the_published_digits(percent, kappa, u, verdict):
+    assert Published("", "pull_off_force", "m", 2, 0.4, percent).verdict(kappa, u) == verdict
+
+
+def test_the_published_maxima_are_those_of_the_paper():
+    table = {(p.model, p.n): p.percent for p in published()}
+    assert table == {
+        ("md-original", 1): "65.0",
+        ("md-original", 1.5): "21.2",
+        ("md-original", 2): "3.5",
+        ("md-original", 5): "15.9",
+        ("md-improved", 1): "5.8",
+        ("md-improved", 1.5): "1.7",
+        ("md-improved", 2): "0.73",
+        ("md-improved", 5): "6.7",
+    }
+    assert {(p.quantity, p.k) for p in published()} == {("pull_off_force", 0.4)}
+
+
+def test_largest_error_is_signed_and_says_when_it_is_at_an_end():
+    rows = [stored("ref", mu, 1.0) for mu in (0.1, 1, 10)]
+    rows += [stored("md-improved", mu, value) for mu, value in [(0.1, 1.001), (1, 0.9927), (10, 1.005)]]
+    rows += [stored("x", mu, value) for mu, value in [(0.1, 1.5), (1, 1.1), (10, 1.0)]]
+    table = largest(relative_error(pd.DataFrame(rows), "ref")).set_index("model")
+    inside = table.loc["md-improved"]
+    assert (inside["mu"], inside["cases"], inside["at_end"]) == (1, 3, False)
+    assert inside["kappa"] == pytest.approx(-0.0073, abs=1e-12)
+    assert (inside["published_percent"], inside["verdict"]) == ("0.73", "agrees")
+    assert table.loc["x", "at_end"]
+    assert (table.loc["x", "published_percent"], table.loc["x", "verdict"]) == ("", "")
+
+
+def test_one_row_a_case_for_reading():
+    rows = [stored("ref", 1, 2.0, 1e-9), stored("a", 1, 2.2), stored("b", 1, 1.8)]
+    shown, formats = by_case(relative_error(pd.DataFrame(rows), "ref"))
+    assert shown[["a", "b"]].to_numpy().tolist() == [[pytest.approx(10), pytest.approx(-10)]]
+    assert set(formats) <= set(shown)
+
+
+def test_statuses_are_counted_by_model():
+    rows = pd.DataFrame([stored("a", 1, 1), stored("a", 2, 1), stored("b", 1, 1, status="failed")])
+    assert statuses(rows).to_dict("list") == {"model": ["a", "b"], "failed": [0, 1], "ok": [2, 0]}
+
+
+def test_text_from_outside_is_not_markup():
+    stream = io.StringIO()
+    table = pd.DataFrame({"reason": ["[bold]k in [0, 1]"], "x": [math.nan], "y": [0.5]})
+    Console(file=stream, width=80).print(rich_table(table, "t", {"y": ".3f"}))
+    assert "[bold]k in [0, 1]" in stream.getvalue()
+    assert "nan" not in stream.getvalue()
+    assert "0.500" in stream.getvalue()

@@ -1,0 +1,126 @@
+"""The two references share no code, and nothing upstream imports what is downstream of it."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGES = ("fscm", "fem_reference", "comparisons")
+
+#: What a module may import of the other packages, by the start of its name; the longest start decides.
+ALLOWED = {
+    "fscm": (),
+    "fem_reference": (),
+    # The pure data of a problem is what all of comparisons speaks of.
+    "comparisons": ("fscm.problem", "fscm.profile", "fscm.surface_law"),
+    # Only the adapters know the solvers.
+    "comparisons.models.fscm_model": ("fscm",),
+    "comparisons.models.stieltjes_model": ("fscm",),
+    "comparisons.models.fem_model": (
+        "fscm.physical",
+        "fscm.problem",
+        "fscm.profile",
+        "fscm.surface_law",
+        "fem_reference",
+    ),
+}
+
+#: The way of a datum through `comparisons`; a module imports from its own line or those before it.
+LAYERS = (
+    (
+        "comparisons.model",
+        "comparisons.quantities",
+        "comparisons.store",
+        "comparisons.progress",
+        "comparisons.provenance",
+    ),
+    ("comparisons.models",),
+    ("comparisons.cases",),
+    ("comparisons.run",),
+    ("comparisons.tables", "comparisons.figures", "comparisons.bench"),
+    ("comparisons.commands",),
+    ("comparisons.cli",),
+)
+
+
+def modules() -> dict[str, Path]:
+    """Every module of the three packages, by dotted name."""
+    found = {}
+    for package in PACKAGES:
+        for path in sorted((ROOT / package).rglob("*.py")):
+            parts = path.relative_to(ROOT).with_suffix("").parts
+            found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return found
+
+
+def imported(name: str, source: str, is_package: bool = False) -> set[str]:
+    """Every module that `source` imports, also inside functions, relatively, or by `import_module("...")`."""
+    found = set()
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            base = node.module or ""
+            if node.level:
+                above = name.split(".")[: (1 if is_package else 0) - node.level or None]
+                base = ".".join([*above, *filter(None, [node.module])])
+            found |= {base} | {f"{base}.{alias.name}" for alias in node.names}
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in {
+            "import_module",
+            "__import__",
+        }:
+            found |= {argument.value for argument in node.args if isinstance(argument, ast.Constant)}
+    return found
+
+
+def within(name: str, starts: tuple[str, ...]) -> bool:
+    return any(name == start or name.startswith(f"{start}.") for start in starts)
+
+
+def ours(name: str, path: Path) -> set[str]:
+    """The modules of the three packages that a module imports (not the names in them)."""
+    every = modules()
+    return {
+        module
+        for module in imported(name, path.read_text(encoding="utf-8"), path.name == "__init__.py")
+        if module in every and module != name
+    }
+
+
+@pytest.mark.parametrize("name", modules())
+def test_packages_import_only_what_they_may(name):
+    own = name.split(".")[0]
+    rule = max((start for start in ALLOWED if within(name, (start,))), key=len)
+    foreign = {module for module in ours(name, modules()[name]) if module.split(".")[0] != own}
+    # "from fscm.problem import ..." also names the package itself.
+    assert {module for module in foreign if not within(module, ALLOWED[rule]) and "." in module} == set()
+    if not any("." not in allowed for allowed in ALLOWED[rule]):
+        source = modules()[name].read_text(encoding="utf-8")
+        bare = {module for module in imported(name, source) if module in PACKAGES and module != own}
+        assert bare == set(), "imports a whole package"
+
+
+def layer(name: str) -> int:
+    return next(index for index, starts in enumerate(LAYERS) if within(name, starts))
+
+
+@pytest.mark.parametrize("name", [name for name in modules() if name.startswith("comparisons.")])
+def test_nothing_upstream_imports_downstream(name):
+    own = [module for module in ours(name, modules()[name]) if module.startswith("comparisons.")]
+    assert [module for module in own if layer(module) > layer(name)] == []
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "import fem_reference.mesh",
+        "from fem_reference import mesh",
+        "from fem_reference.mesh import build",
+        "def f():\n    from fem_reference import mesh",
+        "import importlib\nimportlib.import_module('fem_reference.mesh')",
+        "from ..fem_reference import mesh",
+    ],
+)
+def test_every_way_to_import_is_seen(source):
+    assert any(module.startswith("fem_reference") for module in imported("fscm.kernel", source))
