@@ -1,8 +1,8 @@
 """Fitting the panel mesh to the pressure: split where it is unresolved, merge where it is over-resolved.
 
-A panel is resolved when the last Legendre coefficients e of the pressure on it are too small to matter: the load
-moves by 2 c^2 s h e, the work of adhesion (which fixes the edge, as in fracture) by e times the change of the gap
-over the panel, and the central gap, from the innermost panel, by M (1-k) (c h)^{1-k} e.
+A panel is resolved when the last Legendre coefficients e of the pressure on it are too small to matter: the
+load moves by 2 c^2 s h e, the work of adhesion (which fixes the edge, as in fracture) by e times the change
+of the gap over the panel, and the central gap, from the innermost panel, by M (1-k) (c h)^{1-k} e.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ from fscm.problem import Problem
 
 __all__ = ["fit", "indicator", "initial_mesh", "rescaled_mesh"]
 
-# The mesh ends where the undeformed gap is this large.  The closed tail behind it is wrong by (1/F)^2 relative.
+# The mesh ends where the undeformed gap is this large.  The closed tail behind it is wrong by (1/F)^2
+# relative.
 END_HEIGHT = 1e6
 # A pair of panels is merged when the merged panel would still be this much below the tolerance.
 _MERGE_MARGIN = 0.02
@@ -116,7 +117,9 @@ def _coarsened_breaks(state: State, tolerance: float) -> Array:
 def on_mesh(state: State, mesh: PanelMesh) -> State:
     """The state interpolated to another mesh at the same scale: a guess, not an equilibrium."""
     disc = Discretisation(state.disc.problem, mesh, state.disc)
-    return State(disc, state.scale, state.disc.mesh.transfer(state.gap, mesh), state.displacement, state.follows_edge)
+    return State(
+        disc, state.scale, state.disc.mesh.transfer(state.gap, mesh), state.displacement, state.follows_edge
+    )
 
 
 def fit(state: State, control: Control, tolerance: float, coarsen: bool = False) -> State:
@@ -133,9 +136,11 @@ def fit(state: State, control: Control, tolerance: float, coarsen: bool = False)
             state = newton(on_mesh(state, PanelMesh(breaks, state.disc.mesh.order)), control)
     iterations = state.iterations
     for _ in range(_MAX_ROUNDS):
-        breaks = _refined_breaks(state, tolerance)
-        if breaks is None:
+        finer = _refined_breaks(state, tolerance)
+        if finer is None:
             return replace(state, iterations=iterations)
-        state = newton(on_mesh(state, PanelMesh(breaks, state.disc.mesh.order)), control)
+        state = newton(on_mesh(state, PanelMesh(finer, state.disc.mesh.order)), control)
         iterations += state.iterations
-    raise NotConverged(f"the mesh was refined {_MAX_ROUNDS} times without resolving the pressure to {tolerance:.0e}")
+    raise NotConverged(
+        f"the mesh was refined {_MAX_ROUNDS} times without resolving the pressure to {tolerance:.0e}"
+    )

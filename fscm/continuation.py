@@ -2,9 +2,9 @@
 
 The path has two stretches.  While the punch is apart the scale is fixed and the central gap leads.  Once the
 central gap has passed the gap of largest tension, the mesh is scaled so that this gap sits at s = 1: the mesh
-follows the edge, and log c leads.  On both, steps are taken in arc length in the space of the leading variable,
-delta and P, so folds in any of them are passed.  In the moving mesh the solution changes slowly however sharp the
-edge is.
+follows the edge, and log c leads.  On both, steps are taken in arc length in the space of the leading
+variable, delta and P, so folds in any of them are passed.  In the moving mesh the solution changes slowly
+however sharp the edge is.
 """
 
 from __future__ import annotations
@@ -29,7 +29,8 @@ _SMALLEST_STEP = 1e-6
 _EASY, _HARD = 4, 7
 _LONGER, _SHORTER, _RETRY = 1.4, 0.7, 0.4
 # The edge is followed from where the central gap has fallen below the gap of largest tension by this fraction
-# of that gap's distance to the singular gap: nearer to it the edge radius is a poor variable (it starts as a root).
+# of that gap's distance to the singular gap: nearer to it the edge radius is a poor variable (it starts as a
+# root).
 _HAND_OVER = 0.05
 
 
@@ -117,7 +118,9 @@ def _follow_edge(state: State) -> State:
     new = rescaled_mesh(problem, mesh, state.scale, state.scale * ratio)
     known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
     gap = mesh.evaluate(state.gap, known)
-    gap += problem.profile.height(state.scale * ratio * new.nodes) - problem.profile.height(state.scale * known)
+    gap += problem.profile.height(state.scale * ratio * new.nodes) - problem.profile.height(
+        state.scale * known
+    )
     return State(Discretisation(problem, new), state.scale * ratio, gap, state.displacement, True)
 
 
@@ -181,8 +184,9 @@ def equilibrium_path(
                 step *= _RETRY
                 if step < _SMALLEST_STEP:
                     raise NotConverged(
-                        f"the path of {problem} ends at delta = {state.displacement:.6g}, P = {state.load:.6g}: no step "
-                        f"of arc length down to {_SMALLEST_STEP} converges ({error})"
+                        f"the path of {problem} ends at delta = {state.displacement:.6g}, "
+                        f"P = {state.load:.6g}: no step of arc length down to {_SMALLEST_STEP} converges "
+                        f"({error})"
                     ) from error
         if used <= _EASY:
             step = min(_LONGER * step, longest_step)

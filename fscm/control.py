@@ -76,7 +76,9 @@ def equilibria(problem: Problem, control: str, value: float) -> list[Equilibrium
     if not math.isfinite(value):
         raise ValueError(f"value = {value} of the {control} is not finite")
     if control == "central_gap" and value <= problem.law.singular_gap:
-        raise ValueError(f"central gap = {value} is not above {problem.law.singular_gap}, where the law is singular")
+        raise ValueError(
+            f"central gap = {value} is not above {problem.law.singular_gap}, where the law is singular"
+        )
     functional = _FUNCTIONALS[control]
 
     def condition(state: State, rates: object) -> float:
@@ -93,9 +95,7 @@ def equilibria(problem: Problem, control: str, value: float) -> list[Equilibrium
             break
         if len(points) > _MAX_POINTS:
             raise NotConverged(f"{control} = {value} was not reached in {_MAX_POINTS} steps along the path")
-    found = [
-        bracket for rising in (True, False) for bracket in events.brackets(points, condition, rising)
-    ]
+    found = [bracket for rising in (True, False) for bracket in events.brackets(points, condition, rising)]
     found.sort(key=lambda bracket: next(i for i, p in enumerate(points) if p is bracket[0]))
     return [_solved(bracket, condition) for bracket in found]
 
@@ -107,9 +107,9 @@ def _solved(bracket: events.Bracket, condition: events.Condition) -> Equilibrium
     spread = pair.spread(*_FUNCTIONALS.values())
     scale = 1.0 + max(abs(f(state)) for f in _FUNCTIONALS.values())
     return EquilibriumState(
-        state.central_gap,
-        state.displacement,
-        state.load,
-        SAFETY * spread + FLOOR * scale + state.tail_uncertainty,
+        float(state.central_gap),
+        float(state.displacement),
+        float(state.load),
+        float(SAFETY * spread + FLOOR * scale + state.tail_uncertainty),
         profiles_of(state),
     )

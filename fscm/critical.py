@@ -1,7 +1,7 @@
 """The critical Tabor number: where the two folds of the displacement merge and hysteresis begins.
 
-At given n and k the smallest rate of displacement along the path, d(delta)/d(lead), falls with the Tabor number;
-it is zero at the critical one.  The rate is exact, so the root is as sharp as the path itself.
+At given n and k the smallest rate of displacement along the path, d(delta)/d(lead), falls with the Tabor
+number; it is zero at the critical one.  The rate is exact, so the root is as sharp as the path itself.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ _FIRST_GUESS, _WIDEN, _WIDEST = 0.75, 1.25, 30.0
 _COARSE_ROOT_TOLERANCE = 1e-3
 _LONGEST_STEP = 0.15
 _FIRST_SECANT_STEP, _SECANT_STEPS, _TOLERANCE = 1e-4, 15, 1e-9
-# Spacing of the three rates in the leading variable.  The vertex ends at the middle one, where the parabola is exact
-# to the fourth order.
+# Spacing of the three rates in the leading variable.  The vertex ends at the middle one, where the parabola
+# is exact to the fourth order.
 _SPACING = 1e-3
 # Second differences of the rate amplify its rounding; measured scatter of mu between meshes is below 1e-10.
 _AMPLIFICATION = 1e3
@@ -67,7 +67,9 @@ def _coarse_root(problem: Problem) -> State:
     while low == high or rate(low) < 0.0:
         low, high = low - math.log(_WIDEN), low
         if low < -math.log(_WIDEST):
-            raise NoSuchEvent(f"jumps persist down to mu = {1 / _WIDEST:.3g} at n = {problem.n}, k = {problem.k}")
+            raise NoSuchEvent(
+                f"jumps persist down to mu = {1 / _WIDEST:.3g} at n = {problem.n}, k = {problem.k}"
+            )
     root = brentq(rate, low, high, xtol=_COARSE_ROOT_TOLERANCE)
     return states[min(states, key=lambda x: abs(x - root))]
 

@@ -1,8 +1,8 @@
 """From pressure on panels to surface displacement: product integration of the ring response.
 
-w(r_i) = sum_j W_ij p_j with p the piecewise polynomial through its nodal values.  Panels farther than their own
-length from r_i use the Gauss rule itself.  Nearer panels are integrated on pieces that double in length away
-from r_i, so that the kernel is smooth on each; the pieces that touch r_i use interpolatory rules for the
+w(r_i) = sum_j W_ij p_j with p the piecewise polynomial through its nodal values.  Panels farther than their
+own length from r_i use the Gauss rule itself.  Nearer panels are integrated on pieces that double in length
+away from r_i, so that the kernel is smooth on each; the pieces that touch r_i use interpolatory rules for the
 weights 1, u^-k and (u^-k - 1)/k, in which the two parts of the kernel (`Kernel.near_parts`) are smooth.
 """
 
@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from fscm.kernel import Kernel, box_cox
@@ -32,8 +31,8 @@ _EXTRA_NODES = 10
 def _singular_rule(order: int, k: float) -> tuple[Array, Array, Array]:
     """Weights at the Gauss nodes of [0, 1] for the weight functions 1, u^-k and (u^-k - 1)/k.
 
-    Moments of the shifted Legendre polynomials: int P_l u^-k = (-1)^l (k)_l / (1-k)_{l+1}; for (u^-k - 1)/k the
-    factor k of (k)_l cancels for l >= 1 and the l = 0 moment is 1/(1-k), so k = 0 is not special.
+    Moments of the shifted Legendre polynomials: int P_l u^-k = (-1)^l (k)_l / (1-k)_{l+1}; for (u^-k - 1)/k
+    the factor k of (k)_l cancels for l >= 1 and the l = 0 moment is 1/(1-k), so k = 0 is not special.
     """
     rule = gauss_rule(order)
     power = np.empty(order)
@@ -64,7 +63,12 @@ class _Pieces:
 
     @staticmethod
     def join(parts: list[_Pieces]) -> _Pieces:
-        return _Pieces(*(np.concatenate([getattr(p, f) for p in parts]) for f in ("pair", "sign", "near", "length", "xi")))
+        return _Pieces(
+            *(
+                np.concatenate([getattr(p, f) for p in parts])
+                for f in ("pair", "sign", "near", "length", "xi")
+            )
+        )
 
 
 def _doubling_pieces(
@@ -106,9 +110,9 @@ def _near_rows(
 
     Parameters
     ----------
-    r : target radii.  gap : distance to the nearest panel end (0 for own panels).  side : +1 when the panel is
-    to the right of the target, -1 to the left.  own : target inside the panel.  v : its local coordinate there.
-    h : panel lengths.  All of shape (pairs,).
+    r : target radii.  gap : distance to the nearest panel end (0 for own panels).  side : +1 when the panel
+    is to the right of the target, -1 to the left.  own : target inside the panel.  v : its local coordinate
+    there. h : panel lengths.  All of shape (pairs,).
     """
     count = len(r)
     index = np.arange(count)
@@ -151,7 +155,9 @@ def _near_rows(
     return moments @ gauss_rule(order).to_modes
 
 
-def response_block(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], sources: NDArray[np.intp]) -> Array:
+def response_block(
+    kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], sources: NDArray[np.intp]
+) -> Array:
     """Block of the response matrix between two sets of panels.
 
     Parameters
@@ -204,7 +210,9 @@ def response_block(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], s
     return block.transpose(0, 2, 1, 3).reshape(len(targets) * q, len(sources) * q)
 
 
-def response_matrix(kernel: Kernel, mesh: PanelMesh, previous: tuple[PanelMesh, Array] | None = None) -> Array:
+def response_matrix(
+    kernel: Kernel, mesh: PanelMesh, previous: tuple[PanelMesh, Array] | None = None
+) -> Array:
     """The whole matrix W, shape (m q, m q); blocks between panels that `previous` has too are reused."""
     count, q = len(mesh.lengths), mesh.order
     everything = np.arange(count)
@@ -235,7 +243,14 @@ def axis_row(kernel: Kernel, mesh: PanelMesh) -> Array:
     if near.size:
         zeros = np.zeros(near.size)
         rows = _near_rows(
-            kernel, zeros, mesh.starts[near], zeros + 1.0, np.zeros(near.size, bool), zeros, mesh.lengths[near], q
+            kernel,
+            zeros,
+            mesh.starts[near],
+            zeros + 1.0,
+            np.zeros(near.size, bool),
+            zeros,
+            mesh.lengths[near],
+            q,
         )
         row.reshape(-1, q)[near] = rows
     return row

@@ -1,8 +1,8 @@
 r"""Equilibrium of the surface: residual, exact tangent and bordered Newton.
 
-Radii are r = c s with the mesh in s.  The half-space has no length of its own, so one response matrix W serves
-every scale c:  w(c s) = M (1-k) c^{1-k} (W p)(s).  Unknowns are the gaps H at the nodes, the displacement
-delta and log c; the equations are
+Radii are r = c s with the mesh in s.  The half-space has no length of its own, so one response matrix W
+serves every scale c:  w(c s) = M (1-k) c^{1-k} (W p)(s).  Unknowns are the gaps H at the nodes, the
+displacement delta and log c; the equations are
 
     R_i = H_i + delta - f(c s_i) - w_i = 0          (Eq. 4)
     an anchor that fixes the scale:  c = given,  or  H(s = 1) = edge gap  (the mesh then follows the edge)
@@ -67,8 +67,12 @@ class Discretisation:
     def __init__(self, problem: Problem, mesh: PanelMesh, previous: Discretisation | None = None) -> None:
         self.problem, self.mesh = problem, mesh
         kernel = kernel_of(problem.k)
-        known = (previous.mesh, previous.matrix) if previous is not None and previous.problem.k == problem.k else None
-        self.matrix = response_matrix(kernel, mesh, known)
+        known = (
+            (previous.mesh, previous.matrix)
+            if previous is not None and previous.problem.k == problem.k
+            else None
+        )
+        self.matrix: Array = response_matrix(kernel, mesh, known)
         self.axis = axis_row(kernel, mesh)
         edge = int(np.searchsorted(mesh.breaks, 1.0))
         self.edge = mesh.row_at_end(max(edge - 1, 0), 1.0)
@@ -184,11 +188,11 @@ class State:
 
     @cached_property
     def energy(self) -> float:
-        """Elastic plus surface energy, unit pi Q^(2/n) dgamma z0^(2/n); along the path it changes by P d(delta).
+        """Elastic plus surface energy, unit pi Q^(2/n) dgamma z0^(2/n); its change is P d(delta).
 
-        The elastic part is (1/2) int p w 2 r dr, the surface part int e(H) 2 r dr with e from the law.  When the
-        surface part is infinite (a cone under the 9-3 law) its finite part is taken: the divergent constant is
-        the same for all states of a problem, so differences are right.
+        The elastic part is (1/2) int p w 2 r dr, the surface part int e(H) 2 r dr with e from the law.  When
+        the surface part is infinite (a cone under the 9-3 law) its finite part is taken: the divergent
+        constant is the same for all states of a problem, so differences are right.
         """
         d, law = self.disc, self.disc.problem.law
         area = 2.0 * self.scale**2 * d.mesh.weights * d.mesh.nodes
@@ -274,7 +278,9 @@ class _Linearisation:
         self.load_row = area * slope
         self.load_scale = 2.0 * (s.load - s.tail.load) + s.tail.load_rate
         self.axis_gap_row = K * d.axis * slope
-        self.axis_gap_scale = (1.0 - k) * (s.central_gap + s.displacement - s.tail.displacement) + s.tail.displacement_rate
+        self.axis_gap_scale = (1.0 - k) * (
+            s.central_gap + s.displacement - s.tail.displacement
+        ) + s.tail.displacement_rate
 
     def solve(self, control: Control, rhs: Array) -> Array:
         """Solve the bordered system with the control as its last row."""
@@ -283,8 +289,8 @@ class _Linearisation:
         row[:N] = control.gap * self.axis_gap_row + control.load * self.load_row
         row[N] = control.displacement - control.gap
         row[N + 1] = control.log_scale + control.gap * self.axis_gap_scale + control.load * self.load_scale
-        # dgesv directly: the rows differ by many orders of magnitude on purpose, which partial pivoting does not
-        # mind, while the condition estimate of the wrapper does.
+        # dgesv directly: the rows differ by many orders of magnitude on purpose, which partial pivoting does
+        # not mind, while the condition estimate of the wrapper does.
         *_, x, info = dgesv(self.matrix, rhs)
         if info != 0:
             raise NotConverged("Newton met a singular tangent; use another control")
@@ -347,10 +353,14 @@ def newton(guess: State, control: Control) -> State:
         dH = step[:N]
         clearance = state.gap - floor
         with np.errstate(divide="ignore", invalid="ignore"):
-            limit = np.where(dH < 0.0, (clearance - np.maximum(_SHRINK * clearance, _LOWEST * -floor)) / -dH, np.inf)
+            limit = np.where(
+                dH < 0.0, (clearance - np.maximum(_SHRINK * clearance, _LOWEST * -floor)) / -dH, np.inf
+            )
         damping = float(min(1.0, max(limit.min(), 0.0), 0.7 / max(abs(step[N + 1]), 1e-300)))
         if damping < 1e-3:
-            raise NotConverged("Newton is driven into the singular gap of the surface law; take a smaller step")
+            raise NotConverged(
+                "Newton is driven into the singular gap of the surface law; take a smaller step"
+            )
         state = State(
             state.disc,
             state.scale * math.exp(damping * step[N + 1]),

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from scipy.optimize import brentq, minimize_scalar
 
@@ -55,9 +56,9 @@ def zero_load(state: State, rates: Rates) -> float:
 
 
 def brackets(points: Sequence[Point], condition: Condition, rising: bool) -> list[Bracket]:
-    """Neighbouring points between which the condition changes sign: to positive when `rising`, else to negative."""
+    """Neighbouring points between which the condition turns positive (`rising`) or negative."""
     found = []
-    for a, b in zip(points, points[1:], strict=False):
+    for a, b in pairwise(points):
         if a.state.follows_edge != b.state.follows_edge:
             continue  # the same state on two meshes
         before, after = condition(a.state, a.rates), condition(b.state, b.rates)
@@ -90,7 +91,9 @@ class _Between:
 def locate(a: Point, b: Point, condition: Condition) -> State:
     """Root of the condition between two neighbouring points, on their coarse mesh."""
     between = _Between(a, b)
-    root = brentq(lambda x: condition(*between(x)), between.low, between.high, xtol=_COARSE_LEAD_TOLERANCE, rtol=1e-12)
+    root = brentq(
+        lambda x: condition(*between(x)), between.low, between.high, xtol=_COARSE_LEAD_TOLERANCE, rtol=1e-12
+    )
     return between(root)[0]
 
 
@@ -144,6 +147,6 @@ def sharpen(state: State, condition: Condition, order: int, tolerance: float) ->
             break
         step *= -value / change
     raise NotConverged(
-        "the root of an event did not settle on the refined mesh; the event may be about to vanish (Tabor number "
-        "close to critical)"
+        "the root of an event did not settle on the refined mesh; the event may be about to vanish "
+        "(Tabor number close to critical)"
     )

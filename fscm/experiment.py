@@ -1,8 +1,9 @@
 """What a testing machine sees: loading and unloading with jumps (Fig. 3b).
 
-Under displacement control an approaching punch follows the path to the jump-in fold, lands on the contact branch at
-the same displacement and goes on; on retreat it leaves at the jump-out fold and lands on the far branch.  The area
-between is the hysteresis energy.  Under load control the contact branch is left at the pull-off point.
+Under displacement control an approaching punch follows the path to the jump-in fold, lands on the contact
+branch at the same displacement and goes on; on retreat it leaves at the jump-out fold and lands on the far
+branch.  The area between is the hysteresis energy.  Under load control the contact branch is left at the
+pull-off point.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
 from fscm.panels import Array
 from fscm.path import EquilibriumPath
@@ -36,9 +38,9 @@ class Cycle:
 
 
 def _at(path: EquilibriumPath, displacement: float, first: int, last: int) -> Array:
-    """Column (delta, P) interpolated on a monotone stretch of the path."""
-    load = np.interp(displacement, path.displacement[first:last], path.load[first:last])
-    return np.array([[displacement], [load]])
+    """Column (delta, P) interpolated on a stretch of the path where delta rises."""
+    load = PchipInterpolator(path.displacement[first:last], path.load[first:last])(displacement)
+    return np.array([[displacement], [float(load)]])
 
 
 def displacement_cycle(path: EquilibriumPath) -> Cycle:
@@ -64,7 +66,7 @@ def displacement_cycle(path: EquilibriumPath) -> Cycle:
     after_in = bottom + int(np.searchsorted(d[bottom:], d[top]))
     before_out = int(np.searchsorted(d[: top + 1], d[bottom]))
     loading = np.hstack([curve[:, : top + 1], landing_in, curve[:, after_in:]])
-    unloading = np.hstack([curve[:, :bottom - 1 : -1], landing_out, curve[:, before_out - 1 :: -1]])
+    unloading = np.hstack([curve[:, : bottom - 1 : -1], landing_out, curve[:, before_out - 1 :: -1]])
     return Cycle(
         loading,
         unloading,
@@ -74,6 +76,6 @@ def displacement_cycle(path: EquilibriumPath) -> Cycle:
 
 
 def load_controlled_retreat(path: EquilibriumPath) -> Array:
-    """Columns (delta, P) of a retreat under load control, from the end of the path to pull-off; shape (2, m)."""
+    """Columns (delta, P), shape (2, m), of a retreat under load control: from the path's end to pull-off."""
     lowest = int(np.argmin(path.load))
     return np.array([path.displacement, path.load])[:, : lowest - 1 : -1] if lowest else np.empty((2, 0))

@@ -11,13 +11,14 @@ whose primitives are Phi_k and Psi_k = Phi_k - s^{1-k} (Eqs. 18-22).  With a = (
 which follows from integrating the Gauss series of Eq. 6 term by term; both sides agree at s = 1.
 
 Each F is used in two zones.  Far from the singular circle its Taylor polynomial converges fast.  Near it the
-connection formula F = A(y) + y^-c B(y) holds, but A and B grow like 1/k and cancel as k -> 0.  It is written as
+connection formula F = A(y) + y^-c B(y) holds, but A and B grow like 1/k and cancel as k -> 0.  It is written
+as
 
     F = D(y) + C(y) L_c(y),     D = A + B,   C = c B,   L_c = (y^-c - 1)/c  (-log y at c = 0),
 
 where D and C stay finite.  Their expansion coefficients are computed once for each k in extended precision,
-so nothing cancels in double precision for any 0 <= k < 1.  y comes from the *distance* of the radii, never from
-1 - x^2, and the logarithm is taken of the distance, so distances down to 1e-300 are exact.
+so nothing cancels in double precision for any 0 <= k < 1.  y comes from the *distance* of the radii, never
+from 1 - x^2, and the logarithm is taken of the distance, so distances down to 1e-300 are exact.
 """
 
 from __future__ import annotations
@@ -67,7 +68,7 @@ def _polynomial(taylor: list[mpmath.mpf], limit: float) -> Array:
     """Economised power coefficients, in u = 2 y / limit - 1, of a Taylor series on 0 <= y <= limit."""
     nodes = chebyshev.chebpts1(_NEAR_DEGREE + 1)
     values = [float(mpmath.polyval(taylor[::-1], (mpmath.mpf(float(u)) + 1) * limit / 2)) for u in nodes]
-    return chebyshev.cheb2poly(chebyshev.chebfit(nodes, np.array(values), _NEAR_DEGREE))
+    return np.asarray(chebyshev.cheb2poly(chebyshev.chebfit(nodes, np.array(values), _NEAR_DEGREE)), float)
 
 
 def _horner(coefficients: Array, u: Array) -> Array:
@@ -102,7 +103,9 @@ class Kernel:
 
     def __init__(self, k: float) -> None:
         if not 0.0 <= k < 1.0:
-            raise ValueError(f"gradient exponent k = {k} is outside [0, 1): the ring response diverges at k = 1")
+            raise ValueError(
+                f"gradient exponent k = {k} is outside [0, 1): the ring response diverges at k = 1"
+            )
         self.k = 0.0 if k < _SMALLEST_K else float(k)
         with mpmath.workdps(_DIGITS):
             q = mpmath.mpf(self.k) if self.k > 0 else mpmath.mpf(_ZERO_K)
@@ -111,7 +114,9 @@ class Kernel:
             gamma: Callable[[mpmath.mpf], mpmath.mpf] = mpmath.gamma
             terms = _SERIES_TERMS
             # F(a, 1/2; 1; 1 - y) = A + y^{-k/2} B
-            A = _scaled(_gauss_series(a, half, 1 + q / 2, terms), gamma(-q / 2) / (gamma(1 - a) * gamma(half)))
+            A = _scaled(
+                _gauss_series(a, half, 1 + q / 2, terms), gamma(-q / 2) / (gamma(1 - a) * gamma(half))
+            )
             B = _scaled(_gauss_series(1 - a, half, 1 - q / 2, terms), gamma(q / 2) / (gamma(a) * gamma(half)))
             self._near_D = _polynomial([x + y for x, y in zip(A, B, strict=True)], _NEAR_LIMIT)
             self._near_C = _polynomial([x * q / 2 for x in B], _NEAR_LIMIT)
@@ -187,8 +192,12 @@ class _Primitive:
         gamma = mpmath.gamma
         terms = _SERIES_TERMS
         # F(a, b; c; 1 - y) = A(y) + y^{1-k} B(y); y^{m+1} of A and y^m of B are paired so that 1/k cancels.
-        A = _scaled(_gauss_series(a, b, k, terms + 1), gamma(c) * gamma(1 - k) / (gamma(c - a) * gamma(c - b)))
-        B = _scaled(_gauss_series(c - a, c - b, 2 - k, terms), gamma(c) * gamma(k - 1) / (gamma(a) * gamma(b)))
+        A = _scaled(
+            _gauss_series(a, b, k, terms + 1), gamma(c) * gamma(1 - k) / (gamma(c - a) * gamma(c - b))
+        )
+        B = _scaled(
+            _gauss_series(c - a, c - b, 2 - k, terms), gamma(c) * gamma(k - 1) / (gamma(a) * gamma(b))
+        )
         self._k = float(k) if k >= _SMALLEST_K else 0.0
         self._at_one = float(A[0])
         self._at_one_minus_one = float(A[0] - 1)
@@ -208,7 +217,9 @@ class _Primitive:
         start = self._at_one_minus_one if minus_one else self._at_one
         out[near] = start + yn * (_horner(self._D, u) + _horner(self._C, u) * L)
         x2 = x[~near] ** 2
-        out[~near] = x2 * _horner(self._taylor_minus_one, x2 * (2.0 / _NEAR_LIMIT) - 1.0) + (0.0 if minus_one else 1.0)
+        out[~near] = x2 * _horner(self._taylor_minus_one, x2 * (2.0 / _NEAR_LIMIT) - 1.0) + (
+            0.0 if minus_one else 1.0
+        )
         return out
 
 

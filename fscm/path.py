@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
+from fscm import events
 from fscm.analysis import SAFETY, Analysis
-from fscm.continuation import equilibrium_path, lead_of
+from fscm.continuation import Point, equilibrium_path, lead_of
 from fscm.equilibrium import State
 from fscm.errors import NotConverged
 from fscm.events import refined
@@ -16,8 +18,8 @@ from fscm.problem import Problem
 
 __all__ = ["EquilibriumPath", "SurfaceProfiles", "profiles", "profiles_of", "trace"]
 
-# Mesh and longest step of the curves: they are drawn and integrated, so they carry more digits than the coarse path
-# that brackets events.
+# Mesh and longest step of the curves: they are drawn and integrated, so they carry more digits than the
+# coarse path that brackets events.
 _ORDER, _TOLERANCE, _LONGEST_STEP = 10, 1e-6, 0.15
 # Every so many points the state is solved again on this finer mesh, for the uncertainty.
 _CHECK_EVERY, _CHECK_MESH = 12, (14, 1e-8)
@@ -27,6 +29,8 @@ _MAX_POINTS = 5000
 @dataclass(frozen=True)
 class EquilibriumPath:
     """The equilibrium path from far separation into contact; all arrays have shape (m,), dimensionless.
+
+    Folds of load and displacement and the zero of the load are among the points.
 
     Attributes
     ----------
@@ -82,28 +86,44 @@ def trace(problem: Problem, max_load: float | None = None, start_gap: float | No
     >>> bool(abs(path.load.min() + 1.788) < 1e-2)
     True
     """
-    states: list[State] = []
+    points: list[Point] = []
     deepest = 0.0
     for point in equilibrium_path(problem, _ORDER, _TOLERANCE, _LONGEST_STEP, start_gap):
-        state = point.state
-        if states and state.follows_edge and not states[-1].follows_edge:
-            states.pop()  # the same state on the mesh that follows the edge
-        states.append(state)
-        deepest = min(deepest, state.load)
-        if state.follows_edge and state.load > (-deepest if max_load is None else max_load):
+        points.append(point)
+        deepest = min(deepest, point.state.load)
+        if point.state.follows_edge and point.state.load > (-deepest if max_load is None else max_load):
             break
-        if len(states) > _MAX_POINTS:
+        if len(points) > _MAX_POINTS:
             raise NotConverged(f"the path of {problem} has not reached its end in {_MAX_POINTS} steps")
-    checks = [(state, refined(state, *_CHECK_MESH)) for state in states[:: _CHECK_EVERY]]
+    states = _with_events(points)
+    checks = [(state, refined(state, *_CHECK_MESH)) for state in states[::_CHECK_EVERY]]
     return EquilibriumPath(
         np.array([s.central_gap for s in states]),
         np.array([s.displacement for s in states]),
         np.array([s.load for s in states]),
         np.array([s.energy for s in states]),
         np.array([s.scale if s.follows_edge else np.nan for s in states]),
-        SAFETY * max(abs(fine.displacement - s.displacement) for s, fine in checks),
-        SAFETY * max(abs(fine.load - s.load) for s, fine in checks),
+        float(SAFETY * max(abs(fine.displacement - s.displacement) for s, fine in checks)),
+        float(SAFETY * max(abs(fine.load - s.load) for s, fine in checks)),
     )
+
+
+def _with_events(points: list[Point]) -> list[State]:
+    """States of the path with the folds and the zero of the load put in, each state once."""
+    states = [points[0].state]
+    for a, b in pairwise(points):
+        if a.state.follows_edge != b.state.follows_edge:
+            states[-1] = b.state  # the same state on the mesh that follows the edge
+            continue
+        between = [
+            events.locate(a, b, condition)
+            for condition in (events.load_fold, events.displacement_fold, events.zero_load)
+            if condition(a.state, a.rates) * condition(b.state, b.rates) < 0.0
+        ]
+        direction = 1.0 if a.state.follows_edge else -1.0
+        states += sorted(between, key=lambda state: direction * lead_of(state))
+        states.append(b.state)
+    return states
 
 
 def profiles_of(state: State) -> SurfaceProfiles:

@@ -1,0 +1,288 @@
+"""A surface law from data, as molecular dynamics or an experiment gives it: points of traction against gap.
+
+Between the points a quintic interpolating spline (four continuous derivatives); beyond the last one a
+power-law tail p = -C (H - t)^-m; below the first one a wall p = c + A (H - s)^-9.  Both join with value,
+slope and curvature.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PPoly, make_interp_spline
+
+from fscm.validation import real_number
+
+__all__ = ["TabulatedLaw"]
+
+Array = NDArray[np.float64]
+
+# A quintic spline needs six points; four more so that wall, well and tail each have some.
+_FEWEST_POINTS = 10
+# Repulsion between half-spaces of atoms with an r^-12 pair potential (Eq. 10).
+_WALL_EXPONENT = 9.0
+# Fewest points that the tail is fitted to; otherwise all of the last octave of the distance from the wall.
+_TAIL_POINTS = 4
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class TabulatedLaw:
+    """Surface law through data points, normalised to energy -1 at the equilibrium gap H = 0.
+
+    The origin of the data's gaps is free, and so is the unit of the tractions: both are normalised away, and
+    `equilibrium_gap` and `work_of_adhesion` say what they were.  The gaps have to be in units of z0, whose
+    choice is the user's: it fixes the Tabor number.  Immutable, hashable, picklable.
+
+    Parameters
+    ----------
+    gaps : sequence of float, shape (N,), N >= 10
+        Gaps in z0 from any origin, increasing; from the repulsive wall far into the tail.
+    tractions : sequence of float, shape (N,)
+        Tractions in any unit, compression positive.  First > 0, one change of sign, a largest tension before
+        the last point; last < 0, or = 0 for a law of finite range.
+    tail_exponent : float, optional
+        Exponent m > 1 of the tail p ~ -C H^-m when it is known (3 for van der Waals forces between
+        half-spaces). C and the origin t are then fitted to the end of the data.  Otherwise t is the gap at
+        which the wall diverges, and C and m are fitted.
+
+    Raises
+    ------
+    ValueError
+        When the data are not those of a surface law, in one sentence that says why.
+
+    Examples
+    --------
+    >>> gap = np.geomspace(0.75, 20.0, 100)
+    >>> law = TabulatedLaw(gap, 5.0 * (gap**-9 - gap**-3), tail_exponent=3)
+    >>> round(law.equilibrium_gap, 5), round(law.work_of_adhesion, 4)     # exact: 1, 5 * 3/8
+    (1.0, 1.875)
+    """
+
+    gaps: Sequence[float]
+    tractions: Sequence[float]
+    tail_exponent: float | None = None
+    equilibrium_gap: float = field(init=False, compare=False)
+    work_of_adhesion: float = field(init=False, compare=False)
+    _spline: PPoly = field(init=False, compare=False)
+    _integral: PPoly = field(init=False, compare=False)
+    _peak: float = field(init=False, compare=False)
+    _wall: tuple[float, float, float] = field(init=False, compare=False)
+    _tail: tuple[float, float, float] = field(init=False, compare=False)
+
+    def __post_init__(self) -> None:
+        gap, p = _checked_points(self.gaps, self.tractions)
+        m = self.tail_exponent
+        if m is not None:
+            reason = "with m <= 1 the work of adhesion is infinite"
+            m = real_number("tail_exponent", m, low=1.0, high=math.inf, reason=reason)
+        free = _quintic(gap, p)
+        left = float(free(gap[0], 1)), float(free(gap[0], 2))
+        wall = _fitted_wall(gap[0], p[0], *left)
+        tail = _fitted_tail(gap, p, wall[2], m)
+        right = float(_tail_derivative(gap[-1], tail, 1)), float(_tail_derivative(gap[-1], tail, 2))
+        spline = _quintic(gap, p, left, right)
+        peak = _checked_shape(spline, gap, p)
+
+        equilibrium = next(float(x) for x in spline.roots(extrapolate=False) if gap[0] < x < peak)
+        adhesion = float(_tail_derivative(gap[-1], tail, -1) - spline.integrate(equilibrium, gap[-1]))
+        if not adhesion > 0.0:
+            raise ValueError(
+                f"the work of adhesion of the data is {adhesion:g}, outside (0, inf): no net attraction"
+            )
+        normalised = PPoly(spline.c / adhesion, spline.x - equilibrium)
+        values = {
+            "gaps": tuple(gap.tolist()),
+            "tractions": tuple(p.tolist()),
+            "tail_exponent": m,
+            "equilibrium_gap": equilibrium,
+            "work_of_adhesion": adhesion,
+            "_spline": normalised,
+            "_integral": normalised.antiderivative(),
+            "_peak": peak - equilibrium,
+            "_wall": (wall[0] / adhesion, wall[1] / adhesion, wall[2] - equilibrium),
+            "_tail": (tail[0] / adhesion, tail[1], tail[2] - equilibrium),
+        }
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
+    def __repr__(self) -> str:
+        return f"TabulatedLaw({len(self.gaps)} points, gaps {self.gaps[0]:g} to {self.gaps[-1]:g})"
+
+    @property
+    def singular_gap(self) -> float:
+        """Gap s at which the fitted wall diverges."""
+        return self._wall[2]
+
+    @property
+    def peak_gap(self) -> float:
+        """Gap of the largest tension."""
+        return self._peak
+
+    @property
+    def decay(self) -> tuple[float, float]:
+        """(C, m) of the tail: p H^m -> -C; (0, inf) for a law of finite range."""
+        return self._tail[:2]
+
+    def traction(self, H: Array) -> Array:
+        """p(H)."""
+        return self._joined(H, 0)
+
+    def slope(self, H: Array) -> Array:
+        """dp/dH."""
+        return self._joined(H, 1)
+
+    def curvature(self, H: Array) -> Array:
+        """d2p/dH2."""
+        return self._joined(H, 2)
+
+    def energy(self, H: Array) -> Array:
+        """Integral of p from H to infinity, exact for the spline, the wall and the tail."""
+        H = np.asarray(H, float)
+        first, last = self._spline.x[0], self._spline.x[-1]
+        inside = np.clip(H, first, last)
+        beyond = -_tail_derivative(np.maximum(H, last), self._tail, -1)
+        below = _wall_derivative(first, self._wall, -1) - _wall_derivative(
+            np.minimum(H, first), self._wall, -1
+        )
+        return np.asarray(self._integral(last) - self._integral(inside) + beyond + below)
+
+    def _joined(self, H: Array, order: int) -> Array:
+        H = np.asarray(H, float)
+        first, last = self._spline.x[0], self._spline.x[-1]
+        inside = self._spline(np.clip(H, first, last), order)
+        below = _wall_derivative(np.minimum(H, first), self._wall, order)
+        beyond = _tail_derivative(np.maximum(H, last), self._tail, order)
+        return np.where(first > H, below, np.where(last < H, beyond, inside))
+
+
+def _quintic(gap: Array, p: Array, *ends: tuple[float, float]) -> PPoly:
+    """Quintic spline through the points, with (slope, curvature) at both ends or not-a-knot there."""
+    conditions: Any = tuple([(1, slope), (2, curvature)] for slope, curvature in ends) or None
+    spline = make_interp_spline(gap, p, k=5, bc_type=conditions)
+    return PPoly.from_spline((spline.t, spline.c, spline.k))
+
+
+def _power(x: Array | float, exponent: float, order: int) -> Array | float:
+    """Return the derivative of x^-exponent of the given order; order -1 is the primitive, 0 at infinity."""
+    if order == -1:
+        return x ** (1.0 - exponent) / (1.0 - exponent)
+    factor = math.prod(-exponent - i for i in range(order))
+    return factor * x ** (-exponent - order)
+
+
+def _wall_derivative(H: Array | float, wall: tuple[float, float, float], order: int) -> Array | float:
+    """Return the derivative of c + A (H - s)^-9; order -1 is a primitive."""
+    c, A, s = wall
+    constant = {-1: c * H, 0: c}.get(order, 0.0)
+    return constant + A * _power(H - s, _WALL_EXPONENT, order)
+
+
+def _tail_derivative(H: Array | float, tail: tuple[float, float, float], order: int) -> Array | float:
+    """Return the derivative of -C (H - t)^-m; order -1 is the primitive, 0 at infinity."""
+    C, m, t = tail
+    return 0.0 * H if C == 0.0 else -C * _power(H - t, m, order)
+
+
+def _checked_points(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[Array, Array]:
+    """Return the data as arrays, or refuse what cannot be the points of a surface law."""
+    try:
+        gap, p = np.array(gaps), np.array(tractions)
+    except ValueError as error:
+        raise ValueError(f"gaps and tractions have to be two columns of real numbers: {error}") from error
+    if not (gap.dtype.kind in "iuf" and p.dtype.kind in "iuf"):
+        raise ValueError(f"gaps ({gap.dtype}) and tractions ({p.dtype}) have to be columns of real numbers")
+    gap, p = gap.astype(float), p.astype(float)
+    if gap.ndim != 1 or gap.shape != p.shape or len(gap) < _FEWEST_POINTS:
+        raise ValueError(
+            f"gaps of shape {gap.shape} and tractions of shape {p.shape} are not a table: "
+            f"two columns of one length >= {_FEWEST_POINTS} carry a wall, a well and a tail"
+        )
+    if not (np.all(np.isfinite(gap)) and np.all(np.isfinite(p))):
+        row = int(np.argmin(np.isfinite(gap) & np.isfinite(p)))
+        raise ValueError(f"row {row} of the table, ({gap[row]}, {p[row]}), is not finite")
+    if not np.all(np.diff(gap) > 0.0):
+        row = int(np.argmax(np.diff(gap) <= 0.0)) + 1
+        raise ValueError(
+            f"gap {gap[row]:g} in row {row} is outside ({gap[row - 1]:g}, inf): gaps have to increase"
+        )
+    if p[0] <= 0.0:
+        raise ValueError(
+            f"the first traction {p[0]:g} is outside (0, inf): the data have to reach the repulsive wall"
+        )
+    if p[-1] > 0.0:
+        raise ValueError(f"the last traction {p[-1]:g} is outside (-inf, 0]: the tail of a law attracts")
+    least = int(np.argmin(p))
+    if p[least] >= 0.0 or least == len(p) - 1:
+        raise ValueError(
+            f"the smallest traction {p[least]:g} is at the end of the data or not a tension: "
+            "a law without a minimum does not hold two surfaces together"
+        )
+    crossings = int(np.sum(np.diff(np.sign(p[p != 0.0])) != 0))
+    if crossings != 1:
+        raise ValueError(
+            f"the traction changes sign {crossings} times: a surface law has one equilibrium gap"
+        )
+    return gap, p
+
+
+def _fitted_wall(gap: float, p: float, slope: float, curvature: float) -> tuple[float, float, float]:
+    """(c, A, s) of c + A (H - s)^-9 that continues value, slope and curvature below the first point."""
+    if not (slope < 0.0 < curvature):
+        raise ValueError(
+            f"at the first gap {gap:g} the slope {slope:g} and curvature {curvature:g} are outside "
+            "(-inf, 0) and (0, inf): there is no convex repulsive wall to continue"
+        )
+    distance = -(_WALL_EXPONENT + 1.0) * slope / curvature
+    A = -slope / _WALL_EXPONENT * distance ** (_WALL_EXPONENT + 1.0)
+    return p - A * distance**-_WALL_EXPONENT, A, gap - distance
+
+
+def _fitted_tail(gap: Array, p: Array, wall: float, exponent: float | None) -> tuple[float, float, float]:
+    """(C, m, t) of the tail -C (H - t)^-m through the last point, fitted to the end of the data."""
+    if p[-1] == 0.0:
+        return 0.0, math.inf, 0.0
+    octave = int(np.sum(gap - wall >= 0.5 * (gap[-1] - wall)))
+    end = slice(-max(_TAIL_POINTS, octave), None)
+    x, tension = gap[end], -p[end]
+    if not np.all(tension > 0.0):
+        raise ValueError(f"the last {len(x)} tractions are not all tensions: there is no tail to fit")
+    # Straight lines through the last point: |p|^(-1/m) over H when m is known, else log |p| over log(H - s).
+    if exponent is not None:
+        y, abscissa = tension ** (-1.0 / exponent), x - gap[-1]
+    else:
+        y, abscissa = np.log(tension), np.log((x - wall) / (gap[-1] - wall))
+    steepness = float(np.dot(abscissa, y - y[-1]) / np.dot(abscissa, abscissa))
+    if exponent is None:
+        m, t = -steepness, wall
+        if not m > 1.0:
+            raise ValueError(
+                f"the end of the data decays like H^-{m:.3g}, outside (1, inf): "
+                "the work of adhesion would be infinite, so extend the data or state tail_exponent"
+            )
+    else:
+        m = exponent
+        if not steepness > 0.0:
+            raise ValueError(
+                f"the tension grows at the end of the data, gap {gap[-1]:g}: there is no tail to fit"
+            )
+        t = float(gap[-1] - y[-1] / steepness)
+    return float(tension[-1] * (gap[-1] - t) ** m), m, t
+
+
+def _checked_shape(spline: PPoly, gap: Array, p: Array) -> float:
+    """Return the gap of the largest tension; refuse a spline with waves that the data do not have."""
+    extrema = spline.derivative().roots(discontinuity=False, extrapolate=False)
+    extrema = extrema[(extrema > gap[0]) & (extrema < gap[-1])]
+    steps = np.diff(p)
+    turns = int(np.sum(np.diff(np.sign(steps[steps != 0.0])) != 0))
+    if len(extrema) != turns:
+        raise ValueError(
+            f"the smooth curve through the data turns {len(extrema)} times, the data {turns} times: "
+            "they are too coarse or too noisy, add points or smooth them"
+        )
+    return float(extrema[np.argmin(spline(extrema))])
