@@ -67,4 +67,4 @@ def both_components(scalar: Index) -> Index:
     >>> both_components(np.array([3, 5]))
     array([ 6,  7, 10, 11])
     """
-    return np.stack([2 * scalar, 2 * scalar + 1], axis=1).ravel()
+    return np.stack([2 * scalar, 2 * scalar + 1], axis=1).reshape(2 * scalar.shape[0], *scalar.shape[1:])

@@ -24,7 +24,19 @@ from fem_reference.punch import Punch
 from fem_reference.surface import Compliance
 from fem_reference.traction import LennardJones
 
-__all__ = ["ArcLength", "CentralGap", "Contact", "Control", "Displacement", "EdgeGap", "Size", "State", "newton"]
+__all__ = [
+    "ArcLength",
+    "CentralGap",
+    "Contact",
+    "Control",
+    "Displacement",
+    "EdgeGap",
+    "EdgeRadius",
+    "ProfileRise",
+    "Size",
+    "State",
+    "newton",
+]
 
 Array = NDArray[np.float64]
 
@@ -76,7 +88,9 @@ class Contact:
         J[:, :m] = -factor * (X @ (weighted @ trace.phi))
         J[np.arange(m), np.arange(m)] += 1.0
         J[:, m] = factor * (X @ weighted.sum(axis=1))
-        J[:, m + 1] = -X @ (factor * (weighted @ rise) + self.compliance.factor_slope(c) * (trace.phi.T @ load))
+        J[:, m + 1] = -X @ (
+            factor * (weighted @ rise) + self.compliance.factor_slope(c) * (trace.phi.T @ load)
+        )
         return J
 
     def _tail(self, y: Array) -> tuple[Array, Array, Array]:
@@ -201,6 +215,51 @@ class EdgeGap:
         return row
 
 
+@dataclass(frozen=True, slots=True)
+class EdgeRadius:
+    """The gap at the radius `radius`, anywhere on the mesh, is H1: the edge moves over a fixed mesh."""
+
+    H1: float
+    radius: float
+
+    def _row(self, contact: Contact, y: Array, shift: float = 0.0) -> Array:
+        s = (self.radius + shift) / float(y[-1])
+        return contact.compliance.trace.evaluate(np.array([s]))[0]
+
+    def value(self, contact: Contact, y: Array) -> float:
+        """Return H(radius) - H1."""
+        height = float(contact.punch.height(np.array(self.radius)))
+        return float(self._row(contact, y) @ y[:-2]) - float(y[-2]) + height - self.H1
+
+    def gradient(self, contact: Contact, y: Array) -> Array:
+        """Row of d H(radius) on a mesh of fixed size."""
+        return np.concatenate([self._row(contact, y), [-1.0, 0.0]])
+
+    def pace(self, contact: Contact, y: Array) -> float:
+        """Change of the right-hand side per unit radius, -dH/dr, by central differences of the trace."""
+        h = 1e-5 * self.radius
+        rise = float((self._row(contact, y, h) - self._row(contact, y, -h)) @ y[:-2]) / (2.0 * h)
+        return -rise - float(contact.punch.slope(np.array(self.radius)))
+
+
+@dataclass(frozen=True, slots=True)
+class ProfileRise:
+    """The gap at the mesh node s = 1 exceeds the central gap by `rise`: the mesh follows the profile."""
+
+    rise: float
+
+    def value(self, contact: Contact, y: Array) -> float:
+        """Return H(s = 1) - H(0) - rise."""
+        edge = contact.compliance.trace.edge
+        return float(y[edge] - y[0] + contact.punch.height(y[-1]) - self.rise)
+
+    def gradient(self, contact: Contact, y: Array) -> Array:
+        """Row of d (H(1) - H(0))."""
+        row = _unit(y.size, contact.compliance.trace.edge) - _unit(y.size, 0)
+        row[-1] = float(contact.punch.slope(y[-1]))
+        return row
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class ArcLength:
     """The point lies in the plane through `centre` normal to `direction` (both in y), `step` ahead."""
@@ -232,8 +291,10 @@ class State:
     ----------
     y : ndarray, shape (m + 2,)
         Displacement, approach and size.
-    load, load_rate, displacement_rate : float
-        P, and the derivatives of P and delta with respect to the right-hand side of the second control.
+    load : float
+        P, compression positive.
+    load_rate : float
+        Derivative of P with respect to the parameter of the second control.
     rate : ndarray, shape (m + 2,)
         Derivative of y with respect to it.
     iterations : int
@@ -307,7 +368,8 @@ def newton(contact: Contact, y: Array, first: Control, second: Control) -> State
         limit = NEWTON_TOLERANCE * (1.0 + float(np.abs(y[:m]).max()) / law.z0)
         step = linalg.lu_solve(factors, G, check_finite=False)
         if size <= limit and np.abs(step[: m + 1]).max() <= 1e3 * limit * law.z0:
-            rate = linalg.lu_solve(factors, _unit(m + 2, -1), check_finite=False)
+            pace = second.pace(contact, y) if isinstance(second, EdgeRadius) else 1.0
+            rate = pace * linalg.lu_solve(factors, _unit(m + 2, -1), check_finite=False)
             slope = float(contact.load_gradient(y) @ rate)
             return State(y, contact.load(y), slope, rate, iteration, size)
         if not np.all(np.isfinite(step)):

@@ -68,6 +68,7 @@ def graded_grid(
     surface_depth: float = 0.05,
     extent: float = 100.0,
     density: float = 0.5,
+    apex_width: float | None = None,
 ) -> Grid:
     """Return a grid refined around the radius `edge` and towards the surface.
 
@@ -83,6 +84,8 @@ def graded_grid(
         Side of the meshed square.
     density : float
         Growth of element size with distance; halving it halves every element.
+    apex_width : float, optional
+        Radial length to resolve at r = 0 as well (a cone has a singular stress there).
 
     Returns
     -------
@@ -103,8 +106,15 @@ def graded_grid(
         if not (math.isfinite(value) and value > 0):
             raise ValueError(f"{name} = {value} is outside (0, infinity): it is a length to resolve")
     if not 0 < edge < extent:
-        raise ValueError(f"edge = {edge} is outside (0, extent = {extent}): the refined radius must lie in the mesh")
-    inside = edge - _sinh_nodes(edge_width, edge, density)[::-1]
+        raise ValueError(
+            f"edge = {edge} is outside (0, extent = {extent}): the refined radius must lie in the mesh"
+        )
+    if apex_width is None:
+        inside = edge - _sinh_nodes(edge_width, edge, density)[::-1]
+    else:
+        half = 0.5 * edge
+        inside = edge - _sinh_nodes(edge_width, half, density)[::-1]
+        inside = np.concatenate([_sinh_nodes(apex_width, half, density), inside[1:]])
     outside = edge + _sinh_nodes(edge_width, extent - edge, density)
     inside[0], outside[-1] = 0.0, extent
     return Grid(np.concatenate([inside, outside[1:]]), _sinh_nodes(surface_depth, extent, density))

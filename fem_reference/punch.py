@@ -92,17 +92,23 @@ def radius_at_height(punch: Punch, height: float) -> float:
     Raises
     ------
     ValueError
-        If the punch does not reach that height within 1e+-150.
+        If the punch does not reach that height within 1e+-100.
 
     Examples
     --------
     >>> round(radius_at_height(PowerPunch(n=2.0, Q=2.0), 1.0), 9)
     2.0
     """
-    low, high = -150.0, 150.0
-    if not float(punch.height(np.array(10.0**high))) > height:
-        raise ValueError(f"the punch never reaches the height {height}: its shape must rise without bound")
-    for _ in range(120):
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if float(punch.height(np.array(10.0**middle))) > height else (middle, high)
+    low, high = -100.0, 100.0
+    # A shape may overflow far out: infinity is above any height.
+    with np.errstate(over="ignore"):
+        if not float(punch.height(np.array(10.0**high))) > height:
+            raise ValueError(
+                f"the punch never reaches the height {height}: its shape must rise without bound"
+            )
+        for _ in range(120):
+            middle = 0.5 * (low + high)
+            low, high = (
+                (low, middle) if float(punch.height(np.array(10.0**middle))) > height else (middle, high)
+            )
     return float(10.0 ** (0.5 * (low + high)))

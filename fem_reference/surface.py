@@ -22,7 +22,15 @@ from fem_reference.condensation import surface_stiffness
 from fem_reference.mesh import Grid, graded_grid
 from fem_reference.modulus import Modulus, PowerLaw
 
-__all__ = ["Compliance", "FixedCompliance", "MeshSpec", "ScalingCompliance", "Trace", "compliance_for", "trace_of"]
+__all__ = [
+    "Compliance",
+    "FixedCompliance",
+    "MeshSpec",
+    "ScalingCompliance",
+    "Trace",
+    "compliance_for",
+    "trace_of",
+]
 
 Array = NDArray[np.float64]
 
@@ -36,10 +44,13 @@ class MeshSpec:
     extent: float
     density: float
     order: int
+    apex_width: float | None = None
 
     def grid(self) -> Grid:
         """Return the grid with its edge at s = 1."""
-        return graded_grid(1.0, self.edge_width, self.surface_depth, self.extent, self.density)
+        return graded_grid(
+            1.0, self.edge_width, self.surface_depth, self.extent, self.density, self.apex_width
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -160,7 +171,9 @@ class FixedCompliance:
     def factor(self, c: float) -> float:
         """c, which must be the size of the mesh."""
         if abs(c / self.size - 1.0) > 1e-12:
-            raise ValueError(f"this compliance holds at the size {self.size}, not {c}: the modulus is no power law")
+            raise ValueError(
+                f"this compliance holds at the size {self.size}, not {c}: the modulus is no power law"
+            )
         return self.size
 
     def factor_slope(self, c: float) -> float:
