@@ -100,7 +100,7 @@ def _element_matrices(body: Body, basis: Basis, chunk: slice) -> Array:
     # Strains of a radial function: u_r,r = radial, u_r / r = hoop, u_r,z = axial; of an axial one: axial, radial.
     radial = np.stack([f[0].grad[0][chunk] for f in basis.basis], axis=-1)
     axial = np.stack([f[0].grad[1][chunk] for f in basis.basis], axis=-1)
-    hoop = np.stack([f[0].value[chunk] for f in basis.basis], axis=-1) / r[..., None]
+    hoop = np.stack([np.asarray(f[0])[chunk] for f in basis.basis], axis=-1) / r[..., None]
     stiff = lame + 2.0 * shear
     n = radial.shape[-1]
     K = np.empty((r.shape[0], 2 * n, 2 * n))
