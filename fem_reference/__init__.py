@@ -1,1 +1,33 @@
-"""An independent axisymmetric finite-element model of adhesive contact of graded materials."""
+"""An independent axisymmetric finite-element model of adhesive contact of graded materials.
+
+Physical quantities in any consistent units: a half-space with Young's modulus E(z) and Poisson ratio nu, a rigid
+punch f(r), a surface law p(H).  The solid is meshed with high-order elements and closed by the exact stiffness
+of the infinite exterior, condensed to its surface, and brought into equilibrium with the surface law.
+"""
+
+from fem_reference.errors import NoSuchEvent, NotConverged
+from fem_reference.events import QUANTITIES
+from fem_reference.modulus import CustomModulus, OffsetPowerLaw, PowerLaw
+from fem_reference.punch import CustomPunch, PowerPunch
+from fem_reference.solution import CustomSolid, Path, Profile, Solid, Solution, profile, solve, trace
+from fem_reference.traction import LennardJones
+
+__all__ = [
+    "QUANTITIES",
+    "CustomModulus",
+    "CustomPunch",
+    "CustomSolid",
+    "LennardJones",
+    "NoSuchEvent",
+    "NotConverged",
+    "OffsetPowerLaw",
+    "Path",
+    "PowerLaw",
+    "PowerPunch",
+    "Profile",
+    "Solid",
+    "Solution",
+    "profile",
+    "solve",
+    "trace",
+]

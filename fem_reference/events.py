@@ -1,0 +1,191 @@
+"""Points of the equilibrium path that an experiment sees, as roots of exact sensitivities.
+
+The path is walked once; a sign change of dP, d(delta) or P between two neighbouring points brackets an event,
+and Brent's method on the derivative from the bordered solve finds it to rounding.  Nothing is read off samples.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from scipy.optimize import brentq
+
+from fem_reference.contact import Contact
+from fem_reference.errors import NoSuchEvent
+from fem_reference.path import Point, path
+
+__all__ = ["QUANTITIES", "Event", "find_event", "walk"]
+
+ROOT_TOLERANCE = 1e-11
+"""Relative tolerance of the parameter at an event; P is stationary there and delta moves by as little."""
+
+QUANTITIES = (
+    "pull_off_force",
+    "pull_off_displacement",
+    "jump_in_displacement",
+    "jump_in_gap",
+    "jump_out_displacement",
+    "jump_out_gap",
+    "zero_load_displacement",
+    "hysteresis_energy",
+)
+"""What can be asked, in physical units; pull_off_force is the positive number -min P."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Event:
+    """A quantity, the point of the path it was read from, and the Newton steps of the whole path."""
+
+    quantity: str
+    value: float
+    point: Point
+    iterations: int
+
+
+Pair = tuple[Point, Point]
+
+
+def walk(contact: Contact, beyond: float | None = None) -> list[Point]:
+    """Walk the path until the load is compressive again and every fold lies behind.
+
+    Parameters
+    ----------
+    contact : Contact
+        The problem.
+    beyond : float, optional
+        Go on until the displacement exceeds this value too.
+    """
+    points: list[Point] = []
+    summit = -float("inf")
+    for point in path(contact):
+        points.append(point)
+        if point.leg.touching:
+            settled = point.state.load > 0 and point.displacement_rate > 0 and point.load_rate > 0
+            # After a jump-in, the contact branch at the displacement of the jump belongs to the cycle.
+            reached = point.state.displacement >= max(summit, -float("inf") if beyond is None else beyond)
+            if settled and reached:
+                break
+        elif point.displacement_rate > 0:
+            summit = max(summit, point.state.displacement)
+    return points
+
+
+def find_event(contact: Contact, quantity: str) -> Event:
+    """Find one quantity on the path.
+
+    Parameters
+    ----------
+    contact : Contact
+        The problem.
+    quantity : str
+        One of `QUANTITIES`.
+
+    Returns
+    -------
+    Event
+
+    Raises
+    ------
+    ValueError
+        If the quantity is unknown.
+    NoSuchEvent
+        If the path has no such point.
+    NotConverged
+        If the path cannot be followed.
+    """
+    if quantity not in QUANTITIES:
+        raise ValueError(f"quantity {quantity!r} is unknown; choose one of {', '.join(QUANTITIES)}")
+    points = walk(contact)
+    value, point = _read(points, quantity)
+    return Event(quantity, value, point, sum(p.state.iterations for p in points))
+
+
+def _read(points: list[Point], quantity: str) -> tuple[float, Point]:
+    if quantity in ("pull_off_force", "pull_off_displacement"):
+        point = pull_off(points)
+        return (-point.state.load if quantity == "pull_off_force" else point.state.displacement), point
+    if quantity == "zero_load_displacement":
+        point = zero_load(points)
+        return point.state.displacement, point
+    if quantity == "hysteresis_energy":
+        return hysteresis(points)
+    jump_in, jump_out = folds(points)
+    point = jump_in if quantity.startswith("jump_in") else jump_out
+    return (point.state.central_gap if quantity.endswith("gap") else point.state.displacement), point
+
+
+def _pairs(points: list[Point], sign: Callable[[Point], float], rising: bool) -> list[Pair]:
+    """Neighbours on one leg between which `sign` changes from negative to positive (or back)."""
+    pairs = []
+    for a, b in zip(points, points[1:], strict=False):
+        if a.leg is not b.leg:
+            continue
+        before, after = (sign(a), sign(b)) if rising else (-sign(a), -sign(b))
+        if before < 0 <= after:
+            pairs.append((a, b))
+    return pairs
+
+
+def _root(pair: Pair, function: Callable[[Point], float]) -> Point:
+    """The point between two neighbours where the function vanishes."""
+    known = {pair[0].parameter: pair[0], pair[1].parameter: pair[1]}
+
+    def value(parameter: float) -> float:
+        if parameter not in known:
+            nearest = min(known.values(), key=lambda p: abs(p.parameter - parameter))
+            known[parameter] = nearest.leg.solve(parameter, nearest.predict(parameter))
+        return function(known[parameter])
+
+    scale = max(abs(pair[0].parameter), abs(pair[1].parameter))
+    root = float(
+        brentq(
+            value, pair[0].parameter, pair[1].parameter, xtol=ROOT_TOLERANCE * scale, rtol=4 * ROOT_TOLERANCE
+        )
+    )
+    value(root)
+    return known[root]
+
+
+def pull_off(points: list[Point]) -> Point:
+    """The deepest minimum of the load along the path."""
+    minima = [_root(pair, lambda p: p.load_rate) for pair in _pairs(points, lambda p: p.load_rate, True)]
+    if not minima:
+        raise NoSuchEvent("the load has no minimum along the path")
+    return min(minima, key=lambda p: p.state.load)
+
+
+def folds(points: list[Point]) -> Pair:
+    """The folds of displacement control: jump into contact and jump out of it."""
+    maxima = _pairs(points, lambda p: p.displacement_rate, False)
+    minima = _pairs(points, lambda p: p.displacement_rate, True)
+    if not maxima or not minima:
+        raise NoSuchEvent("the displacement rises all along the path: this solid is too stiff for jumps")
+    tops = [_root(pair, lambda p: p.displacement_rate) for pair in maxima]
+    bottoms = [_root(pair, lambda p: p.displacement_rate) for pair in minima]
+    return tops[0], min(bottoms, key=lambda p: p.state.displacement)
+
+
+def zero_load(points: list[Point]) -> Point:
+    """The point in contact where the load changes from tension to compression."""
+    pairs = _pairs(points, lambda p: p.state.load, True)
+    if not pairs:
+        raise NoSuchEvent("the load does not become compressive on the path")
+    return _root(pairs[-1], lambda p: p.state.load)
+
+
+def hysteresis(points: list[Point]) -> tuple[float, Point]:
+    """Energy lost by the two jumps of one cycle of displacement control, and the jump-out point."""
+    jump_in, jump_out = folds(points)
+    landed = _at_displacement(points, jump_in.state.displacement, last=True)
+    free = _at_displacement(points, jump_out.state.displacement, last=False)
+    energy = [p.leg.contact.energy(p.state.y) for p in (jump_in, landed, jump_out, free)]
+    return energy[0] - energy[1] + energy[2] - energy[3], jump_out
+
+
+def _at_displacement(points: list[Point], delta: float, last: bool) -> Point:
+    """The first or the last point of the path at a displacement."""
+    pairs = _pairs(points, lambda p: p.state.displacement - delta, True)
+    if not pairs:
+        raise NoSuchEvent(f"the path does not reach the displacement {delta:.6g} on both branches")
+    return _root(pairs[-1 if last else 0], lambda p: p.state.displacement - delta)

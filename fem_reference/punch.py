@@ -1,0 +1,114 @@
+"""Rigid punch shapes f(r): heights above the apex at r = 0."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["CustomPunch", "PowerPunch", "Punch", "radius_at_height"]
+
+Array = NDArray[np.float64]
+
+
+@runtime_checkable
+class Punch(Protocol):
+    """An axisymmetric shape with f(0) = 0, rising without bound."""
+
+    def height(self, r: Array) -> Array:
+        """f(r), shape of `r`."""
+        ...
+
+    def slope(self, r: Array) -> Array:
+        """df/dr, shape of `r`."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class PowerPunch:
+    """f(r) = r^n / (n Q) (Eq. 24 of the paper): n = 1 a cone, n = 2 a paraboloid of radius Q.
+
+    Examples
+    --------
+    >>> PowerPunch(n=2.0, Q=4.0).height(np.array([0.0, 2.0]))
+    array([0. , 0.5])
+    """
+
+    n: float
+    Q: float
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.n) and self.n >= 1):
+            raise ValueError(
+                f"shape index n = {self.n} is outside [1, infinity): a cusped punch has no bounded pressure to resolve"
+            )
+        if not (math.isfinite(self.Q) and self.Q > 0):
+            raise ValueError(f"shape parameter Q = {self.Q} is outside (0, infinity)")
+
+    def height(self, r: Array) -> Array:
+        """f(r), shape of `r`."""
+        return np.asarray(r, float) ** self.n / (self.n * self.Q)
+
+    def slope(self, r: Array) -> Array:
+        """df/dr, shape of `r`."""
+        return np.asarray(r, float) ** (self.n - 1.0) / self.Q
+
+
+@dataclass(frozen=True, slots=True)
+class CustomPunch:
+    """Any shape given by two callables, f(r) and df/dr.
+
+    Examples
+    --------
+    >>> sphere_like = CustomPunch(lambda r: np.sqrt(1.0 + r**2) - 1.0, lambda r: r / np.sqrt(1.0 + r**2))
+    >>> float(sphere_like.slope(np.array(0.0)))
+    0.0
+    """
+
+    function: Callable[[Array], Array]
+    derivative: Callable[[Array], Array]
+
+    def __post_init__(self) -> None:
+        apex = float(self.function(np.array(0.0)))
+        if apex != 0:
+            raise ValueError(f"the punch has f(0) = {apex}; heights are measured from the apex, f(0) = 0")
+
+    def height(self, r: Array) -> Array:
+        """f(r), shape of `r`."""
+        return np.asarray(self.function(np.asarray(r, float)), float)
+
+    def slope(self, r: Array) -> Array:
+        """df/dr, shape of `r`."""
+        return np.asarray(self.derivative(np.asarray(r, float)), float)
+
+
+def radius_at_height(punch: Punch, height: float) -> float:
+    """Radius where f(r) = height, by bisection in log r.
+
+    Raises
+    ------
+    ValueError
+        If the punch does not reach that height within 1e+-100.
+
+    Examples
+    --------
+    >>> round(radius_at_height(PowerPunch(n=2.0, Q=2.0), 1.0), 9)
+    2.0
+    """
+    low, high = -100.0, 100.0
+    # A shape may overflow far out: infinity is above any height.
+    with np.errstate(over="ignore"):
+        if not float(punch.height(np.array(10.0**high))) > height:
+            raise ValueError(
+                f"the punch never reaches the height {height}: its shape must rise without bound"
+            )
+        for _ in range(120):
+            middle = 0.5 * (low + high)
+            low, high = (
+                (low, middle) if float(punch.height(np.array(10.0**middle))) > height else (middle, high)
+            )
+    return float(10.0 ** (0.5 * (low + high)))
