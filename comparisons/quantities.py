@@ -9,45 +9,45 @@ __all__ = ["QUANTITIES", "Quantity"]
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A quantity: name, symbol, unit (the scale of the dimensionless value) and meaning with sign rule."""
+    """A quantity: name, symbol, kind (which decides the unit) and meaning with sign rule."""
 
     name: str
     symbol: str
-    unit: str
+    kind: str
     meaning: str
 
+    @property
+    def unit(self) -> str:
+        """The scale of the dimensionless value."""
+        return _UNITS[self.kind]
 
-_LOAD = "pi Q^(2/n) dgamma z0^(2/n-1)"
-_ENERGY = "pi Q^(2/n) dgamma z0^(2/n)"
+
+#: Kind -> scale; the kinds are those of `fscm.physical.PhysicalProblem.scales`, and plain numbers.
+_UNITS = {
+    "load": "pi Q^(2/n) dgamma z0^(2/n-1)",
+    "energy": "pi Q^(2/n) dgamma z0^(2/n)",
+    "displacement": "z0",
+    "gap": "z0",
+    "number": "1",
+}
 
 QUANTITIES: dict[str, Quantity] = {
     q.name: q
     for q in (
-        Quantity("pull_off_force", "-P_c", _LOAD, "-min P along the equilibrium path; positive"),
-        Quantity("pull_off_displacement", "delta_c", "z0", "displacement where P is smallest"),
+        Quantity("pull_off_force", "-P_c", "load", "-min P along the equilibrium path; positive"),
+        Quantity("pull_off_displacement", "delta_c", "displacement", "displacement where P is smallest"),
         Quantity(
-            "jump_in_displacement",
-            "delta_in",
-            "z0",
-            "fold where approach under displacement control jumps into contact",
+            "jump_in_displacement", "delta_in", "displacement", "fold where approach jumps into contact"
         ),
-        Quantity("jump_in_gap", "H0_in", "z0", "central gap at the jump-in fold"),
+        Quantity("jump_in_gap", "H0_in", "gap", "central gap at the jump-in fold"),
         Quantity(
-            "jump_out_displacement",
-            "delta_out",
-            "z0",
-            "fold where retreat under displacement control jumps out of contact",
+            "jump_out_displacement", "delta_out", "displacement", "fold where retreat jumps out of contact"
         ),
-        Quantity("jump_out_gap", "H0_out", "z0", "central gap at the jump-out fold"),
-        Quantity("zero_load_displacement", "delta_0", "z0", "displacement in contact where P = 0"),
+        Quantity("jump_out_gap", "H0_out", "gap", "central gap at the jump-out fold"),
+        Quantity("zero_load_displacement", "delta_0", "displacement", "displacement in contact where P = 0"),
+        Quantity("hysteresis_energy", "W_hys", "energy", "lost in one cycle of displacement control; >= 0"),
         Quantity(
-            "hysteresis_energy", "W_hys", _ENERGY, "energy lost in one cycle of displacement control; >= 0"
-        ),
-        Quantity(
-            "critical_tabor_number",
-            "mu_crit",
-            "1",
-            "Tabor number above which jumps and hysteresis exist, at given n and k",
+            "critical_tabor_number", "mu_crit", "number", "jumps and hysteresis exist above it; mu is ignored"
         ),
     )
 }

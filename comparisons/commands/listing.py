@@ -47,7 +47,7 @@ def _models() -> pd.DataFrame:
 
 
 def _quantities() -> pd.DataFrame:
-    return pd.DataFrame([asdict(quantity) for quantity in QUANTITIES.values()])
+    return pd.DataFrame([asdict(quantity) | {"unit": quantity.unit} for quantity in QUANTITIES.values()])
 
 
 def _cases() -> pd.DataFrame:

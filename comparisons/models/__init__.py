@@ -16,6 +16,7 @@ __all__ = ["MODELS", "create"]
 #: is in `_KNOWS_POISSON`.
 MODELS: dict[str, str] = {
     "fscm": "comparisons.models.fscm_model:FullSelfConsistent",
+    "fem": "comparisons.models.fem_model:FiniteElements",
     "jkr": "comparisons.models.jkr:JKR",
     "md-original": "comparisons.models.maugis_dugdale:MaugisDugdaleOriginal",
     "md-improved": "comparisons.models.maugis_dugdale:MaugisDugdaleImproved",
@@ -26,7 +27,7 @@ MODELS: dict[str, str] = {
 
 #: Models that work with physical quantities.  The dimensionless problem has no Poisson's ratio (Eq. 29 has
 #: absorbed it), so every other model gives the same answer for all of them.
-_KNOWS_POISSON: frozenset[str] = frozenset()
+_KNOWS_POISSON = frozenset({"fem"})
 
 
 def create(name: str, poisson_ratio: float | None = None) -> Model:

@@ -35,3 +35,8 @@ def test_a_model_answers_the_pull_off_force_or_says_why_not(name):
 def test_an_unknown_name_lists_the_known():
     with pytest.raises(ValueError, match="fscm, jkr, md-original"):
         create("hertz")
+
+
+def test_poissons_ratio_reaches_the_model_that_needs_it():
+    assert create("fem", 0.1)._poisson_ratio == 0.1
+    assert create("jkr", 0.1).name == "jkr"

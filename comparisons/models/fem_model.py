@@ -1,0 +1,98 @@
+"""The finite elements as one of the models: dimensionless questions, physical computation.
+
+`fem_reference` has never heard of a Tabor number.  Here a dimensionless problem becomes a physical one by
+Eqs. 7, 24 and 29, and its answer is scaled back by Eqs. 25 and 31; so where the two references agree, those
+equations are right as well.  No scale is 1 and no two are equal, or a wrong power of one would not show.
+"""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import fem_reference
+from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
+from comparisons.quantities import QUANTITIES
+from fscm.physical import PhysicalProblem
+from fscm.problem import Problem
+from fscm.profile import PowerLaw
+from fscm.surface_law import LennardJones93
+
+__all__ = ["FiniteElements"]
+
+_SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25}
+
+
+class FiniteElements:
+    """The package `fem_reference` asked in dimensionless terms.
+
+    Parameters
+    ----------
+    poisson_ratio : float
+        In [0, 0.5); the dimensionless answer does not depend on it but for numerical errors.
+    """
+
+    name: ClassVar[str] = "fem"
+    version: ClassVar[str] = "1"
+    citation: ClassVar[str] = (
+        "This package: axisymmetric elements on the graded half-space, condensed to its surface"
+    )
+    domain: ClassVar[str] = "n >= 1, 0 <= k < 1, 0 <= nu < 0.5; power-law punch and 9-3 law"
+
+    def __init__(self, poisson_ratio: float = 0.3) -> None:
+        self._poisson_ratio = poisson_ratio
+
+    def evaluate(self, problem: Problem, quantity: str) -> Result:
+        """Return the quantity, or raise as `comparisons.model.Model` says."""
+        if quantity not in fem_reference.QUANTITIES:
+            raise NotApplicable(f"the finite elements do not compute {quantity}")
+        physical, solid, punch, law = self._physical(problem)
+        try:
+            solution = fem_reference.solve(solid, punch, law, quantity)
+        except fem_reference.NoSuchEvent as reason:
+            raise NotApplicable(str(reason)) from reason
+        except fem_reference.NotConverged as failure:
+            raise ComputationFailed(str(failure)) from failure
+        kind = QUANTITIES[quantity].kind
+        return Result(
+            value=physical.to_dimensionless(kind, solution.value),
+            u_num=physical.to_dimensionless(kind, solution.u_num),
+            size=solution.size,
+            iterations=solution.iterations,
+            residual=solution.residual,
+            seconds=solution.seconds,
+        )
+
+    def curve(self, problem: Problem) -> Curve:
+        """Return the equilibrium path from far away into compression."""
+        physical, solid, punch, law = self._physical(problem)
+        try:
+            path = fem_reference.trace(solid, punch, law)
+        except fem_reference.NotConverged as failure:
+            raise ComputationFailed(str(failure)) from failure
+        return Curve(
+            displacement=physical.to_dimensionless("displacement", path.displacement),
+            load=physical.to_dimensionless("load", path.load),
+            columns={
+                "central_gap": physical.to_dimensionless("gap", path.central_gap),
+                "edge_radius": physical.to_dimensionless("radius", path.contact_radius),
+            },
+        )
+
+    def _physical(
+        self, problem: Problem
+    ) -> tuple[PhysicalProblem, fem_reference.Solid, fem_reference.PowerPunch, fem_reference.LennardJones]:
+        if problem.n < 1.0 or problem.k >= 1.0:
+            raise NotApplicable(
+                f"the finite elements need n >= 1 and k < 1, not n = {problem.n:g}, k = {problem.k:g}"
+            )
+        if problem.profile != PowerLaw(problem.n) or not isinstance(problem.law, LennardJones93):
+            raise NotApplicable(
+                "the finite elements are asked here for the power-law punch and the 9-3 law alone"
+            )
+        physical = PhysicalProblem.from_problem(problem, nu=self._poisson_ratio, **_SCALES)
+        return (
+            physical,
+            fem_reference.Solid(E0=physical.E0, c0=physical.c0, k=physical.k, nu=physical.nu),
+            fem_reference.PowerPunch(n=physical.n, Q=physical.Q),
+            fem_reference.LennardJones(work_of_adhesion=physical.work_of_adhesion, z0=physical.z0),
+        )
