@@ -42,6 +42,15 @@ def test_force_curves_are_named():
     assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == ["a", "b"]
 
 
+def test_force_curves_are_shown_where_the_surfaces_pull():
+    x = np.linspace(-50, 50, 1001)
+    axes = force_curve.draw({"a": Curve(x, np.where(x > 0, x**2, 0) - 2 * np.exp(-(x**2)))}, "").axes[0]
+    assert axes.get_ylim() == (-2.3, 2.0)
+    left, right = axes.get_xlim()
+    assert -5 < left < -1.5
+    assert 1 < right < 3
+
+
 @pytest.mark.parametrize("suffix", FORMATS)
 def test_the_same_data_give_the_same_bytes(tmp_path, suffix):
     for name in "ab":
