@@ -10,7 +10,7 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from multiprocessing import get_context, parent_process
@@ -148,8 +148,9 @@ def answer(task: Task) -> Row:
 def _start_worker() -> None:
     """Prepare a worker: one thread (the cores are taken by the workers), and no life after the parent's."""
     threadpool_limits(1)
-    # Ctrl-C reaches the whole process group; the parent alone decides.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # Ctrl-C reaches the whole process group: end at once and without a traceback; the parent has the last word.
+    if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
     parent = parent_process()
     if parent is not None:
         threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
@@ -160,10 +161,10 @@ def _end_with(parent: BaseProcess) -> None:
     os._exit(1)
 
 
-def compute(tasks: list[Task], jobs: int) -> Iterator[Row]:
+def compute(tasks: list[Task], jobs: int) -> Generator[Row]:
     """Answer tasks on `jobs` processes and yield each row as it is finished.
 
-    Closing the iterator early (an error or Ctrl-C in the caller) drops what has not begun.
+    Closing the iterator (`contextlib.closing`) before its end drops what has not begun.
 
     Raises
     ------

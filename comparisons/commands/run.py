@@ -7,6 +7,7 @@ import os
 import sys
 import time
 from concurrent.futures import BrokenExecutor
+from contextlib import closing
 from datetime import UTC, datetime
 from hashlib import sha256
 from importlib.resources import files
@@ -132,8 +133,8 @@ def _complete(tasks: list[Task], journal: Journal, jobs: int) -> list[Row]:
         f"{len(missing)} computations on {jobs} processes"
         + (f", {len(tasks) - len(missing)} are stored" if stored else "")
     )
-    with counting("computing", len(missing)) as count:
-        for row in compute(missing, jobs):
+    with counting("computing", len(missing)) as count, closing(compute(missing, jobs)) as answers:
+        for row in answers:
             journal.add(row)
             count()
     wanted = {task.key for task in tasks}
