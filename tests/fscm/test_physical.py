@@ -9,9 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fscm.physical import PhysicalProblem, response_factor, response_factor_per_rest
+from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
 from fscm.profile import RoundedCone
+from fscm.response_factor import response_factor, response_factor_per_rest
 from fscm.surface_law import Mie
 
 EPS = np.finfo(float).eps

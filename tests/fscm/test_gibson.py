@@ -1,0 +1,226 @@
+"""The Gibson limit: closed forms, extended precision, another quadrature, and the limit k -> 1 itself."""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+from fscm.analysis import Analysis
+from fscm.errors import NoSuchEvent
+from fscm.gibson import GibsonSolid
+from fscm.problem import Problem
+from fscm.profile import RoundedCone
+from fscm.surface_law import LennardJones93, Mie
+from fscm.tabulated_law import TabulatedLaw
+
+LAW = LennardJones93()
+# 2 mu^2 p'_max = 1 with p'_max = 8 q^4 - 24 q^10 at q^6 = 2/15.
+CRITICAL = math.sqrt(0.5 / (4.8 * (2 / 15) ** (2 / 3)))
+JUMPS = ["jump_in_displacement", "jump_in_gap", "jump_out_displacement", "hysteresis_energy"]
+
+
+def solid(n, mu, law=None):
+    return GibsonSolid(Problem(n, 1, mu, law=law))
+
+
+def value(n, mu, quantity):
+    return solid(n, mu).solution(quantity).value
+
+
+def energy(H, mu):
+    """Elastic and surface energy per area."""
+    return float(mu**2 * LAW.traction(H) ** 2 + LAW.energy(H))
+
+
+@pytest.mark.parametrize("n", [1.0, 2.0, 5.0])
+def test_critical_tabor_number_is_a_closed_form(n):
+    found = solid(n, 1.0).solution("critical_tabor_number")
+    assert abs(found.value - CRITICAL) <= found.u_num < 1e-13
+
+
+@pytest.mark.parametrize("mu", [0.01, 0.5, 1.0, 2.0, 5.0, 20.0])
+def test_a_paraboloid_has_pull_off_two_at_any_tabor_number(mu):
+    # P = integral of p d(r^2) = -2 integral of de = 2 e(H0), least where p = 0, that is at H0 = 0.
+    for quantity, exact in [("pull_off_force", 2.0), ("pull_off_displacement", 0.0)]:
+        found = solid(2, mu).solution(quantity)
+        assert abs(found.value - exact) <= found.u_num
+        assert found.u_num < 1e-12 * (1 + mu**2)
+
+
+@pytest.mark.parametrize("mu", [0.3, 1.0, 3.0])
+@pytest.mark.parametrize("H", [-0.1, -0.01, 0.0, 0.005, 3.0, 20.0])
+def test_the_load_of_a_paraboloid_is_twice_the_energy_at_its_center(mu, H):
+    assert solid(2, mu).load(H) == pytest.approx(2 * energy(np.array(H), mu), rel=1e-12, abs=1e-12)
+
+
+@pytest.mark.parametrize(("n", "bradley"), [(1, 2.880), (1.5, 2.166), (2, 2.0), (5, 1.669)])
+def test_stiff_limit_is_bradley(n, bradley):
+    # Eq. 56, as published to four digits.
+    assert value(n, 1e-4, "pull_off_force") == pytest.approx(bradley, abs=6e-4)
+
+
+@pytest.mark.parametrize("n", [1.0, 1.5, 2.0, 5.0])
+def test_soft_limit_is_jkr(n):
+    # Eq. 57 at k = 1: cos(k pi / 2) / (2 pi (1 - k)) -> 1/4 and B(n/2, 1) = 2/n.
+    for mu, tolerance in ((20.0, 0.06), (80.0, 0.015)):
+        eq57 = 2 * 2 * n / (2 * (n + 2)) * (0.25 ** (n - 2) * 2.0**4) ** (1 / (2 * n)) * mu ** ((2 - n) / n)
+        assert value(n, mu, "pull_off_force") == pytest.approx(eq57, rel=tolerance)
+    # Limits as k -> 1 of C_out and C_in (Sec. 3.3) hold for any n.
+    assert value(n, 80.0, "jump_out_displacement") / 80.0 == pytest.approx(-2.0, rel=1e-4)
+    assert (1 - value(n, 80.0, "jump_in_displacement")) / 80.0**0.5 == pytest.approx(8 / 3, rel=1e-3)
+
+
+@pytest.mark.parametrize("n", [1.0, 1.5, 5.0])
+@pytest.mark.parametrize("mu", [0.4, 2.0])
+def test_load_by_quadrature_over_the_radius(n, mu):
+    model = solid(n, mu)
+    M = 2 * mu**2
+
+    def gap(u, low, high):
+        return brentq(lambda H: H - M * float(LAW.traction(np.array(H))) - u, low, high, xtol=1e-15)
+
+    H0 = -0.02
+    delta = model.displacement(H0)
+    if mu < CRITICAL:
+        front, sides = None, None
+    else:
+        near, far = (0.06, 1.9)  # rough, refined by Maxwell's rule: equal levels and equal energies
+        mp_p = lambda H: mpmath.mpf(8) / 3 * ((H + 1) ** -9 - (H + 1) ** -3)  # noqa: E731
+        mp_e = lambda H: M * mp_p(H) ** 2 / 2 + (H + 1) ** -8 / 3 - 4 * (H + 1) ** -2 / 3  # noqa: E731
+        sides = mpmath.findroot(
+            lambda a, b: (a - M * mp_p(a) - b + M * mp_p(b), mp_e(a) - mp_e(b)), (near, far)
+        )
+        front = float(sides[0] - M * mp_p(sides[0]))
+
+    def density(r):
+        u = r**n / n - delta
+        if front is None:
+            H = gap(u, -0.9, max(u, 0.0) + 5.0)
+        elif u < front:
+            H = gap(u, -0.9, LAW.peak_gap)
+        else:
+            H = gap(u, float(sides[1]) - 1e-6, u + 5.0)
+        return 2 * r * float(LAW.traction(np.array(H)))
+
+    edge = ((front if front is not None else 0.5) + delta) ** (1 / n) * n ** (1 / n)
+    parts = [(0.0, edge), (edge, 2 * edge), (2 * edge, 10 * edge), (10 * edge, np.inf)]
+    load = sum(quad(density, a, b, epsabs=1e-11, epsrel=1e-11, limit=200)[0] for a, b in parts)
+    assert model.load(H0) == pytest.approx(load, rel=2e-9)
+
+
+@pytest.mark.parametrize("mu", [0.7, 1.0, 3.0])
+def test_jumps_in_extended_precision(mu):
+    model = solid(2, mu)
+    with mpmath.workdps(40):
+        M = 2 * mpmath.mpf(mu) ** 2
+
+        def p(H):
+            return mpmath.mpf(8) / 3 * ((H + 1) ** -9 - (H + 1) ** -3)
+
+        def U(H):
+            return (H + 1) ** -8 / 3 - 4 * (H + 1) ** -2 / 3
+
+        A = mpmath.findroot(lambda H: 1 - M * mpmath.diff(p, H), model.solution("jump_in_gap").value)
+        near, far = mpmath.findroot(
+            lambda a, b: (
+                a - M * p(a) - b + M * p(b),
+                M * p(a) ** 2 / 2 + U(a) - M * p(b) ** 2 / 2 - U(b),
+            ),
+            (model._local.front.near, model._local.front.far),
+        )
+        # Two copies of one gap would satisfy both equations as well.
+        assert far - near > 0.1
+        for quantity, exact in [
+            ("jump_in_gap", A),
+            ("jump_in_displacement", -A + M * p(A)),
+            ("jump_out_displacement", -near + M * p(near)),
+        ]:
+            found = model.solution(quantity)
+            assert abs(found.value - float(exact)) <= found.u_num < 1e-12
+
+
+@pytest.mark.parametrize("mu", [0.8, 2.0])
+def test_hysteresis_is_the_area_between_loading_and_unloading(mu):
+    # n = 2, where P = 2 e on either branch: integrate the difference over the displacement.
+    model = solid(2, mu)
+    B, A = (model.solution(f"jump_{way}_displacement").value for way in ("out", "in"))
+
+    def difference(delta):
+        return 2 * (energy(model._local.far(-delta), mu) - energy(model._local.near(-delta), mu))
+
+    area = quad(difference, B, A, epsabs=1e-12, limit=200)[0]
+    assert model.solution("hysteresis_energy").value == pytest.approx(area, rel=1e-8)
+
+
+@pytest.mark.parametrize("n", [1.0, 2.0, 5.0])
+def test_load_is_stationary_at_pull_off_and_zero_at_zero_load(n):
+    for mu in (0.5, 2.0):
+        model = solid(n, mu)
+        delta, force = (model.solution(f"pull_off_{name}").value for name in ("displacement", "force"))
+        for step in (-1e-3, 1e-3):
+            assert model._sum(delta + step, True, 0)[0] > -force
+        zero = model.solution("zero_load_displacement")
+        assert abs(model._sum(zero.value, True, 0)[0]) < 1e-11
+        assert zero.value > delta
+
+
+@pytest.mark.parametrize("quantity", JUMPS)
+def test_no_jump_below_the_critical_tabor_number(quantity):
+    with pytest.raises(NoSuchEvent, match="no jump"):
+        solid(2, 0.999 * CRITICAL).solution(quantity)
+    assert math.isfinite(solid(2, 1.001 * CRITICAL).solution(quantity).value)
+
+
+def test_hysteresis_starts_from_nothing():
+    losses = [value(2, CRITICAL * (1 + x), "hysteresis_energy") for x in (1e-3, 1e-2, 1e-1)]
+    assert 0 < losses[0] < losses[1] < losses[2] < 1e-2
+    for quantity in ("jump_in_displacement", "jump_out_displacement"):
+        at = [value(2, CRITICAL * (1 + x), quantity) for x in (1e-9, 1e-4)]
+        assert at[0] == pytest.approx(at[1], abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("n", "quantity"), [(2, "pull_off_force"), (2, "zero_load_displacement"), (5, "pull_off_force")]
+)
+def test_the_solver_for_graded_solids_tends_to_it(n, quantity):
+    # The leading correction is linear in 1 - k: Richardson from k = 0.9 and 0.95 leaves the quadratic one.
+    coarse, fine = (Analysis(Problem(n, k, 0.5)).solution(quantity).value for k in (0.9, 0.95))
+    limit = value(n, 0.5, quantity)
+    assert abs(2 * fine - coarse - limit) < 0.06 * abs(coarse - limit) < 2e-3
+
+
+def test_other_laws():
+    mie = solid(2, 1.0, Mie(12, 6))
+    assert mie.solution("pull_off_force").value == pytest.approx(2.0, rel=1e-13)
+    gap = np.geomspace(0.7, 20.0, 100)
+    table = solid(2, 1.0, TabulatedLaw(gap, LAW.traction(gap - 1.0), tail_exponent=3))
+    for quantity in ("jump_in_displacement", "jump_out_displacement"):
+        found, exact = table.solution(quantity), value(2, 1.0, quantity)
+        assert found.value == pytest.approx(exact, rel=2e-5)
+    # As for any law, P = 2 e at n = 2.
+    assert table.load(-0.01) == pytest.approx(2 * table._local.energy(-0.01), rel=1e-9)
+
+
+def test_between_the_branches_there_is_no_number():
+    model = solid(2, 1.0)
+    inside = 0.5 * (model._local.front.near + model.solution("jump_in_gap").value)
+    for ask in (model.load, model.displacement):
+        with pytest.raises(ValueError, match="between jump-in and jump-out"):
+            ask(inside)
+        for outside in (-1.0, -2.0, math.nan, math.inf):
+            with pytest.raises(ValueError, match="central gap"):
+                ask(outside)
+    with pytest.raises(NoSuchEvent, match="jump_out_gap"):
+        model.solution("jump_out_gap")
+
+
+def test_bad_input():
+    with pytest.raises(ValueError, match="gradient exponent"):
+        GibsonSolid(Problem(2, 0.99, 1.0))
+    with pytest.raises(ValueError, match="power law"):
+        GibsonSolid(Problem(1, 1, 1.0, profile=RoundedCone(1.0)))
+    with pytest.raises(ValueError, match="unknown quantity"):
+        solid(2, 1.0).solution("weight")
