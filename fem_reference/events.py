@@ -13,9 +13,9 @@ from scipy.optimize import brentq
 
 from fem_reference.contact import Contact
 from fem_reference.errors import NoSuchEvent
-from fem_reference.path import Point, path
+from fem_reference.path import Point, march, path
 
-__all__ = ["QUANTITIES", "Event", "find_event", "walk"]
+__all__ = ["QUANTITIES", "Event", "find_event", "locate", "walk"]
 
 ROOT_TOLERANCE = 1e-11
 """Relative tolerance of the parameter at an event; P is stationary there and delta moves by as little."""
@@ -97,11 +97,12 @@ def find_event(contact: Contact, quantity: str) -> Event:
     if quantity not in QUANTITIES:
         raise ValueError(f"quantity {quantity!r} is unknown; choose one of {', '.join(QUANTITIES)}")
     points = walk(contact)
-    value, point = _read(points, quantity)
+    value, point = locate(points, quantity)
     return Event(quantity, value, point, sum(p.state.iterations for p in points))
 
 
-def _read(points: list[Point], quantity: str) -> tuple[float, Point]:
+def locate(points: list[Point], quantity: str) -> tuple[float, Point]:
+    """Value of a quantity on a walked path, and its point (see `find_event`)."""
     if quantity in ("pull_off_force", "pull_off_displacement"):
         point = pull_off(points)
         return (-point.state.load if quantity == "pull_off_force" else point.state.displacement), point
@@ -134,7 +135,8 @@ def _root(pair: Pair, function: Callable[[Point], float]) -> Point:
     def value(parameter: float) -> float:
         if parameter not in known:
             nearest = min(known.values(), key=lambda p: abs(p.parameter - parameter))
-            known[parameter] = nearest.leg.solve(parameter, nearest.predict(parameter))
+            step = parameter - nearest.parameter
+            *_, known[parameter] = march(nearest, step, parameter)
         return function(known[parameter])
 
     scale = max(abs(pair[0].parameter), abs(pair[1].parameter))

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from fem_reference.contact import Contact
 from fem_reference.errors import NotConverged
-from fem_reference.events import QUANTITIES, Event, find_event, walk
+from fem_reference.events import QUANTITIES, Event, find_event, locate, walk
 from fem_reference.modulus import Modulus, OffsetPowerLaw, PowerLaw
-from fem_reference.path import EDGE_RISE, Point, edge_width
+from fem_reference.path import EDGE_RISE, edge_width
 from fem_reference.punch import Punch, radius_at_height
 from fem_reference.surface import MeshSpec, compliance_for
 from fem_reference.traction import LennardJones
@@ -50,7 +50,7 @@ LAYER_DEPTH = 0.02
 """Depth resolved under the surface relative to the edge width, times min(1, 5 k): the first layer's error is
 linear in its thickness for 0 < k < 0.2, where z^(1-k) and z are hard to tell apart."""
 
-WIDTH_SHARE = 0.25
+WIDTH_SHARE = 0.18
 """Resolved edge width relative to the length over which the gap rises by z0 at the edge."""
 
 FAR_HEIGHT = 1e4
@@ -342,14 +342,26 @@ class _Problem:
         width = self.first_width(size)
         spec = self.spec(width, size, level)
         for _ in range(REFINEMENTS):
-            point: Point = self.event(quantity, spec, size).point
-            if not point.leg.touching:
-                return spec, size
-            needed = self.spec(WIDTH_SHARE * edge_width(point), size, level)
-            off = abs(point.contact_radius / size - 1.0)
-            if needed.edge_width >= spec.edge_width and (scaling or off <= 0.5 * spec.edge_width):
-                return spec, size
-            if not scaling:
+            try:
+                points = walk(self.contact(spec, size))
+            except NotConverged:
+                # An under-resolved edge is pinned to the elements, and its path may not be traversable.
+                spec = self.spec(0.25 * spec.edge_width, size, level)
+                continue
+            if quantity not in ("zero_load_displacement", "hysteresis_energy"):
+                # Beyond the pull-off the edge is sharper relative to its radius, but nobody asked.
+                deepest = min(range(len(points)), key=lambda i: points[i].state.load)
+                points_used = points[: deepest + 2]
+            else:
+                points_used = points
+            widths = [edge_width(point) for point in points_used if point.leg.touching]
+            needed = self.spec(WIDTH_SHARE * min(widths, default=1.0), size, level)
+            if needed.edge_width >= spec.edge_width:
+                if scaling:
+                    return spec, size
+                point = locate(points, quantity)[1]
+                if not point.leg.touching or abs(point.contact_radius / size - 1.0) <= 0.5 * spec.edge_width:
+                    return spec, size
                 size = point.contact_radius
             spec = self.spec(min(needed.edge_width, spec.edge_width), size, level)
         raise NotConverged(
