@@ -181,15 +181,23 @@ def test_pull_off_is_the_lowest_of_a_dense_sample(
 
 @pytest.mark.parametrize(
     ("n", "k", "mu"),
-    [(1.0, 0.4, 0.3), (2.0, 0.0, 1.0), (2.0, 0.6, 0.02), (5.0, 0.2, 2.0), (0.8, 0.05, 8.0), (9.0, 0.3, 0.05)],
+    [
+        (1.0, 0.4, 0.3),
+        (2.0, 0.0, 1.0),
+        (2.0, 0.6, 0.02),
+        (5.0, 0.2, 2.0),
+        (0.8, 0.05, 8.0),
+        (9.0, 0.3, 0.05),
+        (5.5, 0.95, 9.0),
+    ],
 )
 def test_error_bounds_hold_against_many_digits(n: float, k: float, mu: float) -> None:
-    """dP/dw = 0 and P = 0 solved on the printed equations with 40 digits."""
+    """dP/dw = 0 and P = 0 solved on the printed equations with 130 digits: L / a is 1e-30 at k = 0.95."""
     model, problem, punch = MaugisDugdaleImproved(), Problem(n, k, mu), GradedPunch(n, k)
     Lambda = eta(n) * mu
     events, scale = CohesiveEvents.scan(CohesiveContact(punch, Lambda)), punch.scales(mu)
-    with mp.workdps(40):
-        h = mp.mpf(10) ** -10
+    with mp.workdps(130):
+        h = mp.mpf(10) ** -25
 
         def slope(w: mp.mpf) -> mp.mpf:
             return printed_state(n, k, Lambda, w + h)[1] - printed_state(n, k, Lambda, w - h)[1]
