@@ -1,0 +1,175 @@
+"""Pressure and gap of a Maugis-Dugdale contact along the radius (needed to draw the surface).
+
+Inverting the Abel transform of `cohesive_contact`, the pressure inside the contact (r < a) is Hertz's for the
+radius a minus a share of the cohesive stress that rises from the inside to 1 at the edge,
+
+    p(r) = (stiffness / 2) n D(1) integral_r^a x^(n-1) (x^2 - r^2)^(-s) dx - Lambda I_u(s, 1-s),
+    u = (c^2 - a^2) / (c^2 - r^2),
+
+with the regularised incomplete beta function I (k = 0: (2/pi) arcsin sqrt(u)).  For a < r < c it is -Lambda.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import betainc
+
+from comparisons.model import NotApplicable
+from comparisons.models.cohesive_contact import CohesiveContact, ContactState
+from comparisons.models.graded_punch import Scales
+from comparisons.models.quadrature import FINE
+
+__all__ = ["CohesiveProfiles", "cohesive_profiles", "gap", "pressure"]
+
+Array = NDArray[np.float64]
+
+_POINTS_A_ZONE = 200
+_FARTHEST = 3.0
+# The radius nearest to the axis, over c: a cone on a homogeneous half-space has infinite pressure at r = 0.
+_NEAREST = 1e-6
+# Still two different numbers after the change of units.
+_BELOW_EDGE = 1e-15
+# The square of L / c must not underflow.
+_NARROWEST = 1e-150
+
+
+@dataclass(frozen=True, slots=True)
+class CohesiveProfiles:
+    """Profiles in barred variables.
+
+    Attributes
+    ----------
+    contact_radius, cohesive_radius : float
+        a and c, in (Q z0)^(1/n).
+    displacement, load : float
+        delta in z0, and P in pi Q^(2/n) dgamma z0^(2/n-1).
+    radius : ndarray, shape (m,)
+        Increasing radii, in (Q z0)^(1/n), to three times c; denser towards a and c on both sides.
+    pressure : ndarray, shape (m,)
+        p(r) in dgamma / z0, tension negative; it jumps at c, where two radii are 1e-15 apart.
+    gap : ndarray, shape (m,)
+        H(r) in z0; 0 inside a.
+    """
+
+    contact_radius: float
+    cohesive_radius: float
+    displacement: float
+    load: float
+    radius: Array
+    pressure: Array
+    gap: Array
+
+
+def pressure(contact: CohesiveContact, state: ContactState, r: Array) -> Array:
+    """p(r) in tilde variables, shape of `r` (1-D, > 0), for a state of one element."""
+    punch = contact.punch
+    n, s = punch.n, punch.s
+    a, c, L = _radii(state)
+    p = np.where(r < c, -contact.maugis_number, 0.0)
+    inside = r < a
+    if not np.any(inside):
+        return p
+    ri = r[inside]
+    rise = (a - ri) * (a + ri)
+    x2 = ri[:, None] ** 2 + rise[:, None] * FINE.complement
+    hertz = 0.5 * rise ** (1.0 - s) * ((x2 ** (0.5 * n - 1.0) * FINE.complement**-s) @ FINE.weight)
+    share = betainc(s, 1.0 - s, L**2 / (L**2 + rise)) if s > 0.0 else 1.0
+    p[inside] = 0.5 * punch.stiffness * n * punch.flattening * hertz - contact.maugis_number * share
+    return p
+
+
+def gap(contact: CohesiveContact, state: ContactState, r: Array) -> Array:
+    """H(r) in tilde variables, shape of `r` (1-D, > 0), for a state of one element.
+
+    The integral of `cohesive_contact` is taken over (a, min(r, c)) and (c, r), each in y with x^2 linear in y
+    and 1 - y = z^(1/s), which makes the kernel (r^2 - x^2)^(s-1) regular where it is singular.
+    """
+    edge = _radii(state)
+    a, c, L = edge
+    H = np.zeros_like(r)
+    for i in np.nonzero(r > a)[0]:
+        ri = float(r[i])
+        if contact.punch.s == 0.0:
+            # Independent springs: the deformation is 2 p(r).
+            H[i] = (ri**contact.punch.n - a**contact.punch.n) / contact.punch.n
+            H[i] += 2.0 * contact.maugis_number if ri >= c else 0.0
+        elif ri < c:
+            H[i] = _gap_part(contact, edge, a, ri, np.sqrt((ri - a) * (ri + a)), ri)
+        else:
+            H[i] = _gap_part(contact, edge, a, c, L, ri)
+            if ri > c:
+                H[i] += _gap_part(contact, edge, c, ri, np.sqrt((ri - c) * (ri + c)), ri)
+    return H
+
+
+def cohesive_profiles(contact: CohesiveContact, state: ContactState, scale: Scales) -> CohesiveProfiles:
+    """Return the profiles of a state of one element, in barred variables.
+
+    Raises
+    ------
+    NotApplicable
+        If the cohesive zone is so narrow that its width underflows.
+    """
+    a, c, L = _radii(state)
+    if L / c < _NARROWEST:
+        raise NotApplicable(
+            f"the cohesive zone of radius {c:.6g} has a width below {_NARROWEST} of it: the edge is JKR's"
+        )
+    dense = np.sin(np.linspace(0.0, 0.5 * np.pi, _POINTS_A_ZONE))
+    both = np.sin(np.linspace(0.0, 0.5 * np.pi, _POINTS_A_ZONE)) ** 2
+    inside = _NEAREST * c + (a - _NEAREST * c) * dense if a > _NEAREST * c else np.array([_NEAREST * c])
+    outside = c + (_FARTHEST - 1.0) * c * (1.0 - dense[::-1])
+    r = np.unique(np.concatenate((inside, a + (c - a) * both, [c * (1.0 - _BELOW_EDGE)], outside)))
+    r = r[r > 0.0]
+    return CohesiveProfiles(
+        contact_radius=scale.radius * a,
+        cohesive_radius=scale.radius * c,
+        displacement=scale.displacement * float(state.displacement[0]),
+        load=scale.load * float(state.load[0]),
+        radius=scale.radius * r,
+        pressure=scale.pressure * pressure(contact, state, r),
+        gap=scale.displacement * gap(contact, state, r),
+    )
+
+
+def _radii(state: ContactState) -> tuple[float, float, float]:
+    """Return a, c and L of a state of one element."""
+    return float(state.contact_radius[0]), float(state.cohesive_radius[0]), float(state.cohesive_width[0])
+
+
+def _gap_part(
+    contact: CohesiveContact,
+    edge: tuple[float, float, float],
+    start: float,
+    end: float,
+    width: float,
+    r: float,
+) -> float:
+    """Return the part of H(r) from start < x < end (a or c, r or c); width^2 = end^2 - start^2."""
+    punch = contact.punch
+    n, s = punch.n, punch.s
+    a, c, L = edge
+    log_rest = FINE.log_z / s
+    rest, y = np.exp(log_rest), -np.expm1(log_rest)
+    x2 = start**2 + width**2 * y
+    strength = 2.0 * contact.maugis_number * L ** (2.0 * s)
+    if start < c:
+        # 1 - ((c^2 - x^2)/L^2)^s: at end = c the base is z^(1/s), at end = r < c it is 1 - (width/L)^2 y.
+        strength = strength * (
+            FINE.complement
+            if end == c
+            else _closing(s, (c - end) * (c + end) / L**2, (width / L) ** 2, rest, y)
+        )
+    excess = punch.flattening * (x2 ** (0.5 * n) - a**n) + strength
+    beyond = (r - end) * (r + end) / width**2
+    kernel = (rest / (beyond + rest)) ** (1.0 - s) if beyond > 0.0 else 1.0
+    return float(punch.stiffness * width ** (2.0 * s) * ((kernel * x2**-s * excess) @ FINE.weight))
+
+
+def _closing(s: float, remainder: float, share: float, rest: Array, y: Array) -> Array:
+    """Return 1 - v^s with v = 1 - share y = remainder + share (1 - y), accurate for v near 0 and near 1."""
+    v = remainder + share * rest
+    return np.asarray(-np.expm1(s * np.where(v < 0.5, np.log(v), np.log1p(-np.minimum(share * y, 0.75)))))

@@ -1,0 +1,94 @@
+"""What JKR, DMT and Maugis-Dugdale share: a power-law punch in contact with a power-law graded half-space.
+
+The kernel of Eq. 6 is a product of two Abel kernels,
+
+    G_k(r, t) = t (2/pi) cos(k pi/2) integral_0^min(r,t) x^k (r^2 - x^2)^(-(1+k)/2) (t^2 - x^2)^(-(1+k)/2) dx,
+
+so that q(x) = integral_x^inf t p(t) (t^2 - x^2)^(-(1+k)/2) dt determines everything.  Lengths and loads are
+the tilde variables of Eqs. 63-65, in which the surface deformation is 2 (1 - k) integral p G_k dt: they are
+the barred variables (Eqs. 25-31) of a problem with mu = 1, and
+
+    delta_bar = mu delta~,    a_bar = mu^(1/n) a~,    P_bar = mu^(2/n - 1) P~,    p_bar = p~ / mu.
+
+In close contact up to the radius a, q = (delta - 1/2 B(n/2, (1+k)/2) x^n) / (2 (1 - k)) for x < a.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import beta
+
+from comparisons.model import NotApplicable
+from fscm.problem import Problem
+
+__all__ = ["GradedPunch", "Scales"]
+
+
+@dataclass(frozen=True, slots=True)
+class Scales:
+    """Factors from tilde to barred variables."""
+
+    displacement: float
+    radius: float
+    load: float
+    pressure: float
+
+
+@dataclass(frozen=True, slots=True)
+class GradedPunch:
+    """The constants of Eqs. 50-51 and 66-67 at shape index `n` and gradient exponent `k`.
+
+    Every constant has its limit at k = 1: cos(k pi/2) / (1 - k) is written through sin(pi s) / (pi s).
+
+    Examples
+    --------
+    >>> punch = GradedPunch(2.0, 0.0)
+    >>> round(punch.flattening, 6), round(punch.stiffness, 6), round(punch.adhesion, 6)
+    (1.0, 0.63662, 2.506628)
+    """
+
+    n: float
+    k: float
+
+    @classmethod
+    def of(cls, problem: Problem) -> GradedPunch:
+        """Return the constants of a problem; raise `NotApplicable` if 2n + k <= 1."""
+        if not 2.0 * problem.n + problem.k > 1.0:
+            raise NotApplicable(
+                f"n = {problem.n} and k = {problem.k} give 2n + k <= 1: "
+                "adhesion then outgrows elasticity as the contact grows"
+            )
+        return cls(float(problem.n), float(problem.k))
+
+    @property
+    def s(self) -> float:
+        """(1 - k) / 2, the exponent of the edge field."""
+        return 0.5 * (1.0 - self.k)
+
+    @property
+    def stiffness(self) -> float:
+        """2 cos(k pi/2) / (pi (1 - k)); P = stiffness (1 + k)^-1 a^(1+k) delta for a flat punch."""
+        return float(np.sinc(self.s))
+
+    @property
+    def flattening(self) -> float:
+        """1/2 B(n/2, (1+k)/2): the displacement is flattening a^n without adhesion."""
+        return 0.5 * float(beta(0.5 * self.n, 0.5 * (1.0 + self.k)))
+
+    @property
+    def adhesion(self) -> float:
+        """sqrt(2 pi (1 - k) / cos(k pi/2)): JKR subtracts adhesion a^s from the displacement (Eq. 50)."""
+        return 2.0 / math.sqrt(self.stiffness)
+
+    @property
+    def hertz_load(self) -> float:
+        """P without adhesion over a^(n+k+1) (first term of Eqs. 51 and 67)."""
+        n, k = self.n, self.k
+        return self.stiffness * self.flattening * n / ((1.0 + k) * (n + k + 1.0))
+
+    def scales(self, mu: float) -> Scales:
+        """Return the factors from tilde to barred variables at Tabor number `mu`."""
+        return Scales(mu, mu ** (1.0 / self.n), mu ** (2.0 / self.n - 1.0), 1.0 / mu)

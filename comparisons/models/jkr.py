@@ -1,0 +1,122 @@
+"""The JKR model of a power-law punch on a graded half-space (JKR-n-k, Eqs. 50-57).
+
+In the tilde variables of `graded_punch`, with D = flattening, K = adhesion, s = (1 - k)/2,
+
+    delta = D a^n - K a^s,    P = stiffness (1+k)^-1 [ n (n+k+1)^-1 D a^(n+k+1) - K a^(s+k+1) ].
+
+Each event is one value of theta in n D a^(n-s) = theta K: theta = s at jump-out (d delta = 0, Eq. 53),
+s + k + 1 at pull-off (dP = 0) and n + k + 1 at zero load; then delta = K a^s (theta / n - 1).
+"""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import numpy as np
+
+from comparisons.model import Curve
+from comparisons.models.closed_form import EPS, ClosedForm, Estimate, monomial
+from comparisons.models.graded_punch import GradedPunch
+from fscm.problem import Problem
+
+__all__ = ["JKR"]
+
+_POINTS = 401
+
+
+class JKR(ClosedForm):
+    """JKR-n-k: infinitely short-ranged adhesion, Griffith's balance at the contact edge.
+
+    Examples
+    --------
+    >>> round(JKR().evaluate(Problem(n=2, k=0.0, mu=1.0), "pull_off_force").value, 14)
+    1.5
+    """
+
+    name = "jkr"
+    citation = (
+        "Zhu, Zheng, Huang & Yu, Eqs. 50-57; Jin, Tang, Guo & Gao, J. Mech. Phys. Solids 154 (2021) 104509"
+    )
+    domain = "n > (1-k)/2, 0 <= k <= 1; exact as mu -> infinity"
+    undefined: ClassVar[dict[str, str]] = {
+        "jump_in_displacement": "surfaces do not attract before contact, so nothing jumps in",
+        "jump_in_gap": "surfaces do not attract before contact, so nothing jumps in",
+        "jump_out_gap": "the gap is zero by assumption wherever there is contact",
+        "critical_tabor_number": "the curve has a fold at every Tabor number",
+        "hysteresis_energy": "it needs a jump-in, and surfaces do not attract before contact",
+    }
+
+    def pull_off_force(self, problem: Problem) -> Estimate:
+        """-min P (Eq. 57)."""
+        punch = GradedPunch.of(problem)
+        n, k, s = punch.n, punch.k, punch.s
+        return monomial(
+            (punch.stiffness * (n - s) / ((1.0 + k) * (n + k + 1.0)), 1.0),
+            *_radius_power(punch, s + k + 1.0, s + k + 1.0),
+            (punch.adhesion, 1.0),
+            (problem.mu, 2.0 / n - 1.0),
+        )
+
+    def pull_off_displacement(self, problem: Problem) -> Estimate:
+        """Delta where P is smallest."""
+        punch = GradedPunch.of(problem)
+        return _displacement(punch, punch.s + punch.k + 1.0, problem.mu)
+
+    def jump_out_displacement(self, problem: Problem) -> Estimate:
+        """Smallest delta on the curve (Eqs. 54-55)."""
+        punch = GradedPunch.of(problem)
+        return _displacement(punch, punch.s, problem.mu)
+
+    def zero_load_displacement(self, problem: Problem) -> Estimate:
+        """Delta in contact where P = 0."""
+        punch = GradedPunch.of(problem)
+        return _displacement(punch, punch.n + punch.k + 1.0, problem.mu)
+
+    def jump_out_radius(self, problem: Problem) -> Estimate:
+        """Contact radius at the fold (Eq. 53), in (Q z0)^(1/n); 0 at k = 1."""
+        self.check(problem)
+        punch = GradedPunch.of(problem)
+        if punch.s == 0.0:
+            return Estimate(0.0, 0.0)
+        return monomial(*_radius_power(punch, punch.s, 1.0), (problem.mu, 1.0 / punch.n))
+
+    def curve(self, problem: Problem) -> Curve:
+        """Return Eqs. 50-51 from a = 0 to where the load is as compressive as the pull-off is tensile.
+
+        Column ``contact_radius``.
+        """
+        self.check(problem)
+        punch = GradedPunch.of(problem)
+        n, k, s = punch.n, punch.k, punch.s
+        pull_off = monomial(*_radius_power(punch, s + k + 1.0, 1.0)).value
+        # P(a) / P(a_c) depends on a / a_c alone: x^(n+k+1) theta_c - x^(s+k+1) (n+k+1) over its value at 1.
+        shares = np.linspace(0.0, 1.0, _POINTS)
+        end = 1.0
+        while (s + k + 1.0) * end ** (n + k + 1.0) - (n + k + 1.0) * end ** (s + k + 1.0) < n - s:
+            end *= 1.02
+        a = pull_off * end * shares**2
+        scale = punch.scales(problem.mu)
+        displacement = punch.flattening * a**n - punch.adhesion * a**s
+        load = punch.hertz_load * a ** (n + k + 1.0) - punch.stiffness * punch.adhesion / (1.0 + k) * a ** (
+            s + k + 1.0
+        )
+        return Curve(
+            displacement=scale.displacement * displacement,
+            load=scale.load * load,
+            columns={"contact_radius": scale.radius * a},
+        )
+
+
+def _radius_power(punch: GradedPunch, theta: float, power: float) -> tuple[tuple[float, float], ...]:
+    """Return the factors of a^power at the event `theta`."""
+    exponent = power / (punch.n - punch.s)
+    return ((theta * punch.adhesion, exponent), (punch.n * punch.flattening, -exponent))
+
+
+def _displacement(punch: GradedPunch, theta: float, mu: float) -> Estimate:
+    """Return the barred displacement at the event `theta`."""
+    n, s = punch.n, punch.s
+    magnitude = monomial(*_radius_power(punch, theta, s), (punch.adhesion, 1.0), (mu, 1.0))
+    factor = (theta - n) / n
+    rounding = EPS * (theta + n) / n * magnitude.value
+    return Estimate(factor * magnitude.value, abs(factor) * magnitude.u_num + rounding)

@@ -1,0 +1,103 @@
+"""The contract of every closed form: an answer with a bound, or a reason."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from comparisons.model import Model, NotApplicable, Result
+from comparisons.models.bradley import Bradley
+from comparisons.models.closed_form import ClosedForm, monomial
+from comparisons.models.dmt import DMT
+from comparisons.models.jkr import JKR
+from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
+from comparisons.models.semi_rigid import SemiRigid
+from comparisons.quantities import QUANTITIES
+from fscm.problem import Problem
+from fscm.profile import PowerLaw
+from fscm.surface_law import LennardJones93
+
+MODELS = {
+    "jkr": JKR,
+    "md-original": MaugisDugdaleOriginal,
+    "md-improved": MaugisDugdaleImproved,
+    "dmt": DMT,
+    "bradley": Bradley,
+    "semi-rigid": SemiRigid,
+}
+
+
+@pytest.fixture(params=MODELS)
+def model(request: pytest.FixtureRequest) -> ClosedForm:
+    return MODELS[request.param]()
+
+
+def test_names(model: ClosedForm) -> None:
+    assert isinstance(model, Model)
+    assert MODELS[model.name] is type(model)
+    assert model.citation
+    assert model.domain
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+def test_every_quantity_is_answered_or_refused_with_a_sentence(model: ClosedForm, quantity: str) -> None:
+    problem = Problem(2, 0.4, 5.0)  # at a small Tabor number some models lose their folds
+    if not hasattr(model, quantity):
+        with pytest.raises(NotApplicable, match=rf"^{model.name} does not define {quantity}: \w[^\n]+$"):
+            model.evaluate(problem, quantity)
+        return
+    result = model.evaluate(problem, quantity)
+    assert isinstance(result, Result)
+    assert result.u_num <= 1e-11 * max(1.0, abs(result.value))
+
+
+def test_unknown_quantity(model: ClosedForm) -> None:
+    with pytest.raises(ValueError, match="'stickiness' is unknown"):
+        model.evaluate(Problem(2, 0, 1), "stickiness")
+
+
+@dataclass(frozen=True)
+class Sinusoid:
+    growth: float = 2.0
+
+    def height(self, r: np.ndarray) -> np.ndarray:
+        return r**2 / 2 + 0.01 * np.sin(r) ** 2
+
+    def slope(self, r: np.ndarray) -> np.ndarray:
+        return r + 0.01 * np.sin(2 * r)
+
+
+class OtherLaw(LennardJones93):
+    """A subclass may override anything, so it is another law."""
+
+
+@pytest.mark.parametrize(
+    "problem",
+    [
+        Problem(2, 0, 1, profile=Sinusoid()),
+        Problem(2, 0, 1, profile=PowerLaw(3.0)),
+        Problem(2, 0, 1, law=OtherLaw()),
+    ],
+    ids=["profile", "other-power", "law"],
+)
+def test_refuses_other_profiles_and_laws(model: ClosedForm, problem: Problem) -> None:
+    with pytest.raises(NotApplicable, match="and for no other"):
+        model.evaluate(problem, "pull_off_force")
+    with pytest.raises(NotApplicable, match="and for no other"):
+        model.curve(problem)
+
+
+def test_curves_are_consistent(model: ClosedForm) -> None:
+    curve = model.curve(Problem(2, 0.4, 1.5))
+    assert curve.displacement.shape == curve.load.shape
+    assert all(column.shape == curve.load.shape for column in curve.columns.values())
+    assert np.all(np.isfinite(curve.displacement) & np.isfinite(curve.load))
+
+
+def test_monomial_bound_covers_the_condition_of_a_large_exponent() -> None:
+    """1 + eps to the power 1e6 moves by 1e6 eps: the bound says so."""
+    result = monomial((1.5, 1e3), (1.5, -1e3))
+    assert abs(result.value - 1.0) <= result.u_num
+    assert result.u_num > 1e-13

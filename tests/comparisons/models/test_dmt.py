@@ -1,0 +1,67 @@
+"""DMT against Hertz, Bradley, and the Maugis-Dugdale equations at a vanishing Maugis number."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from comparisons.models.bradley import Bradley
+from comparisons.models.cohesive_contact import CohesiveContact
+from comparisons.models.cohesive_stress import eta
+from comparisons.models.dmt import DMT, dmt_pull_off
+from comparisons.models.graded_punch import GradedPunch
+from fscm.problem import Problem
+
+
+@pytest.mark.parametrize("n", [0.8, 1.0, 1.5, 2.0, 5.0, 10.0])
+def test_pull_off_is_bradleys(n: float) -> None:
+    """Eq. 74."""
+    problem = Problem(n, 0.4, 0.7)
+    dmt, bradley = (m.evaluate(problem, "pull_off_force") for m in (DMT(), Bradley()))
+    assert dmt.value == pytest.approx(bradley.value, rel=1e-13)
+    assert DMT().evaluate(problem, "pull_off_displacement").value == 0.0
+
+
+def test_homogeneous_sphere_is_hertz() -> None:
+    """P = (4/3) E* a^3 / R - 2 pi R dgamma, delta = a^2 / R; E* = mu^(-3/2) for Q = z0 = dgamma = 1."""
+    mu = 0.6
+    curve = DMT().curve(Problem(2, 0, mu))
+    a = curve.columns["contact_radius"]
+    np.testing.assert_allclose(curve.load, (4 / 3) * mu**-1.5 * a**3 / np.pi - 2, rtol=1e-13, atol=1e-13)
+    np.testing.assert_allclose(curve.displacement, a**2, rtol=1e-14)
+    zero = (1.5 * np.pi * mu**1.5) ** (2 / 3)
+    assert DMT().evaluate(Problem(2, 0, mu), "zero_load_displacement").value == pytest.approx(zero, rel=1e-13)
+
+
+@pytest.mark.parametrize(("n", "k"), [(1.0, 0.2), (1.5, 0.0), (2.0, 0.4), (5.0, 0.6)])
+def test_curve_is_the_limit_of_maugis_dugdale(n: float, k: float) -> None:
+    """The difference vanishes like a positive power of mu: a thousandth of mu shrinks it manyfold."""
+    errors = []
+    for mu in (1e-3, 1e-6):
+        problem = Problem(n, k, mu)
+        punch = GradedPunch.of(problem)
+        scale = punch.scales(mu)
+        state = CohesiveContact(punch, eta(n) * mu).at(np.linspace(-14.0, -1.0, 200))
+        a = scale.radius * state.contact_radius
+        dmt = DMT().curve(problem)
+        end = dmt.columns["contact_radius"][-1]
+        inside = a < end
+        load = scale.load * state.load[inside]
+        adhesion = dmt_pull_off(n, eta(n)).value
+        hertz = (dmt.load[-1] + adhesion) * (a[inside] / end) ** (n + k + 1)
+        errors.append(np.max(np.abs(load - (hertz - adhesion))))
+        assert np.count_nonzero(inside) > 5
+    assert errors[1] < 0.05 * errors[0] < 0.05
+
+
+@pytest.mark.parametrize(
+    ("n", "k", "mu"), [(1.0, 0.0, 0.2), (2.0, 0.4, 1.0), (5.0, 0.6, 3.0), (2.0, 1.0, 1.0)]
+)
+def test_zero_load_lies_on_the_curve(n: float, k: float, mu: float) -> None:
+    curve = DMT().curve(Problem(n, k, mu))
+    # Interpolated in a^(n+k+1), in which the load is a straight line.
+    a0 = np.interp(0.0, curve.load, curve.columns["contact_radius"] ** (n + k + 1)) ** (1 / (n + k + 1))
+    expected = curve.displacement[-1] * (a0 / curve.columns["contact_radius"][-1]) ** n
+    assert DMT().evaluate(Problem(n, k, mu), "zero_load_displacement").value == pytest.approx(
+        expected, rel=1e-12
+    )
