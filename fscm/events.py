@@ -156,11 +156,12 @@ def sharpen(state: State, condition: Condition, order: int, tolerance: float) ->
         change = new_value - value
         state, rates, value = new, new_rates, new_value
         iterations += state.iterations
-        if settled or value == 0.0:
+        small = abs(step) < _LEAD_TOLERANCE
+        if settled or value == 0.0 or (small and change == 0.0):
             return replace(state, iterations=iterations)
         if change == 0.0:
             break
-        settled = abs(step) < _LEAD_TOLERANCE
+        settled = small
         step *= -value / change
     raise NotConverged(
         "the root of an event did not settle on the refined mesh; the event may be about to vanish "
