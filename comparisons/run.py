@@ -131,7 +131,7 @@ def _row(
         size=result.size if result else None,
         iterations=result.iterations if result else None,
         residual=result.residual if result else None,
-        seconds=time.perf_counter() - started,
+        seconds=(result and result.seconds) or time.perf_counter() - started,
     )
 
 
