@@ -44,8 +44,8 @@ FINE = MeshSpec(0.25, 5e-4, 64.0, 0.5, 6)
 EDGE = MeshSpec(1e-3, 2e-5, 64.0, 0.69, 6)
 """For pressures with a singular edge at r = 1."""
 
-LIMITS = {"default": 1e-5, "fine": 1e-6, "edge": 5e-6}
-"""Largest error allowed, relative to w(0) (measured: 7e-7, 2e-7, 1e-6)."""
+LIMITS = {"default": 5e-6, "fine": 5e-7, "edge": 1e-6}
+"""Largest error allowed, relative to w(0) (measured: 1.4e-6 at nu = 0.49, 2e-7, 3e-7)."""
 
 
 @dataclass(frozen=True, slots=True)
