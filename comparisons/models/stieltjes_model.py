@@ -1,0 +1,58 @@
+"""The paper's own discretisation of the full self-consistent model as one of the models."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from comparisons.model import Curve, NotApplicable, Result
+from comparisons.models.solver import result_of, translated
+from fscm.errors import NoSuchEvent, NotConverged
+from fscm.problem import Problem
+from fscm.stieltjes import StieltjesScheme
+from fscm.stieltjes_events import STIELTJES_QUANTITIES, stieltjes_solution
+
+__all__ = ["PublishedScheme"]
+
+
+class PublishedScheme:
+    """Eqs. 34-39 as published: N uniform segments up to f = 50, Riemann-Stieltjes sums, central-gap control.
+
+    Parameters
+    ----------
+    segments : int
+        N; the paper uses 2500.
+
+    Examples
+    --------
+    >>> answer = PublishedScheme(segments=200).evaluate(Problem(n=2, k=0.4, mu=0.5), "pull_off_force")
+    >>> abs(answer.value - 1.86628026) < answer.u_num
+    True
+    """
+
+    name: ClassVar[str] = "fscm-stieltjes"
+    version: ClassVar[str] = "1"
+    citation: ClassVar[str] = "Zhu, Zheng, Huang & Yu, Sec. 2.4, Eqs. 34-39"
+    domain: ClassVar[str] = "k < 1, central gaps from 10 to -0.1, cohesive edge wider than the 2500 segments"
+
+    def __init__(self, segments: int = 2500) -> None:
+        self._segments = segments
+
+    def evaluate(self, problem: Problem, quantity: str) -> Result:
+        """Return the quantity, or raise as `comparisons.model.Model` says."""
+        if quantity not in STIELTJES_QUANTITIES:
+            raise NotApplicable(f"the published scheme is kept for points of the path, not for {quantity}")
+        _check(problem)
+        with translated(NoSuchEvent, NotConverged):
+            return result_of(stieltjes_solution(problem, quantity, self._segments))
+
+    def curve(self, problem: Problem) -> Curve:
+        """Return the path from a central gap of 10 to -0.1."""
+        _check(problem)
+        with translated(NoSuchEvent, NotConverged):
+            central_gap, displacement, load = StieltjesScheme(problem, self._segments).curve()
+        return Curve(displacement=displacement, load=load, columns={"central_gap": central_gap})
+
+
+def _check(problem: Problem) -> None:
+    if problem.k >= 1.0:
+        raise NotApplicable(f"the published scheme is for k < 1, not k = {problem.k:g}")
