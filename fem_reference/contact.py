@@ -104,7 +104,7 @@ class Contact:
     def load(self, y: Array) -> float:
         """Total load P, compression positive (Eq. 11), with the load beyond the mesh."""
         trace = self.compliance.trace
-        inside = y[-1] ** 2 * float(trace.weight * trace.s @ self.law.traction(self.gap(y)))
+        inside = float(y[-1]) ** 2 * float(trace.weight * trace.s @ self.law.traction(self.gap(y)))
         r, w, H = self._tail(y)
         return 2.0 * math.pi * (inside + float(w * r @ self.law.traction(H)))
 

@@ -151,7 +151,9 @@ def stiffness(
         rules.append((others, gauss_product(count, count)))
     if first_layer.size:
         X, W = gauss_product(count, FIRST_LAYER_POINTS, 3)
-        rules.append((first_layer, (X if depth_axis == 1 else X[::-1], W)))
+        corners = body.mesh.p[depth_axis, body.mesh.t[:, first_layer[0]]]
+        # scikit-fem numbers the corners of a tensor mesh down the columns: its first reference axis is z.
+        rules.append((first_layer, (X[::-1] if corners[0] != corners[1] else X, W)))
     parts = []
     for elements, rule in rules:
         basis = Basis(body.mesh, element, mapping, quadrature=rule, elements=elements, disable_doflocs=True)

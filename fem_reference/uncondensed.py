@@ -22,7 +22,7 @@ from skfem import BilinearForm, FacetBasis, LinearForm
 from fem_reference.assembly import HalfSpace, assemble_half_space
 from fem_reference.chains import line_unknowns
 from fem_reference.errors import NotConverged
-from fem_reference.linear_solver import ElasticPreconditioner, solve_bordered
+from fem_reference.linear_solver import ElasticPreconditioner, solve_bordered, solve_cg
 from fem_reference.modulus import PowerLaw
 from fem_reference.punch import Punch
 from fem_reference.surface import MeshSpec
@@ -143,6 +143,12 @@ class FullContact:
             spread[1::2] = vector
             reduced.append(self.cycle.scale * spread[free])
         return reduced[0], (D @ full[free][:, free] @ D).tocsr(), reduced[1], reduced[2]
+
+    def under_pressure(self, pressure: Array, c: float) -> Array:
+        """Return the displacement under a pressure given at the facet Gauss points: a starting point for Newton."""
+        load = np.zeros(self.half_space.matrix.shape[0])
+        load[1::2] = np.asarray(_pressure.assemble(self.facets, pressure=pressure))
+        return self.factor(c) * solve_cg(self.half_space, load, self.cycle).solution
 
     def load(self, u: Array, delta: float, c: float) -> float:
         """P on the mesh (compression positive)."""
