@@ -1,10 +1,10 @@
 """The contact problem with every displacement kept: the check of the condensed path.
 
-On the mesh in units of the edge radius c the equations are K u / factor(c) = F(u, delta, c), with K the stiffness
-of E = z^k and the load vector and its tangent assembled by scikit-fem on the surface facets at the deformed
-gap H = -delta + f(c s) + u_z.  Newton with the exact tangent, bordered by the edge control; the linear systems
-are solved by GMRES with the elastic cycle.  It shares mesh, elements and exterior with the condensed path, but
-neither its factorisation nor its quadrature matrices.
+On the mesh in units of the edge radius c the equations are K u / factor(c) = F(u, delta, c), with K the
+stiffness of E = z^k and the load vector and its tangent assembled by scikit-fem on the surface facets at the
+deformed gap H = -delta + f(c s) + u_z.  Newton with the exact tangent is bordered by the edge control; its
+linear systems are solved by GMRES with the elastic cycle.  The model shares mesh, elements and exterior with
+the condensed path, but neither its factorisation nor its quadrature matrices.
 """
 
 from __future__ import annotations
@@ -39,7 +39,8 @@ NEWTON_STEPS = 25
 """Steps before giving up."""
 
 LINEAR_TOLERANCE = 1e-4
-"""Relative residual of a Newton step (inexact Newton): the error falls by as much a step near the solution."""
+"""Relative residual of a Newton step (inexact Newton): the error falls by as much a step near the
+solution."""
 
 RATE_TOLERANCE = 1e-7
 """Relative residual of the sensitivity solve, whose zero is the pull-off."""
@@ -103,13 +104,17 @@ class FullContact:
 
     def __init__(self, modulus: PowerLaw, nu: float, punch: Punch, law: LennardJones, spec: MeshSpec) -> None:
         self.modulus, self.punch, self.law = modulus, punch, law
-        self.half_space: HalfSpace = assemble_half_space(spec.grid(), PowerLaw(1.0, 1.0, modulus.k), nu, spec.order)
+        self.half_space: HalfSpace = assemble_half_space(
+            spec.grid(), PowerLaw(1.0, 1.0, modulus.k), nu, spec.order
+        )
         self.cycle = ElasticPreconditioner(self.half_space)
         basis = self.half_space.basis
         mesh = basis.mesh
         x, w = np.polynomial.legendre.leggauss(2 * spec.order + 2)
         top = np.flatnonzero((mesh.p[1][mesh.facets] == 0).all(axis=0))
-        self.facets = FacetBasis(mesh, basis.elem, facets=top, quadrature=((0.5 * (x + 1.0))[None, :], 0.5 * w))
+        self.facets = FacetBasis(
+            mesh, basis.elem, facets=top, quadrature=((0.5 * (x + 1.0))[None, :], 0.5 * w)
+        )
         self.s: Array = np.asarray(self.facets.global_coordinates())[0]
         line = line_unknowns(basis, 1, 0.0)
         nodes = mesh.p[0][mesh.p[1] == 0]
@@ -135,7 +140,9 @@ class FullContact:
         ]
         tangent = _pressure_change.assemble(self.facets, change=change).tocoo()
         size = u.size
-        full = sparse.coo_array((tangent.data, (2 * tangent.row + 1, 2 * tangent.col + 1)), shape=(size, size)).tocsr()
+        full = sparse.coo_array(
+            (tangent.data, (2 * tangent.row + 1, 2 * tangent.col + 1)), shape=(size, size)
+        ).tocsr()
         free, D = self.half_space.free, sparse.diags_array(self.cycle.scale)
         reduced = []
         for vector in vectors:
@@ -145,7 +152,7 @@ class FullContact:
         return reduced[0], (D @ full[free][:, free] @ D).tocsr(), reduced[1], reduced[2]
 
     def under_pressure(self, pressure: Array, c: float) -> Array:
-        """Return the displacement under a pressure given at the facet Gauss points: a starting point for Newton."""
+        """Return the displacement under a pressure at the facet Gauss points, to start Newton from."""
         load = np.zeros(self.half_space.matrix.shape[0])
         load[1::2] = np.asarray(_pressure.assemble(self.facets, pressure=pressure))
         return self.factor(c) * solve_cg(self.half_space, load, self.cycle).solution

@@ -18,7 +18,7 @@ PATCH_TOLERANCE = 1e-9
 """Condition number times rounding: measured 2e-12."""
 
 ORDER_RANGE = (-0.25, 1.0)
-"""The error of an order-p element falls as h^(p+1) in L2; on coarse meshes faster (measured 0 to 0.8 above)."""
+"""The error of an order-p element falls as h^(p+1) in L2; coarse meshes: faster (measured 0 to 0.8)."""
 
 
 def _through_depth(first, second):
@@ -99,7 +99,12 @@ def _solve_manufactured(grid, modulus, nu, order, u_exact, gradient):
     E = modulus(z)
     lame, shear = E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))
     volume = lame * (rr + ur / r + zz)
-    s_rr, s_tt, s_zz, s_rz = volume + 2 * shear * rr, volume + 2 * shear * ur / r, volume + 2 * shear * zz, shear * (rz + zr)
+    s_rr, s_tt, s_zz, s_rz = (
+        volume + 2 * shear * rr,
+        volume + 2 * shear * ur / r,
+        volume + 2 * shear * zz,
+        shear * (rz + zr),
+    )
     load = np.zeros(matrix.shape[0])
     dofs = np.asarray(basis.element_dofs)
     for i, (f,) in enumerate(basis.basis):
@@ -138,7 +143,8 @@ def _smooth_gradient(r, z):
 def test_manufactured_solution_has_the_order_of_the_element(order, counts):
     modulus = OffsetPowerLaw(1.0, 1.0, 0.4, 0.5)
     errors = [
-        _solve_manufactured(uniform_grid(1.5, n), modulus, 0.3, order, _smooth, _smooth_gradient) for n in counts
+        _solve_manufactured(uniform_grid(1.5, n), modulus, 0.3, order, _smooth, _smooth_gradient)
+        for n in counts
     ]
     observed = np.log(errors[0] / errors[1]) / np.log(counts[1] / counts[0])
     assert ORDER_RANGE[0] <= observed - (order + 1) <= ORDER_RANGE[1], (errors, observed)

@@ -1,4 +1,5 @@
-"""The verification ladder: each rung within its limit, and the exact solutions against Eq. 6 by quadrature."""
+"""The verification ladder: each rung within its limit, and the exact solutions against Eq. 6 by
+quadrature."""
 
 import numpy as np
 import pytest
@@ -19,7 +20,8 @@ from fem_reference.modulus import PowerLaw
 from fem_reference.reference_solutions import gaussian_displacement, power_displacement, surface_constant
 
 QUADRATURE_TOLERANCE = 1e-8
-"""scipy.integrate.quad with the logarithmic or power singularity at t = r as a break point: measured 1e-10."""
+"""scipy.integrate.quad with the logarithmic or power singularity at t = r as a break point: measured
+1e-10."""
 
 
 def _assert_all_pass(rungs):
@@ -31,7 +33,8 @@ def _ring_integral(pressure, r, k, nu, end):
     """Eq. 5 with the ring kernel of Eq. 6 as printed, c0 = 1 and E0 = 1."""
 
     def integrand(t, distance):
-        # Euler's transformation F(a,a;1;x) = (1-x)^(1-2a) F(1-a,1-a;1;x), with 1 - x from the distance |t - r|.
+        # Euler's transformation F(a,a;1;x) = (1-x)^(1-2a) F(1-a,1-a;1;x), with 1 - x from the distance |t
+        # - r|.
         low, high = min(r, t), max(r, t)
         x, y = (low / high) ** 2, distance * (r + t) / high**2
         if k == 0 and y < 1e-13:

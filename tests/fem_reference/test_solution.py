@@ -29,7 +29,7 @@ PULL_OFF = {
     (0.4, 1.0): 1.78848171,
     (0.4, 1.4): 1.75861391,
 }
-"""-P_c / (pi Q w) of paraboloids by (k, mu), computed by quadrature of the integral equation; all digits shown."""
+"""-P_c / (pi Q w) of paraboloids by (k, mu), from the integral equation; all digits shown."""
 
 DIGITS = 5e-9
 """Half a unit of the last digit of the table, relative."""
@@ -39,7 +39,7 @@ DEFAULT_ERROR = 1e-7
 
 
 def _solid(k, mu, nu, n=2.0):
-    """Solid of a given ratio of elastic deformation to range, with Q = c0 = z0 = w = 1 (Eq. 29 of the paper)."""
+    """Solid of a given ratio mu of deformation to range, for Q = c0 = z0 = w = 1 (Eq. 29 of the paper)."""
     E_star = surface_constant(k, nu) / (1 - k) / mu ** ((2 * n + k - 1) / n)
     return Solid(E_star * (1 - nu**2), 1.0, k, nu)
 
@@ -84,7 +84,7 @@ def test_quick_answer_is_within_its_uncertainty():
 
 
 def test_poisson_ratio_collapses():
-    """At one ratio of deformation to range the Poisson ratio does not matter: this verifies b(k, nu) of Eq. 7."""
+    """At one ratio of deformation to range nu does not matter: this verifies b(k, nu) of Eq. 7."""
     forces = [_pull_off(0.4, 1.0, nu, "quick").value for nu in (0.0, 0.4, 0.49)]
     assert np.ptp(forces) <= 1e-6 * forces[0]
 
@@ -95,7 +95,9 @@ def test_unit_scaling():
     length, force = 1e3, 1e3
     solid = _solid(0.4, 1.0, 0.25)
     scaled = Solid(solid.E0 * force / length**2, length, 0.4, 0.25)
-    answer = solve(scaled, PowerPunch(2.0, length), LennardJones(force / length, length), "pull_off_force", "quick")
+    answer = solve(
+        scaled, PowerPunch(2.0, length), LennardJones(force / length, length), "pull_off_force", "quick"
+    )
     assert answer.value == pytest.approx(base.value * force, rel=1e-9)
     assert answer.u_num == pytest.approx(base.u_num * force, rel=1e-2)
 
@@ -106,7 +108,9 @@ def test_events_lie_on_the_traced_path():
     answers = {q: solve(solid, punch, law, q, "quick").value for q in fem_reference.QUANTITIES}
     assert -path.load.min() == pytest.approx(answers["pull_off_force"], rel=3e-3)
     assert answers["pull_off_force"] >= -path.load.min() - 1e-6
-    assert answers["jump_out_displacement"] < answers["jump_in_displacement"] < answers["zero_load_displacement"]
+    assert (
+        answers["jump_out_displacement"] < answers["jump_in_displacement"] < answers["zero_load_displacement"]
+    )
     assert answers["jump_out_gap"] < answers["jump_in_gap"]
     assert answers["hysteresis_energy"] > 0
     index = int(np.flatnonzero(path.load[:-1] < 0)[-1])
