@@ -161,7 +161,9 @@ class ElasticPreconditioner:
         """Apply the cycle to a right-hand side of the scaled system, shape (free,)."""
         b = np.asarray(b, float).ravel()
         x = np.zeros_like(b)
-        for inside, factors, rows in self._strips:
+        first, factors, _ = self._strips[0]
+        x[first] = factors.solve(b[first])
+        for inside, factors, rows in self._strips[1:]:
             x[inside] += factors.solve(b[inside] - rows @ x)
         present = self._vertices >= 0
         residual = np.zeros(self._vertices.size)

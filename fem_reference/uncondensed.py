@@ -10,7 +10,7 @@ the condensed path, but neither its factorisation nor its quadrature matrices.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -45,8 +45,9 @@ solution."""
 RATE_TOLERANCE = 1e-7
 """Relative residual of the sensitivity solve, whose zero is the pull-off."""
 
-ROOT_TOLERANCE = 1e-5
-"""Relative tolerance of the size at pull-off: the load is stationary there, its error is the square of it."""
+ROOT_TOLERANCE = 1e-4
+"""Relative tolerance of the size at pull-off: the secant error
+after a step that small is far smaller, and the load is stationary there."""
 
 ROOT_STEPS = 20
 """Secant steps allowed to find the pull-off."""
@@ -74,6 +75,8 @@ class FullState:
         Approach delta, edge radius c, load P and dP/dc.
     newton_steps, krylov_steps : int
         Work.
+    u_rate, displacement_rate : ndarray, float
+        Derivatives with respect to c, the predictor of the next size.
     """
 
     u: Array
@@ -83,6 +86,8 @@ class FullState:
     load_rate: float
     newton_steps: int
     krylov_steps: int
+    u_rate: Array
+    displacement_rate: float
 
 
 class FullContact:
@@ -202,7 +207,10 @@ class FullContact:
                 )
                 load_rate = self._load_rate(u, delta, c, scale * rate[:-1], float(rate[-1]))
                 P = self.load(u, delta, c)
-                return FullState(u, delta, c, P, load_rate, step_count + 1, krylov + count)
+                u_rate = np.zeros(u.size)
+                u_rate[free] = scale * rate[:-1]
+                work = step_count + 1, krylov + count
+                return FullState(u, delta, c, P, load_rate, *work, u_rate, float(rate[-1]))
         raise NotConverged("the uncondensed Newton iteration did not converge; start closer to the solution")
 
     def pull_off(self, u: Array, delta: float, c: float) -> FullState:
@@ -214,16 +222,21 @@ class FullContact:
             If the secant iteration on dP/dc does not converge.
         """
         old = self.equilibrium(u, delta, c)
-        new = self.equilibrium(old.u, old.displacement, c * 1.01)
+        new = self._moved(old, 0.01 * c)
         krylov, newton = old.krylov_steps + new.krylov_steps, old.newton_steps + new.newton_steps
         for _ in range(ROOT_STEPS):
             shift = -new.load_rate * (new.size - old.size) / (new.load_rate - old.load_rate)
             shift = float(np.clip(shift, -0.05 * new.size, 0.05 * new.size))
-            old, new = new, self.equilibrium(new.u, new.displacement, new.size + shift)
+            old, new = new, self._moved(new, shift)
             krylov, newton = krylov + new.krylov_steps, newton + new.newton_steps
             if abs(shift) <= ROOT_TOLERANCE * new.size:
-                return FullState(new.u, new.displacement, new.size, new.load, new.load_rate, newton, krylov)
+                return replace(new, newton_steps=newton, krylov_steps=krylov)
         raise NotConverged("the secant iteration for the pull-off did not converge; start closer to it")
+
+    def _moved(self, state: FullState, shift: float) -> FullState:
+        """Solve at a neighbouring size from the tangent prediction."""
+        u = state.u + shift * state.u_rate
+        return self.equilibrium(u, state.displacement + shift * state.displacement_rate, state.size + shift)
 
     def _bordered(self, tangent: sparse.csr_array, F_delta: Array, edge_row: Array) -> LinearOperator:
         def apply(x: Array) -> Array:
