@@ -177,7 +177,7 @@ class ElasticPreconditioner:
     @property
     def storage(self) -> int:
         """Bytes of the factors, the scaled matrix and the strips' rows."""
-        factors = sum(12 * (lu.L.nnz + lu.U.nnz) for _, lu, _ in self._strips)
+        factors = sum(12 * lu.nnz for _, lu, _ in self._strips)
         rows = sum(12 * part.nnz for _, _, part in self._strips)
         return factors + rows + 12 * self.matrix.nnz
 
@@ -271,7 +271,7 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
     seconds = time.perf_counter() - begin
     norm = float(np.linalg.norm(b))
     residual = float(np.linalg.norm(b - A @ x)) / norm if norm > 0 else 0.0
-    storage = 12 * (factors.L.nnz + factors.U.nnz)
+    storage = 12 * factors.nnz
     return LinearResult(_expand(half_space, D @ x), 0, residual, seconds, storage)
 
 
