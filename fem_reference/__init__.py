@@ -1,7 +1,9 @@
 """An independent axisymmetric finite-element model of adhesive contact of graded materials.
 
-Physical quantities in any consistent units: a half-space with Young's modulus E(z) and Poisson ratio nu, a rigid
-punch f(r), a surface law p(H).  The solid is meshed with high-order elements and closed by the exact stiffness
+Physical quantities in any consistent units: a half-space with Young's modulus E(z) and Poisson ratio nu, a
+rigid
+punch f(r), a surface law p(H).  The solid is meshed with high-order elements and closed by the exact
+stiffness
 of the infinite exterior, condensed to its surface, and brought into equilibrium with the surface law.
 """
 
@@ -9,7 +11,17 @@ from fem_reference.errors import NoSuchEvent, NotConverged
 from fem_reference.events import QUANTITIES
 from fem_reference.modulus import CustomModulus, OffsetPowerLaw, PowerLaw
 from fem_reference.punch import CustomPunch, PowerPunch
-from fem_reference.solution import CustomSolid, Path, Profile, Solid, Solution, profile, solve, trace
+from fem_reference.solution import (
+    CustomSolid,
+    Path,
+    Profile,
+    Solid,
+    Solution,
+    event_state,
+    profile,
+    solve,
+    trace,
+)
 from fem_reference.traction import LennardJones
 
 __all__ = [
@@ -27,6 +39,7 @@ __all__ = [
     "Profile",
     "Solid",
     "Solution",
+    "event_state",
     "profile",
     "solve",
     "trace",

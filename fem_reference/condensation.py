@@ -27,18 +27,18 @@ def grid_positions(half_space: HalfSpace) -> tuple[Index, Index]:
     """Grid position (column, row) of every scalar unknown: even on grid lines, odd between them."""
     basis, grid = half_space.basis, half_space.grid
     mesh = basis.mesh
-    I = 2 * np.searchsorted(grid.r, mesh.p[0])
-    J = 2 * np.searchsorted(grid.z, mesh.p[1])
+    i = 2 * np.searchsorted(grid.r, mesh.p[0])
+    j = 2 * np.searchsorted(grid.z, mesh.p[1])
     column, row = np.empty(basis.N, np.intp), np.empty(basis.N, np.intp)
-    for position, value in ((column, I), (row, J)):
+    for position, value in ((column, i), (row, j)):
         position[basis.nodal_dofs[0]] = value
         position[basis.facet_dofs] = value[mesh.facets].sum(axis=0) // 2
         position[basis.interior_dofs] = value[mesh.t].sum(axis=0) // 4
     return column, row
 
 
-def _dissect(i0: int, i1: int, j0: int, j1: int, rank: Array, start: int) -> int:
-    """Number the grid positions of the closed block so that separators come after what they separate."""
+def _dissect(i0: int, i1: int, j0: int, j1: int, rank: Index, start: int) -> int:
+    """Rank the grid positions of a closed block so that separators come after what they separate."""
     ni, nj = i1 - i0, j1 - j0
     if max(ni, nj) < 4:
         for i in range(i0, i1 + 1):

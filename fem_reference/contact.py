@@ -69,13 +69,13 @@ class Contact:
         return -y[-2] + self.punch.height(y[-1] * trace.s) + trace.phi @ y[:-2]
 
     def residual(self, y: Array) -> Array:
-        """w - factor X F, shape (m,)."""
+        """Return w - factor X F, shape (m,)."""
         trace = self.compliance.trace
         F = trace.phi.T @ (trace.weight * trace.s * self.law.traction(self.gap(y)))
         return y[:-2] - self.compliance.factor(y[-1]) * (self.compliance.matrix @ F)
 
     def tangent(self, y: Array) -> Array:
-        """Derivative of the residual, shape (m, m + 2)."""
+        """Return the derivative of the residual, shape (m, m + 2)."""
         trace, X, c = self.compliance.trace, self.compliance.matrix, float(y[-1])
         H = self.gap(y)
         load = trace.weight * trace.s * self.law.traction(H)
@@ -104,12 +104,12 @@ class Contact:
     def load(self, y: Array) -> float:
         """Total load P, compression positive (Eq. 11), with the load beyond the mesh."""
         trace = self.compliance.trace
-        inside = y[-1] ** 2 * float(trace.weight * trace.s @ self.law.traction(self.gap(y)))
+        inside = float(y[-1]) ** 2 * float(trace.weight * trace.s @ self.law.traction(self.gap(y)))
         r, w, H = self._tail(y)
         return 2.0 * math.pi * (inside + float(w * r @ self.law.traction(H)))
 
     def load_gradient(self, y: Array) -> Array:
-        """Derivative of the load with respect to y, shape (m + 2,)."""
+        """Return the derivative of the load with respect to y, shape (m + 2,)."""
         trace, c = self.compliance.trace, float(y[-1])
         H = self.gap(y)
         measure = trace.weight * trace.s
@@ -128,7 +128,7 @@ class Contact:
         return 2.0 * math.pi * g
 
     def energy(self, y: Array) -> float:
-        """Elastic plus surface energy, relative to the rigid faces at delta = 0; dE = P d(delta) on the path."""
+        """Elastic plus surface energy, relative to rigid faces at delta = 0; dE = P d(delta) on the path."""
         trace, c = self.compliance.trace, float(y[-1])
         H = self.gap(y)
         w = trace.phi @ y[:-2]
@@ -162,7 +162,7 @@ class Size:
         return float(y[-1] - self.c)
 
     def gradient(self, contact: Contact, y: Array) -> Array:
-        """Unit vector."""
+        """Return a unit vector."""
         return _unit(y.size, -1)
 
 
@@ -177,7 +177,7 @@ class Displacement:
         return float(y[-2] - self.delta)
 
     def gradient(self, contact: Contact, y: Array) -> Array:
-        """Unit vector."""
+        """Return a unit vector."""
         return _unit(y.size, -2)
 
 
@@ -273,7 +273,7 @@ class ArcLength:
         return float(self.direction @ (y - self.centre)) - self.step
 
     def gradient(self, contact: Contact, y: Array) -> Array:
-        """The direction."""
+        """Return the direction."""
         return self.direction
 
 

@@ -50,8 +50,8 @@ class Body:
     def __post_init__(self) -> None:
         if not 0 <= self.nu < 0.5:
             raise ValueError(
-                f"Poisson ratio nu = {self.nu} is outside [0, 0.5): displacement elements cannot keep the volume; "
-                "take nu = 0.499 or less"
+                f"Poisson ratio nu = {self.nu} is outside [0, 0.5): displacement elements cannot keep the "
+                "volume; take nu = 0.499 or less"
             )
         if self.order < 2:
             raise ValueError(f"element order {self.order} is below 2: the hierarchical element starts there")
@@ -97,7 +97,8 @@ def _element_matrices(body: Body, basis: Basis, chunk: slice) -> Array:
     measure = (r * basis.dx[chunk])[..., None]
     lame = (E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)))[..., None] * measure
     shear = (E / (2.0 * (1.0 + nu)))[..., None] * measure
-    # Strains of a radial function: u_r,r = radial, u_r / r = hoop, u_r,z = axial; of an axial one: axial, radial.
+    # A radial function strains by `radial` (rr), `hoop` and `axial` (rz); an axial one by `axial` (zz)
+    # and `radial` (rz).
     radial = np.stack([f[0].grad[0][chunk] for f in basis.basis], axis=-1)
     axial = np.stack([f[0].grad[1][chunk] for f in basis.basis], axis=-1)
     hoop = np.stack([np.asarray(f[0])[chunk] for f in basis.basis], axis=-1) / r[..., None]
@@ -151,7 +152,9 @@ def stiffness(
         rules.append((others, gauss_product(count, count)))
     if first_layer.size:
         X, W = gauss_product(count, FIRST_LAYER_POINTS, 3)
-        rules.append((first_layer, (X if depth_axis == 1 else X[::-1], W)))
+        corners = body.mesh.p[depth_axis, body.mesh.t[:, first_layer[0]]]
+        # scikit-fem numbers the corners of a tensor mesh down the columns: its first reference axis is z.
+        rules.append((first_layer, (X[::-1] if corners[0] != corners[1] else X, W)))
     parts = []
     for elements, rule in rules:
         basis = Basis(body.mesh, element, mapping, quadrature=rule, elements=elements, disable_doflocs=True)

@@ -1,13 +1,15 @@
 """Points of the equilibrium path that an experiment sees, as roots of exact sensitivities.
 
 The path is walked once; a sign change of dP, d(delta) or P between two neighbouring points brackets an event,
-and Brent's method on the derivative from the bordered solve finds it to rounding.  Nothing is read off samples.
+and Brent's method on the derivative from the bordered solve finds it to rounding.  Nothing is read off
+samples.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 from scipy.optimize import brentq
 
@@ -119,7 +121,7 @@ def locate(points: list[Point], quantity: str) -> tuple[float, Point]:
 def _pairs(points: list[Point], sign: Callable[[Point], float], rising: bool) -> list[Pair]:
     """Neighbours on one leg between which `sign` changes from negative to positive (or back)."""
     pairs = []
-    for a, b in zip(points, points[1:], strict=False):
+    for a, b in pairwise(points):
         if a.leg is not b.leg:
             continue
         before, after = (sign(a), sign(b)) if rising else (-sign(a), -sign(b))
@@ -129,7 +131,7 @@ def _pairs(points: list[Point], sign: Callable[[Point], float], rising: bool) ->
 
 
 def _root(pair: Pair, function: Callable[[Point], float]) -> Point:
-    """The point between two neighbours where the function vanishes."""
+    """Find the point between two neighbours where the function vanishes."""
     known = {pair[0].parameter: pair[0], pair[1].parameter: pair[1]}
 
     def value(parameter: float) -> float:
@@ -150,7 +152,7 @@ def _root(pair: Pair, function: Callable[[Point], float]) -> Point:
 
 
 def pull_off(points: list[Point]) -> Point:
-    """The deepest minimum of the load along the path."""
+    """Return the deepest minimum of the load along the path."""
     minima = [_root(pair, lambda p: p.load_rate) for pair in _pairs(points, lambda p: p.load_rate, True)]
     if not minima:
         raise NoSuchEvent("the load has no minimum along the path")
@@ -158,7 +160,7 @@ def pull_off(points: list[Point]) -> Point:
 
 
 def folds(points: list[Point]) -> Pair:
-    """The folds of displacement control: jump into contact and jump out of it."""
+    """Return the folds of displacement control: jump into contact and jump out of it."""
     maxima = _pairs(points, lambda p: p.displacement_rate, False)
     minima = _pairs(points, lambda p: p.displacement_rate, True)
     if not maxima or not minima:
@@ -169,7 +171,7 @@ def folds(points: list[Point]) -> Pair:
 
 
 def zero_load(points: list[Point]) -> Point:
-    """The point in contact where the load changes from tension to compression."""
+    """Return the point in contact where the load changes from tension to compression."""
     pairs = _pairs(points, lambda p: p.state.load, True)
     if not pairs:
         raise NoSuchEvent("the load does not become compressive on the path")
@@ -177,7 +179,7 @@ def zero_load(points: list[Point]) -> Point:
 
 
 def hysteresis(points: list[Point]) -> tuple[float, Point]:
-    """Energy lost by the two jumps of one cycle of displacement control, and the jump-out point."""
+    """Return the energy lost by the jumps of one cycle of displacement control, and the jump-out."""
     jump_in, jump_out = folds(points)
     landed = _at_displacement(points, jump_in.state.displacement, last=True)
     free = _at_displacement(points, jump_out.state.displacement, last=False)
@@ -186,7 +188,7 @@ def hysteresis(points: list[Point]) -> tuple[float, Point]:
 
 
 def _at_displacement(points: list[Point], delta: float, last: bool) -> Point:
-    """The first or the last point of the path at a displacement."""
+    """Return the first or the last point of the path at a displacement."""
     pairs = _pairs(points, lambda p: p.state.displacement - delta, True)
     if not pairs:
         raise NoSuchEvent(f"the path does not reach the displacement {delta:.6g} on both branches")

@@ -11,17 +11,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import matplotlib.pyplot as plt
 import meshio
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 from skfem import Basis, ElementQuadP
 
 from fem_reference.assembly import assemble_half_space
 from fem_reference.linear_solver import solve_direct
 from fem_reference.mapping import ChartMapping
-from fem_reference.modulus import PowerLaw
 from fem_reference.path import Point
 from fem_reference.surface import MeshSpec, scaled_modulus
 
@@ -103,7 +102,13 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
     side = np.linspace(SURFACE_OFFSET, 1.0 - SURFACE_OFFSET, SAMPLES)
     X = np.array([np.tile(side, SAMPLES), np.repeat(side, SAMPLES)])
     mapping = ChartMapping(body.mesh, body.chart)
-    basis = Basis(body.mesh, ElementQuadP(body.order), mapping, quadrature=(X, np.ones(X.shape[1])), disable_doflocs=True)
+    basis = Basis(
+        body.mesh,
+        ElementQuadP(body.order),
+        mapping,
+        quadrature=(X, np.ones(X.shape[1])),
+        disable_doflocs=True,
+    )
     s, zeta = np.asarray(basis.global_coordinates())
     radial, axial = basis.interpolate(u[0::2]), basis.interpolate(u[1::2])
     ur, uz = np.asarray(radial), np.asarray(axial)
@@ -125,7 +130,9 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
 
 def _cells(elements: int) -> NDArray[np.intp]:
     corner = np.arange(SAMPLES * SAMPLES).reshape(SAMPLES, SAMPLES)
-    one = np.stack([corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]], axis=-1).reshape(-1, 4)
+    one = np.stack([corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]], axis=-1).reshape(
+        -1, 4
+    )
     return (one[None] + (SAMPLES * SAMPLES * np.arange(elements))[:, None, None]).reshape(-1, 4)
 
 
@@ -186,8 +193,10 @@ def draw(field: Field, radius: float, magnification: float = 1.0, stress: str = 
     used = np.unique(triangles)
     renumber = np.zeros(len(values), np.intp)
     renumber[used] = np.arange(used.size)
-    figure, axes = plt.subplots(figsize=(6.0, 5.0), layout="constrained")
-    image = axes.tripcolor(r[used], z[used], renumber[triangles], values[used], shading="gouraud", cmap="RdBu_r")
+    figure = Figure(figsize=(6.0, 5.0), layout="constrained")
+    axes = figure.subplots()
+    triangulation = Triangulation(r[used], z[used], renumber[triangles])
+    image = axes.tripcolor(triangulation, values[used], shading="gouraud", cmap="RdBu_r")
     figure.colorbar(image, ax=axes, label=stress.replace("_", " "))
     axes.set(xlim=(0.0, radius), xlabel="r", ylabel="depth z", aspect="equal")
     axes.set_ylim(radius, min(0.0, float(z[used].min())))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -108,12 +109,12 @@ def surface_displacement(
 
 
 def _disc_load(trace: Trace, pressure: Callable[[Array], Array]) -> Array:
-    """Load vector of a pressure p(1 - r^2) on the unit disc: Gauss points cluster at the edge by x = 1 - u^4."""
+    """Load vector of a pressure p(1 - r^2) on the unit disc, with Gauss points clustered at its edge."""
     x, w = np.polynomial.legendre.leggauss(30)
     x, w = 0.5 * (x + 1.0), 0.5 * w
     nodes = trace.nodes[: trace.edge + 1]
     load = np.zeros(trace.phi.shape[1])
-    for left, right in zip(nodes[:-1], nodes[1:], strict=True):
+    for left, right in pairwise(nodes):
         h = right - left
         last = right == nodes[-1]
         gap = h * (x**4 if last else 1.0 - x)
@@ -125,7 +126,9 @@ def _disc_load(trace: Trace, pressure: Callable[[Array], Array]) -> Array:
     return load
 
 
-def gaussian_rungs(spec: MeshSpec, name: str, exponents: Iterable[float], poisson: Iterable[float]) -> list[Rung]:
+def gaussian_rungs(
+    spec: MeshSpec, name: str, exponents: Iterable[float], poisson: Iterable[float]
+) -> list[Rung]:
     """(c, h) Under p = exp(-r^2), against Eqs. 6-7 in closed form, on 0 <= r <= 4."""
     r = np.linspace(0.0, 4.0, 81)
     rows = []
@@ -135,12 +138,27 @@ def gaussian_rungs(spec: MeshSpec, name: str, exponents: Iterable[float], poisso
             w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), nu, spec, lambda s: np.exp(-(s**2)))
             exact = gaussian_displacement(r, k, nu)
             error = float(np.abs(w(r) - exact).max() / exact[0])
-            rows.append(Rung("p = exp(-r^2) against Eq. 6", f"{name}, k = {k}, nu = {nu}", error, LIMITS[name], unknowns))
+            rows.append(
+                Rung(
+                    "p = exp(-r^2) against Eq. 6",
+                    f"{name}, k = {k}, nu = {nu}",
+                    error,
+                    LIMITS[name],
+                    unknowns,
+                )
+            )
     return rows
 
 
+def _power(beta: float) -> Callable[[Array], Array]:
+    def pressure(q: Array) -> Array:
+        return np.asarray(q**beta)
+
+    return pressure
+
+
 def disc_rungs(exponents: Iterable[float], nu: float = 0.25, spec: MeshSpec = EDGE) -> list[Rung]:
-    """(b, d) Uniform disc, Hertz pressure (Giannakopoulos and Suresh 1997) and flat punch, on 0 <= r <= 0.95."""
+    """(b, d) Uniform disc, Hertz pressure (Giannakopoulos and Suresh 1997), flat punch; 0 <= r <= 0.95."""
     r = np.linspace(0.0, 0.95, 40)
     rows = []
     for k in exponents:
@@ -149,9 +167,8 @@ def disc_rungs(exponents: Iterable[float], nu: float = 0.25, spec: MeshSpec = ED
             ("Hertz pressure gives a parabola", 0.5 * (1.0 + k)),
             ("flat punch gives a plane", -0.5 * (1.0 - k)),
         ):
-            w, unknowns = surface_displacement(
-                PowerLaw(1.0, 1.0, k), nu, spec, lambda q, beta=beta: q**beta, disc=True
-            )  # fmt: skip
+            pressure = _power(beta)
+            w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), nu, spec, pressure, disc=True)
             exact = power_displacement(r, k, nu, beta)
             error = float(np.abs(w(r) - exact).max() / exact[0])
             rows.append(Rung(name, f"k = {k}, nu = {nu}", error, LIMITS["edge"], unknowns))
@@ -167,7 +184,9 @@ def far_field_rungs(k: float = 0.4, nu: float = 0.25) -> list[Rung]:
         spec = MeshSpec(DEFAULT.edge_width, DEFAULT.surface_depth, extent, DEFAULT.density, DEFAULT.order)
         w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), nu, spec, lambda s: np.exp(-(s**2)))
         error = float(np.abs(w(r) - base(r)).max() / base(r)[0])
-        rows.append(Rung("interior of another size", f"extent {extent:g} against 64, k = {k}", error, 2e-6, unknowns))
+        rows.append(
+            Rung("interior of another size", f"extent {extent:g} against 64, k = {k}", error, 2e-6, unknowns)
+        )
     return rows
 
 
@@ -185,16 +204,22 @@ def limit_rungs(nu: float = 0.25) -> list[Rung]:
         w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), nu, DEFAULT, lambda s: np.exp(-(s**2)))
         unit[k] = float(np.abs(w(r) - exact).max() / exact[0])
     rate = abs(unit[2e-3] / unit[1e-3] - 2.0)
-    rows.append(Rung("k -> 0 tends to the homogeneous solid, first order", "k = 2e-3, 1e-3", rate, 0.02, unknowns))
+    rows.append(
+        Rung("k -> 0 tends to the homogeneous solid, first order", "k = 2e-3, 1e-3", rate, 0.02, unknowns)
+    )
     k = 0.4
     exact = gaussian_displacement(r, k, nu)
     for z_s in (1e-2, 1e-3):
         depth = min(DEFAULT.surface_depth, 0.2 * z_s)
         spec = MeshSpec(DEFAULT.edge_width, depth, DEFAULT.extent, DEFAULT.density, DEFAULT.order)
-        w, unknowns = surface_displacement(OffsetPowerLaw(1.0, 1.0, k, z_s), nu, spec, lambda s: np.exp(-(s**2)))
+        w, unknowns = surface_displacement(
+            OffsetPowerLaw(1.0, 1.0, k, z_s), nu, spec, lambda s: np.exp(-(s**2))
+        )
         unit[z_s] = float(np.abs(w(r) - exact).max() / exact[0])
     rate = abs(np.log10(unit[1e-2] / unit[1e-3]) - (1.0 - k))
-    rows.append(Rung("z_s -> 0 tends to the power law as z_s^(1-k)", "z_s = 1e-2, 1e-3", float(rate), 0.1, unknowns))
+    rows.append(
+        Rung("z_s -> 0 tends to the power law as z_s^(1-k)", "z_s = 1e-2, 1e-3", float(rate), 0.1, unknowns)
+    )
     return rows
 
 

@@ -99,7 +99,7 @@ class ChartMapping(Mapping):
         return np.einsum("ijkl,jmkl->imkl", outer, self.base.DF(X, tind))
 
     def detDF(self, X: Array, tind: Any = None) -> Array:
-        """Determinant of the Jacobian."""
+        """Return the determinant of the Jacobian."""
         J = self.DF(X, tind)
         return J[0, 0] * J[1, 1] - J[0, 1] * J[1, 0]
 

@@ -40,7 +40,7 @@ class Grid:
                 raise ValueError(f"{name} nodes must rise strictly from 0: the mesh would be folded over")
         if not math.isclose(self.r[-1], self.z[-1], rel_tol=1e-12):
             raise ValueError(
-                f"the mesh ends at r = {self.r[-1]} and z = {self.z[-1]}; the exterior needs a square [0, a]^2"
+                f"the mesh ends at r = {self.r[-1]} and z = {self.z[-1]}; the exterior needs a square"
             )
 
     @property

@@ -46,7 +46,7 @@ class Modulus(Protocol):
 def _check_exponent(k: float) -> None:
     if not 0 <= k < 1:
         raise ValueError(
-            f"gradient exponent k = {k} is outside [0, 1): at k = 1 the surface displacement under a load is unbounded"
+            f"gradient exponent k = {k} is outside [0, 1): at k = 1 the surface displacement is unbounded"
         )
 
 

@@ -6,7 +6,8 @@ punch.  When the gap at s = 1 has come down to the gap of the largest tension, a
 that node, and the path goes on in the radius c of the edge.  P and delta are smooth functions of H0 and then
 of c, through both folds.
 
-A solid whose modulus is no power law has a compliance for one size only.  There the mesh stands still, and the
+A solid whose modulus is no power law has a compliance for one size only.  There the mesh stands still, and
+the
 edge moves over it.
 """
 
@@ -39,7 +40,8 @@ __all__ = ["EDGE_RISE", "Leg", "Point", "approach", "edge_radius", "edge_width",
 Array = NDArray[np.float64]
 
 FARTHEST_GAP = 12.0
-"""Central gap where a path begins, in z0: the tension there is 1e-3 of its peak, Newton starts from no load."""
+"""Central gap where a path begins, in z0: the tension there is 1e-3 of its peak, Newton starts from no
+load."""
 
 EDGE_RISE = 0.05
 """Gap at the followed node above the central gap before contact, in z0: small, so that the edge takes over
@@ -101,12 +103,12 @@ class Point:
 
     @property
     def load_rate(self) -> float:
-        """dP along the path, per unit of the parameter's change."""
+        """Change of P along the path, per unit of the parameter's change."""
         return self.sense * self.state.load_rate
 
     @property
     def displacement_rate(self) -> float:
-        """d(delta) along the path, per unit of the parameter's change."""
+        """Change of delta along the path, per unit of the parameter's change."""
         return self.sense * self.state.displacement_rate
 
 
@@ -129,8 +131,8 @@ def march(point: Point, step: float, stop: float) -> Iterator[Point]:
             step *= 0.4
             if abs(step) < SMALLEST_STEP * largest:
                 raise NotConverged(
-                    f"the path stops at H0 = {point.state.central_gap:.6g}, delta = {point.state.displacement:.6g}: "
-                    f"{error}; refine the mesh at the edge"
+                    f"the path stops at H0 = {point.state.central_gap:.6g}, delta = "
+                    f"{point.state.displacement:.6g}: {error}; refine the mesh at the edge"
                 ) from error
             continue
         step *= 1.6 if new.state.iterations <= 4 else (0.7 if new.state.iterations > 7 else 1.0)

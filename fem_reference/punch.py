@@ -44,7 +44,7 @@ class PowerPunch:
     def __post_init__(self) -> None:
         if not (math.isfinite(self.n) and self.n >= 1):
             raise ValueError(
-                f"shape index n = {self.n} is outside [1, infinity): a cusped punch has no bounded pressure to resolve"
+                f"shape index n = {self.n} is outside [1, infinity): a cusp has no bounded pressure"
             )
         if not (math.isfinite(self.Q) and self.Q > 0):
             raise ValueError(f"shape parameter Q = {self.Q} is outside (0, infinity)")

@@ -1,7 +1,8 @@
 """The front door: one number of one contact problem, with its uncertainty; and the equilibrium path.
 
 Physical quantities in any consistent units go in and come out.  The mesh is chosen here: first by the length
-over which the surface law and the solid balance, then by the width of the contact edge in the computed profile.
+over which the surface law and the solid balance, then by the width of the contact edge in the computed
+profile.
 """
 
 from __future__ import annotations
@@ -17,13 +18,24 @@ from fem_reference.contact import Contact
 from fem_reference.errors import NotConverged
 from fem_reference.events import QUANTITIES, Event, find_event, locate, walk
 from fem_reference.modulus import Modulus, OffsetPowerLaw, PowerLaw
-from fem_reference.path import EDGE_RISE, edge_width
+from fem_reference.path import EDGE_RISE, Point, edge_width
 from fem_reference.punch import Punch, radius_at_height
 from fem_reference.surface import MeshSpec, compliance_for
 from fem_reference.traction import LennardJones
 from fem_reference.uncertainty import three_meshes
 
-__all__ = ["ACCURACIES", "CustomSolid", "Path", "Profile", "Solid", "Solution", "profile", "solve", "trace"]
+__all__ = [
+    "ACCURACIES",
+    "CustomSolid",
+    "Path",
+    "Profile",
+    "Solid",
+    "Solution",
+    "event_state",
+    "profile",
+    "solve",
+    "trace",
+]
 
 Array = NDArray[np.float64]
 
@@ -44,7 +56,8 @@ ACCURACIES = {
 """Measured on n = 2, 9-3 law: pull-off forces to 1e-6, 1e-7 and 1e-8 of their value."""
 
 APEX_WIDTH = 0.05
-"""Radial length resolved at r = 0, relative to the edge radius: a cone then has its pull-off force to 3e-10."""
+"""Radial length resolved at r = 0, relative to the edge radius: a cone then has its pull-off force to
+3e-10."""
 
 LAYER_DEPTH = 0.02
 """Depth resolved under the surface relative to the edge width, times min(1, 5 k): the first layer's error is
@@ -144,7 +157,7 @@ class Solution:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Path:
-    """The equilibrium path, arrays of one length: approach, load (tension negative), gap at r = 0, edge radius."""
+    """The equilibrium path: arrays of approach, load (tension negative), gap at r = 0, edge radius."""
 
     displacement: Array
     load: Array
@@ -244,6 +257,32 @@ def trace(solid: Solid | CustomSolid, punch: Punch, law: LennardJones, accuracy:
     )
 
 
+def event_state(
+    solid: Solid | CustomSolid,
+    punch: Punch,
+    law: LennardJones,
+    quantity: str = "pull_off_force",
+    accuracy: str = "default",
+) -> tuple[MeshSpec, Point]:
+    """Equilibrium at an event on the finest mesh, with the mesh: what fields and cross-checks start from.
+
+    Raises
+    ------
+    ValueError
+        For an unknown quantity or accuracy.
+    NoSuchEvent
+        If the path has no such point.
+    NotConverged
+        If an iteration misses its tolerance.
+    """
+    _check_request(quantity, accuracy)
+    level = ACCURACIES[accuracy]
+    problem = _Problem(solid, punch, law)
+    spec, size = problem.adapted(quantity, level)
+    spec = problem.at_density(spec, level.densities[-1])
+    return spec, problem.event(quantity, spec, size).point
+
+
 def profile(
     solid: Solid | CustomSolid,
     punch: Punch,
@@ -261,11 +300,7 @@ def profile(
     NotConverged
         If the path cannot be followed.
     """
-    _check_request(quantity, accuracy)
-    level = ACCURACIES[accuracy]
-    problem = _Problem(solid, punch, law)
-    spec, size = problem.adapted(quantity, level)
-    point = problem.event(quantity, problem.at_density(spec, level.densities[-1]), size).point
+    _, point = event_state(solid, punch, law, quantity, accuracy)
     mesh = point.leg.contact.compliance.trace
     y = point.state.y
     s = mesh.s if radii is None else np.asarray(radii, float) / y[-1]
@@ -313,7 +348,7 @@ class _Problem:
         )
 
     def spec(self, width: float, size: float, level: Accuracy) -> MeshSpec:
-        """Mesh for an edge of relative width `width`; lengths are rounded so that similar cases share a mesh."""
+        """Mesh for an edge of that relative width; lengths are rounded so that similar cases share a mesh."""
         modulus = self.solid.modulus
         k = modulus.surface_exponent
         width = 2.0 ** math.floor(math.log2(min(max(width, 1e-6), 0.25)))

@@ -92,7 +92,7 @@ class Trace:
         return float(self.nodes[-1])
 
     def evaluate(self, s: Array) -> Array:
-        """Function values at any radii inside the mesh, shape (len(s), m)."""
+        """Return function values at any radii inside the mesh, shape (len(s), m)."""
         return _line_functions(self.nodes, self.order, np.asarray(s, float))
 
 
@@ -144,7 +144,7 @@ class Compliance(Protocol):
         ...
 
     def factor_slope(self, c: float) -> float:
-        """Derivative of `factor` with respect to c."""
+        """Return the derivative of `factor` with respect to c."""
         ...
 
     @property

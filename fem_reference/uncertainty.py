@@ -1,6 +1,7 @@
 """Numerical uncertainty of one number from three meshes: observed order, Richardson estimate, safety factor.
 
-Every element of a mesh is `density` times a length that belongs to the problem, so three densities in constant
+Every element of a mesh is `density` times a length that belongs to the problem, so three densities in
+constant
 ratio are a family of similar meshes and the error behaves like density^p.
 """
 
@@ -12,7 +13,8 @@ from dataclasses import dataclass
 __all__ = ["Convergence", "three_meshes"]
 
 SAFETY = 3.0
-"""Factor on the Richardson estimate: high orders are seldom in their asymptotic range (measured: the true error
+"""Factor on the Richardson estimate: high orders are seldom in their asymptotic range (measured: the true
+error
 stays below a third of the bound)."""
 
 FLOOR = 5e-9

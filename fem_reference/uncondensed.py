@@ -1,16 +1,16 @@
 """The contact problem with every displacement kept: the check of the condensed path.
 
-On the mesh in units of the edge radius c the equations are K u / factor(c) = F(u, delta, c), with K the stiffness
-of E = z^k and the load vector and its tangent assembled by scikit-fem on the surface facets at the deformed
-gap H = -delta + f(c s) + u_z.  Newton with the exact tangent, bordered by the edge control; the linear systems
-are solved by GMRES with the elastic cycle.  It shares mesh, elements and exterior with the condensed path, but
-neither its factorisation nor its quadrature matrices.
+On the mesh in units of the edge radius c the equations are K u / factor(c) = F(u, delta, c), with K the
+stiffness of E = z^k and the load vector and its tangent assembled by scikit-fem on the surface facets at the
+deformed gap H = -delta + f(c s) + u_z.  Newton with the exact tangent is bordered by the edge control; its
+linear systems are solved by GMRES with the elastic cycle.  The model shares mesh, elements and exterior with
+the condensed path, but neither its factorisation nor its quadrature matrices.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -22,7 +22,7 @@ from skfem import BilinearForm, FacetBasis, LinearForm
 from fem_reference.assembly import HalfSpace, assemble_half_space
 from fem_reference.chains import line_unknowns
 from fem_reference.errors import NotConverged
-from fem_reference.linear_solver import ElasticPreconditioner, solve_bordered
+from fem_reference.linear_solver import ElasticPreconditioner, solve_bordered, solve_cg
 from fem_reference.modulus import PowerLaw
 from fem_reference.punch import Punch
 from fem_reference.surface import MeshSpec
@@ -39,13 +39,15 @@ NEWTON_STEPS = 25
 """Steps before giving up."""
 
 LINEAR_TOLERANCE = 1e-4
-"""Relative residual of a Newton step (inexact Newton): the error falls by as much a step near the solution."""
+"""Relative residual of a Newton step (inexact Newton): the error falls by as much a step near the
+solution."""
 
 RATE_TOLERANCE = 1e-7
 """Relative residual of the sensitivity solve, whose zero is the pull-off."""
 
-ROOT_TOLERANCE = 1e-5
-"""Relative tolerance of the size at pull-off: the load is stationary there, its error is the square of it."""
+ROOT_TOLERANCE = 1e-4
+"""Relative tolerance of the size at pull-off: the secant error
+after a step that small is far smaller, and the load is stationary there."""
 
 ROOT_STEPS = 20
 """Secant steps allowed to find the pull-off."""
@@ -73,6 +75,8 @@ class FullState:
         Approach delta, edge radius c, load P and dP/dc.
     newton_steps, krylov_steps : int
         Work.
+    u_rate, displacement_rate : ndarray, float
+        Derivatives with respect to c, the predictor of the next size.
     """
 
     u: Array
@@ -82,6 +86,8 @@ class FullState:
     load_rate: float
     newton_steps: int
     krylov_steps: int
+    u_rate: Array
+    displacement_rate: float
 
 
 class FullContact:
@@ -103,13 +109,17 @@ class FullContact:
 
     def __init__(self, modulus: PowerLaw, nu: float, punch: Punch, law: LennardJones, spec: MeshSpec) -> None:
         self.modulus, self.punch, self.law = modulus, punch, law
-        self.half_space: HalfSpace = assemble_half_space(spec.grid(), PowerLaw(1.0, 1.0, modulus.k), nu, spec.order)
+        self.half_space: HalfSpace = assemble_half_space(
+            spec.grid(), PowerLaw(1.0, 1.0, modulus.k), nu, spec.order
+        )
         self.cycle = ElasticPreconditioner(self.half_space)
         basis = self.half_space.basis
         mesh = basis.mesh
         x, w = np.polynomial.legendre.leggauss(2 * spec.order + 2)
         top = np.flatnonzero((mesh.p[1][mesh.facets] == 0).all(axis=0))
-        self.facets = FacetBasis(mesh, basis.elem, facets=top, quadrature=((0.5 * (x + 1.0))[None, :], 0.5 * w))
+        self.facets = FacetBasis(
+            mesh, basis.elem, facets=top, quadrature=((0.5 * (x + 1.0))[None, :], 0.5 * w)
+        )
         self.s: Array = np.asarray(self.facets.global_coordinates())[0]
         line = line_unknowns(basis, 1, 0.0)
         nodes = mesh.p[0][mesh.p[1] == 0]
@@ -135,7 +145,9 @@ class FullContact:
         ]
         tangent = _pressure_change.assemble(self.facets, change=change).tocoo()
         size = u.size
-        full = sparse.coo_array((tangent.data, (2 * tangent.row + 1, 2 * tangent.col + 1)), shape=(size, size)).tocsr()
+        full = sparse.coo_array(
+            (tangent.data, (2 * tangent.row + 1, 2 * tangent.col + 1)), shape=(size, size)
+        ).tocsr()
         free, D = self.half_space.free, sparse.diags_array(self.cycle.scale)
         reduced = []
         for vector in vectors:
@@ -143,6 +155,12 @@ class FullContact:
             spread[1::2] = vector
             reduced.append(self.cycle.scale * spread[free])
         return reduced[0], (D @ full[free][:, free] @ D).tocsr(), reduced[1], reduced[2]
+
+    def under_pressure(self, pressure: Array, c: float) -> Array:
+        """Return the displacement under a pressure at the facet Gauss points, to start Newton from."""
+        load = np.zeros(self.half_space.matrix.shape[0])
+        load[1::2] = np.asarray(_pressure.assemble(self.facets, pressure=pressure))
+        return self.factor(c) * solve_cg(self.half_space, load, self.cycle).solution
 
     def load(self, u: Array, delta: float, c: float) -> float:
         """P on the mesh (compression positive)."""
@@ -189,7 +207,10 @@ class FullContact:
                 )
                 load_rate = self._load_rate(u, delta, c, scale * rate[:-1], float(rate[-1]))
                 P = self.load(u, delta, c)
-                return FullState(u, delta, c, P, load_rate, step_count + 1, krylov + count)
+                u_rate = np.zeros(u.size)
+                u_rate[free] = scale * rate[:-1]
+                work = step_count + 1, krylov + count
+                return FullState(u, delta, c, P, load_rate, *work, u_rate, float(rate[-1]))
         raise NotConverged("the uncondensed Newton iteration did not converge; start closer to the solution")
 
     def pull_off(self, u: Array, delta: float, c: float) -> FullState:
@@ -201,16 +222,21 @@ class FullContact:
             If the secant iteration on dP/dc does not converge.
         """
         old = self.equilibrium(u, delta, c)
-        new = self.equilibrium(old.u, old.displacement, c * 1.01)
+        new = self._moved(old, 0.01 * c)
         krylov, newton = old.krylov_steps + new.krylov_steps, old.newton_steps + new.newton_steps
         for _ in range(ROOT_STEPS):
             shift = -new.load_rate * (new.size - old.size) / (new.load_rate - old.load_rate)
             shift = float(np.clip(shift, -0.05 * new.size, 0.05 * new.size))
-            old, new = new, self.equilibrium(new.u, new.displacement, new.size + shift)
+            old, new = new, self._moved(new, shift)
             krylov, newton = krylov + new.krylov_steps, newton + new.newton_steps
             if abs(shift) <= ROOT_TOLERANCE * new.size:
-                return FullState(new.u, new.displacement, new.size, new.load, new.load_rate, newton, krylov)
+                return replace(new, newton_steps=newton, krylov_steps=krylov)
         raise NotConverged("the secant iteration for the pull-off did not converge; start closer to it")
+
+    def _moved(self, state: FullState, shift: float) -> FullState:
+        """Solve at a neighbouring size from the tangent prediction."""
+        u = state.u + shift * state.u_rate
+        return self.equilibrium(u, state.displacement + shift * state.displacement_rate, state.size + shift)
 
     def _bordered(self, tangent: sparse.csr_array, F_delta: Array, edge_row: Array) -> LinearOperator:
         def apply(x: Array) -> Array:

@@ -1,0 +1,66 @@
+"""Fields: the surface stress is the traction, the file reads back, the picture is drawn."""
+
+import meshio
+import numpy as np
+import pytest
+
+from fem_reference.contact import Contact
+from fem_reference.events import find_event
+from fem_reference.export import contact_field, draw, write_vtu
+from fem_reference.punch import PowerPunch
+from fem_reference.solution import Solid
+from fem_reference.surface import MeshSpec, compliance_for
+from fem_reference.traction import LennardJones
+
+SPEC = MeshSpec(0.125, 2.5e-3, 64.0, 0.9, 6)
+
+
+@pytest.fixture(scope="module")
+def state():
+    solid = Solid(1.0, 1.0, 0.4, 0.3)
+    contact = Contact(
+        PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), compliance_for(solid.modulus, 0.3, SPEC, 1.0)
+    )
+    point = find_event(contact, "pull_off_force").point
+    return point, contact_field(solid, SPEC, point)
+
+
+def test_stress_at_the_surface_is_the_traction(state):
+    point, field = state
+    contact, y = point.leg.contact, point.state.y
+    near = np.flatnonzero((field.points[:, 1] < 1e-9) & (field.points[:, 0] < 5 * y[-1]))
+    r = field.points[near, 0]
+    trace = contact.compliance.trace
+    w = trace.evaluate(r / y[-1]) @ y[:-2]
+    pressure = contact.law.traction(-y[-2] + contact.punch.height(r) + w)
+    # Derivatives of the displacement lose one order: measured 2e-3 on this mesh.
+    assert np.abs(field.stress[near, 2] + pressure).max() <= 5e-3
+    assert np.abs(field.stress[near, 3]).max() <= 1e-2
+    assert field.displacement[near, 1] == pytest.approx(w, abs=1e-5)
+
+
+def test_vertical_equilibrium_at_depth(state):
+    """The resultant of sigma_zz on a plane balances the load, within the trapezoidal rule."""
+    point, field = state
+    depths = np.unique(field.points[:, 1])
+    depth = depths[np.argmin(abs(depths - 0.3))]
+    plane = np.flatnonzero(field.points[:, 1] == depth)
+    r, stress = field.points[plane, 0], field.stress[plane, 2]
+    order = np.argsort(r)
+    resultant = 2 * np.pi * np.trapezoid((r * stress)[order], r[order])
+    assert resultant == pytest.approx(-point.state.load, rel=0.1)
+
+
+def test_file_and_picture(state, tmp_path):
+    _, field = state
+    path = tmp_path / "contact.vtu"
+    write_vtu(field, path)
+    read = meshio.read(path)
+    assert len(read.points) == len(field.points)
+    assert {"displacement", "sigma_zz", "von_mises"} <= set(read.point_data)
+    assert read.point_data["displacement"][:, 1] == pytest.approx(-field.displacement[:, 1])
+    figure = draw(field, 4.0, magnification=0.5, stress="von_mises")
+    figure.savefig(tmp_path / "contact.png")
+    assert (tmp_path / "contact.png").stat().st_size > 10_000
+    with pytest.raises(ValueError, match="unknown"):
+        draw(field, 4.0, stress="pressure")
