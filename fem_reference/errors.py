@@ -5,9 +5,9 @@ from __future__ import annotations
 __all__ = ["NoSuchEvent", "NotConverged"]
 
 
-class NotConverged(RuntimeError):  # noqa: N818  (reads as a statement)
+class NotConverged(RuntimeError):
     """A linear, nonlinear or mesh iteration missed its tolerance; the message says what to change."""
 
 
-class NoSuchEvent(RuntimeError):  # noqa: N818  (reads as a statement)
+class NoSuchEvent(RuntimeError):
     """The equilibrium path has no such point (no fold, say, for a stiff solid); the message says why."""

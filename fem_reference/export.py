@@ -196,7 +196,11 @@ def draw(field: Field, radius: float, magnification: float = 1.0, stress: str = 
     figure = Figure(figsize=(6.0, 5.0), layout="constrained")
     axes = figure.subplots()
     triangulation = Triangulation(r[used], z[used], renumber[triangles])
-    image = axes.tripcolor(triangulation, values[used], shading="gouraud", cmap="RdBu_r")
+    # Zero is white: blue is compression, red tension.
+    limit = float(np.abs(values[used]).max())
+    image = axes.tripcolor(
+        triangulation, values[used], shading="gouraud", cmap="RdBu_r", vmin=-limit, vmax=limit
+    )
     figure.colorbar(image, ax=axes, label=stress.replace("_", " "))
     axes.set(xlim=(0.0, radius), xlabel="r", ylabel="depth z", aspect="equal")
     axes.set_ylim(radius, min(0.0, float(z[used].min())))

@@ -42,12 +42,14 @@ def number(text: str) -> float:
         raise argparse.ArgumentTypeError(f"{text!r} is not a number") from None
 
 
-def add_case(parser: argparse.ArgumentParser) -> None:
+def add_case(parser: argparse.ArgumentParser, required: bool = True) -> None:
     """Declare the parameters of one problem."""
-    add = parser.add_argument
-    add("--n", type=number, required=True, help="shape index of the punch r^n/n, > 0 (1 cone, 2 paraboloid)")
-    add("--k", type=number, required=True, help="gradient exponent of E = E0 (z/c0)^k, 0 to 1")
-    add("--mu", type=number, required=True, help="generalised Tabor number (Eq. 29), > 0")
+    for name, meaning in (
+        ("--n", "shape index of the punch r^n/n, > 0 (1 cone, 2 paraboloid)"),
+        ("--k", "gradient exponent of E = E0 (z/c0)^k, 0 to 1"),
+        ("--mu", "generalised Tabor number (Eq. 29), > 0"),
+    ):
+        parser.add_argument(name, type=number, required=required, help=meaning)
 
 
 def case_of(args: argparse.Namespace) -> Case:

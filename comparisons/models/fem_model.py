@@ -13,6 +13,7 @@ import fem_reference
 from comparisons.model import Curve, NotApplicable, Result
 from comparisons.models.solver import result_of, translated
 from comparisons.quantities import QUANTITIES
+from fem_reference import export
 from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
 from fscm.profile import PowerLaw
@@ -64,6 +65,31 @@ class FiniteElements:
                 "edge_radius": physical.to_dimensionless("radius", path.contact_radius),
             },
         )
+
+    def field(self, problem: Problem, quantity: str) -> tuple[export.Field, float]:
+        """Return displacement and stresses in the whole solid at an event, in units of the problem.
+
+        Returns
+        -------
+        field : fem_reference.export.Field
+            Points in the transverse length (Q z0)^(1/n), displacements in z0, stresses and moduli in
+            dgamma / z0.
+        radius : float
+            Where the tension at the surface is largest, in the transverse length.
+        """
+        physical, solid, punch, law = self._physical(problem)
+        with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
+            spec, point = fem_reference.event_state(solid, punch, law, quantity)
+            raw = export.contact_field(solid, spec, point)
+        scales = physical.scales
+        field = export.Field(
+            raw.points / scales["radius"],
+            raw.quads,
+            raw.displacement / scales["displacement"],
+            raw.stress / scales["traction"],
+            raw.modulus / scales["traction"],
+        )
+        return field, point.contact_radius / scales["radius"]
 
     def _physical(
         self, problem: Problem
