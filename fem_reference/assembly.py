@@ -76,7 +76,7 @@ def assemble_half_space(grid: Grid, modulus: Modulus, nu: float, order: int = 4)
     >>> from fem_reference.modulus import PowerLaw
     >>> grid = graded_grid(extent=4.0, density=1.5)
     >>> half_space = assemble_half_space(grid, PowerLaw(1.0, 1.0, 0.4), nu=0.3)
-    >>> half_space.matrix.shape[0] - half_space.free.size  # one radial unknown fixed per axis function
+    >>> int(half_space.matrix.shape[0] - half_space.free.size)  # one radial unknown fixed per axis function
     17
     """
     mesh = grid.quads()

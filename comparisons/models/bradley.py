@@ -16,9 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import beta
 
-from comparisons.model import Curve, NotApplicable
+from comparisons.model import Curve
 from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, ClosedForm, Estimate, monomial
-from comparisons.models.cohesive_stress import SMALLEST_SHAPE_INDEX
 from fscm.problem import Problem
 
 __all__ = ["Bradley", "rigid_load", "rigid_pull_off"]
@@ -37,10 +36,6 @@ def rigid_load(n: float, central_gap: NDArray[np.float64]) -> NDArray[np.float64
     >>> float(rigid_load(2.0, np.array(0.0)))
     -2.0
     """
-    if not n > SMALLEST_SHAPE_INDEX:
-        raise NotApplicable(
-            f"the rigid load is infinite at n = {n}: the 9-3 law over r^n / n converges only for n > 2/3"
-        )
     b = 2.0 / n
     q = 1.0 / (np.asarray(central_gap, float) + 1.0)
     factor = 16.0 / 3.0 * n ** (b - 1.0)
@@ -60,10 +55,6 @@ def rigid_pull_off(n: float) -> Estimate:
     >>> [round(rigid_pull_off(n).value, 3) for n in (1, 1.5, 2, 5)]
     [2.88, 2.166, 2.0, 1.669]
     """
-    if not n > SMALLEST_SHAPE_INDEX:
-        raise NotApplicable(
-            f"the rigid load is infinite at n = {n}: the 9-3 law over r^n / n converges only for n > 2/3"
-        )
     b = 2.0 / n
     return monomial(
         (32.0 / (9.0 * n - 2.0), 1.0), (n, b), (float(beta(3.0 - b, b)), 1.0), (_gap_base(n), (3.0 - b) / 6.0)

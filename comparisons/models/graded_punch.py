@@ -21,7 +21,6 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import beta
 
-from comparisons.model import NotApplicable
 from fscm.problem import Problem
 
 __all__ = ["GradedPunch", "Scales"]
@@ -55,12 +54,7 @@ class GradedPunch:
 
     @classmethod
     def of(cls, problem: Problem) -> GradedPunch:
-        """Return the constants of a problem; raise `NotApplicable` if 2n + k <= 1."""
-        if not 2.0 * problem.n + problem.k > 1.0:
-            raise NotApplicable(
-                f"n = {problem.n} and k = {problem.k} give 2n + k <= 1: "
-                "adhesion then outgrows elasticity as the contact grows"
-            )
+        """Return the constants of a problem."""
         return cls(float(problem.n), float(problem.k))
 
     @property

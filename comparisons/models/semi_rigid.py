@@ -35,10 +35,6 @@ def _reach(n: float, k: float, j: int) -> float:
 
 def _pull(n: float, k: float) -> float:
     """Coefficient of mu^(2-b) q^(3-b) in Eq. 43."""
-    if not 3.0 * n + k > 1.0:
-        raise NotApplicable(
-            f"n = {n} and k = {k} give 3n + k <= 1: the far field of the 9-3 law then deforms without bound"
-        )
     return 16.0 / 3.0 * n ** ((1.0 - k) / n - 1.0) * _reach(n, k, 3)
 
 

@@ -7,7 +7,6 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq, minimize_scalar
 
-from comparisons.model import NotApplicable
 from comparisons.models.bradley import Bradley, rigid_load
 from fscm.problem import Problem
 from fscm.surface_law import LennardJones93
@@ -77,9 +76,3 @@ def test_curve_contains_its_pull_off(n: float) -> None:
     assert 0.0 <= force + curve.load.min() < 1e-3 * force
     np.testing.assert_array_equal(curve.displacement, -curve.columns["central_gap"])
     assert curve.load[-1] > 0.0
-
-
-@pytest.mark.parametrize("quantity", ["pull_off_force", "pull_off_displacement", "zero_load_displacement"])
-def test_refuses_an_infinite_load(quantity: str) -> None:
-    with pytest.raises(NotApplicable, match="infinite"):
-        Bradley().evaluate(Problem(0.6, 0.0, 1.0), quantity)

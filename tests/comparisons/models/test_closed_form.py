@@ -16,7 +16,6 @@ from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugda
 from comparisons.models.semi_rigid import SemiRigid
 from comparisons.quantities import QUANTITIES
 from fscm.problem import Problem
-from fscm.profile import PowerLaw
 from fscm.surface_law import LennardJones93
 
 MODELS = {
@@ -77,10 +76,9 @@ class OtherLaw(LennardJones93):
     "problem",
     [
         Problem(2, 0, 1, profile=Sinusoid()),
-        Problem(2, 0, 1, profile=PowerLaw(3.0)),
         Problem(2, 0, 1, law=OtherLaw()),
     ],
-    ids=["profile", "other-power", "law"],
+    ids=["profile", "law"],
 )
 def test_refuses_other_profiles_and_laws(model: ClosedForm, problem: Problem) -> None:
     with pytest.raises(NotApplicable, match="and for no other"):

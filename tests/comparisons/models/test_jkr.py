@@ -6,7 +6,6 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from comparisons.model import NotApplicable
 from comparisons.models.jkr import JKR
 from fscm.problem import Problem
 
@@ -129,8 +128,3 @@ def test_jump_out_coefficient_tends_to_two(n: float) -> None:
 def test_gibson_limit_is_continuous(quantity: str) -> None:
     limit, near = (JKR().evaluate(Problem(1.5, k, 2.0), quantity).value for k in (1.0, 1 - 1e-10))
     assert near == pytest.approx(limit, rel=1e-8)
-
-
-def test_refuses_what_outgrows_elasticity() -> None:
-    with pytest.raises(NotApplicable, match="2n"):
-        JKR().evaluate(Problem(0.4, 0.1, 1.0), "pull_off_force")

@@ -114,8 +114,3 @@ def test_gibson_limit_is_the_local_spring() -> None:
 def test_refuses_a_jump_in_from_contact() -> None:
     with pytest.raises(NotApplicable, match="positive"):
         SemiRigid().evaluate(Problem(2, 0, 0.05), "jump_in_displacement")
-
-
-def test_refuses_an_infinite_deformation() -> None:
-    with pytest.raises(NotApplicable, match="3n"):
-        SemiRigid().evaluate(Problem(0.3, 0.0, 1.0), "jump_in_gap")
