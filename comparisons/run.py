@@ -21,7 +21,7 @@ from threadpoolctl import threadpool_limits
 
 from comparisons.cases import Case, Grid
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
-from comparisons.models import create
+from comparisons.models import MODELS, create
 from comparisons.quantities import QUANTITIES
 from comparisons.store import Row
 
@@ -30,11 +30,16 @@ __all__ = ["Task", "answer", "ask", "compute", "plan"]
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """One question to one model, by names only: cheap to send to another process."""
+    """One question to one model, by names only: cheap to send to another process.
+
+    `spec` is how a model from outside is found, and `version` what it said of itself when the run began.
+    """
 
     model: str
     quantity: str
     case: Case
+    spec: str = ""
+    version: str = ""
 
     @property
     def key(self) -> tuple[str, str, float, float, float, float | None]:
@@ -50,23 +55,43 @@ def plan(grids: Iterable[Grid], models: list[str] | None = None) -> list[Task]:
     grids : iterable of Grid
         What to compute.
     models : list of str, optional
-        Candidates that take the place of those each grid names; the reference is always computed.
+        Candidates that take the place of those each grid names; the reference is always computed.  Each is
+        a name or
+        the SPEC of a model from outside.
 
     Returns
     -------
     list of Task
         Largest Tabor numbers first: they take longest, and a core that starts one last would finish alone.
+
+    Raises
+    ------
+    ValueError
+        If two models from outside have one name.
     """
+    chosen = [_identity(model) for model in models or []]
+    names = [name for name, _, _ in set(chosen)]
+    if twice := sorted({name for name in names if names.count(name) > 1}):
+        raise ValueError(f"two models are called {', '.join(twice)}: each needs its own name")
     tasks = {
-        Task(model, quantity, case)
+        Task(name, quantity, case, spec, version)
         for grid in grids
-        for model in {grid.reference, *(models or grid.models)}
+        for name, spec, version in {_identity(m) for m in (grid.reference, *([] if models else grid.models))}
+        | set(chosen)
         for quantity in grid.quantities
         for case in grid.cases
     }
     return sorted(
         tasks, key=lambda task: (-task.case.mu, task.case.n, task.case.k, task.model, task.quantity)
     )
+
+
+def _identity(model: str) -> tuple[str, str, str]:
+    """Return name, SPEC and version of a model; the latter two are empty for ours."""
+    if model in MODELS:
+        return model, "", ""
+    outside = create(model)
+    return outside.name, model, outside.version
 
 
 def ask(model: Model, quantity: str, case: Case) -> Row:
@@ -105,8 +130,16 @@ def ask(model: Model, quantity: str, case: Case) -> Row:
     return _row(model, quantity, case, started, status="ok", result=result)
 
 
+@dataclass(frozen=True, slots=True)
+class _Absent:
+    """Name and version of a model that could not be opened."""
+
+    name: str
+    version: str
+
+
 def _row(
-    model: Model,
+    model: Model | _Absent,
     quantity: str,
     case: Case,
     started: float,
@@ -138,8 +171,9 @@ def _row(
 def answer(task: Task) -> Row:
     """Answer a task, whatever happens: among many cases, one that its model refuses is a failed row."""
     started = time.perf_counter()
-    model = create(task.model, task.case.nu)
+    model: Model | _Absent = _Absent(task.model, task.version)
     try:
+        model = create(task.spec or task.model, task.case.nu)
         return ask(model, task.quantity, task.case)
     except ValueError as refusal:
         return _row(model, task.quantity, task.case, started, status="failed", reason=str(refusal))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from importlib import import_module
 
+from comparisons.foreign.loading import door_of, open_model
 from comparisons.model import Model
 
 __all__ = ["MODELS", "create"]
@@ -31,19 +32,20 @@ _KNOWS_POISSON = frozenset({"fem"})
 
 
 def create(name: str, poisson_ratio: float | None = None) -> Model:
-    """Return the model registered as `name`.
+    """Return the model registered as `name`, or one from outside.
 
     Parameters
     ----------
     name : str
-        A key of `MODELS`.
+        A key of `MODELS`, or the SPEC of a model from outside (see `comparisons.foreign.loading`).
     poisson_ratio : float, optional
         Poisson's ratio of the solid, for models that need one; by default the model's own choice.
 
     Raises
     ------
     ValueError
-        If no model has that name; the sentence lists those that exist.
+        If no model has that name, the sentence lists those that exist; or if one from outside cannot be
+        loaded.
 
     Examples
     --------
@@ -51,9 +53,22 @@ def create(name: str, poisson_ratio: float | None = None) -> Model:
     'jkr'
     """
     if name not in MODELS:
-        raise ValueError(f"unknown model {name!r}; the models are {', '.join(MODELS)}")
+        return _from_outside(name, poisson_ratio)
     module, _, cls = MODELS[name].partition(":")
     factory = getattr(import_module(module), cls)
     if name in _KNOWS_POISSON and poisson_ratio is not None:
         return factory(poisson_ratio)
     return factory()
+
+
+def _from_outside(spec: str, poisson_ratio: float | None) -> Model:
+    try:
+        door_of(spec)
+    except ValueError as error:
+        raise ValueError(f"unknown model: {error}; the models are {', '.join(MODELS)}") from None
+    model = open_model(spec, poisson_ratio)
+    if model.name in MODELS:
+        raise ValueError(
+            f"the model {spec} calls itself {model.name}, which is one of ours: it needs its own name"
+        )
+    return model
