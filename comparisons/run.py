@@ -10,7 +10,7 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Generator, Iterable
+from collections.abc import Generator, Iterable, Mapping
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from multiprocessing import get_context, parent_process
@@ -21,7 +21,7 @@ from threadpoolctl import threadpool_limits
 
 from comparisons.cases import Case, Grid
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
-from comparisons.models import MODELS, create
+from comparisons.models import Outside, create
 from comparisons.quantities import QUANTITIES
 from comparisons.store import Row
 
@@ -30,16 +30,12 @@ __all__ = ["Task", "answer", "ask", "compute", "plan"]
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """One question to one model, by names only: cheap to send to another process.
-
-    `spec` is how a model from outside is found, and `version` what it said of itself when the run began.
-    """
+    """One question to one model, by names only: cheap to send to another process."""
 
     model: str
     quantity: str
     case: Case
-    spec: str = ""
-    version: str = ""
+    outside: Outside | None = None
 
     @property
     def key(self) -> tuple[str, str, float, float, float, float | None]:
@@ -47,7 +43,9 @@ class Task:
         return self.model, self.quantity, self.case.n, self.case.k, self.case.mu, self.case.nu
 
 
-def plan(grids: Iterable[Grid], models: list[str] | None = None) -> list[Task]:
+def plan(
+    grids: Iterable[Grid], models: list[str] | None = None, outside: Mapping[str, Outside] | None = None
+) -> list[Task]:
     """Return every question once: the reference and the candidates of each grid, in all its cases.
 
     Parameters
@@ -55,43 +53,25 @@ def plan(grids: Iterable[Grid], models: list[str] | None = None) -> list[Task]:
     grids : iterable of Grid
         What to compute.
     models : list of str, optional
-        Candidates that take the place of those each grid names; the reference is always computed.  Each is
-        a name or
-        the SPEC of a model from outside.
+        Names of candidates that take the place of those each grid names; the reference is always computed.
+    outside : dict of str to Outside, optional
+        Those of them that are not ours (see `comparisons.models.identify`).
 
     Returns
     -------
     list of Task
         Largest Tabor numbers first: they take longest, and a core that starts one last would finish alone.
-
-    Raises
-    ------
-    ValueError
-        If two models from outside have one name.
     """
-    chosen = [_identity(model) for model in models or []]
-    names = [name for name, _, _ in set(chosen)]
-    if twice := sorted({name for name in names if names.count(name) > 1}):
-        raise ValueError(f"two models are called {', '.join(twice)}: each needs its own name")
     tasks = {
-        Task(name, quantity, case, spec, version)
+        Task(model, quantity, case, (outside or {}).get(model))
         for grid in grids
-        for name, spec, version in {_identity(m) for m in (grid.reference, *([] if models else grid.models))}
-        | set(chosen)
+        for model in {grid.reference, *(models or grid.models)}
         for quantity in grid.quantities
         for case in grid.cases
     }
     return sorted(
         tasks, key=lambda task: (-task.case.mu, task.case.n, task.case.k, task.model, task.quantity)
     )
-
-
-def _identity(model: str) -> tuple[str, str, str]:
-    """Return name, SPEC and version of a model; the latter two are empty for ours."""
-    if model in MODELS:
-        return model, "", ""
-    outside = create(model)
-    return outside.name, model, outside.version
 
 
 def ask(model: Model, quantity: str, case: Case) -> Row:
@@ -130,16 +110,8 @@ def ask(model: Model, quantity: str, case: Case) -> Row:
     return _row(model, quantity, case, started, status="ok", result=result)
 
 
-@dataclass(frozen=True, slots=True)
-class _Absent:
-    """Name and version of a model that could not be opened."""
-
-    name: str
-    version: str
-
-
 def _row(
-    model: Model | _Absent,
+    model: Model | Outside,
     quantity: str,
     case: Case,
     started: float,
@@ -171,9 +143,10 @@ def _row(
 def answer(task: Task) -> Row:
     """Answer a task, whatever happens: among many cases, one that its model refuses is a failed row."""
     started = time.perf_counter()
-    model: Model | _Absent = _Absent(task.model, task.version)
+    model = task.outside or create(task.model, task.case.nu)
     try:
-        model = create(task.spec or task.model, task.case.nu)
+        if isinstance(model, Outside):
+            model = create(model.spec, task.case.nu)
         return ask(model, task.quantity, task.case)
     except ValueError as refusal:
         return _row(model, task.quantity, task.case, started, status="failed", reason=str(refusal))

@@ -10,8 +10,8 @@ import pandas as pd
 from comparisons.commands.options import FAILED, OK, add_case, case_of
 from comparisons.figures import force_curve
 from comparisons.figures.style import picture_path, save
-from comparisons.model import ComputationFailed, Curve, Model, NotApplicable, TracesCurve
-from comparisons.models import create
+from comparisons.model import ComputationFailed, Curve, NotApplicable, TracesCurve
+from comparisons.models import create, identify
 from comparisons.progress import log, waiting
 from comparisons.store import atomic, csv_text, writable_file
 
@@ -43,7 +43,8 @@ def call(args: argparse.Namespace) -> int:
     """Trace, write, draw; return the exit status."""
     case = case_of(args)
     # All that can be wrong with the request is found out before anything is computed.
-    models = _by_name(args.model)
+    names, outside = identify(args.model)
+    models = {name: create(outside[name].spec if name in outside else name) for name in names}
     if args.csv:
         writable_file(args.csv)
     if args.plot:
@@ -70,16 +71,6 @@ def call(args: argparse.Namespace) -> int:
     if not args.csv and not args.plot:
         print(csv_text(points), end="")
     return status
-
-
-def _by_name(specs: list[str]) -> dict[str, Model]:
-    models: dict[str, Model] = {}
-    for spec in dict.fromkeys(specs):
-        model = create(spec)
-        if model.name in models:
-            raise ValueError(f"two models are called {model.name}: each needs its own name")
-        models[model.name] = model
-    return models
 
 
 def _points(curves: dict[str, Curve]) -> pd.DataFrame:

@@ -21,6 +21,7 @@ from comparisons.cases import TIERS, grids
 from comparisons.commands.options import FAILED, OK, output
 from comparisons.figures import kappa as kappa_figure
 from comparisons.figures.style import save
+from comparisons.models import identify
 from comparisons.progress import counting, log
 from comparisons.provenance import code_digest, environment
 from comparisons.run import Task, compute, plan
@@ -77,7 +78,8 @@ def call(args: argparse.Namespace) -> int:
         )
     chosen = grids(args.tier)
     # Before anything is computed or written, every model that was asked for has been opened.
-    tasks = plan(chosen, args.model)
+    names, outside = identify(args.model or [])
+    tasks = plan(chosen, names, outside)
     started = datetime.now(UTC)
     folder = prepare_folder(
         args.out or Path("results", "runs", started.astimezone().strftime("%Y-%m-%dT%H-%M-%S"))
@@ -128,7 +130,7 @@ def _complete(tasks: list[Task], journal: Journal, jobs: int) -> list[Row]:
 
     A stored row of another version of a model from outside does not count.
     """
-    versions = {task.model: task.version for task in tasks if task.version}
+    versions = {task.model: task.outside.version for task in tasks if task.outside}
 
     def current(row: Row) -> bool:
         return versions.get(row.model, row.model_version) == row.model_version

@@ -72,8 +72,7 @@ def limit_resources(limits: Limits) -> None:
 
 
 def cpu_seconds_from_now(limits: Limits) -> None:
-    """Let the system kill this process when it has used far more processor time than one question may
-    take."""
+    """Have this process killed when it has used far more processor time than one question may take."""
     used = resource.getrusage(resource.RUSAGE_SELF)
     allowed = used.ru_utime + used.ru_stime + (limits.seconds + _GRACE) * (os.cpu_count() or 1)
     _, hard = resource.getrlimit(resource.RLIMIT_CPU)

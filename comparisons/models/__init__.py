@@ -6,12 +6,14 @@ not load the finite elements.  To add a model, write its module and add one row 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import dataclass
 from importlib import import_module
 
 from comparisons.foreign.loading import door_of, open_model
 from comparisons.model import Model
 
-__all__ = ["MODELS", "create"]
+__all__ = ["MODELS", "Outside", "create", "identify"]
 
 #: name -> "module:class"; the class is called without arguments, or with the Poisson's ratio alone if it
 #: is in `_KNOWS_POISSON`.
@@ -61,6 +63,35 @@ def create(name: str, poisson_ratio: float | None = None) -> Model:
     return factory()
 
 
+@dataclass(frozen=True, slots=True)
+class Outside:
+    """A model from outside by its own name and version, and the SPEC that finds it."""
+
+    name: str
+    version: str
+    spec: str
+
+
+def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, Outside]]:
+    """Return the names of models, each once, and which of them are from outside.
+
+    Raises
+    ------
+    ValueError
+        As `create`; also if two models have one name.
+    """
+    names: list[str] = []
+    outside: dict[str, Outside] = {}
+    for spec in dict.fromkeys(specs):
+        model = create(spec)
+        if model.name in names:
+            raise ValueError(f"two models are called {model.name}: each needs its own name")
+        names.append(model.name)
+        if spec not in MODELS:
+            outside[model.name] = Outside(model.name, model.version, spec)
+    return names, outside
+
+
 def _from_outside(spec: str, poisson_ratio: float | None) -> Model:
     try:
         door_of(spec)
@@ -68,7 +99,5 @@ def _from_outside(spec: str, poisson_ratio: float | None) -> Model:
         raise ValueError(f"unknown model: {error}; the models are {', '.join(MODELS)}") from None
     model = open_model(spec, poisson_ratio)
     if model.name in MODELS:
-        raise ValueError(
-            f"the model {spec} calls itself {model.name}, which is one of ours: it needs its own name"
-        )
+        raise ValueError(f"a model from outside calls itself {model.name}, which is one of ours")
     return model
