@@ -10,7 +10,8 @@ from __future__ import annotations
 from typing import ClassVar
 
 import fem_reference
-from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
+from comparisons.model import Curve, NotApplicable, Result
+from comparisons.models.solver import result_of, translated
 from comparisons.quantities import QUANTITIES
 from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
@@ -46,29 +47,15 @@ class FiniteElements:
         if quantity not in fem_reference.QUANTITIES:
             raise NotApplicable(f"the finite elements do not compute {quantity}")
         physical, solid, punch, law = self._physical(problem)
-        try:
+        with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             solution = fem_reference.solve(solid, punch, law, quantity)
-        except fem_reference.NoSuchEvent as reason:
-            raise NotApplicable(str(reason)) from reason
-        except fem_reference.NotConverged as failure:
-            raise ComputationFailed(str(failure)) from failure
-        kind = QUANTITIES[quantity].kind
-        return Result(
-            value=physical.to_dimensionless(kind, solution.value),
-            u_num=physical.to_dimensionless(kind, solution.u_num),
-            size=solution.size,
-            iterations=solution.iterations,
-            residual=solution.residual,
-            seconds=solution.seconds,
-        )
+        return result_of(solution, unit=physical.scales[QUANTITIES[quantity].kind])
 
     def curve(self, problem: Problem) -> Curve:
         """Return the equilibrium path from far away into compression."""
         physical, solid, punch, law = self._physical(problem)
-        try:
+        with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             path = fem_reference.trace(solid, punch, law)
-        except fem_reference.NotConverged as failure:
-            raise ComputationFailed(str(failure)) from failure
         return Curve(
             displacement=physical.to_dimensionless("displacement", path.displacement),
             load=physical.to_dimensionless("load", path.load),

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import ClassVar
 
 import fscm
-from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
+from comparisons.model import Curve, Result
+from comparisons.models.solver import result_of, translated
 from fscm.problem import Problem
 
 __all__ = ["FullSelfConsistent"]
@@ -24,30 +25,18 @@ class FullSelfConsistent:
     name: ClassVar[str] = "fscm"
     version: ClassVar[str] = "1"
     citation: ClassVar[str] = "Zhu, Zheng, Huang & Yu, Eqs. 24-33, by adaptive panels and product integration"
-    domain: ClassVar[str] = "n > 2/3, 0 <= k <= 0.8, 0.01 <= mu <= 10"
+    domain: ClassVar[str] = (
+        "n > 2/3, 0 <= k <= 1; to the digits of u_num where the cohesive edge is wider than 1e-6"
+    )
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the quantity, or raise as `comparisons.model.Model` says."""
-        try:
-            solution = fscm.solve(problem, quantity)
-        except fscm.NoSuchEvent as reason:
-            raise NotApplicable(str(reason)) from reason
-        except fscm.NotConverged as failure:
-            raise ComputationFailed(str(failure)) from failure
-        return Result(
-            value=solution.value,
-            u_num=solution.u_num,
-            size=solution.size,
-            iterations=solution.iterations,
-            residual=solution.residual,
-            seconds=solution.seconds,
-        )
+        with translated(fscm.NoSuchEvent, fscm.NotConverged):
+            return result_of(fscm.solve(problem, quantity))
 
     def curve(self, problem: Problem) -> Curve:
         """Return the whole equilibrium path, from far away into contact."""
-        try:
+        with translated(fscm.NoSuchEvent, fscm.NotConverged):
             path = fscm.trace(problem)
-        except fscm.NotConverged as failure:
-            raise ComputationFailed(str(failure)) from failure
         columns = {"central_gap": path.central_gap, "edge_radius": path.edge_radius}
         return Curve(displacement=path.displacement, load=path.load, columns=columns)
