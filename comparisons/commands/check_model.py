@@ -27,7 +27,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def call(args: argparse.Namespace) -> int:
-    """Examine and print; return the exit status: 4 if a computation failed, 1 if something is wrong, else 0."""
+    """Examine and print; return 4 if a computation failed, 1 if something is wrong, else 0."""
     if args.spec in MODELS:
         raise ValueError(f"{args.spec} is one of our own models; its tests are in tests/comparisons/models")
     model = open_model(args.spec)

@@ -1,4 +1,4 @@
-"""``fscm-bench new-model``: write a package with a model that works, its test and a workflow that gates it."""
+"""``fscm-bench new-model``: write a package with a model that works, a test and a workflow that gates it."""
 
 from __future__ import annotations
 

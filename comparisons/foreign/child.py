@@ -65,7 +65,7 @@ class Child:
         self._overdue = 0
 
     def ask(self, **request: Any) -> dict[str, Any]:
-        """Return an answer: its ``status`` and, for a failure, a ``reason``; nothing the model does raises."""
+        """Return an answer: ``status`` and, for a failure, a ``reason``; it raises for nothing a model does."""
         if self._overdue >= PATIENCE:
             return _failed(f"not asked: it ran out of time {PATIENCE} times in a row")
         if self._process is None:

@@ -1,6 +1,7 @@
 """What `check-model` asks of a model from outside, and how it says what is wrong.
 
-A check that fails tells an author what to look for; it is no verdict on how good the model is.  The only values that
+A check that fails tells an author what to look for; it is no verdict on how good the model is.  The only
+values that
 are compared are wide open: they find a missing pi, a sign, a swapped pair of arguments, a wrong unit.
 """
 
@@ -59,7 +60,8 @@ _CALIBRATION = (
     (2.0, 0.0, 2.0, 1.58359530),
     (2.0, 0.4, 1.0, 1.78848171),
 )
-#: JKR is wrong by a factor of 1.313 in the first of them, Bradley by 1.263 in the second; pi, 2 and 3/2 are beyond.
+#: JKR is wrong by a factor of 1.313 in the first of them, Bradley by 1.263 in the second; pi, 2 and 3/2
+#: are beyond.
 _CALIBRATION_FACTOR = 1.4
 _MISTAKES = {
     "a factor 2 too much": 2.0,
@@ -85,7 +87,8 @@ CLAIMS: dict[str, tuple[str, tuple[float, ...], Callable[[Problem], float]]] = {
     "jkr": ("JKR, mu -> infinity", (2.0, 5.0, 10.0, 30.0, 100.0), _jkr),
 }
 _LIMIT_CASES = ((2.0, 0.0), (2.0, 0.4), (1.0, 0.2), (5.0, 0.6))
-#: The approach to a limit is a power of mu that differs between models; at the ends of the lists above those known
+#: The approach to a limit is a power of mu that differs between models; at the ends of the lists above
+#: those known
 #: here (double-Hertz, Maugis-Dugdale) are within 1 %.
 _LIMIT_TOLERANCE = 0.05
 
@@ -167,7 +170,7 @@ def _questions(model: Outside) -> Iterator[Question]:
 def _identity(model: Outside) -> Finding:
     missing = [name for name in ("version", "citation", "domain") if not getattr(model, name).strip()]
     if missing:
-        return Finding("says what it is", WRONG, f"{', '.join(missing)} is empty: readers need it to cite you")
+        return Finding("says what it is", WRONG, f"{', '.join(missing)} is empty, but readers cite it")
     return Finding("says what it is", OK, f"{model.name} {model.version}; {model.citation}; {model.domain}")
 
 
@@ -178,7 +181,8 @@ def _finite(answers: _Answers) -> Finding:
         return Finding(
             check,
             FAILED,
-            f"{len(answers.failures)} of {len(answers.values)} questions failed, the first is {_label(question)}: "
+            f"{len(answers.failures)} of {len(answers.values)} questions failed, the first is "
+            f"{_label(question)}: "
             f"{reason}",
         )
     if not answers.given:
@@ -221,8 +225,10 @@ def _deterministic(answers: _Answers) -> Finding:
             return Finding(
                 check,
                 WRONG,
-                f"{_label(question)} is {before[question]!r} the first time and {told} in a new process with the "
-                "questions in the opposite order: a random number, a clock, or something kept between questions",
+                f"{_label(question)} is {before[question]!r} the first time and {told} in a new "
+                f"process with the "
+                "questions in the opposite order: a random number, a clock, or something kept "
+                "between questions",
             )
     return Finding(check, OK, f"{len(before)} values are the same to the last bit in a new process")
 
@@ -247,8 +253,10 @@ def _units(answers: _Answers) -> Finding:
                 return Finding(
                     check,
                     WRONG,
-                    f"{_label(question)}, made dimensionless, is {first.value:g} in SI units and {other.value:g} "
-                    "for the same problem in other units: a wrong power of a modulus, a length or a work of adhesion, "
+                    f"{_label(question)}, made dimensionless, is {first.value:g} in SI units and "
+                    f"{other.value:g} "
+                    "for the same problem in other units: a wrong power of a modulus, a length or a "
+                    "work of adhesion, "
                     "or a constant that has a unit",
                 )
     return Finding(check, OK, f"{len(answers.given)} values in {len(SCALES)} systems of units")
@@ -282,7 +290,8 @@ def _limit(answers: _Answers, claim: str, check: str) -> Finding:
             return Finding(
                 check,
                 WRONG,
-                f"the pull-off force at n = {n:g}, k = {k:g} is {_percent(errors[first])} off {label} at mu = {first:g} "
+                f"the pull-off force at n = {n:g}, k = {k:g} is {_percent(errors[first])} off "
+                f"{label} at mu = {first:g} "
                 f"and {_percent(errors[last])} at mu = {last:g}: it must come nearer, to "
                 f"{_percent(_LIMIT_TOLERANCE)} at least",
             )
@@ -301,7 +310,7 @@ def _calibration(answers: _Answers) -> Finding:
     if not ratios:
         return Finding(check, SKIPPED, "it answers none of the three calibration values")
     case, worst = max(ratios.items(), key=lambda item: _distance(item[1]))
-    what = f"the pull-off force at n = {case[0]:g}, k = {case[1]:g}, mu = {case[2]:g} is {worst:.3g} times the accurate one"
+    what = f"{_label(('pull_off_force', *case))} is {worst:.3g} times the accurate one"
     if _distance(worst) <= math.log(_CALIBRATION_FACTOR):
         return Finding(check, OK, f"{len(ratios)} of 3 calibration values are answered; at worst {what}")
     return Finding(check, WRONG, f"{what}{_suspicion(list(ratios.values()))}")

@@ -28,7 +28,7 @@ class PhysicalModel(Protocol):
     domain: str
 
     def evaluate_physical(self, problem: PhysicalProblem, quantity: str) -> Result:
-        """Return the quantity in units of `problem`: loads in traction * length^2, displacements in length."""
+        """Return the quantity in units of `problem`: a load in traction * length^2, a gap in length."""
         ...
 
 
