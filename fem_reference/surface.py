@@ -15,7 +15,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 from scipy import linalg
-from skfem import Basis, ElementLinePp, MeshLine
+from skfem import ElementLinePp
 
 from fem_reference.assembly import assemble_half_space
 from fem_reference.condensation import surface_stiffness

@@ -23,6 +23,9 @@ __all__ = ["Child"]
 #: must end.
 PATIENCE = 3
 
+#: Seconds in which a fresh interpreter must have imported the worker, before any foreign code; 0.5 are usual.
+_START = 120.0
+
 #: Longest answer, in bytes: a curve of a million points and a few columns.
 _LONGEST_ANSWER = 200_000_000
 
@@ -65,14 +68,18 @@ class Child:
         self._overdue = 0
 
     def ask(self, **request: Any) -> dict[str, Any]:
-        """Return an answer: ``status`` and, for a failure, a ``reason``; it raises for nothing a model does."""
+        """Return ``status`` and, for a failure, a ``reason``; nothing a model does raises an exception."""
         if self._overdue >= PATIENCE:
             return _failed(f"not asked: it ran out of time {PATIENCE} times in a row")
         if self._process is None:
             opened = self._start()
             if opened["status"] != "ok" or request["ask"] == "open":
                 return opened
-        return self._exchange(request)
+        overdue = self._overdue
+        answer = self._exchange(request)
+        # Only an answer to a question shows that it can be in time; loading again does not.
+        self._overdue = self._overdue if self._overdue > overdue else 0
+        return answer
 
     def close(self) -> None:
         """End the process, and whatever it started in its process group."""
@@ -110,14 +117,14 @@ class Child:
             )
         finally:
             os.close(theirs)
-        opened = self._exchange(
-            {"ask": "open", "door": self._door, "limits": asdict(self._limits), "path": path}
-        )
+        ready = self._exchange({"ask": "ready", "limits": asdict(self._limits), "path": path}, _START)
+        opened = self._exchange({"ask": "open", "door": self._door}) if ready["status"] == "ok" else ready
         if opened["status"] != "ok":
             self.close()
         return opened
 
-    def _exchange(self, request: dict[str, Any]) -> dict[str, Any]:
+    def _exchange(self, request: dict[str, Any], seconds: float | None = None) -> dict[str, Any]:
+        seconds = seconds or self._limits.seconds
         process = self._process
         if process is None or process.stdin is None:
             return _failed("its process has ended")
@@ -127,12 +134,11 @@ class Child:
             process.stdin.flush()
         except OSError:
             return self._ended()
-        line = self._line(started + self._limits.seconds)
+        line = self._line(started + seconds)
         if line is None:
             self.close()
             self._overdue += 1
-            return _failed(f"it had no answer after {self._limits.seconds:g} s and was ended")
-        self._overdue = 0
+            return _failed(f"it had no answer after {seconds:g} s and was ended")
         if not line:
             return self._ended()
         try:

@@ -203,7 +203,9 @@ def _signs(answers: _Answers) -> Finding:
                 WRONG,
                 f"{_label(question)} is {answer.value:g}, but it is: {QUANTITIES[quantity].meaning}",
             )
-    return Finding(check, OK if answers.given else SKIPPED, f"{len(answers.given)} values")
+    if not answers.given:
+        return Finding(check, SKIPPED, "there is no value")
+    return Finding(check, OK, f"{len(answers.given)} values")
 
 
 def _deterministic(answers: _Answers) -> Finding:

@@ -10,7 +10,11 @@ __all__ = ["NAME_PATTERN", "model_name", "one_line"]
 #: Names become file names, table cells, HTML and command lines, and must be harmless in all of them.
 NAME_PATTERN = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}")
 
-_EVERY_MODEL = "given"
+_MISSING = "is what programs that read CSV take for a missing value"
+_TAKEN = {
+    "given": "stands in gates for every model that is given",
+    **dict.fromkeys(("nan", "na", "n-a", "null", "none", "nil"), _MISSING),
+}
 _LONGEST_TEXT = 500
 
 
@@ -27,8 +31,8 @@ def model_name(text: object) -> str:
     >>> model_name("double-hertz")
     'double-hertz'
     """
-    if text == _EVERY_MODEL:
-        raise ValueError(f"the model's name {text} stands in gates for every model that is given")
+    if isinstance(text, str) and text.lower() in _TAKEN:
+        raise ValueError(f"the model's name {text} {_TAKEN[text.lower()]}")
     if isinstance(text, str) and NAME_PATTERN.fullmatch(text):
         return text
     raise ValueError(

@@ -69,14 +69,14 @@ def _serve(requests: IO[str], out: IO[str]) -> None:
     for line in requests:
         request = json.loads(line)
         started = time.perf_counter()
-        if request["ask"] == "open":
-            limits = Limits(**request["limits"])
-            _confine(request, limits)
-        cpu_seconds_from_now(limits)
         try:
-            if request["ask"] == "open":
-                model, reply = _open(request)
+            if request["ask"] == "ready":
+                limits, reply = Limits(**request["limits"]), {"status": "ok"}
+                _confine(request["path"], limits)
+            elif request["ask"] == "open":
+                model, reply = _open(request["door"])
             else:
+                cpu_seconds_from_now(limits)
                 reply = _answers[request["ask"]](model, request)
         except NotApplicable as refusal:
             reply = {"status": "not-applicable", "reason": one_line(str(refusal))}
@@ -87,15 +87,15 @@ def _serve(requests: IO[str], out: IO[str]) -> None:
         out.flush()
 
 
-def _confine(request: dict[str, Any], limits: Limits) -> None:
+def _confine(path: list[str], limits: Limits) -> None:
     sys.dont_write_bytecode = True
     write_only_in(Path.cwd())
     limit_resources(limits)
-    sys.path[:] = request["path"]
+    cpu_seconds_from_now(limits)
+    sys.path[:] = path
 
 
-def _open(request: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
-    door = request["door"]
+def _open(door: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
     if door["kind"] == "file":
         made = load_file(Path(door["file"]), door["attribute"])
     else:
