@@ -29,7 +29,7 @@ _FUNCTIONALS: dict[str, Callable[[State], float]] = {
     "displacement": lambda state: state.displacement,
     "load": lambda state: state.load,
 }
-_MAX_POINTS = 2000
+_MAX_POINTS = 600
 
 
 @dataclass(frozen=True)
