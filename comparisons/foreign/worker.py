@@ -182,6 +182,10 @@ def _kind(value: object) -> str:
     return f"an object of type {one_line(type(value).__name__, 60)}"
 
 
+def _is_theirs(filename: str) -> bool:
+    return not filename.startswith("<") and not Path(filename).is_relative_to(_OURS)
+
+
 def _explain(error: BaseException, limits: Limits) -> str:
     """Return what happened in one line; the model's own refusals in its words, defects with their place."""
     if isinstance(error, ComputationFailed):
@@ -193,7 +197,7 @@ def _explain(error: BaseException, limits: Limits) -> str:
         return f"SystemExit: the model called sys.exit({one_line(repr(error.code), 60)})"
     every = traceback.extract_tb(error.__traceback__)
     # The place in the author's code: a Result that refuses a text was given it there.
-    frames = [frame for frame in every if not Path(frame.filename).is_relative_to(_OURS)] or every
+    frames = [frame for frame in every if _is_theirs(frame.filename)] or every
     place = (
         f" in {frames[-1].name}, line {frames[-1].lineno} of {Path(frames[-1].filename).name}"
         if frames

@@ -21,6 +21,7 @@ def _no_children_left():
 
 HEAD = """
 import ctypes, math, os, signal, sys, threading, time
+from contextlib import suppress
 from pathlib import Path
 import numpy as np
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result

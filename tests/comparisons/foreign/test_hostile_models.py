@@ -1,6 +1,8 @@
 """What a model does wrong costs its own rows, each with a reason that says what it was, and nothing else."""
 
 import os
+import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -11,8 +13,13 @@ from comparisons.cases import Case, load_grids
 from comparisons.cli import main
 from comparisons.commands import run
 from comparisons.foreign.child import PATIENCE
+from comparisons.foreign.loading import door_of
+from comparisons.foreign.proxy import connect
+from comparisons.foreign.wording import model_name
 from comparisons.models import create
 from comparisons.run import ask
+
+from .conftest import HEAD
 
 CASE = Case(2, 0.4, 1)
 GOOD = "return Result(1.5, 1e-9)"
@@ -22,44 +29,70 @@ def row(spec):
     return ask(create(spec), "pull_off_force", CASE)
 
 
+#: What `evaluate` does, and words of the reason that its row gives.
+NONSENSE = [
+    ("return 1 / 0", "ZeroDivisionError in evaluate, line "),
+    ("sys.exit(3)", "sys.exit(3)"),
+    ("raise KeyboardInterrupt", "KeyboardInterrupt"),
+    ("return self.evaluate(problem, quantity)", "RecursionError"),
+    ("return Result(float('nan'), 0.0)", "nan, which is not a finite number"),
+    ("return Result(1.0, float('inf'))", "u_num = inf"),
+    ("return Result(1.0, -1.0)", "u_num = -1"),
+    ("return Result('1.5', 0.0)", "must be real number, not str"),
+    ("return Result(1j, 0.0)", "must be real number, not complex"),
+    ("return Result(np.array([1.0, 2.0]), 0.0)", "TypeError in evaluate"),
+    ("return Result(np.array(1.5), 0.0)", "an array of shape ()"),
+    ("return Result(True, 0.0)", "bool True"),
+    ("return '<b>1.5</b>'", "str '<b>1.5</b>', which is not a comparisons.model.Result"),
+    ("return 1.5 + 2j", "complex (1.5+2j)"),
+    ("return np.ones(7)", "an array of shape (7,)"),
+    ("pass", "NoneType None"),
+    ("return 1.5", "float 1.5"),
+    ("raise ComputationFailed('no\\x1b[31m root\\nfound')", "no[31m root found"),
+    ("raise ComputationFailed", "did not say why"),
+    ("raise ValueError('k is large')", "k is large (a case outside the domain is NotApplicable)"),
+]
+
+
+@pytest.fixture(scope="module")
+def nonsense(tmp_path_factory):
+    """One process that does all of the above, as the Tabor number says."""
+    bodies = "\n".join(
+        f"        if problem.mu == {number}:\n            {body}"
+        for number, (body, _) in enumerate(NONSENSE, 1)
+    )
+    file = tmp_path_factory.mktemp("nonsense") / "stranger.py"
+    file.write_text(f"{HEAD.format(name='stranger')}\n    def evaluate(self, problem, quantity):\n{bodies}\n")
+    spec = f"{file}:Model"
+    model = connect(door_of(spec), spec)
+    yield model
+    model.close()
+
+
+@pytest.mark.parametrize(("number", "says"), list(enumerate((says for _, says in NONSENSE), 1)))
+def test_nonsense_is_a_failed_row_with_a_reason(nonsense, number, says):
+    answer = ask(nonsense, "pull_off_force", Case(2, 0, number))
+    assert (answer.status, answer.value, answer.model) == ("failed", None, "stranger")
+    assert says in answer.reason
+    assert answer.reason.isprintable()
+
+
 @pytest.mark.parametrize(
     ("body", "says"),
     [
-        ("return 1 / 0", "ZeroDivisionError in evaluate, line "),
         ("os._exit(0)", "ended its process with exit status 0"),
-        ("sys.exit(3)", "sys.exit(3)"),
-        ("raise KeyboardInterrupt", "KeyboardInterrupt"),
-        ("return self.evaluate(problem, quantity)", "RecursionError"),
-        ("ctypes.string_at(0)", "SIGSEGV"),
-        ("return Result(float('nan'), 0.0)", "nan, which is not a finite number"),
-        ("return Result(1.0, float('inf'))", "u_num = inf"),
-        ("return Result(1.0, -1.0)", "u_num = -1"),
-        ("return Result('1.5', 0.0)", "must be real number, not str"),
-        ("return Result(1j, 0.0)", "must be real number, not complex"),
-        ("return Result(np.array([1.0, 2.0]), 0.0)", "TypeError"),
-        ("return Result(np.array(1.5), 0.0)", "an array of shape ()"),
-        ("return Result(True, 0.0)", "bool True"),
-        ("return '<b>1.5</b>'", "str '<b>1.5</b>', which is not a comparisons.model.Result"),
-        ("return 1.5 + 2j", "complex (1.5+2j)"),
-        ("return np.ones(7)", "an array of shape (7,)"),
-        ("pass", "NoneType None"),
-        ("return 1.5", "float 1.5"),
-        ("raise ComputationFailed('no\\x1b[31m root\\nfound')", "no[31m root found"),
-        ("raise ValueError('k is too large')", "k is too large (a case outside the domain is NotApplicable)"),
+        ("ctypes.string_at(0)", "killed by SIGSEGV"),
         (
-            "from contextlib import suppress\nfor fd in range(3, 20):\n    with suppress(OSError):\n"
-            "        os.write(fd, b'{}\\n')",
+            "for fd in range(3, 20):\n    with suppress(OSError):\n        os.write(fd, b'{}\\n')",
             "not an answer",
         ),
-        ("os.closerange(0, 100)\nreturn Result(1.0, 0.0)", ""),
+        ("os.closerange(0, 100)\nreturn Result(1.0, 0.0)", "exit status"),
     ],
 )
-def test_nonsense_is_a_failed_row_with_a_reason(write_model, body, says):
+def test_one_that_ends_or_corrupts_its_process_is_a_failed_row(write_model, body, says):
     answer = row(write_model(body))
-    assert (answer.status, answer.value, answer.model) == ("failed", None, "stranger")
+    assert (answer.status, answer.value) == ("failed", None)
     assert says in answer.reason
-    assert answer.reason
-    assert answer.reason.isprintable()
 
 
 def test_one_that_loops_for_ever_is_ended_and_not_asked_for_ever(write_model, monkeypatch):
@@ -113,6 +146,24 @@ def test_it_leaves_no_process_behind(write_model, tmp_path):
     assert ended(grandchild)
 
 
+def test_a_child_does_not_outlive_us(write_model):
+    """Also in the middle of a question, when we are killed and can end nothing."""
+    spec = write_model(
+        "while True:\n    pass", more="@property\ndef citation(self):\n    return str(os.getpid())"
+    )
+    program = f"""
+from comparisons.models import create
+from fscm.problem import Problem
+model = create({spec!r})
+print(model.citation, flush=True)
+model.evaluate(Problem(2, 0, 1), "pull_off_force")
+"""
+    with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True) as parent:
+        child = int(parent.stdout.readline())
+        parent.kill()
+    assert ended(child)
+
+
 def ended(process):
     """Whether a process that was sent a SIGKILL is gone, or a zombie that nobody has reaped yet."""
     for _ in range(1000):
@@ -126,39 +177,50 @@ def ended(process):
     return False
 
 
-@pytest.mark.parametrize(
-    ("member", "says"),
-    [
-        ("np.arange(3.0), np.arange(4.0)", "displacement 3, load 4"),
-        ("np.arange(3.0), np.array([0, 1j, 2])", "complex128"),
-        ("np.arange(3.0), np.array([0, np.nan, 2])", "not finite"),
-        ("[], []", "not 1 to"),
-        ("np.ones((2, 2)), np.ones((2, 2))", "shape (2, 2)"),
-        ("['a'], [1.0]", "real numbers"),
-    ],
-)
-def test_a_nonsense_curve_is_refused(write_model, capsys, member, says):
-    spec = write_model(GOOD, more=f"def curve(self, problem):\n    return Curve({member})")
-    assert main(["curve", "--model", spec, "jkr", "--n", "2", "--k", "0", "--mu", "1"]) == 4
-    shown = capsys.readouterr()
-    assert says in shown.err
-    assert "jkr" in shown.out
-    assert "stranger" not in shown.out
+CURVES = [
+    ("np.arange(3.0), np.arange(4.0)", "displacement 3, load 4"),
+    ("np.arange(3.0), np.array([0, 1j, 2])", "complex128"),
+    ("np.arange(3.0), np.array([0, np.nan, 2])", "not finite"),
+    ("[], []", "not 1 to"),
+    ("np.ones((2, 2)), np.ones((2, 2))", "shape (2, 2)"),
+    ("['a'], [1.0]", "real numbers"),
+]
+
+
+def test_a_nonsense_curve_is_refused(write_model, capsys):
+    curves = "".join(
+        f"    if problem.mu == {number}:\n        return Curve({curve})\n"
+        for number, (curve, _) in enumerate(CURVES, 1)
+    )
+    spec = write_model(GOOD, more=f"def curve(self, problem):\n{curves}    return 'curve'")
+    for number, (_, says) in enumerate([*CURVES, ("", "str 'curve'")], 1):
+        assert main(["curve", "--model", spec, "jkr", "--n", "2", "--k", "0", "--mu", str(number)]) == 4
+        shown = capsys.readouterr()
+        assert says in shown.err
+        assert "jkr" in shown.out
+        assert "stranger" not in shown.out
 
 
 @pytest.mark.parametrize(
-    ("name", "body", "says"),
+    ("name", "says"),
     [
-        ("<b>bold</b>", GOOD, "letters, digits"),
-        ("jkr", GOOD, "one of ours"),
-        ("given", GOOD, "every model"),
-        ("NaN", GOOD, "missing value"),
-        ("../up", GOOD, "letters, digits"),
-        ("x" * 65, GOOD, "64"),
+        ("<b>bold</b>", "letters, digits"),
+        ("", "letters, digits"),
+        ("../up", "letters, digits"),
+        ("line\nbreak", "letters, digits"),
+        ("x" * 65, "64"),
+        ("given", "every model"),
+        ("NaN", "missing value"),
     ],
 )
-def test_a_name_that_could_do_harm_is_refused(write_model, capsys, name, body, says):
-    spec = write_model(body, more=f"name = {name!r}")
+def test_a_name_that_could_do_harm_is_refused(name, says):
+    with pytest.raises(ValueError, match=says):
+        model_name(name)
+
+
+@pytest.mark.parametrize(("name", "says"), [("<b>bold</b>", "letters, digits"), ("jkr", "one of ours")])
+def test_a_model_with_such_a_name_is_wrong_input(write_model, capsys, name, says):
+    spec = write_model(GOOD, more=f"name = {name!r}")
     assert (
         main(["solve", "--model", spec, "--quantity", "pull_off_force", "--n", "2", "--k", "0", "--mu", "1"])
         == 2

@@ -1,4 +1,4 @@
-"""One model through three doors gives one answer; and an example written from outside is a model like ours."""
+"""One model through three doors gives one answer; an example written from outside is a model like ours."""
 
 import csv
 import hashlib
@@ -12,6 +12,7 @@ import pytest
 from comparisons.cases import Case, load_grids
 from comparisons.cli import main
 from comparisons.commands import run
+from comparisons.foreign.loading import close_models
 from comparisons.model import Model, TracesCurve
 from comparisons.models import create
 from comparisons.quantities import QUANTITIES
@@ -140,8 +141,6 @@ def test_a_run_goes_on_and_notices_that_a_model_changed(write_model, tmp_path, m
     assert values == [1.5] * 4
     said, values = once("return Result(1.5, 0.0)")
     assert "0 computations" in said
-    from comparisons.foreign.loading import close_models
-
     close_models()
     said, values = once("return Result(1.6, 0.0)")
     assert "4 computations" in said
