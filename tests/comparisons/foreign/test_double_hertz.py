@@ -1,4 +1,4 @@
-"""The example from outside is itself right: against its authors' equations, two limits and a direct integration."""
+"""The example is itself right: against its authors' equations, two limits and a direct integration."""
 
 import math
 from importlib.util import module_from_spec, spec_from_file_location
@@ -24,14 +24,14 @@ QUANTITIES = ("pull_off_force", "pull_off_displacement", "jump_out_displacement"
 
 
 def test_homogeneous_states_satisfy_greenwood_and_johnson():
-    """With R = 1, E* = 1 / (pi mu^(3/2))-like scales removed: P, delta, w and sigma of their equations in (a, c, K)."""
+    """Their equations for P, delta, the work of adhesion and the largest tension, in tilde variables."""
     mu = 1.3
     states = double_hertz.States(Problem(2, 0, mu))
     for t in (0.0, 0.2, 1.0, 3.0):
         displacement, load = states.at(t)
         ratio = -math.expm1(-t)
 
-        # Their c and K from w = 2 K (K+1) (c-a)^2 (c+2a) / (3 pi) and sigma = (2/pi) K sqrt(c^2-a^2), by bisection.
+        # c and K from w = 2 K (K+1) (c-a)^2 (c+2a) / (3 pi) and sigma = (2/pi) K sqrt(c^2-a^2).
         def work(c, ratio=ratio):
             a = ratio * c
             K = double_hertz.STRENGTH * mu * math.pi / (2 * math.sqrt(c**2 - a**2))
@@ -49,20 +49,20 @@ def test_homogeneous_states_satisfy_greenwood_and_johnson():
 @pytest.mark.parametrize("k", [0.0, 0.4, 0.8])
 @pytest.mark.parametrize("t", [0.1, 1.0])
 def test_the_traction_does_the_work_of_adhesion_on_the_gap(k, t):
-    """The work by quadrature over the traction and the gap, without the Abel inversion that gave the closed form."""
+    """By quadrature of the traction over the gap, without the inversion that gave the closed form."""
     mu, s = 0.8, (1 - k) / 2
     S = math.sin(math.pi * s) / (math.pi * s)
     a, c, K = state_of(k, mu, t)
 
     def gap_slope(r):
-        # H_a = (2/pi) cos(k pi/2) int_a^r x^k (r^2-x^2)^(s-1) (D(x)-D(a)) dx; x = a + (r-a)(1-v^(1/s)) at the end.
+        # H_a = (2/pi) cos(k pi/2) int_a^r x^k (r^2-x^2)^(s-1) (D(x)-D(a)) dx with
+        # x^2 = a^2 + (r^2-a^2) y, y = 1 - v^(1/s), which takes the singularity away.
         def integrand(v):
             y = 1 - v ** (1 / s)
             x2 = a**2 + (r**2 - a**2) * y
-            # d/dr of (r^2-a^2)^(1+s-...) is taken on the whole by the chain rule in u = r^2.
+            # H_a ~ integral of (r^2-a^2)^(1+s) x^(k-1) y dv, and its derivative with respect to r^2.
             x_k = x2 ** ((k - 1) / 2)
-            rise = (k - 1) / 2 * x_k / x2 * y * y * (r**2 - a**2) + x_k * y
-            return rise + s * x_k * y
+            return (k - 1) / 2 * x_k / x2 * y * y * (r**2 - a**2) + (1 + s) * x_k * y
 
         value = quad(integrand, 0, 1, epsabs=1e-13, epsrel=1e-12)[0]
         front = (2 / math.pi) * math.cos(k * math.pi / 2) / (2 * s) / (1 + k)
@@ -117,7 +117,7 @@ def test_limits(k):
 @pytest.mark.parametrize("mu", [0.1, 0.5, 1.0, 2.0, 5.0])
 @pytest.mark.parametrize("k", [0.0, 0.4])
 def test_it_is_near_maugis_dugdale_of_the_same_strength(k, mu):
-    """Two laws with one strength and one work of adhesion: 2 % apart at most, double-Hertz nearer to Bradley."""
+    """Two laws of one strength and one work of adhesion: at most 2 % apart."""
     ours, theirs = (
         model.evaluate(Problem(2, k, mu), "pull_off_force").value
         for model in (MODEL, MaugisDugdaleOriginal())
