@@ -9,7 +9,6 @@ The limits are environment variables, so that they reach every process of a run:
 from __future__ import annotations
 
 import os
-import resource
 from dataclasses import dataclass
 
 __all__ = ["Limits", "cpu_seconds_from_now", "limit_resources"]
@@ -66,24 +65,26 @@ def _number(name: str, default: float) -> float:
 
 def limit_resources(limits: Limits) -> None:
     """Bind this process, for good (a superuser could raise them again)."""
-    _set(resource.RLIMIT_AS, int(1e6 * limits.megabytes))
-    _set(resource.RLIMIT_FSIZE, _LARGEST_FILE)
-    _set(resource.RLIMIT_CORE, 0)
+    import resource  # Not on Windows, where models that are code are refused before this.
+
+    wanted = {
+        resource.RLIMIT_AS: int(1e6 * limits.megabytes),
+        resource.RLIMIT_FSIZE: _LARGEST_FILE,
+        resource.RLIMIT_CORE: 0,
+    }
+    for kind, value in wanted.items():
+        _, hard = resource.getrlimit(kind)
+        value = value if hard == resource.RLIM_INFINITY else min(value, hard)
+        resource.setrlimit(kind, (value, value))
 
 
 def cpu_seconds_from_now(limits: Limits) -> None:
     """Have this process killed when it has used far more processor time than one question may take."""
+    import resource
+
     used = resource.getrusage(resource.RUSAGE_SELF)
     allowed = used.ru_utime + used.ru_stime + (limits.seconds + _GRACE) * (os.cpu_count() or 1)
     _, hard = resource.getrlimit(resource.RLIMIT_CPU)
-    resource.setrlimit(resource.RLIMIT_CPU, (_at_most(int(allowed) + 1, hard), hard))
-
-
-def _set(kind: int, value: int) -> None:
-    _, hard = resource.getrlimit(kind)
-    value = _at_most(value, hard)
-    resource.setrlimit(kind, (value, value))
-
-
-def _at_most(value: int, hard: int) -> int:
-    return value if hard == resource.RLIM_INFINITY else min(value, hard)
+    soft = int(allowed) + 1
+    soft = soft if hard == resource.RLIM_INFINITY else min(soft, hard)
+    resource.setrlimit(resource.RLIMIT_CPU, (soft, hard))

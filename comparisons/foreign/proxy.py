@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from typing import Any
 
 import numpy as np
@@ -103,6 +104,10 @@ def connect(door: dict[str, Any], spec: str, poisson_ratio: float | None = None)
     ValueError
         If the model cannot be loaded or does not say properly what it is.
     """
+    if os.name != "posix":
+        raise ValueError(
+            "models that are code are run on Linux and macOS only; predictions as data everywhere"
+        )
     child = Child(door, Limits.of_environment())
     opened = child.ask(ask="open")
     if opened["status"] != "ok":

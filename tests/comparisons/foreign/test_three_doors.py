@@ -44,7 +44,7 @@ def data_door(tmp_path):
 name = "double-hertz"
 version = "1.0"
 author = "Greenwood & Johnson"
-doi = "10.1088/0022-3727/31/22/017"
+doi = "none"
 licence = "CC0-1.0"
 domain = "n = 2"
 predictions = "predictions.csv"
