@@ -66,6 +66,7 @@ def _end_with_parent(descriptor: int) -> None:
 def _serve(requests: IO[str], out: IO[str]) -> None:
     model: Any = None
     limits = Limits()
+    reply: dict[str, Any]
     for line in requests:
         request = json.loads(line)
         started = time.perf_counter()
