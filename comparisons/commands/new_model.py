@@ -25,8 +25,8 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def call(args: argparse.Namespace) -> int:
     """Write the files and name them; return the exit status."""
-    written = write_template(args.folder)
+    written, spec = write_template(args.folder)
     for path in written:
         print(path)
-    log(f"begin with {written[1]}; then: fscm-bench check-model {written[1]}:CLASS")
+    log(f"change what the model computes; then: fscm-bench check-model {spec}")
     return OK

@@ -20,7 +20,7 @@ _PLACES = {
 }
 
 
-def write_template(folder: Path) -> list[Path]:
+def write_template(folder: Path) -> tuple[list[Path], str]:
     """Write a new package; its model has the name of the folder.
 
     Parameters
@@ -32,6 +32,8 @@ def write_template(folder: Path) -> list[Path]:
     -------
     list of Path
         The files.
+    str
+        The SPEC of the model in them.
 
     Raises
     ------
@@ -57,4 +59,4 @@ def write_template(folder: Path) -> list[Path]:
             written.append(target)
     except OSError as error:
         raise ValueError(f"{folder} cannot be written ({error.strerror})") from None
-    return written
+    return written, f"{folder / module}.py:{words['CLASS']}"
