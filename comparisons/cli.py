@@ -14,14 +14,14 @@ from typing import NoReturn
 
 from threadpoolctl import threadpool_limits
 
-from comparisons.commands import bench, curve, fem, listing, run, solve
+from comparisons.commands import bench, check_model, curve, fem, listing, new_model, run, solve
 from comparisons.commands.options import WRONG_INPUT
 from comparisons.progress import log
 from comparisons.provenance import package_version
 
 __all__ = ["main"]
 
-_COMMANDS = (run, solve, curve, fem, listing, bench)
+_COMMANDS = (run, solve, curve, fem, listing, check_model, new_model, bench)
 _INTERRUPTED, _BROKEN_PIPE = 130, 141
 
 

@@ -10,7 +10,7 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Generator, Iterable
+from collections.abc import Generator, Iterable, Mapping
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from multiprocessing import get_context, parent_process
@@ -21,7 +21,7 @@ from threadpoolctl import threadpool_limits
 
 from comparisons.cases import Case, Grid
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
-from comparisons.models import create
+from comparisons.models import Outside, create
 from comparisons.quantities import QUANTITIES
 from comparisons.store import Row
 
@@ -35,6 +35,7 @@ class Task:
     model: str
     quantity: str
     case: Case
+    outside: Outside | None = None
 
     @property
     def key(self) -> tuple[str, str, float, float, float, float | None]:
@@ -42,7 +43,9 @@ class Task:
         return self.model, self.quantity, self.case.n, self.case.k, self.case.mu, self.case.nu
 
 
-def plan(grids: Iterable[Grid], models: list[str] | None = None) -> list[Task]:
+def plan(
+    grids: Iterable[Grid], models: list[str] | None = None, outside: Mapping[str, Outside] | None = None
+) -> list[Task]:
     """Return every question once: the reference and the candidates of each grid, in all its cases.
 
     Parameters
@@ -50,7 +53,9 @@ def plan(grids: Iterable[Grid], models: list[str] | None = None) -> list[Task]:
     grids : iterable of Grid
         What to compute.
     models : list of str, optional
-        Candidates that take the place of those each grid names; the reference is always computed.
+        Names of candidates that take the place of those each grid names; the reference is always computed.
+    outside : dict of str to Outside, optional
+        Those of them that are not ours (see `comparisons.models.identify`).
 
     Returns
     -------
@@ -58,7 +63,7 @@ def plan(grids: Iterable[Grid], models: list[str] | None = None) -> list[Task]:
         Largest Tabor numbers first: they take longest, and a core that starts one last would finish alone.
     """
     tasks = {
-        Task(model, quantity, case)
+        Task(model, quantity, case, (outside or {}).get(model))
         for grid in grids
         for model in {grid.reference, *(models or grid.models)}
         for quantity in grid.quantities
@@ -106,7 +111,7 @@ def ask(model: Model, quantity: str, case: Case) -> Row:
 
 
 def _row(
-    model: Model,
+    model: Model | Outside,
     quantity: str,
     case: Case,
     started: float,
@@ -138,8 +143,10 @@ def _row(
 def answer(task: Task) -> Row:
     """Answer a task, whatever happens: among many cases, one that its model refuses is a failed row."""
     started = time.perf_counter()
-    model = create(task.model, task.case.nu)
+    model = task.outside or create(task.model, task.case.nu)
     try:
+        if isinstance(model, Outside):
+            model = create(model.spec, task.case.nu)
         return ask(model, task.quantity, task.case)
     except ValueError as refusal:
         return _row(model, task.quantity, task.case, started, status="failed", reason=str(refusal))

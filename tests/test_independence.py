@@ -14,6 +14,8 @@ ALLOWED = {
     "fem_reference": (),
     # The pure data of a problem is what all of comparisons speaks of.
     "comparisons": ("fscm.problem", "fscm.profile", "fscm.surface_law"),
+    # A model from outside may work in physical units.
+    "comparisons.foreign": ("fscm.physical", "fscm.problem", "fscm.profile", "fscm.surface_law"),
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
     "comparisons.models.stieltjes_model": ("fscm",),
@@ -35,7 +37,8 @@ LAYERS = (
         "comparisons.progress",
         "comparisons.provenance",
     ),
-    ("comparisons.models",),
+    # Whoever asks a model need not know whether it is ours.
+    ("comparisons.models", "comparisons.foreign"),
     ("comparisons.cases",),
     ("comparisons.run",),
     ("comparisons.tables", "comparisons.figures", "comparisons.bench"),

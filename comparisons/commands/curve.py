@@ -11,7 +11,7 @@ from comparisons.commands.options import FAILED, OK, add_case, case_of
 from comparisons.figures import force_curve
 from comparisons.figures.style import picture_path, save
 from comparisons.model import ComputationFailed, Curve, NotApplicable, TracesCurve
-from comparisons.models import create
+from comparisons.models import create, identify
 from comparisons.progress import log, waiting
 from comparisons.store import atomic, csv_text, writable_file
 
@@ -43,7 +43,8 @@ def call(args: argparse.Namespace) -> int:
     """Trace, write, draw; return the exit status."""
     case = case_of(args)
     # All that can be wrong with the request is found out before anything is computed.
-    models = {name: create(name) for name in args.model}
+    names, outside = identify(args.model)
+    models = {name: create(outside[name].spec if name in outside else name) for name in names}
     if args.csv:
         writable_file(args.csv)
     if args.plot:

@@ -9,6 +9,7 @@ import pandas as pd
 
 from comparisons.cases import TIERS, grids
 from comparisons.commands.options import OK, output
+from comparisons.foreign.loading import installed
 from comparisons.models import MODELS, create
 from comparisons.progress import log
 from comparisons.quantities import QUANTITIES
@@ -37,13 +38,13 @@ def call(args: argparse.Namespace) -> int:
 
 
 def _models() -> pd.DataFrame:
-    every = [create(name) for name in MODELS]
-    return pd.DataFrame(
-        {
-            name: [getattr(model, name) for model in every]
-            for name in ("name", "version", "domain", "citation")
-        }
+    columns = ("name", "version", "domain", "citation")
+    ours = pd.DataFrame([[getattr(create(name), column) for column in columns] for name in MODELS])
+    # What an installed package says of its model is in its code, which is not run for a list.
+    theirs = pd.DataFrame(
+        [[name, version, f"installed by {package}", ""] for name, package, version in installed()]
     )
+    return pd.concat([ours, theirs], ignore_index=True).set_axis(list(columns), axis="columns")
 
 
 def _quantities() -> pd.DataFrame:

@@ -21,7 +21,7 @@ from comparisons.cases import TIERS, grids
 from comparisons.commands.options import FAILED, OK, output
 from comparisons.figures import kappa as kappa_figure
 from comparisons.figures.style import save
-from comparisons.models import create
+from comparisons.models import identify
 from comparisons.progress import counting, log
 from comparisons.provenance import code_digest, environment
 from comparisons.run import Task, compute, plan
@@ -76,14 +76,14 @@ def call(args: argparse.Namespace) -> int:
         raise ValueError(
             f"--jobs {args.jobs} is outside 1, 2, ...: the computations need at least one process"
         )
-    for name in args.model or []:
-        create(name)
+    chosen = grids(args.tier)
+    # Before anything is computed or written, every model that was asked for has been opened.
+    names, outside = identify(args.model or [])
+    tasks = plan(chosen, names, outside)
     started = datetime.now(UTC)
     folder = prepare_folder(
         args.out or Path("results", "runs", started.astimezone().strftime("%Y-%m-%dT%H-%M-%S"))
     )
-    chosen = grids(args.tier)
-    tasks = plan(chosen, args.model)
     journal = Journal(folder / "journal.jsonl", code_digest())
     resumed = len(journal.rows)
     clock = time.perf_counter()
@@ -126,8 +126,16 @@ def _safe(journal: Journal, folder: Path) -> str:
 
 
 def _complete(tasks: list[Task], journal: Journal, jobs: int) -> list[Row]:
-    """Return the rows of all tasks, computing those the journal does not have."""
-    stored = {row.key for row in journal.rows}
+    """Return the rows of all tasks, computing those the journal does not have.
+
+    A stored row of another version of a model from outside does not count.
+    """
+    versions = {task.model: task.outside.version for task in tasks if task.outside}
+
+    def current(row: Row) -> bool:
+        return versions.get(row.model, row.model_version) == row.model_version
+
+    stored = {row.key for row in journal.rows if current(row)}
     missing = [task for task in tasks if task.key not in stored]
     log(
         f"{len(missing)} computations on {jobs} processes"
@@ -138,7 +146,7 @@ def _complete(tasks: list[Task], journal: Journal, jobs: int) -> list[Row]:
             journal.add(row)
             count()
     wanted = {task.key for task in tasks}
-    return [row for row in journal.rows if row.key in wanted]
+    return [row for row in journal.rows if row.key in wanted and current(row)]
 
 
 def _seconds(table: pd.DataFrame) -> dict[str, Any]:

@@ -6,11 +6,14 @@ not load the finite elements.  To add a model, write its module and add one row 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import dataclass
 from importlib import import_module
 
+from comparisons.foreign.loading import door_of, open_model
 from comparisons.model import Model
 
-__all__ = ["MODELS", "create"]
+__all__ = ["MODELS", "Outside", "create", "identify"]
 
 #: name -> "module:class"; the class is called without arguments, or with the Poisson's ratio alone if it
 #: is in `_KNOWS_POISSON`.
@@ -32,19 +35,20 @@ _KNOWS_POISSON = frozenset({"fem"})
 
 
 def create(name: str, poisson_ratio: float | None = None) -> Model:
-    """Return the model registered as `name`.
+    """Return the model registered as `name`, or one from outside.
 
     Parameters
     ----------
     name : str
-        A key of `MODELS`.
+        A key of `MODELS`, or the SPEC of a model from outside (see `comparisons.foreign.loading`).
     poisson_ratio : float, optional
         Poisson's ratio of the solid, for models that need one; by default the model's own choice.
 
     Raises
     ------
     ValueError
-        If no model has that name; the sentence lists those that exist.
+        If no model has that name, the sentence lists those that exist; or if one from outside cannot be
+        loaded.
 
     Examples
     --------
@@ -52,9 +56,49 @@ def create(name: str, poisson_ratio: float | None = None) -> Model:
     'jkr'
     """
     if name not in MODELS:
-        raise ValueError(f"unknown model {name!r}; the models are {', '.join(MODELS)}")
+        return _from_outside(name, poisson_ratio)
     module, _, cls = MODELS[name].partition(":")
     factory = getattr(import_module(module), cls)
     if name in _KNOWS_POISSON and poisson_ratio is not None:
         return factory(poisson_ratio)
     return factory()
+
+
+@dataclass(frozen=True, slots=True)
+class Outside:
+    """A model from outside by its own name and version, and the SPEC that finds it."""
+
+    name: str
+    version: str
+    spec: str
+
+
+def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, Outside]]:
+    """Return the names of models, each once, and which of them are from outside.
+
+    Raises
+    ------
+    ValueError
+        As `create`; also if two models have one name.
+    """
+    names: list[str] = []
+    outside: dict[str, Outside] = {}
+    for spec in dict.fromkeys(specs):
+        model = create(spec)
+        if model.name in names:
+            raise ValueError(f"two models are called {model.name}: each needs its own name")
+        names.append(model.name)
+        if spec not in MODELS:
+            outside[model.name] = Outside(model.name, model.version, spec)
+    return names, outside
+
+
+def _from_outside(spec: str, poisson_ratio: float | None) -> Model:
+    try:
+        door_of(spec)
+    except ValueError as error:
+        raise ValueError(f"unknown model: {error}; the models are {', '.join(MODELS)}") from None
+    model = open_model(spec, poisson_ratio)
+    if model.name in MODELS:
+        raise ValueError(f"a model from outside calls itself {model.name}, which is one of ours")
+    return model

@@ -1,0 +1,82 @@
+"""Models that work in physical units: asked a dimensionless question through scales of our choosing.
+
+An author whose code takes a modulus, a radius and a work of adhesion writes `evaluate_physical` in place of
+`evaluate` and never meets a Tabor number.  The answer must not depend on the scales; `check-model` tries
+several.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Protocol, runtime_checkable
+
+from comparisons.model import Result
+from comparisons.quantities import QUANTITIES
+from fscm.physical import PhysicalProblem
+from fscm.problem import Problem
+
+__all__ = ["SCALES", "InUnits", "PhysicalModel"]
+
+
+@runtime_checkable
+class PhysicalModel(Protocol):
+    """A model of the physical problem; name, version, citation and domain as in `comparisons.model.Model`."""
+
+    name: str
+    version: str
+    citation: str
+    domain: str
+
+    def evaluate_physical(self, problem: PhysicalProblem, quantity: str) -> Result:
+        """Return the quantity in units of `problem`: a load in traction * length^2, a gap in length."""
+        ...
+
+
+#: Scales (c0, Q, work_of_adhesion, z0): a micrometre sphere in SI units, the same in nanometres and
+#: nanonewtons, and units in which no scale is 1 and no two are equal.
+SCALES: tuple[dict[str, float], ...] = (
+    {"c0": 1e-6, "Q": 1e-6, "work_of_adhesion": 0.05, "z0": 3e-10},
+    {"c0": 1e3, "Q": 1e3, "work_of_adhesion": 0.05, "z0": 0.3},
+    {"c0": 0.7, "Q": 11.0, "work_of_adhesion": 5.0, "z0": 1.3},
+)
+
+
+class InUnits:
+    """A physical model as one that answers dimensionless questions.
+
+    Parameters
+    ----------
+    model : PhysicalModel
+    poisson_ratio : float, optional
+        By default 0.3; the Gibson solid k = 1 has 0.5 whatever this says.
+    scales : int
+        Which of `SCALES`.
+    """
+
+    def __init__(self, model: PhysicalModel, poisson_ratio: float | None = None, scales: int = 0) -> None:
+        self._model = model
+        self._poisson_ratio = 0.3 if poisson_ratio is None else poisson_ratio
+        self._scales = SCALES[scales]
+        self.name, self.version = model.name, model.version
+        self.citation, self.domain = model.citation, model.domain
+
+    def evaluate(self, problem: Problem, quantity: str) -> Result:
+        """Return the dimensionless quantity, or raise as the model does."""
+        physical = self._physical(problem)
+        answer = self._model.evaluate_physical(physical, quantity)
+        if not isinstance(answer, Result):
+            return answer
+        kind = QUANTITIES[quantity].kind
+        if kind == "number":
+            return answer
+        return dataclasses.replace(
+            answer,
+            value=physical.to_dimensionless(kind, answer.value),
+            u_num=physical.to_dimensionless(kind, answer.u_num),
+        )
+
+    def _physical(self, problem: Problem) -> PhysicalProblem:
+        # Q is a length^(n-1): the same length for every shape index.
+        scales = self._scales | {"Q": self._scales["Q"] ** (problem.n - 1.0)}
+        nu = 0.5 if problem.k == 1.0 else self._poisson_ratio
+        return PhysicalProblem.from_problem(problem, nu=nu, **scales)

@@ -1,0 +1,121 @@
+"""Predictions as data: what is right is read exactly, what is wrong is refused with its place."""
+
+import os
+
+import pytest
+
+from comparisons.cases import Case
+from comparisons.cli import main
+from comparisons.foreign.data_model import read_submission
+from comparisons.model import Model
+from comparisons.models import create
+from comparisons.run import ask
+
+from .conftest import ROWS
+
+
+def test_a_submission_is_a_model(write_data):
+    model = create(str(write_data()))
+    assert isinstance(model, Model)
+    row = ask(model, "pull_off_force", Case(2, 0.4, 1))
+    assert (row.model, row.value, row.u_num, row.status) == ("measured", 1.75, 1e-6, "ok")
+    assert model.version.startswith("1 (")
+    assert "10.1000/182" in model.citation
+    assert "CC-BY-4.0" in model.citation
+
+
+@pytest.mark.parametrize(
+    ("quantity", "case"),
+    [
+        ("pull_off_force", Case(2, 0.4, 2)),
+        ("jump_in_gap", Case(2, 0.4, 1)),
+        ("pull_off_force", Case(1, 0, 1)),
+    ],
+)
+def test_what_is_not_covered_is_not_applicable(write_data, quantity, case):
+    assert ask(create(str(write_data())), quantity, case).status == "not-applicable"
+
+
+def with_row(number, text):
+    return [*ROWS[:number], text, *ROWS[number + 1 :]]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "says"),
+    [
+        ({"digest": "0" * 64}, "has the SHA-256"),
+        (
+            {"rows": ROWS[:-1]},
+            "1 of 4 rows that [[covers]] promises are missing, the first is pull_off_force at n = 2",
+        ),
+        ({"rows": []}, "4 of 4 rows"),
+        ({"rows": [*ROWS, ROWS[0]]}, "line 6: pull_off_force at n = 2, k = 0, mu = 0.1 has a second row"),
+        (
+            {"rows": [*ROWS, "pull_off_force,2,0,7,1.5,0"]},
+            "line 6: pull_off_force at n = 2, k = 0, mu = 7 is not among",
+        ),
+        ({"rows": with_row(1, "pull_off_force,2,0,1,nan,1e-6")}, "line 3: value = nan is not a finite"),
+        ({"rows": with_row(1, "pull_off_force,2,0,1,inf,1e-6")}, "not a finite"),
+        ({"rows": with_row(1, "pull_off_force,2,0,1,,1e-6")}, "line 3: value = '' is not a number"),
+        ({"rows": with_row(1, "pull_off_force,2,0,1,=1+1,1e-6")}, "'=1+1' is not a number"),
+        ({"rows": with_row(1, "pull_off_force,2,0,1,1.6,-1")}, "u_num = -1"),
+        ({"rows": with_row(1, "pull_off_force,2,0,1,1.6")}, "5 cells, not 6"),
+        ({"rows": with_row(1, "<script>,2,0,1,1.6,0")}, "is not among"),
+        ({"rows": with_row(1, '"pull_off_force,2,0,1,1.6,0')}, "predictions.csv, line"),
+        ({"header": "quantity,k,n,mu,value,u_num"}, "the first line must be"),
+        ({"change": {'"pi Q': '"2 pi Q'}}, "divide the values by that"),
+        ({"change": {'pull_off_force = "': 'jump_in_gap = "'}}, "[units] must have exactly pull_off_force"),
+        ({"change": {'"predictions.csv"': '"../data/predictions.csv"'}}, "must be the name of a .csv file"),
+        ({"change": {'"predictions.csv"': '"/etc/passwd"'}}, "must be the name of a .csv file"),
+        ({"change": {'"predictions.csv"': '"other.csv"'}}, "there is no file other.csv"),
+        ({"change": {'"measured"': '"<b>measured</b>"'}}, "letters, digits"),
+        ({"change": {'"A. Author"': '"A.\\nAuthor"'}}, "author must be one line"),
+        ({"change": {'"A. Author"': '"A.\\u202eAuthor"'}}, "author must be one line"),
+        ({"change": {'"A. Author"': '""'}}, "author must be a text"),
+        ({"change": {'doi = "10.1000/182"': 'doi = "javascript:1"'}}, "doi"),
+        ({"change": {'doi = "10.1000/182"': 'doi = "10.1000/<b>"'}}, "doi"),
+        ({"change": {'licence = "CC-BY-4.0"': ""}}, "licence missing or unknown"),
+        ({"change": {"[units]": 'colour = "red"\n[units]'}}, "colour missing or unknown"),
+        ({"change": {"k = [0, 0.4]": "k = [0, 1.4]"}}, "[0, 1]"),
+        ({"change": {"k = [0, 0.4]": 'k = [0, "0.4"]'}}, "gradient exponent k"),
+        ({"change": {"k = [0, 0.4]": "k = []"}}, "no case"),
+        ({"change": {"k = [0, 0.4]": "q = [0, 0.4]"}}, "has the lists"),
+        ({"change": {'["pull_off_force"]': '["pull_off"]'}}, "unknown quantity 'pull_off'"),
+        ({"change": {"[[covers]]": "[covers]"}}, "[[covers]] table"),
+        ({"change": {"[[covers]]": "[[covers"}}, "Expected"),
+    ],
+)
+def test_what_is_wrong_is_refused_with_its_place(write_data, capsys, wrong, says):
+    folder = write_data(**wrong)
+    with pytest.raises(ValueError, match="data") as refusal:
+        read_submission(folder)
+    assert says in str(refusal.value)
+    arguments = ["--quantity", "pull_off_force", "--n", "2", "--k", "0", "--mu", "1"]
+    assert main(["solve", "--model", str(folder), *arguments]) == 2
+    shown = capsys.readouterr()
+    assert says in shown.err
+    assert shown.err.count("\n") == 1
+    assert shown.out == ""
+
+
+def test_a_link_that_leads_out_is_not_followed(write_data, tmp_path):
+    folder = write_data()
+    target = tmp_path / "elsewhere.csv"
+    os.rename(folder / "predictions.csv", target)
+    (folder / "predictions.csv").symlink_to(target)
+    with pytest.raises(ValueError, match="leads out of the folder"):
+        read_submission(folder)
+
+
+def test_nothing_in_the_folder_is_executed(write_data, tmp_path):
+    folder = write_data()
+    trace = tmp_path / "trace"
+    for name in ("model.py", "__init__.py", "conftest.py", "predictions.py"):
+        (folder / name).write_text(f"open({str(trace)!r}, 'w')")
+    assert create(str(folder)).name == "measured"
+    assert not trace.exists()
+
+
+def test_a_folder_without_a_manifest_is_no_model(tmp_path, capsys):
+    assert main(["run", "--model", str(tmp_path)]) == 2
+    assert "model.toml" in capsys.readouterr().err
