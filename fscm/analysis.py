@@ -131,14 +131,10 @@ class Analysis:
         approach = events.brackets(self.points, events.displacement_fold, rising=False)
         if approach:
             return approach[0], events.brackets(self.points, events.displacement_fold, rising=True)[-1]
-        # The two folds may hide between neighbouring points: look at the slowest displacement.
-        points = self.points
-        slowest = min(range(1, len(points) - 1), key=lambda i: points[i].rates.displacement)
-        for a, b in ((points[slowest - 1], points[slowest]), (points[slowest], points[slowest + 1])):
-            if a.state.follows_edge == b.state.follows_edge:
-                point, rate = events.least_displacement_rate(a, b)
-                if rate < 0.0:
-                    return (a, point), (point, b)
+        # The two folds may hide between neighbouring points: look where the displacement is slowest.
+        before, at, after, rate = events.slowest(self.points)
+        if rate < 0.0:
+            return (before, at), (at, after)
         raise NoSuchEvent(
             f"the displacement rises monotonically along the path at mu = {self.problem.mu}: there is no "
             "jump below the critical Tabor number"

@@ -28,6 +28,9 @@ _SMALLEST_STEP = 1e-6
 # Newton iterations after which the next step is longer or shorter.
 _EASY, _HARD = 4, 7
 _LONGER, _SHORTER, _RETRY = 1.4, 0.7, 0.4
+# A step over which the tangent turns by more than this cosine is taken again, shorter: a fold pair turns
+# the path twice and must not be stepped over.  Steps below _BLIND_STEP are taken whatever the turn.
+_LARGEST_TURN, _BLIND_STEP = 0.85, 0.02
 # The edge is followed from where the central gap has fallen below the gap of largest tension by this fraction
 # of that gap's distance to the singular gap: nearer to it the edge radius is a poor variable (it starts as a
 # root).
@@ -58,6 +61,22 @@ class _ArcLength:
         lead = 1.0 / self.lead_unit(state)
         norm = math.hypot(lead, rates.displacement / self.displacement, rates.load / self.load)
         return rates.scaled((1.0 if state.follows_edge else -1.0) / norm)
+
+    def turn(self, a: Point, b: Point) -> float:
+        """Cosine of the angle between the tangents at two points of one stretch."""
+
+        def direction(point: Point) -> np.ndarray:
+            rates = point.rates
+            lead = rates.log_scale if point.state.follows_edge else rates.central_gap
+            return np.array(
+                [
+                    lead / self.lead_unit(point.state),
+                    rates.displacement / self.displacement,
+                    rates.load / self.load,
+                ]
+            )
+
+        return float(direction(a) @ direction(b))
 
     def control(self, state: State, tangent: Rates, step: float) -> Control:
         """The condition that the projection of the move on the tangent is `step`."""
@@ -165,20 +184,26 @@ def equilibrium_path(
     peak, singular = problem.law.peak_gap, problem.law.singular_gap
     hand_over = peak - _HAND_OVER * (peak - singular)
     step = min(_FIRST_STEP, longest_step)
+    point = Point(state, arc.tangent(state))
     while True:
-        tangent = arc.tangent(state)
-        yield Point(state, tangent)
+        yield point
+        state = point.state
         if not state.follows_edge and state.central_gap < hand_over:
             guess = _follow_edge(state)
             control = lead_control(guess, lead_of(guess))
             state = fit(newton(guess, control), control, tolerance)
+            point = Point(state, arc.tangent(state))
             continue
         while True:
-            control = arc.control(state, tangent, step)
+            control = arc.control(state, point.rates, step)
             try:
-                new = newton(_predicted(state, tangent, step), control)
+                new = newton(_predicted(state, point.rates, step), control)
                 used = new.iterations
                 new = fit(new, control, tolerance, coarsen=True)
+                after = Point(new, arc.tangent(new))
+                if step > _BLIND_STEP and arc.turn(point, after) < _LARGEST_TURN:
+                    step *= _SHORTER
+                    continue
                 break
             except NotConverged as error:
                 step *= _RETRY
@@ -192,4 +217,4 @@ def equilibrium_path(
             step = min(_LONGER * step, longest_step)
         elif used >= _HARD:
             step *= _SHORTER
-        state = new
+        point = after

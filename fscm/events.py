@@ -22,10 +22,10 @@ __all__ = [
     "Condition",
     "brackets",
     "displacement_fold",
-    "least_displacement_rate",
     "load_fold",
     "locate",
     "sharpen",
+    "slowest",
     "zero_load",
 ]
 
@@ -97,11 +97,25 @@ def locate(a: Point, b: Point, condition: Condition) -> State:
     return between(root)[0]
 
 
-def least_displacement_rate(a: Point, b: Point) -> tuple[Point, float]:
-    """Point of the smallest rate of displacement between two points, and that rate.
+def slowest(points: Sequence[Point]) -> tuple[Point, Point, Point, float]:
+    """Where along the path the displacement rises most slowly, or falls.
 
-    The rate is taken per unit of the leading variable, oriented from separation into contact.
+    Returns
+    -------
+    before, at, after : Point
+        The place and its neighbours on the same stretch.
+    rate : float
+        Rate of the displacement there, per unit of the leading variable, oriented into contact.
     """
+    i = min(range(1, len(points) - 1), key=lambda j: points[j].rates.displacement)
+    # Two steps to either side, on each stretch of its own when the mesh changes among them.
+    near = points[max(i - 2, 0) : i + 3]
+    stretches = [[p for p in near if p.state.follows_edge == follows] for follows in (False, True)]
+    found = [_least_rate(part[0], part[-1]) for part in stretches if len(part) > 1]
+    return min(found, key=lambda result: result[3])
+
+
+def _least_rate(a: Point, b: Point) -> tuple[Point, Point, Point, float]:
     between = _Between(a, b)
     orientation = 1.0 if a.state.follows_edge else -1.0
     best = minimize_scalar(
@@ -111,7 +125,7 @@ def least_displacement_rate(a: Point, b: Point) -> tuple[Point, float]:
         options={"xatol": 1e-5 * (between.high - between.low)},
     )
     state, rates = between(float(best.x))
-    return Point(state, rates.scaled(orientation)), float(best.fun)
+    return a, Point(state, rates.scaled(orientation)), b, float(best.fun)
 
 
 def refined(state: State, order: int, tolerance: float) -> State:

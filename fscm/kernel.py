@@ -67,7 +67,13 @@ def _gauss_series(a: mpmath.mpf, b: mpmath.mpf, c: mpmath.mpf, terms: int) -> li
 def _polynomial(taylor: list[mpmath.mpf], limit: float) -> Array:
     """Economised power coefficients, in u = 2 y / limit - 1, of a Taylor series on 0 <= y <= limit."""
     nodes = chebyshev.chebpts1(_NEAR_DEGREE + 1)
-    values = [float(mpmath.polyval(taylor[::-1], (mpmath.mpf(float(u)) + 1) * limit / 2)) for u in nodes]
+    values = []
+    for u in nodes:
+        y = (mpmath.mpf(float(u)) + 1) * limit / 2
+        total = mpmath.mpf(0)
+        for c in reversed(taylor):
+            total = total * y + c
+        values.append(float(total))
     return np.asarray(chebyshev.cheb2poly(chebyshev.chebfit(nodes, np.array(values), _NEAR_DEGREE)), float)
 
 

@@ -1,20 +1,21 @@
 """The Maugis-Dugdale contact of a power-law punch and a graded half-space, without cancellation (Eqs. 66-72).
 
-In the tilde variables of `graded_punch`, with D(x) = 1/2 B(n/2, (1+k)/2) x^n, s = (1-k)/2, L^2 = c^2 - a^2 and
-T = Lambda L^(2s), the Abel transform q of the pressure is (delta - D(x)) / (4 s) for x < a and
+In the tilde variables of `graded_punch`, with D(x) = 1/2 B(n/2, (1+k)/2) x^n, s = (1-k)/2, L^2 = c^2 - a^2
+and T = Lambda L^(2s), the Abel transform q of the pressure is (delta - D(x)) / (4 s) for x < a and
 -Lambda (c^2 - x^2)^s / (2 s) for a < x < c.  A finite stress at a makes q continuous, which is Eq. 66,
 
     delta = D(a) - 2 T,
 
 and the gap outside the contact follows from what q has in excess of its continuation from r < a,
 
-    H(r) = (2/pi) cos(k pi/2) integral_a^r x^k (r^2 - x^2)^(s-1) [ D(x) - D(a) + 2 Lambda (L^(2s) - (c^2 - x^2)^s) ] dx.
+    H(r) = (2/pi) cos(k pi/2) integral_a^r x^k (r^2 - x^2)^(s-1) e(x) dx,
+    e(x) = D(x) - D(a) + 2 Lambda (L^(2s) - (c^2 - x^2)^s).
 
 Lambda H(c) = 1 is Griffith's relation (Eq. 69).  Its integrand is positive, so nothing cancels where the
 hypergeometric form of Eqs. 69-72 does: at m = c/a -> 1, at large m, and where an argument is near 1.  With
-c^2 - x^2 = L^2 z^(1/s) the integral splits into a part ~ c^n and a part ~ Lambda c^(2s) whose coefficients depend on
-the shape of the edge alone.  The contact is therefore followed by that shape, w = log(a / L): every w has one
-contact, a grows with w from 0 (DMT's end point) without bound, and L / a -> 0 is JKR.
+c^2 - x^2 = L^2 z^(1/s) the integral splits into a part ~ c^n and a part ~ Lambda c^(2s) whose coefficients
+depend on the shape of the edge alone.  The contact is therefore followed by that shape, w = log(a / L): every
+w has one contact, a grows with w from 0 (DMT's end point) without bound, and L / a -> 0 is JKR.
 """
 
 from __future__ import annotations
@@ -33,14 +34,14 @@ __all__ = ["CohesiveContact", "ContactState", "EdgeIntegrals", "edge_integrals"]
 Array = NDArray[np.float64]
 
 _NEWTON_STEPS = 60
-# Newton on a convex increasing function from its right-hand side stops where rounding stops it; the sum of the two
-# parts of Griffith's relation is then 1 to a few rounding errors times the size of its logarithms.
+# Newton on a convex increasing function from its right-hand side stops where rounding stops it; the sum of
+# the two parts of Griffith's relation is then 1 to a few rounding errors times the size of its logarithms.
 _GRIFFITH_TOLERANCE = 1e-14
 
 
 @dataclass(frozen=True, slots=True)
 class EdgeIntegrals:
-    """Integrals over the cohesive zone in units of c, functions of n, k and w = log(a/L) only; arrays of shape (m,).
+    """Integrals over the cohesive zone in units of c, functions of n, k and w = log(a/L) only; shape (m,).
 
     Attributes
     ----------
@@ -73,8 +74,21 @@ class EdgeIntegrals:
 class ContactState:
     """Equilibrium states, tilde variables; every attribute has shape (m,).
 
-    Slopes are derivatives with respect to w = log(a/L).  A ``scale`` is the sum of the magnitudes of the terms of the
-    number it belongs to, the yardstick of its rounding error.
+    Slopes are derivatives with respect to w = log(a/L).  A ``scale`` is the sum of the magnitudes of the
+    terms of the number it belongs to, the yardstick of its rounding error.
+
+    Attributes
+    ----------
+    contact_radius, cohesive_radius, cohesive_width : ndarray
+        a, c and L = sqrt(c^2 - a^2); L stays accurate where a and c agree to rounding.
+    edge_strength : ndarray
+        T = Lambda L^(2s), by which the edge lowers the displacement.
+    displacement, load : ndarray
+        delta (Eq. 66) and P (Eq. 67).
+    displacement_slope, load_slope : ndarray
+        d delta / dw and dP / dw along the curve.
+    displacement_scale, load_scale, load_slope_scale, displacement_slope_scale : ndarray
+        Magnitudes of the terms of the four numbers above.
     """
 
     contact_radius: Array
@@ -183,11 +197,12 @@ class CohesiveContact:
             if np.all(np.abs(step) <= rounding + _GRIFFITH_TOLERANCE * np.abs(log_c)):
                 return log_c
         raise ComputationFailed(
-            f"Griffith's relation was not solved at Lambda = {Lambda}: Newton left a step of {np.max(np.abs(step)):.1e}"
+            f"Griffith's relation was not solved at Lambda = {Lambda}: "
+            f"Newton left a step of {np.max(np.abs(step)):.1e} in log(c)"
         )
 
     def _cohesive_growth(self, edge: EdgeIntegrals, log_c: Array) -> tuple[Array, Array]:
-        """d log(c) / dw along Griffith's relation, and the magnitude of its terms."""
+        """Return d log(c) / dw along Griffith's relation, and the magnitude of its terms."""
         n, s, Lambda = self.punch.n, self.punch.s, self.maugis_number
         shape_factor = Lambda * self.punch.flattening * np.exp(n * log_c)
         stress_factor = 2.0 * Lambda**2 * np.exp(2.0 * s * (log_c + edge.log_width))
@@ -204,7 +219,7 @@ def edge_integrals(punch: GradedPunch, w: Array, rule: UnitRule = FINE) -> EdgeI
     x^2 / c^2 = xi^2 = alpha^2 + theta^2 y with alpha = a/c, theta = L/c and y = 1 - z^(1/s); the slopes use
     d(xi^2)/dw = 2 alpha^2 theta^2 (1 - y), d log(theta)/dw = -alpha^2 and d log(alpha)/dw = theta^2.
     """
-    n, k, s = punch.n, punch.k, punch.s
+    n, s = punch.n, punch.s
     log_alpha = -0.5 * np.logaddexp(0.0, -2.0 * w)
     log_theta = -0.5 * np.logaddexp(0.0, 2.0 * w)
     alpha2, theta2 = np.exp(2.0 * log_alpha), np.exp(2.0 * log_theta)

@@ -1,12 +1,12 @@
 """Pressure and gap of a Maugis-Dugdale contact along the radius (needed to draw the surface).
 
-Inverting the Abel transform of `cohesive_contact`, the pressure inside the contact (r < a) is Hertz's for the radius a
-minus a share of the cohesive stress that rises from the inside to 1 at the edge,
+Inverting the Abel transform of `cohesive_contact`, the pressure inside the contact (r < a) is Hertz's for the
+radius a minus a share of the cohesive stress that rises from the inside to 1 at the edge,
 
     p(r) = (stiffness / 2) n D(1) integral_r^a x^(n-1) (x^2 - r^2)^(-s) dx - Lambda I_u(s, 1-s),
     u = (c^2 - a^2) / (c^2 - r^2),
 
-with the regularised incomplete beta function I (for k = 0: (2/pi) arcsin sqrt(u)).  It is -Lambda for a < r < c.
+with the regularised incomplete beta function I (k = 0: (2/pi) arcsin sqrt(u)).  For a < r < c it is -Lambda.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import betainc
 
+from comparisons.model import NotApplicable
 from comparisons.models.cohesive_contact import CohesiveContact, ContactState
 from comparisons.models.graded_punch import Scales
 from comparisons.models.quadrature import FINE
@@ -27,10 +28,12 @@ Array = NDArray[np.float64]
 
 _POINTS_A_ZONE = 200
 _FARTHEST = 3.0
-# The nearest radius to the axis, over c: a cone on a homogeneous half-space has an infinite pressure at r = 0.
+# The radius nearest to the axis, over c: a cone on a homogeneous half-space has infinite pressure at r = 0.
 _NEAREST = 1e-6
 # Still two different numbers after the change of units.
 _BELOW_EDGE = 1e-15
+# The square of L / c must not underflow.
+_NARROWEST = 1e-150
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,8 +84,8 @@ def pressure(contact: CohesiveContact, state: ContactState, r: Array) -> Array:
 def gap(contact: CohesiveContact, state: ContactState, r: Array) -> Array:
     """H(r) in tilde variables, shape of `r` (1-D, > 0), for a state of one element.
 
-    The integral of `cohesive_contact` is taken over (a, min(r, c)) and (c, r), each in y with x^2 linear in y and
-    1 - y = z^(1/s), which makes the kernel (r^2 - x^2)^(s-1) regular where it is singular.
+    The integral of `cohesive_contact` is taken over (a, min(r, c)) and (c, r), each in y with x^2 linear in y
+    and 1 - y = z^(1/s), which makes the kernel (r^2 - x^2)^(s-1) regular where it is singular.
     """
     edge = _radii(state)
     a, c, L = edge
@@ -103,8 +106,18 @@ def gap(contact: CohesiveContact, state: ContactState, r: Array) -> Array:
 
 
 def cohesive_profiles(contact: CohesiveContact, state: ContactState, scale: Scales) -> CohesiveProfiles:
-    """Return the profiles of a state of one element, in barred variables."""
-    a, c, _ = _radii(state)
+    """Return the profiles of a state of one element, in barred variables.
+
+    Raises
+    ------
+    NotApplicable
+        If the cohesive zone is so narrow that its width underflows.
+    """
+    a, c, L = _radii(state)
+    if L / c < _NARROWEST:
+        raise NotApplicable(
+            f"the cohesive zone of radius {c:.6g} has a width below {_NARROWEST} of it: the edge is JKR's"
+        )
     dense = np.sin(np.linspace(0.0, 0.5 * np.pi, _POINTS_A_ZONE))
     both = np.sin(np.linspace(0.0, 0.5 * np.pi, _POINTS_A_ZONE)) ** 2
     inside = _NEAREST * c + (a - _NEAREST * c) * dense if a > _NEAREST * c else np.array([_NEAREST * c])
@@ -123,7 +136,7 @@ def cohesive_profiles(contact: CohesiveContact, state: ContactState, scale: Scal
 
 
 def _radii(state: ContactState) -> tuple[float, float, float]:
-    """a, c and L of a state of one element."""
+    """Return a, c and L of a state of one element."""
     return float(state.contact_radius[0]), float(state.cohesive_radius[0]), float(state.cohesive_width[0])
 
 
@@ -135,7 +148,7 @@ def _gap_part(
     width: float,
     r: float,
 ) -> float:
-    """Return the part of H(r) from start < x < end, width^2 = end^2 - start^2; start is a or c, end is r or c."""
+    """Return the part of H(r) from start < x < end (a or c, r or c); width^2 = end^2 - start^2."""
     punch = contact.punch
     n, s = punch.n, punch.s
     a, c, L = edge

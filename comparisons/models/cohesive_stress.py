@@ -1,7 +1,7 @@
 """The cohesive stress of the Dugdale law: the theoretical strength (Eq. 73) or eta(n) (Eqs. 76-78).
 
-Stresses are in dgamma / z0.  eta makes the rigid limit of the Maugis-Dugdale pull-off equal that of the 9-3 law
-(Eq. 74).  Eq. 77 is 0/0 in the exponent at n = 2; with e = 1 - 2/n its logarithm is
+Stresses are in dgamma / z0.  eta makes the rigid limit of the Maugis-Dugdale pull-off equal that of the 9-3
+law (Eq. 74).  Eq. 77 is 0/0 in the exponent at n = 2; with e = 1 - 2/n its logarithm is
 
     log eta = [ -log(1 + e/8) + log(Gamma(2+e) Gamma(2-e)) - (2+e)/6 sum_{j=3..8} log(1 + e/j) ] / e,
 

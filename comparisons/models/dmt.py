@@ -1,6 +1,6 @@
 """The DMT model: Hertz's contact pressed by the rigid pull-off force (DMT-n-k, Eq. 75).
 
-It is the limit Lambda -> 0 of the Maugis-Dugdale equations.  There the cohesive radius outgrows everything else,
+It is the limit Lambda -> 0 of the Maugis-Dugdale equations.  There the cohesive radius outgrows all else,
 c = (n / sigma_0)^(1/n) by Griffith's relation over the undeformed profile, so that Eqs. 66-67 become
 
     delta = 1/2 B(n/2, (1+k)/2) a^n,    P = Hertz(a) - n^(2/n) sigma_0^(1 - 2/n).
@@ -46,7 +46,10 @@ class DMT(ClosedForm):
     """
 
     name = "dmt"
-    citation = "Zhu, Zheng, Huang & Yu, Eqs. 75-77; Derjaguin, Muller & Toporov, J. Colloid Interface Sci. 53 (1975) 314"
+    citation = (
+        "Zhu, Zheng, Huang & Yu, Eqs. 75-77; "
+        "Derjaguin, Muller & Toporov, J. Colloid Interface Sci. 53 (1975) 314-326"
+    )
     domain = "n > 2/3, 0 <= k <= 1; cohesive stress eta(n); exact pull-off as mu -> 0"
     undefined: ClassVar[dict[str, str]] = dict.fromkeys(
         (

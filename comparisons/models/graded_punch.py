@@ -4,9 +4,9 @@ The kernel of Eq. 6 is a product of two Abel kernels,
 
     G_k(r, t) = t (2/pi) cos(k pi/2) integral_0^min(r,t) x^k (r^2 - x^2)^(-(1+k)/2) (t^2 - x^2)^(-(1+k)/2) dx,
 
-so that q(x) = integral_x^inf t p(t) (t^2 - x^2)^(-(1+k)/2) dt determines everything.  Lengths and loads are the
-tilde variables of Eqs. 63-65, in which the surface deformation is 2 (1 - k) integral p G_k dt: they are the barred
-variables (Eqs. 25-31) of a problem with mu = 1, and
+so that q(x) = integral_x^inf t p(t) (t^2 - x^2)^(-(1+k)/2) dt determines everything.  Lengths and loads are
+the tilde variables of Eqs. 63-65, in which the surface deformation is 2 (1 - k) integral p G_k dt: they are
+the barred variables (Eqs. 25-31) of a problem with mu = 1, and
 
     delta_bar = mu delta~,    a_bar = mu^(1/n) a~,    P_bar = mu^(2/n - 1) P~,    p_bar = p~ / mu.
 
@@ -41,12 +41,12 @@ class Scales:
 class GradedPunch:
     """The constants of Eqs. 50-51 and 66-67 at shape index `n` and gradient exponent `k`.
 
-    Every constant has its limit at k = 1, because cos(k pi/2) / (1 - k) is written through sin(pi s) / (pi s).
+    Every constant has its limit at k = 1: cos(k pi/2) / (1 - k) is written through sin(pi s) / (pi s).
 
     Examples
     --------
     >>> punch = GradedPunch(2.0, 0.0)
-    >>> punch.flattening, round(punch.stiffness, 6), round(punch.adhesion, 6)
+    >>> round(punch.flattening, 6), round(punch.stiffness, 6), round(punch.adhesion, 6)
     (1.0, 0.63662, 2.506628)
     """
 
@@ -58,7 +58,8 @@ class GradedPunch:
         """Return the constants of a problem; raise `NotApplicable` if 2n + k <= 1."""
         if not 2.0 * problem.n + problem.k > 1.0:
             raise NotApplicable(
-                f"n = {problem.n} and k = {problem.k} give 2n + k <= 1: adhesion outgrows elasticity at every contact radius"
+                f"n = {problem.n} and k = {problem.k} give 2n + k <= 1: "
+                "adhesion then outgrows elasticity as the contact grows"
             )
         return cls(float(problem.n), float(problem.k))
 

@@ -29,7 +29,7 @@ class JKR(ClosedForm):
 
     Examples
     --------
-    >>> JKR().evaluate(Problem(n=2, k=0.0, mu=1.0), "pull_off_force").value
+    >>> round(JKR().evaluate(Problem(n=2, k=0.0, mu=1.0), "pull_off_force").value, 14)
     1.5
     """
 
@@ -63,7 +63,7 @@ class JKR(ClosedForm):
         return _displacement(punch, punch.s + punch.k + 1.0, problem.mu)
 
     def jump_out_displacement(self, problem: Problem) -> Estimate:
-        """The smallest delta on the curve (Eqs. 54-55)."""
+        """Smallest delta on the curve (Eqs. 54-55)."""
         punch = GradedPunch.of(problem)
         return _displacement(punch, punch.s, problem.mu)
 

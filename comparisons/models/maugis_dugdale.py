@@ -1,7 +1,7 @@
 """The Maugis-Dugdale model of a power-law punch on a graded half-space (M-D-n-k, Eqs. 63-78).
 
-The two models differ in the cohesive stress alone: `MaugisDugdaleOriginal` takes the largest tension of the 9-3 law
-(Eq. 73), `MaugisDugdaleImproved` the stress eta(n) that gives the rigid pull-off force (Eqs. 76-78).
+The two models differ in the cohesive stress alone: `MaugisDugdaleOriginal` takes the largest tension of the
+9-3 law (Eq. 73), `MaugisDugdaleImproved` the stress eta(n) that gives the rigid pull-off force (Eqs. 76-78).
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from comparisons.model import Curve
+from comparisons.model import Curve, NotApplicable
 from comparisons.models.closed_form import EPS, ClosedForm, Estimate
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_events import STATE_ROUNDING, CohesiveEvents, Event
@@ -25,6 +25,8 @@ __all__ = ["MaugisDugdaleImproved", "MaugisDugdaleOriginal"]
 _POINTS = 401
 # The curve starts at a = 0 and then at this fraction of its largest contact radius.
 _FIRST_RADIUS = 1e-4
+# Hertz's load at pull-off has fallen to exp(-3) of itself this far (over n) below in log(a).
+_NEAR = 3.0
 
 
 class _MaugisDugdale(ClosedForm):
@@ -85,12 +87,15 @@ class _MaugisDugdale(ClosedForm):
                 curve.columns | {"cohesive_radius": curve.columns["contact_radius"]},
             )
         events = self._events(problem)
-        # Evenly spaced in w is evenly spaced in log(a), more or less: enough points on both sides of the pull-off.
-        contact, end = events.contact, float(events.w[-1])
+        contact, pull_off = events.contact, events.pull_off()
+        # Half the points from first contact on, half about the pull-off, where a large n bends the curve.
+        beyond = (events.states.load >= -pull_off.load) & (events.w > pull_off.w)
+        end = float(events.w[beyond][0])
         log_first = contact.log_contact_radius(end) + np.log(_FIRST_RADIUS)
-        in_range = np.log(np.maximum(events.states.contact_radius, np.finfo(float).tiny)) >= log_first
-        start = float(events.w[in_range][0])
-        w = np.concatenate(([-np.inf], np.linspace(start, end, _POINTS - 1)))
+        start = float(events.w[events.states.contact_radius >= np.exp(log_first)][0])
+        near = max(start, pull_off.w - _NEAR / contact.punch.n)
+        even, dense = np.linspace(start, end, _POINTS // 2), np.linspace(near, end, _POINTS // 2)
+        w = np.unique(np.concatenate(([-np.inf, pull_off.w], even, dense)))
         state = contact.at(w)
         scale = GradedPunch.of(problem).scales(problem.mu)
         return Curve(
@@ -111,12 +116,16 @@ class _MaugisDugdale(ClosedForm):
             As `evaluate`; also at k = 1 with sigma_0 mu >= 1, where the edge of the contact is singular.
         """
         self.check(problem)
+        if self._is_jkr(problem):
+            raise NotApplicable(
+                f"{self.name} has no cohesive zone at k = 1 and mu = {problem.mu}: its edge is JKR's"
+            )
         contact = self._contact(problem)
         event = CohesiveEvents.scan(contact).pull_off()
         return cohesive_profiles(contact, event.state, GradedPunch.of(problem).scales(problem.mu))
 
     def _is_jkr(self, problem: Problem) -> bool:
-        """At k = 1 the springs of the surface are independent, and the cohesive zone vanishes for Lambda >= 1."""
+        """At k = 1 the surface is a bed of springs, and the cohesive zone vanishes for Lambda >= 1."""
         return problem.k == 1.0 and self.cohesive_stress(problem) * problem.mu >= 1.0
 
     def _contact(self, problem: Problem) -> CohesiveContact:
@@ -131,8 +140,8 @@ class MaugisDugdaleOriginal(_MaugisDugdale):
 
     Examples
     --------
-    >>> MaugisDugdaleOriginal().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force").value
-    1.76...
+    >>> round(MaugisDugdaleOriginal().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force").value, 8)
+    1.7304517
     """
 
     name = "md-original"
@@ -151,8 +160,8 @@ class MaugisDugdaleImproved(_MaugisDugdale):
 
     Examples
     --------
-    >>> MaugisDugdaleImproved().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force").value
-    1.79...
+    >>> round(MaugisDugdaleImproved().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force").value, 8)
+    1.78527591
     """
 
     name = "md-improved"
@@ -165,7 +174,7 @@ class MaugisDugdaleImproved(_MaugisDugdale):
 
 
 def _conditioning(problem: Problem) -> float:
-    """How much an event amplifies a relative error of Griffith's relation: loads scale as its power (k+3)/(2n+k-1)."""
+    """Return how much an event amplifies an error of Griffith's relation: loads ~ dgamma^((k+3)/(2n+k-1))."""
     return 1.0 + (3.0 + problem.k) / (2.0 * problem.n + problem.k - 1.0)
 
 

@@ -1,7 +1,7 @@
 """The semi-rigid asymptote of the approach before contact (Eqs. 40-48).
 
-The traction is that of the undeformed gap H0 + r^n / n; it deforms the half-space, but the deformation does not feed
-back.  With q = 1 / (H0 + 1), b = (1-k)/n and the constant g_j = (1-k) B(j - b, b) = n Gamma(j-b) Gamma(1+b) / Gamma(j),
+The traction is that of the undeformed gap H0 + r^n / n; it deforms the half-space, but the deformation does
+not feed back.  With q = 1/(H0 + 1), b = (1-k)/n and g_j = (1-k) B(j-b, b) = n Gamma(j-b) Gamma(1+b) / (j-1)!,
 
     delta = -H0 + (16/3) n^(b-1) mu^(2-b) [ g_9 q^(9-b) - g_3 q^(3-b) ]          (Eq. 41),
 
@@ -132,6 +132,7 @@ def _positive_fold(problem: Problem) -> Estimate:
     fold = _fold(float(problem.n), float(problem.k), float(problem.mu))
     if fold.value <= 1.0:
         raise NotApplicable(
-            f"Eq. 46 gives the central gap {fold.value - 1.0:.3g} at mu = {problem.mu}: the asymptote needs a positive one"
+            f"Eq. 46 gives the central gap {fold.value - 1.0:.3g} at mu = {problem.mu}, "
+            "but the asymptote needs a positive one"
         )
     return fold

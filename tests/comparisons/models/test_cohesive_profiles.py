@@ -10,6 +10,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.special import ellipkm1, gamma, hyp2f1
 
+from comparisons.model import NotApplicable
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_events import CohesiveEvents
 from comparisons.models.cohesive_profiles import gap, pressure
@@ -111,7 +112,7 @@ def test_load_is_the_integral_of_the_pressure(n: float, k: float, mu: float) -> 
 
 
 def test_homogeneous_sphere_pressure() -> None:
-    """n = 2, k = 0: (2 / pi) sqrt(a^2 - r^2) - (2 / pi) Lambda arcsin(L / sqrt(c^2 - r^2)), in tilde variables."""
+    """n = 2, k = 0: (2/pi) [sqrt(a^2 - r^2) - Lambda arcsin(L / sqrt(c^2 - r^2))], in tilde variables."""
     contact, state = pull_off_state(2.0, 0.0, 1.0)
     a, c, L = (float(x[0]) for x in (state.contact_radius, state.cohesive_radius, state.cohesive_width))
     r = np.linspace(0.01, 0.999, 30) * a
@@ -138,3 +139,9 @@ def test_profiles_in_barred_variables(model: MaugisDugdaleOriginal, n: float, k:
     assert np.all(p >= -model.cohesive_stress(problem) * (1 + 1e-13))
     # 2 integral of p r dr by the trapezoidal rule on the given points, the jump at c being two points apart.
     assert np.sum(np.diff(r**2) * 0.5 * (p[1:] + p[:-1])) == pytest.approx(profile.load, rel=2e-3)
+
+
+@pytest.mark.parametrize(("k", "mu", "reason"), [(1.0, 3.0, "no cohesive"), (0.999, 20.0, "width below")])
+def test_refuses_an_edge_without_width(k: float, mu: float, reason: str) -> None:
+    with pytest.raises(NotApplicable, match=reason):
+        MaugisDugdaleOriginal().profiles(Problem(2, k, mu))

@@ -23,7 +23,7 @@ def test_pull_off_is_bradleys(n: float) -> None:
 
 
 def test_homogeneous_sphere_is_hertz() -> None:
-    """n = 2, k = 0: P = (4/3) E* a^3 / R - 2 pi R dgamma, delta = a^2 / R, with E* = mu^(-3/2) for Q = z0 = dgamma = 1."""
+    """P = (4/3) E* a^3 / R - 2 pi R dgamma, delta = a^2 / R; E* = mu^(-3/2) for Q = z0 = dgamma = 1."""
     mu = 0.6
     curve = DMT().curve(Problem(2, 0, mu))
     a = curve.columns["contact_radius"]
@@ -35,7 +35,7 @@ def test_homogeneous_sphere_is_hertz() -> None:
 
 @pytest.mark.parametrize(("n", "k"), [(1.0, 0.2), (1.5, 0.0), (2.0, 0.4), (5.0, 0.6)])
 def test_curve_is_the_limit_of_maugis_dugdale(n: float, k: float) -> None:
-    """The difference vanishes in proportion to a positive power of mu: a thousandth of mu shrinks it manyfold."""
+    """The difference vanishes like a positive power of mu: a thousandth of mu shrinks it manyfold."""
     errors = []
     for mu in (1e-3, 1e-6):
         problem = Problem(n, k, mu)

@@ -1,4 +1,4 @@
-"""JKR against the extremes of the printed curve, Eqs. 50-51, and the published figures that follow from Eq. 57."""
+"""JKR against the extremes of the printed curve, Eqs. 50-51, and the published figures that follow."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ def test_published_sensitivity_to_the_gradient(n: float, published: float) -> No
 
 
 def test_sensitivity_in_the_gibson_limit() -> None:
-    """At k = 1 Eqs. 50-51 read delta = a^n/n - 2 a^0, P = a^(n+2)/(2(n+2)) - a^2: P_c = n/(n+2) 4^(2/n) at a^n = 4."""
+    """k = 1, mu = 1: Eq. 51 is P = a^(n+2) / (2 (n+2)) - a^2, least at a^n = 4, -P_c = n/(n+2) 4^(2/n)."""
     assert JKR().evaluate(Problem(1.5, 1.0, 1.0), "pull_off_force").value == pytest.approx(
         1.5 / 3.5 * 4 ** (4 / 3), rel=1e-14
     )

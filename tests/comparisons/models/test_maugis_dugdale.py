@@ -1,13 +1,15 @@
-"""Maugis-Dugdale against the printed equations, Maugis's own, its two limits, and a search that knows nothing."""
+"""Maugis-Dugdale against the printed equations, Maugis's own, its two limits, and a blind search."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import mpmath as mp
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from comparisons.model import NotApplicable
+from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_events import CohesiveEvents
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
@@ -87,8 +89,8 @@ def test_slopes_are_derivatives_of_the_printed_equations(n: float, k: float, Lam
 def maugis_1992(lam: float, m: float) -> tuple[float, float, float]:
     """A, P, delta of Maugis (1992), sphere on a homogeneous half-space, from his three equations.
 
-    a = A (pi dgamma R^2 / K)^(1/3), P = Pbar pi dgamma R, delta = Dbar (pi^2 dgamma^2 R / K^2)^(1/3), K = 4 E*/3,
-    lam = 2 sigma_0 (pi dgamma K^2 / R)^(-1/3).
+    K = 4 E*/3, a = A (pi dgamma R^2 / K)^(1/3), P = Pbar pi dgamma R, delta = D (pi dgamma / K)^(2/3) R^(1/3)
+    and lam = 2 sigma_0 (pi dgamma K^2 / R)^(-1/3).
     """
     root, arc = np.sqrt(m * m - 1), np.arctan(np.sqrt(m * m - 1))
 
@@ -179,18 +181,30 @@ def test_pull_off_is_the_lowest_of_a_dense_sample(
 
 @pytest.mark.parametrize(
     ("n", "k", "mu"),
-    [(1.0, 0.4, 0.3), (2.0, 0.0, 1.0), (2.0, 0.6, 0.02), (5.0, 0.2, 2.0), (0.8, 0.05, 8.0), (9.0, 0.3, 0.05)],
+    [
+        (1.0, 0.4, 0.3),
+        (2.0, 0.0, 1.0),
+        (2.0, 0.6, 0.02),
+        (5.0, 0.2, 2.0),
+        (0.8, 0.05, 8.0),
+        (9.0, 0.3, 0.05),
+        (5.5, 0.95, 9.0),
+    ],
 )
 def test_error_bounds_hold_against_many_digits(n: float, k: float, mu: float) -> None:
-    """dP/dw = 0 and P = 0 solved on the printed equations with 40 digits."""
+    """dP/dw = 0 and P = 0 solved on the printed equations with many digits: L / a is 1e-30 at k = 0.95."""
+    digits = 130 if k > 0.9 else 40
     model, problem, punch = MaugisDugdaleImproved(), Problem(n, k, mu), GradedPunch(n, k)
     Lambda = eta(n) * mu
     events, scale = CohesiveEvents.scan(CohesiveContact(punch, Lambda)), punch.scales(mu)
-    with mp.workdps(40):
-        h = mp.mpf(10) ** -10
-        slope = lambda w: (printed_state(n, k, Lambda, w + h)[1] - printed_state(n, k, Lambda, w - h)[1]) / h  # noqa: E731
+    with mp.workdps(digits):
+        h = mp.mpf(10) ** (-digits // 5)
+
+        def slope(w: mp.mpf) -> mp.mpf:
+            return printed_state(n, k, Lambda, w + h)[1] - printed_state(n, k, Lambda, w - h)[1]
+
         w = events.pull_off().w
-        w = mp.findroot(slope, (w - 1e-4, w + 1e-4), solver="secant", tol=1e-20)
+        w = mp.findroot(slope, (w - 1e-4, w + 1e-4), solver="secant", tol=1e-40)
         delta, P = printed_state(n, k, Lambda, w)
         w0 = events.zero_load().w
         w0 = mp.findroot(
@@ -208,7 +222,8 @@ def test_error_bounds_hold_against_many_digits(n: float, k: float, mu: float) ->
 
 
 @pytest.mark.parametrize(
-    ("n", "k", "mu"), [(1.0, 0.0, 5.0), (2.0, 0.4, 3.0), (2.0, 0.0, 1.5), (5.0, 0.6, 3.0)])
+    ("n", "k", "mu"), [(1.0, 0.0, 5.0), (2.0, 0.4, 3.0), (2.0, 0.0, 1.5), (5.0, 0.6, 3.0)]
+)
 def test_fold_is_the_smallest_displacement(n: float, k: float, mu: float) -> None:
     problem, model = Problem(n, k, mu), MaugisDugdaleImproved()
     fold = model.evaluate(problem, "jump_out_displacement").value
@@ -269,6 +284,14 @@ def test_paraboloid_on_a_gibson_solid_has_one_pull_off_force() -> None:
     for mu in (1e-2, 0.5, 1.2, 1.9, 10.0):
         result = MaugisDugdaleImproved().evaluate(Problem(2, 1.0, mu), "pull_off_force")
         assert abs(result.value - 2.0) <= result.u_num < 1e-11
+
+
+def test_a_missed_minimum_is_not_passed_in_silence() -> None:
+    """A scan whose slopes hide the minimum must fail on the load it saw."""
+    events = CohesiveEvents.scan(CohesiveContact(GradedPunch(2.0, 0.0), 3.0))
+    blind = replace(events, states=replace(events.states, load_slope=np.abs(events.states.load_slope)))
+    with pytest.raises(ComputationFailed, match="below the pull-off"):
+        blind.pull_off()
 
 
 def test_models_differ_in_the_stress_alone() -> None:

@@ -1,0 +1,80 @@
+"""The exact tangent, sensitivities and controls of the discrete equilibrium."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fscm import NotConverged, Problem
+from fscm.continuation import equilibrium_path, lead_control, lead_of
+from fscm.equilibrium import Control, State, newton
+
+PROBLEMS = [(2.0, 0.4, 1.0), (1.0, 0.0, 0.3), (5.0, 0.7, 1.5)]
+
+
+def _state(problem: Problem, in_contact: bool) -> State:
+    for point in equilibrium_path(problem, 8, 1e-4):
+        state = point.state
+        if state.follows_edge == in_contact and (state.central_gap < 1.0):
+            return state
+    raise AssertionError
+
+
+@pytest.fixture(params=[False, True], ids=["apart", "contact"], scope="module")
+def in_contact(request: pytest.FixtureRequest) -> bool:
+    return bool(request.param)
+
+
+@pytest.fixture(params=PROBLEMS, scope="module", ids=str)
+def state(request: pytest.FixtureRequest, in_contact: bool) -> State:
+    return _state(Problem(*request.param), in_contact)
+
+
+def test_rates_are_the_derivatives_of_solved_states(state: State) -> None:
+    """Central differences of fully solved neighbours, in the leading variable."""
+    h = 1e-4
+    rates = state.rates("log_scale" if state.follows_edge else "gap")
+    x = lead_of(state)
+    plus, minus = (newton(state, lead_control(state, x + s * h)) for s in (1, -1))
+    for name in ("displacement", "load", "central_gap"):
+        difference = (getattr(plus, name) - getattr(minus, name)) / (2 * h)
+        assert getattr(rates, name) == pytest.approx(difference, rel=2e-5, abs=2e-6)
+    # Gaps over radii of 1e6 carry rounding of 1e-10, which the difference amplifies.
+    near = state.gap < 10
+    np.testing.assert_allclose(rates.gap[near], (plus.gap - minus.gap)[near] / (2 * h), rtol=1e-4, atol=1e-4)
+
+
+def test_newton_converges_quadratically(state: State) -> None:
+    moved = replace(state, gap=state.gap * (1 + 1e-3), displacement=state.displacement + 1e-3)
+    solved = newton(moved, lead_control(state, lead_of(state)))
+    assert solved.iterations <= 5
+    assert solved.load == pytest.approx(state.load, rel=1e-9)
+
+
+@pytest.mark.parametrize("control", ["gap", "displacement", "load"])
+def test_controls_agree(state: State, control: str) -> None:
+    """The same state is found again under central-gap, displacement and load control."""
+    value = {"gap": state.central_gap, "displacement": state.displacement, "load": state.load}[control]
+    guess = replace(state, gap=state.gap * (1 + 1e-4), scale=state.scale * (1 + 1e-4 * state.follows_edge))
+    solved = newton(guess, Control(value, **{control: 1.0}))
+    assert solved.load == pytest.approx(state.load, rel=1e-8)
+    assert solved.displacement == pytest.approx(state.displacement, rel=1e-8)
+
+
+def test_state_satisfies_the_equations(state: State) -> None:
+    """Eq. 4 at every node, and Eq. 32 on the axis, from the converged gaps."""
+    p = state.disc.problem
+    lhs = state.gap + state.displacement - p.profile.height(state.radius)
+    np.testing.assert_allclose(lhs, state.deformation, rtol=1e-8, atol=1e-9 * (1 + np.abs(state.gap)).max())
+    assert state.follows_edge == (not math.isclose(state.scale, 1.0))
+
+
+@pytest.mark.parametrize(
+    "control",
+    [Control(-1.2, gap=1.0), Control(-30.0, load=1.0)],
+    ids=["below the singular gap", "beyond pull-off"],
+)
+def test_no_number_where_there_is_no_equilibrium(control: Control) -> None:
+    with pytest.raises(NotConverged):
+        newton(_state(Problem(2, 0.4, 3.0), True), control)

@@ -1,0 +1,156 @@
+"""Events against values from elsewhere, published figures, limits and each other."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fscm import Analysis, NoSuchEvent, Problem, solve
+from fscm.critical import critical_tabor_number
+from fscm.events import brackets, displacement_fold
+
+# Pull-off force for n = 2 from an independent high-order panel code; every digit shown.
+INDEPENDENT = [
+    (0.0, 0.1, 1.96895638),
+    (0.0, 0.5, 1.78748293),
+    (0.0, 1.0, 1.67066478),
+    (0.0, 2.0, 1.58359530),
+    (0.4, 0.5, 1.86628026),
+    (0.4, 1.0, 1.78848171),
+    (0.4, 1.4, 1.75861391),
+]
+
+
+@pytest.mark.parametrize(("k", "mu", "expected"), INDEPENDENT)
+def test_pull_off_force_to_every_digit(k: float, mu: float, expected: float) -> None:
+    answer = solve(Problem(2, k, mu), "pull_off_force")
+    assert abs(answer.value - expected) <= 0.5e-8 + answer.u_num
+    assert answer.u_num < 1e-9
+
+
+@pytest.mark.parametrize(("k", "published"), [(0.0, 0.70), (0.2, 0.75), (0.4, 0.78), (0.6, 0.78)])
+def test_critical_tabor_numbers(k: float, published: float) -> None:
+    """Sec. 3.3; and hysteresis exists just above and not just below."""
+    answer = solve(Problem(2, k, 1.0), "critical_tabor_number")
+    assert round(answer.value, 2) == published
+    assert answer.u_num < 1e-7
+    with pytest.raises(NoSuchEvent, match="critical Tabor number"):
+        solve(Problem(2, k, answer.value * (1 - 2e-3)), "jump_in_displacement")
+    assert solve(Problem(2, k, answer.value * (1 + 2e-3)), "hysteresis_energy").value > 0
+
+
+def test_folds_vanish_as_the_critical_number_is_approached() -> None:
+    """The distance of two merging folds falls like (mu - mu_c)^(3/2): the exact rate sees a real cusp."""
+    critical = critical_tabor_number(Problem(2, 0, 1.0)).value
+    distance = []
+    for excess in (0.02, 0.005):
+        model = Analysis(Problem(2, 0, critical * (1 + excess)))
+        pair = [model.solution(f"jump_{x}_displacement").value for x in ("in", "out")]
+        distance.append(pair[0] - pair[1])
+    assert math.log(distance[0] / distance[1], 4.0) == pytest.approx(1.5, abs=0.05)
+
+
+def _bradley(n: float) -> float:
+    """Eq. 56."""
+    b1 = math.gamma(3 - 2 / n) * math.gamma(2 / n) / math.gamma(3)
+    b2 = math.gamma(4 - 2 / n) * math.gamma(6) / math.gamma(10 - 2 / n)
+    return 32 * n ** (2 / n) / (9 * n - 2) * b1 * (168 * b2) ** ((3 - 2 / n) / 6)
+
+
+@pytest.mark.parametrize("n", [1.0, 1.5, 2.0, 5.0])
+@pytest.mark.parametrize("k", [0.0, 0.6])
+def test_rigid_limit(n: float, k: float) -> None:
+    """mu -> 0 is Bradley; the deviation is linear in the compliance M."""
+    deviations = []
+    for M in (2e-4, 1e-4):
+        mu = (M / 2) ** (n / (2 * n + k - 1))
+        deviations.append(solve(Problem(n, k, mu), "pull_off_force").value - _bradley(n))
+    assert abs(deviations[1]) < 1e-3
+    assert deviations[0] / deviations[1] == pytest.approx(2.0, rel=1e-3)
+
+
+def _jkr(n: float, k: float, mu: float) -> float:
+    """Eq. 57."""
+    beta = math.gamma(n / 2) * math.gamma((1 + k) / 2) / math.gamma((n + 1 + k) / 2)
+    first = (math.cos(k * math.pi / 2) / (2 * math.pi * (1 - k))) ** (n - 2)
+    second = ((k + 3) / (n * beta)) ** (k + 3)
+    factor = 2 * (2 * n + k - 1) / ((1 + k) * (n + k + 1))
+    return factor * (first * second) ** (1 / (2 * n + k - 1)) * mu ** ((2 - n) / n)
+
+
+@pytest.mark.parametrize(("n", "k"), [(2.0, 0.0), (2.0, 0.4), (1.5, 0.2), (3.0, 0.3)])
+def test_soft_limit(n: float, k: float) -> None:
+    """mu -> infinity is JKR; the deviation keeps falling."""
+    deviations = [
+        abs(solve(Problem(n, k, mu), "pull_off_force").value / _jkr(n, k, mu) - 1) for mu in (2.5, 5, 10)
+    ]
+    assert deviations[2] < deviations[1] < deviations[0]
+    assert deviations[2] < 0.02
+
+
+@pytest.mark.parametrize("quantity", ["pull_off_force", "pull_off_displacement", "zero_load_displacement"])
+def test_continuity_as_k_vanishes(quantity: str) -> None:
+    """k -> 0 tends to the homogeneous solid, linearly in k."""
+    base = solve(Problem(2, 0, 1.0), quantity).value
+    changes = [solve(Problem(2, k, 1.0), quantity).value - base for k in (1e-8, 2e-3, 1e-3)]
+    assert abs(changes[0]) < 1e-7
+    assert changes[1] / changes[2] == pytest.approx(2.0, rel=1e-2)
+
+
+@pytest.mark.parametrize("mu", [0.5, 1.0])
+def test_gibson_limit(mu: float) -> None:
+    """k -> 1 tends to the pointwise solid, linearly in 1 - k."""
+    from fscm.gibson import solve_gibson
+
+    limit = solve_gibson(Problem(2, 1.0, mu), "pull_off_force").value
+    changes = [solve(Problem(2, k, mu), "pull_off_force").value - limit for k in (0.9, 0.95)]
+    assert abs(changes[1]) < abs(changes[0]) < 0.02
+
+
+@given(
+    n=st.floats(1.0, 6.0),
+    k=st.floats(0.0, 0.8),
+    log_mu=st.floats(math.log(0.01), math.log(3.0)),
+)
+@settings(max_examples=15, deadline=None)
+def test_random_problems_obey_what_all_obey(n: float, k: float, log_mu: float) -> None:
+    """Signs, order of events, and stationarity of the load at pull-off."""
+    problem = Problem(n, k, math.exp(log_mu))
+    if (1.03 * problem.compliance) ** (-1 / (1 - k)) < 1e-4:
+        return
+    model = Analysis(problem)
+    force = model.solution("pull_off_force")
+    assert force.value > 0
+    assert force.u_num < 1e-6 * force.value
+    pair = model.event("pull_off")
+    assert pair.value.rates("log_scale" if pair.value.follows_edge else "gap").load == pytest.approx(
+        0, abs=1e-6
+    )
+    assert model.solution("pull_off_displacement").value < model.solution("zero_load_displacement").value
+    # The largest tension anywhere is the strength of the law.
+    assert pair.value.pressure.min() > -16 * math.sqrt(3) / 27 - 1e-12
+    if brackets(model.points, displacement_fold, rising=False):
+        jump_in, jump_out = (model.solution(f"jump_{x}_displacement").value for x in ("in", "out"))
+        assert jump_out < jump_in < 0
+        assert model.solution("jump_out_gap").value < model.solution("jump_in_gap").value
+
+
+def test_no_hysteresis_quantities_for_a_stiff_solid() -> None:
+    for quantity in ("jump_in_gap", "jump_out_displacement", "hysteresis_energy"):
+        with pytest.raises(NoSuchEvent, match="no jump below the critical"):
+            solve(Problem(2, 0.4, 0.1), quantity)
+
+
+def test_unknown_quantity_is_refused() -> None:
+    with pytest.raises(ValueError, match="pull_off_force"):
+        solve(Problem(2, 0, 1), "pulloff")
+
+
+def test_edge_of_an_extreme_problem_is_resolved() -> None:
+    """k = 0.8, mu = 2.5: the cohesive edge is 5e-6 wide, and the tension at it still reaches the strength."""
+    state = Analysis(Problem(2, 0.8, 2.5)).event("pull_off").value
+    nodes = np.sort(np.abs(state.disc.mesh.nodes - 1.0))
+    assert nodes[20] < 5e-6 / state.scale
+    assert state.pressure.min() == pytest.approx(-16 * math.sqrt(3) / 27, rel=1e-3)

@@ -1,0 +1,118 @@
+"""The ring response and its primitives against mpmath, in every corner."""
+
+import mpmath
+import numpy as np
+import pytest
+from scipy.special import ellipe, ellipk
+
+from fscm.kernel import Kernel, Phi, Psi, ring_response
+
+EXPONENTS = [0.0, 1e-12, 1e-8, 1e-3, 0.05, 0.2, 0.4, 0.6, 0.8, 0.95]
+DISTANCES = [1e-300, 1e-100, 1e-30, 1e-12, 1e-5, 0.01, 0.1, 0.3, 0.5, 0.7, 0.8, 0.83, 0.9, 0.99, 1 - 1e-6]
+# Required of the kernel; measured worst 5.1e-15 (Phi at k = 0.95).
+RELATIVE = 1e-12
+DIGITS = 60
+
+
+def _radii(distance: float, outside: bool) -> tuple[mpmath.mpf, mpmath.mpf]:
+    """Ring radius t and exact offset t - 1 with 1 - min/max = distance."""
+    d = mpmath.mpf(distance)
+    offset = d / (1 - d) if outside else -d
+    return 1 + offset, offset
+
+
+def _response(k: float, t: mpmath.mpf, offset: mpmath.mpf) -> mpmath.mpf:
+    """Eq. 8 at r = 1, through the connection formula where the argument rounds to one."""
+    k = mpmath.mpf(k)
+    a = (k + 1) / 2
+    y = (offset / (1 + t)) ** 2
+    front = t * (1 + t) ** (-1 - k)
+    if y > mpmath.mpf(10) ** -40:
+        return front * mpmath.hyp2f1(a, mpmath.mpf(1) / 2, 1, 1 - y)
+    root = mpmath.sqrt(mpmath.pi)
+    if k == 0:  # K = log(4 / sqrt y) to O(y log y)
+        return front * (2 / mpmath.pi) * mpmath.log(4 / mpmath.sqrt(y))
+    A = mpmath.gamma(-k / 2) / (mpmath.gamma(1 - a) * root)
+    return front * (A + y ** (-k / 2) * mpmath.gamma(k / 2) / (mpmath.gamma(a) * root))
+
+
+def _phi(k: float, s: mpmath.mpf) -> mpmath.mpf:
+    """Eq. 18 as printed."""
+    k = mpmath.mpf(k)
+    a, half = (k + 1) / 2, mpmath.mpf(1) / 2
+    z = 4 * s / (1 + s) ** 2
+    bracket = (s - 1) * mpmath.hyp2f1(a, half, 1, z) + (1 + s) * mpmath.hyp2f1(a - 1, half, 1, z)
+    return bracket / (2 * (1 + s) ** k)
+
+
+@pytest.mark.parametrize("k", EXPONENTS)
+def test_response_against_mpmath(k: float) -> None:
+    with mpmath.workdps(DIGITS):
+        bad = []
+        for d in DISTANCES:
+            for outside in (False, True):
+                t, offset = _radii(d, outside)
+                exact = _response(k, t, offset)
+                value = ring_response(k, 1.0, float(t), abs(float(offset)))
+                error = abs(float(value / exact - 1))
+                if not error < RELATIVE:
+                    bad.append((d, outside, error))
+        assert not bad
+
+
+@pytest.mark.parametrize("k", EXPONENTS)
+@pytest.mark.parametrize("power", [False, True], ids=["Phi", "Psi"])
+def test_primitives_against_the_printed_formula(k: float, power: bool) -> None:
+    with mpmath.workdps(140):  # the printed formula cancels at both ends
+        bad = []
+        ratios = [1e-30, 1e-8, 1e-3, 1e3, 1e8, 1e30]
+        points = [_radii(d, o) for d in DISTANCES if d > 1e-90 for o in (False, True)]
+        for s, offset in [(mpmath.mpf(x), mpmath.mpf(x) - 1) for x in ratios] + points:
+            exact = _phi(k, s)
+            if power:
+                exact -= s ** (1 - mpmath.mpf(k))
+            value = (Psi if power else Phi)(k, float(s), float(offset))
+            error = abs(float(value / exact - 1))
+            if not error < RELATIVE:
+                bad.append((float(s), error))
+        assert not bad
+
+
+def test_homogeneous_limit_is_the_elliptic_integral() -> None:
+    r, t = np.array([0.3, 1.0, 2.0]), np.array([1.0, 3.0, 0.5])
+    m = 4 * r * t / (r + t) ** 2
+    np.testing.assert_allclose(ring_response(0.0, r, t), 2 / np.pi * t / (r + t) * ellipk(m), rtol=1e-14)
+    s = np.array([0.2, 0.999, 1.7])
+    m = 4 * s / (1 + s) ** 2
+    expected = ((s - 1) * ellipk(m) + (1 + s) * ellipe(m)) / np.pi  # Eq. 15
+    np.testing.assert_allclose(Phi(0.0, s), expected, rtol=1e-12)  # ellipk near 1 loses three digits
+
+
+@pytest.mark.parametrize("k", [0.0, 1e-8, 0.3, 0.8])
+def test_phi_is_the_primitive_of_the_response(k: float) -> None:
+    """Eq. 19: dPhi/ds = (1-k) G_k(1, s), by a central difference of order four."""
+    for s in (0.3, 0.9, 1.2, 4.0):
+        h = 1e-3
+        values = Phi(k, np.array([s - 2 * h, s - h, s + h, s + 2 * h]))
+        slope = (values[0] - 8 * values[1] + 8 * values[2] - values[3]) / (12 * h)
+        assert slope == pytest.approx((1 - k) * float(ring_response(k, 1.0, s)), rel=3e-8)
+
+
+@pytest.mark.parametrize("k", [0.0, 0.4, 0.9])
+def test_homogeneity_and_axis(k: float) -> None:
+    r, t = 0.7, 1.9
+    assert float(ring_response(k, 3 * r, 3 * t)) == pytest.approx(3.0**-k * float(ring_response(k, r, t)))
+    assert float(ring_response(k, 0.0, t)) == pytest.approx(t**-k, rel=1e-15)
+
+
+def test_continuity_in_k_at_zero() -> None:
+    r, t = np.array([1.0, 1.0]), np.array([1.0 + 1e-9, 2.0])
+    at_zero = ring_response(0.0, r, t)
+    for k in (1e-30, 1e-22, 1e-15):
+        np.testing.assert_allclose(ring_response(k, r, t), at_zero, rtol=1e-13)
+
+
+@pytest.mark.parametrize("k", [-0.1, 1.0, 1.5, float("nan")])
+def test_exponent_outside_range_is_refused(k: float) -> None:
+    with pytest.raises(ValueError, match=r"outside \[0, 1\)"):
+        Kernel(k)

@@ -1,0 +1,136 @@
+"""The traced path: energy balance, folds among its points, the experiment, states under each control."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from fscm import NoSuchEvent, Problem, equilibria, profiles, solve, trace
+from fscm.continuation import equilibrium_path, lead_of, moved, rates_of
+from fscm.experiment import displacement_cycle, load_controlled_retreat
+
+
+@pytest.mark.parametrize(
+    ("n", "k", "mu"), [(2.0, 0.0, 0.3), (2.0, 0.4, 1.5), (1.5, 0.6, 1.0), (5.0, 0.3, 1.2), (1.0, 0.2, 0.5)]
+)
+def test_work_equals_change_of_energy(n: float, k: float, mu: float) -> None:
+    """Elastic plus surface energy changes by the work of the load between all neighbours on the path.
+
+    The work is the Gauss integral over the leading variable of P d(delta), at states solved there.
+    """
+    points = []
+    for point in equilibrium_path(Problem(n, k, mu), 10, 1e-6):
+        points.append(point)
+        if point.state.follows_edge and point.state.load > 0:
+            break
+    nodes, weights = np.polynomial.legendre.leggauss(6)
+    worst = 0.0
+    for a, b in pairwise(points):
+        if a.state.follows_edge != b.state.follows_edge:
+            continue
+        x = [lead_of(p.state) for p in (a, b)]
+        work = 0.0
+        for node, weight in zip(nodes, weights, strict=True):
+            state = moved(a.state, rates_of(a.state), x[0] + 0.5 * (1 + node) * (x[1] - x[0]))
+            work += 0.5 * (x[1] - x[0]) * weight * state.load * rates_of(state).displacement
+        worst = max(worst, abs(b.state.energy - a.state.energy - work))
+    # Meshes of tolerance 1e-6 differ between neighbours; measured worst 4e-7.
+    assert worst < 3e-6
+
+
+@pytest.mark.parametrize("mu", [0.3, 3.0])
+def test_path_contains_the_exact_events(mu: float) -> None:
+    problem = Problem(2, 0.4, mu)
+    path = trace(problem)
+    assert path.load.min() == pytest.approx(-solve(problem, "pull_off_force").value, abs=1e-7)
+    folds = np.flatnonzero(np.diff(path.displacement) < 0)
+    if mu < 0.7:
+        assert folds.size == 0
+    else:
+        assert path.displacement[folds[0]] == pytest.approx(
+            solve(problem, "jump_in_displacement").value, abs=1e-6
+        )
+        bottom = path.displacement[folds[-1] + 1]
+        assert bottom == pytest.approx(solve(problem, "jump_out_displacement").value, abs=1e-6)
+    assert path.u_load < 1e-5
+    assert path.u_displacement < 1e-5
+
+
+def test_uncertainty_of_the_path_is_honest() -> None:
+    """States at the same central gap, solved to full accuracy."""
+    problem = Problem(2, 0.4, 1.0)
+    path = trace(problem)
+    for i in (3, len(path.load) // 2, -5):
+        (state,) = equilibria(problem, "central_gap", float(path.central_gap[i]))
+        # In contact the central gap hardly moves: compare along the curve, not at equal gap.
+        slope = np.gradient(path.load, path.displacement)[i]
+        off = state.load - path.load[i] - slope * (state.displacement - path.displacement[i])
+        assert abs(off) < path.u_load + abs(slope) * path.u_displacement + 1e-9
+
+
+def test_three_states_at_one_displacement() -> None:
+    problem = Problem(2, 0.4, 3.0)
+    states = equilibria(problem, "displacement", -4.0)
+    assert len(states) == 3
+    assert all(s.displacement == pytest.approx(-4.0, abs=1e-9) for s in states)
+    assert states[0].central_gap > states[1].central_gap > states[2].central_gap
+    for state in states:
+        (again,) = equilibria(problem, "central_gap", state.central_gap)
+        assert again.load == pytest.approx(state.load, abs=1e-6)
+    under_load = equilibria(problem, "load", states[2].load)
+    assert min(abs(s.displacement + 4.0) for s in under_load) < 1e-7
+
+
+@pytest.mark.parametrize(
+    ("control", "value", "message"),
+    [("gap", 1.0, "unknown"), ("load", float("nan"), "finite"), ("central_gap", -1.0, "singular")],
+)
+def test_bad_control_is_refused(control: str, value: float, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        equilibria(Problem(2, 0.4, 1.0), control, value)
+
+
+def test_load_beyond_pull_off_has_no_state() -> None:
+    assert equilibria(Problem(2, 0.4, 1.0), "load", -3.0) == []
+
+
+def test_cycle_encloses_the_hysteresis_energy() -> None:
+    """The area between loading and unloading equals the drop of energy in the two jumps."""
+    problem = Problem(2, 0.4, 1.5)
+    cycle = displacement_cycle(trace(problem))
+    area = -sum(np.trapezoid(c[1], c[0]) for c in (cycle.loading, cycle.unloading))
+    exact = solve(problem, "hysteresis_energy").value
+    assert abs(area) == pytest.approx(exact, rel=0.02)  # trapezoids of a drawn curve
+    assert cycle.jump_in is not None
+    assert cycle.jump_out is not None
+    assert cycle.jump_in[1, 1] < cycle.jump_in[1, 0] < 0  # attraction grows on jumping in
+    assert cycle.jump_out[1, 0] < cycle.jump_out[1, 1] < 0
+    assert np.all(np.diff(cycle.loading[0]) >= 0)
+    assert np.all(np.diff(cycle.unloading[0]) <= 0)
+
+
+def test_cycle_without_jumps_is_reversible() -> None:
+    cycle = displacement_cycle(trace(Problem(2, 0.4, 0.2)))
+    assert cycle.jump_in is None
+    np.testing.assert_array_equal(cycle.loading, cycle.unloading[:, ::-1])
+
+
+def test_load_controlled_retreat_ends_at_pull_off() -> None:
+    path = trace(Problem(2, 0.4, 1.0))
+    retreat = load_controlled_retreat(path)
+    assert retreat[1, -1] == path.load.min()
+    assert np.all(np.diff(retreat[1]) < 0)
+
+
+def test_profiles_at_pull_off() -> None:
+    """Eq. 4 closes on the profiles; the contact is flat and the edge carries the strength (Fig. 5)."""
+    surface = profiles(Problem(2, 0.4, 1.0))
+    closure = surface.gap + surface.displacement - surface.radius**2 / 2 - surface.deformation
+    assert np.max(np.abs(closure) / (1 + surface.gap)) < 1e-10
+    assert surface.pressure.min() == pytest.approx(-1.0264, abs=1e-3)
+    assert abs(surface.gap[0]) < 0.02
+
+
+def test_profiles_need_the_event() -> None:
+    with pytest.raises(NoSuchEvent):
+        profiles(Problem(2, 0.4, 0.1), "jump_in")
