@@ -1,7 +1,7 @@
 """Cases as data: which problems a run computes, read from a TOML file.
 
-A case is one dimensionless problem; a grid is the product of lists of n, k and mu with an id, a tier and the
-quantities and models asked.  Unknown keys are refused, so that a misspelt one cannot pass unnoticed.
+A case is one dimensionless problem; a grid is the product of lists of n, k, mu and nu with an id, a tier and the
+quantities (or shapes) and models asked.  Unknown keys are refused, so that a misspelt one cannot pass unnoticed.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from typing import Any
 
 from comparisons.models import MODELS
 from comparisons.quantities import QUANTITIES
+from comparisons.shapes import SHAPES
 from fscm.problem import Problem
 
 __all__ = ["TIERS", "Case", "Grid", "grids", "load_grids"]
@@ -96,6 +97,8 @@ class Grid:
         What is asked of every model.
     cases : tuple of Case
         Sorted, without duplicates.
+    tags : tuple of str
+        Names that gates select several grids by.
     """
 
     id: str
@@ -105,9 +108,11 @@ class Grid:
     models: tuple[str, ...]
     quantities: tuple[str, ...]
     cases: tuple[Case, ...]
+    tags: tuple[str, ...] = ()
 
 
 _LISTS = ("models", "quantities", "n", "k", "mu")
+_OPTIONAL = ("nu", "tags")
 _TEXTS = ("id", "title", "tier", "reference")
 
 
@@ -119,17 +124,19 @@ def _known(what: str, names: list[str], register: Mapping[str, object] | tuple[s
 
 def _grid(table: dict[str, Any], where: str) -> Grid:
     expected = {*_LISTS, *_TEXTS}
-    if wrong := sorted(expected ^ table.keys()):
+    if wrong := sorted((expected - table.keys()) | (table.keys() - expected - {*_OPTIONAL})):
         raise ValueError(
-            f"{where}: {', '.join(wrong)} missing or unknown; a grid has {', '.join(sorted(expected))}"
+            f"{where}: {', '.join(wrong)} missing or unknown; a grid has {', '.join(sorted(expected))} "
+            f"and may have {', '.join(_OPTIONAL)}"
         )
-    for key in _LISTS:
+    for key in (*_LISTS, *(key for key in _OPTIONAL if key in table)):
         if not (isinstance(table[key], list) and table[key]):
             raise ValueError(f"{where}: {key} must be a list with at least one entry")
     _known("tier", [table["tier"]], TIERS, where)
     _known("model", [table["reference"], *table["models"]], MODELS, where)
-    _known("quantity", table["quantities"], QUANTITIES, where)
-    cases = {Case(n, k, mu) for n, k, mu in product(table["n"], table["k"], table["mu"])}
+    _known("quantity", table["quantities"], QUANTITIES | SHAPES, where)
+    parameters = product(table["n"], table["k"], table["mu"], table.get("nu", [None]))
+    cases = {Case(*values) for values in parameters}
     return Grid(
         id=table["id"],
         title=table["title"],
@@ -137,7 +144,8 @@ def _grid(table: dict[str, Any], where: str) -> Grid:
         reference=table["reference"],
         models=tuple(table["models"]),
         quantities=tuple(table["quantities"]),
-        cases=tuple(sorted(cases, key=lambda case: (case.n, case.k, case.mu))),
+        cases=tuple(sorted(cases, key=lambda case: (case.n, case.k, case.mu, case.nu or 0.0))),
+        tags=tuple(table.get("tags", ())),
     )
 
 

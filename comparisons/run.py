@@ -12,7 +12,7 @@ import threading
 import time
 from collections.abc import Generator, Iterable
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from multiprocessing import get_context, parent_process
 from multiprocessing.process import BaseProcess
 from traceback import extract_tb
@@ -21,11 +21,12 @@ from threadpoolctl import threadpool_limits
 
 from comparisons.cases import Case, Grid
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
-from comparisons.models import create
+from comparisons.models import create, knows_poisson
 from comparisons.quantities import QUANTITIES
+from comparisons.shapes import SHAPES, Points
 from comparisons.store import Row
 
-__all__ = ["Task", "answer", "ask", "compute", "plan"]
+__all__ = ["Task", "answer", "ask", "asked_at", "compute", "plan"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +41,17 @@ class Task:
     def key(self) -> tuple[str, str, float, float, float, float | None]:
         """The key of the row that answers it."""
         return self.model, self.quantity, self.case.n, self.case.k, self.case.mu, self.case.nu
+
+
+def asked_at(model: str, case: Case) -> Case:
+    """Return the case as a model is asked: without Poisson's ratio if that makes no difference to it.
+
+    Examples
+    --------
+    >>> asked_at("jkr", Case(2, 0, 1, nu=0.25)).label
+    'n = 2, k = 0, mu = 1'
+    """
+    return case if knows_poisson(model) else replace(case, nu=None)
 
 
 def plan(grids: Iterable[Grid], models: list[str] | None = None) -> list[Task]:
@@ -58,7 +70,7 @@ def plan(grids: Iterable[Grid], models: list[str] | None = None) -> list[Task]:
         Largest Tabor numbers first: they take longest, and a core that starts one last would finish alone.
     """
     tasks = {
-        Task(model, quantity, case)
+        Task(model, quantity, asked_at(model, case))
         for grid in grids
         for model in {grid.reference, *(models or grid.models)}
         for quantity in grid.quantities

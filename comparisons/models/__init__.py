@@ -10,7 +10,7 @@ from importlib import import_module
 
 from comparisons.model import Model
 
-__all__ = ["MODELS", "create"]
+__all__ = ["MODELS", "create", "knows_poisson"]
 
 #: name -> "module:class"; the class is called without arguments, or with the Poisson's ratio alone if it
 #: is in `_KNOWS_POISSON`.
@@ -28,6 +28,11 @@ MODELS: dict[str, str] = {
 #: Models that work with physical quantities.  The dimensionless problem has no Poisson's ratio (Eq. 29 has
 #: absorbed it), so every other model gives the same answer for all of them.
 _KNOWS_POISSON = frozenset({"fem"})
+
+
+def knows_poisson(name: str) -> bool:
+    """Whether the answers of a model depend on Poisson's ratio, if only numerically."""
+    return name in _KNOWS_POISSON
 
 
 def create(name: str, poisson_ratio: float | None = None) -> Model:
@@ -54,6 +59,6 @@ def create(name: str, poisson_ratio: float | None = None) -> Model:
         raise ValueError(f"unknown model {name!r}; the models are {', '.join(MODELS)}")
     module, _, cls = MODELS[name].partition(":")
     factory = getattr(import_module(module), cls)
-    if name in _KNOWS_POISSON and poisson_ratio is not None:
+    if knows_poisson(name) and poisson_ratio is not None:
         return factory(poisson_ratio)
     return factory()
