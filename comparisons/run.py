@@ -143,7 +143,7 @@ def _row(
         size=result.size if result else None,
         iterations=result.iterations if result else None,
         residual=result.residual if result else None,
-        seconds=time.perf_counter() - started,
+        seconds=(result and result.seconds) or time.perf_counter() - started,
     )
 
 
@@ -160,7 +160,7 @@ def answer(task: Task) -> Row:
 def _start_worker() -> None:
     """Prepare a worker: one thread (the cores are taken by the workers), and no life after the parent's."""
     threadpool_limits(1)
-    # Ctrl-C reaches the whole process group: end at once and without a traceback; the parent has the last word.
+    # Ctrl-C reaches the whole process group: end at once, without a traceback; the parent has the last word.
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
     parent = parent_process()

@@ -58,7 +58,7 @@ class Row:
     size, iterations, residual
         Of the discrete problem; None when there is no value.
     seconds : float
-        Wall-clock time.
+        Wall-clock time: what the model states, or else how long it took to answer.
     """
 
     model: str

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fscm.analysis import EVENT_QUANTITIES, Analysis, Solution
 from fscm.critical import critical_tabor_number
+from fscm.gibson import GibsonSolid
 from fscm.problem import Problem
 
 __all__ = ["QUANTITIES", "solve"]
@@ -12,7 +13,7 @@ QUANTITIES = (*EVENT_QUANTITIES, "hysteresis_energy", "critical_tabor_number")
 
 
 def solve(problem: Problem, quantity: str) -> Solution:
-    """Compute one quantity with its numerical uncertainty.
+    """Compute one quantity with its numerical uncertainty; k = 1 is solved as the Gibson solid.
 
     Parameters
     ----------
@@ -41,6 +42,8 @@ def solve(problem: Problem, quantity: str) -> Solution:
     """
     if quantity not in QUANTITIES:
         raise ValueError(f"unknown quantity {quantity!r}; known are {', '.join(QUANTITIES)}")
+    if problem.k == 1.0:
+        return GibsonSolid(problem).solution(quantity)
     if quantity == "critical_tabor_number":
         return critical_tabor_number(problem)
     return Analysis(problem).solution(quantity)
