@@ -7,7 +7,7 @@ quantities (or shapes) and models asked.  Unknown keys are refused, so that a mi
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from itertools import product
@@ -18,10 +18,14 @@ from comparisons.quantities import QUANTITIES
 from comparisons.shapes import SHAPES
 from fscm.problem import Problem
 
-__all__ = ["TIERS", "Case", "Grid", "grids", "load_grids"]
+__all__ = ["TIERS", "VERIFICATION", "Case", "Grid", "asked_of", "cases_text", "grids", "load_grids"]
 
 #: A tier holds its own grids and those of every tier before it.
 TIERS = ("quick", "full")
+
+#: Grids with this tag are questions about the references themselves.  They are not asked of models that are given
+#: to a run, and are not in its tables of errors.
+VERIFICATION = "verification"
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -172,6 +176,16 @@ def load_grids(text: str) -> list[Grid]:
     return read
 
 
+def cases_text() -> str:
+    """Return the text of the standing cases."""
+    return files("comparisons").joinpath("cases.toml").read_text(encoding="utf-8")
+
+
+def asked_of(chosen: Iterable[Grid], models: Sequence[str] | None) -> list[Grid]:
+    """Return the grids that a run computes: without those of verification if models are given to it."""
+    return [grid for grid in chosen if models is None or VERIFICATION not in grid.tags]
+
+
 def grids(tier: str) -> list[Grid]:
     """Return the standing grids of a tier and of the tiers before it.
 
@@ -180,5 +194,4 @@ def grids(tier: str) -> list[Grid]:
     >>> [grid.id for grid in grids("quick")][0]
     'transition'
     """
-    every = load_grids(files("comparisons").joinpath("cases.toml").read_text(encoding="utf-8"))
-    return [grid for grid in every if TIERS.index(grid.tier) <= TIERS.index(tier)]
+    return [grid for grid in load_grids(cases_text()) if TIERS.index(grid.tier) <= TIERS.index(tier)]

@@ -13,6 +13,7 @@ import time
 from collections.abc import Generator, Iterable
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, replace
+from itertools import groupby
 from multiprocessing import get_context, parent_process
 from multiprocessing.process import BaseProcess
 from traceback import extract_tb
@@ -96,7 +97,7 @@ def ask(model: Model, quantity: str, case: Case) -> Row:
     """
     started = time.perf_counter()
     try:
-        result = model.evaluate(case.problem(), quantity)
+        result = _evaluate(model, quantity, case)
     except NotApplicable as refusal:
         return _row(model, quantity, case, started, status="not-applicable", reason=str(refusal))
     except ComputationFailed as failure:
@@ -117,6 +118,12 @@ def ask(model: Model, quantity: str, case: Case) -> Row:
     return _row(model, quantity, case, started, status="ok", result=result)
 
 
+def _evaluate(model: Model, quantity: str, case: Case) -> Result | Points:
+    if quantity in SHAPES:
+        return SHAPES[quantity].ask(model, case.problem())
+    return model.evaluate(case.problem(), quantity)
+
+
 def _row(
     model: Model,
     quantity: str,
@@ -125,8 +132,10 @@ def _row(
     *,
     status: str,
     reason: str = "",
-    result: Result | None = None,
+    result: Result | Points | None = None,
 ) -> Row:
+    points = result if isinstance(result, Points) else None
+    number = result if isinstance(result, Result) else None
     return Row(
         model=model.name,
         model_version=model.version,
@@ -135,15 +144,17 @@ def _row(
         k=case.k,
         mu=case.mu,
         nu=case.nu,
-        value=result.value if result else None,
-        u_num=result.u_num if result else None,
-        unit=QUANTITIES[quantity].unit,
+        value=number.value if number else None,
+        u_num=number.u_num if number else None,
+        unit=(QUANTITIES | SHAPES)[quantity].unit,
         status=status,
         reason=reason,
-        size=result.size if result else None,
-        iterations=result.iterations if result else None,
-        residual=result.residual if result else None,
-        seconds=(result and result.seconds) or time.perf_counter() - started,
+        size=number.size if number else None,
+        iterations=number.iterations if number else None,
+        residual=number.residual if number else None,
+        seconds=(number and number.seconds) or time.perf_counter() - started,
+        observed_order=number.observed_order if number else None,
+        points=(points.x, points.y, points.u_distance) if points else None,
     )
 
 
@@ -173,6 +184,15 @@ def _end_with(parent: BaseProcess) -> None:
     os._exit(1)
 
 
+def _batches(tasks: list[Task]) -> list[list[Task]]:
+    """Questions about one case to one model go to one process, where the solver finds its own meshes again."""
+    return [list(batch) for _, batch in groupby(tasks, key=lambda task: (task.model, task.case))]
+
+
+def _answer_all(batch: list[Task]) -> list[Row]:
+    return [answer(task) for task in batch]
+
+
 def compute(tasks: list[Task], jobs: int) -> Generator[Row]:
     """Answer tasks on `jobs` processes and yield each row as it is finished.
 
@@ -188,9 +208,9 @@ def compute(tasks: list[Task], jobs: int) -> Generator[Row]:
         return
     # "spawn": a fresh interpreter, the same on every platform, and safe beside the threads of a progress bar.
     with ProcessPoolExecutor(min(jobs, len(tasks)), get_context("spawn"), initializer=_start_worker) as pool:
-        pending = [pool.submit(answer, task) for task in tasks]
+        pending = [pool.submit(_answer_all, batch) for batch in _batches(tasks)]
         try:
             for future in as_completed(pending):
-                yield future.result()
+                yield from future.result()
         finally:
             pool.shutdown(wait=False, cancel_futures=True)

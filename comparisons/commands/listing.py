@@ -9,6 +9,7 @@ import pandas as pd
 
 from comparisons.cases import TIERS, grids
 from comparisons.commands.options import OK, output
+from comparisons.gates import gates_text, load_gates
 from comparisons.models import MODELS, create
 from comparisons.progress import log
 from comparisons.quantities import QUANTITIES
@@ -66,7 +67,19 @@ def _cases() -> pd.DataFrame:
 
 
 def _gates() -> pd.DataFrame:
-    return pd.DataFrame()
+    return pd.DataFrame(
+        {
+            "id": gate.id,
+            "tier": gate.tier,
+            "requirement": gate.requirement,
+            "candidate": gate.candidate,
+            "reference": gate.reference,
+            "metric": gate.metric,
+            "limits": f"{gate.lower:g} to {gate.upper:g}",
+            "basis": gate.basis,
+        }
+        for gate in load_gates(gates_text())
+    )
 
 
 _TABLES = {"models": _models, "quantities": _quantities, "cases": _cases, "gates": _gates}
