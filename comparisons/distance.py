@@ -1,8 +1,8 @@
 """The distance of two curves given by points, e.g. two S-shaped force-displacement curves.
 
-Both axes are scaled by the range of the reference, so that a distance is a fraction of the picture.  Each curve is
-interpolated by a cubic spline over its length; the distance is the largest one of a point of either curve from the
-other, over the common range of x.
+Both axes are scaled by the range of the reference, so that a distance is a fraction of the picture.  The distance is
+the largest one of a point of the candidate from the reference, interpolated by a cubic spline over its length, in the
+range of x that both have.  The candidate must go everywhere the reference goes: a stretch without points is an error.
 """
 
 from __future__ import annotations
@@ -22,8 +22,10 @@ Array = NDArray[np.float64]
 _SAMPLES = 32
 #: Neighbouring points nearer than this, as a fraction of the picture, count as one: a fold inserted beside a point.
 _SAME = 1e-7
-#: The spline through every other point errs four times as much or more (16 times where the curve is smooth).
-_HALVING_GAIN = 4.0
+#: The spline through every other point errs 16 times as much where the curve is smooth; half of that is counted on.
+_HALVING_GAIN = 8.0
+#: Longest stretch of the reference, as a fraction of its length, that the candidate may leave without a point.
+_STRETCH = 1 / 3
 #: Factor on the distance of two computations of different fineness, as an estimate of the error of the finer.
 _SAFETY = 2.0
 _FEWEST_POINTS = 8
@@ -31,11 +33,10 @@ _FEWEST_POINTS = 8
 
 @dataclass(frozen=True, slots=True)
 class CurveDistance:
-    """The distance and what interpolation may add to it, of either curve; fractions of the picture."""
+    """The distance and what interpolating the reference may add to it; fractions of the picture."""
 
     value: float
-    u_candidate: float
-    u_reference: float
+    u_interpolation: float
 
 
 def curve_distance(
@@ -48,38 +49,36 @@ def curve_distance(
     x, y, reference_x, reference_y : ndarray
         Points in the order of each curve; at least eight of each over the common range of x.
     interpolated : bool
-        Whether to estimate the interpolation errors.
+        Whether to estimate the interpolation error.
 
     Raises
     ------
     ValueError
-        If a number is not finite, lengths differ, or too few points are in the common range.
+        If a number is not finite, lengths differ, too few points are in the common range, or the candidate leaves out a
+        stretch of the reference.
 
     Examples
     --------
-    >>> t, s = np.linspace(0, 1, 60), np.linspace(0, 1, 41)
+    >>> t, s = np.linspace(0, 1, 21), np.linspace(0, 1, 61)
     >>> found = curve_distance(t, np.sin(3 * t) + 0.01, s, np.sin(3 * s))
-    >>> bool(0.0 < found.value < 0.01), found.u_reference < 1e-6
+    >>> bool(0.009 < found.value < 0.011), found.u_interpolation < 1e-6
     (True, True)
     """
     curve, reference = (_checked(a, b) for a, b in ((x, y), (reference_x, reference_y)))
     low = max(curve[:, 0].min(), reference[:, 0].min())
     high = min(curve[:, 0].max(), reference[:, 0].max())
-    inside = [(points[:, 0] >= low) & (points[:, 0] <= high) for points in (curve, reference)]
-    if min(int(mask.sum()) for mask in inside) < _FEWEST_POINTS:
+    inside, reference_inside = ((p[:, 0] >= low) & (p[:, 0] <= high) for p in (curve, reference))
+    if min(int(inside.sum()), int(reference_inside.sum())) < _FEWEST_POINTS:
         raise ValueError(f"fewer than {_FEWEST_POINTS} points of the two curves share a range of x")
-    span = np.ptp(reference[inside[1]], axis=0)
+    span = np.ptp(reference[reference_inside], axis=0)
     if not (span > 0.0).all():
         raise ValueError("the reference is a point or a line along an axis: it has no range to scale by")
-    curve, reference = curve / span, reference / span
-    value = max(
-        _farthest(curve[inside[0]], _dense(reference)), _farthest(reference[inside[1]], _dense(curve))
-    )
-    if not interpolated:
-        return CurveDistance(value, 0.0, 0.0)
-    return CurveDistance(
-        value, _interpolation_error(curve, inside[0]), _interpolation_error(reference, inside[1])
-    )
+    curve, reference = curve[inside] / span, reference / span
+    polyline = _dense(reference)
+    nearest = [_nearest(point, polyline) for point in curve]
+    _check_stretches(np.array([place for _, place in nearest]), polyline, low / span[0], high / span[0])
+    value = max(distance for distance, _ in nearest)
+    return CurveDistance(value, _interpolation_error(reference, reference_inside) if interpolated else 0.0)
 
 
 def spread(coarse_x: Array, coarse_y: Array, x: Array, y: Array) -> float:
@@ -103,19 +102,32 @@ def _dense(points: Array) -> Array:
     return np.vstack([CubicSpline(length, points)(samples), points[-1]])
 
 
-def _farthest(points: Array, polyline: Array) -> float:
-    """Largest distance of points from a polyline."""
+def _lengths(polyline: Array) -> Array:
+    return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(polyline, axis=0).T))])
+
+
+def _nearest(point: Array, polyline: Array) -> tuple[float, int]:
+    """Distance of a point from a polyline, and the number of the segment that is nearest."""
     start, step = polyline[:-1], np.diff(polyline, axis=0)
     squared = (step**2).sum(axis=1)
-    largest = 0.0
-    for point in points:
-        along = np.clip(((point - start) * step).sum(axis=1) / np.where(squared > 0.0, squared, 1.0), 0.0, 1.0)
-        nearest = start + along[:, None] * step
-        largest = max(largest, float(((nearest - point) ** 2).sum(axis=1).min()))
-    return float(np.sqrt(largest))
+    along = np.clip(((point - start) * step).sum(axis=1) / np.where(squared > 0.0, squared, 1.0), 0.0, 1.0)
+    distances = np.hypot(*(start + along[:, None] * step - point).T)
+    place = int(distances.argmin())
+    return float(distances[place]), place
+
+
+def _check_stretches(places: NDArray[np.int_], polyline: Array, low: float, high: float) -> None:
+    """Refuse a candidate whose points, at these segments of the reference, leave a long stretch of it out."""
+    inside = np.flatnonzero((polyline[:, 0] >= low) & (polyline[:, 0] <= high))
+    length = _lengths(polyline)
+    stops = np.sort(np.concatenate([[inside[0]], places, [inside[-1]]]))
+    longest = float(np.diff(length[stops]).max() / (length[inside[-1]] - length[inside[0]]))
+    if longest > _STRETCH:
+        raise ValueError(f"the candidate has no points along {longest:.0%} of the reference")
 
 
 def _interpolation_error(points: Array, inside: NDArray[np.bool_]) -> float:
     left_out = np.zeros(len(points), bool)
     left_out[1:-1:2] = True
-    return _farthest(points[left_out & inside], _dense(points[~left_out])) / _HALVING_GAIN
+    polyline = _dense(points[~left_out])
+    return max(_nearest(point, polyline)[0] for point in points[left_out & inside]) / _HALVING_GAIN

@@ -276,7 +276,7 @@ def _distance(gate: Gate, case: Case, answers: _Answers) -> tuple[float, float, 
         found = curve_distance(x, y, true_x, true_y)
     except ValueError as refusal:
         raise _Unusable(Verdict.ERROR, str(refusal)) from refusal
-    u, u_true = math.hypot(u, found.u_candidate), math.hypot(u_true, found.u_reference)
+    u_true = math.hypot(u_true, found.u_interpolation)
     return found.value, combined(u, u_true), u_true, {"u_num": u, "u_reference": u_true}
 
 

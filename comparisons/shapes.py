@@ -10,11 +10,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from comparisons.model import KnowsProfiles, Model, NotApplicable, TracesCurve
 from fscm.problem import Problem
 
-__all__ = ["SHAPES", "Points", "Shape"]
+__all__ = ["SHAPES", "Points", "Shape", "pressure_near"]
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,15 +52,20 @@ def _pull_off_pressure(model: Model, problem: Problem) -> Points:
     if not isinstance(model, KnowsProfiles):
         raise NotApplicable("the model has no pressure profile")
     profile = model.pull_off_profile(problem)
-    near = profile.gap <= FARTHEST_GAP
-    return _points(profile.radius[near], profile.pressure[near], profile.u_distance)
+    return _points(*pressure_near(profile.radius, profile.pressure, profile.gap), profile.u_distance)
 
 
 #: Profiles are stored out to this gap, in z0, where the traction has fallen to 0.2 % of its largest.
 FARTHEST_GAP = 10.0
 
 
-def _points(x: np.ndarray, y: np.ndarray, u_distance: float) -> Points:
+def pressure_near(radius: Array, pressure: Array, gap: Array) -> tuple[Array, Array]:
+    """Return radius and pressure out to the gap `FARTHEST_GAP`."""
+    near = gap <= FARTHEST_GAP
+    return radius[near], pressure[near]
+
+
+def _points(x: Array, y: Array, u_distance: float) -> Points:
     return Points([float(a) for a in x], [float(b) for b in y], float(u_distance))
 
 

@@ -63,7 +63,12 @@ class SurfaceProfiles:
     load: float
 
 
-def trace(problem: Problem, max_load: float | None = None, start_gap: float | None = None) -> EquilibriumPath:
+def trace(
+    problem: Problem,
+    max_load: float | None = None,
+    start_gap: float | None = None,
+    longest_step: float = _LONGEST_STEP,
+) -> EquilibriumPath:
     """Follow the whole equilibrium path.
 
     Parameters
@@ -74,6 +79,8 @@ def trace(problem: Problem, max_load: float | None = None, start_gap: float | No
         The path ends in contact at this load; by default where the compression equals the largest tension.
     start_gap : float, optional
         Central gap at the far end; by default 10 + 5 mu.
+    longest_step : float
+        Bound on the step from point to point; 0.05 gives three times the points of the default, for interpolation.
 
     Raises
     ------
@@ -88,7 +95,7 @@ def trace(problem: Problem, max_load: float | None = None, start_gap: float | No
     """
     points: list[Point] = []
     deepest = 0.0
-    for point in equilibrium_path(problem, _ORDER, _TOLERANCE, _LONGEST_STEP, start_gap):
+    for point in equilibrium_path(problem, _ORDER, _TOLERANCE, longest_step, start_gap):
         points.append(point)
         deepest = min(deepest, point.state.load)
         if point.state.follows_edge and point.state.load > (-deepest if max_load is None else max_load):

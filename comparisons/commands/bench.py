@@ -15,6 +15,7 @@ __all__ = ["add", "call"]
 
 ACCURATE, BASELINE = "fscm", "fscm-stieltjes"
 QUANTITY, CASE = "pull_off_force", Case(n=2, k=0.4, mu=1)
+_FORMATS = {ACCURATE: ".9g", BASELINE: ".9g", "ratio": ".0f"}
 
 
 def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -26,7 +27,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def call(args: argparse.Namespace) -> int:
-    """Measure and print; return the exit status."""
+    """Measure and print; return the exit status.  The time of each model includes its own error estimate."""
     measured = []
     for model in (ACCURATE, BASELINE):
         with waiting(f"{model}: {QUANTITY} at {CASE.label}"):
@@ -36,7 +37,5 @@ def call(args: argparse.Namespace) -> int:
         log(f"{row.model}: {row.status}: {row.reason}")
     if failed:
         return FAILED
-    output().print(
-        rich_table(compare(*measured), f"{QUANTITY} at {CASE.label}, one thread", {"ratio": ".0f"})
-    )
+    output().print(rich_table(compare(*measured), f"{QUANTITY} at {CASE.label}, one thread", _FORMATS))
     return OK

@@ -16,6 +16,7 @@ __all__ = ["MODELS", "create", "knows_poisson"]
 #: is in `_KNOWS_POISSON`.
 MODELS: dict[str, str] = {
     "fscm": "comparisons.models.fscm_model:FullSelfConsistent",
+    "fscm-stieltjes": "comparisons.models.stieltjes_model:PublishedScheme",
     "fem": "comparisons.models.fem_model:FiniteElements",
     "jkr": "comparisons.models.jkr:JKR",
     "md-original": "comparisons.models.maugis_dugdale:MaugisDugdaleOriginal",

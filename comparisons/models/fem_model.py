@@ -10,14 +10,20 @@ from __future__ import annotations
 from typing import ClassVar
 
 import fem_reference
-from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
+from comparisons.distance import spread
+from comparisons.model import Curve, NotApplicable, Profile, Result
+from comparisons.models.solver import result_of, translated
 from comparisons.quantities import QUANTITIES
+from comparisons.shapes import pressure_near
 from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
 from fscm.profile import PowerLaw
 from fscm.surface_law import LennardJones93
 
 __all__ = ["FiniteElements"]
+
+#: Meshes of a curve and of the coarser one that tells its uncertainty.
+_LEVELS = ("quick", "default")
 
 _SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25}
 
@@ -46,29 +52,15 @@ class FiniteElements:
         if quantity not in fem_reference.QUANTITIES:
             raise NotApplicable(f"the finite elements do not compute {quantity}")
         physical, solid, punch, law = self._physical(problem)
-        try:
+        with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             solution = fem_reference.solve(solid, punch, law, quantity)
-        except fem_reference.NoSuchEvent as reason:
-            raise NotApplicable(str(reason)) from reason
-        except fem_reference.NotConverged as failure:
-            raise ComputationFailed(str(failure)) from failure
-        kind = QUANTITIES[quantity].kind
-        return Result(
-            value=physical.to_dimensionless(kind, solution.value),
-            u_num=physical.to_dimensionless(kind, solution.u_num),
-            size=solution.size,
-            iterations=solution.iterations,
-            residual=solution.residual,
-            seconds=solution.seconds,
-        )
+        return result_of(solution, unit=physical.scales[QUANTITIES[quantity].kind])
 
     def curve(self, problem: Problem) -> Curve:
         """Return the equilibrium path from far away into compression."""
-        physical, solid, punch, law = self._physical(problem)
-        try:
-            path = fem_reference.trace(solid, punch, law)
-        except fem_reference.NotConverged as failure:
-            raise ComputationFailed(str(failure)) from failure
+        physical, *question = self._physical(problem)
+        with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
+            coarse, path = (fem_reference.trace(*question, accuracy=level) for level in _LEVELS)
         return Curve(
             displacement=physical.to_dimensionless("displacement", path.displacement),
             load=physical.to_dimensionless("load", path.load),
@@ -76,7 +68,23 @@ class FiniteElements:
                 "central_gap": physical.to_dimensionless("gap", path.central_gap),
                 "edge_radius": physical.to_dimensionless("radius", path.contact_radius),
             },
+            u_distance=spread(coarse.displacement, coarse.load, path.displacement, path.load),
         )
+
+    def pull_off_profile(self, problem: Problem) -> Profile:
+        """Return the surface where P is smallest, and as its uncertainty the distance of two meshes."""
+        physical, *question = self._physical(problem)
+        with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
+            found = [fem_reference.profile(*question, accuracy=level) for level in _LEVELS]
+        (radius, pressure, gap), fine = (
+            (
+                physical.to_dimensionless("radius", profile.r),
+                physical.to_dimensionless("traction", profile.pressure),
+                physical.to_dimensionless("gap", profile.gap),
+            )
+            for profile in found
+        )
+        return Profile(*fine, spread(*pressure_near(radius, pressure, gap), *pressure_near(*fine)))
 
     def _physical(
         self, problem: Problem

@@ -8,6 +8,7 @@ from comparisons.cases import Case
 from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.models import create
 from comparisons.models.fem_model import FiniteElements
+from comparisons.models.stieltjes_model import PublishedScheme
 from comparisons.quantities import QUANTITIES
 from comparisons.run import ask
 from fscm.physical import PhysicalProblem
@@ -74,6 +75,15 @@ def test_the_finite_elements_are_asked_for_the_same_tabor_number_and_answer_in_t
 def test_what_the_finite_elements_do_not_do(problem, quantity, reason):
     with pytest.raises(NotApplicable, match=reason):
         FiniteElements().evaluate(problem, quantity)
+
+
+def test_the_published_scheme_is_off_by_no_more_than_it_says():
+    row = ask(PublishedScheme(segments=200), "pull_off_force", Case(2, 0.4, 0.5))
+    assert abs(row.value - 1.86628026) < row.u_num < 1e-2
+    assert (
+        ask(PublishedScheme(segments=200), "hysteresis_energy", Case(2, 0.4, 0.5)).status == "not-applicable"
+    )
+    assert ask(PublishedScheme(segments=200), "pull_off_force", Case(2, 1, 0.5)).status == "not-applicable"
 
 
 def test_the_two_references_agree_within_their_uncertainties():
