@@ -217,7 +217,8 @@ class GibsonSolid:
         """Gap of fold A and the front, or NoSuchEvent."""
         if not (self._local.folds and self._local.front):
             raise NoSuchEvent(
-                f"mu = {self.problem.mu:g} is outside ({math.sqrt(0.5 / self._local.steepness):g}, inf): the displacement rises monotonically, there is no jump"
+                f"mu = {self.problem.mu:g} is outside ({math.sqrt(0.5 / self._local.steepness):g}, inf): "
+                "the displacement rises monotonically, there is no jump"
             )
         return self._local.folds[1], self._local.front
 

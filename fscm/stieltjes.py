@@ -1,4 +1,4 @@
-"""The scheme of the paper (Sec. 2.4, Eqs. 34-39): uniform segments, Riemann-Stieltjes sums, central gap
+"""The published scheme (Sec. 2.4, Eqs. 34-39): uniform segments, Riemann-Stieltjes sums, central gap control.
 
 Kept as published, as a second discretisation and as the baseline of comparisons: N uniform segments up to
 f(r_max) = 50 with nothing beyond, tractions at the mean of neighbouring gaps, Newton's method from the
@@ -90,7 +90,11 @@ class StieltjesScheme:
     gap_step : float
         Step of the central gap along the path, > 0; not stated in the paper.
     first_gap, last_gap : float
-        Central gaps where the path begins and ends; "say 10" and "say -0.1" in the paper.
+        Central gaps where the path begins and ends; "say 10" and "say -0.1" in the paper, which is before the
+        pull-off of a cone on a stiff solid.
+    last_load : float
+        The path also ends at the first load above this: compressed much farther, the contact leaves the
+        domain.
 
     Raises
     ------
@@ -112,7 +116,8 @@ class StieltjesScheme:
         farthest_height: float = 50.0,
         gap_step: float = 0.1,
         first_gap: float = 10.0,
-        last_gap: float = -0.1,
+        last_gap: float = -0.4,
+        last_load: float = 0.0,
     ) -> None:
         inf = math.inf
         if problem.k >= 1.0:
@@ -133,6 +138,14 @@ class StieltjesScheme:
         )
         self.last_gap = real_number("last_gap", last_gap, low=singular, high=inf, reason=reason)
         self.first_gap = real_number("first_gap", first_gap, low=self.last_gap, high=inf, reason=reason)
+        self.last_load = real_number(
+            "last_load",
+            last_load,
+            low=0.0,
+            high=inf,
+            closed_low=True,
+            reason="the path leads through tension",
+        )
         radius = np.linspace(0.0, self._farthest_radius(), segments + 1)
         self.radius: Array = radius[1:]
         self._height = problem.profile.height(self.radius)
@@ -217,7 +230,7 @@ class StieltjesScheme:
 
     @cached_property
     def path(self) -> list[StieltjesState]:
-        """States from the first to the last central gap, by steps of `gap_step`, halved where Newton fails.
+        """States from the first gap to the last gap or load, by `gap_step`, halved where Newton fails.
 
         Raises
         ------
@@ -226,7 +239,7 @@ class StieltjesScheme:
         """
         states = [self.solve(self.first_gap)]
         step = self.gap_step
-        while states[-1].central_gap > self.last_gap:
+        while states[-1].central_gap > self.last_gap and states[-1].load <= self.last_load:
             here = states[-1]
             try:
                 states.append(self.solve(max(here.central_gap - step, self.last_gap), here.gap))
