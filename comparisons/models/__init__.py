@@ -17,6 +17,7 @@ __all__ = ["MODELS", "create", "knows_poisson"]
 MODELS: dict[str, str] = {
     "fscm": "comparisons.models.fscm_model:FullSelfConsistent",
     "fscm-stieltjes": "comparisons.models.stieltjes_model:PublishedScheme",
+    "fscm-stieltjes-400": "comparisons.models.stieltjes_model:CoarsePublishedScheme",
     "fem": "comparisons.models.fem_model:FiniteElements",
     "jkr": "comparisons.models.jkr:JKR",
     "md-original": "comparisons.models.maugis_dugdale:MaugisDugdaleOriginal",
