@@ -326,7 +326,7 @@ def by_gate(judged: pd.DataFrame) -> pd.DataFrame:
             }
         )
     table = pd.DataFrame(summary, columns=["verdict", *judged.columns.drop(["verdict", "reason"]), "cases", "left_out", "reason"])
-    order = table["verdict"].map(lambda verdict: verdict.rank)
+    order = table["verdict"].map(lambda verdict: Verdict(verdict).rank).astype(int)
     return table.iloc[order.argsort(kind="stable")].reset_index(drop=True)
 
 

@@ -84,13 +84,13 @@ def expecting_failure(verdict: Verdict) -> Verdict:
     return {Verdict.FAIL: Verdict.XFAIL, Verdict.PASS: Verdict.XPASS}.get(verdict, verdict)
 
 
-def roll_up(verdicts: Iterable[Verdict]) -> Verdict:
-    """Return the worst verdict; ERROR if nothing was evaluated.
+def roll_up(verdicts: Iterable[str]) -> Verdict:
+    """Return the worst of verdicts, or their names; ERROR if nothing was evaluated.
 
     Examples
     --------
     >>> str(roll_up([Verdict.PASS, Verdict.FAIL, Verdict.XPASS])), str(roll_up([]))
     ('FAIL', 'ERROR')
     """
-    evaluated = [verdict for verdict in verdicts if verdict is not Verdict.NOT_APPLICABLE]
+    evaluated = {Verdict(verdict) for verdict in verdicts} - {Verdict.NOT_APPLICABLE}
     return min(evaluated, key=lambda verdict: verdict.rank, default=Verdict.ERROR)
