@@ -219,6 +219,8 @@ def _check_numbers(gate: Gate, where: str) -> None:
         raise ValueError(
             f"{where}: the limits {gate.lower:g} to {gate.upper:g} admit nothing or everything; one must be finite"
         )
+    if gate.metric == "curve" and gate.lower != -math.inf:
+        raise ValueError(f"{where}: a distance has no lower limit; state lower = -inf")
     if not 0.0 < gate.max_reference_uncertainty < math.inf:
         raise ValueError(f"{where}: max_reference_uncertainty must be positive and finite")
     if gate.min_cases < 1:

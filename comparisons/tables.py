@@ -97,7 +97,9 @@ class Published:
     percent: str
 
     def verdict(self, kappa: float, u_kappa: float) -> str:
-        """Say whether a computed largest abs(kappa) rounds to the published digits.
+        """Say whether a computed largest abs(kappa) has the published digits, rounded or cut off.
+
+        Nothing tells how a paper shortens its numbers, so 15.95 agrees with both 15.9 and 16.0.
 
         Examples
         --------
@@ -105,10 +107,12 @@ class Published:
         'agrees'
         """
         step = Decimal(1).scaleb(Decimal(self.percent).as_tuple().exponent)  # type: ignore[arg-type]
-        low, high = (Decimal(100 * (abs(kappa) + sign * u_kappa)).quantize(step) for sign in (-1, 1))
-        if low == high:
-            return "agrees" if low == Decimal(self.percent) else "differs"
-        return "undecided" if low <= Decimal(self.percent) <= high else "differs"
+        low, high = (Decimal(100 * (abs(kappa) + sign * u_kappa)) for sign in (-1, 1))
+        published = Decimal(self.percent)
+        # Rounding admits half a step to either side, cutting off a whole step above.
+        if published - step / 2 <= low and high < published + step:
+            return "agrees"
+        return "undecided" if low < published + step and high >= published - step / 2 else "differs"
 
 
 def published() -> list[Published]:

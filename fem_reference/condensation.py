@@ -14,7 +14,7 @@ from scipy.sparse.linalg import splu
 from fem_reference.assembly import HalfSpace
 from fem_reference.errors import NotConverged
 
-__all__ = ["dissection_order", "surface_stiffness"]
+__all__ = ["dissection_order", "grid_positions", "surface_stiffness"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
@@ -23,7 +23,7 @@ SYMMETRY_TOLERANCE = 1e-7
 """Relative asymmetry of the Schur complement that signals pivoting or a singular matrix (measured: 1e-12)."""
 
 
-def _positions(half_space: HalfSpace) -> tuple[Index, Index]:
+def grid_positions(half_space: HalfSpace) -> tuple[Index, Index]:
     """Grid position (column, row) of every scalar unknown: even on grid lines, odd between them."""
     basis, grid = half_space.basis, half_space.grid
     mesh = basis.mesh
@@ -70,7 +70,7 @@ def dissection_order(half_space: HalfSpace) -> Index:
     rank[ni, :] = last
     rank[:, nj] = last
     rank[:, 0] = last + 1
-    column, row = _positions(half_space)
+    column, row = grid_positions(half_space)
     key = np.repeat(rank[column, row], 2)
     key[half_space.surface] = last + 2
     position = np.zeros(key.size)

@@ -8,6 +8,7 @@ matrix that depends on k, nu and the mesh only, and serves every size.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Protocol
@@ -15,7 +16,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 from scipy import linalg
-from skfem import Basis, ElementLinePp, MeshLine
+from skfem import ElementLinePp
 
 from fem_reference.assembly import assemble_half_space
 from fem_reference.condensation import surface_stiffness
@@ -45,6 +46,11 @@ class MeshSpec:
     density: float
     order: int
     apex_width: float | None = None
+
+    def load_vector(self, pressure: Callable[[Array], Array]) -> Array:
+        """Integrals of p(s) phi s ds along the surface, in chain order."""
+        trace = trace_of(self.grid(), self.order)
+        return np.asarray(trace.phi.T @ (trace.weight * trace.s * pressure(trace.s)))
 
     def grid(self) -> Grid:
         """Return the grid with its edge at s = 1."""
@@ -123,8 +129,15 @@ def trace_of(grid: Grid, order: int) -> Trace:
 class Compliance(Protocol):
     """Surface compliance as a function of the size c of the mesh."""
 
-    trace: Trace
-    unknowns: int
+    @property
+    def trace(self) -> Trace:
+        """The surface functions."""
+        ...
+
+    @property
+    def unknowns(self) -> int:
+        """Unknowns of the finite-element mesh behind it."""
+        ...
 
     def factor(self, c: float) -> float:
         """Factor of `matrix` at size c."""
@@ -239,6 +252,19 @@ def compliance_for(modulus: Modulus, nu: float, spec: MeshSpec, size: float) -> 
         trace, matrix, unknowns = _unit_compliance(modulus.k, nu, spec)
         return ScalingCompliance(trace, matrix, modulus, unknowns)
     grid = spec.grid()
-    half_space = assemble_half_space(grid, _Scaled(modulus, size), nu, spec.order)
+    half_space = assemble_half_space(grid, scaled_modulus(modulus, size), nu, spec.order)
     matrix = _inverse(surface_stiffness(half_space))
     return FixedCompliance(trace_of(grid, spec.order), matrix, size, int(half_space.free.size))
+
+
+def scaled_modulus(modulus: Modulus, size: float) -> Modulus:
+    """Return the modulus in lengths of `size`: E(size s) as a function of s.
+
+    Examples
+    --------
+    >>> float(scaled_modulus(PowerLaw(1.0, 1.0, 0.5), 4.0)(np.array(1.0)))
+    2.0
+    """
+    if isinstance(modulus, PowerLaw):
+        return PowerLaw(modulus.E0, modulus.c0 / size, modulus.k)
+    return _Scaled(modulus, size)

@@ -10,8 +10,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fscm.equilibrium import Control, Discretisation, State, newton
+from fscm.equilibrium import STEP_TOLERANCE, Control, Discretisation, State, newton
 from fscm.errors import NotConverged
 from fscm.panels import Array, PanelMesh
 from fscm.problem import Problem
@@ -23,6 +24,12 @@ __all__ = ["fit", "indicator", "initial_mesh", "rescaled_mesh"]
 END_HEIGHT = 1e6
 # A pair of panels is merged when the merged panel would still be this much below the tolerance.
 _MERGE_MARGIN = 0.02
+# Merged panels reach at most this many times as far from the axis as they start.
+_LARGEST_RATIO = 8.0
+# Share of superfluous breaks from which a mesh is made anew for their sake.
+_WORTH_MERGING = 0.2
+# Newton error beside the error of the mesh.
+_NEWTON_MARGIN = 0.01
 _MAX_ROUNDS = 60
 # r^n at the tip of a punch is not smooth: coefficients of the innermost panel fall algebraically, so that the
 # omitted ones together exceed the last.  Measured on n = 1.5, k = 0.6, mu = 3: by up to 10.
@@ -86,32 +93,30 @@ def indicator(state: State) -> Array:
     return _last_modes(mesh.modes(state.pressure)) * _weights(state, mesh.starts, mesh.lengths)
 
 
-def _refined_breaks(state: State, tolerance: float) -> Array | None:
+def _unresolved(state: State, tolerance: float) -> Array:
+    """Middles of the panels that have to be split."""
     mesh = state.disc.mesh
     bad = indicator(state) > tolerance
-    if not bad.any():
-        return None
-    middle = mesh.starts[bad] + 0.5 * mesh.lengths[bad]
-    return np.sort(np.concatenate([mesh.breaks, middle]))
+    return mesh.starts[bad] + 0.5 * mesh.lengths[bad]
 
 
-def _coarsened_breaks(state: State, tolerance: float) -> Array:
-    """Breaks without those whose removal leaves the pressure resolved; no two neighbours are removed."""
+def _superfluous(state: State, tolerance: float) -> NDArray[np.intp]:
+    """Indices of breaks whose removal leaves the pressure resolved; no two are neighbours."""
     mesh = state.disc.mesh
     starts, lengths = mesh.starts[:-1], mesh.lengths[:-1] + mesh.lengths[1:]
-    ends = starts + lengths
-    merged = PanelMesh(np.concatenate([[0.0], [1.0]]), mesh.order)  # only its rule is used
-    nodes = starts[:, None] + lengths[:, None] * merged.rule.nodes
+    rule = mesh.rule
+    nodes = starts[:, None] + lengths[:, None] * rule.nodes
     pressure = mesh.evaluate(state.pressure, nodes.ravel()).reshape(nodes.shape)
-    effect = _last_modes(pressure @ merged.rule.to_modes.T) * _weights(state, starts, lengths)
-    keep = np.ones(len(mesh.breaks), bool)
-    previous = 0
-    for i, (small, end) in enumerate(zip(effect < _MERGE_MARGIN * tolerance, ends, strict=True), start=1):
-        ratio_ok = end <= 8.0 * max(mesh.breaks[i - 1], 1e-3 * end)
-        if small and ratio_ok and mesh.breaks[i] != 1.0 and previous < i - 1:
-            keep[i] = False
-            previous = i
-    return mesh.breaks[keep]
+    effect = _last_modes(pressure @ rule.to_modes.T) * _weights(state, starts, lengths)
+    inner = mesh.breaks[1:-1]
+    removable = (
+        (effect < _MERGE_MARGIN * tolerance) & (inner != 1.0) & (starts + lengths <= _LARGEST_RATIO * starts)
+    )
+    chosen: list[int] = []
+    for i in np.flatnonzero(removable) + 1:
+        if not chosen or i > chosen[-1] + 1:
+            chosen.append(int(i))
+    return np.array(chosen, np.intp)
 
 
 def on_mesh(state: State, mesh: PanelMesh) -> State:
@@ -125,21 +130,32 @@ def on_mesh(state: State, mesh: PanelMesh) -> State:
 def fit(state: State, control: Control, tolerance: float, coarsen: bool = False) -> State:
     """Solve on meshes refined until every panel is resolved to `tolerance`.
 
+    Parameters
+    ----------
+    state : State
+        In equilibrium on its own mesh.
+    control : Control
+        Kept on all meshes.
+    tolerance : float
+        Of the indicator, dimensionless.
+    coarsen : bool
+        Merge panels that have become superfluous, in the first round.
+
     Raises
     ------
     NotConverged
         When the refinement does not end.
     """
-    if coarsen:
-        breaks = _coarsened_breaks(state, tolerance)
-        if len(breaks) < len(state.disc.mesh.breaks):
-            state = newton(on_mesh(state, PanelMesh(breaks, state.disc.mesh.order)), control)
     iterations = state.iterations
-    for _ in range(_MAX_ROUNDS):
-        finer = _refined_breaks(state, tolerance)
-        if finer is None:
+    step_tolerance = max(STEP_TOLERANCE, _NEWTON_MARGIN * tolerance)
+    for attempt in range(_MAX_ROUNDS):
+        breaks, middles = state.disc.mesh.breaks, _unresolved(state, tolerance)
+        drop = _superfluous(state, tolerance) if coarsen and attempt == 0 else np.empty(0, np.intp)
+        # A new mesh costs a solve: it is worth that for panels that lack, or for many that are too many.
+        if not middles.size and drop.size < _WORTH_MERGING * len(breaks):
             return replace(state, iterations=iterations)
-        state = newton(on_mesh(state, PanelMesh(finer, state.disc.mesh.order)), control)
+        mesh = PanelMesh(np.sort(np.concatenate([np.delete(breaks, drop), middles])), state.disc.mesh.order)
+        state = newton(on_mesh(state, mesh), control, step_tolerance)
         iterations += state.iterations
     raise NotConverged(
         f"the mesh was refined {_MAX_ROUNDS} times without resolving the pressure to {tolerance:.0e}"

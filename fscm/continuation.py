@@ -17,7 +17,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from fscm.adaptivity import fit, initial_mesh, rescaled_mesh
-from fscm.equilibrium import Control, Discretisation, Rates, State, newton
+from fscm.equilibrium import STEP_TOLERANCE, Control, Discretisation, Rates, State, newton
 from fscm.errors import NotConverged
 from fscm.problem import Problem
 
@@ -26,7 +26,8 @@ __all__ = ["Point", "equilibrium_path", "lead_control", "lead_of", "moved", "rat
 _FIRST_STEP = 0.25
 _SMALLEST_STEP = 1e-6
 # Newton iterations after which the next step is longer or shorter.
-_EASY, _HARD = 4, 7
+_EASY, _HARD = 3, 6
+_NEWTON_MARGIN = 0.01  # Newton error beside the error of the mesh
 _LONGER, _SHORTER, _RETRY = 1.4, 0.7, 0.4
 # A step over which the tangent turns by more than this cosine is taken again, shorter: a fold pair turns
 # the path twice and must not be stepped over.  Steps below _BLIND_STEP are taken whatever the turn.
@@ -49,32 +50,31 @@ class Point:
 class _ArcLength:
     """Units in which displacement and load enter the arc length; the leading variable enters as it is."""
 
-    displacement: float
+    displacement_in_contact: float
     load: float
 
     def lead_unit(self, state: State) -> float:
         """Unit of the leading variable: 1 for log c, the distance to the singular gap for the central gap."""
         return 1.0 if state.follows_edge else state.central_gap - state.disc.problem.law.singular_gap
 
+    def displacement_unit(self, state: State) -> float:
+        """Unit of the displacement: larger far apart, where the path is nearly straight."""
+        return self.displacement_in_contact + max(state.central_gap, 0.0)
+
     def tangent(self, state: State) -> Rates:
         rates = rates_of(state)
         lead = 1.0 / self.lead_unit(state)
-        norm = math.hypot(lead, rates.displacement / self.displacement, rates.load / self.load)
+        norm = math.hypot(lead, rates.displacement / self.displacement_unit(state), rates.load / self.load)
         return rates.scaled((1.0 if state.follows_edge else -1.0) / norm)
 
     def turn(self, a: Point, b: Point) -> float:
         """Cosine of the angle between the tangents at two points of one stretch."""
 
         def direction(point: Point) -> np.ndarray:
-            rates = point.rates
-            lead = rates.log_scale if point.state.follows_edge else rates.central_gap
-            return np.array(
-                [
-                    lead / self.lead_unit(point.state),
-                    rates.displacement / self.displacement,
-                    rates.load / self.load,
-                ]
-            )
+            state, rates = point.state, point.rates
+            lead = rates.log_scale if state.follows_edge else rates.central_gap
+            units = (self.lead_unit(state), self.displacement_unit(state), self.load)
+            return np.array([lead, rates.displacement, rates.load]) / units
 
         return float(direction(a) @ direction(b))
 
@@ -82,7 +82,7 @@ class _ArcLength:
         """The condition that the projection of the move on the tangent is `step`."""
         unit = self.lead_unit(state) ** 2
         a = (tangent.log_scale if state.follows_edge else tangent.central_gap) / unit
-        b = tangent.displacement / self.displacement**2
+        b = tangent.displacement / self.displacement_unit(state) ** 2
         c = tangent.load / self.load**2
         value = a * lead_of(state) + b * state.displacement + c * state.load + step
         if state.follows_edge:
@@ -114,9 +114,9 @@ def _predicted(state: State, rates: Rates, step: float) -> State:
     )
 
 
-def moved(state: State, rates: Rates, value: float) -> State:
+def moved(state: State, rates: Rates, value: float, tolerance: float = STEP_TOLERANCE) -> State:
     """Equilibrium at another value of the leading variable, from the tangent predictor."""
-    return newton(_predicted(state, rates, value - lead_of(state)), lead_control(state, value))
+    return newton(_predicted(state, rates, value - lead_of(state)), lead_control(state, value), tolerance)
 
 
 def _far_state(problem: Problem, central_gap: float, order: int, tolerance: float) -> State:
@@ -144,8 +144,8 @@ def _follow_edge(state: State) -> State:
 
 
 def _start_gap(problem: Problem) -> float:
-    """A central gap beyond the far branch at jump-out, whose displacement is at most 3 mu below zero."""
-    return 10.0 + 5.0 * problem.mu
+    """A central gap beyond the far branch at jump-out: JKR's C_out mu is at most sqrt(2 pi) mu (Eq. 55)."""
+    return 3.0 + 3.0 * problem.mu
 
 
 def equilibrium_path(
@@ -197,7 +197,7 @@ def equilibrium_path(
         while True:
             control = arc.control(state, point.rates, step)
             try:
-                new = newton(_predicted(state, point.rates, step), control)
+                new = newton(_predicted(state, point.rates, step), control, _NEWTON_MARGIN * tolerance)
                 used = new.iterations
                 new = fit(new, control, tolerance, coarsen=True)
                 after = Point(new, arc.tangent(new))

@@ -29,7 +29,7 @@ _FUNCTIONALS: dict[str, Callable[[State], float]] = {
     "displacement": lambda state: state.displacement,
     "load": lambda state: state.load,
 }
-_MAX_POINTS = 2000
+_MAX_POINTS = 600
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def equilibria(problem: Problem, control: str, value: float) -> list[Equilibrium
     Examples
     --------
     >>> [round(state.load, 6) for state in equilibria(Problem(n=2, k=0.4, mu=1.0), "displacement", 0.0)]
-    [-1.707353]
+    [-1.729635]
     """
     if control not in _FUNCTIONALS:
         raise ValueError(f"control {control!r} is unknown; it is one of {', '.join(_FUNCTIONALS)}")

@@ -33,7 +33,7 @@ __all__ = ["Control", "Discretisation", "State", "newton"]
 
 # Newton stops when the last step changes no gap by more than this, relative to 1 + |H|; the step after it
 # would be at rounding level, since convergence is quadratic.
-_STEP_TOLERANCE = 1e-9
+STEP_TOLERANCE = 1e-9
 _MAX_ITERATIONS = 25
 # A gap may fall to this fraction of its distance to the singular gap in one iteration, and not below
 # _LOWEST of it: at a quarter of the distance the 9-3 law reaches 7e5 times its strength.
@@ -321,7 +321,7 @@ class _Linearisation:
         )
 
 
-def newton(guess: State, control: Control) -> State:
+def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) -> State:
     """Solve for equilibrium under a control, from a guess.
 
     Parameters
@@ -329,6 +329,8 @@ def newton(guess: State, control: Control) -> State:
     guess : State
         Its discretisation, anchor and (when the scale is fixed) scale are kept.
     control : Control
+    tolerance : float
+        Largest change of a gap in the last step, relative to 1 + |H|.
 
     Returns
     -------
@@ -373,6 +375,6 @@ def newton(guess: State, control: Control) -> State:
         change = float(np.max(np.abs(dH) / (1.0 + np.abs(state.gap))))
         if not math.isfinite(change) or change > 1e6:
             raise NotConverged("Newton diverged; take a smaller step")
-        if damping == 1.0 and change < _STEP_TOLERANCE:
+        if damping == 1.0 and change < tolerance:
             return state
     raise NotConverged(f"Newton did not converge in {_MAX_ITERATIONS} iterations (last change {change:.1e})")

@@ -95,7 +95,8 @@ def trace(
     """
     points: list[Point] = []
     deepest = 0.0
-    for point in equilibrium_path(problem, _ORDER, _TOLERANCE, longest_step, start_gap):
+    start = 10.0 + 5.0 * problem.mu if start_gap is None else start_gap
+    for point in equilibrium_path(problem, _ORDER, _TOLERANCE, longest_step, start):
         points.append(point)
         deepest = min(deepest, point.state.load)
         if point.state.follows_edge and point.state.load > (-deepest if max_load is None else max_load):

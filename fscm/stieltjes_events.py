@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 _EVENT_TOLERANCE = 1e-11
 # From N/2 to N segments the error falls fourfold, so the difference is three times the error at N where the
 # edge is resolved, and the tail is known to first order; the factor covers coarser meshes.  Measured worst
-# error / u_num is 0.5 over n = 1 to 5, k = 0, 0.3, 0.6, mu = 0.2, 0.8, 1.4 on 160 segments, wherever it
+# error / u_num is 0.65 over n = 1 to 5, k = 0, 0.3, 0.6, mu = 0.2, 0.8, 1.4 on 160 segments, wherever it
 # converges.
 _SAFETY = 2.0
 _SIMPLE_FOLDS = (0, 2)

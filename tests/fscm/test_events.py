@@ -99,12 +99,14 @@ def test_continuity_as_k_vanishes(quantity: str) -> None:
     assert changes[1] / changes[2] == pytest.approx(2.0, rel=1e-2)
 
 
-@pytest.mark.parametrize("mu", [0.5, 1.0])
-def test_gibson_limit(mu: float) -> None:
+@pytest.mark.parametrize("n", [1.5, 2.0])
+def test_gibson_limit(n: float) -> None:
     """k -> 1 tends to the pointwise solid, linearly in 1 - k."""
-    limit = solve(Problem(2, 1.0, mu), "pull_off_force").value
-    changes = [solve(Problem(2, k, mu), "pull_off_force").value - limit for k in (0.9, 0.95)]
-    assert abs(changes[1]) < abs(changes[0]) < 0.02
+    limit = solve(Problem(n, 1.0, 0.5), "pull_off_force").value
+    changes = [solve(Problem(n, k, 0.5), "pull_off_force").value - limit for k in (0.9, 0.95, 0.98)]
+    assert abs(changes[2]) < 6e-3
+    assert changes[0] / changes[1] == pytest.approx(2.0, rel=0.02)
+    assert changes[1] / changes[2] == pytest.approx(2.5, rel=0.02)
 
 
 @given(
@@ -112,7 +114,7 @@ def test_gibson_limit(mu: float) -> None:
     k=st.floats(0.0, 0.8),
     log_mu=st.floats(math.log(0.01), math.log(3.0)),
 )
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=10, deadline=None)
 def test_random_problems_obey_what_all_obey(n: float, k: float, log_mu: float) -> None:
     """Signs, order of events, and stationarity of the load at pull-off."""
     problem = Problem(n, k, math.exp(log_mu))

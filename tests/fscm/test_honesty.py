@@ -15,6 +15,8 @@ from fscm import Analysis, Problem
 
 SAMPLE = 64
 NARROWEST_EDGE = 1e-6
+# The truth is sure to this, relative: the scatter between orders 16 to 24, tolerances 1e-8 to 1e-12.
+TRUTH = 1e-14
 
 
 def _sample() -> list[Problem]:
@@ -53,11 +55,11 @@ def test_pull_off_force_is_accurate_and_honest(part: int, truth) -> None:
         (exact,) = truth(problem, ("pull_off_force",))
         error = abs(answer.value - exact)
         allowed = (1e-8 if problem.mu <= 2 else 1e-6) * exact
-        ratios.append(answer.u_num / max(error, 1e-16))
+        ratios.append(answer.u_num / max(error, TRUTH * exact))
         if not (error <= answer.u_num and error <= allowed):
             rows.append((problem, exact, error, answer.u_num))
     assert not rows
-    assert np.median(ratios) < 1000  # measured 110 over 40 problems and all quantities
+    assert np.median(ratios) < 1000  # measured 110 to 160 over 40 problems and all quantities
 
 
 @pytest.mark.parametrize(

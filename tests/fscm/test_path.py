@@ -19,7 +19,7 @@ def test_work_equals_change_of_energy(n: float, k: float, mu: float) -> None:
     The work is the Gauss integral over the leading variable of P d(delta), at states solved there.
     """
     points = []
-    for point in equilibrium_path(Problem(n, k, mu), 10, 1e-6):
+    for point in equilibrium_path(Problem(n, k, mu), 10, 1e-6, longest_step=0.2):
         points.append(point)
         if point.state.follows_edge and point.state.load > 0:
             break

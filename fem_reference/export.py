@@ -1,0 +1,194 @@
+"""Displacement and stresses of a contact for ParaView (vtu through meshio) and as a matplotlib picture.
+
+The field is recovered from the surface: the surface displacement of an equilibrium gives the load vector, the
+load vector the displacement of the whole solid, and its derivatives the stresses, sampled on a sub-grid of
+every element.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import matplotlib.pyplot as plt
+import meshio
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+from skfem import Basis, ElementQuadP
+
+from fem_reference.assembly import assemble_half_space
+from fem_reference.linear_solver import solve_direct
+from fem_reference.mapping import ChartMapping
+from fem_reference.modulus import PowerLaw
+from fem_reference.path import Point
+from fem_reference.surface import MeshSpec, scaled_modulus
+
+__all__ = ["Field", "contact_field", "draw", "write_vtu"]
+
+Array = NDArray[np.float64]
+
+SAMPLES = 4
+"""Sample points an element side; stresses are those of the order-6 element, the picture is linear between."""
+
+SURFACE_OFFSET = 1e-6
+"""Samples keep this share of an element away from its sides: on the axis u_r / r is 0/0, at the surface of a
+graded solid the strain u_z,z ~ z^-k is unbounded while the stress is not."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Field:
+    """Sampled solution of a solid.
+
+    Attributes
+    ----------
+    points : ndarray, shape (n, 2)
+        (r, z), z positive into the solid.
+    quads : ndarray of int, shape (m, 4)
+        Cells of the sample grid.
+    displacement : ndarray, shape (n, 2)
+        (u_r, u_z).
+    stress : ndarray, shape (n, 4)
+        sigma_rr, sigma_tt (hoop), sigma_zz, sigma_rz; tension positive.
+    modulus : ndarray, shape (n,)
+        E at the points.
+    """
+
+    points: Array
+    quads: NDArray[np.intp]
+    displacement: Array
+    stress: Array
+    modulus: Array
+
+    @property
+    def von_mises(self) -> Array:
+        """Von Mises stress, shape (n,)."""
+        rr, tt, zz, rz = self.stress.T
+        return np.sqrt(0.5 * ((rr - tt) ** 2 + (tt - zz) ** 2 + (zz - rr) ** 2) + 3.0 * rz**2)
+
+
+def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
+    """Recover displacement and stress in the whole solid at a point of the equilibrium path.
+
+    Parameters
+    ----------
+    solid : Solid or CustomSolid
+        The material.
+    spec : MeshSpec
+        The mesh the point was computed on.
+    point : Point
+        A converged equilibrium.
+
+    Returns
+    -------
+    Field
+
+    Raises
+    ------
+    NotConverged
+        If the stiffness is singular.
+    """
+    contact, y = point.leg.contact, point.state.y
+    c = float(y[-1])
+    scaled = scaled_modulus(solid.modulus, c)
+    half_space = assemble_half_space(spec.grid(), scaled, solid.nu, spec.order)
+    trace = contact.compliance.trace
+    pressure = contact.law.traction(contact.gap(y))
+    load = np.zeros(half_space.matrix.shape[0])
+    load[half_space.surface] = trace.phi.T @ (trace.weight * trace.s * pressure)
+    # Lengths scale by c: stiffness by c, load by c^2.
+    u = c * solve_direct(half_space, load).solution
+    body = half_space.body
+    side = np.linspace(SURFACE_OFFSET, 1.0 - SURFACE_OFFSET, SAMPLES)
+    X = np.array([np.tile(side, SAMPLES), np.repeat(side, SAMPLES)])
+    mapping = ChartMapping(body.mesh, body.chart)
+    basis = Basis(body.mesh, ElementQuadP(body.order), mapping, quadrature=(X, np.ones(X.shape[1])), disable_doflocs=True)
+    s, zeta = np.asarray(basis.global_coordinates())
+    radial, axial = basis.interpolate(u[0::2]), basis.interpolate(u[1::2])
+    ur, uz = np.asarray(radial), np.asarray(axial)
+    strain = [radial.grad[0] / c, ur / (c * s), axial.grad[1] / c]
+    shear = (radial.grad[1] + axial.grad[0]) / c
+    E = scaled(zeta)
+    lame = E * body.nu / ((1.0 + body.nu) * (1.0 - 2.0 * body.nu))
+    twice = E / (1.0 + body.nu)
+    volume = lame * (strain[0] + strain[1] + strain[2])
+    stress = [volume + twice * e for e in strain] + [0.5 * twice * shear]
+    return Field(
+        c * np.stack([s.ravel(), zeta.ravel()], axis=1),
+        _cells(body.mesh.nelements),
+        np.stack([ur.ravel(), uz.ravel()], axis=1),
+        np.stack([part.ravel() for part in stress], axis=1),
+        E.ravel(),
+    )
+
+
+def _cells(elements: int) -> NDArray[np.intp]:
+    corner = np.arange(SAMPLES * SAMPLES).reshape(SAMPLES, SAMPLES)
+    one = np.stack([corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]], axis=-1).reshape(-1, 4)
+    return (one[None] + (SAMPLES * SAMPLES * np.arange(elements))[:, None, None]).reshape(-1, 4)
+
+
+def write_vtu(field: Field, path: str | Path) -> None:
+    """Write a field for ParaView; the axis of symmetry is the vertical axis and depth points down.
+
+    Parameters
+    ----------
+    field : Field
+        Sampled solution.
+    path : str or Path
+        File name, ending in .vtu.
+    """
+    flat = np.zeros(len(field.points))
+    points = np.stack([field.points[:, 0], -field.points[:, 1], flat], axis=1)
+    displacement = np.stack([field.displacement[:, 0], -field.displacement[:, 1], flat], axis=1)
+    names = ("sigma_rr", "sigma_tt", "sigma_zz", "sigma_rz")
+    data = {"displacement": displacement, "modulus": field.modulus, "von_mises": field.von_mises}
+    # The shear stress changes sign with the direction of the vertical axis.
+    signs = (1.0, 1.0, 1.0, -1.0)
+    data |= {name: sign * column for name, sign, column in zip(names, signs, field.stress.T, strict=True)}
+    meshio.Mesh(points, [("quad", field.quads)], point_data=data).write(path, file_format="vtu")
+
+
+def draw(field: Field, radius: float, magnification: float = 1.0, stress: str = "sigma_zz") -> Figure:
+    """Draw the deformed, stressed body inside a radius.
+
+    Parameters
+    ----------
+    field : Field
+        Sampled solution.
+    radius : float
+        What to show: r < radius, z < radius.
+    magnification : float
+        Factor on the displacement.
+    stress : {"sigma_zz", "sigma_rr", "sigma_tt", "sigma_rz", "von_mises"}
+        What the colours mean.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    ValueError
+        For an unknown stress.
+    """
+    names = {"sigma_rr": 0, "sigma_tt": 1, "sigma_zz": 2, "sigma_rz": 3}
+    if stress not in names and stress != "von_mises":
+        raise ValueError(f"stress {stress!r} is unknown; choose von_mises or one of {', '.join(names)}")
+    values = field.von_mises if stress == "von_mises" else field.stress[:, names[stress]]
+    corners = field.points[field.quads]
+    inside = (corners < 1.2 * radius).all(axis=(1, 2))
+    quads = field.quads[inside]
+    r = field.points[:, 0] + magnification * field.displacement[:, 0]
+    z = field.points[:, 1] + magnification * field.displacement[:, 1]
+    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    used = np.unique(triangles)
+    renumber = np.zeros(len(values), np.intp)
+    renumber[used] = np.arange(used.size)
+    figure, axes = plt.subplots(figsize=(6.0, 5.0), layout="constrained")
+    image = axes.tripcolor(r[used], z[used], renumber[triangles], values[used], shading="gouraud", cmap="RdBu_r")
+    figure.colorbar(image, ax=axes, label=stress.replace("_", " "))
+    axes.set(xlim=(0.0, radius), xlabel="r", ylabel="depth z", aspect="equal")
+    axes.set_ylim(radius, min(0.0, float(z[used].min())))
+    return figure

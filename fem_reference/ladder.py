@@ -1,0 +1,218 @@
+"""The verification ladder: what the elastic half-space must reproduce, one row a rung.
+
+Each function measures one kind of error and returns rows; a row passes when the error is below its limit.
+`elastic_ladder` collects them.  Errors of surface displacements are relative to the central displacement.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_reference.modulus import Modulus, OffsetPowerLaw, PowerLaw
+from fem_reference.reference_solutions import gaussian_displacement, power_displacement
+from fem_reference.surface import MeshSpec, Trace, compliance_for
+
+__all__ = [
+    "DEFAULT",
+    "EXPONENTS",
+    "FINE",
+    "POISSON",
+    "Rung",
+    "disc_rungs",
+    "elastic_ladder",
+    "far_field_rungs",
+    "gaussian_rungs",
+    "limit_rungs",
+    "surface_displacement",
+]
+
+Array = NDArray[np.float64]
+
+EXPONENTS = (0.0, 0.1, 0.2, 0.4, 0.6, 0.8)
+POISSON = (0.0, 0.25, 0.45)
+
+DEFAULT = MeshSpec(0.25, 2e-3, 64.0, 0.69, 6)
+"""The density of the default accuracy, for a load of unit radius."""
+
+FINE = MeshSpec(0.25, 5e-4, 64.0, 0.5, 6)
+"""The density of the fine accuracy."""
+
+EDGE = MeshSpec(1e-3, 2e-5, 64.0, 0.69, 6)
+"""For pressures with a singular edge at r = 1."""
+
+LIMITS = {"default": 5e-6, "fine": 5e-7, "edge": 1e-6}
+"""Largest error allowed, relative to w(0) (measured: 1.4e-6 at nu = 0.49, 2e-7, 3e-7)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rung:
+    """One row of the ladder.
+
+    Attributes
+    ----------
+    rung, case : str
+        What is tested, and on what.
+    error, limit : float
+        Measured relative error and the largest allowed.
+    unknowns : int
+        Size of the finite-element problem.
+    """
+
+    rung: str
+    case: str
+    error: float
+    limit: float
+    unknowns: int
+
+    @property
+    def passed(self) -> bool:
+        """Whether the error is below the limit."""
+        return self.error <= self.limit
+
+
+def surface_displacement(
+    modulus: Modulus, nu: float, spec: MeshSpec, pressure: Callable[[Array], Array], disc: bool = False
+) -> tuple[Callable[[Array], Array], int]:
+    """Solve the half-space under a given pressure.
+
+    Parameters
+    ----------
+    modulus, nu
+        Material.
+    spec : MeshSpec
+        Mesh in absolute units.
+    pressure : callable
+        p(r), compression positive; of 1 - r^2 when `disc`.
+    disc : bool
+        The pressure is a function of q = 1 - r^2 on r < 1, possibly singular at q = 0, and zero outside.
+
+    Returns
+    -------
+    displacement : callable
+        u_z at the surface for any radii inside the mesh.
+    unknowns : int
+    """
+    compliance = compliance_for(modulus, nu, spec, 1.0)
+    trace = compliance.trace
+    load = _disc_load(trace, pressure) if disc else trace.phi.T @ (trace.weight * trace.s * pressure(trace.s))
+    w = compliance.factor(1.0) * (compliance.matrix @ load)
+
+    def displacement(r: Array) -> Array:
+        return np.asarray(trace.evaluate(np.asarray(r, float)) @ w)
+
+    return displacement, compliance.unknowns
+
+
+def _disc_load(trace: Trace, pressure: Callable[[Array], Array]) -> Array:
+    """Load vector of a pressure p(1 - r^2) on the unit disc: Gauss points cluster at the edge by x = 1 - u^4."""
+    x, w = np.polynomial.legendre.leggauss(30)
+    x, w = 0.5 * (x + 1.0), 0.5 * w
+    nodes = trace.nodes[: trace.edge + 1]
+    load = np.zeros(trace.phi.shape[1])
+    for left, right in zip(nodes[:-1], nodes[1:], strict=True):
+        h = right - left
+        last = right == nodes[-1]
+        gap = h * (x**4 if last else 1.0 - x)
+        weight = h * w * (4.0 * x**3 if last else 1.0)
+        s = right - gap
+        # 1 - s from the distance to the node, not from s: the pressure may be singular there.
+        below = (1.0 - right) + gap
+        load += trace.evaluate(s).T @ (weight * s * pressure(below * (1.0 + s)))
+    return load
+
+
+def gaussian_rungs(spec: MeshSpec, name: str, exponents: Iterable[float], poisson: Iterable[float]) -> list[Rung]:
+    """(c, h) Under p = exp(-r^2), against Eqs. 6-7 in closed form, on 0 <= r <= 4."""
+    r = np.linspace(0.0, 4.0, 81)
+    rows = []
+    ratios = tuple(poisson)
+    for k in exponents:
+        for nu in ratios:
+            w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), nu, spec, lambda s: np.exp(-(s**2)))
+            exact = gaussian_displacement(r, k, nu)
+            error = float(np.abs(w(r) - exact).max() / exact[0])
+            rows.append(Rung("p = exp(-r^2) against Eq. 6", f"{name}, k = {k}, nu = {nu}", error, LIMITS[name], unknowns))
+    return rows
+
+
+def disc_rungs(exponents: Iterable[float], nu: float = 0.25, spec: MeshSpec = EDGE) -> list[Rung]:
+    """(b, d) Uniform disc, Hertz pressure (Giannakopoulos and Suresh 1997) and flat punch, on 0 <= r <= 0.95."""
+    r = np.linspace(0.0, 0.95, 40)
+    rows = []
+    for k in exponents:
+        for name, beta in (
+            ("uniform disc", 0.0),
+            ("Hertz pressure gives a parabola", 0.5 * (1.0 + k)),
+            ("flat punch gives a plane", -0.5 * (1.0 - k)),
+        ):
+            w, unknowns = surface_displacement(
+                PowerLaw(1.0, 1.0, k), nu, spec, lambda q, beta=beta: q**beta, disc=True
+            )  # fmt: skip
+            exact = power_displacement(r, k, nu, beta)
+            error = float(np.abs(w(r) - exact).max() / exact[0])
+            rows.append(Rung(name, f"k = {k}, nu = {nu}", error, LIMITS["edge"], unknowns))
+    return rows
+
+
+def far_field_rungs(k: float = 0.4, nu: float = 0.25) -> list[Rung]:
+    """(e) The displacement does not depend on where the exterior begins."""
+    r = np.linspace(0.0, 4.0, 41)
+    base, _ = surface_displacement(PowerLaw(1.0, 1.0, k), nu, DEFAULT, lambda s: np.exp(-(s**2)))
+    rows = []
+    for extent in (8.0, 16.0, 512.0):
+        spec = MeshSpec(DEFAULT.edge_width, DEFAULT.surface_depth, extent, DEFAULT.density, DEFAULT.order)
+        w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), nu, spec, lambda s: np.exp(-(s**2)))
+        error = float(np.abs(w(r) - base(r)).max() / base(r)[0])
+        rows.append(Rung("interior of another size", f"extent {extent:g} against 64, k = {k}", error, 2e-6, unknowns))
+    return rows
+
+
+def limit_rungs(nu: float = 0.25) -> list[Rung]:
+    """(f) A vanishing surface modulus tends to the power law, a vanishing exponent to the homogeneous solid.
+
+    The distance must fall with the parameter at the rate theory gives: first order in k, and first order in
+    z_s^(1-k), the relative share of the layer whose stiffness is changed.
+    """
+    r = np.linspace(0.0, 4.0, 41)
+    rows = []
+    exact = gaussian_displacement(r, 0.0, nu)
+    unit = {}
+    for k in (2e-3, 1e-3):
+        w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), nu, DEFAULT, lambda s: np.exp(-(s**2)))
+        unit[k] = float(np.abs(w(r) - exact).max() / exact[0])
+    rate = abs(unit[2e-3] / unit[1e-3] - 2.0)
+    rows.append(Rung("k -> 0 tends to the homogeneous solid, first order", "k = 2e-3, 1e-3", rate, 0.02, unknowns))
+    k = 0.4
+    exact = gaussian_displacement(r, k, nu)
+    for z_s in (1e-2, 1e-3):
+        depth = min(DEFAULT.surface_depth, 0.2 * z_s)
+        spec = MeshSpec(DEFAULT.edge_width, depth, DEFAULT.extent, DEFAULT.density, DEFAULT.order)
+        w, unknowns = surface_displacement(OffsetPowerLaw(1.0, 1.0, k, z_s), nu, spec, lambda s: np.exp(-(s**2)))
+        unit[z_s] = float(np.abs(w(r) - exact).max() / exact[0])
+    rate = abs(np.log10(unit[1e-2] / unit[1e-3]) - (1.0 - k))
+    rows.append(Rung("z_s -> 0 tends to the power law as z_s^(1-k)", "z_s = 1e-2, 1e-3", float(rate), 0.1, unknowns))
+    return rows
+
+
+def elastic_ladder(full: bool = False) -> list[Rung]:
+    """Return all rungs on the default mesh; `full` adds the fine mesh and every exponent.
+
+    Examples
+    --------
+    >>> rungs = gaussian_rungs(DEFAULT, "default", (0.0,), (0.25,))
+    >>> all(rung.passed for rung in rungs)
+    True
+    """
+    few = EXPONENTS if full else (0.0, 0.4, 0.8)
+    rows = gaussian_rungs(DEFAULT, "default", few, POISSON if full else (0.25,))
+    if full:
+        rows += gaussian_rungs(FINE, "fine", EXPONENTS, POISSON)
+    rows += gaussian_rungs(DEFAULT, "default", (0.0, 0.4), (0.49,))
+    rows += disc_rungs(few)
+    rows += far_field_rungs()
+    rows += limit_rungs()
+    return rows

@@ -1,0 +1,110 @@
+"""The linear solver over sizes and materials: iterations, set-up, solve, memory, and the direct solve beside it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from fem_reference.assembly import assemble_half_space
+from fem_reference.linear_solver import ElasticPreconditioner, solve_cg, solve_direct
+from fem_reference.modulus import PowerLaw
+from fem_reference.surface import MeshSpec
+
+__all__ = ["FULL_STUDY", "QUICK_STUDY", "SolverCase", "SolverRow", "solver_table"]
+
+LOAD_RADIUS = 0.3
+"""The load is p = exp(-(r / 0.3)^2), well inside the refined edge at r = 1."""
+
+
+@dataclass(frozen=True, slots=True)
+class SolverCase:
+    """A mesh and a material."""
+
+    spec: MeshSpec
+    k: float
+    nu: float
+
+
+@dataclass(frozen=True, slots=True)
+class SolverRow:
+    """One row of the table; times in seconds, memory in megabytes of stored factors and matrices.
+
+    `agreement` is the largest difference of the two solutions relative to the largest displacement.
+    """
+
+    unknowns: int
+    k: float
+    nu: float
+    edge_width: float
+    iterations: int
+    residual: float
+    setup_seconds: float
+    solve_seconds: float
+    megabytes: float
+    direct_seconds: float
+    direct_megabytes: float
+    agreement: float
+
+
+_SMOOTH = (0.5, 0.05, 32.0)
+_EDGE = (1e-3, 1e-4, 128.0)
+
+
+def _cases(shape: tuple[float, float, float], densities: Iterable[float], materials: Iterable[tuple[float, float]]) -> list[SolverCase]:
+    pairs = tuple(materials)
+    return [SolverCase(MeshSpec(*shape, density, 4), k, nu) for density in densities for k, nu in pairs]
+
+
+QUICK_STUDY = _cases(_SMOOTH, (0.45,), ((0.0, 0.25), (0.8, 0.45))) + _cases(_EDGE, (0.9,), ((0.0, 0.25), (0.8, 0.45)))
+"""Four systems of about 1e4 unknowns."""
+
+FULL_STUDY = _cases(
+    _SMOOTH, (0.45, 0.26, 0.14, 0.083), ((0.0, 0.0), (0.0, 0.45), (0.4, 0.25), (0.8, 0.0), (0.8, 0.45))
+) + _cases(_EDGE, (0.9, 0.52, 0.3, 0.18), ((0.0, 0.0), (0.0, 0.45), (0.4, 0.25), (0.8, 0.0), (0.8, 0.45)))
+"""1e4 to 3e5 unknowns, with and without an edge a thousandth of its radius wide."""
+
+
+def solver_table(cases: Iterable[SolverCase] = QUICK_STUDY) -> list[SolverRow]:
+    """Solve every case both ways.
+
+    Raises
+    ------
+    NotConverged
+        If a case misses the tolerance of the solver.
+
+    Examples
+    --------
+    >>> row = solver_table([SolverCase(MeshSpec(0.5, 0.05, 32.0, 1.2, 4), 0.4, 0.25)])[0]
+    >>> row.iterations < 20, row.agreement < 1e-8
+    (True, True)
+    """
+    return [_row(case) for case in cases]
+
+
+def _row(case: SolverCase) -> SolverRow:
+    grid = case.spec.grid()
+    half_space = assemble_half_space(grid, PowerLaw(1.0, 1.0, case.k), case.nu, case.spec.order)
+    load = np.zeros(half_space.matrix.shape[0])
+    load[half_space.surface] = case.spec.load_vector(lambda r: np.exp(-((r / LOAD_RADIUS) ** 2)))
+    begin = time.perf_counter()
+    cycle = ElasticPreconditioner(half_space)
+    setup = time.perf_counter() - begin
+    iterative = solve_cg(half_space, load, cycle)
+    direct = solve_direct(half_space, load)
+    return SolverRow(
+        int(half_space.free.size),
+        case.k,
+        case.nu,
+        case.spec.edge_width,
+        iterative.iterations,
+        iterative.residual,
+        setup,
+        iterative.seconds,
+        cycle.storage / 1e6,
+        direct.seconds,
+        direct.storage / 1e6,
+        float(np.abs(iterative.solution - direct.solution).max() / np.abs(direct.solution).max()),
+    )
