@@ -202,7 +202,12 @@ def _gate(table: dict[str, Any], where: str, models: set[str]) -> Gate:
         name = getattr(gate, key)
         if name is not None and name not in models and not (key == "candidate" and name == GIVEN):
             raise ValueError(f"{where}: unknown {key} {name!r}; the models are {', '.join(sorted(models))}")
-    for key, allowed in {"metric": METRICS, "basis": BASES, "tier": TIERS, "not_applicable": NOT_APPLICABLE}.items():
+    for key, allowed in {
+        "metric": METRICS,
+        "basis": BASES,
+        "tier": TIERS,
+        "not_applicable": NOT_APPLICABLE,
+    }.items():
         if getattr(gate, key) not in allowed:
             raise ValueError(f"{where}: {key} = {getattr(gate, key)!r} is not one of {', '.join(allowed)}")
     quantities = SHAPES if gate.metric == "curve" else QUANTITIES
@@ -224,11 +229,15 @@ def _check_numbers(gate: Gate, where: str) -> None:
     if not 0.0 < gate.max_reference_uncertainty < math.inf:
         raise ValueError(f"{where}: max_reference_uncertainty must be positive and finite")
     if gate.min_cases < 1:
-        raise ValueError(f"{where}: min_cases = {gate.min_cases} is below 1: a gate without cases shows nothing")
+        raise ValueError(
+            f"{where}: min_cases = {gate.min_cases} is below 1: a gate without cases shows nothing"
+        )
     if (gate.basis == "measured") != (gate.worst_measured is not None):
         raise ValueError(f"{where}: a measured basis, and no other, states its worst_measured")
     if not set(gate.cases) <= {*_PARAMETERS, "tags"} or not set(gate.reference_at) <= set(_PARAMETERS):
-        raise ValueError(f"{where}: cases may restrict {', '.join(_PARAMETERS)} and tags; reference_at all but tags")
+        raise ValueError(
+            f"{where}: cases may restrict {', '.join(_PARAMETERS)} and tags; reference_at all but tags"
+        )
     for name, limits in gate.cases.items():
         ordered = name == "tags" or (
             isinstance(limits, list)
@@ -237,7 +246,10 @@ def _check_numbers(gate: Gate, where: str) -> None:
             and limits[0] <= limits[1]
         )
         if not (isinstance(limits, list) and limits and ordered):
-            raise ValueError(f"{where}: cases.{name} = {limits!r} must be " + ("names" if name == "tags" else "[low, high]"))
+            raise ValueError(
+                f"{where}: cases.{name} = {limits!r} must be "
+                + ("names" if name == "tags" else "[low, high]")
+            )
 
 
 def gates_text(path: Path | None = None) -> str:

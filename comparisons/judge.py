@@ -186,7 +186,9 @@ def _judge_gate(
     evaluated = sum(one.verdict is not Verdict.NOT_APPLICABLE for one in judged)
     if evaluated < gate.min_cases:
         yield _whole(gate, f"{evaluated} cases were evaluated, {gate.min_cases} are declared")
-    stray = [key for key in answers.records if key[:2] == (gate.candidate, gate.quantity) and key not in expected]
+    stray = [
+        key for key in answers.records if key[:2] == (gate.candidate, gate.quantity) and key not in expected
+    ]
     if stray:
         yield _whole(gate, f"{len(stray)} rows answer cases that were not asked, e.g. {stray[0][2:]}")
 
@@ -249,7 +251,9 @@ def _error(
     true, u_true = answers.number(_key(gate.reference, gate, gate.reference_case(case)))
     unit = {"rel": abs(true), "abs": 1.0, "range-relative": scale}[gate.metric]
     if unit == 0.0:
-        raise _Unusable(Verdict.ERROR, f"the reference {gate.reference} is or has a range of zero: use metric abs")
+        raise _Unusable(
+            Verdict.ERROR, f"the reference {gate.reference} is or has a range of zero: use metric abs"
+        )
     value, u_num = answers.number(_key(gate.candidate, gate, case))
     error, u, u_reference = _metric(gate, value, u_num, true, u_true, unit)
     if gate.rival:
@@ -325,7 +329,10 @@ def by_gate(judged: pd.DataFrame) -> pd.DataFrame:
                 "reason": worst["reason"],
             }
         )
-    table = pd.DataFrame(summary, columns=["verdict", *judged.columns.drop(["verdict", "reason"]), "cases", "left_out", "reason"])
+    table = pd.DataFrame(
+        summary,
+        columns=["verdict", *judged.columns.drop(["verdict", "reason"]), "cases", "left_out", "reason"],
+    )
     order = table["verdict"].map(lambda verdict: Verdict(verdict).rank).astype(int)
     return table.iloc[order.argsort(kind="stable")].reset_index(drop=True)
 

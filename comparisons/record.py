@@ -56,7 +56,9 @@ def read_record(path: Path) -> dict[str, Any]:
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
-        raise ValueError(f"{path} cannot be read ({error.strerror}): {path.parent} is not the folder of a finished run") from None
+        raise ValueError(
+            f"{path} cannot be read ({error.strerror}): {path.parent} is not the folder of a finished run"
+        ) from None
     except ValueError:
         raise ValueError(f"{path} is not JSON text") from None
     if problem := _problem(content):

@@ -274,7 +274,9 @@ def read_table(path: Path) -> pd.DataFrame:
     try:
         return pq.read_table(path).to_pandas()
     except FileNotFoundError:
-        raise ValueError(f"{path} does not exist: {path.parent} is not the folder of a finished run") from None
+        raise ValueError(
+            f"{path} does not exist: {path.parent} is not the folder of a finished run"
+        ) from None
     except (OSError, pa.ArrowException) as error:
         raise ValueError(f"{path} cannot be read as Parquet ({str(error).splitlines()[0]})") from None
 

@@ -32,7 +32,9 @@ _NOISE = 16.0 * 2.0**-52
 #: Model -> quantity -> order in the width of the segments.  The published scheme is a midpoint sum: 2, measured 1.9 to
 #: 2.1 on 100 to 400 segments where the edge is wider than a segment.
 DECLARED_ORDERS: dict[str, dict[str, float]] = {
-    "fscm-stieltjes": dict.fromkeys(("pull_off_force", "pull_off_displacement", "zero_load_displacement"), 2.0),
+    "fscm-stieltjes": dict.fromkeys(
+        ("pull_off_force", "pull_off_displacement", "zero_load_displacement"), 2.0
+    ),
 }
 
 
@@ -80,7 +82,9 @@ class GridConvergence:
 def _checked(sizes: Sequence[float], values: Sequence[float], fewest: int) -> tuple[Array, Array]:
     h, f = np.asarray(sizes, float), np.asarray(values, float)
     if h.shape != f.shape or h.ndim != 1 or len(h) < fewest:
-        raise ValueError(f"{len(h)} grid sizes and {len(f)} values: at least {fewest} of each are needed, as many of each")
+        raise ValueError(
+            f"{len(h)} grid sizes and {len(f)} values: at least {fewest} of each are needed, as many of each"
+        )
     if not (np.isfinite(h).all() and np.isfinite(f).all() and h.min() > 0.0):
         raise ValueError("grid sizes must be positive and everything finite")
     order = np.argsort(h)

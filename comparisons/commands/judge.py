@@ -35,9 +35,13 @@ STATUS = {
 
 def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser("judge", help="judge stored results again without computing", description=__doc__)
+    parser = parsers.add_parser(
+        "judge", help="judge stored results again without computing", description=__doc__
+    )
     parser.add_argument("folder", metavar="DIR", type=Path, help="folder of a finished run")
-    parser.add_argument("--gates", metavar="FILE", type=Path, help="judge by these gates, not the standing ones")
+    parser.add_argument(
+        "--gates", metavar="FILE", type=Path, help="judge by these gates, not the standing ones"
+    )
     parser.set_defaults(call=call)
 
 
@@ -81,7 +85,9 @@ def print_verdicts(judged: pd.DataFrame) -> None:
     width = shown["gate"].str.len().max()
     console.print("the worst case of each gate is computed again by", style="bold")
     for gate, line, reason in zip(shown["gate"], shown["command"], shown["reason"], strict=True):
-        console.print(f"{gate:{width}}  {line}" + (f"  # {reason}" if reason else ""), markup=False, soft_wrap=True)
+        console.print(
+            f"{gate:{width}}  {line}" + (f"  # {reason}" if reason else ""), markup=False, soft_wrap=True
+        )
     counts = judged["verdict"].map(str).value_counts()
     console.print(
         f"{roll_up(judged['verdict'])}: {len(shown)} gates, "

@@ -54,9 +54,7 @@ __all__ = ["add", "call"]
 
 def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser(
-        "run", help="compute the standing cases and judge them", description=__doc__
-    )
+    parser = parsers.add_parser("run", help="compute the standing cases and judge them", description=__doc__)
     parser.add_argument(
         "--tier", choices=TIERS, default=TIERS[0], help="how much to compute (default: %(default)s)"
     )

@@ -60,5 +60,8 @@ class FullSelfConsistent:
             value.radius,
             value.pressure,
             value.gap,
-            spread(*pressure_near(check.radius, check.pressure, check.gap), *pressure_near(value.radius, value.pressure, value.gap)),
+            spread(
+                *pressure_near(check.radius, check.pressure, check.gap),
+                *pressure_near(value.radius, value.pressure, value.gap),
+            ),
         )

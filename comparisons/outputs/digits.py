@@ -32,14 +32,15 @@ def short(value: float, uncertainty: float | None) -> str:
         return repr(float(value)).removesuffix(".0")
     if math.isinf(uncertainty):
         return f"{value:.6g}(inf)"
-    u = Decimal(uncertainty)
+    # The shortest decimal of a double is what was meant: 3e-6 is 3 and not 3.0000000000000001 rounded up.
+    u = Decimal(repr(float(uncertainty)))
     # Digits of the uncertainty that stay: one, or two if the first is 1; rounding 9.5 up gives 10, again two.
     place = u.adjusted()
     if u.scaleb(-place) < 2:
         place -= 1
     step = Decimal(1).scaleb(place)
     u = u.quantize(step, ROUND_CEILING)
-    rounded = Decimal(value).quantize(step, ROUND_HALF_EVEN)
+    rounded = Decimal(repr(float(value))).quantize(step, ROUND_HALF_EVEN)
     if place <= 0:
         return f"{rounded:f}({int(u.scaleb(-place))})"
     return f"{int(rounded.scaleb(-place))}({int(u.scaleb(-place))})e{place}"

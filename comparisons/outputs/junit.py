@@ -57,7 +57,9 @@ def _case(suite: ElementTree.Element, row: pd.Series, command: Callable[[pd.Seri
     element = _ELEMENTS.get(row["verdict"])
     if element:
         message = f"{row['verdict']}: {row['reason'] or numbers}"
-        ElementTree.SubElement(case, element, message=_text(message)).text = _text(f"{numbers}\n{command(row)}")
+        ElementTree.SubElement(case, element, message=_text(message)).text = _text(
+            f"{numbers}\n{command(row)}"
+        )
     else:
         ElementTree.SubElement(case, "system-out").text = _text(numbers)
 

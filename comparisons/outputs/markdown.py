@@ -23,7 +23,9 @@ def markdown(table: pd.DataFrame, title: str) -> str:
     | A\\|B | PASS |
     """
     rows = [list(table.columns), ["---"] * len(table.columns), *table.astype(str).values.tolist()]
-    lines = ["| " + " | ".join(row if row == "---" else _escaped(row) for row in cells) + " |" for cells in rows]
+    lines = [
+        "| " + " | ".join(row if row == "---" else _escaped(row) for row in cells) + " |" for cells in rows
+    ]
     return "\n".join([f"## {_escaped(title)}", "", *lines, ""])
 
 

@@ -54,9 +54,14 @@ def matrix(judged: pd.DataFrame) -> pd.DataFrame:
             "gate": gates["gate"],
             "candidate": gates["candidate"],
             "reference": gates["reference"],
-            "cases": [f"{a}" + (f" ({b} n/a)" if b else "") for a, b in zip(gates["cases"], gates["left_out"], strict=True)],
+            "cases": [
+                f"{a}" + (f" ({b} n/a)" if b else "")
+                for a, b in zip(gates["cases"], gates["left_out"], strict=True)
+            ],
             "worst E(U)": [_error(row) for _, row in gates.iterrows()],
-            "limits": [f"{low:.3g} to {high:.3g}" for low, high in zip(gates["lower"], gates["upper"], strict=True)],
+            "limits": [
+                f"{low:.3g} to {high:.3g}" for low, high in zip(gates["lower"], gates["upper"], strict=True)
+            ],
             "command": [command(row) for _, row in gates.iterrows()],
             "reason": gates["reason"],
         },
@@ -80,10 +85,12 @@ def write_verdicts(folder: Path, judged: pd.DataFrame, gates: list[Gate]) -> str
     write_table(stored, folder / "verdicts")
     shown = matrix(judged)
     requirement = {gate.id: gate.requirement for gate in gates}
-    page = markdown(shown.assign(requirement=shown["gate"].map(requirement)), "Verdicts")
+    page = markdown(shown.assign(requirement=[requirement.get(id, "") for id in shown["gate"]]), "Verdicts")
     texts = {
         "verdicts.md": page,
-        "verdicts.tex": latex(shown.drop(columns=["command", "reason"]), "Verdicts of fscm-bench, worst first"),
+        "verdicts.tex": latex(
+            shown.drop(columns=["command", "reason"]), "Verdicts of fscm-bench, worst first"
+        ),
     }
     for name, text in texts.items():
         with atomic(folder / name) as file:

@@ -104,7 +104,10 @@ def test_an_edge_singularity_decides_the_order_not_the_rule():
     sizes = [1 / 640, 1 / 320, 1 / 160, 1 / 80]
     values = [riemann(round(1 / h)) for h in sizes]
     assert three_grids(sizes[:3], values[:3], declared=2).observed_order == pytest.approx(0.5, abs=0.01)
-    for found in (three_grids(sizes[:3], values[:3], declared=0.5), least_squares(sizes, values, declared=0.5)):
+    for found in (
+        three_grids(sizes[:3], values[:3], declared=0.5),
+        least_squares(sizes, values, declared=0.5),
+    ):
         assert abs(found.value - 2.0) <= found.u_num <= 4 * abs(found.value - 2.0)
 
 
