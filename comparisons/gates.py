@@ -220,7 +220,7 @@ def _gate(table: dict[str, Any], where: str, models: set[str]) -> Gate:
 
 
 def _check_numbers(gate: Gate, where: str) -> None:
-    if not gate.lower <= gate.upper or math.isinf(gate.lower) and math.isinf(gate.upper):
+    if not gate.lower <= gate.upper or (math.isinf(gate.lower) and math.isinf(gate.upper)):
         raise ValueError(
             f"{where}: the limits {gate.lower:g} to {gate.upper:g} admit nothing or everything; one must be finite"
         )

@@ -103,13 +103,7 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
     side = np.linspace(SURFACE_OFFSET, 1.0 - SURFACE_OFFSET, SAMPLES)
     X = np.array([np.tile(side, SAMPLES), np.repeat(side, SAMPLES)])
     mapping = ChartMapping(body.mesh, body.chart)
-    basis = Basis(
-        body.mesh,
-        ElementQuadP(body.order),
-        mapping,
-        quadrature=(X, np.ones(X.shape[1])),
-        disable_doflocs=True,
-    )
+    basis = Basis(body.mesh, ElementQuadP(body.order), mapping, quadrature=(X, np.ones(X.shape[1])), disable_doflocs=True)
     s, zeta = np.asarray(basis.global_coordinates())
     radial, axial = basis.interpolate(u[0::2]), basis.interpolate(u[1::2])
     ur, uz = np.asarray(radial), np.asarray(axial)
@@ -131,9 +125,7 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
 
 def _cells(elements: int) -> NDArray[np.intp]:
     corner = np.arange(SAMPLES * SAMPLES).reshape(SAMPLES, SAMPLES)
-    one = np.stack([corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]], axis=-1).reshape(
-        -1, 4
-    )
+    one = np.stack([corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]], axis=-1).reshape(-1, 4)
     return (one[None] + (SAMPLES * SAMPLES * np.arange(elements))[:, None, None]).reshape(-1, 4)
 
 
@@ -195,9 +187,7 @@ def draw(field: Field, radius: float, magnification: float = 1.0, stress: str = 
     renumber = np.zeros(len(values), np.intp)
     renumber[used] = np.arange(used.size)
     figure, axes = plt.subplots(figsize=(6.0, 5.0), layout="constrained")
-    image = axes.tripcolor(
-        r[used], z[used], renumber[triangles], values[used], shading="gouraud", cmap="RdBu_r"
-    )
+    image = axes.tripcolor(r[used], z[used], renumber[triangles], values[used], shading="gouraud", cmap="RdBu_r")
     figure.colorbar(image, ax=axes, label=stress.replace("_", " "))
     axes.set(xlim=(0.0, radius), xlabel="r", ylabel="depth z", aspect="equal")
     axes.set_ylim(radius, min(0.0, float(z[used].min())))

@@ -113,9 +113,7 @@ class ElasticPreconditioner:
                 try:
                     factors = splu(rows[:, inside].tocsc(), **FACTOR_OPTIONS)
                 except RuntimeError as error:
-                    raise NotConverged(
-                        f"a strip of the mesh is singular ({error}); check modulus and mesh"
-                    ) from error
+                    raise NotConverged(f"a strip of the mesh is singular ({error}); check modulus and mesh") from error
                 strips.append((inside, factors, rows))
         return strips
 
@@ -130,9 +128,7 @@ class ElasticPreconditioner:
         kept = vertices[present]
         size = vertices.size
         # A vertex on the axis has no u_r: a unit row keeps the blocks whole.
-        spread = sparse.csr_array(
-            (np.ones(kept.size), (np.flatnonzero(present), np.arange(kept.size))), (size, kept.size)
-        )
+        spread = sparse.csr_array((np.ones(kept.size), (np.flatnonzero(present), np.arange(kept.size))), (size, kept.size))
         padding = sparse.diags_array((~present).astype(float))
         coarse = spread @ self.matrix[kept][:, kept] @ spread.T + padding
         unit = np.zeros(size)
@@ -219,15 +215,7 @@ def solve_cg(
         count += 1
 
     # The recursive residual drifts from the true one by rounding: ask for a little more than is promised.
-    x, _ = cg(
-        cycle.matrix,
-        b,
-        rtol=0.5 * tolerance,
-        atol=0.0,
-        M=cycle.operator(),
-        maxiter=iterations,
-        callback=counted,
-    )
+    x, _ = cg(cycle.matrix, b, rtol=0.5 * tolerance, atol=0.0, M=cycle.operator(), maxiter=iterations, callback=counted)
     seconds = time.perf_counter() - begin
     norm = float(np.linalg.norm(b))
     residual = float(np.linalg.norm(b - cycle.matrix @ x)) / norm if norm > 0 else 0.0
@@ -257,9 +245,7 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
         factors = splu(A, **FACTOR_OPTIONS)
         x = factors.solve(b)
     except RuntimeError as error:
-        raise NotConverged(
-            f"the stiffness matrix is singular ({error}); check modulus, mesh and nu"
-        ) from error
+        raise NotConverged(f"the stiffness matrix is singular ({error}); check modulus, mesh and nu") from error
     seconds = time.perf_counter() - begin
     norm = float(np.linalg.norm(b))
     residual = float(np.linalg.norm(b - A @ x)) / norm if norm > 0 else 0.0
@@ -268,11 +254,7 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
 
 
 def solve_bordered(
-    matrix: LinearOperator,
-    b: Array,
-    cycle: ElasticPreconditioner,
-    factor: float,
-    tolerance: float = TOLERANCE,
+    matrix: LinearOperator, b: Array, cycle: ElasticPreconditioner, factor: float, tolerance: float = TOLERANCE
 ) -> tuple[Array, int]:
     """Solve an indefinite bordered system by GMRES with the elastic cycle on its leading block.
 
@@ -306,15 +288,11 @@ def solve_bordered(
     history: list[float] = []
     operator = LinearOperator(matrix.shape, apply, dtype=float)
     # Flexible GMRES preconditions from the right: its residual is the true one.
-    x, _ = pyamg.krylov.fgmres(
-        matrix, b, tol=0.5 * tolerance, maxiter=DIRECTIONS, M=operator, residuals=history
-    )
+    x, _ = pyamg.krylov.fgmres(matrix, b, tol=0.5 * tolerance, maxiter=DIRECTIONS, M=operator, residuals=history)
     count = len(history)
     residual = float(np.linalg.norm(b - matrix @ x)) / max(float(np.linalg.norm(b)), 1e-300)
     if not residual <= tolerance:
-        raise NotConverged(
-            f"GMRES reached a residual of {residual:.1e} in {count} steps, not {tolerance:.1e}"
-        )
+        raise NotConverged(f"GMRES reached a residual of {residual:.1e} in {count} steps, not {tolerance:.1e}")
     return x, count
 
 

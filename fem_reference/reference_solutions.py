@@ -44,7 +44,7 @@ def gaussian_displacement(r: Array, k: float, nu: float) -> Array:
     True
     """
     factor = surface_constant(k, nu) * (1.0 - nu**2) * special.gamma(0.5 * (1.0 - k))
-    return np.asarray(factor * special.hyp1f1(0.5 * (1.0 + k), 1.0, -(np.asarray(r, float) ** 2)))
+    return np.asarray(factor * special.hyp1f1(0.5 * (1.0 + k), 1.0, -np.asarray(r, float) ** 2))
 
 
 def power_displacement(r: Array, k: float, nu: float, beta: float) -> Array:

@@ -53,16 +53,12 @@ _SMOOTH = (0.5, 0.05, 32.0)
 _EDGE = (1e-3, 1e-4, 128.0)
 
 
-def _cases(
-    shape: tuple[float, float, float], densities: Iterable[float], materials: Iterable[tuple[float, float]]
-) -> list[SolverCase]:
+def _cases(shape: tuple[float, float, float], densities: Iterable[float], materials: Iterable[tuple[float, float]]) -> list[SolverCase]:
     pairs = tuple(materials)
     return [SolverCase(MeshSpec(*shape, density, 4), k, nu) for density in densities for k, nu in pairs]
 
 
-QUICK_STUDY = _cases(_SMOOTH, (0.45,), ((0.0, 0.25), (0.8, 0.45))) + _cases(
-    _EDGE, (0.9,), ((0.0, 0.25), (0.8, 0.45))
-)
+QUICK_STUDY = _cases(_SMOOTH, (0.45,), ((0.0, 0.25), (0.8, 0.45))) + _cases(_EDGE, (0.9,), ((0.0, 0.25), (0.8, 0.45)))
 """Four systems of about 1e4 unknowns."""
 
 FULL_STUDY = _cases(

@@ -25,8 +25,8 @@ from comparisons.gates import gates_text, load_gates, of_tier
 from comparisons.models import create
 from comparisons.progress import counting, log
 from comparisons.provenance import code_digest, environment
-from comparisons.run import Task, compute, plan
 from comparisons.record import write_record
+from comparisons.run import Task, compute, plan
 from comparisons.shapes import SHAPES
 from comparisons.store import (
     Journal,
