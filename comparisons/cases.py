@@ -1,7 +1,8 @@
 """Cases as data: which problems a run computes, read from a TOML file.
 
-A case is one dimensionless problem; a grid is the product of lists of n, k, mu and nu with an id, a tier and the
-quantities (or shapes) and models asked.  Unknown keys are refused, so that a misspelt one cannot pass unnoticed.
+A case is one dimensionless problem; a grid is the product of lists of n, k, mu and nu with an id, a tier and
+the quantities (or shapes) and models asked.  Unknown keys are refused, so that a misspelt one cannot pass
+unnoticed.
 """
 
 from __future__ import annotations
@@ -23,8 +24,8 @@ __all__ = ["TIERS", "VERIFICATION", "Case", "Grid", "asked_of", "cases_text", "g
 #: A tier holds its own grids and those of every tier before it.
 TIERS = ("quick", "full")
 
-#: Grids with this tag are questions about the references themselves.  They are not asked of models that are given
-#: to a run, and are not in its tables of errors.
+#: Grids with this tag are questions about the references themselves.  They are not asked of models that are
+#: given to a run, and are not in its tables of errors.
 VERIFICATION = "verification"
 
 

@@ -1,9 +1,9 @@
 """The distance of two curves given by points, e.g. two S-shaped force-displacement curves.
 
-Both axes are scaled by the range of the reference, so that a distance is a fraction of the picture.  The distance is
-the largest one of a point of the candidate from the reference, interpolated by a cubic spline over its length, in the
-range of x that both have.  The candidate must go everywhere the reference goes: a long stretch without points counts as
-a distance of its length.
+Both axes are scaled by the range of the reference, so that a distance is a fraction of the picture.  The
+distance is the largest one of a point of the candidate from the reference, interpolated by a cubic spline
+over its length, in the range of x that both have.  The candidate must go everywhere the reference goes: a
+long stretch without points counts as a distance of its length.
 """
 
 from __future__ import annotations
@@ -18,15 +18,17 @@ __all__ = ["CurveDistance", "curve_distance", "spread"]
 
 Array = NDArray[np.float64]
 
-#: Samples of the spline between neighbouring points; the chords between samples are off by a thousandth of the
-#: spline's own error.
+#: Samples of the spline between neighbouring points; the chords between samples are off by a thousandth of
+#: the spline's own error.
 _SAMPLES = 32
-#: Neighbouring points nearer than this, as a fraction of the picture, count as one: a fold inserted beside a point.
+#: Neighbouring points nearer than this, as a fraction of the picture, count as one: a fold inserted beside a
+#: point.
 _SAME = 1e-7
-#: The spline through every other point errs 16 times as much where the curve is smooth; half of that is counted on.
+#: The spline through every other point errs 16 times as much where the curve is smooth; half of that is
+#: counted on.
 _HALVING_GAIN = 8.0
-#: Longest stretch of the reference, as a fraction of its length, that the candidate may leave without a point (measured: 0.25
-#: far away, where the steps of the finite elements are long).
+#: Longest stretch of the reference, as a fraction of its length, that the candidate may leave without a point
+#: (measured: 0.25 far away, where the steps of the finite elements are long).
 _STRETCH = 1 / 3
 #: Factor on the distance of two computations of different fineness, as an estimate of the error of the finer.
 _SAFETY = 2.0
@@ -118,7 +120,7 @@ def _nearest(point: Array, polyline: Array) -> tuple[float, int]:
 
 
 def _stretch(places: NDArray[np.int_], polyline: Array, low: float, high: float) -> float:
-    """Longest stretch of the reference, as a fraction of its length, without a point at one of these segments."""
+    """Longest stretch of the reference, as a fraction of it, without a point at one of these segments."""
     inside = np.flatnonzero((polyline[:, 0] >= low) & (polyline[:, 0] <= high))
     length = _lengths(polyline)
     stops = np.sort(np.concatenate([[inside[0]], places, [inside[-1]]]))

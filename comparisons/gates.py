@@ -1,7 +1,7 @@
 """Gates as data: what is required of which model, in which cases, within which limits, and on what grounds.
 
-A gate compares one quantity of a candidate with that of a reference.  Unknown and missing keys are refused, so that a
-misspelt one cannot pass unnoticed.
+A gate compares one quantity of a candidate with that of a reference.  Unknown and missing keys are refused,
+so that a misspelt one cannot pass unnoticed.
 """
 
 from __future__ import annotations
@@ -50,7 +50,8 @@ class Gate:
     candidate, reference : str
         Names of models; the candidate `GIVEN` stands for every model given to a run.
     cases : dict
-        Ranges [low, high] of n, k, mu and nu, ends included, and tags of grids; what is not named is not restricted.
+        Ranges [low, high] of n, k, mu and nu, ends included, and tags of grids; what is not named is not
+        restricted.
     metric : str
         One of `METRICS`.
     lower, upper : float
@@ -102,8 +103,8 @@ class Gate:
 
         Examples
         --------
-        >>> gate, grid = of_tier(load_gates(gates_text()), "quick")[0], Grid("a", "A", "quick", "b", (), (), ())
-        >>> gate.selects(grid, Case(2, 0, 1))
+        >>> gate = load_gates(gates_text())[0]
+        >>> gate.selects(Grid("a", "A", "quick", "b", (), (), ()), Case(2, 0, 1))
         False
         """
         tags = self.cases.get("tags")
@@ -165,14 +166,15 @@ def load_gates(text: str, models: Iterable[str] = ()) -> list[Gate]:
 
     Examples
     --------
-    >>> load_gates("[[gate]]\\nid = 'A'\\ncolour = 'red'")
+    >>> load_gates("[[gate]] # without anything")
     Traceback (most recent call last):
-    ValueError: gate A: candidate, cases, colour, ... missing or unknown; ...
+    ValueError: gate 1: basis, candidate, cases, ... missing or unknown; ...
     """
     tables = tomllib.loads(text)
     if tables.keys() != {"gate"} or not isinstance(tables["gate"], list):
         raise ValueError(
-            f"a gates file holds [[gate]] tables and nothing else, not {', '.join(sorted(tables)) or 'nothing'}"
+            "a gates file holds [[gate]] tables and nothing else, "
+            f"not {', '.join(sorted(tables)) or 'nothing'}"
         )
     known = {*MODELS, *models}
     read = [
@@ -213,7 +215,8 @@ def _gate(table: dict[str, Any], where: str, models: set[str]) -> Gate:
     quantities = SHAPES if gate.metric == "curve" else QUANTITIES
     if gate.quantity not in quantities:
         raise ValueError(
-            f"{where}: unknown quantity {gate.quantity!r} for the metric {gate.metric}; known are {', '.join(quantities)}"
+            f"{where}: unknown quantity {gate.quantity!r} for the metric {gate.metric}; "
+            f"known are {', '.join(quantities)}"
         )
     _check_numbers(gate, where)
     return gate
@@ -222,7 +225,8 @@ def _gate(table: dict[str, Any], where: str, models: set[str]) -> Gate:
 def _check_numbers(gate: Gate, where: str) -> None:
     if not gate.lower <= gate.upper or (math.isinf(gate.lower) and math.isinf(gate.upper)):
         raise ValueError(
-            f"{where}: the limits {gate.lower:g} to {gate.upper:g} admit nothing or everything; one must be finite"
+            f"{where}: the limits {gate.lower:g} to {gate.upper:g} admit nothing or everything; "
+            "one must be finite"
         )
     if gate.metric == "curve" and gate.lower != -math.inf:
         raise ValueError(f"{where}: a distance has no lower limit; state lower = -inf")

@@ -1,7 +1,7 @@
-"""The judge: gates and stored results in, a table of verdicts out.  Pure: it computes no model and reads no clock.
+"""The judge: gates and stored results in, a table of verdicts out; it computes no model.
 
-What is expected in a gate is decided by the cases that were declared, never by the rows that happen to exist, so that
-a row that is missing, is there twice or was never asked for is an ERROR and not a smaller sample.
+What is expected in a gate is decided by the cases that were declared, never by the rows that happen to exist,
+so that a row that is missing, is there twice or was never asked for is an ERROR and not a smaller sample.
 """
 
 from __future__ import annotations
@@ -237,7 +237,10 @@ def _judge_case(gate: Gate, case: Case, answers: _Answers, scale: float) -> Judg
     verdict, reason = decide(error, u_error, gate.lower, gate.upper), ""
     if verdict is Verdict.PASS and u_reference > gate.max_reference_uncertainty:
         verdict = Verdict.INCONCLUSIVE
-        reason = f"u of {gate.reference} is {u_reference:.2g}; the gate tolerates {gate.max_reference_uncertainty:.2g}"
+        reason = (
+            f"u of {gate.reference} is {u_reference:.2g}; "
+            f"the gate tolerates {gate.max_reference_uncertainty:.2g}"
+        )
     if gate.expected_failure:
         verdict = expecting_failure(verdict)
         reason = reason or gate.expected_failure
@@ -311,8 +314,8 @@ def _whole(gate: Gate, reason: str) -> Judged:
 def by_gate(judged: pd.DataFrame) -> pd.DataFrame:
     """Return one row a gate and candidate, worst first: the rolled-up verdict and the worst case.
 
-    Of cases with the same verdict the worst is the one nearest to a limit, or farthest beyond.  `cases` counts those
-    evaluated, `left_out` those that did not apply.
+    Of cases with the same verdict the worst is the one nearest to a limit, or farthest beyond.  `cases`
+    counts those evaluated, `left_out` those that did not apply.
     """
     summary = []
     for _, group in judged.groupby(["gate", "candidate"], sort=False):
@@ -338,7 +341,7 @@ def by_gate(judged: pd.DataFrame) -> pd.DataFrame:
 
 
 def _margin(rows: pd.DataFrame) -> pd.Series:
-    """How far the error reaches, with its uncertainty, towards or beyond the nearer limit, in widths of the gate."""
+    """How far error and uncertainty reach towards or beyond the nearer limit, in widths of the gate."""
     numbers = rows[["error", "uncertainty", "lower", "upper"]].astype(float)
     width = (numbers["upper"] - numbers["lower"]).where(lambda w: np.isfinite(w) & (w > 0.0), 1.0)
     beyond = np.maximum(numbers["error"] - numbers["upper"], numbers["lower"] - numbers["error"])

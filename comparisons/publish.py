@@ -1,4 +1,4 @@
-"""The results that are committed: the quick tier as CSV with 17 digits, sorted, so that a change shows as a difference.
+"""The results that are committed: the quick tier as CSV, 17 digits, sorted, so that a change shows.
 
 ``python -m comparisons.publish results/runs/TIME`` takes them from the folder of a finished run.
 """

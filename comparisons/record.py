@@ -1,7 +1,7 @@
 """``run.json``, the record of where the numbers of a run come from, and its schema.
 
-Written and read through the same JSON Schema (``run.schema.json``), so that what is missing is found when the record
-is written and not years later.
+Written and read through the same JSON Schema (``run.schema.json``), so that what is missing is found when the
+record is written and not years later.
 """
 
 from __future__ import annotations

@@ -185,7 +185,7 @@ def _end_with(parent: BaseProcess) -> None:
 
 
 def _batches(tasks: list[Task]) -> list[list[Task]]:
-    """Questions about one case to one model go to one process, where the solver finds its own meshes again."""
+    """Questions about one case to one model go to one process, where the solver finds its meshes again."""
     return [list(batch) for _, batch in groupby(tasks, key=lambda task: (task.model, task.case))]
 
 

@@ -1,7 +1,7 @@
 """The registry of what can be asked besides numbers: curves, one row a kind.
 
-The points of a shape are stored with a bound on their own distance from the exact curve, in the plane in which both
-axes are scaled by the range of the curve (see `comparisons.distance`).
+The points of a shape are stored with a bound on their own distance from the exact curve, in the plane in
+which both axes are scaled by the range of the curve (see `comparisons.distance`).
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Grid convergence: what a number computed on several grids says about its own error.
 
-`three_grids` is the procedure of Celik et al. (J. Fluids Eng. 130 (2008) 078001), which rests on Roache's grid
-convergence index; `least_squares` that of Eca and Hoekstra (J. Comput. Phys. 262 (2014) 104-130), for four grids or
-more and values that scatter.  Both take the order of convergence as *declared* for the quantity: singularities at a
-cohesive edge decide it, not the polynomials of an element.
+`three_grids` is the procedure of Celik et al. (J. Fluids Eng. 130 (2008) 078001), which rests on Roache's
+grid convergence index; `least_squares` that of Eca and Hoekstra (J. Comput. Phys. 262 (2014) 104-130), for
+four grids or more and values that scatter.  Both take the order of convergence as *declared* for the
+quantity: singularities at a cohesive edge decide it, not the polynomials of an element.
 """
 
 from __future__ import annotations
@@ -19,9 +19,11 @@ __all__ = ["DECLARED_ORDERS", "GridConvergence", "declared_order", "least_square
 
 Array = NDArray[np.float64]
 
-#: Factor on the error estimate of three grids in their asymptotic range, and otherwise (Roache 1998, Sec. 5.9).
+#: Factor on the error estimate of three grids in their asymptotic range, and otherwise (Roache 1998, Sec.
+#: 5.9).
 SAFETY, CAUTIOUS_SAFETY = 1.25, 3.0
-#: An observed order in this range around the declared one is trusted (Eca and Hoekstra take 0.5 to 2.1 for 2).
+#: An observed order in this range around the declared one is trusted (Eca and Hoekstra take 0.5 to 2.1 for
+#: 2).
 _LOWEST, _EXCESS = 0.5, 0.1
 _FIXED_POINT_STEPS, _FIXED_POINT_TOLERANCE = 200, 1e-12
 #: Orders searched by the least-squares fit.
@@ -29,8 +31,8 @@ _ORDERS = np.linspace(0.05, 12.0, 120)
 #: Differences below this many roundings of the value are noise: they have no order.
 _NOISE = 16.0 * 2.0**-52
 
-#: Model -> quantity -> order in the width of the segments.  The published scheme is a midpoint sum: 2, measured 1.9 to
-#: 2.1 on 100 to 400 segments where the edge is wider than a segment.
+#: Model -> quantity -> order in the width of the segments.  The published scheme is a midpoint sum: 2,
+#: measured 1.9 to 2.1 on 100 to 400 segments where the edge is wider than a segment.
 DECLARED_ORDERS: dict[str, dict[str, float]] = {
     "fscm-stieltjes": dict.fromkeys(
         ("pull_off_force", "pull_off_displacement", "zero_load_displacement"), 2.0
@@ -110,8 +112,8 @@ def three_grids(
     Returns
     -------
     GridConvergence
-        `u_num` is 1.25 times the Richardson estimate of the finest grid.  Where the observed order is above the
-        declared one the latter is used, where it is below 1/2 or the values oscillate the factor is 3.
+        `u_num` is 1.25 times the Richardson estimate of the finest grid.  Where the observed order is above
+        the declared one the latter is used, where it is below 1/2 or the values oscillate the factor is 3.
 
     Examples
     --------
@@ -138,7 +140,7 @@ def three_grids(
 
 
 def _observed_order(r21: float, r32: float, ratio: float) -> float:
-    """Solve Celik et al.'s p = abs(ln abs(ratio) + q(p)) / ln r21 by fixed point; NaN if it is not reached."""
+    """Solve Celik et al.'s p = abs(ln abs(ratio) + q(p)) / ln r21 by fixed point; NaN if not reached."""
     s, p = math.copysign(1.0, ratio), 1.0
     for _ in range(_FIXED_POINT_STEPS):
         a, b = r21**p - s, r32**p - s
@@ -153,7 +155,7 @@ def _observed_order(r21: float, r32: float, ratio: float) -> float:
 
 
 def _ratio(r21: float, r32: float, p: float) -> float:
-    """Differences (f3 - f2) / (f2 - f1) of a term h^p; the limit at p = 0 divides convergence from divergence."""
+    """(f3 - f2) / (f2 - f1) of a term h^p; the limit at p = 0 divides convergence from divergence."""
     if p == 0.0:
         return math.log(r32) / math.log(r21)
     return r21**p * (r32**p - 1.0) / (r21**p - 1.0)
@@ -178,9 +180,9 @@ def least_squares(sizes: Sequence[float], values: Sequence[float], declared: flo
 
     Notes
     -----
-    Where the fitted order is above the declared one the best of the fits with p = 1 and p = declared is taken, and
-    where it is below 1/2 also f0 + a h + b h^declared.  Every fit is made with equal weights and with weights 1/h,
-    and the one of less scatter is taken (Eca and Hoekstra, Secs. 3.3 and 4).
+    Where the fitted order is above the declared one the best of the fits with p = 1 and p = declared is
+    taken, and where it is below 1/2 also f0 + a h + b h^declared.  Every fit is made with equal weights and
+    with weights 1/h, and the one of less scatter is taken (Eca and Hoekstra, Secs. 3.3 and 4).
 
     Examples
     --------
@@ -224,7 +226,7 @@ def _weightings(h: Array) -> tuple[Array, Array]:
 
 
 def _fit(h: Array, f: Array, weights: Array, powers: tuple[float, ...]) -> _Fit:
-    """Weighted least squares of f0 + sum alpha_j h^p_j; the scatter counts the order as fitted or declared alike."""
+    """Weighted least squares of f0 + sum alpha_j h^p_j; an order counts as a parameter, fitted or not."""
     matrix = np.column_stack([np.ones(len(h)), *((h / h[-1]) ** p for p in powers)])
     root = np.sqrt(weights)
     coefficients = np.linalg.lstsq(matrix * root[:, None], f * root, rcond=None)[0]

@@ -1,7 +1,8 @@
 """Verdicts after ASME V&V 20: an error is judged together with its uncertainty.
 
-With the error E of a candidate and U = k sqrt(u_cand^2 + u_ref^2), the true error is taken to be in [E - U, E + U].
-A gate passes if all of that interval is inside its limits, fails if none of it is, and is inconclusive between.
+With the error E of a candidate and U = k sqrt(u_cand^2 + u_ref^2), the true error is taken to be in [E - U, E
++ U]. A gate passes if all of that interval is inside its limits, fails if none of it is, and is inconclusive
+between.
 """
 
 from __future__ import annotations
@@ -12,8 +13,8 @@ from enum import StrEnum
 
 __all__ = ["COVERAGE", "Verdict", "combined", "decide", "expecting_failure", "roll_up"]
 
-#: k of U: two, as V&V 20 takes for 95 % of a normal distribution.  Here each u is already a bound, with a safety
-#: factor of its own, so that U errs on the side of "inconclusive".
+#: k of U: two, as V&V 20 takes for 95 % of a normal distribution.  Here each u is already a bound, with a
+#: safety factor of its own, so that U errs on the side of "inconclusive".
 COVERAGE = 2.0
 
 

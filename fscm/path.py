@@ -80,7 +80,8 @@ def trace(
     start_gap : float, optional
         Central gap at the far end; by default 10 + 5 mu.
     longest_step : float
-        Bound on the step from point to point; 0.05 gives three times the points of the default, for interpolation.
+        Bound on the step from point to point; 0.05 gives three times the points of the default, for
+        interpolation.
 
     Raises
     ------

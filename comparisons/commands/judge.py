@@ -1,4 +1,4 @@
-"""``fscm-bench judge``: judge the stored results of a run again, by the same gates or others; computes no model."""
+"""``fscm-bench judge``: judge the stored results of a run again, by the same gates or others."""
 
 from __future__ import annotations
 

@@ -16,8 +16,8 @@ from fscm.problem import Problem
 
 __all__ = ["FullSelfConsistent"]
 
-#: Step of a curve: other curves are compared with it between its points (measured: a cubic spline is then within 1e-5
-#: of the picture).
+#: Step of a curve: other curves are compared with it between its points (measured: a cubic spline is then
+#: within 1e-5 of the picture).
 _STEP = 0.05
 
 

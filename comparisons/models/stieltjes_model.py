@@ -56,8 +56,8 @@ class PublishedScheme:
 class CoarsePublishedScheme(PublishedScheme):
     """The same with 400 segments: a second instead of minutes.
 
-    At small and moderate Tabor numbers what it leaves out beyond f = 50 is most of its error, with 2500 segments as
-    with 400 (n = 2, k = 0, mu = 0.5: 1.0e-3 of the pull-off force with either).
+    At small and moderate Tabor numbers what it leaves out beyond f = 50 is most of its error, with 2500
+    segments as with 400 (n = 2, k = 0, mu = 0.5: 1.0e-3 of the pull-off force with either).
     """
 
     name: ClassVar[str] = "fscm-stieltjes-400"

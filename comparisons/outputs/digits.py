@@ -11,13 +11,15 @@ __all__ = ["short"]
 def short(value: float, uncertainty: float | None) -> str:
     """Return e.g. 1.788482(3): the digits in brackets are the uncertainty of the last ones before them.
 
-    The uncertainty is rounded up, to one digit, or to two when the first is 1 (so that 0.0014 does not become 0.002).
+    The uncertainty is rounded up, to one digit, or to two when the first is 1 (so that 0.0014 does not become
+    0.002).
 
     Parameters
     ----------
     value : float
     uncertainty : float or None
-        Not negative.  Zero gives the shortest decimal that is the value; None or NaN six digits and no brackets.
+        Not negative.  Zero gives the shortest decimal that is the value; None or NaN six digits and no
+        brackets.
 
     Examples
     --------

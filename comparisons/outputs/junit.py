@@ -12,8 +12,8 @@ from comparisons.verdict import Verdict
 
 __all__ = ["junit"]
 
-#: Verdict -> element inside the test case; those not here are passes.  An inconclusive gate is a failure to show what
-#: was to be shown; what is expected to fail, and does, counts as skipped, as pytest has it.
+#: Verdict -> element inside the test case; those not here are passes.  An inconclusive gate is a failure to
+#: show what was to be shown; what is expected to fail, and does, counts as skipped, as pytest has it.
 _ELEMENTS = {
     Verdict.ERROR: "error",
     Verdict.FAIL: "failure",

@@ -24,12 +24,12 @@ _SPECIAL = {
 
 
 def latex(table: pd.DataFrame, caption: str) -> str:
-    """Return a table of texts as a booktabs table; the document needs \\usepackage{booktabs}.
+    r"""Return a table of texts as a booktabs table; the document needs \usepackage{booktabs}.
 
     Examples
     --------
     >>> print(latex(pd.DataFrame({"gate": ["A_1"], "$E$": ["1.788482(3)"]}), "Verdicts").splitlines()[4])
-    A\\_1 & 1.788482(3) \\\\
+    A\_1 & 1.788482(3) \\
     """
     rows = [" & ".join(map(_escaped, row)) + r" \\" for row in table.astype(str).values.tolist()]
     return "\n".join(

@@ -11,7 +11,7 @@ __all__ = ["markdown", "to_step_summary"]
 
 
 def markdown(table: pd.DataFrame, title: str) -> str:
-    """Return a table of texts as Markdown.
+    r"""Return a table of texts as Markdown.
 
     Examples
     --------
@@ -20,7 +20,7 @@ def markdown(table: pd.DataFrame, title: str) -> str:
     <BLANKLINE>
     | gate | verdict |
     | --- | --- |
-    | A\\|B | PASS |
+    | A\|B | PASS |
     """
     rows = [list(table.columns), ["---"] * len(table.columns), *table.astype(str).values.tolist()]
     lines = [

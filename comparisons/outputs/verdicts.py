@@ -26,7 +26,8 @@ def command(row: pd.Series) -> str:
 
     Examples
     --------
-    >>> command(pd.Series({"candidate": "jkr", "quantity": "pull_off_force", "n": 2, "k": 0, "mu": 5, "nu": None}))
+    >>> case = {"n": 2, "k": 0, "mu": 5, "nu": None}
+    >>> command(pd.Series({"candidate": "jkr", "quantity": "pull_off_force", **case}))
     'fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0 --mu 5'
     """
     case = " ".join(f"--{name} {_short(row[name])}" for name in ("n", "k", "mu", "nu") if pd.notna(row[name]))
@@ -44,8 +45,9 @@ def _short(value: float) -> str:
 def matrix(judged: pd.DataFrame) -> pd.DataFrame:
     """Return one row of texts a gate and candidate, worst first.
 
-    Columns: verdict, gate, candidate, reference, cases (how many, and of them those that did not apply), error of the
-    worst case with its U in brackets, limits, the command that computes that case again, and the reason.
+    Columns: verdict, gate, candidate, reference, cases (how many, and of them those that did not apply),
+    error of the worst case with its U in brackets, limits, the command that computes that case again, and the
+    reason.
     """
     gates = by_gate(judged)
     return pd.DataFrame(

@@ -1,6 +1,7 @@
 """Gates as data: what is read, what is refused, and that the standing ones are fit to be cited."""
 
 import math
+import re
 
 import pytest
 
@@ -101,9 +102,8 @@ def test_the_reference_may_be_asked_elsewhere():
 )
 def test_what_is_wrong_is_refused_and_named(old, new, says, tmp_path, capsys):
     text = GATE.replace(old, new)
-    with pytest.raises(ValueError) as refusal:
+    with pytest.raises(ValueError, match=re.escape(says)):
         load_gates(text)
-    assert says in str(refusal.value)
     (tmp_path / "gates.toml").write_text(text)
     assert main(["run", "--gates", str(tmp_path / "gates.toml"), "--out", str(tmp_path / "out")]) == 2
     shown = capsys.readouterr()

@@ -1,7 +1,7 @@
 """The standing gates on the committed results: they pass, and every one of them can fail.
 
-For each gate a deliberately wrong candidate or an uncertain reference is made out of the committed results.  The
-mistakes are those people make: a factor, a sign, a wrong exponent, n and k swapped, a row lost, a NaN.
+For each gate a deliberately wrong candidate or an uncertain reference is made out of the committed results.
+The mistakes are those people make: a factor, a sign, a wrong exponent, n and k swapped, a row lost, a NaN.
 """
 
 import math
@@ -69,8 +69,9 @@ def changed(gate, change):
     return rows, curves
 
 
-# A factor of 1.7 and a wrong sign are outside every gate; the wrong exponent is mu^0.4 for mu^0 times 2, so that it shows
-# at mu = 1 too; "swapped" gives each case the answer of another, as a model does that takes n for k.
+# A factor of 1.7 and a wrong sign are outside every gate; the wrong exponent is mu^0.4 for mu^0 times 2, so
+# that it shows at mu = 1 too; "swapped" gives each case the answer of another, as a model does that takes n
+# for k.
 MISTAKES = {
     "factor": lambda rows: 1.7 * rows["value"],
     "sign": lambda rows: -rows["value"],
@@ -196,7 +197,7 @@ def test_the_gate_for_given_models_lets_the_right_pass_and_the_wrong_fail():
 
 
 def test_the_code_computes_what_is_committed():
-    """A fast part: every closed form, and the references in a few cases; the whole is a run and its judgement."""
+    """A fast part: some of every closed form, and the references in a few cases."""
     stored = {
         (m, q, n, k, mu)
         for m, q, n, k, mu in ROWS[["model", "quantity", "n", "k", "mu"]].itertuples(index=False)

@@ -9,8 +9,8 @@ from comparisons.models.stieltjes_model import PublishedScheme
 from comparisons.uncertainty import declared_order, least_squares, three_grids
 from fscm.problem import Problem
 
-# Celik et al., J. Fluids Eng. 130 (2008) 078001, Table 1: numbers of cells in two dimensions, and as printed the
-# values, p, the extrapolated value and the grid convergence index in percent.
+# Celik et al., J. Fluids Eng. 130 (2008) 078001, Table 1: numbers of cells in two dimensions, and as printed
+# the values, p, the extrapolated value and the grid convergence index in percent.
 CELIK = [
     ((18000, 8000, 4500), (6.063, 5.972, 5.863), 1.53, 6.1685, 2.2),
     ((18000, 4500, 980), (10.7880, 10.7250, 10.6050), 0.75, 10.8801, 1.1),
