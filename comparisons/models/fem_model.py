@@ -58,9 +58,9 @@ class FiniteElements:
 
     def curve(self, problem: Problem) -> Curve:
         """Return the equilibrium path from far away into compression."""
-        physical, *question = self._physical(problem)
+        physical, solid, punch, law = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-            coarse, path = (fem_reference.trace(*question, accuracy=level) for level in _LEVELS)
+            coarse, path = (fem_reference.trace(solid, punch, law, level) for level in _LEVELS)
         return Curve(
             displacement=physical.to_dimensionless("displacement", path.displacement),
             load=physical.to_dimensionless("load", path.load),
@@ -73,9 +73,9 @@ class FiniteElements:
 
     def pull_off_profile(self, problem: Problem) -> Profile:
         """Return the surface where P is smallest, and as its uncertainty the distance of two meshes."""
-        physical, *question = self._physical(problem)
+        physical, solid, punch, law = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-            found = [fem_reference.profile(*question, accuracy=level) for level in _LEVELS]
+            found = [fem_reference.profile(solid, punch, law, accuracy=level) for level in _LEVELS]
         (radius, pressure, gap), fine = (
             (
                 physical.to_dimensionless("radius", profile.r),
