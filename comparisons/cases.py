@@ -1,13 +1,14 @@
 """Cases as data: which problems a run computes, read from a TOML file.
 
-A case is one dimensionless problem; a grid is the product of lists of n, k and mu with an id, a tier and the
-quantities and models asked.  Unknown keys are refused, so that a misspelt one cannot pass unnoticed.
+A case is one dimensionless problem; a grid is the product of lists of n, k, mu and nu with an id, a tier and
+the quantities (or shapes) and models asked.  Unknown keys are refused, so that a misspelt one cannot pass
+unnoticed.
 """
 
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from itertools import product
@@ -15,12 +16,17 @@ from typing import Any
 
 from comparisons.models import MODELS
 from comparisons.quantities import QUANTITIES
+from comparisons.shapes import SHAPES
 from fscm.problem import Problem
 
-__all__ = ["TIERS", "Case", "Grid", "grids", "load_grids"]
+__all__ = ["TIERS", "VERIFICATION", "Case", "Grid", "asked_of", "cases_text", "grids", "load_grids"]
 
 #: A tier holds its own grids and those of every tier before it.
 TIERS = ("quick", "full")
+
+#: Grids with this tag are questions about the references themselves.  They are not asked of models that are
+#: given to a run, and are not in its tables of errors.
+VERIFICATION = "verification"
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -96,6 +102,8 @@ class Grid:
         What is asked of every model.
     cases : tuple of Case
         Sorted, without duplicates.
+    tags : tuple of str
+        Names that gates select several grids by.
     """
 
     id: str
@@ -105,9 +113,11 @@ class Grid:
     models: tuple[str, ...]
     quantities: tuple[str, ...]
     cases: tuple[Case, ...]
+    tags: tuple[str, ...] = ()
 
 
 _LISTS = ("models", "quantities", "n", "k", "mu")
+_OPTIONAL = ("nu", "tags")
 _TEXTS = ("id", "title", "tier", "reference")
 
 
@@ -119,17 +129,19 @@ def _known(what: str, names: list[str], register: Mapping[str, object] | tuple[s
 
 def _grid(table: dict[str, Any], where: str) -> Grid:
     expected = {*_LISTS, *_TEXTS}
-    if wrong := sorted(expected ^ table.keys()):
+    if wrong := sorted((expected - table.keys()) | (table.keys() - expected - {*_OPTIONAL})):
         raise ValueError(
-            f"{where}: {', '.join(wrong)} missing or unknown; a grid has {', '.join(sorted(expected))}"
+            f"{where}: {', '.join(wrong)} missing or unknown; a grid has {', '.join(sorted(expected))} "
+            f"and may have {', '.join(_OPTIONAL)}"
         )
-    for key in _LISTS:
+    for key in (*_LISTS, *(key for key in _OPTIONAL if key in table)):
         if not (isinstance(table[key], list) and table[key]):
             raise ValueError(f"{where}: {key} must be a list with at least one entry")
     _known("tier", [table["tier"]], TIERS, where)
     _known("model", [table["reference"], *table["models"]], MODELS, where)
-    _known("quantity", table["quantities"], QUANTITIES, where)
-    cases = {Case(n, k, mu) for n, k, mu in product(table["n"], table["k"], table["mu"])}
+    _known("quantity", table["quantities"], QUANTITIES | SHAPES, where)
+    parameters = product(table["n"], table["k"], table["mu"], table.get("nu", [None]))
+    cases = {Case(*values) for values in parameters}
     return Grid(
         id=table["id"],
         title=table["title"],
@@ -137,7 +149,8 @@ def _grid(table: dict[str, Any], where: str) -> Grid:
         reference=table["reference"],
         models=tuple(table["models"]),
         quantities=tuple(table["quantities"]),
-        cases=tuple(sorted(cases, key=lambda case: (case.n, case.k, case.mu))),
+        cases=tuple(sorted(cases, key=lambda case: (case.n, case.k, case.mu, case.nu or 0.0))),
+        tags=tuple(table.get("tags", ())),
     )
 
 
@@ -151,17 +164,22 @@ def load_grids(text: str) -> list[Grid]:
     """
     tables = tomllib.loads(text)
     if tables.keys() != {"grid"}:
-        raise ValueError(
-            f"a case file holds [[grid]] tables and nothing else, not {', '.join(sorted(tables))}"
-        )
-    read = [
-        _grid(table, f"grid {table.get('id', number)}")
-        for number, table in enumerate(tables["grid"], start=1)
-    ]
+        raise ValueError(f"a case file holds [[grid]] tables and nothing else, not {', '.join(sorted(tables))}")
+    read = [_grid(table, f"grid {table.get('id', number)}") for number, table in enumerate(tables["grid"], start=1)]
     ids = [grid.id for grid in read]
     if len(set(ids)) < len(ids):
         raise ValueError(f"the id of a grid must be its own; found {', '.join(sorted(ids))}")
     return read
+
+
+def cases_text() -> str:
+    """Return the text of the standing cases."""
+    return files("comparisons").joinpath("cases.toml").read_text(encoding="utf-8")
+
+
+def asked_of(chosen: Iterable[Grid], models: Sequence[str] | None) -> list[Grid]:
+    """Return the grids that a run computes: without those of verification if models are given to it."""
+    return [grid for grid in chosen if models is None or VERIFICATION not in grid.tags]
 
 
 def grids(tier: str) -> list[Grid]:
@@ -172,5 +190,4 @@ def grids(tier: str) -> list[Grid]:
     >>> [grid.id for grid in grids("quick")][0]
     'transition'
     """
-    every = load_grids(files("comparisons").joinpath("cases.toml").read_text(encoding="utf-8"))
-    return [grid for grid in every if TIERS.index(grid.tier) <= TIERS.index(tier)]
+    return [grid for grid in load_grids(cases_text()) if TIERS.index(grid.tier) <= TIERS.index(tier)]

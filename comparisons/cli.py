@@ -1,7 +1,8 @@
 """The command line: parses, calls the command, turns what went wrong into one sentence and an exit status.
 
-Results go to stdout, progress and messages to stderr.  Exit status: 0 done, 2 wrong input, 4 a computation
-failed (and, as shells have it, 130 after Ctrl-C and 141 when the reader of a pipe went away).
+Results go to stdout, progress and messages to stderr.  Exit status: 0 done and every gate passes, 1 a gate
+fails, 2 wrong input, 3 a gate is inconclusive, 4 a computation failed or there was nothing to judge (and, as
+shells have it, 130 after Ctrl-C and 141 when the reader of a pipe went away).
 """
 
 from __future__ import annotations
@@ -14,14 +15,14 @@ from typing import NoReturn
 
 from threadpoolctl import threadpool_limits
 
-from comparisons.commands import bench, check_model, curve, fem, listing, new_model, run, solve
+from comparisons.commands import bench, check_model, curve, fem, judge, listing, new_model, run, solve
 from comparisons.commands.options import WRONG_INPUT
 from comparisons.progress import log
 from comparisons.provenance import package_version
 
 __all__ = ["main"]
 
-_COMMANDS = (run, solve, curve, fem, listing, check_model, new_model, bench)
+_COMMANDS = (run, judge, solve, curve, fem, listing, check_model, new_model, bench)
 _INTERRUPTED, _BROKEN_PIPE = 130, 141
 
 
@@ -36,7 +37,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="fscm-bench",
         description="How wrong is a model of adhesive contact of graded materials, and how sure are we?",
-        epilog="Exit status: 0 done, 2 wrong input, 4 a computation failed.",
+        epilog="Exit status: 0 done and every gate passes, 1 a gate fails, 2 wrong input, 3 inconclusive, "
+        "4 a computation failed or no gate was evaluated.",
     )
     parser.add_argument("--version", action="version", version=f"fscm-bench {package_version()}")
     parsers = parser.add_subparsers(metavar="COMMAND", required=True)

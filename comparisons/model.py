@@ -16,7 +16,16 @@ from numpy.typing import NDArray
 
 from fscm.problem import Problem
 
-__all__ = ["ComputationFailed", "Curve", "Model", "NotApplicable", "Result", "TracesCurve"]
+__all__ = [
+    "ComputationFailed",
+    "Curve",
+    "KnowsProfiles",
+    "Model",
+    "NotApplicable",
+    "Profile",
+    "Result",
+    "TracesCurve",
+]
 
 
 class NotApplicable(Exception):
@@ -46,6 +55,8 @@ class Result:
         Largest residual of the discrete equations at the answer (0 when none).
     seconds : float
         Wall-clock time of the computation.
+    observed_order : float or None
+        Order of convergence seen over several meshes; None where none was measured.
     """
 
     value: float
@@ -54,6 +65,7 @@ class Result:
     iterations: int = 0
     residual: float = 0.0
     seconds: float = 0.0
+    observed_order: float | None = None
 
     def __post_init__(self) -> None:
         if not math.isfinite(self.value):
@@ -74,11 +86,32 @@ class Curve:
         P / (pi Q^(2/n) dgamma z0^(2/n - 1)), tension negative.
     columns : dict of str to ndarray, shape (m,)
         What else the model knows on the path, e.g. ``central_gap``, ``contact_radius``, ``cohesive_radius``.
+    u_distance : float
+        Bound on the numerical distance of the points from the exact curve, as a fraction of its ranges.
     """
 
     displacement: NDArray[np.float64]
     load: NDArray[np.float64]
     columns: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+    u_distance: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """The surface where P is smallest (all arrays of one length, dimensionless, radii increasing).
+
+    Attributes
+    ----------
+    radius, pressure, gap : ndarray, shape (m,)
+        r / (Q z0)^(1/n), p z0 / dgamma (tension negative) and H / z0.
+    u_distance : float
+        As of a `Curve`, for the pressure over the radius out to a gap of 10.
+    """
+
+    radius: NDArray[np.float64]
+    pressure: NDArray[np.float64]
+    gap: NDArray[np.float64]
+    u_distance: float = 0.0
 
 
 @runtime_checkable
@@ -104,4 +137,13 @@ class TracesCurve(Protocol):
 
     def curve(self, problem: Problem) -> Curve:
         """Return the curve, or raise `NotApplicable` or `ComputationFailed`."""
+        ...
+
+
+@runtime_checkable
+class KnowsProfiles(Protocol):
+    """A model that also knows gap and pressure over the radius."""
+
+    def pull_off_profile(self, problem: Problem) -> Profile:
+        """Return the surface where P is smallest, or raise `NotApplicable` or `ComputationFailed`."""
         ...

@@ -36,18 +36,12 @@ QUANTITIES: dict[str, Quantity] = {
     for q in (
         Quantity("pull_off_force", "-P_c", "load", "-min P along the equilibrium path; positive"),
         Quantity("pull_off_displacement", "delta_c", "displacement", "displacement where P is smallest"),
-        Quantity(
-            "jump_in_displacement", "delta_in", "displacement", "fold where approach jumps into contact"
-        ),
+        Quantity("jump_in_displacement", "delta_in", "displacement", "fold where approach jumps into contact"),
         Quantity("jump_in_gap", "H0_in", "gap", "central gap at the jump-in fold"),
-        Quantity(
-            "jump_out_displacement", "delta_out", "displacement", "fold where retreat jumps out of contact"
-        ),
+        Quantity("jump_out_displacement", "delta_out", "displacement", "fold where retreat jumps out of contact"),
         Quantity("jump_out_gap", "H0_out", "gap", "central gap at the jump-out fold"),
         Quantity("zero_load_displacement", "delta_0", "displacement", "displacement in contact where P = 0"),
         Quantity("hysteresis_energy", "W_hys", "energy", "lost in one cycle of displacement control; >= 0"),
-        Quantity(
-            "critical_tabor_number", "mu_crit", "number", "jumps and hysteresis exist above it; mu is ignored"
-        ),
+        Quantity("critical_tabor_number", "mu_crit", "number", "jumps and hysteresis exist above it; mu is ignored"),
     )
 }

@@ -12,7 +12,8 @@ import threading
 import time
 from collections.abc import Generator, Iterable, Mapping
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import groupby
 from multiprocessing import get_context, parent_process
 from multiprocessing.process import BaseProcess
 from traceback import extract_tb
@@ -21,11 +22,12 @@ from threadpoolctl import threadpool_limits
 
 from comparisons.cases import Case, Grid
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
-from comparisons.models import Outside, create
+from comparisons.models import Outside, create, knows_poisson
 from comparisons.quantities import QUANTITIES
+from comparisons.shapes import SHAPES, Points
 from comparisons.store import Row
 
-__all__ = ["Task", "answer", "ask", "compute", "plan"]
+__all__ = ["Task", "answer", "ask", "asked_at", "compute", "plan"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +43,17 @@ class Task:
     def key(self) -> tuple[str, str, float, float, float, float | None]:
         """The key of the row that answers it."""
         return self.model, self.quantity, self.case.n, self.case.k, self.case.mu, self.case.nu
+
+
+def asked_at(model: str, case: Case) -> Case:
+    """Return the case as a model is asked: without Poisson's ratio if that makes no difference to it.
+
+    Examples
+    --------
+    >>> asked_at("jkr", Case(2, 0, 1, nu=0.25)).label
+    'n = 2, k = 0, mu = 1'
+    """
+    return case if knows_poisson(model) else replace(case, nu=None)
 
 
 def plan(
@@ -63,15 +76,13 @@ def plan(
         Largest Tabor numbers first: they take longest, and a core that starts one last would finish alone.
     """
     tasks = {
-        Task(model, quantity, case, (outside or {}).get(model))
+        Task(model, quantity, asked_at(model, case), (outside or {}).get(model))
         for grid in grids
         for model in {grid.reference, *(models or grid.models)}
         for quantity in grid.quantities
         for case in grid.cases
     }
-    return sorted(
-        tasks, key=lambda task: (-task.case.mu, task.case.n, task.case.k, task.model, task.quantity)
-    )
+    return sorted(tasks, key=lambda task: (-task.case.mu, task.case.n, task.case.k, task.model, task.quantity))
 
 
 def ask(model: Model, quantity: str, case: Case) -> Row:
@@ -89,7 +100,7 @@ def ask(model: Model, quantity: str, case: Case) -> Row:
     """
     started = time.perf_counter()
     try:
-        result = model.evaluate(case.problem(), quantity)
+        result = _evaluate(model, quantity, case)
     except NotApplicable as refusal:
         return _row(model, quantity, case, started, status="not-applicable", reason=str(refusal))
     except ComputationFailed as failure:
@@ -110,6 +121,12 @@ def ask(model: Model, quantity: str, case: Case) -> Row:
     return _row(model, quantity, case, started, status="ok", result=result)
 
 
+def _evaluate(model: Model, quantity: str, case: Case) -> Result | Points:
+    if quantity in SHAPES:
+        return SHAPES[quantity].ask(model, case.problem())
+    return model.evaluate(case.problem(), quantity)
+
+
 def _row(
     model: Model | Outside,
     quantity: str,
@@ -118,8 +135,10 @@ def _row(
     *,
     status: str,
     reason: str = "",
-    result: Result | None = None,
+    result: Result | Points | None = None,
 ) -> Row:
+    points = result if isinstance(result, Points) else None
+    number = result if isinstance(result, Result) else None
     return Row(
         model=model.name,
         model_version=model.version,
@@ -128,15 +147,17 @@ def _row(
         k=case.k,
         mu=case.mu,
         nu=case.nu,
-        value=result.value if result else None,
-        u_num=result.u_num if result else None,
-        unit=QUANTITIES[quantity].unit,
+        value=number.value if number else None,
+        u_num=number.u_num if number else None,
+        unit=(QUANTITIES | SHAPES)[quantity].unit,
         status=status,
         reason=reason,
-        size=result.size if result else None,
-        iterations=result.iterations if result else None,
-        residual=result.residual if result else None,
-        seconds=(result and result.seconds) or time.perf_counter() - started,
+        size=number.size if number else None,
+        iterations=number.iterations if number else None,
+        residual=number.residual if number else None,
+        seconds=(number and number.seconds) or time.perf_counter() - started,
+        observed_order=number.observed_order if number else None,
+        points=(points.x, points.y, points.u_distance) if points else None,
     )
 
 
@@ -168,6 +189,15 @@ def _end_with(parent: BaseProcess) -> None:
     os._exit(1)
 
 
+def _batches(tasks: list[Task]) -> list[list[Task]]:
+    """Questions about one case to one model go to one process, where the solver finds its meshes again."""
+    return [list(batch) for _, batch in groupby(tasks, key=lambda task: (task.model, task.case))]
+
+
+def _answer_all(batch: list[Task]) -> list[Row]:
+    return [answer(task) for task in batch]
+
+
 def compute(tasks: list[Task], jobs: int) -> Generator[Row]:
     """Answer tasks on `jobs` processes and yield each row as it is finished.
 
@@ -183,9 +213,9 @@ def compute(tasks: list[Task], jobs: int) -> Generator[Row]:
         return
     # "spawn": a fresh interpreter, the same on every platform, and safe beside the threads of a progress bar.
     with ProcessPoolExecutor(min(jobs, len(tasks)), get_context("spawn"), initializer=_start_worker) as pool:
-        pending = [pool.submit(answer, task) for task in tasks]
+        pending = [pool.submit(_answer_all, batch) for batch in _batches(tasks)]
         try:
             for future in as_completed(pending):
-                yield future.result()
+                yield from future.result()
         finally:
             pool.shutdown(wait=False, cancel_futures=True)

@@ -22,13 +22,17 @@ import pyarrow.parquet as pq
 
 __all__ = [
     "COLUMNS",
+    "CURVE_COLUMNS",
     "Journal",
     "Row",
     "atomic",
     "csv_text",
+    "curve_frame",
     "frame",
     "prepare_folder",
+    "read_table",
     "writable_file",
+    "write_curves",
     "write_json",
     "write_results",
     "write_table",
@@ -77,6 +81,8 @@ class Row:
     iterations: int | None
     residual: float | None
     seconds: float
+    observed_order: float | None = None
+    points: tuple[list[float], list[float], float] | None = None
 
     @property
     def key(self) -> tuple[str, str, float, float, float, float | None]:
@@ -98,12 +104,34 @@ COLUMNS = pa.schema(
         ("nu", _REAL),
         ("value", _REAL),
         ("u_num", _REAL),
+        ("observed_order", _REAL),
         ("unit", _TEXT),
         ("status", _TEXT),
         ("reason", _TEXT),
         ("size", _COUNT),
         ("iterations", _COUNT),
         ("residual", _REAL),
+        ("seconds", _REAL),
+    ]
+)
+
+#: Column types of the stored curves: one row a point, and one row for a curve that there is not.
+CURVE_COLUMNS = pa.schema(
+    [
+        ("model", _TEXT),
+        ("model_version", _TEXT),
+        ("quantity", _TEXT),
+        ("n", _REAL),
+        ("k", _REAL),
+        ("mu", _REAL),
+        ("nu", _REAL),
+        ("point", _COUNT),
+        ("x", _REAL),
+        ("y", _REAL),
+        ("u_distance", _REAL),
+        ("unit", _TEXT),
+        ("status", _TEXT),
+        ("reason", _TEXT),
         ("seconds", _REAL),
     ]
 )
@@ -150,9 +178,7 @@ def _explained(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        raise ValueError(
-            f"the file {path} cannot be written ({error.strerror}); choose another place"
-        ) from None
+        raise ValueError(f"the file {path} cannot be written ({error.strerror}); choose another place") from None
 
 
 @contextmanager
@@ -185,6 +211,17 @@ def frame(rows: Iterable[Row]) -> pd.DataFrame:
     return table.to_pandas().sort_values(_ORDER, ignore_index=True)
 
 
+def curve_frame(rows: Iterable[Row]) -> pd.DataFrame:
+    """Return the curves as a sorted pandas table with the columns of `CURVE_COLUMNS`."""
+    records = [
+        asdict(row) | {"point": number, "x": x, "y": y, "u_distance": row.points[2] if row.points else None}
+        for row in rows
+        for number, (x, y) in enumerate(zip(*row.points[:2], strict=True) if row.points else [(None, None)])
+    ]
+    table = pa.Table.from_pylist(records, schema=CURVE_COLUMNS)
+    return table.to_pandas().sort_values([*_ORDER, "point"], ignore_index=True)
+
+
 def csv_text(table: pd.DataFrame) -> str:
     """Return a table as CSV with 17 significant digits, which give every double back exactly.
 
@@ -209,6 +246,11 @@ def write_results(table: pd.DataFrame, stem: Path) -> None:
     write_table(table, stem, schema=COLUMNS, leave_out_of_csv=["seconds"])
 
 
+def write_curves(table: pd.DataFrame, stem: Path) -> None:
+    """Write a table of curves, as `curve_frame` returns it; the CSV leaves out the wall-clock seconds."""
+    write_table(table, stem, schema=CURVE_COLUMNS, leave_out_of_csv=["seconds"])
+
+
 def write_table(
     table: pd.DataFrame, stem: Path, *, schema: pa.Schema | None = None, leave_out_of_csv: Iterable[str] = ()
 ) -> None:
@@ -217,6 +259,22 @@ def write_table(
         file.write(csv_text(table.drop(columns=list(leave_out_of_csv))).encode())
     with atomic(stem.with_suffix(".parquet")) as file:
         pq.write_table(pa.Table.from_pandas(table, schema=schema, preserve_index=False), file)
+
+
+def read_table(path: Path) -> pd.DataFrame:
+    """Read a stored table.
+
+    Raises
+    ------
+    ValueError
+        If there is no such file or it is not Parquet; one sentence says which.
+    """
+    try:
+        return pq.read_table(path).to_pandas()
+    except FileNotFoundError:
+        raise ValueError(f"{path} does not exist: {path.parent} is not the folder of a finished run") from None
+    except (OSError, pa.ArrowException) as error:
+        raise ValueError(f"{path} cannot be read as Parquet ({str(error).splitlines()[0]})") from None
 
 
 def write_json(content: dict[str, Any], path: Path) -> None:
@@ -258,15 +316,11 @@ class Journal:
             self.rows = [Row(**line) for line in lines]
             found = header.get("fingerprint")
         except (ValueError, TypeError, AttributeError):
-            raise ValueError(
-                f"{self.path} is not a journal of a run; choose another folder with --out"
-            ) from None
+            raise ValueError(f"{self.path} is not a journal of a run; choose another folder with --out") from None
         if found is None and not self.rows:
             self.path.unlink()
         elif found != fingerprint:
-            raise ValueError(
-                f"{self.path.parent} holds results of another version of the code; choose another --out"
-            )
+            raise ValueError(f"{self.path.parent} holds results of another version of the code; choose another --out")
         elif torn:
             os.truncate(self.path, len(f"{whole}\n".encode()))
 

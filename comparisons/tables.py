@@ -59,9 +59,7 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
     usable = rows.loc[rows["status"] == "ok", [*_CASE, "model", "value", "u_num"]]
     is_reference = usable["model"] == reference
     truth = (
-        usable[is_reference]
-        .drop(columns="model")
-        .rename(columns={"value": "reference_value", "u_num": "u_reference"})
+        usable[is_reference].drop(columns="model").rename(columns={"value": "reference_value", "u_num": "u_reference"})
     )
     table = usable[~is_reference].merge(truth, on=_CASE, validate="many_to_one")
     true, u_true = table["reference_value"], table["u_reference"]
@@ -150,9 +148,7 @@ def by_case(kappa: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
 
     The second value holds the formats of its columns, for `rich_table`.
     """
-    wide = kappa.pivot(
-        index=["n", "k", "mu", "reference_value", "u_reference"], columns="model", values="kappa"
-    )
+    wide = kappa.pivot(index=["n", "k", "mu", "reference_value", "u_reference"], columns="model", values="kappa")
     shown = (100 * wide).reset_index().rename_axis(columns=None)
     return shown, {"reference_value": ".9f", "u_reference": ".0e"} | dict.fromkeys(wide.columns, "+.3f")
 
@@ -186,10 +182,7 @@ def rich_table(table: pd.DataFrame, title: str, formats: dict[str, str] | None =
         shown.add_column(str(name), justify="right" if pd.api.types.is_numeric_dtype(table[name]) else "left")
     for record in table.itertuples(index=False):
         shown.add_row(
-            *(
-                _cell(value, (formats or {}).get(str(name), ""))
-                for name, value in zip(table, record, strict=True)
-            )
+            *(_cell(value, (formats or {}).get(str(name), "")) for name, value in zip(table, record, strict=True))
         )
     return shown
 

@@ -105,14 +105,10 @@ def surface_stiffness(half_space: HalfSpace) -> Array:
     try:
         factors = splu(matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
     except RuntimeError as error:
-        raise NotConverged(
-            f"the stiffness matrix is singular ({error}); check modulus, mesh and nu"
-        ) from error
+        raise NotConverged(f"the stiffness matrix is singular ({error}); check modulus, mesh and nu") from error
     tail = np.arange(order.size - m, order.size)
     if not (np.array_equal(factors.perm_c[tail], tail) and np.array_equal(factors.perm_r[tail], tail)):
-        raise NotConverged(
-            "the factorisation reordered the surface unknowns; the matrix is not positive definite"
-        )
+        raise NotConverged("the factorisation reordered the surface unknowns; the matrix is not positive definite")
     S = factors.L[-m:, -m:].toarray() @ factors.U[-m:, -m:].toarray()
     if np.abs(S - S.T).max() > SYMMETRY_TOLERANCE * np.abs(S).max():
         raise NotConverged("the surface stiffness is not symmetric; the matrix is not positive definite")

@@ -88,9 +88,7 @@ class Contact:
         J[:, :m] = -factor * (X @ (weighted @ trace.phi))
         J[np.arange(m), np.arange(m)] += 1.0
         J[:, m] = factor * (X @ weighted.sum(axis=1))
-        J[:, m + 1] = -X @ (
-            factor * (weighted @ rise) + self.compliance.factor_slope(c) * (trace.phi.T @ load)
-        )
+        J[:, m + 1] = -X @ (factor * (weighted @ rise) + self.compliance.factor_slope(c) * (trace.phi.T @ load))
         return J
 
     def _tail(self, y: Array) -> tuple[Array, Array, Array]:

@@ -90,9 +90,7 @@ def _element_matrices(body: Body, basis: Basis, chunk: slice) -> Array:
     r, z = np.asarray(basis.global_coordinates())[:, chunk]
     E = body.modulus(z)
     if not np.all(E > 0):
-        raise ValueError(
-            "the modulus is not positive everywhere: a soft layer of zero stiffness has no solution"
-        )
+        raise ValueError("the modulus is not positive everywhere: a soft layer of zero stiffness has no solution")
     nu = body.nu
     measure = (r * basis.dx[chunk])[..., None]
     lame = (E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)))[..., None] * measure
@@ -107,9 +105,7 @@ def _element_matrices(body: Body, basis: Basis, chunk: slice) -> Array:
     K = np.empty((r.shape[0], 2 * n, 2 * n))
     radial_t, axial_t, hoop_t = (np.swapaxes(f, 1, 2) for f in (radial, axial, hoop))
     K[:, 0::2, 0::2] = (
-        radial_t @ (stiff * radial + lame * hoop)
-        + hoop_t @ (stiff * hoop + lame * radial)
-        + axial_t @ (shear * axial)
+        radial_t @ (stiff * radial + lame * hoop) + hoop_t @ (stiff * hoop + lame * radial) + axial_t @ (shear * axial)
     )
     K[:, 0::2, 1::2] = (radial_t + hoop_t) @ (lame * axial) + axial_t @ (shear * radial)
     K[:, 1::2, 0::2] = np.swapaxes(K[:, 0::2, 1::2], 1, 2)
@@ -117,9 +113,7 @@ def _element_matrices(body: Body, basis: Basis, chunk: slice) -> Array:
     return K
 
 
-def stiffness(
-    body: Body, first_layer: NDArray[np.intp], depth_axis: int = 1
-) -> tuple[sparse.csr_array, Basis]:
+def stiffness(body: Body, first_layer: NDArray[np.intp], depth_axis: int = 1) -> tuple[sparse.csr_array, Basis]:
     """Assemble the stiffness matrix of a body.
 
     Parameters
@@ -168,7 +162,5 @@ def stiffness(
             parts.append((K.ravel(), rows.ravel(), cols.ravel()))
     data, rows, cols = (np.concatenate(part) for part in zip(*parts, strict=True))
     size = 2 * basis.N
-    matrix = sparse.coo_array(
-        (data, (rows.astype(np.int32), cols.astype(np.int32))), shape=(size, size)
-    ).tocsr()
+    matrix = sparse.coo_array((data, (rows.astype(np.int32), cols.astype(np.int32))), shape=(size, size)).tocsr()
     return matrix, basis

@@ -143,9 +143,7 @@ def _root(pair: Pair, function: Callable[[Point], float]) -> Point:
 
     scale = max(abs(pair[0].parameter), abs(pair[1].parameter))
     root = float(
-        brentq(
-            value, pair[0].parameter, pair[1].parameter, xtol=ROOT_TOLERANCE * scale, rtol=4 * ROOT_TOLERANCE
-        )
+        brentq(value, pair[0].parameter, pair[1].parameter, xtol=ROOT_TOLERANCE * scale, rtol=4 * ROOT_TOLERANCE)
     )
     value(root)
     return known[root]

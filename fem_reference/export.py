@@ -130,9 +130,7 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
 
 def _cells(elements: int) -> NDArray[np.intp]:
     corner = np.arange(SAMPLES * SAMPLES).reshape(SAMPLES, SAMPLES)
-    one = np.stack([corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]], axis=-1).reshape(
-        -1, 4
-    )
+    one = np.stack([corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]], axis=-1).reshape(-1, 4)
     return (one[None] + (SAMPLES * SAMPLES * np.arange(elements))[:, None, None]).reshape(-1, 4)
 
 
@@ -198,9 +196,7 @@ def draw(field: Field, radius: float, magnification: float = 1.0, stress: str = 
     triangulation = Triangulation(r[used], z[used], renumber[triangles])
     # Zero is white: blue is compression, red tension.
     limit = float(np.abs(values[used]).max())
-    image = axes.tripcolor(
-        triangulation, values[used], shading="gouraud", cmap="RdBu_r", vmin=-limit, vmax=limit
-    )
+    image = axes.tripcolor(triangulation, values[used], shading="gouraud", cmap="RdBu_r", vmin=-limit, vmax=limit)
     figure.colorbar(image, ax=axes, label=stress.replace("_", " "))
     axes.set(xlim=(0.0, radius), xlabel="r", ylabel="depth z", aspect="equal")
     axes.set_ylim(radius, min(0.0, float(z[used].min())))

@@ -74,9 +74,7 @@ def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float, order: int) -> A
     free = np.setdiff1d(np.arange(matrix.shape[0]), np.concatenate([inner, outer, axis]))
     ends = np.concatenate([inner, outer])
     coupling = matrix[free][:, ends].toarray()
-    condensed = matrix[ends][:, ends].toarray() - coupling.T @ splu(matrix[free][:, free].tocsc()).solve(
-        coupling
-    )
+    condensed = matrix[ends][:, ends].toarray() - coupling.T @ splu(matrix[free][:, free].tocsc()).solve(coupling)
     m = inner.size
     on_axis = np.isin(inner, axis)
     keep = ~on_axis
@@ -105,6 +103,4 @@ def _double(A: Array, B: Array, D: Array, factor: float) -> Array:
         factor *= factor
         if np.abs(update).max() <= COUPLING_TOLERANCE * np.abs(A).max():
             return A
-    raise NotConverged(
-        "the exterior shells did not converge by doubling; reduce the number of boundary elements"
-    )
+    raise NotConverged("the exterior shells did not converge by doubling; reduce the number of boundary elements")

@@ -126,9 +126,7 @@ def _disc_load(trace: Trace, pressure: Callable[[Array], Array]) -> Array:
     return load
 
 
-def gaussian_rungs(
-    spec: MeshSpec, name: str, exponents: Iterable[float], poisson: Iterable[float]
-) -> list[Rung]:
+def gaussian_rungs(spec: MeshSpec, name: str, exponents: Iterable[float], poisson: Iterable[float]) -> list[Rung]:
     """(c, h) Under p = exp(-r^2), against Eqs. 6-7 in closed form, on 0 <= r <= 4."""
     r = np.linspace(0.0, 4.0, 81)
     rows = []
@@ -184,9 +182,7 @@ def far_field_rungs(k: float = 0.4, nu: float = 0.25) -> list[Rung]:
         spec = MeshSpec(DEFAULT.edge_width, DEFAULT.surface_depth, extent, DEFAULT.density, DEFAULT.order)
         w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), nu, spec, lambda s: np.exp(-(s**2)))
         error = float(np.abs(w(r) - base(r)).max() / base(r)[0])
-        rows.append(
-            Rung("interior of another size", f"extent {extent:g} against 64, k = {k}", error, 2e-6, unknowns)
-        )
+        rows.append(Rung("interior of another size", f"extent {extent:g} against 64, k = {k}", error, 2e-6, unknowns))
     return rows
 
 
@@ -204,22 +200,16 @@ def limit_rungs(nu: float = 0.25) -> list[Rung]:
         w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), nu, DEFAULT, lambda s: np.exp(-(s**2)))
         unit[k] = float(np.abs(w(r) - exact).max() / exact[0])
     rate = abs(unit[2e-3] / unit[1e-3] - 2.0)
-    rows.append(
-        Rung("k -> 0 tends to the homogeneous solid, first order", "k = 2e-3, 1e-3", rate, 0.02, unknowns)
-    )
+    rows.append(Rung("k -> 0 tends to the homogeneous solid, first order", "k = 2e-3, 1e-3", rate, 0.02, unknowns))
     k = 0.4
     exact = gaussian_displacement(r, k, nu)
     for z_s in (1e-2, 1e-3):
         depth = min(DEFAULT.surface_depth, 0.2 * z_s)
         spec = MeshSpec(DEFAULT.edge_width, depth, DEFAULT.extent, DEFAULT.density, DEFAULT.order)
-        w, unknowns = surface_displacement(
-            OffsetPowerLaw(1.0, 1.0, k, z_s), nu, spec, lambda s: np.exp(-(s**2))
-        )
+        w, unknowns = surface_displacement(OffsetPowerLaw(1.0, 1.0, k, z_s), nu, spec, lambda s: np.exp(-(s**2)))
         unit[z_s] = float(np.abs(w(r) - exact).max() / exact[0])
     rate = abs(np.log10(unit[1e-2] / unit[1e-3]) - (1.0 - k))
-    rows.append(
-        Rung("z_s -> 0 tends to the power law as z_s^(1-k)", "z_s = 1e-2, 1e-3", float(rate), 0.1, unknowns)
-    )
+    rows.append(Rung("z_s -> 0 tends to the power law as z_s^(1-k)", "z_s = 1e-2, 1e-3", float(rate), 0.1, unknowns))
     return rows
 
 

@@ -76,9 +76,7 @@ class LinearResult:
 
 def factorise(matrix: Any) -> SuperLU:
     """Factorise by SuperLU in its symmetric mode, ten times faster here than its default."""
-    return splu(
-        matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
-    )
+    return splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
 
 class ElasticPreconditioner:
@@ -119,9 +117,7 @@ class ElasticPreconditioner:
                 try:
                     factors = factorise(rows[:, inside])
                 except RuntimeError as error:
-                    raise NotConverged(
-                        f"a strip of the mesh is singular ({error}); check modulus and mesh"
-                    ) from error
+                    raise NotConverged(f"a strip of the mesh is singular ({error}); check modulus and mesh") from error
                 strips.append((inside, factors, rows))
         return strips
 
@@ -265,9 +261,7 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
         factors = factorise(A)
         x = factors.solve(b)
     except RuntimeError as error:
-        raise NotConverged(
-            f"the stiffness matrix is singular ({error}); check modulus, mesh and nu"
-        ) from error
+        raise NotConverged(f"the stiffness matrix is singular ({error}); check modulus, mesh and nu") from error
     seconds = time.perf_counter() - begin
     norm = float(np.linalg.norm(b))
     residual = float(np.linalg.norm(b - A @ x)) / norm if norm > 0 else 0.0
@@ -314,15 +308,11 @@ def solve_bordered(
     history: list[float] = []
     operator = LinearOperator(matrix.shape, apply, dtype=float)
     # Flexible GMRES preconditions from the right: its residual is the true one.
-    x, _ = pyamg.krylov.fgmres(
-        matrix, b, tol=0.5 * tolerance, maxiter=DIRECTIONS, M=operator, residuals=history
-    )
+    x, _ = pyamg.krylov.fgmres(matrix, b, tol=0.5 * tolerance, maxiter=DIRECTIONS, M=operator, residuals=history)
     count = len(history)
     residual = float(np.linalg.norm(b - matrix @ x)) / max(float(np.linalg.norm(b)), 1e-300)
     if not residual <= tolerance:
-        raise NotConverged(
-            f"GMRES reached a residual of {residual:.1e} in {count} steps, not {tolerance:.1e}"
-        )
+        raise NotConverged(f"GMRES reached a residual of {residual:.1e} in {count} steps, not {tolerance:.1e}")
     return x, count
 
 

@@ -39,9 +39,7 @@ class Grid:
             if nodes[0] != 0 or np.any(np.diff(nodes) <= 0):
                 raise ValueError(f"{name} nodes must rise strictly from 0: the mesh would be folded over")
         if not math.isclose(self.r[-1], self.z[-1], rel_tol=1e-12):
-            raise ValueError(
-                f"the mesh ends at r = {self.r[-1]} and z = {self.z[-1]}; the exterior needs a square"
-            )
+            raise ValueError(f"the mesh ends at r = {self.r[-1]} and z = {self.z[-1]}; the exterior needs a square")
 
     @property
     def extent(self) -> float:
@@ -106,9 +104,7 @@ def graded_grid(
         if not (math.isfinite(value) and value > 0):
             raise ValueError(f"{name} = {value} is outside (0, infinity): it is a length to resolve")
     if not 0 < edge < extent:
-        raise ValueError(
-            f"edge = {edge} is outside (0, extent = {extent}): the refined radius must lie in the mesh"
-        )
+        raise ValueError(f"edge = {edge} is outside (0, extent = {extent}): the refined radius must lie in the mesh")
     if apex_width is None:
         inside = edge - _sinh_nodes(edge_width, edge, density)[::-1]
     else:

@@ -45,9 +45,7 @@ class Modulus(Protocol):
 
 def _check_exponent(k: float) -> None:
     if not 0 <= k < 1:
-        raise ValueError(
-            f"gradient exponent k = {k} is outside [0, 1): at k = 1 the surface displacement is unbounded"
-        )
+        raise ValueError(f"gradient exponent k = {k} is outside [0, 1): at k = 1 the surface displacement is unbounded")
 
 
 def _check_positive(name: str, value: float) -> None:

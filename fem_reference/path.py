@@ -188,9 +188,7 @@ def edge_radius(point: Point) -> float:
     trace, peak = contact.compliance.trace, contact.law.peak_gap
     above = np.flatnonzero(contact.gap(y) > peak)
     if above.size == 0 or above[0] == 0:
-        raise NotConverged(
-            "contact is born on a spot smaller than the mesh resolves; take a smaller mesh size"
-        )
+        raise NotConverged("contact is born on a spot smaller than the mesh resolves; take a smaller mesh size")
 
     def excess(s: float) -> float:
         w = float(trace.evaluate(np.array([s]))[0] @ y[:-2])

@@ -43,9 +43,7 @@ class PowerPunch:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.n) and self.n >= 1):
-            raise ValueError(
-                f"shape index n = {self.n} is outside [1, infinity): a cusp has no bounded pressure"
-            )
+            raise ValueError(f"shape index n = {self.n} is outside [1, infinity): a cusp has no bounded pressure")
         if not (math.isfinite(self.Q) and self.Q > 0):
             raise ValueError(f"shape parameter Q = {self.Q} is outside (0, infinity)")
 
@@ -103,12 +101,8 @@ def radius_at_height(punch: Punch, height: float) -> float:
     # A shape may overflow far out: infinity is above any height.
     with np.errstate(over="ignore"):
         if not float(punch.height(np.array(10.0**high))) > height:
-            raise ValueError(
-                f"the punch never reaches the height {height}: its shape must rise without bound"
-            )
+            raise ValueError(f"the punch never reaches the height {height}: its shape must rise without bound")
         for _ in range(120):
             middle = 0.5 * (low + high)
-            low, high = (
-                (low, middle) if float(punch.height(np.array(10.0**middle))) > height else (middle, high)
-            )
+            low, high = (low, middle) if float(punch.height(np.array(10.0**middle))) > height else (middle, high)
     return float(10.0 ** (0.5 * (low + high)))

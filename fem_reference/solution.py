@@ -94,9 +94,7 @@ class Solid:
     def __post_init__(self) -> None:
         _check_poisson(self.nu)
         if self.z_s < 0:
-            raise ValueError(
-                f"surface offset z_s = {self.z_s} is negative: the modulus would vanish inside the solid"
-            )
+            raise ValueError(f"surface offset z_s = {self.z_s} is negative: the modulus would vanish inside the solid")
         self.modulus  # noqa: B018  (validates the rest)
 
     @property
@@ -219,9 +217,7 @@ def solve(
     events = [problem.event(quantity, problem.at_density(spec, density), size) for density in level.densities]
     ratio = math.sqrt(level.densities[0] / level.densities[2])
     values = tuple(event.value for event in events)
-    outcome = three_meshes(
-        (values[0], values[1], values[2]), ratio, level.order, problem.scale(quantity, values[2])
-    )
+    outcome = three_meshes((values[0], values[1], values[2]), ratio, level.order, problem.scale(quantity, values[2]))
     last = events[-1].point
     return Solution(
         outcome.value,
@@ -305,9 +301,7 @@ def profile(
     y = point.state.y
     s = mesh.s if radii is None else np.asarray(radii, float) / y[-1]
     if s.min() < 0 or s.max() > mesh.extent:
-        raise ValueError(
-            f"radii up to {s.max() * y[-1]:.4g} leave the mesh, which ends at {mesh.extent * y[-1]:.4g}"
-        )
+        raise ValueError(f"radii up to {s.max() * y[-1]:.4g} leave the mesh, which ends at {mesh.extent * y[-1]:.4g}")
     w = mesh.evaluate(s) @ y[:-2]
     gap = -y[-2] + punch.height(s * y[-1]) + w
     return Profile(s * y[-1], gap, law.traction(gap), w)
@@ -335,17 +329,11 @@ class _Problem:
         return find_event(self.contact(spec, size), quantity)
 
     def at_density(self, spec: MeshSpec, density: float) -> MeshSpec:
-        return MeshSpec(
-            spec.edge_width, spec.surface_depth, spec.extent, density, spec.order, spec.apex_width
-        )
+        return MeshSpec(spec.edge_width, spec.surface_depth, spec.extent, density, spec.order, spec.apex_width)
 
     def scale(self, quantity: str, value: float) -> float:
         """Size of a quantity, for the floor of its uncertainty."""
-        return (
-            max(abs(value), self.law.z0)
-            if "force" not in quantity and "energy" not in quantity
-            else abs(value)
-        )
+        return max(abs(value), self.law.z0) if "force" not in quantity and "energy" not in quantity else abs(value)
 
     def spec(self, width: float, size: float, level: Accuracy) -> MeshSpec:
         """Mesh for an edge of that relative width; lengths are rounded so that similar cases share a mesh."""
@@ -399,6 +387,4 @@ class _Problem:
                     return spec, size
                 size = point.contact_radius
             spec = self.spec(min(needed.edge_width, spec.edge_width), size, level)
-        raise NotConverged(
-            "the width of the contact edge was not found; the edge is finer than the mesh can follow"
-        )
+        raise NotConverged("the width of the contact edge was not found; the edge is finer than the mesh can follow")

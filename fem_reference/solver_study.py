@@ -60,9 +60,7 @@ def _cases(
     return [SolverCase(MeshSpec(*shape, density, 4), k, nu) for density in densities for k, nu in pairs]
 
 
-QUICK_STUDY = _cases(_SMOOTH, (0.45,), ((0.0, 0.25), (0.8, 0.45))) + _cases(
-    _EDGE, (0.9,), ((0.0, 0.25), (0.8, 0.45))
-)
+QUICK_STUDY = _cases(_SMOOTH, (0.45,), ((0.0, 0.25), (0.8, 0.45))) + _cases(_EDGE, (0.9,), ((0.0, 0.25), (0.8, 0.45)))
 """Four systems of about 1e4 unknowns."""
 
 _CORNERS = ((0.0, 0.0), (0.4, 0.25), (0.8, 0.45))

@@ -54,9 +54,7 @@ class MeshSpec:
 
     def grid(self) -> Grid:
         """Return the grid with its edge at s = 1."""
-        return graded_grid(
-            1.0, self.edge_width, self.surface_depth, self.extent, self.density, self.apex_width
-        )
+        return graded_grid(1.0, self.edge_width, self.surface_depth, self.extent, self.density, self.apex_width)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -184,9 +182,7 @@ class FixedCompliance:
     def factor(self, c: float) -> float:
         """c, which must be the size of the mesh."""
         if abs(c / self.size - 1.0) > 1e-12:
-            raise ValueError(
-                f"this compliance holds at the size {self.size}, not {c}: the modulus is no power law"
-            )
+            raise ValueError(f"this compliance holds at the size {self.size}, not {c}: the modulus is no power law")
         return self.size
 
     def factor_slope(self, c: float) -> float:

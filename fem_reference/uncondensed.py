@@ -109,17 +109,13 @@ class FullContact:
 
     def __init__(self, modulus: PowerLaw, nu: float, punch: Punch, law: LennardJones, spec: MeshSpec) -> None:
         self.modulus, self.punch, self.law = modulus, punch, law
-        self.half_space: HalfSpace = assemble_half_space(
-            spec.grid(), PowerLaw(1.0, 1.0, modulus.k), nu, spec.order
-        )
+        self.half_space: HalfSpace = assemble_half_space(spec.grid(), PowerLaw(1.0, 1.0, modulus.k), nu, spec.order)
         self.cycle = ElasticPreconditioner(self.half_space)
         basis = self.half_space.basis
         mesh = basis.mesh
         x, w = np.polynomial.legendre.leggauss(2 * spec.order + 2)
         top = np.flatnonzero((mesh.p[1][mesh.facets] == 0).all(axis=0))
-        self.facets = FacetBasis(
-            mesh, basis.elem, facets=top, quadrature=((0.5 * (x + 1.0))[None, :], 0.5 * w)
-        )
+        self.facets = FacetBasis(mesh, basis.elem, facets=top, quadrature=((0.5 * (x + 1.0))[None, :], 0.5 * w))
         self.s: Array = np.asarray(self.facets.global_coordinates())[0]
         line = line_unknowns(basis, 1, 0.0)
         nodes = mesh.p[0][mesh.p[1] == 0]
@@ -145,9 +141,7 @@ class FullContact:
         ]
         tangent = _pressure_change.assemble(self.facets, change=change).tocoo()
         size = u.size
-        full = sparse.coo_array(
-            (tangent.data, (2 * tangent.row + 1, 2 * tangent.col + 1)), shape=(size, size)
-        ).tocsr()
+        full = sparse.coo_array((tangent.data, (2 * tangent.row + 1, 2 * tangent.col + 1)), shape=(size, size)).tocsr()
         free, D = self.half_space.free, sparse.diags_array(self.cycle.scale)
         reduced = []
         for vector in vectors:

@@ -109,9 +109,7 @@ def _superfluous(state: State, tolerance: float) -> NDArray[np.intp]:
     pressure = mesh.evaluate(state.pressure, nodes.ravel()).reshape(nodes.shape)
     effect = _last_modes(pressure @ rule.to_modes.T) * _weights(state, starts, lengths)
     inner = mesh.breaks[1:-1]
-    removable = (
-        (effect < _MERGE_MARGIN * tolerance) & (inner != 1.0) & (starts + lengths <= _LARGEST_RATIO * starts)
-    )
+    removable = (effect < _MERGE_MARGIN * tolerance) & (inner != 1.0) & (starts + lengths <= _LARGEST_RATIO * starts)
     chosen: list[int] = []
     for i in np.flatnonzero(removable) + 1:
         if not chosen or i > chosen[-1] + 1:
@@ -122,9 +120,7 @@ def _superfluous(state: State, tolerance: float) -> NDArray[np.intp]:
 def on_mesh(state: State, mesh: PanelMesh) -> State:
     """The state interpolated to another mesh at the same scale: a guess, not an equilibrium."""
     disc = Discretisation(state.disc.problem, mesh, state.disc)
-    return State(
-        disc, state.scale, state.disc.mesh.transfer(state.gap, mesh), state.displacement, state.follows_edge
-    )
+    return State(disc, state.scale, state.disc.mesh.transfer(state.gap, mesh), state.displacement, state.follows_edge)
 
 
 def fit(state: State, control: Control, tolerance: float, coarsen: bool = False) -> State:
@@ -157,6 +153,4 @@ def fit(state: State, control: Control, tolerance: float, coarsen: bool = False)
         mesh = PanelMesh(np.sort(np.concatenate([np.delete(breaks, drop), middles])), state.disc.mesh.order)
         state = newton(on_mesh(state, mesh), control, step_tolerance)
         iterations += state.iterations
-    raise NotConverged(
-        f"the mesh was refined {_MAX_ROUNDS} times without resolving the pressure to {tolerance:.0e}"
-    )
+    raise NotConverged(f"the mesh was refined {_MAX_ROUNDS} times without resolving the pressure to {tolerance:.0e}")

@@ -121,9 +121,7 @@ class Analysis:
                 return points
             if len(points) > _MAX_POINTS:
                 break
-        raise NotConverged(
-            f"the path of {self.problem} has not reached a compressive load in {_MAX_POINTS} steps"
-        )
+        raise NotConverged(f"the path of {self.problem} has not reached a compressive load in {_MAX_POINTS} steps")
 
     @cached_property
     def _folds(self) -> tuple[Bracket, Bracket]:

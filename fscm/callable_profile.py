@@ -79,9 +79,7 @@ class CallableProfile:
     derivative: Callable[[Array], Array] | None = None
 
     def __post_init__(self) -> None:
-        growth = real_number(
-            "growth", self.growth, low=0.0, high=math.inf, reason="the punch must grow at infinity"
-        )
+        growth = real_number("growth", self.growth, low=0.0, high=math.inf, reason="the punch must grow at infinity")
         object.__setattr__(self, "growth", growth)
         tip = float(self.height(np.zeros(1))[0])
         if not abs(tip) <= _TIP_TOLERANCE:
@@ -165,7 +163,5 @@ def _evaluate(function: Callable[[Array], Array], r: Array, name: str) -> Array:
     except (TypeError, ValueError) as error:
         raise ValueError(f"{name} does not accept a numpy array of radii: {error}") from error
     if out.shape != r.shape or not np.all(np.isfinite(out)):
-        raise ValueError(
-            f"{name} of radii of shape {r.shape} is not an array of finite numbers of that shape"
-        )
+        raise ValueError(f"{name} of radii of shape {r.shape} is not an array of finite numbers of that shape")
     return out

@@ -137,9 +137,7 @@ def _follow_edge(state: State) -> State:
     new = rescaled_mesh(problem, mesh, state.scale, state.scale * ratio)
     known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
     gap = mesh.evaluate(state.gap, known)
-    gap += problem.profile.height(state.scale * ratio * new.nodes) - problem.profile.height(
-        state.scale * known
-    )
+    gap += problem.profile.height(state.scale * ratio * new.nodes) - problem.profile.height(state.scale * known)
     return State(Discretisation(problem, new), state.scale * ratio, gap, state.displacement, True)
 
 

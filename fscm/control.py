@@ -76,9 +76,7 @@ def equilibria(problem: Problem, control: str, value: float) -> list[Equilibrium
     if not math.isfinite(value):
         raise ValueError(f"value = {value} of the {control} is not finite")
     if control == "central_gap" and value <= problem.law.singular_gap:
-        raise ValueError(
-            f"central gap = {value} is not above {problem.law.singular_gap}, where the law is singular"
-        )
+        raise ValueError(f"central gap = {value} is not above {problem.law.singular_gap}, where the law is singular")
     functional = _FUNCTIONALS[control]
 
     def condition(state: State, rates: object) -> float:

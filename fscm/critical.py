@@ -51,9 +51,7 @@ def _coarse_root(problem: Problem) -> State:
     while low == high or rate(low) < 0.0:
         low, high = low - math.log(_WIDEN), low
         if low < -math.log(_WIDEST):
-            raise NoSuchEvent(
-                f"jumps persist down to mu = {1 / _WIDEST:.3g} at n = {problem.n}, k = {problem.k}"
-            )
+            raise NoSuchEvent(f"jumps persist down to mu = {1 / _WIDEST:.3g} at n = {problem.n}, k = {problem.k}")
     root = brentq(rate, low, high, xtol=_COARSE_ROOT_TOLERANCE)
     return states[min(states, key=lambda x: abs(x - root))]
 

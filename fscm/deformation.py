@@ -64,10 +64,7 @@ class _Pieces:
     @staticmethod
     def join(parts: list[_Pieces]) -> _Pieces:
         return _Pieces(
-            *(
-                np.concatenate([getattr(p, f) for p in parts])
-                for f in ("pair", "sign", "near", "length", "xi")
-            )
+            *(np.concatenate([getattr(p, f) for p in parts]) for f in ("pair", "sign", "near", "length", "xi"))
         )
 
 
@@ -155,9 +152,7 @@ def _near_rows(
     return moments @ gauss_rule(order).to_modes
 
 
-def response_block(
-    kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], sources: NDArray[np.intp]
-) -> Array:
+def response_block(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], sources: NDArray[np.intp]) -> Array:
     """Block of the response matrix between two sets of panels.
 
     Parameters
@@ -210,9 +205,7 @@ def response_block(
     return block.transpose(0, 2, 1, 3).reshape(len(targets) * q, len(sources) * q)
 
 
-def response_matrix(
-    kernel: Kernel, mesh: PanelMesh, previous: tuple[PanelMesh, Array] | None = None
-) -> Array:
+def response_matrix(kernel: Kernel, mesh: PanelMesh, previous: tuple[PanelMesh, Array] | None = None) -> Array:
     """The whole matrix W, shape (m q, m q); blocks between panels that `previous` has too are reused."""
     count, q = len(mesh.lengths), mesh.order
     everything = np.arange(count)
@@ -223,9 +216,9 @@ def response_matrix(
     match = np.array([where.get(edges, -1) for edges in zip(mesh.starts, mesh.breaks[1:], strict=True)])
     kept, fresh = np.flatnonzero(match >= 0), np.flatnonzero(match < 0)
     W = np.empty((count, q, count, q))
-    W[np.ix_(kept, np.arange(q), kept, np.arange(q))] = old_matrix.reshape(
-        len(old.lengths), q, len(old.lengths), q
-    )[np.ix_(match[kept], np.arange(q), match[kept], np.arange(q))]
+    W[np.ix_(kept, np.arange(q), kept, np.arange(q))] = old_matrix.reshape(len(old.lengths), q, len(old.lengths), q)[
+        np.ix_(match[kept], np.arange(q), match[kept], np.arange(q))
+    ]
     if fresh.size:
         W[fresh] = response_block(kernel, mesh, fresh, everything).reshape(len(fresh), q, count, q)
         if kept.size:

@@ -67,11 +67,7 @@ class Discretisation:
     def __init__(self, problem: Problem, mesh: PanelMesh, previous: Discretisation | None = None) -> None:
         self.problem, self.mesh = problem, mesh
         kernel = kernel_of(problem.k)
-        known = (
-            (previous.mesh, previous.matrix)
-            if previous is not None and previous.problem.k == problem.k
-            else None
-        )
+        known = (previous.mesh, previous.matrix) if previous is not None and previous.problem.k == problem.k else None
         self.matrix: Array = response_matrix(kernel, mesh, known)
         self.axis = axis_row(kernel, mesh)
         edge = int(np.searchsorted(mesh.breaks, 1.0))
@@ -355,14 +351,10 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) ->
         dH = step[:N]
         clearance = state.gap - floor
         with np.errstate(divide="ignore", invalid="ignore"):
-            limit = np.where(
-                dH < 0.0, (clearance - np.maximum(_SHRINK * clearance, _LOWEST * -floor)) / -dH, np.inf
-            )
+            limit = np.where(dH < 0.0, (clearance - np.maximum(_SHRINK * clearance, _LOWEST * -floor)) / -dH, np.inf)
         damping = float(min(1.0, max(limit.min(), 0.0), 0.7 / max(abs(step[N + 1]), 1e-300)))
         if damping < 1e-3:
-            raise NotConverged(
-                "Newton is driven into the singular gap of the surface law; take a smaller step"
-            )
+            raise NotConverged("Newton is driven into the singular gap of the surface law; take a smaller step")
         state = State(
             state.disc,
             state.scale * math.exp(damping * step[N + 1]),

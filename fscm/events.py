@@ -92,9 +92,7 @@ class _Between:
 def locate(a: Point, b: Point, condition: Condition) -> State:
     """Root of the condition between two neighbouring points, on their coarse mesh."""
     between = _Between(a, b)
-    root = brentq(
-        lambda x: condition(*between(x)), between.low, between.high, xtol=_COARSE_LEAD_TOLERANCE, rtol=1e-12
-    )
+    root = brentq(lambda x: condition(*between(x)), between.low, between.high, xtol=_COARSE_LEAD_TOLERANCE, rtol=1e-12)
     return between(root)[0]
 
 

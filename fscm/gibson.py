@@ -73,13 +73,9 @@ class GibsonSolid:
 
     def __init__(self, problem: Problem) -> None:
         if problem.k != 1.0:
-            raise ValueError(
-                f"gradient exponent k = {problem.k:g} is outside [1, 1]: this is the Gibson limit"
-            )
+            raise ValueError(f"gradient exponent k = {problem.k:g} is outside [1, 1]: this is the Gibson limit")
         if not isinstance(problem.profile, PowerLaw):
-            raise ValueError(
-                f"profile = {problem.profile!r} is not a power law, the only punch of the Gibson limit"
-            )
+            raise ValueError(f"profile = {problem.profile!r} is not a power law, the only punch of the Gibson limit")
         self.problem = problem
         self._local = LocalEquilibrium(problem.law, problem.compliance)
 
@@ -255,15 +251,11 @@ class GibsonSolid:
     def _jump_out_displacement(self) -> Number:
         _, front = self._hysteretic()
         # Two energies, each rounded, are equal to within their slope, the jump of the traction.
-        return -front.level, _ROUNDING * _EPS / abs(
-            self._local.traction(front.near) - self._local.traction(front.far)
-        )
+        return -front.level, _ROUNDING * _EPS / abs(self._local.traction(front.near) - self._local.traction(front.far))
 
     def _jump_out_gap(self) -> Number:
         self._hysteretic()
-        raise NoSuchEvent(
-            "jump_out_gap has no value at k = 1: the germ of contact at the jump shrinks to the axis"
-        )
+        raise NoSuchEvent("jump_out_gap has no value at k = 1: the germ of contact at the jump shrinks to the axis")
 
     def _hysteresis_energy(self) -> Number:
         """Energy of the open profile at A less that of the contact profile there, integral of r^2 [p] du.

@@ -109,9 +109,7 @@ class Kernel:
 
     def __init__(self, k: float) -> None:
         if not 0.0 <= k < 1.0:
-            raise ValueError(
-                f"gradient exponent k = {k} is outside [0, 1): the ring response diverges at k = 1"
-            )
+            raise ValueError(f"gradient exponent k = {k} is outside [0, 1): the ring response diverges at k = 1")
         self.k = 0.0 if k < _SMALLEST_K else float(k)
         with mpmath.workdps(_DIGITS):
             q = mpmath.mpf(self.k) if self.k > 0 else mpmath.mpf(_ZERO_K)
@@ -120,9 +118,7 @@ class Kernel:
             gamma: Callable[[mpmath.mpf], mpmath.mpf] = mpmath.gamma
             terms = _SERIES_TERMS
             # F(a, 1/2; 1; 1 - y) = A + y^{-k/2} B
-            A = _scaled(
-                _gauss_series(a, half, 1 + q / 2, terms), gamma(-q / 2) / (gamma(1 - a) * gamma(half))
-            )
+            A = _scaled(_gauss_series(a, half, 1 + q / 2, terms), gamma(-q / 2) / (gamma(1 - a) * gamma(half)))
             B = _scaled(_gauss_series(1 - a, half, 1 - q / 2, terms), gamma(q / 2) / (gamma(a) * gamma(half)))
             self._near_D = _polynomial([x + y for x, y in zip(A, B, strict=True)], _NEAR_LIMIT)
             self._near_C = _polynomial([x * q / 2 for x in B], _NEAR_LIMIT)
@@ -198,12 +194,8 @@ class _Primitive:
         gamma = mpmath.gamma
         terms = _SERIES_TERMS
         # F(a, b; c; 1 - y) = A(y) + y^{1-k} B(y); y^{m+1} of A and y^m of B are paired so that 1/k cancels.
-        A = _scaled(
-            _gauss_series(a, b, k, terms + 1), gamma(c) * gamma(1 - k) / (gamma(c - a) * gamma(c - b))
-        )
-        B = _scaled(
-            _gauss_series(c - a, c - b, 2 - k, terms), gamma(c) * gamma(k - 1) / (gamma(a) * gamma(b))
-        )
+        A = _scaled(_gauss_series(a, b, k, terms + 1), gamma(c) * gamma(1 - k) / (gamma(c - a) * gamma(c - b)))
+        B = _scaled(_gauss_series(c - a, c - b, 2 - k, terms), gamma(c) * gamma(k - 1) / (gamma(a) * gamma(b)))
         self._k = float(k) if k >= _SMALLEST_K else 0.0
         self._at_one = float(A[0])
         self._at_one_minus_one = float(A[0] - 1)
@@ -223,9 +215,7 @@ class _Primitive:
         start = self._at_one_minus_one if minus_one else self._at_one
         out[near] = start + yn * (_horner(self._D, u) + _horner(self._C, u) * L)
         x2 = x[~near] ** 2
-        out[~near] = x2 * _horner(self._taylor_minus_one, x2 * (2.0 / _NEAR_LIMIT) - 1.0) + (
-            0.0 if minus_one else 1.0
-        )
+        out[~near] = x2 * _horner(self._taylor_minus_one, x2 * (2.0 / _NEAR_LIMIT) - 1.0) + (0.0 if minus_one else 1.0)
         return out
 
 

@@ -63,7 +63,12 @@ class SurfaceProfiles:
     load: float
 
 
-def trace(problem: Problem, max_load: float | None = None, start_gap: float | None = None) -> EquilibriumPath:
+def trace(
+    problem: Problem,
+    max_load: float | None = None,
+    start_gap: float | None = None,
+    longest_step: float = _LONGEST_STEP,
+) -> EquilibriumPath:
     """Follow the whole equilibrium path.
 
     Parameters
@@ -74,6 +79,9 @@ def trace(problem: Problem, max_load: float | None = None, start_gap: float | No
         The path ends in contact at this load; by default where the compression equals the largest tension.
     start_gap : float, optional
         Central gap at the far end; by default 10 + 5 mu.
+    longest_step : float
+        Bound on the step from point to point; 0.05 gives three times the points of the default, for
+        interpolation.
 
     Raises
     ------
@@ -89,7 +97,7 @@ def trace(problem: Problem, max_load: float | None = None, start_gap: float | No
     points: list[Point] = []
     deepest = 0.0
     start = 10.0 + 5.0 * problem.mu if start_gap is None else start_gap
-    for point in equilibrium_path(problem, _ORDER, _TOLERANCE, _LONGEST_STEP, start):
+    for point in equilibrium_path(problem, _ORDER, _TOLERANCE, longest_step, start):
         points.append(point)
         deepest = min(deepest, point.state.load)
         if point.state.follows_edge and point.state.load > (-deepest if max_load is None else max_load):
@@ -129,9 +137,7 @@ def _with_events(points: list[Point]) -> list[State]:
 
 def profiles_of(state: State) -> SurfaceProfiles:
     """The surface at a state, at the nodes of its mesh."""
-    return SurfaceProfiles(
-        state.radius, state.gap, state.pressure, state.deformation, state.displacement, state.load
-    )
+    return SurfaceProfiles(state.radius, state.gap, state.pressure, state.deformation, state.displacement, state.load)
 
 
 def profiles(problem: Problem, event: str = "pull_off") -> SurfaceProfiles:

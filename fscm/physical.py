@@ -82,18 +82,12 @@ class PhysicalProblem:
             value = getattr(self, field.name)
             if field.name == "k":
                 reason = "E = E0 (z/c0)^k has no finite surface response there"
-                value = real_number(
-                    "k", value, low=0.0, high=1.0, closed_low=True, closed_high=True, reason=reason
-                )
+                value = real_number("k", value, low=0.0, high=1.0, closed_low=True, closed_high=True, reason=reason)
             elif field.name == "nu":
                 reason = "the solid is elastic and compressible, or k = 1 and nu = 0.5"
-                value = real_number(
-                    "nu", value, low=0.0, high=0.5, closed_low=True, closed_high=True, reason=reason
-                )
+                value = real_number("nu", value, low=0.0, high=0.5, closed_low=True, closed_high=True, reason=reason)
             else:
-                value = real_number(
-                    field.name, value, low=0.0, high=math.inf, reason="it is a positive quantity"
-                )
+                value = real_number(field.name, value, low=0.0, high=math.inf, reason="it is a positive quantity")
             object.__setattr__(self, field.name, value)
         if self.k == 1.0 and self.nu != 0.5:
             raise ValueError(

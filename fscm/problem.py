@@ -78,9 +78,7 @@ class Problem:
         profile = PowerLaw(n) if profile is None else profile
         law = LennardJones93() if law is None else law
         if not isinstance(profile, Profile):
-            raise ValueError(
-                f"profile = {profile!r} is not a punch shape: it needs growth, height(r) and slope(r)"
-            )
+            raise ValueError(f"profile = {profile!r} is not a punch shape: it needs growth, height(r) and slope(r)")
         if not isinstance(law, SurfaceLaw):
             raise ValueError(
                 f"law = {law!r} is not a surface law: it needs traction, slope, curvature and energy "

@@ -62,9 +62,7 @@ class PowerLaw:
     n: float
 
     def __post_init__(self) -> None:
-        n = real_number(
-            "shape index n", self.n, low=0.0, high=math.inf, reason="f = r^n / n must grow with r"
-        )
+        n = real_number("shape index n", self.n, low=0.0, high=math.inf, reason="f = r^n / n must grow with r")
         object.__setattr__(self, "n", n)
 
     @property
@@ -159,8 +157,7 @@ class PowerSum:
     def __post_init__(self) -> None:
         inf = math.inf
         c = tuple(
-            real_number("coefficient", x, low=-inf, high=inf, reason="heights are finite")
-            for x in self.coefficients
+            real_number("coefficient", x, low=-inf, high=inf, reason="heights are finite") for x in self.coefficients
         )
         e = tuple(real_number("exponent", x, low=0.0, high=inf, reason="f(0) = 0") for x in self.exponents)
         if not c or len(c) != len(e) or len(set(e)) != len(e):
@@ -185,9 +182,7 @@ class PowerSum:
     def height(self, r: Array) -> Array:
         """f(r)."""
         r = np.asarray(r, float)
-        return sum(
-            (c * r**e for c, e in zip(self.coefficients, self.exponents, strict=True)), np.zeros_like(r)
-        )
+        return sum((c * r**e for c, e in zip(self.coefficients, self.exponents, strict=True)), np.zeros_like(r))
 
     def slope(self, r: Array) -> Array:
         """df/dr, infinite at r = 0 when an exponent is below 1."""

@@ -37,9 +37,7 @@ def response_factor(k: float, nu: float) -> float:
         # q = 1 and every factor is elementary; the gamma functions would leave the last digit to chance.
         return 1.0
     beta = gamma((3.0 + k + q) / 2.0) * gamma((3.0 + k - q) / 2.0) / gamma(3.0 + k)
-    front = (
-        2.0**k * (k + 2.0) / (k + 1.0) * gamma((1.0 + k) / 2.0) / (math.sqrt(math.pi) * gamma(1.0 + k / 2.0))
-    )
+    front = 2.0**k * (k + 2.0) / (k + 1.0) * gamma((1.0 + k) / 2.0) / (math.sqrt(math.pi) * gamma(1.0 + k / 2.0))
     return float(front * q * math.sin(q * math.pi / 2.0) * beta)
 
 

@@ -123,9 +123,7 @@ class StieltjesScheme:
         if problem.k >= 1.0:
             raise ValueError("gradient exponent k = 1 is the Gibson solid, whose model is fscm.gibson")
         if isinstance(segments, bool) or not isinstance(segments, int) or segments < 10:
-            raise ValueError(
-                f"segments = {segments!r} is not an integer >= 10: the contact needs some points"
-            )
+            raise ValueError(f"segments = {segments!r} is not an integer >= 10: the contact needs some points")
         reason = "the path leads from a wide gap, through contact, above the singularity of the law"
         singular = problem.law.singular_gap
         self.problem = problem
@@ -133,9 +131,7 @@ class StieltjesScheme:
         self.farthest_height = real_number(
             "farthest_height", farthest_height, low=0.0, high=inf, reason="the domain has a size"
         )
-        self.gap_step = real_number(
-            "gap_step", gap_step, low=0.0, high=inf, reason="the gap falls step by step"
-        )
+        self.gap_step = real_number("gap_step", gap_step, low=0.0, high=inf, reason="the gap falls step by step")
         self.last_gap = real_number("last_gap", last_gap, low=singular, high=inf, reason=reason)
         self.first_gap = real_number("first_gap", first_gap, low=self.last_gap, high=inf, reason=reason)
         self.last_load = real_number(
@@ -183,9 +179,7 @@ class StieltjesScheme:
         H = central_gap + self._height if start is None else start
         for iteration in range(1, _ITERATIONS + 1):
             p, matrix = self._linearised(central_gap, H)
-            residual = (
-                H - central_gap - self._height - self._front * (_psi_table(self.problem.k, self.segments) @ p)
-            )
+            residual = H - central_gap - self._height - self._front * (_psi_table(self.problem.k, self.segments) @ p)
             # A singular matrix or an overflow shows in the iterate, which is checked.
             new = H - lu_solve(lu_factor(matrix, check_finite=False), residual, check_finite=False)
             if not (np.all(np.isfinite(new)) and new.min() > self.problem.law.singular_gap):

@@ -99,8 +99,7 @@ def _between(
     low, high = sorted(known)
     if measure(a) * measure(b) > 0.0:
         raise NotConverged(
-            f"between the central gaps {low:g} and {high:g} the path turns more than once: "
-            "use a smaller gap_step"
+            f"between the central gaps {low:g} and {high:g} the path turns more than once: use a smaller gap_step"
         )
     return at(float(brentq(lambda gap: measure(at(gap)), low, high, xtol=_EVENT_TOLERANCE, rtol=1e-15)))
 

@@ -91,9 +91,7 @@ class TabulatedLaw:
         equilibrium = next(float(x) for x in spline.roots(extrapolate=False) if gap[0] < x < peak)
         adhesion = float(_tail_derivative(gap[-1], tail, -1) - spline.integrate(equilibrium, gap[-1]))
         if not adhesion > 0.0:
-            raise ValueError(
-                f"the work of adhesion of the data is {adhesion:g}, outside (0, inf): no net attraction"
-            )
+            raise ValueError(f"the work of adhesion of the data is {adhesion:g}, outside (0, inf): no net attraction")
         normalised = PPoly(spline.c / adhesion, spline.x - equilibrium)
         values = {
             "gaps": tuple(gap.tolist()),
@@ -146,9 +144,7 @@ class TabulatedLaw:
         first, last = self._spline.x[0], self._spline.x[-1]
         inside = np.clip(H, first, last)
         beyond = -_tail_derivative(np.maximum(H, last), self._tail, -1)
-        below = _wall_derivative(first, self._wall, -1) - _wall_derivative(
-            np.minimum(H, first), self._wall, -1
-        )
+        below = _wall_derivative(first, self._wall, -1) - _wall_derivative(np.minimum(H, first), self._wall, -1)
         return np.asarray(self._integral(last) - self._integral(inside) + beyond + below)
 
     def _joined(self, H: Array, order: int) -> Array:
@@ -207,13 +203,9 @@ def _checked_points(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[
         raise ValueError(f"row {row} of the table, ({gap[row]}, {p[row]}), is not finite")
     if not np.all(np.diff(gap) > 0.0):
         row = int(np.argmax(np.diff(gap) <= 0.0)) + 1
-        raise ValueError(
-            f"gap {gap[row]:g} in row {row} is outside ({gap[row - 1]:g}, inf): gaps have to increase"
-        )
+        raise ValueError(f"gap {gap[row]:g} in row {row} is outside ({gap[row - 1]:g}, inf): gaps have to increase")
     if p[0] <= 0.0:
-        raise ValueError(
-            f"the first traction {p[0]:g} is outside (0, inf): the data have to reach the repulsive wall"
-        )
+        raise ValueError(f"the first traction {p[0]:g} is outside (0, inf): the data have to reach the repulsive wall")
     if p[-1] > 0.0:
         raise ValueError(f"the last traction {p[-1]:g} is outside (-inf, 0]: the tail of a law attracts")
     least = int(np.argmin(p))
@@ -224,9 +216,7 @@ def _checked_points(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[
         )
     crossings = int(np.sum(np.diff(np.sign(p[p != 0.0])) != 0))
     if crossings != 1:
-        raise ValueError(
-            f"the traction changes sign {crossings} times: a surface law has one equilibrium gap"
-        )
+        raise ValueError(f"the traction changes sign {crossings} times: a surface law has one equilibrium gap")
     return gap, p
 
 
@@ -267,9 +257,7 @@ def _fitted_tail(gap: Array, p: Array, wall: float, exponent: float | None) -> t
     else:
         m = exponent
         if not steepness > 0.0:
-            raise ValueError(
-                f"the tension grows at the end of the data, gap {gap[-1]:g}: there is no tail to fit"
-            )
+            raise ValueError(f"the tension grows at the end of the data, gap {gap[-1]:g}: there is no tail to fit")
         t = float(gap[-1] - y[-1] / steepness)
     return float(tension[-1] * (gap[-1] - t) ** m), m, t
 

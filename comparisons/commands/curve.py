@@ -20,9 +20,7 @@ __all__ = ["add", "call"]
 
 def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser(
-        "curve", help="force-displacement curves as CSV and as a plot", description=__doc__
-    )
+    parser = parsers.add_parser("curve", help="force-displacement curves as CSV and as a plot", description=__doc__)
     parser.add_argument(
         "--model",
         metavar="NAME",
@@ -32,9 +30,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="see: fscm-bench list models",
     )
     add_case(parser)
-    parser.add_argument(
-        "--csv", metavar="FILE", type=Path, help="write the points here; by default to stdout"
-    )
+    parser.add_argument("--csv", metavar="FILE", type=Path, help="write the points here; by default to stdout")
     parser.add_argument("--plot", metavar="FILE", type=Path, help="draw the curves here (.png, .pdf or .svg)")
     parser.set_defaults(call=call)
 
@@ -79,8 +75,4 @@ def _points(curves: dict[str, Curve]) -> pd.DataFrame:
         pd.DataFrame({"model": name, "displacement": curve.displacement, "load": curve.load, **curve.columns})
         for name, curve in curves.items()
     ]
-    return (
-        pd.concat(tables, ignore_index=True)
-        if tables
-        else pd.DataFrame(columns=["model", "displacement", "load"])
-    )
+    return pd.concat(tables, ignore_index=True) if tables else pd.DataFrame(columns=["model", "displacement", "load"])

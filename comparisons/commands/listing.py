@@ -10,6 +10,7 @@ import pandas as pd
 from comparisons.cases import TIERS, grids
 from comparisons.commands.options import OK, output
 from comparisons.foreign.loading import installed
+from comparisons.gates import gates_text, load_gates
 from comparisons.models import MODELS, create
 from comparisons.progress import log
 from comparisons.quantities import QUANTITIES
@@ -20,9 +21,7 @@ __all__ = ["add", "call"]
 
 def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser(
-        "list", help="the models, quantities, cases or gates there are", description=__doc__
-    )
+    parser = parsers.add_parser("list", help="the models, quantities, cases or gates there are", description=__doc__)
     parser.add_argument("what", choices=_TABLES)
     parser.set_defaults(call=call)
 
@@ -41,9 +40,7 @@ def _models() -> pd.DataFrame:
     columns = ("name", "version", "domain", "citation")
     ours = pd.DataFrame([[getattr(create(name), column) for column in columns] for name in MODELS])
     # What an installed package says of its model is in its code, which is not run for a list.
-    theirs = pd.DataFrame(
-        [[name, version, f"installed by {package}", ""] for name, package, version in installed()]
-    )
+    theirs = pd.DataFrame([[name, version, f"installed by {package}", ""] for name, package, version in installed()])
     return pd.concat([ours, theirs], ignore_index=True).set_axis(list(columns), axis="columns")
 
 
@@ -67,7 +64,19 @@ def _cases() -> pd.DataFrame:
 
 
 def _gates() -> pd.DataFrame:
-    return pd.DataFrame()
+    return pd.DataFrame(
+        {
+            "id": gate.id,
+            "tier": gate.tier,
+            "requirement": gate.requirement,
+            "candidate": gate.candidate,
+            "reference": gate.reference,
+            "metric": gate.metric,
+            "limits": f"{gate.lower:g} to {gate.upper:g}",
+            "basis": gate.basis,
+        }
+        for gate in load_gates(gates_text())
+    )
 
 
 _TABLES = {"models": _models, "quantities": _quantities, "cases": _cases, "gates": _gates}

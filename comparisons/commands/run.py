@@ -1,4 +1,4 @@
-"""``fscm-bench run``: compute the standing cases and every model's error; write tables and a figure."""
+"""``fscm-bench run``: compute the standing cases, judge them, and write verdicts, tables and a figure."""
 
 from __future__ import annotations
 
@@ -6,26 +6,38 @@ import argparse
 import os
 import sys
 import time
+from collections import Counter
 from concurrent.futures import BrokenExecutor
 from contextlib import closing
 from datetime import UTC, datetime
 from hashlib import sha256
-from importlib.resources import files
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 from rich.table import Table
 
-from comparisons.cases import TIERS, grids
-from comparisons.commands.options import FAILED, OK, output
+from comparisons.cases import TIERS, VERIFICATION, Grid, asked_of, cases_text, grids
+from comparisons.commands.judge import STATUS, judge_and_write, print_verdicts
+from comparisons.commands.options import FAILED, output
 from comparisons.figures import kappa as kappa_figure
 from comparisons.figures.style import save
+from comparisons.gates import gates_text, load_gates, of_tier
 from comparisons.models import identify
 from comparisons.progress import counting, log
 from comparisons.provenance import code_digest, environment
+from comparisons.record import write_record
 from comparisons.run import Task, compute, plan
-from comparisons.store import Journal, Row, frame, prepare_folder, write_json, write_results, write_table
+from comparisons.shapes import SHAPES
+from comparisons.store import (
+    Journal,
+    Row,
+    curve_frame,
+    frame,
+    prepare_folder,
+    write_curves,
+    write_results,
+    write_table,
+)
 from comparisons.tables import (
     beside_published,
     by_case,
@@ -35,18 +47,15 @@ from comparisons.tables import (
     rich_table,
     statuses,
 )
+from comparisons.verdict import roll_up
 
 __all__ = ["add", "call"]
 
 
 def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser(
-        "run", help="compute the standing cases and the models' errors", description=__doc__
-    )
-    parser.add_argument(
-        "--tier", choices=TIERS, default=TIERS[0], help="how much to compute (default: %(default)s)"
-    )
+    parser = parsers.add_parser("run", help="compute the standing cases and judge them", description=__doc__)
+    parser.add_argument("--tier", choices=TIERS, default=TIERS[0], help="how much to compute (default: %(default)s)")
     parser.add_argument(
         "--model",
         metavar="SPEC",
@@ -54,9 +63,8 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         action="extend",
         help="compare these models instead of those each grid names",
     )
-    parser.add_argument(
-        "--jobs", metavar="N", type=int, default=_cores(), help="processes (default: one a core)"
-    )
+    parser.add_argument("--gates", metavar="FILE", type=Path, help="judge by these gates instead of the standing ones")
+    parser.add_argument("--jobs", metavar="N", type=int, default=_cores(), help="processes (default: one a core)")
     parser.add_argument(
         "--out",
         metavar="DIR",
@@ -73,17 +81,16 @@ def _cores() -> int:
 def call(args: argparse.Namespace) -> int:
     """Compute what is missing, write and print; return the exit status."""
     if args.jobs < 1:
-        raise ValueError(
-            f"--jobs {args.jobs} is outside 1, 2, ...: the computations need at least one process"
-        )
-    chosen = grids(args.tier)
+        raise ValueError(f"--jobs {args.jobs} is outside 1, 2, ...: the computations need at least one process")
     # Before anything is computed or written, every model that was asked for has been opened.
     names, outside = identify(args.model or [])
-    tasks = plan(chosen, names, outside)
+    given = None if args.model is None else names
+    rules = gates_text(args.gates)
+    gates = of_tier(load_gates(rules, names), args.tier)
     started = datetime.now(UTC)
-    folder = prepare_folder(
-        args.out or Path("results", "runs", started.astimezone().strftime("%Y-%m-%dT%H-%M-%S"))
-    )
+    folder = prepare_folder(args.out or Path("results", "runs", started.astimezone().strftime("%Y-%m-%dT%H-%M-%S")))
+    chosen = asked_of(grids(args.tier), given)
+    tasks = plan(chosen, given, outside)
     journal = Journal(folder / "journal.jsonl", code_digest())
     resumed = len(journal.rows)
     clock = time.perf_counter()
@@ -95,30 +102,54 @@ def call(args: argparse.Namespace) -> int:
     except BrokenExecutor:
         log(f"a worker process died (out of memory?); {_safe(journal, folder)}")
         return FAILED
-    table = frame(rows)
-    kappa = pd.concat(
-        [relative_error(table, name) for name in sorted({grid.reference for grid in chosen})],
-        ignore_index=True,
-    )
+    elapsed = time.perf_counter() - clock
+    table = frame(row for row in rows if row.quantity not in SHAPES)
+    curves = curve_frame(row for row in rows if row.quantity in SHAPES)
+    kappa = _kappa(table, chosen, given)
     maxima = largest(kappa)
-    _write(folder, table, kappa, maxima)
-    write_json(
+    _write(folder, table, curves, kappa, maxima)
+    judged = judge_and_write(folder, gates, chosen, table, curves, given)
+    verdict = roll_up(judged["verdict"])
+    write_record(
         {
-            "format": 1,
-            "arguments": {"tier": args.tier, "model": args.model, "jobs": args.jobs, "out": str(folder)},
+            "format": 2,
+            "arguments": {
+                "tier": args.tier,
+                "model": args.model,
+                "gates": None if args.gates is None else str(args.gates),
+                "jobs": args.jobs,
+                "out": str(folder),
+            },
             "command": [Path(sys.argv[0]).name, *sys.argv[1:]],
             "started": started.isoformat(timespec="seconds"),
             "finished": datetime.now(UTC).isoformat(timespec="seconds"),
-            "seconds": {"run": time.perf_counter() - clock, **_seconds(table)},
-            "rows": {"all": len(rows), "resumed": resumed, **table["status"].value_counts().to_dict()},
-            "cases_sha256": sha256(files("comparisons").joinpath("cases.toml").read_bytes()).hexdigest(),
+            "seconds": {"run": elapsed, "by_model": _seconds(rows)},
+            "rows": {"all": len(rows), "resumed": resumed, **Counter(row.status for row in rows)},
+            "cases_sha256": sha256(cases_text().encode()).hexdigest(),
+            "gates_sha256": sha256(rules.encode()).hexdigest(),
+            "verdicts": {"all": str(verdict), **Counter(map(str, judged["verdict"]))},
             **environment(),
         },
         folder / "run.json",
     )
     _print(table, kappa, maxima)
+    print_verdicts(judged)
     log(f"results are in {folder}")
-    return FAILED if (table["status"] == "failed").any() else OK
+    return FAILED if any(row.status == "failed" for row in rows) else STATUS[verdict]
+
+
+def _kappa(table: pd.DataFrame, chosen: list[Grid], models: list[str] | None) -> pd.DataFrame:
+    """Return the relative errors over the grids that are not about the references themselves."""
+    shown = [grid for grid in chosen if VERIFICATION not in grid.tags]
+    tables = []
+    for reference in sorted({grid.reference for grid in shown}):
+        keys = {task.key for task in plan((g for g in shown if g.reference == reference), models)}
+        mine = [
+            (*row[:5], None if pd.isna(row[5]) else row[5]) in keys
+            for row in table[["model", "quantity", "n", "k", "mu", "nu"]].itertuples(index=False)
+        ]
+        tables.append(relative_error(table[mine], reference))
+    return pd.concat(tables, ignore_index=True)
 
 
 def _safe(journal: Journal, folder: Path) -> str:
@@ -149,13 +180,17 @@ def _complete(tasks: list[Task], journal: Journal, jobs: int) -> list[Row]:
     return [row for row in journal.rows if row.key in wanted and current(row)]
 
 
-def _seconds(table: pd.DataFrame) -> dict[str, Any]:
+def _seconds(rows: list[Row]) -> dict[str, float]:
     """Return the computing time summed over the processes, by model."""
-    return {"by_model": table.groupby("model")["seconds"].sum().to_dict()}
+    seconds: Counter[str] = Counter()
+    for row in rows:
+        seconds[row.model] += row.seconds  # type: ignore[assignment]
+    return dict(sorted(seconds.items()))
 
 
-def _write(folder: Path, table: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame) -> None:
+def _write(folder: Path, table: pd.DataFrame, curves: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame) -> None:
     write_results(table, folder / "results")
+    write_curves(curves, folder / "curves")
     write_table(kappa, folder / "kappa")
     write_table(maxima, folder / "largest_kappa")
     figure = kappa_figure.draw(kappa)

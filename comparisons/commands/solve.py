@@ -22,9 +22,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.add_argument("--model", metavar="NAME", required=True, help="see: fscm-bench list models")
     parser.add_argument("--quantity", metavar="NAME", required=True, help="see: fscm-bench list quantities")
     add_case(parser)
-    parser.add_argument(
-        "--nu", type=number, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one"
-    )
+    parser.add_argument("--nu", type=number, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one")
     parser.add_argument("--format", choices=_FORMATS, default="text")
     parser.set_defaults(call=call)
 
@@ -69,16 +67,13 @@ def _csv(row: Row) -> str:
 def _text(row: Row) -> str:
     quantity = QUANTITIES[row.quantity]
     lines = [
-        f"{row.model}: {row.quantity} at "
-        + ", ".join(f"{name} = {value:g}" for name, value in _case(row).items())
+        f"{row.model}: {row.quantity} at " + ", ".join(f"{name} = {value:g}" for name, value in _case(row).items())
     ]
     if row.value is None or row.u_num is None:
         lines.append(f"  {row.status}: {row.reason}")
     else:
         unit = "" if quantity.unit == "1" else f" {quantity.unit}"
-        lines.append(
-            f"  {quantity.symbol} = {with_uncertainty(row.value, row.u_num)}{unit}  ({row.seconds:.2g} s)"
-        )
+        lines.append(f"  {quantity.symbol} = {with_uncertainty(row.value, row.u_num)}{unit}  ({row.seconds:.2g} s)")
     return "\n".join(lines) + "\n"
 
 

@@ -49,10 +49,7 @@ def _look_at_adhesion(axes: Axes, curves: list[Curve]) -> None:
     if deepest >= 0.0:
         return
     axes.set_ylim(1.15 * deepest, -deepest)
-    within = [
-        curve.displacement[(abs(curve.load) > -_FAINT * deepest) & (curve.load < -deepest)]
-        for curve in curves
-    ]
+    within = [curve.displacement[(abs(curve.load) > -_FAINT * deepest) & (curve.load < -deepest)] for curve in curves]
     shown = np.concatenate(within)
     margin = 0.05 * float(np.ptp(shown))
     axes.set_xlim(shown.min() - margin, shown.max() + margin)

@@ -49,9 +49,7 @@ def styled() -> Any:
 def picture_path(path: Path) -> Path:
     """Return `path` if its suffix is one of `FORMATS`, else raise `ValueError`."""
     if path.suffix.lower() not in FORMATS:
-        raise ValueError(
-            f"the picture {path} must end in one of {', '.join(FORMATS)}, which chooses its format"
-        )
+        raise ValueError(f"the picture {path} must end in one of {', '.join(FORMATS)}, which chooses its format")
     return path
 
 

@@ -195,9 +195,7 @@ def _signs(answers: _Answers) -> Finding:
     check = "keeps the sign rules"
     for question, answer in answers.given.items():
         quantity = question[0]
-        if answer.value <= _ABOVE.get(quantity, -math.inf) or (
-            quantity == "hysteresis_energy" and answer.value < 0
-        ):
+        if answer.value <= _ABOVE.get(quantity, -math.inf) or (quantity == "hysteresis_energy" and answer.value < 0):
             return Finding(
                 check,
                 WRONG,
@@ -266,9 +264,7 @@ def _units(answers: _Answers) -> Finding:
 
 def _limits(answers: _Answers) -> Iterator[Finding]:
     if not answers.model.limits:
-        yield Finding(
-            "is right in the limits it claims", SKIPPED, f"it claims none (limits = {', '.join(CLAIMS)})"
-        )
+        yield Finding("is right in the limits it claims", SKIPPED, f"it claims none (limits = {', '.join(CLAIMS)})")
     for claim in answers.model.limits:
         check = f"is right in the limit {claim}"
         if claim not in CLAIMS:

@@ -149,8 +149,7 @@ def _submission(folder: Path) -> Submission:
         raise ValueError(f"{MANIFEST}: limits must be a list of names")
     if not _FILE.fullmatch(texts["predictions"]):
         raise ValueError(
-            f'{MANIFEST}: predictions = "{texts["predictions"]}" must be the name of a .csv file '
-            f"beside {MANIFEST}"
+            f'{MANIFEST}: predictions = "{texts["predictions"]}" must be the name of a .csv file beside {MANIFEST}'
         )
     covered = _covered(manifest["covers"])
     _check_units(manifest["units"], {key[0] for key in covered})
@@ -195,14 +194,10 @@ def _covered(tables: object) -> set[Key]:
     keys: set[Key] = set()
     for table in tables:
         if table.keys() != set(_COVERS) or not all(isinstance(table[name], list) for name in _COVERS):
-            raise ValueError(
-                f"{MANIFEST}: a [[covers]] table has the lists {', '.join(_COVERS)} and no other"
-            )
+            raise ValueError(f"{MANIFEST}: a [[covers]] table has the lists {', '.join(_COVERS)} and no other")
         for quantity in table["quantities"]:
             if quantity not in QUANTITIES:
-                raise ValueError(
-                    f"{MANIFEST}: unknown quantity {quantity!r}; known are {', '.join(QUANTITIES)}"
-                )
+                raise ValueError(f"{MANIFEST}: unknown quantity {quantity!r}; known are {', '.join(QUANTITIES)}")
         if math.prod(len(table[name]) for name in _COVERS) > _MOST_CASES:
             raise ValueError(f"{MANIFEST}: [[covers]] has more than {_MOST_CASES} cases")
         for quantity, n, k, mu in product(*(table[name] for name in _COVERS)):
@@ -237,9 +232,7 @@ def _rows(content: bytes, file: str, covered: set[Key]) -> dict[Key, tuple[float
             if len(cells) != len(_COLUMNS):
                 raise ValueError(f"{where}: {len(cells)} cells, not {len(_COLUMNS)}")
             quantity, *rest = cells
-            n, k, mu, value, u_num = (
-                _number(cell, name, where) for cell, name in zip(rest, _COLUMNS[1:], strict=True)
-            )
+            n, k, mu, value, u_num = (_number(cell, name, where) for cell, name in zip(rest, _COLUMNS[1:], strict=True))
             key = (quantity, n, k, mu)
             if key not in covered:
                 raise ValueError(f"{where}: {_label(key)} is not among the cases that [[covers]] promises")

@@ -105,23 +105,17 @@ def connect(door: dict[str, Any], spec: str, poisson_ratio: float | None = None)
         If the model cannot be loaded or does not say properly what it is.
     """
     if os.name != "posix":
-        raise ValueError(
-            "models that are code are run on Linux and macOS only; predictions as data everywhere"
-        )
+        raise ValueError("models that are code are run on Linux and macOS only; predictions as data everywhere")
     child = Child(door, Limits.of_environment())
     opened = child.ask(ask="open")
     if opened["status"] != "ok":
         child.close()
         raise ValueError(f"the model {one_line(spec, 200)} cannot be loaded: {one_line(opened['reason'])}")
     try:
-        return (ForeignModelWithCurve if opened["curve"] is True else ForeignModel)(
-            child, opened, poisson_ratio
-        )
+        return (ForeignModelWithCurve if opened["curve"] is True else ForeignModel)(child, opened, poisson_ratio)
     except (KeyError, TypeError):
         child.close()
-        raise ValueError(
-            f"the model {one_line(spec, 200)} cannot be loaded: its process wrote nonsense"
-        ) from None
+        raise ValueError(f"the model {one_line(spec, 200)} cannot be loaded: its process wrote nonsense") from None
     except ValueError:
         child.close()
         raise

@@ -121,9 +121,7 @@ def _evaluate(model: Any, request: dict[str, Any]) -> dict[str, Any]:
         model = InUnits(model, request["poisson_ratio"], request["scales"])
     result = model.evaluate(_problem(request), request["quantity"])
     if not isinstance(result, Result):
-        raise ComputationFailed(
-            f"the model returned {_kind(result)}, which is not a comparisons.model.Result"
-        )
+        raise ComputationFailed(f"the model returned {_kind(result)}, which is not a comparisons.model.Result")
     numbers_of = {name: _real(name, getattr(result, name)) for name in ("value", "u_num", "residual")}
     Result(numbers_of["value"], numbers_of["u_num"])
     counts = {name: int(_real(name, getattr(result, name))) for name in ("size", "iterations")}
@@ -166,8 +164,7 @@ def _array(name: str, values: object) -> list[float]:
     array = np.asarray(values)
     if array.ndim != 1 or array.dtype.kind not in "fiu" or not 1 <= len(array) <= _LARGEST_CURVE:
         raise ComputationFailed(
-            f"column {one_line(name, 60)} of the curve is {_kind(values)}, not 1 to "
-            f"{_LARGEST_CURVE} real numbers"
+            f"column {one_line(name, 60)} of the curve is {_kind(values)}, not 1 to {_LARGEST_CURVE} real numbers"
         )
     if not np.isfinite(array).all():
         raise ComputationFailed(f"column {one_line(name, 60)} of the curve has values that are not finite")
@@ -199,10 +196,6 @@ def _explain(error: BaseException, limits: Limits) -> str:
     every = traceback.extract_tb(error.__traceback__)
     # The place in the author's code: a Result that refuses a text was given it there.
     frames = [frame for frame in every if _is_theirs(frame.filename)] or every
-    place = (
-        f" in {frames[-1].name}, line {frames[-1].lineno} of {Path(frames[-1].filename).name}"
-        if frames
-        else ""
-    )
+    place = f" in {frames[-1].name}, line {frames[-1].lineno} of {Path(frames[-1].filename).name}" if frames else ""
     hint = " (a case outside the domain is NotApplicable)" if isinstance(error, ValueError) else ""
     return one_line(f"{name}{place}: {error}{hint}")

@@ -13,13 +13,14 @@ from importlib import import_module
 from comparisons.foreign.loading import door_of, open_model
 from comparisons.model import Model
 
-__all__ = ["MODELS", "Outside", "create", "identify"]
+__all__ = ["MODELS", "Outside", "create", "identify", "knows_poisson"]
 
 #: name -> "module:class"; the class is called without arguments, or with the Poisson's ratio alone if it
 #: is in `_KNOWS_POISSON`.
 MODELS: dict[str, str] = {
     "fscm": "comparisons.models.fscm_model:FullSelfConsistent",
     "fscm-stieltjes": "comparisons.models.stieltjes_model:PublishedScheme",
+    "fscm-stieltjes-400": "comparisons.models.stieltjes_model:CoarsePublishedScheme",
     "fem": "comparisons.models.fem_model:FiniteElements",
     "jkr": "comparisons.models.jkr:JKR",
     "md-original": "comparisons.models.maugis_dugdale:MaugisDugdaleOriginal",
@@ -32,6 +33,11 @@ MODELS: dict[str, str] = {
 #: Models that work with physical quantities.  The dimensionless problem has no Poisson's ratio (Eq. 29 has
 #: absorbed it), so every other model gives the same answer for all of them.
 _KNOWS_POISSON = frozenset({"fem"})
+
+
+def knows_poisson(name: str) -> bool:
+    """Whether the answers of a model depend on Poisson's ratio, if only numerically."""
+    return name in _KNOWS_POISSON
 
 
 def create(name: str, poisson_ratio: float | None = None) -> Model:
@@ -59,7 +65,7 @@ def create(name: str, poisson_ratio: float | None = None) -> Model:
         return _from_outside(name, poisson_ratio)
     module, _, cls = MODELS[name].partition(":")
     factory = getattr(import_module(module), cls)
-    if name in _KNOWS_POISSON and poisson_ratio is not None:
+    if knows_poisson(name) and poisson_ratio is not None:
         return factory(poisson_ratio)
     return factory()
 

@@ -71,9 +71,7 @@ class Bradley(ClosedForm):
     """
 
     name = "bradley"
-    citation = (
-        "Zhu, Zheng, Huang & Yu, Eqs. 42 and 56; Zheng & Yu, J. Colloid Interface Sci. 310 (2007) 27-34"
-    )
+    citation = "Zhu, Zheng, Huang & Yu, Eqs. 42 and 56; Zheng & Yu, J. Colloid Interface Sci. 310 (2007) 27-34"
     domain = "n > 2/3, any k; exact as mu -> 0"
     undefined: ClassVar[dict[str, str]] = dict.fromkeys(
         ("jump_in_displacement", "jump_in_gap", "jump_out_displacement", "jump_out_gap"),
@@ -104,9 +102,7 @@ class Bradley(ClosedForm):
         rigid_pull_off(n)
         nearest = _INSIDE * _zero_load_gap(n).value
         central_gap = np.geomspace(_FARTHEST_GAP + 1.0, nearest, _POINTS) - 1.0
-        return Curve(
-            displacement=-central_gap, load=rigid_load(n, central_gap), columns={"central_gap": central_gap}
-        )
+        return Curve(displacement=-central_gap, load=rigid_load(n, central_gap), columns={"central_gap": central_gap})
 
 
 def _zero_load_gap(n: float) -> Estimate:

@@ -152,9 +152,7 @@ class CohesiveContact:
         stress_growth = 4.0 * s * T * (log_c_slope - alpha2)
         displacement_slope = shape_growth - stress_growth
         shift = 2.0 * T * c ** (k + 1.0) * edge.edge
-        displacement_slope_scale = n * flat * (log_c_slope_scale + theta2) + 4.0 * s * T * (
-            log_c_slope_scale + alpha2
-        )
+        displacement_slope_scale = n * flat * (log_c_slope_scale + theta2) + 4.0 * s * T * (log_c_slope_scale + alpha2)
         return ContactState(
             contact_radius=a,
             cohesive_radius=c,
@@ -191,9 +189,7 @@ class CohesiveContact:
             step = np.log(total) * total / (n * shape + 2.0 * s * stress)
             log_c = log_c - step
             slope = n * shape + 2.0 * s * stress
-            rounding = (
-                _GRIFFITH_TOLERANCE * (1.0 + np.abs(log_shape) * shape + np.abs(log_stress) * stress) / slope
-            )
+            rounding = _GRIFFITH_TOLERANCE * (1.0 + np.abs(log_shape) * shape + np.abs(log_stress) * stress) / slope
             if np.all(np.abs(step) <= rounding + _GRIFFITH_TOLERANCE * np.abs(log_c)):
                 return log_c
         raise ComputationFailed(

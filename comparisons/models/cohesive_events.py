@@ -171,17 +171,13 @@ class CohesiveEvents:
             )
         w_error = STATE_ROUNDING * float(scales[1]) / slope + 8.0 * EPS * (1.0 + abs(w))
         residual = abs(relative(w))
-        return Event(
-            w, w_error, 0.5 * slope * w_error**2, self.contact.at(np.array([w])), report.iterations, residual
-        )
+        return Event(w, w_error, 0.5 * slope * w_error**2, self.contact.at(np.array([w])), report.iterations, residual)
 
 
 def _found(event: Event | None, what: str) -> Event:
     """Return the event, or raise `ComputationFailed` if the fine quadrature does not confirm it."""
     if event is None:
-        raise ComputationFailed(
-            f"the sign change of the scan at the {what} is not confirmed by the finer quadrature"
-        )
+        raise ComputationFailed(f"the sign change of the scan at the {what} is not confirmed by the finer quadrature")
     return event
 
 

@@ -159,9 +159,7 @@ def _gap_part(
     if start < c:
         # 1 - ((c^2 - x^2)/L^2)^s: at end = c the base is z^(1/s), at end = r < c it is 1 - (width/L)^2 y.
         strength = strength * (
-            FINE.complement
-            if end == c
-            else _closing(s, (c - end) * (c + end) / L**2, (width / L) ** 2, rest, y)
+            FINE.complement if end == c else _closing(s, (c - end) * (c + end) / L**2, (width / L) ** 2, rest, y)
         )
     excess = punch.flattening * (x2 ** (0.5 * n) - a**n) + strength
     beyond = (r - end) * (r + end) / width**2

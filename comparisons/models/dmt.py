@@ -47,8 +47,7 @@ class DMT(ClosedForm):
 
     name = "dmt"
     citation = (
-        "Zhu, Zheng, Huang & Yu, Eqs. 75-77; "
-        "Derjaguin, Muller & Toporov, J. Colloid Interface Sci. 53 (1975) 314-326"
+        "Zhu, Zheng, Huang & Yu, Eqs. 75-77; Derjaguin, Muller & Toporov, J. Colloid Interface Sci. 53 (1975) 314-326"
     )
     domain = "n > 2/3, 0 <= k <= 1; cohesive stress eta(n); exact pull-off as mu -> 0"
     undefined: ClassVar[dict[str, str]] = dict.fromkeys(

@@ -10,9 +10,11 @@ from __future__ import annotations
 from typing import ClassVar
 
 import fem_reference
-from comparisons.model import Curve, NotApplicable, Result
+from comparisons.distance import spread
+from comparisons.model import Curve, NotApplicable, Profile, Result
 from comparisons.models.solver import result_of, translated
 from comparisons.quantities import QUANTITIES
+from comparisons.shapes import pressure_near
 from fem_reference import export
 from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
@@ -20,6 +22,9 @@ from fscm.profile import PowerLaw
 from fscm.surface_law import LennardJones93
 
 __all__ = ["FiniteElements"]
+
+#: Meshes of a curve and of the coarser one that tells its uncertainty.
+_LEVELS = ("quick", "default")
 
 _SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25}
 
@@ -35,9 +40,7 @@ class FiniteElements:
 
     name: ClassVar[str] = "fem"
     version: ClassVar[str] = "1"
-    citation: ClassVar[str] = (
-        "This package: axisymmetric elements on the graded half-space, condensed to its surface"
-    )
+    citation: ClassVar[str] = "This package: axisymmetric elements on the graded half-space, condensed to its surface"
     domain: ClassVar[str] = "n >= 1, 0 <= k < 1, 0 <= nu < 0.5; power-law punch and 9-3 law"
 
     def __init__(self, poisson_ratio: float = 0.3) -> None:
@@ -56,7 +59,7 @@ class FiniteElements:
         """Return the equilibrium path from far away into compression."""
         physical, solid, punch, law = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-            path = fem_reference.trace(solid, punch, law)
+            coarse, path = (fem_reference.trace(solid, punch, law, level) for level in _LEVELS)
         return Curve(
             displacement=physical.to_dimensionless("displacement", path.displacement),
             load=physical.to_dimensionless("load", path.load),
@@ -64,6 +67,7 @@ class FiniteElements:
                 "central_gap": physical.to_dimensionless("gap", path.central_gap),
                 "edge_radius": physical.to_dimensionless("radius", path.contact_radius),
             },
+            u_distance=spread(coarse.displacement, coarse.load, path.displacement, path.load),
         )
 
     def field(self, problem: Problem, quantity: str) -> tuple[export.Field, float]:
@@ -91,17 +95,28 @@ class FiniteElements:
         )
         return field, point.contact_radius / scales["radius"]
 
+    def pull_off_profile(self, problem: Problem) -> Profile:
+        """Return the surface where P is smallest, and as its uncertainty the distance of two meshes."""
+        physical, solid, punch, law = self._physical(problem)
+        with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
+            found = [fem_reference.profile(solid, punch, law, accuracy=level) for level in _LEVELS]
+        (radius, pressure, gap), fine = (
+            (
+                physical.to_dimensionless("radius", profile.r),
+                physical.to_dimensionless("traction", profile.pressure),
+                physical.to_dimensionless("gap", profile.gap),
+            )
+            for profile in found
+        )
+        return Profile(*fine, spread(*pressure_near(radius, pressure, gap), *pressure_near(*fine)))
+
     def _physical(
         self, problem: Problem
     ) -> tuple[PhysicalProblem, fem_reference.Solid, fem_reference.PowerPunch, fem_reference.LennardJones]:
         if problem.n < 1.0 or problem.k >= 1.0:
-            raise NotApplicable(
-                f"the finite elements need n >= 1 and k < 1, not n = {problem.n:g}, k = {problem.k:g}"
-            )
+            raise NotApplicable(f"the finite elements need n >= 1 and k < 1, not n = {problem.n:g}, k = {problem.k:g}")
         if problem.profile != PowerLaw(problem.n) or not isinstance(problem.law, LennardJones93):
-            raise NotApplicable(
-                "the finite elements are asked here for the power-law punch and the 9-3 law alone"
-            )
+            raise NotApplicable("the finite elements are asked here for the power-law punch and the 9-3 law alone")
         physical = PhysicalProblem.from_problem(problem, nu=self._poisson_ratio, **_SCALES)
         return (
             physical,

@@ -34,9 +34,7 @@ class JKR(ClosedForm):
     """
 
     name = "jkr"
-    citation = (
-        "Zhu, Zheng, Huang & Yu, Eqs. 50-57; Jin, Tang, Guo & Gao, J. Mech. Phys. Solids 154 (2021) 104509"
-    )
+    citation = "Zhu, Zheng, Huang & Yu, Eqs. 50-57; Jin, Tang, Guo & Gao, J. Mech. Phys. Solids 154 (2021) 104509"
     domain = "n > (1-k)/2, 0 <= k <= 1; exact as mu -> infinity"
     undefined: ClassVar[dict[str, str]] = {
         "jump_in_displacement": "surfaces do not attract before contact, so nothing jumps in",
@@ -97,9 +95,7 @@ class JKR(ClosedForm):
         a = pull_off * end * shares**2
         scale = punch.scales(problem.mu)
         displacement = punch.flattening * a**n - punch.adhesion * a**s
-        load = punch.hertz_load * a ** (n + k + 1.0) - punch.stiffness * punch.adhesion / (1.0 + k) * a ** (
-            s + k + 1.0
-        )
+        load = punch.hertz_load * a ** (n + k + 1.0) - punch.stiffness * punch.adhesion / (1.0 + k) * a ** (s + k + 1.0)
         return Curve(
             displacement=scale.displacement * displacement,
             load=scale.load * load,

@@ -117,9 +117,7 @@ class _MaugisDugdale(ClosedForm):
         """
         self.check(problem)
         if self._is_jkr(problem):
-            raise NotApplicable(
-                f"{self.name} has no cohesive zone at k = 1 and mu = {problem.mu}: its edge is JKR's"
-            )
+            raise NotApplicable(f"{self.name} has no cohesive zone at k = 1 and mu = {problem.mu}: its edge is JKR's")
         contact = self._contact(problem)
         event = CohesiveEvents.scan(contact).pull_off()
         return cohesive_profiles(contact, event.state, GradedPunch.of(problem).scales(problem.mu))
@@ -145,9 +143,7 @@ class MaugisDugdaleOriginal(_MaugisDugdale):
     """
 
     name = "md-original"
-    citation = (
-        "Zhu, Zheng, Huang & Yu, Eqs. 63-73; Jin, Tang, Guo & Gao, J. Mech. Phys. Solids 154 (2021) 104509"
-    )
+    citation = "Zhu, Zheng, Huang & Yu, Eqs. 63-73; Jin, Tang, Guo & Gao, J. Mech. Phys. Solids 154 (2021) 104509"
     domain = "n > (1-k)/2, 0 <= k <= 1; cohesive stress 16 sqrt(3)/27"
 
     def cohesive_stress(self, problem: Problem) -> float:

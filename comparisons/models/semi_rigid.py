@@ -93,9 +93,7 @@ class SemiRigid(ClosedForm):
         fold = _positive_fold(problem)
         b = (1.0 - problem.k) / problem.n
         factor = (4.0 - b) / (3.0 - b)
-        return Estimate(
-            1.0 - factor * fold.value, factor * fold.u_num + 4.0 * EPS * factor * fold.value + EPS
-        )
+        return Estimate(1.0 - factor * fold.value, factor * fold.u_num + 4.0 * EPS * factor * fold.value + EPS)
 
     def curve(self, problem: Problem) -> Curve:
         """Return Eqs. 41-42 from H0 = 10 (or twice the fold's, if farther) to the jump-in gap, or to H0 = 0.

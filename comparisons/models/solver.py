@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Protocol
@@ -65,4 +66,11 @@ def result_of(solution: Solution, unit: float = 1.0) -> Result:
         iterations=solution.iterations,
         residual=solution.residual,
         seconds=solution.seconds,
+        observed_order=_order(solution),
     )
+
+
+def _order(solution: Solution) -> float | None:
+    """The order over the meshes, of a solver that measures it and where it is not lost in rounding."""
+    order = getattr(solution, "observed_order", None)
+    return order if order is not None and math.isfinite(order) else None

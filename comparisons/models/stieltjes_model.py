@@ -11,7 +11,7 @@ from fscm.problem import Problem
 from fscm.stieltjes import StieltjesScheme
 from fscm.stieltjes_events import STIELTJES_QUANTITIES, stieltjes_solution
 
-__all__ = ["PublishedScheme"]
+__all__ = ["CoarsePublishedScheme", "PublishedScheme"]
 
 
 class PublishedScheme:
@@ -51,6 +51,19 @@ class PublishedScheme:
         with translated(NoSuchEvent, NotConverged):
             central_gap, displacement, load = StieltjesScheme(problem, self._segments).curve()
         return Curve(displacement=displacement, load=load, columns={"central_gap": central_gap})
+
+
+class CoarsePublishedScheme(PublishedScheme):
+    """The same with 400 segments: a second instead of minutes.
+
+    At small and moderate Tabor numbers what it leaves out beyond f = 50 is most of its error, with 2500
+    segments as with 400 (n = 2, k = 0, mu = 0.5: 1.0e-3 of the pull-off force with either).
+    """
+
+    name: ClassVar[str] = "fscm-stieltjes-400"
+
+    def __init__(self) -> None:
+        super().__init__(segments=400)
 
 
 def _check(problem: Problem) -> None:

@@ -9,8 +9,7 @@ from comparisons.run import Task, answer
 
 def test_ratios_are_of_the_baseline_to_the_accurate_model(toys):
     accurate, baseline = (
-        Measurement(answer(Task(name, "pull_off_force", Case(2, 0, 1))), 100.0)
-        for name in ("truth", "ten-percent")
+        Measurement(answer(Task(name, "pull_off_force", Case(2, 0, 1))), 100.0) for name in ("truth", "ten-percent")
     )
     table = compare(accurate, baseline).set_index("")
     # The baseline is at least 0.2 - u_num from the truth, the accurate model at most u_num.

@@ -101,10 +101,7 @@ def with_case(n="2", k="0.4", mu="1", nu="0.3"):
         *[(with_case(k=k), "[0, 1]") for k in ("-0.1", "-1e-9", "1.0001", "nan", "inf")],
         *[(with_case(mu=mu), "(0, inf)") for mu in ("0", "-1", "nan", "inf", "-inf")],
         *[(with_case(nu=nu), "[0, 0.5)") for nu in ("-0.1", "0.5", "0.6", "nan", "inf")],
-        *[
-            (with_case(**{name: "two"}), f"--{name}: 'two' is not a number")
-            for name in ("n", "k", "mu", "nu")
-        ],
+        *[(with_case(**{name: "two"}), f"--{name}: 'two' is not a number") for name in ("n", "k", "mu", "nu")],
         (["solve", "--model", "hertz", "--quantity", "pull_off_force", *CASE], "the models are"),
         (["solve", "--model", "jkr", "--quantity", "pull_off", *CASE], "the quantities are"),
         (["solve", "--model", "jkr", "--quantity", "pull_off_force", "--n", "2"], "--k, --mu"),

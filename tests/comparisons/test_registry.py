@@ -8,7 +8,7 @@ from comparisons.models import MODELS, create
 from comparisons.run import ask
 
 #: Models that take more than a second an answer; their own tests ask them.
-SLOW = {"fscm-stieltjes", "fem"}
+SLOW = {"fscm-stieltjes", "fscm-stieltjes-400", "fem"}
 
 
 @pytest.mark.parametrize("name", MODELS)

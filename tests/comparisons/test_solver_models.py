@@ -43,9 +43,7 @@ def test_a_solver_that_does_not_converge_has_failed(monkeypatch, solver):
 
 
 @pytest.mark.parametrize("quantity", fem_reference.QUANTITIES)
-def test_the_finite_elements_are_asked_for_the_same_tabor_number_and_answer_in_the_same_unit(
-    monkeypatch, quantity
-):
+def test_the_finite_elements_are_asked_for_the_same_tabor_number_and_answer_in_the_same_unit(monkeypatch, quantity):
     seen = {}
 
     def one_unit(solid, punch, law, asked):
@@ -80,9 +78,7 @@ def test_what_the_finite_elements_do_not_do(problem, quantity, reason):
 def test_the_published_scheme_is_off_by_no_more_than_it_says():
     row = ask(PublishedScheme(segments=200), "pull_off_force", Case(2, 0.4, 0.5))
     assert abs(row.value - 1.86628026) < row.u_num < 1e-2
-    assert (
-        ask(PublishedScheme(segments=200), "hysteresis_energy", Case(2, 0.4, 0.5)).status == "not-applicable"
-    )
+    assert ask(PublishedScheme(segments=200), "hysteresis_energy", Case(2, 0.4, 0.5)).status == "not-applicable"
     assert ask(PublishedScheme(segments=200), "pull_off_force", Case(2, 1, 0.5)).status == "not-applicable"
 
 

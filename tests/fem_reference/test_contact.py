@@ -40,9 +40,7 @@ def test_traction_is_the_derivative_of_the_energy_and_slope_of_the_traction():
     law = LennardJones(1.7, 0.4)
     H = np.array([-0.05, 0.0, 0.1, 1.0])
     h = 1e-6
-    assert law.traction(H) == pytest.approx(
-        -(law.energy(H + h) - law.energy(H - h)) / (2 * h), rel=1e-6, abs=1e-7
-    )
+    assert law.traction(H) == pytest.approx(-(law.energy(H + h) - law.energy(H - h)) / (2 * h), rel=1e-6, abs=1e-7)
     assert law.slope(H) == pytest.approx((law.traction(H + h) - law.traction(H - h)) / (2 * h), rel=1e-6)
     assert law.slope(np.array(law.peak_gap)) == pytest.approx(0.0, abs=1e-12)
 
@@ -97,9 +95,7 @@ def test_every_control_finds_the_same_state(points):
 def test_rates_are_derivatives_along_the_path(points):
     for point in (points[5], points[-5]):
         h = 1e-4 * point.parameter
-        ahead, behind = (
-            point.leg.solve(point.parameter + d, point.predict(point.parameter + d)) for d in (h, -h)
-        )
+        ahead, behind = (point.leg.solve(point.parameter + d, point.predict(point.parameter + d)) for d in (h, -h))
         load = (ahead.state.load - behind.state.load) / (2 * h)
         assert point.state.load_rate == pytest.approx(load, rel=1e-6)
         delta = (ahead.state.displacement - behind.state.displacement) / (2 * h)
@@ -109,9 +105,7 @@ def test_rates_are_derivatives_along_the_path(points):
 def test_energy_derivative_is_the_load(points):
     for point in (points[8], points[-3]):
         h = 1e-3 * point.parameter
-        ahead, behind = (
-            point.leg.solve(point.parameter + d, point.predict(point.parameter + d)) for d in (h, -h)
-        )
+        ahead, behind = (point.leg.solve(point.parameter + d, point.predict(point.parameter + d)) for d in (h, -h))
         contact = point.leg.contact
         energy = contact.energy(ahead.state.y) - contact.energy(behind.state.y)
         delta = ahead.state.displacement - behind.state.displacement

@@ -142,10 +142,7 @@ def _smooth_gradient(r, z):
 @pytest.mark.parametrize(("order", "counts"), [(2, (4, 8)), (3, (4, 8)), (4, (6, 12)), (6, (5, 8))])
 def test_manufactured_solution_has_the_order_of_the_element(order, counts):
     modulus = OffsetPowerLaw(1.0, 1.0, 0.4, 0.5)
-    errors = [
-        _solve_manufactured(uniform_grid(1.5, n), modulus, 0.3, order, _smooth, _smooth_gradient)
-        for n in counts
-    ]
+    errors = [_solve_manufactured(uniform_grid(1.5, n), modulus, 0.3, order, _smooth, _smooth_gradient) for n in counts]
     observed = np.log(errors[0] / errors[1]) / np.log(counts[1] / counts[0])
     assert ORDER_RANGE[0] <= observed - (order + 1) <= ORDER_RANGE[1], (errors, observed)
 

@@ -18,9 +18,7 @@ SPEC = MeshSpec(0.125, 2.5e-3, 64.0, 0.9, 6)
 @pytest.fixture(scope="module")
 def state():
     solid = Solid(1.0, 1.0, 0.4, 0.3)
-    contact = Contact(
-        PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), compliance_for(solid.modulus, 0.3, SPEC, 1.0)
-    )
+    contact = Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), compliance_for(solid.modulus, 0.3, SPEC, 1.0))
     point = find_event(contact, "pull_off_force").point
     return point, contact_field(solid, SPEC, point)
 

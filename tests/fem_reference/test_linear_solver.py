@@ -21,9 +21,7 @@ AGREEMENT = 1e-8
 
 @pytest.fixture(scope="module")
 def half_space():
-    return assemble_half_space(
-        graded_grid(edge_width=0.05, extent=16.0, density=0.9), PowerLaw(1.0, 1.0, 0.4), 0.3
-    )
+    return assemble_half_space(graded_grid(edge_width=0.05, extent=16.0, density=0.9), PowerLaw(1.0, 1.0, 0.4), 0.3)
 
 
 def test_quick_study():
@@ -48,9 +46,7 @@ def test_preconditioner_is_symmetric_and_positive(half_space):
     cycle = ElasticPreconditioner(half_space)
     rng = np.random.default_rng(1)
     a, b = rng.normal(size=(2, half_space.free.size))
-    assert a @ cycle(b) == pytest.approx(
-        b @ cycle(a), rel=1e-9, abs=1e-9 * np.linalg.norm(a) * np.linalg.norm(b)
-    )
+    assert a @ cycle(b) == pytest.approx(b @ cycle(a), rel=1e-9, abs=1e-9 * np.linalg.norm(a) * np.linalg.norm(b))
     assert a @ cycle(a) > 0
 
 

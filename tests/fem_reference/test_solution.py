@@ -95,9 +95,7 @@ def test_unit_scaling():
     length, force = 1e3, 1e3
     solid = _solid(0.4, 1.0, 0.25)
     scaled = Solid(solid.E0 * force / length**2, length, 0.4, 0.25)
-    answer = solve(
-        scaled, PowerPunch(2.0, length), LennardJones(force / length, length), "pull_off_force", "quick"
-    )
+    answer = solve(scaled, PowerPunch(2.0, length), LennardJones(force / length, length), "pull_off_force", "quick")
     assert answer.value == pytest.approx(base.value * force, rel=1e-9)
     assert answer.u_num == pytest.approx(base.u_num * force, rel=1e-2)
 
@@ -108,9 +106,7 @@ def test_events_lie_on_the_traced_path():
     answers = {q: solve(solid, punch, law, q, "quick").value for q in fem_reference.QUANTITIES}
     assert -path.load.min() == pytest.approx(answers["pull_off_force"], rel=3e-3)
     assert answers["pull_off_force"] >= -path.load.min() - 1e-6
-    assert (
-        answers["jump_out_displacement"] < answers["jump_in_displacement"] < answers["zero_load_displacement"]
-    )
+    assert answers["jump_out_displacement"] < answers["jump_in_displacement"] < answers["zero_load_displacement"]
     assert answers["jump_out_gap"] < answers["jump_in_gap"]
     assert answers["hysteresis_energy"] > 0
     index = int(np.flatnonzero(path.load[:-1] < 0)[-1])

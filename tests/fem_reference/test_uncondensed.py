@@ -29,9 +29,7 @@ def test_equilibrium_and_pull_off_agree_with_the_condensed_path(n, k):
     start = 0.97 * full.under_pressure(law.traction(gap), point.state.size)
     state = full.equilibrium(start, point.state.displacement, point.state.size)
     tail = contact.load(point.state.y) - 2 * np.pi * point.state.size**2 * float(
-        contact.compliance.trace.weight
-        * contact.compliance.trace.s
-        @ law.traction(contact.gap(point.state.y))
+        contact.compliance.trace.weight * contact.compliance.trace.s @ law.traction(contact.gap(point.state.y))
     )
     scale = abs(point.state.load)
     assert state.load + tail == pytest.approx(point.state.load, abs=AGREEMENT * scale)

@@ -83,9 +83,7 @@ def _jkr(n: float, k: float, mu: float) -> float:
 @pytest.mark.parametrize(("n", "k"), [(2.0, 0.0), (2.0, 0.4), (1.5, 0.2), (3.0, 0.3)])
 def test_soft_limit(n: float, k: float) -> None:
     """mu -> infinity is JKR; the deviation keeps falling."""
-    deviations = [
-        abs(solve(Problem(n, k, mu), "pull_off_force").value / _jkr(n, k, mu) - 1) for mu in (2.5, 5, 10)
-    ]
+    deviations = [abs(solve(Problem(n, k, mu), "pull_off_force").value / _jkr(n, k, mu) - 1) for mu in (2.5, 5, 10)]
     assert deviations[2] < deviations[1] < deviations[0]
     assert deviations[2] < 0.02
 
@@ -125,9 +123,7 @@ def test_random_problems_obey_what_all_obey(n: float, k: float, log_mu: float) -
     assert force.value > 0
     assert force.u_num < 1e-6 * force.value
     pair = model.event("pull_off")
-    assert pair.value.rates("log_scale" if pair.value.follows_edge else "gap").load == pytest.approx(
-        0, abs=1e-6
-    )
+    assert pair.value.rates("log_scale" if pair.value.follows_edge else "gap").load == pytest.approx(0, abs=1e-6)
     assert model.solution("pull_off_displacement").value < model.solution("zero_load_displacement").value
     # The largest tension anywhere is the strength of the law.
     assert pair.value.pressure.min() > -16 * math.sqrt(3) / 27 - 1e-12

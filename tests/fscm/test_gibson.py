@@ -90,9 +90,7 @@ def test_load_by_quadrature_over_the_radius(n, mu):
         near, far = (0.06, 1.9)  # rough, refined by Maxwell's rule: equal levels and equal energies
         mp_p = lambda H: mpmath.mpf(8) / 3 * ((H + 1) ** -9 - (H + 1) ** -3)  # noqa: E731
         mp_e = lambda H: M * mp_p(H) ** 2 / 2 + (H + 1) ** -8 / 3 - 4 * (H + 1) ** -2 / 3  # noqa: E731
-        sides = mpmath.findroot(
-            lambda a, b: (a - M * mp_p(a) - b + M * mp_p(b), mp_e(a) - mp_e(b)), (near, far)
-        )
+        sides = mpmath.findroot(lambda a, b: (a - M * mp_p(a) - b + M * mp_p(b), mp_e(a) - mp_e(b)), (near, far))
         front = float(sides[0] - M * mp_p(sides[0]))
 
     def density(r):

@@ -20,9 +20,7 @@ def test_modes_invert_legendre_values() -> None:
     np.testing.assert_allclose(mesh.modes(3 * u - 1.0)[0], [0.5, 1.5, 0, 0, 0], atol=1e-14)
 
 
-@pytest.mark.parametrize(
-    "breaks", [[0.0, 0.15, 0.3, 1.0, 2.0, 5.0], [0.0, 1.0, 5.0]], ids=["split", "merged"]
-)
+@pytest.mark.parametrize("breaks", [[0.0, 0.15, 0.3, 1.0, 2.0, 5.0], [0.0, 1.0, 5.0]], ids=["split", "merged"])
 def test_transfer_keeps_polynomials(breaks: list[float]) -> None:
     mesh, other = PanelMesh(np.array([0.0, 0.3, 1.0, 5.0]), 6), PanelMesh(np.array(breaks), 7)
     np.testing.assert_allclose(mesh.transfer(mesh.nodes**4, other), other.nodes**4, rtol=1e-12, atol=1e-12)
@@ -37,9 +35,7 @@ def test_transfer_within_panels_below_the_rounding_of_the_radius() -> None:
     )
     u = gauss_rule(4).nodes
     values = np.concatenate([np.zeros(4), u])
-    np.testing.assert_allclose(
-        mesh.transfer(values, halves)[4:], np.concatenate([u / 2, 0.5 + u / 2]), rtol=1e-13
-    )
+    np.testing.assert_allclose(mesh.transfer(values, halves)[4:], np.concatenate([u / 2, 0.5 + u / 2]), rtol=1e-13)
 
 
 def test_breaks_must_ascend() -> None:

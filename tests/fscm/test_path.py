@@ -47,9 +47,7 @@ def test_path_contains_the_exact_events(mu: float) -> None:
     if mu < 0.7:
         assert folds.size == 0
     else:
-        assert path.displacement[folds[0]] == pytest.approx(
-            solve(problem, "jump_in_displacement").value, abs=1e-6
-        )
+        assert path.displacement[folds[0]] == pytest.approx(solve(problem, "jump_in_displacement").value, abs=1e-6)
         bottom = path.displacement[folds[-1] + 1]
         assert bottom == pytest.approx(solve(problem, "jump_out_displacement").value, abs=1e-6)
     assert path.u_load < 1e-5

@@ -35,9 +35,7 @@ def printed_b(k, nu):
     """Eq. 7 as printed, in extended precision."""
     k, nu = mpmath.mpf(k), mpmath.mpf(nu)
     q = mpmath.sqrt((1 + k) * (1 - k * nu / (1 - nu)))
-    front = (
-        2 ** (k + 1) * (k + 2) * q * mpmath.sin(q * mpmath.pi / 2) / (k * (k + 1) * mpmath.beta(k / 2, 0.5))
-    )
+    front = 2 ** (k + 1) * (k + 2) * q * mpmath.sin(q * mpmath.pi / 2) / (k * (k + 1) * mpmath.beta(k / 2, 0.5))
     return front * mpmath.beta((3 + k + q) / 2, (3 + k - q) / 2)
 
 
@@ -71,17 +69,13 @@ def test_tabor_number_of_a_homogeneous_sphere_is_eq_1():
     sphere = PhysicalProblem(**{**SPHERE, "k": 0.0})
     E = sphere.contact_modulus
     assert pytest.approx(70e9 / (1 - 0.04)) == E
-    assert sphere.tabor_number == pytest.approx(
-        (1e-6 * 0.05**2 / (E**2 * 3e-10**3)) ** (1 / 3), rel=LOG_ROUNDING
-    )
+    assert sphere.tabor_number == pytest.approx((1e-6 * 0.05**2 / (E**2 * 3e-10**3)) ** (1 / 3), rel=LOG_ROUNDING)
     assert sphere.tabor_number_jin == pytest.approx(sphere.tabor_number, rel=LOG_ROUNDING)
     # k = 0 forgets the reference depth
     assert PhysicalProblem(**{**SPHERE, "k": 0.0, "c0": 7.0}).tabor_number == sphere.tabor_number
 
 
-@pytest.mark.parametrize(
-    ("n", "k", "nu"), [(1.0, 0.2, 0.0), (2.0, 0.4, 0.3), (5.0, 0.8, 0.45), (1.5, 1.0, 0.5)]
-)
+@pytest.mark.parametrize(("n", "k", "nu"), [(1.0, 0.2, 0.0), (2.0, 0.4, 0.3), (5.0, 0.8, 0.45), (1.5, 1.0, 0.5)])
 def test_tabor_numbers_are_eqs_29_and_30(n, k, nu):
     p = PhysicalProblem(E0=3.0, c0=0.7, k=k, nu=nu, Q=1.3, n=n, work_of_adhesion=0.4, z0=0.2)
     E, s = 3.0 / (1 - nu**2), 2 * n + k - 1
@@ -138,9 +132,7 @@ units = st.floats(1e-9, 1e9)
 )
 def test_units_do_not_move_anything_dimensionless(n, k, nu, E0, c0, Q, w, z0, metre, pascal):
     ours = PhysicalProblem(E0, c0, k, nu, Q, n, w, z0)
-    theirs = PhysicalProblem(
-        E0 * pascal, c0 * metre, k, nu, Q * metre ** (n - 1), n, w * pascal * metre, z0 * metre
-    )
+    theirs = PhysicalProblem(E0 * pascal, c0 * metre, k, nu, Q * metre ** (n - 1), n, w * pascal * metre, z0 * metre)
     assert theirs.tabor_number == pytest.approx(ours.tabor_number, rel=1e-11)
     assert theirs.tabor_number_jin == pytest.approx(ours.tabor_number_jin, rel=1e-11)
     dimension = {
@@ -154,9 +146,7 @@ def test_units_do_not_move_anything_dimensionless(n, k, nu, E0, c0, Q, w, z0, me
         "energy_per_area": pascal * metre,
     }
     for kind, factor in dimension.items():
-        assert theirs.to_dimensionless(kind, 2.0 * factor) == pytest.approx(
-            ours.to_dimensionless(kind, 2.0), rel=1e-11
-        )
+        assert theirs.to_dimensionless(kind, 2.0 * factor) == pytest.approx(ours.to_dimensionless(kind, 2.0), rel=1e-11)
 
 
 @given(
@@ -178,9 +168,7 @@ def test_a_problem_and_scales_make_a_physical_problem_and_back(n, k, mu, nu, c0,
 
 
 def test_gibson_solid_round_trip():
-    physical = PhysicalProblem.from_problem(
-        Problem(2, 1, 0.8), c0=2.0, nu=0.5, Q=1.0, work_of_adhesion=0.1, z0=0.01
-    )
+    physical = PhysicalProblem.from_problem(Problem(2, 1, 0.8), c0=2.0, nu=0.5, Q=1.0, work_of_adhesion=0.1, z0=0.01)
     assert physical.tabor_number == pytest.approx(0.8, rel=1e-13)
     # Eq. 28 for k = 1 is w = 2 mu^2 p; in physical terms w = 2 c0 p / E* = (3/2) c0 p / E0.
     w = physical.from_dimensionless("displacement", 2 * 0.8**2)

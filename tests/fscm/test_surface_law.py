@@ -55,9 +55,7 @@ def test_slope_curvature_and_energy_belong_to_the_traction(law):
         for H in (-0.4, 0.0, 0.3, 2.0):
             here = np.array(H)
             assert float(law.slope(here)) == pytest.approx(float(mpmath.diff(p, H)), rel=1e-12, abs=1e-12)
-            assert float(law.curvature(here)) == pytest.approx(
-                float(mpmath.diff(p, H, 2)), rel=1e-12, abs=1e-12
-            )
+            assert float(law.curvature(here)) == pytest.approx(float(mpmath.diff(p, H, 2)), rel=1e-12, abs=1e-12)
             integral = mpmath.quad(p, [H, 1, 10, 1000, mpmath.inf]) if n > 1.5 else None
             if integral is not None:
                 assert float(law.energy(here)) == pytest.approx(float(integral), rel=1e-12, abs=1e-12)

@@ -91,9 +91,7 @@ def test_a_failed_computation_has_status_4(write_model, capsys, body, says):
     assert says in shown
 
 
-@pytest.mark.parametrize(
-    ("arguments", "says"), [(["jkr"], "one of our own"), (["nowhere"], "no installed package")]
-)
+@pytest.mark.parametrize(("arguments", "says"), [(["jkr"], "one of our own"), (["nowhere"], "no installed package")])
 def test_what_cannot_be_checked_is_wrong_input(capsys, arguments, says):
     assert main(["check-model", *arguments]) == 2
     assert says in capsys.readouterr().err

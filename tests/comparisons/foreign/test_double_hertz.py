@@ -119,8 +119,7 @@ def test_limits(k):
 def test_it_is_near_maugis_dugdale_of_the_same_strength(k, mu):
     """Two laws of one strength and one work of adhesion: at most 2 % apart."""
     ours, theirs = (
-        model.evaluate(Problem(2, k, mu), "pull_off_force").value
-        for model in (MODEL, MaugisDugdaleOriginal())
+        model.evaluate(Problem(2, k, mu), "pull_off_force").value for model in (MODEL, MaugisDugdaleOriginal())
     )
     assert theirs < ours < 1.02 * theirs
 

@@ -58,8 +58,7 @@ NONSENSE = [
 def nonsense(tmp_path_factory):
     """One process that does all of the above, as the Tabor number says."""
     bodies = "\n".join(
-        f"        if problem.mu == {number}:\n            {body}"
-        for number, (body, _) in enumerate(NONSENSE, 1)
+        f"        if problem.mu == {number}:\n            {body}" for number, (body, _) in enumerate(NONSENSE, 1)
     )
     file = tmp_path_factory.mktemp("nonsense") / "stranger.py"
     file.write_text(f"{HEAD.format(name='stranger')}\n    def evaluate(self, problem, quantity):\n{bodies}\n")
@@ -114,10 +113,7 @@ def test_one_that_allocates_without_bound_runs_into_its_limit(write_model, monke
 
 
 def test_printing_disturbs_nobody(write_model, capfd):
-    body = (
-        "print('{\"status\": \"ok\"}' * 9999)\nos.write(1, b'x')\nos.write(2, b'y')\nsys.stdout.close()\n"
-        + GOOD
-    )
+    body = "print('{\"status\": \"ok\"}' * 9999)\nos.write(1, b'x')\nos.write(2, b'y')\nsys.stdout.close()\n" + GOOD
     assert row(write_model(body)).value == 1.5
     assert capfd.readouterr() == ("", "")
 
@@ -148,9 +144,7 @@ def test_it_leaves_no_process_behind(write_model, tmp_path):
 
 def test_a_child_does_not_outlive_us(write_model):
     """Also in the middle of a question, when we are killed and can end nothing."""
-    spec = write_model(
-        "while True:\n    pass", more="@property\ndef citation(self):\n    return str(os.getpid())"
-    )
+    spec = write_model("while True:\n    pass", more="@property\ndef citation(self):\n    return str(os.getpid())")
     program = f"""
 from comparisons.models import create
 from fscm.problem import Problem
@@ -221,10 +215,7 @@ def test_a_name_that_could_do_harm_is_refused(name, says):
 @pytest.mark.parametrize(("name", "says"), [("<b>bold</b>", "letters, digits"), ("jkr", "one of ours")])
 def test_a_model_with_such_a_name_is_wrong_input(write_model, capsys, name, says):
     spec = write_model(GOOD, more=f"name = {name!r}")
-    assert (
-        main(["solve", "--model", spec, "--quantity", "pull_off_force", "--n", "2", "--k", "0", "--mu", "1"])
-        == 2
-    )
+    assert main(["solve", "--model", spec, "--quantity", "pull_off_force", "--n", "2", "--k", "0", "--mu", "1"]) == 2
     message = capsys.readouterr().err
     assert says in message
     assert message.count("\n") == 1
@@ -272,10 +263,7 @@ def test_a_run_completes_the_others_and_its_files_are_its_own(write_model, tmp_p
     monkeypatch.setattr(run, "grids", lambda tier: load_grids(GRID))
     monkeypatch.setenv("FSCM_BENCH_TIME_LIMIT", "0.5")
     out = tmp_path / "out"
-    vandal = (
-        f"for file in Path({str(out)!r}).iterdir():\n    file.write_text('mine')\n    file.chmod(0o777)\n"
-        + GOOD
-    )
+    vandal = f"for file in Path({str(out)!r}).iterdir():\n    file.write_text('mine')\n    file.chmod(0o777)\n" + GOOD
     bodies = {
         "good": GOOD,
         "vandal": vandal,

@@ -24,9 +24,7 @@ def load_by_quadrature(n: float, H0: float) -> float:
     near, _ = quad(integrand, 0.0, 4.0, epsabs=1e-13, epsrel=1e-13, limit=200)
     # Beyond, v = 4 x^-m with m chosen so that the tail ~ v^(-3 n / 2) becomes a bounded function of x.
     m = 1.0 / (1.5 * n - 1.0)
-    far, _ = quad(
-        lambda x: integrand(4.0 * x**-m) * 4.0 * m * x ** (-m - 1.0), 0.0, 1.0, epsabs=1e-13, epsrel=1e-12
-    )
+    far, _ = quad(lambda x: integrand(4.0 * x**-m) * 4.0 * m * x ** (-m - 1.0), 0.0, 1.0, epsabs=1e-13, epsrel=1e-12)
     return near + far
 
 
@@ -41,20 +39,14 @@ def test_pull_off_is_the_minimum_of_the_integral(n: float) -> None:
     found = minimize_scalar(
         lambda H0: load_by_quadrature(n, H0), bounds=(-0.45, 0.5), method="bounded", options={"xatol": 1e-9}
     )
-    assert Bradley().evaluate(Problem(n, 0.3, 1.0), "pull_off_force").value == pytest.approx(
-        -found.fun, rel=1e-9
-    )
-    assert Bradley().evaluate(Problem(n, 0.3, 1.0), "pull_off_displacement").value == pytest.approx(
-        -found.x, abs=1e-5
-    )
+    assert Bradley().evaluate(Problem(n, 0.3, 1.0), "pull_off_force").value == pytest.approx(-found.fun, rel=1e-9)
+    assert Bradley().evaluate(Problem(n, 0.3, 1.0), "pull_off_displacement").value == pytest.approx(-found.x, abs=1e-5)
 
 
 @pytest.mark.parametrize("n", SHAPES)
 def test_zero_load(n: float) -> None:
     H0 = brentq(lambda gap: load_by_quadrature(n, gap), -0.6, 0.0, xtol=1e-12)
-    assert Bradley().evaluate(Problem(n, 0.0, 1.0), "zero_load_displacement").value == pytest.approx(
-        -H0, abs=1e-9
-    )
+    assert Bradley().evaluate(Problem(n, 0.0, 1.0), "zero_load_displacement").value == pytest.approx(-H0, abs=1e-9)
 
 
 @pytest.mark.parametrize(("n", "published"), [(1, 2.880), (1.5, 2.166), (2, 2.0), (5, 1.669)])

@@ -121,9 +121,7 @@ def test_homogeneous_sphere_pressure() -> None:
 
 
 @pytest.mark.parametrize("model", [MaugisDugdaleOriginal(), MaugisDugdaleImproved()], ids=lambda m: m.name)
-@pytest.mark.parametrize(
-    ("n", "k", "mu"), [(2.0, 0.4, 1.0), (1.0, 0.0, 0.01), (5.0, 0.95, 5.0), (2.0, 1.0, 0.5)]
-)
+@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.4, 1.0), (1.0, 0.0, 0.01), (5.0, 0.95, 5.0), (2.0, 1.0, 0.5)])
 def test_profiles_in_barred_variables(model: MaugisDugdaleOriginal, n: float, k: float, mu: float) -> None:
     problem = Problem(n, k, mu)
     profile = model.profiles(problem)

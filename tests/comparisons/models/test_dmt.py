@@ -54,14 +54,10 @@ def test_curve_is_the_limit_of_maugis_dugdale(n: float, k: float) -> None:
     assert errors[1] < 0.05 * errors[0] < 0.05
 
 
-@pytest.mark.parametrize(
-    ("n", "k", "mu"), [(1.0, 0.0, 0.2), (2.0, 0.4, 1.0), (5.0, 0.6, 3.0), (2.0, 1.0, 1.0)]
-)
+@pytest.mark.parametrize(("n", "k", "mu"), [(1.0, 0.0, 0.2), (2.0, 0.4, 1.0), (5.0, 0.6, 3.0), (2.0, 1.0, 1.0)])
 def test_zero_load_lies_on_the_curve(n: float, k: float, mu: float) -> None:
     curve = DMT().curve(Problem(n, k, mu))
     # Interpolated in a^(n+k+1), in which the load is a straight line.
     a0 = np.interp(0.0, curve.load, curve.columns["contact_radius"] ** (n + k + 1)) ** (1 / (n + k + 1))
     expected = curve.displacement[-1] * (a0 / curve.columns["contact_radius"][-1]) ** n
-    assert DMT().evaluate(Problem(n, k, mu), "zero_load_displacement").value == pytest.approx(
-        expected, rel=1e-12
-    )
+    assert DMT().evaluate(Problem(n, k, mu), "zero_load_displacement").value == pytest.approx(expected, rel=1e-12)

@@ -37,9 +37,7 @@ def extreme(n: float, k: float, mu: float, which: int) -> mp.mpf:
     values = [printed_curve(n, k, mu, mp.exp(x))[which] for x in log_a]
     start = float(log_a[int(np.argmin(np.array(values, float)))])
     with mp.workdps(30):
-        return mp.exp(
-            mp.findroot(lambda x: mp.diff(lambda y: printed_curve(n, k, mu, mp.exp(y))[which], x), start)
-        )
+        return mp.exp(mp.findroot(lambda x: mp.diff(lambda y: printed_curve(n, k, mu, mp.exp(y))[which], x), start))
 
 
 @pytest.mark.parametrize(("n", "k", "mu"), CASES)
@@ -47,9 +45,7 @@ def test_events_are_the_extremes_of_the_printed_curve(n: float, k: float, mu: fl
     problem, model = Problem(n, k, mu), JKR()
     delta, P = printed_curve(n, k, mu, extreme(n, k, mu, 1))
     assert model.evaluate(problem, "pull_off_force").value == pytest.approx(float(-P), rel=1e-13)
-    assert model.evaluate(problem, "pull_off_displacement").value == pytest.approx(
-        float(delta), rel=1e-12, abs=1e-13
-    )
+    assert model.evaluate(problem, "pull_off_displacement").value == pytest.approx(float(delta), rel=1e-12, abs=1e-13)
     a_out = extreme(n, k, mu, 0)
     delta, _ = printed_curve(n, k, mu, a_out)
     assert model.evaluate(problem, "jump_out_displacement").value == pytest.approx(float(delta), rel=1e-13)
@@ -84,15 +80,11 @@ def test_printed_closed_forms(n: float, k: float, mu: float) -> None:
     """Eqs. 54-55 and 57 letter by letter."""
     B, cos, pi = float(mp.beta(n / 2, 0.5 + k / 2)), np.cos(k * np.pi / 2), np.pi
     base = (cos / (2 * pi * (1 - k))) ** (n - 2) * ((k + 3) / (n * B)) ** (k + 3)
-    force = (
-        2 * (2 * n + k - 1) / ((1 + k) * (n + k + 1)) * base ** (1 / (2 * n + k - 1)) * mu ** ((2 - n) / n)
-    )
+    force = 2 * (2 * n + k - 1) / ((1 + k) * (n + k + 1)) * base ** (1 / (2 * n + k - 1)) * mu ** ((2 - n) / n)
     C_out = 0.5 * (2 * n + k - 1) * (2 * pi * (1 - k) / (n**2 * cos)) ** (n / (2 * n + k - 1))
     C_out *= ((1 - k) / B) ** ((1 - k) / (2 * n + k - 1))
     assert JKR().evaluate(Problem(n, k, mu), "pull_off_force").value == pytest.approx(force, rel=1e-12)
-    assert JKR().evaluate(Problem(n, k, mu), "jump_out_displacement").value == pytest.approx(
-        -C_out * mu, rel=1e-12
-    )
+    assert JKR().evaluate(Problem(n, k, mu), "jump_out_displacement").value == pytest.approx(-C_out * mu, rel=1e-12)
 
 
 def chi(n: float, k: float) -> float:
@@ -117,9 +109,7 @@ def test_sensitivity_in_the_gibson_limit() -> None:
 
 @pytest.mark.parametrize("n", [1.0, 1.5, 2.0, 5.0])
 def test_jump_out_coefficient_tends_to_two(n: float) -> None:
-    assert JKR().evaluate(Problem(n, 1.0, 3.0), "jump_out_displacement").value == pytest.approx(
-        -6.0, rel=1e-14
-    )
+    assert JKR().evaluate(Problem(n, 1.0, 3.0), "jump_out_displacement").value == pytest.approx(-6.0, rel=1e-14)
     near = JKR().evaluate(Problem(n, 1 - 1e-9, 3.0), "jump_out_displacement").value
     assert near == pytest.approx(-6.0, rel=1e-7)
 

@@ -120,9 +120,7 @@ def test_homogeneous_sphere_is_maugis_1992(mu: float, m: float) -> None:
     assert delta == pytest.approx(D * (np.pi * dgamma / K) ** (2 / 3), rel=1e-8, abs=1e-10)
 
 
-@pytest.mark.parametrize(
-    ("n", "k"), [(1.0, 0.0), (1.5, 0.4), (2.0, 0.0), (2.0, 0.6), (5.0, 0.2), (10.0, 0.95)]
-)
+@pytest.mark.parametrize(("n", "k"), [(1.0, 0.0), (1.5, 0.4), (2.0, 0.0), (2.0, 0.6), (5.0, 0.2), (10.0, 0.95)])
 def test_tends_to_jkr(n: float, k: float) -> None:
     punch, jkr = GradedPunch(n, k), JKR()
     events = CohesiveEvents.scan(CohesiveContact(punch, 3e3))
@@ -137,14 +135,10 @@ def test_tends_to_jkr(n: float, k: float) -> None:
     # Corrections are a power of Lambda; at 3000 the slowest of these cases is 3e-3 away.
     np.testing.assert_allclose(found, expected, rtol=1e-2, atol=1e-2)
     farther = CohesiveEvents.scan(CohesiveContact(punch, 3.0))
-    assert (
-        abs(-events.pull_off().load - expected[0]) < 0.1 * abs(-farther.pull_off().load - expected[0]) + 1e-12
-    )
+    assert abs(-events.pull_off().load - expected[0]) < 0.1 * abs(-farther.pull_off().load - expected[0]) + 1e-12
 
 
-@pytest.mark.parametrize(
-    ("n", "k"), [(0.8, 0.6), (1.0, 0.0), (1.5, 0.4), (2.0, 0.0), (5.0, 0.2), (10.0, 0.95)]
-)
+@pytest.mark.parametrize(("n", "k"), [(0.8, 0.6), (1.0, 0.0), (1.5, 0.4), (2.0, 0.0), (5.0, 0.2), (10.0, 0.95)])
 def test_tends_to_dmt(n: float, k: float) -> None:
     errors = []
     for mu in (1e-3, 1e-5):
@@ -162,9 +156,7 @@ def random_problems(count: int) -> list[tuple[float, float, float]]:
     ("n", "k", "mu"), [*random_problems(25), (0.8, 0.0, 1e-3), (10.0, 0.95, 20.0), (2.0, 0.0, 1e-3)]
 )
 @pytest.mark.parametrize("model", [MaugisDugdaleOriginal(), MaugisDugdaleImproved()], ids=lambda m: m.name)
-def test_pull_off_is_the_lowest_of_a_dense_sample(
-    model: MaugisDugdaleOriginal, n: float, k: float, mu: float
-) -> None:
+def test_pull_off_is_the_lowest_of_a_dense_sample(model: MaugisDugdaleOriginal, n: float, k: float, mu: float) -> None:
     problem = Problem(n, k, mu)
     result = model.evaluate(problem, "pull_off_force")
     punch = GradedPunch.of(problem)
@@ -221,9 +213,7 @@ def test_error_bounds_hold_against_many_digits(n: float, k: float, mu: float) ->
             assert result.u_num < 1e-10 * (1.0 + abs(result.value)), quantity
 
 
-@pytest.mark.parametrize(
-    ("n", "k", "mu"), [(1.0, 0.0, 5.0), (2.0, 0.4, 3.0), (2.0, 0.0, 1.5), (5.0, 0.6, 3.0)]
-)
+@pytest.mark.parametrize(("n", "k", "mu"), [(1.0, 0.0, 5.0), (2.0, 0.4, 3.0), (2.0, 0.0, 1.5), (5.0, 0.6, 3.0)])
 def test_fold_is_the_smallest_displacement(n: float, k: float, mu: float) -> None:
     problem, model = Problem(n, k, mu), MaugisDugdaleImproved()
     fold = model.evaluate(problem, "jump_out_displacement").value
@@ -239,9 +229,7 @@ def test_no_fold_is_refused() -> None:
         MaugisDugdaleImproved().evaluate(problem, "jump_out_displacement")
 
 
-@pytest.mark.parametrize(
-    ("n", "k", "mu"), [(1.0, 0.4, 1.0), (2.0, 0.4, 1.0), (5.0, 0.0, 0.01), (1.5, 0.95, 20.0)]
-)
+@pytest.mark.parametrize(("n", "k", "mu"), [(1.0, 0.4, 1.0), (2.0, 0.4, 1.0), (5.0, 0.0, 0.01), (1.5, 0.95, 20.0)])
 def test_curve_passes_its_events(n: float, k: float, mu: float) -> None:
     problem, model = Problem(n, k, mu), MaugisDugdaleOriginal()
     curve = model.curve(problem)
@@ -261,9 +249,7 @@ def test_curve_passes_its_events(n: float, k: float, mu: float) -> None:
 @pytest.mark.parametrize("mu", [0.3, 3.0])
 @pytest.mark.parametrize("quantity", EVENTS[:3])
 def test_gibson_limit_is_continuous(n: float, mu: float, quantity: str) -> None:
-    limit, near = (
-        MaugisDugdaleImproved().evaluate(Problem(n, k, mu), quantity).value for k in (1.0, 1 - 1e-7)
-    )
+    limit, near = (MaugisDugdaleImproved().evaluate(Problem(n, k, mu), quantity).value for k in (1.0, 1 - 1e-7))
     assert near == pytest.approx(limit, rel=1e-5, abs=1e-6)
 
 
@@ -300,6 +286,4 @@ def test_models_differ_in_the_stress_alone() -> None:
     # sigma_0 mu is all that enters the tilde variables; for n = 2 the load scale is 1.
     equivalent = Problem(2, 0.4, THEORETICAL_STRENGTH / eta(2.0))
     original = MaugisDugdaleOriginal().evaluate(problem, "pull_off_force").value
-    assert MaugisDugdaleImproved().evaluate(equivalent, "pull_off_force").value == pytest.approx(
-        original, rel=1e-13
-    )
+    assert MaugisDugdaleImproved().evaluate(equivalent, "pull_off_force").value == pytest.approx(original, rel=1e-13)

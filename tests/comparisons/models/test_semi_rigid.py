@@ -25,12 +25,8 @@ CASES = [
 def central_deformation(problem: Problem, H0: float, traction) -> float:
     """M integral of p(H0 + t^n / n) d t^(1-k), Eq. 33."""
     n, m = problem.n, 1.0 - problem.k
-    value, _ = quad(
-        lambda v: traction(H0 + v ** (n / m) / n), 0.0, 1.0, epsabs=1e-14, epsrel=1e-13, limit=400
-    )
-    far, _ = quad(
-        lambda v: traction(H0 + v ** (-n / m) / n) / v**2, 0.0, 1.0, epsabs=1e-14, epsrel=1e-13, limit=400
-    )
+    value, _ = quad(lambda v: traction(H0 + v ** (n / m) / n), 0.0, 1.0, epsabs=1e-14, epsrel=1e-13, limit=400)
+    far, _ = quad(lambda v: traction(H0 + v ** (-n / m) / n) / v**2, 0.0, 1.0, epsabs=1e-14, epsrel=1e-13, limit=400)
     return problem.compliance * (value + far)
 
 
@@ -48,9 +44,7 @@ def test_curve_is_the_quadrature(n: float, k: float, mu: float) -> None:
     curve = SemiRigid().curve(problem)
     for i in (0, 200, 400):
         H0 = float(curve.columns["central_gap"][i])
-        assert curve.displacement[i] == pytest.approx(
-            -H0 + central_deformation(problem, H0, full_law), rel=1e-8
-        )
+        assert curve.displacement[i] == pytest.approx(-H0 + central_deformation(problem, H0, full_law), rel=1e-8)
         far = -H0 + central_deformation(problem, H0, attraction)
         assert curve.columns["asymptotic_displacement"][i] == pytest.approx(far, rel=1e-8)
         P, _ = quad(
@@ -90,9 +84,7 @@ def test_jump_in_is_the_fold_of_the_quadrature(n: float, k: float, mu: float) ->
 @pytest.mark.parametrize("mu", [0.6, 1.0, 4.0])
 def test_equation_49(mu: float) -> None:
     expected = 1 - 7 / 5 * (5 * np.pi / np.sqrt(2)) ** (2 / 7) * mu ** (3 / 7)
-    assert SemiRigid().evaluate(Problem(2, 0, mu), "jump_in_displacement").value == pytest.approx(
-        expected, rel=1e-13
-    )
+    assert SemiRigid().evaluate(Problem(2, 0, mu), "jump_in_displacement").value == pytest.approx(expected, rel=1e-13)
 
 
 @pytest.mark.parametrize("n", [1.0, 1.5, 2.0, 5.0])
@@ -106,9 +98,7 @@ def test_gibson_limit_is_the_local_spring() -> None:
     problem = Problem(2, 1.0, 1.2)
     curve = SemiRigid().curve(problem)
     H0 = curve.columns["central_gap"]
-    np.testing.assert_allclose(
-        curve.displacement, -H0 + 2 * 1.2**2 * LennardJones93().traction(H0), rtol=1e-12
-    )
+    np.testing.assert_allclose(curve.displacement, -H0 + 2 * 1.2**2 * LennardJones93().traction(H0), rtol=1e-12)
 
 
 def test_refuses_a_jump_in_from_contact() -> None:

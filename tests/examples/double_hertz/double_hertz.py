@@ -52,8 +52,7 @@ class DoubleHertz:
     name = "double-hertz"
     version = "1.0"
     citation = (
-        "Greenwood & Johnson, J. Phys. D 31 (1998) 3279-3290; Jin, Guo & Gao, J. Mech. Phys. Solids "
-        "61 (2013) 2473-2492"
+        "Greenwood & Johnson, J. Phys. D 31 (1998) 3279-3290; Jin, Guo & Gao, J. Mech. Phys. Solids 61 (2013) 2473-2492"
     )
     domain = "n = 2, 0 <= k <= 0.9, mu <= 100; in contact"
     limits = ("rigid", "jkr")
@@ -132,9 +131,7 @@ class States:
         values = [self.at(t)[index] for t in grid]
         best = int(np.argmin(values))
         bounds = (grid[max(best - 1, 0)], grid[min(best + 1, STEPS - 1)])
-        found = minimize_scalar(
-            lambda t: self.at(t)[index], bounds=bounds, method="bounded", options={"xatol": 1e-9}
-        )
+        found = minimize_scalar(lambda t: self.at(t)[index], bounds=bounds, method="bounded", options={"xatol": 1e-9})
         return (found.x, found.fun) if found.fun < values[best] else (grid[best], values[best])
 
     def fold(self):

@@ -1,0 +1,271 @@
+"""Gates as data: what is required of which model, in which cases, within which limits, and on what grounds.
+
+A gate compares one quantity of a candidate with that of a reference.  Unknown and missing keys are refused,
+so that a misspelt one cannot pass unnoticed.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from comparisons.cases import TIERS, Case, Grid
+from comparisons.models import MODELS
+from comparisons.quantities import QUANTITIES
+from comparisons.shapes import SHAPES
+
+__all__ = ["GIVEN", "METRICS", "Gate", "gates_text", "load_gates", "of_tier"]
+
+#: The candidate of a gate for every model that is given to a run, whatever its name.
+GIVEN = "given"
+
+METRICS = {
+    "rel": "(candidate - reference) / |reference|",
+    "abs": "candidate - reference",
+    "range-relative": "(candidate - reference) / range of the reference over the cases",
+    "curve": "largest distance of the two curves, as a fraction of the picture",
+}
+BASES = ("derived", "published", "measured")
+NOT_APPLICABLE = ("error", "leave-out")
+
+
+@dataclass(frozen=True, slots=True)
+class Gate:
+    """A requirement that can be judged.
+
+    Attributes
+    ----------
+    id : str
+        Stable, to be cited.
+    requirement : str
+        One sentence.
+    quantity : str
+        A name of `QUANTITIES`, or of `SHAPES` for the metric "curve".
+    candidate, reference : str
+        Names of models; the candidate `GIVEN` stands for every model given to a run.
+    cases : dict
+        Ranges [low, high] of n, k, mu and nu, ends included, and tags of grids; what is not named is not
+        restricted.
+    metric : str
+        One of `METRICS`.
+    lower, upper : float
+        Signed limits of the error; -inf or inf for none.
+    max_reference_uncertainty : float
+        Largest uncertainty of the reference, in the unit of the metric, with which the gate may pass.
+    basis : str
+        Where the limits come from: one of "derived", "published", "measured".
+    grounds : str
+        The derivation in short, the place published, or the worst case measured.
+    min_cases : int
+        Fewer evaluated cases are an error.
+    tier : str
+        The first of `TIERS` that judges it.
+    worst_measured : float or None
+        For "measured": the error of largest size when the limits were set.
+    reference_at : dict
+        Parameters at which the reference is taken instead of those of the case, e.g. ``{k = 1}``.
+    rival : str or None
+        A second model: the error is then by how much the candidate's exceeds the rival's in size.
+    not_applicable : str
+        What a case is of which a model says that it does not apply: an error, or left out.
+    expected_failure : str or None
+        Why every case is known to fail; one that passes is then reported.
+    """
+
+    id: str
+    requirement: str
+    quantity: str
+    candidate: str
+    reference: str
+    cases: Mapping[str, Any]
+    metric: str
+    lower: float
+    upper: float
+    max_reference_uncertainty: float
+    basis: str
+    grounds: str
+    min_cases: int
+    tier: str
+    worst_measured: float | None = None
+    reference_at: Mapping[str, float] = field(default_factory=dict)
+    rival: str | None = None
+    not_applicable: str = "error"
+    expected_failure: str | None = None
+
+    def selects(self, grid: Grid, case: Case) -> bool:
+        """Whether a case of a grid is one of the gate's; tags name grids, or properties of them.
+
+        Examples
+        --------
+        >>> gate = load_gates(gates_text())[0]
+        >>> gate.selects(Grid("a", "A", "quick", "b", (), (), ()), Case(2, 0, 1))
+        False
+        """
+        tags = self.cases.get("tags")
+        if tags is not None and not {grid.id, *grid.tags} & set(tags):
+            return False
+        return all(self._within(name, getattr(case, name)) for name in _PARAMETERS if name in self.cases)
+
+    def _within(self, name: str, value: float | None) -> bool:
+        low, high = self.cases[name]
+        return value is not None and low <= value <= high
+
+    def reference_case(self, case: Case) -> Case:
+        """Return the case in which the reference is asked."""
+        given = {"n": case.n, "k": case.k, "mu": case.mu, "nu": case.nu} | dict(self.reference_at)
+        return Case(**given)
+
+
+_PARAMETERS = ("n", "k", "mu", "nu")
+_FIELDS: dict[str, type | tuple[type, ...]] = {
+    "id": str,
+    "requirement": str,
+    "quantity": str,
+    "candidate": str,
+    "reference": str,
+    "cases": dict,
+    "metric": str,
+    "lower": (int, float),
+    "upper": (int, float),
+    "max_reference_uncertainty": (int, float),
+    "basis": str,
+    "grounds": str,
+    "min_cases": int,
+    "tier": str,
+}
+_OPTIONAL: dict[str, type | tuple[type, ...]] = {
+    "worst_measured": (int, float),
+    "reference_at": dict,
+    "rival": str,
+    "not_applicable": str,
+    "expected_failure": str,
+}
+_ID = re.compile(r"[A-Z0-9]+(-[A-Z0-9.]+)*")
+
+
+def load_gates(text: str, models: Iterable[str] = ()) -> list[Gate]:
+    """Read gates from TOML text.
+
+    Parameters
+    ----------
+    text : str
+        ``[[gate]]`` tables and nothing else.
+    models : iterable of str
+        Names of models that may be named besides those of the register.
+
+    Raises
+    ------
+    ValueError
+        If the text is not TOML, or a gate has a missing, unknown or inadmissible entry; the message names it.
+
+    Examples
+    --------
+    >>> load_gates("[[gate]] # without anything")
+    Traceback (most recent call last):
+    ValueError: gate 1: basis, candidate, cases, ... missing or unknown; ...
+    """
+    tables = tomllib.loads(text)
+    if tables.keys() != {"gate"} or not isinstance(tables["gate"], list):
+        raise ValueError(
+            f"a gates file holds [[gate]] tables and nothing else, not {', '.join(sorted(tables)) or 'nothing'}"
+        )
+    known = {*MODELS, *models}
+    read = [
+        _gate(table, f"gate {table.get('id', number)}", known) for number, table in enumerate(tables["gate"], start=1)
+    ]
+    ids = [gate.id for gate in read]
+    if twice := sorted({id for id in ids if ids.count(id) > 1}):
+        raise ValueError(f"the id of a gate must be its own; {', '.join(twice)} is there twice")
+    return read
+
+
+def _gate(table: dict[str, Any], where: str, models: set[str]) -> Gate:
+    wrong = sorted((_FIELDS.keys() - table.keys()) | (table.keys() - _FIELDS.keys() - _OPTIONAL.keys()))
+    if wrong:
+        raise ValueError(
+            f"{where}: {', '.join(wrong)} missing or unknown; a gate has {', '.join(_FIELDS)} "
+            f"and may have {', '.join(_OPTIONAL)}"
+        )
+    for key, kind in (_FIELDS | _OPTIONAL).items():
+        if key in table and (not isinstance(table[key], kind) or isinstance(table[key], bool)):
+            raise ValueError(f"{where}: {key} = {table[key]!r} has the wrong type")
+    gate = Gate(**table)
+    if not _ID.fullmatch(gate.id):
+        raise ValueError(f"{where}: the id must be capitals, digits and dashes, to be cited and searched for")
+    for key in ("candidate", "reference", "rival"):
+        name = getattr(gate, key)
+        if name is not None and name not in models and not (key == "candidate" and name == GIVEN):
+            raise ValueError(f"{where}: unknown {key} {name!r}; the models are {', '.join(sorted(models))}")
+    for key, allowed in {
+        "metric": METRICS,
+        "basis": BASES,
+        "tier": TIERS,
+        "not_applicable": NOT_APPLICABLE,
+    }.items():
+        if getattr(gate, key) not in allowed:
+            raise ValueError(f"{where}: {key} = {getattr(gate, key)!r} is not one of {', '.join(allowed)}")
+    quantities = SHAPES if gate.metric == "curve" else QUANTITIES
+    if gate.quantity not in quantities:
+        raise ValueError(
+            f"{where}: unknown quantity {gate.quantity!r} for the metric {gate.metric}; "
+            f"known are {', '.join(quantities)}"
+        )
+    _check_numbers(gate, where)
+    return gate
+
+
+def _check_numbers(gate: Gate, where: str) -> None:
+    if not gate.lower <= gate.upper or (math.isinf(gate.lower) and math.isinf(gate.upper)):
+        raise ValueError(
+            f"{where}: the limits {gate.lower:g} to {gate.upper:g} admit nothing or everything; one must be finite"
+        )
+    if gate.metric == "curve" and gate.lower != -math.inf:
+        raise ValueError(f"{where}: a distance has no lower limit; state lower = -inf")
+    if not 0.0 < gate.max_reference_uncertainty < math.inf:
+        raise ValueError(f"{where}: max_reference_uncertainty must be positive and finite")
+    if gate.min_cases < 1:
+        raise ValueError(f"{where}: min_cases = {gate.min_cases} is below 1: a gate without cases shows nothing")
+    if (gate.basis == "measured") != (gate.worst_measured is not None):
+        raise ValueError(f"{where}: a measured basis, and no other, states its worst_measured")
+    if not set(gate.cases) <= {*_PARAMETERS, "tags"} or not set(gate.reference_at) <= set(_PARAMETERS):
+        raise ValueError(f"{where}: cases may restrict {', '.join(_PARAMETERS)} and tags; reference_at all but tags")
+    for name, limits in gate.cases.items():
+        ordered = name == "tags" or (
+            isinstance(limits, list)
+            and len(limits) == 2
+            and all(isinstance(end, int | float) for end in limits)
+            and limits[0] <= limits[1]
+        )
+        if not (isinstance(limits, list) and limits and ordered):
+            raise ValueError(
+                f"{where}: cases.{name} = {limits!r} must be " + ("names" if name == "tags" else "[low, high]")
+            )
+
+
+def gates_text(path: Path | None = None) -> str:
+    """Return the text of a gates file, by default the standing one.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be read; the sentence gives the system's reason.
+    """
+    if path is None:
+        return files("comparisons").joinpath("gates.toml").read_text(encoding="utf-8")
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise ValueError(f"the gates file {path} cannot be read ({error.strerror})") from None
+    except UnicodeDecodeError:
+        raise ValueError(f"the gates file {path} is not UTF-8 text") from None
+
+
+def of_tier(gates: Iterable[Gate], tier: str) -> list[Gate]:
+    """Return the gates of a tier and of the tiers before it."""
+    return [gate for gate in gates if TIERS.index(gate.tier) <= TIERS.index(tier)]

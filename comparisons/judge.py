@@ -1,0 +1,339 @@
+"""The judge: gates and stored results in, a table of verdicts out; it computes no model.
+
+What is expected in a gate is decided by the cases that were declared, never by the rows that happen to exist,
+so that a row that is missing, is there twice or was never asked for is an ERROR and not a smaller sample.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+
+import numpy as np
+import pandas as pd
+
+from comparisons.cases import Case, Grid
+from comparisons.distance import curve_distance
+from comparisons.gates import GIVEN, Gate
+from comparisons.run import asked_at, plan
+from comparisons.verdict import Verdict, combined, decide, expecting_failure, roll_up
+
+__all__ = ["Judged", "by_gate", "judge", "relevant"]
+
+_NEEDED = {"model", "quantity", "n", "k", "mu", "nu", "value", "u_num", "status", "reason"}
+_NEEDED_OF_CURVES = {"model", "quantity", "n", "k", "mu", "nu", "x", "y", "u_distance", "status", "reason"}
+
+Key = tuple[str, str, float, float, float, float | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Judged:
+    """One gate in one case; n, k and mu are None where the gate as a whole could not be judged.
+
+    `error`, `uncertainty`, `lower` and `upper` are in the unit of the gate's metric.
+    """
+
+    gate: str
+    quantity: str
+    candidate: str
+    reference: str
+    n: float | None
+    k: float | None
+    mu: float | None
+    nu: float | None
+    value: float | None
+    u_num: float | None
+    reference_value: float | None
+    u_reference: float | None
+    error: float | None
+    uncertainty: float | None
+    lower: float
+    upper: float
+    verdict: Verdict
+    reason: str
+
+
+class _Unusable(Exception):
+    """An answer cannot be judged; holds the verdict it leads to and why."""
+
+    def __init__(self, verdict: Verdict, reason: str) -> None:
+        super().__init__(reason)
+        self.verdict, self.reason = verdict, reason
+
+
+def relevant(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> list[Gate]:
+    """Return the gates a run can judge, one for each given model where a gate is for all of them.
+
+    Parameters
+    ----------
+    gates : iterable of Gate
+    grids : sequence of Grid
+        The cases that are computed.
+    models : sequence of str or None
+        Models given in place of those each grid names; None for those.
+    """
+    references = {grid.reference for grid in grids}
+    chosen: list[Gate] = []
+    for gate in gates:
+        if gate.candidate == GIVEN:
+            chosen += [replace(gate, candidate=name) for name in models or ()]
+        elif models is None or (
+            gate.candidate in models and {gate.reference, gate.rival} - {None} <= references | set(models)
+        ):
+            chosen.append(gate)
+    return chosen
+
+
+def judge(
+    gates: Iterable[Gate],
+    grids: Sequence[Grid],
+    rows: pd.DataFrame,
+    curves: pd.DataFrame | None = None,
+    models: Sequence[str] | None = None,
+) -> pd.DataFrame:
+    """Judge stored results.
+
+    Parameters
+    ----------
+    gates : iterable of Gate
+    grids : sequence of Grid
+        The cases that were computed.
+    rows : DataFrame
+        Stored results (`comparisons.store.COLUMNS`).
+    curves : DataFrame, optional
+        Stored curves (`comparisons.store.CURVE_COLUMNS`).
+    models : sequence of str, optional
+        Models that were given in place of those each grid names.
+
+    Returns
+    -------
+    DataFrame
+        The fields of `Judged`, one row a gate and case, in the order of the gates, then of the cases.
+    """
+    expected = {task.key for task in plan(grids, None if models is None else list(models))}
+    given = None if models is None else set(models)
+    answers, shapes = _Answers(rows, _NEEDED), _Answers(curves, _NEEDED_OF_CURVES)
+    judged = [
+        one
+        for gate in relevant(gates, grids, models)
+        for one in _judge_gate(gate, grids, shapes if gate.metric == "curve" else answers, expected, given)
+    ]
+    return pd.DataFrame([asdict(one) for one in judged], columns=list(Judged.__slots__))
+
+
+class _Answers:
+    """The stored rows of each question."""
+
+    def __init__(self, table: pd.DataFrame | None, needed: set[str]) -> None:
+        table = pd.DataFrame(columns=sorted(needed)) if table is None else table
+        self.lost = sorted(needed - set(table.columns))
+        self.records: dict[Key, list[dict[str, object]]] = defaultdict(list)
+        if not self.lost:
+            for record in table[sorted(needed)].to_dict("records"):
+                nu = record["nu"]
+                nu = None if nu is None or pd.isna(nu) else float(nu)
+                self.records[record["model"], record["quantity"], record["n"], record["k"], record["mu"], nu].append(
+                    record
+                )
+
+    def usable(self, key: Key) -> list[dict[str, object]]:
+        """The records of a question that has an answer; raises `_Unusable` otherwise."""
+        records = self.records.get(key, [])
+        if not records:
+            raise _Unusable(Verdict.ERROR, f"{key[0]} has no row")
+        first = records[0]
+        if first["status"] == "not-applicable":
+            raise _Unusable(Verdict.NOT_APPLICABLE, f"{key[0]}: {first['reason']}")
+        if first["status"] != "ok":
+            raise _Unusable(Verdict.ERROR, f"{key[0]}: {first['status']}: {first['reason']}")
+        return records
+
+    def number(self, key: Key) -> tuple[float, float]:
+        """Value and u_num of a question."""
+        records = self.usable(key)
+        if len(records) > 1:
+            raise _Unusable(Verdict.ERROR, f"{key[0]} has {len(records)} rows")
+        value, u_num = (_real(records[0][name]) for name in ("value", "u_num"))
+        if not (math.isfinite(value) and math.isfinite(u_num) and u_num >= 0.0):
+            raise _Unusable(Verdict.ERROR, f"{key[0]} has the value {value:g} +- {u_num:g}")
+        return value, u_num
+
+    def points(self, key: Key) -> tuple[np.ndarray, np.ndarray, float]:
+        """The points of a curve and the bound on their distance from it."""
+        table = pd.DataFrame(self.usable(key))
+        u = float(table["u_distance"].max(skipna=False))
+        if not (math.isfinite(u) and u >= 0.0):
+            raise _Unusable(Verdict.ERROR, f"{key[0]} states the uncertainty {u:g} of its curve")
+        return table["x"].to_numpy(float), table["y"].to_numpy(float), u
+
+
+def _real(value: object) -> float:
+    return math.nan if value is None else float(value)  # type: ignore[arg-type]
+
+
+def _judge_gate(
+    gate: Gate, grids: Sequence[Grid], answers: _Answers, expected: set[Key], given: set[str] | None
+) -> Iterator[Judged]:
+    if answers.lost:
+        yield _whole(gate, f"the results have no column {', '.join(answers.lost)}")
+        return
+    cases = _cases(gate, grids, given)
+    scale = _range(gate, cases, answers)
+    judged = [_judge_case(gate, case, answers, scale) for case in cases]
+    yield from judged
+    evaluated = sum(one.verdict is not Verdict.NOT_APPLICABLE for one in judged)
+    if evaluated < gate.min_cases:
+        yield _whole(gate, f"{evaluated} cases were evaluated, {gate.min_cases} are declared")
+    stray = [key for key in answers.records if key[:2] == (gate.candidate, gate.quantity) and key not in expected]
+    if stray:
+        yield _whole(gate, f"{len(stray)} rows answer cases that were not asked, e.g. {stray[0][2:]}")
+
+
+def _cases(gate: Gate, grids: Sequence[Grid], given: set[str] | None) -> list[Case]:
+    """Return the cases that the candidate was asked and the gate selects, sorted."""
+    chosen = {
+        case
+        for grid in grids
+        if gate.quantity in grid.quantities
+        and gate.candidate in (given if given is not None else set(grid.models)) | {grid.reference}
+        for case in grid.cases
+        if gate.selects(grid, case)
+    }
+    return sorted(chosen, key=lambda case: (case.n, case.k, case.mu, -1.0 if case.nu is None else case.nu))
+
+
+def _key(model: str, gate: Gate, case: Case) -> Key:
+    asked = asked_at(model, case)
+    return model, gate.quantity, asked.n, asked.k, asked.mu, asked.nu
+
+
+def _range(gate: Gate, cases: list[Case], answers: _Answers) -> float:
+    """Range of the reference over the cases; 0 when it has none, which no error survives."""
+    values = []
+    for case in cases if gate.metric == "range-relative" else []:
+        try:
+            values.append(answers.number(_key(gate.reference, gate, gate.reference_case(case)))[0])
+        except _Unusable:
+            continue
+    return max(values) - min(values) if values else 0.0
+
+
+def _judge_case(gate: Gate, case: Case, answers: _Answers, scale: float) -> Judged:
+    blank = _whole(gate, "")
+    one = replace(blank, n=case.n, k=case.k, mu=case.mu, nu=asked_at(gate.candidate, case).nu)
+    try:
+        error, u_error, u_reference, facts = (
+            _distance(gate, case, answers) if gate.metric == "curve" else _error(gate, case, answers, scale)
+        )
+    except _Unusable as trouble:
+        verdict = trouble.verdict
+        if verdict is Verdict.NOT_APPLICABLE and gate.not_applicable == "error":
+            verdict = Verdict.ERROR
+        return replace(one, verdict=verdict, reason=trouble.reason)
+    verdict, reason = decide(error, u_error, gate.lower, gate.upper), ""
+    if verdict is Verdict.PASS and u_reference > gate.max_reference_uncertainty:
+        verdict = Verdict.INCONCLUSIVE
+        reason = f"u of {gate.reference} is {u_reference:.2g}; the gate tolerates {gate.max_reference_uncertainty:.2g}"
+    if gate.expected_failure:
+        verdict = expecting_failure(verdict)
+        reason = reason or gate.expected_failure
+    return replace(one, **facts, error=error, uncertainty=u_error, verdict=verdict, reason=reason)
+
+
+def _error(gate: Gate, case: Case, answers: _Answers, scale: float) -> tuple[float, float, float, dict[str, float]]:
+    """Return E, U and the reference's own share u, in the unit of the metric, and the values."""
+    true, u_true = answers.number(_key(gate.reference, gate, gate.reference_case(case)))
+    unit = {"rel": abs(true), "abs": 1.0, "range-relative": scale}[gate.metric]
+    if unit == 0.0:
+        raise _Unusable(Verdict.ERROR, f"the reference {gate.reference} is or has a range of zero: use metric abs")
+    value, u_num = answers.number(_key(gate.candidate, gate, case))
+    error, u, u_reference = _metric(gate, value, u_num, true, u_true, unit)
+    if gate.rival:
+        other, u_other = answers.number(_key(gate.rival, gate, case))
+        rival, u_rival, _ = _metric(gate, other, u_other, true, u_true, unit)
+        error, u = abs(error) - abs(rival), math.hypot(u, u_rival)
+    facts = {"value": value, "u_num": u_num, "reference_value": true, "u_reference": u_true}
+    return error, combined(u), u_reference, facts
+
+
+def _metric(
+    gate: Gate, value: float, u_num: float, true: float, u_true: float, unit: float
+) -> tuple[float, float, float]:
+    """Error and its uncertainties; a relative error moves with its denominator too."""
+    error = (value - true) / unit
+    share = u_true / unit * (abs(value / true) if gate.metric == "rel" else 1.0)
+    return error, math.hypot(u_num / unit, share), u_true / unit
+
+
+def _distance(gate: Gate, case: Case, answers: _Answers) -> tuple[float, float, float, dict[str, float]]:
+    x, y, u = answers.points(_key(gate.candidate, gate, case))
+    true_x, true_y, u_true = answers.points(_key(gate.reference, gate, gate.reference_case(case)))
+    try:
+        found = curve_distance(x, y, true_x, true_y)
+    except ValueError as refusal:
+        raise _Unusable(Verdict.ERROR, str(refusal)) from refusal
+    u_true = math.hypot(u_true, found.u_interpolation)
+    return found.value, combined(u, u_true), u_true, {"u_num": u, "u_reference": u_true}
+
+
+def _whole(gate: Gate, reason: str) -> Judged:
+    """An ERROR of the gate as a whole, and the blank form of a case."""
+    return Judged(
+        gate=gate.id,
+        quantity=gate.quantity,
+        candidate=gate.candidate,
+        reference=gate.reference,
+        n=None,
+        k=None,
+        mu=None,
+        nu=None,
+        value=None,
+        u_num=None,
+        reference_value=None,
+        u_reference=None,
+        error=None,
+        uncertainty=None,
+        lower=float(gate.lower),
+        upper=float(gate.upper),
+        verdict=Verdict.ERROR,
+        reason=reason,
+    )
+
+
+def by_gate(judged: pd.DataFrame) -> pd.DataFrame:
+    """Return one row a gate and candidate, worst first: the rolled-up verdict and the worst case.
+
+    Of cases with the same verdict the worst is the one nearest to a limit, or farthest beyond.  `cases`
+    counts those evaluated, `left_out` those that did not apply.
+    """
+    summary = []
+    for _, group in judged.groupby(["gate", "candidate"], sort=False):
+        applies = group["verdict"] != Verdict.NOT_APPLICABLE
+        verdict = roll_up(group["verdict"])
+        worst = group.loc[group["verdict"] == verdict] if applies.any() else group
+        worst = worst.loc[[_margin(worst).idxmax()]].iloc[0]
+        summary.append(
+            {
+                "verdict": verdict,
+                **worst.drop(["verdict", "reason"]).to_dict(),
+                "cases": int((applies & group["mu"].notna()).sum()),
+                "left_out": int((~applies).sum()),
+                "reason": worst["reason"],
+            }
+        )
+    table = pd.DataFrame(
+        summary,
+        columns=["verdict", *judged.columns.drop(["verdict", "reason"]), "cases", "left_out", "reason"],
+    )
+    order = table["verdict"].map(lambda verdict: Verdict(verdict).rank).astype(int)
+    return table.iloc[order.argsort(kind="stable")].reset_index(drop=True)
+
+
+def _margin(rows: pd.DataFrame) -> pd.Series:
+    """How far error and uncertainty reach towards or beyond the nearer limit, in widths of the gate."""
+    numbers = rows[["error", "uncertainty", "lower", "upper"]].astype(float)
+    width = (numbers["upper"] - numbers["lower"]).where(lambda w: np.isfinite(w) & (w > 0.0), 1.0)
+    beyond = np.maximum(numbers["error"] - numbers["upper"], numbers["lower"] - numbers["error"])
+    return ((beyond + numbers["uncertainty"]) / width).fillna(np.inf)

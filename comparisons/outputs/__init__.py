@@ -1,0 +1,1 @@
+"""Verdicts in the forms people paste: one module a format."""

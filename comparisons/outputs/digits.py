@@ -1,0 +1,48 @@
+"""A number printed with its uncertainty, to the digit the uncertainty leaves it."""
+
+from __future__ import annotations
+
+import math
+from decimal import ROUND_CEILING, ROUND_HALF_EVEN, Decimal
+
+__all__ = ["short"]
+
+
+def short(value: float, uncertainty: float | None) -> str:
+    """Return e.g. 1.788482(3): the digits in brackets are the uncertainty of the last ones before them.
+
+    The uncertainty is rounded up, to one digit, or to two when the first is 1 (so that 0.0014 does not become
+    0.002).
+
+    Parameters
+    ----------
+    value : float
+    uncertainty : float or None
+        Not negative.  Zero gives the shortest decimal that is the value; None or NaN six digits and no
+        brackets.
+
+    Examples
+    --------
+    >>> short(1.7884817, 2.6e-6), short(-0.4123, 0.0101), short(123456.0, 2300.0), short(1.5, 0.0)
+    ('1.788482(3)', '-0.412(11)', '123(3)e3', '1.5')
+    """
+    if not math.isfinite(value):
+        return str(value)
+    if uncertainty is None or math.isnan(uncertainty):
+        return f"{value:.6g}"
+    if uncertainty == 0.0:
+        return repr(float(value)).removesuffix(".0")
+    if math.isinf(uncertainty):
+        return f"{value:.6g}(inf)"
+    # The shortest decimal of a double is what was meant: 3e-6 is 3 and not 3.0000000000000001 rounded up.
+    u = Decimal(repr(float(uncertainty)))
+    # Digits of the uncertainty that stay: one, or two if the first is 1; rounding 9.5 up gives 10, again two.
+    place = u.adjusted()
+    if u.scaleb(-place) < 2:
+        place -= 1
+    step = Decimal(1).scaleb(place)
+    u = u.quantize(step, ROUND_CEILING)
+    rounded = Decimal(repr(float(value))).quantize(step, ROUND_HALF_EVEN)
+    if place <= 0:
+        return f"{rounded:f}({int(u.scaleb(-place))})"
+    return f"{int(rounded.scaleb(-place))}({int(u.scaleb(-place))})e{place}"

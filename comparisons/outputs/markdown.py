@@ -1,0 +1,42 @@
+"""Tables in GitHub's Markdown, and the summary page of a GitHub Actions job."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pandas as pd
+
+__all__ = ["markdown", "to_step_summary"]
+
+
+def markdown(table: pd.DataFrame, title: str) -> str:
+    r"""Return a table of texts as Markdown.
+
+    Examples
+    --------
+    >>> print(markdown(pd.DataFrame({"gate": ["A|B"], "verdict": ["PASS"]}), "Verdicts"), end="")
+    ## Verdicts
+    <BLANKLINE>
+    | gate | verdict |
+    | --- | --- |
+    | A\|B | PASS |
+    """
+    rows = [list(table.columns), ["---"] * len(table.columns), *table.astype(str).values.tolist()]
+    lines = ["| " + " | ".join(row if row == "---" else _escaped(row) for row in cells) + " |" for cells in rows]
+    return "\n".join([f"## {_escaped(title)}", "", *lines, ""])
+
+
+def _escaped(text: str) -> str:
+    """Text that neither a table nor HTML takes for its own."""
+    for character, replacement in {"&": "&amp;", "<": "&lt;", ">": "&gt;", "|": "\\|", "\n": " "}.items():
+        text = text.replace(character, replacement)
+    return text
+
+
+def to_step_summary(text: str) -> None:
+    """Append to the summary page if this is a job of GitHub Actions."""
+    path = os.environ.get("GITHUB_STEP_SUMMARY")
+    if path:
+        with Path(path).open("a", encoding="utf-8") as file:
+            file.write(text)

@@ -1,0 +1,97 @@
+"""The verdicts of a run for people: the matrix of gates, worst first, and the files beside the results."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+
+from comparisons.gates import Gate
+from comparisons.judge import by_gate
+from comparisons.outputs.digits import short
+from comparisons.outputs.junit import junit
+from comparisons.outputs.latex import latex
+from comparisons.outputs.markdown import markdown
+from comparisons.shapes import SHAPES
+from comparisons.store import atomic, write_table
+
+__all__ = ["FILES", "command", "matrix", "write_verdicts"]
+
+#: What `write_verdicts` writes.
+FILES = ("verdicts.csv", "verdicts.parquet", "verdicts.md", "verdicts.tex", "junit.xml")
+
+
+def command(row: pd.Series) -> str:
+    """Return the command that computes the candidate's side of a verdict again.
+
+    Examples
+    --------
+    >>> case = {"n": 2, "k": 0, "mu": 5, "nu": None}
+    >>> command(pd.Series({"candidate": "jkr", "quantity": "pull_off_force", **case}))
+    'fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0 --mu 5'
+    """
+    case = " ".join(f"--{name} {_short(row[name])}" for name in ("n", "k", "mu", "nu") if pd.notna(row[name]))
+    if not case:
+        return "fscm-bench list gates"
+    if row["quantity"] in SHAPES:
+        return f"fscm-bench curve --model {row['candidate']} {case.partition(' --nu')[0]}"
+    return f"fscm-bench solve --model {row['candidate']} --quantity {row['quantity']} {case}"
+
+
+def _short(value: float) -> str:
+    return repr(float(value)).removesuffix(".0")
+
+
+def matrix(judged: pd.DataFrame) -> pd.DataFrame:
+    """Return one row of texts a gate and candidate, worst first.
+
+    Columns: verdict, gate, candidate, reference, cases (how many, and of them those that did not apply),
+    error of the worst case with its U in brackets, limits, the command that computes that case again, and the
+    reason.
+    """
+    gates = by_gate(judged)
+    return pd.DataFrame(
+        {
+            "verdict": gates["verdict"].map(str),
+            "gate": gates["gate"],
+            "candidate": gates["candidate"],
+            "reference": gates["reference"],
+            "cases": [
+                f"{a}" + (f" ({b} n/a)" if b else "") for a, b in zip(gates["cases"], gates["left_out"], strict=True)
+            ],
+            "worst E(U)": [_error(row) for _, row in gates.iterrows()],
+            "limits": [f"{low:.3g} to {high:.3g}" for low, high in zip(gates["lower"], gates["upper"], strict=True)],
+            "command": [command(row) for _, row in gates.iterrows()],
+            "reason": gates["reason"],
+        },
+        dtype=object,
+    )
+
+
+def _error(row: pd.Series) -> str:
+    if pd.isna(row["error"]):
+        return ""
+    # An error far below one is read as a power of ten, with as many digits as U leaves it.
+    error, u = float(row["error"]), float(row["uncertainty"])
+    if 0.0 < max(abs(error), u) < 1e-3:
+        return f"{error:.1e}({u:.0e})"
+    return short(error, u) if u > 1e-5 else f"{error:.5f}"
+
+
+def write_verdicts(folder: Path, judged: pd.DataFrame, gates: list[Gate]) -> str:
+    """Write the verdicts as CSV, Parquet, Markdown, LaTeX and JUnit XML; return the Markdown."""
+    stored = judged.assign(verdict=judged["verdict"].map(str))
+    write_table(stored, folder / "verdicts")
+    shown = matrix(judged)
+    requirement = {gate.id: gate.requirement for gate in gates}
+    page = markdown(shown.assign(requirement=[requirement.get(id, "") for id in shown["gate"]]), "Verdicts")
+    texts = {
+        "verdicts.md": page,
+        "verdicts.tex": latex(shown.drop(columns=["command", "reason"]), "Verdicts of fscm-bench, worst first"),
+    }
+    for name, text in texts.items():
+        with atomic(folder / name) as file:
+            file.write(text.encode())
+    with atomic(folder / "junit.xml") as file:
+        file.write(junit(judged, command))
+    return page

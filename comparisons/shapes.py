@@ -1,0 +1,92 @@
+"""The registry of what can be asked besides numbers: curves, one row a kind.
+
+The points of a shape are stored with a bound on their own distance from the exact curve, in the plane in
+which both axes are scaled by the range of the curve (see `comparisons.distance`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from comparisons.model import KnowsProfiles, Model, NotApplicable, TracesCurve
+from fscm.problem import Problem
+
+__all__ = ["SHAPES", "Points", "Shape", "pressure_near"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Points:
+    """Points in the order of the curve, dimensionless, and the bound on their distance from it."""
+
+    x: list[float]
+    y: list[float]
+    u_distance: float
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """A kind of curve: name, what is on its axes, their units, and how a model is asked for it."""
+
+    name: str
+    x: str
+    y: str
+    unit: str
+    meaning: str
+    ask: Callable[[Model, Problem], Points]
+
+
+def _force_curve(model: Model, problem: Problem) -> Points:
+    if not isinstance(model, TracesCurve):
+        raise NotApplicable("the model has no force-displacement curve")
+    curve = model.curve(problem)
+    return _points(curve.displacement, curve.load, curve.u_distance)
+
+
+def _pull_off_pressure(model: Model, problem: Problem) -> Points:
+    if not isinstance(model, KnowsProfiles):
+        raise NotApplicable("the model has no pressure profile")
+    profile = model.pull_off_profile(problem)
+    return _points(*pressure_near(profile.radius, profile.pressure, profile.gap), profile.u_distance)
+
+
+#: Profiles are stored out to this gap, in z0, where the traction has fallen to 0.2 % of its largest.
+FARTHEST_GAP = 10.0
+
+
+def pressure_near(radius: Array, pressure: Array, gap: Array) -> tuple[Array, Array]:
+    """Return radius and pressure out to the gap `FARTHEST_GAP`."""
+    near = gap <= FARTHEST_GAP
+    return radius[near], pressure[near]
+
+
+def _points(x: Array, y: Array, u_distance: float) -> Points:
+    return Points([float(a) for a in x], [float(b) for b in y], float(u_distance))
+
+
+SHAPES: dict[str, Shape] = {
+    shape.name: shape
+    for shape in (
+        Shape(
+            "force_curve",
+            "displacement",
+            "load",
+            "z0; pi Q^(2/n) dgamma z0^(2/n-1)",
+            "equilibrium path, from far away into contact",
+            _force_curve,
+        ),
+        Shape(
+            "pull_off_pressure",
+            "radius",
+            "pressure",
+            "(Q z0)^(1/n); dgamma / z0",
+            "pressure over the radius where P is smallest; tension negative",
+            _pull_off_pressure,
+        ),
+    )
+}

@@ -1,0 +1,146 @@
+"""Gates as data: what is read, what is refused, and that the standing ones are fit to be cited."""
+
+import math
+import re
+
+import pytest
+
+from comparisons.cases import Case, Grid, grids
+from comparisons.cli import main
+from comparisons.gates import GIVEN, gates_text, load_gates, of_tier
+from comparisons.models import MODELS
+
+GATE = """
+[[gate]]
+id = "A-GATE"
+requirement = "JKR is right."
+quantity = "pull_off_force"
+candidate = "jkr"
+reference = "fscm"
+cases = { n = [1, 2], tags = ["blue"] }
+metric = "rel"
+lower = -0.1
+upper = 0.1
+max_reference_uncertainty = 1e-6
+basis = "derived"
+grounds = "A limit."
+min_cases = 3
+tier = "quick"
+"""
+
+
+def test_a_gate_is_read():
+    (gate,) = load_gates(GATE)
+    assert (gate.id, gate.lower, gate.upper, gate.min_cases) == ("A-GATE", -0.1, 0.1, 3)
+    assert (gate.reference_at, gate.rival, gate.not_applicable, gate.expected_failure) == (
+        {},
+        None,
+        "error",
+        None,
+    )
+
+
+def test_ranges_include_their_ends_and_tags_name_grids_or_properties():
+    (gate,) = load_gates(GATE)
+    blue, red = (Grid(id, "", "quick", "fscm", (), (), (), (tag,)) for id, tag in (("a", "blue"), ("b", "red")))
+    by_id = Grid("blue", "", "quick", "fscm", (), (), ())
+    assert [gate.selects(blue, Case(n, 0, 1)) for n in (0.99, 1, 1.5, 2, 2.01)] == [
+        False,
+        True,
+        True,
+        True,
+        False,
+    ]
+    assert [gate.selects(grid, Case(1, 0, 1)) for grid in (red, by_id)] == [False, True]
+
+
+def test_a_range_of_poissons_ratio_does_not_select_a_case_without_one():
+    (gate,) = load_gates(GATE.replace('n = [1, 2], tags = ["blue"]', "nu = [0, 0.49]"))
+    grid = Grid("a", "", "quick", "fscm", (), (), ())
+    assert [gate.selects(grid, Case(2, 0, 1, nu)) for nu in (None, 0.0, 0.3)] == [False, True, True]
+
+
+def test_the_reference_may_be_asked_elsewhere():
+    (gate,) = load_gates(GATE + "reference_at = { k = 1, nu = 0.25 }")
+    assert gate.reference_case(Case(2, 0.95, 0.5)) == Case(2, 1, 0.5, 0.25)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("min_cases = 3", "min_cases = 3\nminimum = 3", "minimum missing or unknown"),
+        ("min_cases = 3", "", "min_cases missing or unknown"),
+        ("min_cases = 3", "min_cases = 0", "a gate without cases shows nothing"),
+        ("min_cases = 3", 'min_cases = "3"', "wrong type"),
+        ("min_cases = 3", "min_cases = true", "wrong type"),
+        ("A-GATE", "a gate", "capitals"),
+        ('"jkr"', '"hertz"', "unknown candidate 'hertz'"),
+        ('"fscm"', '"given"', "unknown reference 'given'"),
+        ('"rel"', '"relative"', "metric = 'relative'"),
+        ('"rel"', '"curve"', "unknown quantity"),
+        ("pull_off_force", "pull_off", "unknown quantity"),
+        ("pull_off_force", "force_curve", "unknown quantity"),
+        ('"derived"', '"guessed"', "basis = 'guessed'"),
+        ('"derived"', '"measured"', "states its worst_measured"),
+        ("min_cases = 3", "min_cases = 3\nworst_measured = 0.1", "states its worst_measured"),
+        ('"quick"', '"slow"', "tier = 'slow'"),
+        ("lower = -0.1", "lower = 0.2", "admit nothing"),
+        ("lower = -0.1\nupper = 0.1", "lower = -inf\nupper = inf", "one must be finite"),
+        ("lower = -0.1", "lower = nan", "admit nothing"),
+        ("1e-6", "0", "positive"),
+        ("1e-6", "inf", "positive"),
+        ("n = [1, 2]", "n = [2, 1]", "[low, high]"),
+        ("n = [1, 2]", "n = 1", "[low, high]"),
+        ("n = [1, 2]", "m = [1, 2]", "may restrict"),
+        ("min_cases = 3", 'min_cases = 3\nnot_applicable = "pass"', "not_applicable = 'pass'"),
+        ("[[gate]]", "[[gates]]", "nothing else"),
+        ("[[gate]]", "[gate]", "nothing else"),
+        ("[[gate]]", "[[gate]", "line"),
+    ],
+)
+def test_what_is_wrong_is_refused_and_named(old, new, says, tmp_path, capsys):
+    text = GATE.replace(old, new)
+    with pytest.raises(ValueError, match=re.escape(says)):
+        load_gates(text)
+    (tmp_path / "gates.toml").write_text(text)
+    assert main(["run", "--gates", str(tmp_path / "gates.toml"), "--out", str(tmp_path / "out")]) == 2
+    shown = capsys.readouterr()
+    assert shown.err.count("\n") == 1
+    assert says in shown.err
+
+
+def test_two_gates_of_one_id_are_refused():
+    with pytest.raises(ValueError, match="A-GATE is there twice"):
+        load_gates(GATE + GATE)
+
+
+def test_a_file_that_is_not_there_is_refused(tmp_path, capsys):
+    assert main(["run", "--gates", str(tmp_path / "no.toml")]) == 2
+    assert "cannot be read" in capsys.readouterr().err
+
+
+STANDING = load_gates(gates_text())
+
+
+def test_there_are_enough_standing_gates():
+    assert len(of_tier(STANDING, "quick")) >= 25
+
+
+@pytest.mark.parametrize("gate", STANDING, ids=lambda gate: gate.id)
+def test_a_standing_gate_is_fit_to_be_cited(gate):
+    assert gate.requirement.endswith(".")
+    assert gate.candidate in {*MODELS, GIVEN}
+    assert gate.grounds
+    if gate.worst_measured is not None:
+        assert gate.lower <= gate.worst_measured <= gate.upper
+        # Limits much wider than what was measured would let a regression by.
+        assert abs(gate.worst_measured) > 0.0
+    declared = {
+        case
+        for grid in grids(gate.tier)
+        if gate.quantity in grid.quantities
+        for case in grid.cases
+        if gate.selects(grid, case)
+    }
+    assert len(declared) >= gate.min_cases
+    assert math.isfinite(gate.upper)
