@@ -17,7 +17,7 @@ SAFETY = 3.0
 error
 stays below a third of the bound)."""
 
-FLOOR = 3e-7
+FLOOR = 2e-7
 """Relative error that refinement in the family does not show: first layer, exterior, tail, quadrature (measured
 against the integral equation: worst 8e-8, for a cone at 0 < k <= 0.2; 1e-8 and less for paraboloids)."""
 
