@@ -121,7 +121,7 @@ _OPTIONAL = ("nu", "tags")
 _TEXTS = ("id", "title", "tier", "reference")
 
 
-def _known(what: str, names: list[str], register: Mapping[str, object] | tuple[str, ...], where: str) -> None:
+def _known(what: str, names: list[str], register: Mapping[str, object] | Sequence[str], where: str) -> None:
     for name in names:
         if name not in register:
             raise ValueError(f"{where}: unknown {what} {name!r}; known are {', '.join(register)}")
@@ -139,7 +139,7 @@ def _grid(table: dict[str, Any], where: str) -> Grid:
             raise ValueError(f"{where}: {key} must be a list with at least one entry")
     _known("tier", [table["tier"]], TIERS, where)
     _known("model", [table["reference"], *table["models"]], MODELS, where)
-    _known("quantity", table["quantities"], QUANTITIES | SHAPES, where)
+    _known("quantity", table["quantities"], (*QUANTITIES, *SHAPES), where)
     parameters = product(table["n"], table["k"], table["mu"], table.get("nu", [None]))
     cases = {Case(*values) for values in parameters}
     return Grid(

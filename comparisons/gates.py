@@ -10,7 +10,7 @@ import math
 import re
 import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -118,8 +118,7 @@ class Gate:
 
     def reference_case(self, case: Case) -> Case:
         """Return the case in which the reference is asked."""
-        given = {"n": case.n, "k": case.k, "mu": case.mu, "nu": case.nu} | dict(self.reference_at)
-        return Case(**given)
+        return replace(case, **self.reference_at)
 
 
 _PARAMETERS = ("n", "k", "mu", "nu")

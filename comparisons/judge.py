@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -129,7 +130,7 @@ class _Answers:
     def __init__(self, table: pd.DataFrame | None, needed: set[str]) -> None:
         table = pd.DataFrame(columns=sorted(needed)) if table is None else table
         self.lost = sorted(needed - set(table.columns))
-        self.records: dict[Key, list[dict[str, object]]] = defaultdict(list)
+        self.records: dict[Key, list[dict[Hashable, Any]]] = defaultdict(list)
         if not self.lost:
             for record in table[sorted(needed)].to_dict("records"):
                 nu = record["nu"]
@@ -138,7 +139,7 @@ class _Answers:
                     record
                 )
 
-    def usable(self, key: Key) -> list[dict[str, object]]:
+    def usable(self, key: Key) -> list[dict[Hashable, Any]]:
         """The records of a question that has an answer; raises `_Unusable` otherwise."""
         records = self.records.get(key, [])
         if not records:
@@ -169,8 +170,8 @@ class _Answers:
         return table["x"].to_numpy(float), table["y"].to_numpy(float), u
 
 
-def _real(value: object) -> float:
-    return math.nan if value is None else float(value)  # type: ignore[arg-type]
+def _real(value: float | None) -> float:
+    return math.nan if value is None else float(value)
 
 
 def _judge_gate(
@@ -242,7 +243,7 @@ def _judge_case(gate: Gate, case: Case, answers: _Answers, scale: float) -> Judg
     return replace(one, **facts, error=error, uncertainty=u_error, verdict=verdict, reason=reason)
 
 
-def _error(gate: Gate, case: Case, answers: _Answers, scale: float) -> tuple[float, float, float, dict[str, float]]:
+def _error(gate: Gate, case: Case, answers: _Answers, scale: float) -> tuple[float, float, float, dict[str, Any]]:
     """Return E, U and the reference's own share u, in the unit of the metric, and the values."""
     true, u_true = answers.number(_key(gate.reference, gate, gate.reference_case(case)))
     unit = {"rel": abs(true), "abs": 1.0, "range-relative": scale}[gate.metric]
@@ -267,7 +268,7 @@ def _metric(
     return error, math.hypot(u_num / unit, share), u_true / unit
 
 
-def _distance(gate: Gate, case: Case, answers: _Answers) -> tuple[float, float, float, dict[str, float]]:
+def _distance(gate: Gate, case: Case, answers: _Answers) -> tuple[float, float, float, dict[str, Any]]:
     x, y, u = answers.points(_key(gate.candidate, gate, case))
     true_x, true_y, u_true = answers.points(_key(gate.reference, gate, gate.reference_case(case)))
     try:
@@ -312,8 +313,8 @@ def by_gate(judged: pd.DataFrame) -> pd.DataFrame:
     for _, group in judged.groupby(["gate", "candidate"], sort=False):
         applies = group["verdict"] != Verdict.NOT_APPLICABLE
         verdict = roll_up(group["verdict"])
-        worst = group.loc[group["verdict"] == verdict] if applies.any() else group
-        worst = worst.loc[[_margin(worst).idxmax()]].iloc[0]
+        candidates = group.loc[group["verdict"] == verdict] if applies.any() else group
+        worst = candidates.iloc[int(_margin(candidates).argmax())]
         summary.append(
             {
                 "verdict": verdict,

@@ -50,7 +50,7 @@ def _read(path: Path) -> pd.DataFrame:
     table = pd.read_csv(path, dtype=str, keep_default_na=False)
     numbers = {
         name: table[name].map(lambda text: float(text) if text else math.nan).astype(float)
-        for name in table.columns.difference(_TEXTS)
+        for name in table.columns.difference(list(_TEXTS))
     }
     return table.assign(**numbers)
 

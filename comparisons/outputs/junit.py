@@ -36,9 +36,9 @@ def junit(judged: pd.DataFrame, command: Callable[[pd.Series], str]) -> bytes:
     command : callable
         Gives the command that reproduces a row.
     """
-    root = ElementTree.Element("testsuites", name="fscm-bench", **_counts(judged))
+    root = ElementTree.Element("testsuites", {"name": "fscm-bench"} | _counts(judged))
     for gate, group in judged.groupby("gate", sort=False):
-        suite = ElementTree.SubElement(root, "testsuite", name=_text(gate), **_counts(group))
+        suite = ElementTree.SubElement(root, "testsuite", {"name": _text(gate)} | _counts(group))
         for _, row in group.iterrows():
             _case(suite, row, command)
     ElementTree.indent(root)

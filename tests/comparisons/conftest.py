@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from comparisons.cases import load_grids
+from comparisons.gates import gates_text
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from comparisons.models import MODELS
 
@@ -75,7 +76,31 @@ mu = [0.1, 1]
 """
 
 
+GATES = """
+[[gate]]
+id = "TEN-PERCENT"
+requirement = "The error is ten percent."
+quantity = "pull_off_force"
+candidate = "ten-percent"
+reference = "truth"
+cases = { mu = [0.1, 1] }
+metric = "rel"
+lower = 0.09
+upper = 0.11
+max_reference_uncertainty = 1e-6
+basis = "derived"
+grounds = "2.2 / 2."
+min_cases = 4
+tier = "quick"
+"""
+
+
 @pytest.fixture
 def small_grid(toys, monkeypatch):
-    """Make `fscm-bench run` compute four cases of toy models."""
-    monkeypatch.setattr("comparisons.commands.run.grids", lambda tier: load_grids(GRID))
+    """Make `fscm-bench run` compute four cases of toy models and judge them by one gate, given here."""
+    for command in ("run", "judge"):
+        monkeypatch.setattr(f"comparisons.commands.{command}.grids", lambda tier: load_grids(GRID))
+        monkeypatch.setattr(
+            f"comparisons.commands.{command}.gates_text", lambda path: gates_text(path) if path else GATES
+        )
+    return GATES

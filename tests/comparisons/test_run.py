@@ -9,6 +9,7 @@ import pytest
 import comparisons.commands.run as command
 from comparisons.cases import Case, load_grids
 from comparisons.cli import main
+from comparisons.outputs.verdicts import FILES as VERDICTS
 from comparisons.run import Task, answer, compute, plan
 from comparisons.store import Journal
 
@@ -23,6 +24,9 @@ FILES = {
     "fig16b_kappa.png",
     "fig16b_kappa.pdf",
     "run.json",
+    "curves.csv",
+    "curves.parquet",
+    *VERDICTS,
 }
 
 STANDING = """
@@ -64,7 +68,13 @@ def test_a_run_leaves_its_tables_figure_and_record(small_grid, tmp_path, capsys)
 def test_the_record_says_where_the_numbers_come_from(small_grid, tmp_path):
     run(tmp_path, "--tier", "full")
     record = json.loads(read(tmp_path, "run.json"))
-    assert record["arguments"] == {"tier": "full", "model": None, "jobs": 1, "out": str(tmp_path)}
+    assert record["arguments"] == {
+        "tier": "full",
+        "model": None,
+        "gates": None,
+        "jobs": 1,
+        "out": str(tmp_path),
+    }
     assert record["rows"] == {"all": 12, "resumed": 0, "ok": 8, "not-applicable": 4}
     assert {"commit", "dirty", "version", "code_sha256"} <= record["package"].keys()
     assert {"cpu", "cores", "system"} <= record["machine"].keys()
@@ -130,8 +140,9 @@ def test_results_of_other_code_in_the_folder_are_refused(small_grid, tmp_path, c
     assert "another version of the code" in capsys.readouterr().err
 
 
-def test_no_candidate_with_a_value_is_not_an_error(small_grid, tmp_path):
-    assert run(tmp_path, "--model", "refuses") == 0
+def test_without_a_gate_nothing_is_shown_and_that_is_an_error(small_grid, tmp_path, capsys):
+    assert run(tmp_path, "--model", "refuses") == 4
+    assert "no gate was evaluated" in capsys.readouterr().err
     assert pd.read_csv(tmp_path / "kappa.csv").empty
 
 

@@ -31,7 +31,7 @@ def test_the_curve_of_the_reference_holds_its_own_pull_off():
 def test_a_solver_that_does_not_converge_has_failed(monkeypatch, solver):
     package = {"fscm": fscm, "fem": fem_reference}[solver]
 
-    def stuck(*_):
+    def stuck(*_, **__):
         raise package.NotConverged("50 iterations were not enough")
 
     monkeypatch.setattr(package, "solve", stuck)

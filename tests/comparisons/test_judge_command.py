@@ -1,0 +1,113 @@
+"""What a run says about its gates, and judging it again: exit statuses and files."""
+
+import json
+import re
+
+import pandas as pd
+import pytest
+
+from comparisons.cli import main
+from comparisons.outputs.verdicts import FILES
+
+
+@pytest.fixture
+def folder(small_grid, tmp_path, capsys):
+    """A finished run."""
+    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run")]) == 0
+    capsys.readouterr()
+    return tmp_path / "run"
+
+
+def gates(text, tmp_path, *changes):
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    (tmp_path / "gates.toml").write_text(text)
+    return ["--gates", str(tmp_path / "gates.toml")]
+
+
+def test_judging_again_gives_the_same_and_computes_nothing(folder, monkeypatch, capsys):
+    before = {name: (folder / name).read_bytes() for name in FILES}
+    monkeypatch.setattr("comparisons.models.create", None)
+    monkeypatch.setattr("comparisons.run.answer", None)
+    shown = []
+    for _ in range(2):
+        assert main(["judge", str(folder)]) == 0
+        shown.append(capsys.readouterr().out)
+        assert {name: (folder / name).read_bytes() for name in FILES} == before
+    assert shown[0] == shown[1]
+    assert "TEN-PERCENT" in shown[0]
+    assert "fscm-bench solve --model ten-percent --quantity pull_off_force --n 2 --k 0" in shown[0]
+    assert shown[0].rstrip().endswith("PASS: 1 gates, 4 cases PASS")
+
+
+@pytest.mark.parametrize(
+    ("changes", "status", "verdict"),
+    [
+        ([], 0, "PASS"),
+        ([("upper = 0.11", "upper = 0.095")], 1, "FAIL"),
+        ([("upper = 0.11", "upper = 0.1")], 3, "INCONCLUSIVE"),
+        ([("1e-6", "1e-12")], 3, "INCONCLUSIVE"),
+        ([("min_cases = 4", "min_cases = 5")], 4, "ERROR"),
+        ([("mu = [0.1, 1]", "mu = [2, 3]")], 4, "ERROR"),
+        ([('tier = "quick"', 'tier = "full"')], 4, "ERROR"),
+        (
+            [("upper = 0.11", "upper = 0.095"), ("min_cases", 'expected_failure = "known"\nmin_cases')],
+            0,
+            "XFAIL",
+        ),
+        ([("min_cases", 'expected_failure = "known"\nmin_cases')], 1, "XPASS"),
+        ([('"ten-percent"', '"refuses"')], 4, "ERROR"),
+    ],
+)
+@pytest.mark.parametrize("command", ["run", "judge"])
+def test_the_exit_status_is_the_verdict(small_grid, tmp_path, capsys, changes, status, verdict, command):
+    if command == "judge":
+        assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run")]) == 0
+        arguments = ["judge", str(tmp_path / "run")]
+    else:
+        arguments = ["run", "--jobs", "1", "--out", str(tmp_path / "run")]
+    assert main([*arguments, *gates(small_grid, tmp_path, *changes)]) == status
+    shown = capsys.readouterr()
+    assert verdict in shown.out or "no gate was evaluated" in shown.err
+    if command == "run":
+        assert json.loads((tmp_path / "run" / "run.json").read_text())["verdicts"]["all"] == verdict
+
+
+def test_other_gates_than_those_of_the_run_are_named(folder, small_grid, tmp_path, capsys):
+    main(["judge", str(folder), *gates(small_grid, tmp_path, ("0.11", "0.12"))])
+    assert "the gates have changed since" in capsys.readouterr().err
+
+
+def test_results_spoilt_after_the_run_are_an_error(folder, capsys):
+    table = pd.read_parquet(folder / "results.parquet")
+    table.drop(columns="u_num").to_parquet(folder / "results.parquet")
+    assert main(["judge", str(folder)]) == 4
+    assert "no column u_num" in capsys.readouterr().out
+    table[table["model"] != "truth"].to_parquet(folder / "results.parquet")
+    assert main(["judge", str(folder)]) == 4
+    assert "truth has no row" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("lost", ["run.json", "results.parquet", "curves.parquet"])
+def test_a_folder_that_is_no_finished_run_is_wrong_input(folder, lost, capsys):
+    (folder / lost).unlink()
+    assert main(["judge", str(folder)]) == 2
+    assert re.search(r"not the folder of a finished run", capsys.readouterr().err)
+
+
+def test_a_file_that_is_no_parquet_is_wrong_input(folder, capsys):
+    (folder / "results.parquet").write_text("nonsense")
+    assert main(["judge", str(folder)]) == 2
+    assert "cannot be read as Parquet" in capsys.readouterr().err
+
+
+def test_the_summary_of_a_ci_job(small_grid, tmp_path, monkeypatch):
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(tmp_path / "summary.md"))
+    main(["run", "--jobs", "1", "--out", str(tmp_path / "run")])
+    assert "| PASS | TEN-PERCENT |" in (tmp_path / "summary.md").read_text()
+
+
+def test_gates_are_listed(capsys):
+    assert main(["list", "gates"]) == 0
+    assert "JKR-LIMIT-PULL-OFF" in capsys.readouterr().out
