@@ -17,6 +17,9 @@ from comparisons.store import atomic, write_table
 
 __all__ = ["FILES", "command", "matrix", "write_verdicts"]
 
+#: Uncertainties below this are shown as this: nobody reads sixteen digits.
+_LEAST_SHOWN = 5e-10
+
 #: What `write_verdicts` writes.
 FILES = ("verdicts.csv", "verdicts.parquet", "verdicts.md", "verdicts.tex", "junit.xml")
 
@@ -78,6 +81,32 @@ def _error(row: pd.Series) -> str:
     return short(error, u) if u > 1e-5 else f"{error:.5f}"
 
 
+def _worst_cases(judged: pd.DataFrame) -> pd.DataFrame:
+    """Return the worst case of each gate as texts, the two values with their uncertainty."""
+    gates = by_gate(judged)
+    rows = [row for _, row in gates.iterrows()]
+    return pd.DataFrame(
+        {
+            "verdict": gates["verdict"].map(str),
+            "gate": gates["gate"],
+            **{
+                name: ["" if pd.isna(row[name]) else _short(row[name]) for row in rows]
+                for name in ("n", "k", "mu")
+            },
+            "candidate": [f"{row['candidate']} {_value(row['value'], row['u_num'])}" for row in rows],
+            "reference": [
+                f"{row['reference']} {_value(row['reference_value'], row['u_reference'])}" for row in rows
+            ],
+            "E": [_error(row) for row in rows],
+        },
+        dtype=object,
+    )
+
+
+def _value(value: float | None, u: float | None) -> str:
+    return "" if value is None or pd.isna(value) else short(value, max(float(u or 0.0), _LEAST_SHOWN))
+
+
 def write_verdicts(folder: Path, judged: pd.DataFrame, gates: list[Gate]) -> str:
     """Write the verdicts as CSV, Parquet, Markdown, LaTeX and JUnit XML; return the Markdown."""
     stored = judged.assign(verdict=judged["verdict"].map(str))
@@ -87,7 +116,13 @@ def write_verdicts(folder: Path, judged: pd.DataFrame, gates: list[Gate]) -> str
     page = markdown(shown.assign(requirement=[requirement.get(id, "") for id in shown["gate"]]), "Verdicts")
     texts = {
         "verdicts.md": page,
+<<<<<<< HEAD
         "verdicts.tex": latex(shown.drop(columns=["command", "reason"]), "Verdicts of fscm-bench, worst first"),
+=======
+        "verdicts.tex": latex(
+            _worst_cases(judged), "Verdicts of fscm-bench, worst first, each in its worst case"
+        ),
+>>>>>>> judge
     }
     for name, text in texts.items():
         with atomic(folder / name) as file:
