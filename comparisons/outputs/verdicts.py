@@ -89,14 +89,9 @@ def _worst_cases(judged: pd.DataFrame) -> pd.DataFrame:
         {
             "verdict": gates["verdict"].map(str),
             "gate": gates["gate"],
-            **{
-                name: ["" if pd.isna(row[name]) else _short(row[name]) for row in rows]
-                for name in ("n", "k", "mu")
-            },
+            **{name: ["" if pd.isna(row[name]) else _short(row[name]) for row in rows] for name in ("n", "k", "mu")},
             "candidate": [f"{row['candidate']} {_value(row['value'], row['u_num'])}" for row in rows],
-            "reference": [
-                f"{row['reference']} {_value(row['reference_value'], row['u_reference'])}" for row in rows
-            ],
+            "reference": [f"{row['reference']} {_value(row['reference_value'], row['u_reference'])}" for row in rows],
             "E": [_error(row) for row in rows],
         },
         dtype=object,
@@ -116,13 +111,7 @@ def write_verdicts(folder: Path, judged: pd.DataFrame, gates: list[Gate]) -> str
     page = markdown(shown.assign(requirement=[requirement.get(id, "") for id in shown["gate"]]), "Verdicts")
     texts = {
         "verdicts.md": page,
-<<<<<<< HEAD
-        "verdicts.tex": latex(shown.drop(columns=["command", "reason"]), "Verdicts of fscm-bench, worst first"),
-=======
-        "verdicts.tex": latex(
-            _worst_cases(judged), "Verdicts of fscm-bench, worst first, each in its worst case"
-        ),
->>>>>>> judge
+        "verdicts.tex": latex(_worst_cases(judged), "Verdicts of fscm-bench, worst first, each in its worst case"),
     }
     for name, text in texts.items():
         with atomic(folder / name) as file:
