@@ -20,6 +20,7 @@ from comparisons.cases import TIERS, VERIFICATION, Grid, asked_of, cases_text, g
 from comparisons.commands.judge import STATUS, judge_and_write, print_verdicts
 from comparisons.commands.options import FAILED, output
 from comparisons.figures import kappa as kappa_figure
+from comparisons.figures import references
 from comparisons.figures.style import save
 from comparisons.gates import gates_text, load_gates, of_tier
 from comparisons.models import identify
@@ -193,9 +194,12 @@ def _write(folder: Path, table: pd.DataFrame, curves: pd.DataFrame, kappa: pd.Da
     write_curves(curves, folder / "curves")
     write_table(kappa, folder / "kappa")
     write_table(maxima, folder / "largest_kappa")
-    figure = kappa_figure.draw(kappa)
-    for suffix in (".png", ".pdf"):
-        save(figure, folder / f"fig16b_kappa{suffix}")
+    figures = {"fig16b_kappa": kappa_figure.draw(kappa)}
+    if not curves.empty:
+        figures["references"] = references.draw(curves)
+    for name, figure in figures.items():
+        for suffix in (".png", ".pdf"):
+            save(figure, folder / f"{name}{suffix}")
 
 
 def _print(table: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame) -> None:
