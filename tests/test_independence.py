@@ -16,6 +16,8 @@ ALLOWED = {
     "comparisons": ("fscm.problem", "fscm.profile", "fscm.surface_law"),
     # A model from outside may work in physical units.
     "comparisons.foreign": ("fscm.physical", "fscm.problem", "fscm.profile", "fscm.surface_law"),
+    # Shows what is inside the finite elements: fields, ladder, solver table.
+    "comparisons.commands.fem": ("fem_reference", "fscm.problem", "fscm.profile", "fscm.surface_law"),
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
     "comparisons.models.stieltjes_model": ("fscm",),

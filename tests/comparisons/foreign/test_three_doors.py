@@ -66,6 +66,7 @@ GRID = f"""
 id = "doors"
 title = "The cases of the submission"
 tier = "quick"
+tags = ["doors"]
 reference = "md-improved"
 models = ["jkr"]
 quantities = ["{QUANTITY}"]
@@ -75,12 +76,41 @@ mu = [0.1, 1]
 """
 
 
-def test_all_doors_give_the_same_rows_in_a_run(data_door, installed_example, tmp_path, monkeypatch, capsys):
+GATE = f"""
+[[gate]]
+id = "GIVEN"
+requirement = "The model has the pull-off force of md-improved to 5 %."
+quantity = "{QUANTITY}"
+candidate = "given"
+reference = "md-improved"
+cases = {{ tags = ["doors"] }}
+metric = "rel"
+lower = -0.05
+upper = 0.05
+max_reference_uncertainty = 1e-6
+basis = "measured"
+grounds = "a gate of this test"
+worst_measured = 0.02
+min_cases = 4
+tier = "quick"
+"""
+
+
+@pytest.fixture
+def gates(tmp_path):
+    """A gates file with one gate over the cases of the submission."""
+    path = tmp_path / "gates.toml"
+    path.write_text(GATE)
+    return str(path)
+
+
+def test_all_doors_give_the_same_rows_and_verdicts(data_door, installed_example, gates, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(run, "grids", lambda tier: load_grids(GRID))
-    tables = []
+    tables, verdicts = [], []
     for number, spec in enumerate((installed_example, FILE_DOOR, data_door)):
         out = tmp_path / str(number)
-        assert main(["run", "--jobs", "1", "--out", str(out), "--model", spec]) == 0
+        assert main(["run", "--jobs", "1", "--out", str(out), "--gates", gates, "--model", spec]) == 0
+        verdicts.append((out / "verdicts.csv").read_text())
         table = [
             {name: cell for name, cell in row.items() if name not in {"model_version", "seconds"}}
             for row in csv.DictReader((out / "results.csv").read_text().splitlines())
@@ -90,6 +120,8 @@ def test_all_doors_give_the_same_rows_in_a_run(data_door, installed_example, tmp
         assert kappa.count("double-hertz") == len(CASES)
     assert tables[0] == tables[1] == tables[2]
     assert {row["model"] for row in tables[0]} == {"double-hertz", "md-improved"}
+    assert verdicts[0] == verdicts[1] == verdicts[2]
+    assert verdicts[0].count("PASS") == len(CASES)
 
 
 def test_the_doors_agree_in_solve(data_door, installed_example, capsys):
@@ -126,13 +158,13 @@ def test_its_curve_is_drawn_beside_ours(installed_example, capsys):
     assert -min(loads) == pytest.approx(1.750971, rel=1e-3)
 
 
-def test_a_run_goes_on_and_notices_that_a_model_changed(write_model, tmp_path, monkeypatch, capsys):
+def test_a_run_goes_on_and_notices_that_a_model_changed(write_model, gates, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(run, "grids", lambda tier: load_grids(GRID))
     out = tmp_path / "out"
 
     def once(body):
         spec = write_model(body)
-        assert main(["run", "--jobs", "1", "--out", str(out), "--model", spec]) == 0
+        assert main(["run", "--jobs", "1", "--out", str(out), "--gates", gates, "--model", spec]) == 1
         rows = list(csv.DictReader((out / "results.csv").read_text().splitlines()))
         return capsys.readouterr().err, [float(row["value"]) for row in rows if row["model"] == "stranger"]
 
