@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import shlex
+from collections.abc import Mapping
 from hashlib import sha256
 from pathlib import Path
 
@@ -52,7 +54,7 @@ def call(args: argparse.Namespace) -> int:
         if sha256(content.encode()).hexdigest() != record[f"{name}_sha256"]:
             log(f"the {name} have changed since {args.folder} was computed; judged by those of today")
     judged = judge_and_write(args.folder, gates, asked_of(grids(tier), models), rows, curves, models)
-    print_verdicts(judged)
+    print_verdicts(judged, record["arguments"]["outside"])
     return STATUS[roll_up(judged["verdict"])]
 
 
@@ -70,8 +72,16 @@ def judge_and_write(
     return judged
 
 
-def print_verdicts(judged: pd.DataFrame) -> None:
-    """Print the matrix of gates, worst first, and the verdict over all."""
+def print_verdicts(judged: pd.DataFrame, outside: Mapping[str, str]) -> None:
+    """Print the matrix of gates, worst first, and the verdict over all.
+
+    Parameters
+    ----------
+    judged : DataFrame
+        As `comparisons.judge.judge` returns it.
+    outside : mapping of str to str
+        The SPEC that finds each model from outside: the command that computes a case again needs it.
+    """
     console = output()
     if judged.empty:
         log("no gate was evaluated")
@@ -81,6 +91,8 @@ def print_verdicts(judged: pd.DataFrame) -> None:
     width = shown["gate"].str.len().max()
     console.print("the worst case of each gate is computed again by", style="bold")
     for gate, line, reason in zip(shown["gate"], shown["command"], shown["reason"], strict=True):
+        for name, spec in outside.items():
+            line = line.replace(f"--model {name} ", f"--model {shlex.quote(spec)} ")
         console.print(f"{gate:{width}}  {line}" + (f"  # {reason}" if reason else ""), markup=False, soft_wrap=True)
     counts = judged["verdict"].map(str).value_counts()
     console.print(

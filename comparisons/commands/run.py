@@ -86,6 +86,7 @@ def call(args: argparse.Namespace) -> int:
     # Before anything is computed or written, every model that was asked for has been opened.
     names, outside = identify(args.model or [])
     given = None if args.model is None else names
+    specs = {name: model.spec for name, model in outside.items()}
     rules = gates_text(args.gates)
     gates = of_tier(load_gates(rules, names), args.tier)
     started = datetime.now(UTC)
@@ -116,7 +117,8 @@ def call(args: argparse.Namespace) -> int:
             "format": 2,
             "arguments": {
                 "tier": args.tier,
-                "model": args.model,
+                "model": given,
+                "outside": specs,
                 "gates": None if args.gates is None else str(args.gates),
                 "jobs": args.jobs,
                 "out": str(folder),
@@ -134,7 +136,7 @@ def call(args: argparse.Namespace) -> int:
         folder / "run.json",
     )
     _print(table, kappa, maxima)
-    print_verdicts(judged)
+    print_verdicts(judged, specs)
     log(f"results are in {folder}")
     return FAILED if any(row.status == "failed" for row in rows) else STATUS[verdict]
 

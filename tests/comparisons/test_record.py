@@ -9,7 +9,7 @@ from comparisons.record import read_record, write_record
 
 GOOD = {
     "format": 2,
-    "arguments": {"tier": "quick", "model": None, "gates": None, "jobs": 2, "out": "x"},
+    "arguments": {"tier": "quick", "model": None, "outside": {}, "gates": None, "jobs": 2, "out": "x"},
     "command": ["fscm-bench", "run"],
     "started": "2026-01-01T00:00:00+00:00",
     "finished": "2026-01-01T00:00:09+00:00",

@@ -71,6 +71,7 @@ def test_the_record_says_where_the_numbers_come_from(small_grid, tmp_path):
     assert record["arguments"] == {
         "tier": "full",
         "model": None,
+        "outside": {},
         "gates": None,
         "jobs": 1,
         "out": str(tmp_path),

@@ -11,7 +11,7 @@ import pytest
 
 from comparisons.cases import Case, load_grids
 from comparisons.cli import main
-from comparisons.commands import run
+from comparisons.commands import judge, run
 from comparisons.foreign.loading import close_models
 from comparisons.model import Model, TracesCurve
 from comparisons.models import create
@@ -105,12 +105,16 @@ def gates(tmp_path):
 
 
 def test_all_doors_give_the_same_rows_and_verdicts(data_door, installed_example, gates, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(run, "grids", lambda tier: load_grids(GRID))
+    for command in (run, judge):
+        monkeypatch.setattr(command, "grids", lambda tier: load_grids(GRID))
     tables, verdicts = [], []
     for number, spec in enumerate((installed_example, FILE_DOOR, data_door)):
         out = tmp_path / str(number)
         assert main(["run", "--jobs", "1", "--out", str(out), "--gates", gates, "--model", spec]) == 0
         verdicts.append((out / "verdicts.csv").read_text())
+        assert f"--model {spec} " in capsys.readouterr().out
+        assert main(["judge", str(out), "--gates", gates]) == 0
+        assert (out / "verdicts.csv").read_text() == verdicts[-1]
         table = [
             {name: cell for name, cell in row.items() if name not in {"model_version", "seconds"}}
             for row in csv.DictReader((out / "results.csv").read_text().splitlines())
