@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import time
+from abc import ABC, abstractmethod
 from typing import ClassVar, NamedTuple
 
 from comparisons.model import Curve, NotApplicable, Result
@@ -52,7 +53,7 @@ def monomial(*factors: tuple[float, float]) -> Estimate:
     return Estimate(value, abs(value) * amplification)
 
 
-class ClosedForm:
+class ClosedForm(ABC):
     """Base of the closed forms: checks the problem, finds the answer, keeps the time.
 
     Attributes
@@ -98,9 +99,9 @@ class ClosedForm:
             seconds=time.perf_counter() - start,
         )
 
+    @abstractmethod
     def curve(self, problem: Problem) -> Curve:
         """Return the force-displacement curve, or raise as `evaluate` does."""
-        raise NotImplementedError
 
     def check(self, problem: Problem) -> None:
         """Raise `NotApplicable` unless the punch is the power law of `problem.n` and the law is 9-3."""

@@ -6,6 +6,7 @@ The two models differ in the cohesive stress alone: `MaugisDugdaleOriginal` take
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from typing import ClassVar
 
 import numpy as np
@@ -40,9 +41,9 @@ class _MaugisDugdale(ClosedForm):
         "critical_tabor_number": "it needs the jump-in, and Eqs. 66-69 hold in contact only",
     }
 
+    @abstractmethod
     def cohesive_stress(self, problem: Problem) -> float:
         """sigma_0 in dgamma / z0."""
-        raise NotImplementedError
 
     def pull_off_force(self, problem: Problem) -> Estimate:
         """-min P over the contact branch, its end point a = 0 included."""
