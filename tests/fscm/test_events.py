@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fscm import Analysis, NoSuchEvent, Problem, solve
+from fscm.continuation import equilibrium_path
 from fscm.critical import critical_tabor_number
 from fscm.events import brackets, displacement_fold
 
@@ -150,3 +151,28 @@ def test_edge_of_an_extreme_problem_is_resolved() -> None:
     nodes = np.sort(np.abs(state.disc.mesh.nodes - 1.0))
     assert nodes[20] < 5e-6 / state.scale
     assert state.pressure.min() == pytest.approx(-16 * math.sqrt(3) / 27, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("n", "k", "mu", "displacement", "gap"),
+    [(2.0, 0.6, 3.0, -3.32872, 1.83784), (5.0, 0.4, 3.0, -3.51597, 2.07692)],
+)
+def test_first_of_several_shallow_folds(n: float, k: float, mu: float, displacement: float, gap: float) -> None:
+    """The path runs flat through more folds after jump-in; values confirmed by the finite elements."""
+    model = Analysis(Problem(n, k, mu))
+    assert model.solution("jump_in_displacement").value == pytest.approx(displacement, abs=1e-5)
+    assert model.solution("jump_in_gap").value == pytest.approx(gap, abs=1e-5)
+
+
+def test_jump_in_is_the_first_fold_of_a_finely_stepped_path() -> None:
+    """No fold is stepped over: steps ten times shorter meet the same first fold."""
+    for n, k, mu in ((2.0, 0.6, 3.0), (3.3, 0.5, 4.0), (1.6, 0.7, 1.5), (6.0, 0.1, 8.0)):
+        problem = Problem(n, k, mu)
+        previous = None
+        for point in equilibrium_path(problem, 8, 1e-3, longest_step=0.02, start_gap=4.0 + mu):
+            if previous is not None and point.rates.displacement < 0.0:
+                break
+            previous = point
+        assert previous is not None
+        found = Analysis(problem).solution("jump_in_gap").value
+        assert point.state.central_gap - 0.1 < found < previous.state.central_gap + 0.1
