@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 import time
 from collections import Counter
@@ -49,6 +48,7 @@ from comparisons.tables import (
     statuses,
 )
 from comparisons.verdict import roll_up
+from comparisons.workers import usable_cores
 
 __all__ = ["add", "call"]
 
@@ -65,7 +65,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="compare these models instead of those each grid names",
     )
     parser.add_argument("--gates", metavar="FILE", type=Path, help="judge by these gates instead of the standing ones")
-    parser.add_argument("--jobs", metavar="N", type=int, default=_cores(), help="processes (default: one a core)")
+    parser.add_argument("--jobs", metavar="N", type=int, default=usable_cores(), help="processes (default: one a core)")
     parser.add_argument(
         "--out",
         metavar="DIR",
@@ -73,10 +73,6 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="folder for the results (default: results/runs/TIME); resumed if it has some",
     )
     parser.set_defaults(call=call)
-
-
-def _cores() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def call(args: argparse.Namespace) -> int:
