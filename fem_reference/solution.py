@@ -145,6 +145,8 @@ class Solution:
         Wall-clock time of everything.
     observed_order : float
         Order of convergence in the mesh density over the three meshes.
+    densities, values : tuple of float
+        The meshes, coarse to fine, and the quantity on each.
     """
 
     value: float
@@ -154,6 +156,8 @@ class Solution:
     residual: float
     seconds: float
     observed_order: float
+    densities: tuple[float, float, float]
+    values: tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -219,8 +223,8 @@ def solve(
     spec, size = problem.adapted(quantity, level)
     events = [problem.event(quantity, problem.at_density(spec, density), size) for density in level.densities]
     ratio = math.sqrt(level.densities[0] / level.densities[2])
-    values = tuple(event.value for event in events)
-    outcome = three_meshes((values[0], values[1], values[2]), ratio, level.order, problem.scale(quantity, values[2]))
+    coarse, medium, fine = (event.value for event in events)
+    outcome = three_meshes((coarse, medium, fine), ratio, level.order, problem.scale(quantity, fine))
     last = events[-1].point
     return Solution(
         outcome.value,
@@ -230,6 +234,8 @@ def solve(
         last.state.residual,
         time.perf_counter() - begin,
         outcome.observed_order,
+        level.densities,
+        (coarse, medium, fine),
     )
 
 

@@ -18,6 +18,7 @@ from rich.table import Table
 from comparisons.cases import TIERS, VERIFICATION, Grid, asked_of, cases_text, grids
 from comparisons.commands.judge import STATUS, judge_and_write, print_verdicts
 from comparisons.commands.options import FAILED, output
+from comparisons.figures import agreement as agreement_figure
 from comparisons.figures import kappa as kappa_figure
 from comparisons.figures import references
 from comparisons.figures.style import save
@@ -39,6 +40,7 @@ from comparisons.store import (
     write_table,
 )
 from comparisons.tables import (
+    agreement,
     beside_published,
     by_case,
     largest,
@@ -51,6 +53,9 @@ from comparisons.verdict import roll_up
 from comparisons.workers import usable_cores
 
 __all__ = ["add", "call"]
+
+#: The two truths, which are compared whenever a run has both.
+REFERENCE, SECOND_REFERENCE = "fscm", "fem"
 
 
 def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -193,6 +198,10 @@ def _write(folder: Path, table: pd.DataFrame, curves: pd.DataFrame, kappa: pd.Da
     write_table(kappa, folder / "kappa")
     write_table(maxima, folder / "largest_kappa")
     figures = {"fig16b_kappa": kappa_figure.draw(kappa)}
+    apart = agreement(table, SECOND_REFERENCE, REFERENCE)
+    if not apart.empty:
+        write_table(apart, folder / "agreement")
+        figures["agreement"] = agreement_figure.draw(apart)
     if not curves.empty:
         figures["references"] = references.draw(curves)
     for name, figure in figures.items():
