@@ -6,8 +6,6 @@ import argparse
 import sys
 import time
 from collections import Counter
-from concurrent.futures import BrokenExecutor
-from contextlib import closing
 from datetime import UTC, datetime
 from hashlib import sha256
 from pathlib import Path
@@ -16,6 +14,7 @@ import pandas as pd
 from rich.table import Table
 
 from comparisons.cases import TIERS, VERIFICATION, Grid, asked_of, cases_text, grids
+from comparisons.commands.computing import add_jobs, checked_jobs, complete, folder_for
 from comparisons.commands.judge import STATUS, judge_and_write, print_verdicts
 from comparisons.commands.options import FAILED, output
 from comparisons.figures import agreement as agreement_figure
@@ -23,18 +22,17 @@ from comparisons.figures import kappa as kappa_figure
 from comparisons.figures import references
 from comparisons.figures.style import save
 from comparisons.gates import gates_text, load_gates, of_tier
+from comparisons.model import ComputationFailed
 from comparisons.models import identify
-from comparisons.progress import counting, log
-from comparisons.provenance import code_digest, environment
+from comparisons.progress import log
+from comparisons.provenance import environment
 from comparisons.record import write_record
-from comparisons.run import Task, compute, plan
+from comparisons.run import plan
 from comparisons.shapes import SHAPES
 from comparisons.store import (
-    Journal,
     Row,
     curve_frame,
     frame,
-    prepare_folder,
     write_curves,
     write_results,
     write_table,
@@ -50,7 +48,6 @@ from comparisons.tables import (
     statuses,
 )
 from comparisons.verdict import roll_up
-from comparisons.workers import usable_cores
 
 __all__ = ["add", "call"]
 
@@ -70,7 +67,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="compare these models instead of those each grid names",
     )
     parser.add_argument("--gates", metavar="FILE", type=Path, help="judge by these gates instead of the standing ones")
-    parser.add_argument("--jobs", metavar="N", type=int, default=usable_cores(), help="processes (default: one a core)")
+    add_jobs(parser)
     parser.add_argument(
         "--out",
         metavar="DIR",
@@ -82,8 +79,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def call(args: argparse.Namespace) -> int:
     """Compute what is missing, write and print; return the exit status."""
-    if args.jobs < 1:
-        raise ValueError(f"--jobs {args.jobs} is outside 1, 2, ...: the computations need at least one process")
+    jobs = checked_jobs(args.jobs)
     # Before anything is computed or written, every model that was asked for has been opened.
     names, outside = identify(args.model or [])
     given = None if args.model is None else names
@@ -91,19 +87,14 @@ def call(args: argparse.Namespace) -> int:
     rules = gates_text(args.gates)
     gates = of_tier(load_gates(rules, names), args.tier)
     started = datetime.now(UTC)
-    folder = prepare_folder(args.out or Path("results", "runs", started.astimezone().strftime("%Y-%m-%dT%H-%M-%S")))
+    folder = folder_for(args.out, started)
     chosen = asked_of(grids(args.tier), given)
     tasks = plan(chosen, given, outside)
-    journal = Journal(folder / "journal.jsonl", code_digest())
-    resumed = len(journal.rows)
     clock = time.perf_counter()
     try:
-        rows = _complete(tasks, journal, args.jobs)
-    except KeyboardInterrupt:
-        log(_safe(journal, folder))
-        raise
-    except BrokenExecutor:
-        log(f"a worker process died (out of memory?); {_safe(journal, folder)}")
+        rows, resumed = complete(tasks, folder, jobs)
+    except ComputationFailed as failure:
+        log(str(failure))
         return FAILED
     elapsed = time.perf_counter() - clock
     table = frame(row for row in rows if row.quantity not in SHAPES)
@@ -121,7 +112,7 @@ def call(args: argparse.Namespace) -> int:
                 "model": given,
                 "outside": specs,
                 "gates": None if args.gates is None else str(args.gates),
-                "jobs": args.jobs,
+                "jobs": jobs,
                 "out": str(folder),
             },
             "command": [Path(sys.argv[0]).name, *sys.argv[1:]],
@@ -154,34 +145,6 @@ def _kappa(table: pd.DataFrame, chosen: list[Grid], models: list[str] | None) ->
         ]
         tables.append(relative_error(table[mine], reference))
     return pd.concat(tables, ignore_index=True)
-
-
-def _safe(journal: Journal, folder: Path) -> str:
-    return f"{len(journal.rows)} finished computations are safe; go on with --out {folder}"
-
-
-def _complete(tasks: list[Task], journal: Journal, jobs: int) -> list[Row]:
-    """Return the rows of all tasks, computing those the journal does not have.
-
-    A stored row of another version of a model from outside does not count.
-    """
-    versions = {task.model: task.outside.version for task in tasks if task.outside}
-
-    def current(row: Row) -> bool:
-        return versions.get(row.model, row.model_version) == row.model_version
-
-    stored = {row.key for row in journal.rows if current(row)}
-    missing = [task for task in tasks if task.key not in stored]
-    log(
-        f"{len(missing)} computations on {jobs} processes"
-        + (f", {len(tasks) - len(missing)} are stored" if stored else "")
-    )
-    with counting("computing", len(missing)) as count, closing(compute(missing, jobs)) as answers:
-        for row in answers:
-            journal.add(row)
-            count()
-    wanted = {task.key for task in tasks}
-    return [row for row in journal.rows if row.key in wanted and current(row)]
 
 
 def _seconds(rows: list[Row]) -> dict[str, float]:
