@@ -7,6 +7,7 @@ import os
 import sys
 import time
 from collections import Counter
+from collections.abc import Mapping
 from concurrent.futures import BrokenExecutor
 from contextlib import closing
 from datetime import UTC, datetime
@@ -23,7 +24,7 @@ from comparisons.figures import kappa as kappa_figure
 from comparisons.figures import references
 from comparisons.figures.style import save
 from comparisons.gates import gates_text, load_gates, of_tier
-from comparisons.models import identify
+from comparisons.models import Outside, create, identify
 from comparisons.progress import counting, log
 from comparisons.provenance import code_digest, environment
 from comparisons.record import write_record
@@ -110,7 +111,7 @@ def call(args: argparse.Namespace) -> int:
     kappa = _kappa(table, chosen, given)
     maxima = largest(kappa)
     _write(folder, table, curves, kappa, maxima)
-    judged = judge_and_write(folder, gates, chosen, table, curves, given)
+    judged = judge_and_write(folder, gates, chosen, table, curves, given, specs)
     verdict = roll_up(judged["verdict"])
     write_record(
         {
@@ -127,6 +128,7 @@ def call(args: argparse.Namespace) -> int:
             "started": started.isoformat(timespec="seconds"),
             "finished": datetime.now(UTC).isoformat(timespec="seconds"),
             "seconds": {"run": elapsed, "by_model": _seconds(rows)},
+            "models": _described({task.model for task in tasks}, outside),
             "rows": {"all": len(rows), "resumed": resumed, **Counter(row.status for row in rows)},
             "cases_sha256": sha256(cases_text().encode()).hexdigest(),
             "gates_sha256": sha256(rules.encode()).hexdigest(),
@@ -153,6 +155,15 @@ def _kappa(table: pd.DataFrame, chosen: list[Grid], models: list[str] | None) ->
         ]
         tables.append(relative_error(table[mine], reference))
     return pd.concat(tables, ignore_index=True)
+
+
+def _described(names: set[str], outside: Mapping[str, Outside]) -> dict[str, dict[str, str]]:
+    """Return what each model says of itself."""
+    models = {name: outside.get(name) or create(name) for name in sorted(names)}
+    return {
+        name: {"version": model.version, "citation": model.citation, "domain": model.domain}
+        for name, model in models.items()
+    }
 
 
 def _safe(journal: Journal, folder: Path) -> str:
