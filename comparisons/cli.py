@@ -15,14 +15,14 @@ from typing import NoReturn
 
 from threadpoolctl import threadpool_limits
 
-from comparisons.commands import bench, check_model, curve, fem, judge, listing, new_model, run, solve
+from comparisons.commands import bench, check_model, curve, fem, judge, listing, new_model, report, run, solve
 from comparisons.commands.options import WRONG_INPUT
 from comparisons.progress import log
 from comparisons.provenance import package_version
 
 __all__ = ["main"]
 
-_COMMANDS = (run, judge, solve, curve, fem, listing, check_model, new_model, bench)
+_COMMANDS = (run, judge, report, solve, curve, fem, listing, check_model, new_model, bench)
 _INTERRUPTED, _BROKEN_PIPE = 130, 141
 
 

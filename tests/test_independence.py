@@ -56,6 +56,7 @@ LAYERS = (
         "comparisons.publish",
         "comparisons.bench",
     ),
+    ("comparisons.report",),
     ("comparisons.commands",),
     ("comparisons.cli",),
 )
