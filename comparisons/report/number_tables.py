@@ -8,20 +8,23 @@ import pandas as pd
 
 from comparisons.report.folder import Stored
 from comparisons.report.plots import curve_group, kappa_group
-from comparisons.report.table import Cell, Column, Row, Table, kappa_cell, number, parameter, value
+from comparisons.report.table import (
+    CASE,
+    CASE_COLUMNS,
+    Cell,
+    Column,
+    Row,
+    Table,
+    case_cells,
+    kappa_cell,
+    number,
+    parameter,
+    value,
+    without_empty,
+    words,
+)
 
 __all__ = ["convergence", "curve_points", "kappa", "largest", "models", "results"]
-
-_CASE = ("n", "k", "mu", "nu")
-_CASE_COLUMNS = tuple(Column(label, "number") for label in ("n", "k", "μ", "ν"))
-
-
-def _name(quantity: str) -> Cell:
-    return Cell(quantity.replace("_", " "))
-
-
-def _case(row: pd.Series) -> tuple[Cell, ...]:
-    return tuple(parameter(row[name]) for name in _CASE)
 
 
 def kappa(stored: Stored) -> Table:
@@ -30,8 +33,8 @@ def kappa(stored: Stored) -> Table:
         Row(
             (
                 Cell(row["model"]),
-                _name(row["quantity"]),
-                *_case(row),
+                Cell(words(row["quantity"])),
+                *case_cells(row),
                 value(row["value"], row["u_num"]),
                 Cell(row["reference"]),
                 value(row["reference_value"], row["u_reference"]),
@@ -45,14 +48,14 @@ def kappa(stored: Stored) -> Table:
     columns = (
         Column("model", "head"),
         Column("quantity"),
-        *_CASE_COLUMNS,
+        *CASE_COLUMNS,
         Column("value", "number"),
         Column("reference"),
         Column("reference's value", "number"),
         Column("κ (%)", "number"),
         Column("u of κ", "number"),
     )
-    return Table("kappa", "Relative errors against the reference", columns, rows, ("kappa.csv",))
+    return without_empty(Table("kappa", "Relative errors against the reference", columns, rows, ("kappa.csv",)))
 
 
 def largest(stored: Stored) -> Table:
@@ -61,7 +64,7 @@ def largest(stored: Stored) -> Table:
         Row(
             (
                 Cell(row["model"]),
-                _name(row["quantity"]),
+                Cell(words(row["quantity"])),
                 parameter(row["n"]),
                 parameter(row["k"]),
                 kappa_cell(row["kappa"], row["u_kappa"]),
@@ -87,7 +90,7 @@ def largest(stored: Stored) -> Table:
         Column("published digits"),
     )
     caption = "Largest relative error over the computed Tabor numbers, by size, with its sign"
-    return Table("largest", caption, columns, rows, ("largest_kappa.csv", "largest_kappa.tex"))
+    return without_empty(Table("largest", caption, columns, rows, ("largest_kappa.csv", "largest_kappa.tex")))
 
 
 def convergence(stored: Stored) -> Table:
@@ -97,8 +100,8 @@ def convergence(stored: Stored) -> Table:
         Row(
             (
                 Cell(row["model"]),
-                _name(row["quantity"]),
-                *_case(row),
+                Cell(words(row["quantity"])),
+                *case_cells(row),
                 value(row["value"], row["u_num"]),
                 number(row["u_num"], ".1e"),
                 number(row["observed_order"], ".2f"),
@@ -113,7 +116,7 @@ def convergence(stored: Stored) -> Table:
     columns = (
         Column("model", "head"),
         Column("quantity"),
-        *_CASE_COLUMNS,
+        *CASE_COLUMNS,
         Column("value", "number"),
         Column("u_num", "number"),
         Column("observed order", "number"),
@@ -121,7 +124,7 @@ def convergence(stored: Stored) -> Table:
         Column("iterations", "number"),
         Column("residual", "number"),
     )
-    return Table("convergence", "Numbers from a discretisation", columns, rows, ("results.csv",))
+    return without_empty(Table("convergence", "Numbers from a discretisation", columns, rows, ("results.csv",)))
 
 
 def results(stored: Stored) -> Table:
@@ -131,8 +134,8 @@ def results(stored: Stored) -> Table:
             (
                 Cell(row["model"]),
                 Cell(row["model_version"]),
-                _name(row["quantity"]),
-                *_case(row),
+                Cell(words(row["quantity"])),
+                *case_cells(row),
                 value(row["value"], row["u_num"]),
                 number(row["u_num"], ".1e"),
                 Cell(row["unit"]),
@@ -146,14 +149,14 @@ def results(stored: Stored) -> Table:
         Column("model", "head"),
         Column("version"),
         Column("quantity"),
-        *_CASE_COLUMNS,
+        *CASE_COLUMNS,
         Column("value", "number"),
         Column("u_num", "number"),
         Column("unit"),
         Column("status"),
         Column("reason", "prose"),
     )
-    return Table("results", "Every computed number", columns, rows, ("results.csv",))
+    return without_empty(Table("results", "Every computed number", columns, rows, ("results.csv",)))
 
 
 def curve_points(stored: Stored, quantity: str, columns: tuple[str, str]) -> Table:
@@ -163,7 +166,7 @@ def curve_points(stored: Stored, quantity: str, columns: tuple[str, str]) -> Tab
         Row(
             (
                 Cell(row["model"]),
-                *_case(row),
+                *case_cells(row),
                 number(row["point"], ".0f"),
                 number(row["x"], ".8g"),
                 number(row["y"], ".8g"),
@@ -175,12 +178,14 @@ def curve_points(stored: Stored, quantity: str, columns: tuple[str, str]) -> Tab
     ]
     headings = (
         Column("model", "head"),
-        *_CASE_COLUMNS,
+        *CASE_COLUMNS,
         Column("point", "number"),
         *(Column(name, "number") for name in columns),
         Column("u, share of the picture", "number"),
     )
-    return Table(quantity, f"Stored points: {quantity.replace('_', ' ')}", headings, rows, ("curves.csv",))
+    return without_empty(
+        Table(quantity, f"Stored points: {quantity.replace('_', ' ')}", headings, rows, ("curves.csv",))
+    )
 
 
 def models(stored: Stored, specs: Mapping[str, str]) -> Table:
@@ -217,9 +222,9 @@ def models(stored: Stored, specs: Mapping[str, str]) -> Table:
         Column("domain", "prose"),
         Column("citation", "prose"),
     )
-    return Table("models", "What was asked, and how it ended", columns, rows)
+    return without_empty(Table("models", "What was asked, and how it ended", columns, rows))
 
 
 def _whole_curves(curves: pd.DataFrame) -> pd.DataFrame:
-    key = ["model", "model_version", "quantity", *_CASE]
+    key = ["model", "model_version", "quantity", *CASE]
     return curves.drop_duplicates(key)[["model", "model_version", "status"]]

@@ -25,7 +25,7 @@ class Page:
 
     Attributes
     ----------
-    verdict : str
+    verdict, meaning : str
         Over all gates.
     counts : list of (str, int)
         How many cases ended with each verdict, worst first.
@@ -44,6 +44,7 @@ class Page:
     """
 
     verdict: str
+    meaning: str
     counts: list[tuple[str, int]]
     summary: str
     tables: dict[str, Table]
@@ -56,6 +57,17 @@ class Page:
     def every_plot(self) -> list[Plot]:
         """The plots of all sections."""
         return [plot for section in self.plots.values() for plot in section]
+
+
+#: What the verdict over all gates means to somebody who sees it for the first time.
+_MEANINGS = {
+    Verdict.ERROR: "Something could not be judged: a value or a row is missing, or no gate was evaluated.",
+    Verdict.FAIL: "At least one gate fails: an error is outside its limits, whatever the uncertainties.",
+    Verdict.XPASS: "A gate that is declared to fail passes: its declaration is out of date.",
+    Verdict.INCONCLUSIVE: "Nothing fails, but for at least one gate the uncertainties are too large for a verdict.",
+    Verdict.XFAIL: "Every gate passes, but for known failures, which are declared with their reasons.",
+    Verdict.PASS: "Every gate passes.",
+}
 
 
 def make_page(stored: Stored) -> Page:
@@ -88,6 +100,7 @@ def make_page(stored: Stored) -> Page:
     drawn = {name for section in sections.values() for plot in section for name in plot.models}
     return Page(
         verdict=str(roll_up(stored.verdicts["verdict"])),
+        meaning=_MEANINGS[roll_up(stored.verdicts["verdict"])],
         counts=_counts(stored),
         summary=_summary(stored),
         tables=tables,

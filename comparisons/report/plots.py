@@ -12,20 +12,24 @@ import pandas as pd
 
 from comparisons.outputs.verdicts import parameter_text
 from comparisons.report.folder import Stored
-from comparisons.report.table import kappa_cell
+from comparisons.report.table import kappa_cell, words
 
 __all__ = ["Control", "Plot", "Series", "convergence", "curve_group", "curves", "kappa", "kappa_group"]
 
 # Where the load is below this share of the pull-off force, a curve approaches the axis and ends the first view.
 _FAINT = 0.02
 
+#: The model whose curve is drawn below the others.
+_REFERENCE = "fscm"
+
 
 @dataclass(frozen=True, slots=True)
 class Control:
-    """A choice: its label, and its options as (key, text)."""
+    """A choice: its label, its options as (key, text), and the one that is shown first (else the first)."""
 
     label: str
     options: tuple[tuple[str, str], ...]
+    first: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,10 +77,6 @@ class Plot:
         return {name: getattr(self, name) for name in wanted} | {"series": [asdict(series) for series in self.series]}
 
 
-def _words(quantity: str) -> str:
-    return quantity.replace("_", " ")
-
-
 def _key(*parts: str | float) -> str:
     return "|".join(part if isinstance(part, str) else parameter_text(part) for part in parts)
 
@@ -115,9 +115,9 @@ def kappa(stored: Stored) -> Plot:
         )
     pairs = table[["quantity", "reference"]].drop_duplicates().sort_values(["quantity", "reference"])
     controls = (
-        Control("quantity", tuple((q, _words(q)) for q in dict.fromkeys(pairs["quantity"]))),
+        Control("quantity", tuple((q, words(q)) for q in dict.fromkeys(pairs["quantity"]))),
         Control("reference", tuple((r, r) for r in dict.fromkeys(pairs["reference"]))),
-        Control("shape index n", _options(table["n"])),
+        Control("shape index n", _options(table["n"]), first="2"),
         Control("gradient exponent k", _options(table["k"])),
     )
     return Plot(
@@ -182,6 +182,8 @@ def curves(stored: Stored) -> list[Plot]:
             )
             for (model, n, k, mu, nu), rows in chosen.groupby(["model", "n", "k", "mu", "nu"], dropna=False)
         ]
+        # The reference lies below: where the others are right, they cover it with their dashes.
+        series.sort(key=lambda one: one.model != _REFERENCE)
         cases = chosen[["n", "k", "mu"]].drop_duplicates().sort_values(["n", "k", "mu"])
         options = tuple(
             (_key(n, k, mu), f"n = {n:g}, k = {k:g}, μ = {mu:g}") for n, k, mu in cases.itertuples(index=False)
@@ -261,7 +263,7 @@ def _over_size(
         )
         for (quantity, model), of_model in rows.groupby(["quantity", "model"])
     ]
-    options = tuple((name, _words(name)) for name in sorted(set(rows["quantity"]), key=_by_use))
+    options = tuple((name, words(name)) for name in sorted(set(rows["quantity"]), key=_by_use))
     return Plot(
         id=id,
         title=title,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from typing import Any
 
 import pandas as pd
@@ -11,7 +12,19 @@ from comparisons.gates import METRICS
 from comparisons.judge import by_gate, worst_first
 from comparisons.outputs.verdicts import command, error_text
 from comparisons.report.folder import Stored
-from comparisons.report.table import Cell, Column, Row, Table, number, parameter, value
+from comparisons.report.table import (
+    CASE,
+    CASE_COLUMNS,
+    Cell,
+    Column,
+    Row,
+    Table,
+    case_cells,
+    number,
+    value,
+    without_empty,
+    words,
+)
 from comparisons.verdict import Verdict
 
 __all__ = ["all_verdicts", "matrix", "offenders"]
@@ -20,29 +33,18 @@ __all__ = ["all_verdicts", "matrix", "offenders"]
 #: to its limits; and no more than the second, because the table of every verdict has the rest.
 _AT_LEAST, _AT_MOST = 12, 60
 
-_CASE = ("n", "k", "mu", "nu")
-_CASE_COLUMNS = tuple(Column(label, "number") for label in ("n", "k", "μ", "ν"))
 _NUMBERS = (
     Column("candidate's value", "number"),
     Column("reference's value", "number"),
     Column("E", "number"),
     Column("U", "number"),
-    Column("lower limit", "number"),
-    Column("upper limit", "number"),
+    Column("limits of E"),
 )
 
 
-def _name(quantity: str) -> Cell:
-    return Cell(quantity.replace("_", " "))
-
-
 def _case_label(row: pd.Series) -> str:
-    given = [f"{name} = {row[name]:g}" for name in _CASE if pd.notna(row[name])]
+    given = [f"{name} = {row[name]:g}" for name in CASE if pd.notna(row[name])]
     return ", ".join(given) or "the gate as a whole"
-
-
-def _case(row: pd.Series) -> tuple[Cell, ...]:
-    return tuple(parameter(row[name]) for name in _CASE)
 
 
 def _error(row: pd.Series) -> Cell:
@@ -55,8 +57,7 @@ def _numbers(row: pd.Series) -> tuple[Cell, ...]:
         value(row["reference_value"], row["u_reference"]),
         _error(row),
         number(row["uncertainty"], ".1e"),
-        number(row["lower"], ".4g"),
-        number(row["upper"], ".4g"),
+        _limits(row),
     )
 
 
@@ -86,14 +87,12 @@ def matrix(stored: Stored) -> Table:
             Row(
                 (
                     Cell(str(gate["verdict"]), float(Verdict(gate["verdict"]).rank)),
-                    Cell(gate["gate"]),
+                    Cell(gate["gate"], more=fact.get("requirement", "")),
                     Cell(gate["candidate"]),
                     Cell(gate["reference"]),
                     Cell(_counted(of_gate["verdict"]), float(len(of_gate)), marks),
                     _error(gate),
-                    _limits(gate),
-                    Cell(METRICS.get(fact.get("metric", ""), "")),
-                    Cell(fact.get("requirement", "")),
+                    replace(_limits(gate), more=_grounds(fact)),
                     Cell(gate["reason"] or ""),
                 )
             )
@@ -105,12 +104,18 @@ def matrix(stored: Stored) -> Table:
         Column("reference"),
         Column("cases", "marks"),
         Column("worst E(U)", "number"),
-        Column("limits of E", "number"),
-        Column("E is", "prose"),
-        Column("requirement", "prose"),
+        Column("limits of E", "prose"),
         Column("reason", "prose"),
     )
-    return Table("matrix", "Gates, worst first; one square a case", columns, rows, ("verdicts.csv", "verdicts.tex"))
+    return without_empty(
+        Table("matrix", "Gates, worst first; one square a case", columns, rows, ("verdicts.csv", "verdicts.tex"))
+    )
+
+
+def _grounds(fact: dict[Any, Any]) -> str:
+    if not fact:
+        return ""
+    return f"E = {METRICS.get(fact['metric'], fact['metric'])}; {fact['basis']}: {fact['grounds']}"
 
 
 def _counted(verdicts: Iterable[str]) -> str:
@@ -127,13 +132,12 @@ def offenders(stored: Stored, specs: Mapping[str, str]) -> Table:
         Row(
             (
                 _verdict(row),
-                Cell(row["gate"]),
+                Cell(row["gate"], more=row["reason"] or ""),
                 Cell(row["candidate"]),
-                _name(row["quantity"]),
-                *_case(row),
+                Cell(words(row["quantity"])),
+                *case_cells(row),
                 *_numbers(row),
                 Cell(command(row, specs)),
-                Cell(row["reason"] or ""),
             )
         )
         for _, row in shown.iterrows()
@@ -143,10 +147,9 @@ def offenders(stored: Stored, specs: Mapping[str, str]) -> Table:
         Column("gate", "head"),
         Column("candidate"),
         Column("quantity"),
-        *_CASE_COLUMNS,
+        *CASE_COLUMNS,
         *_NUMBERS,
-        Column("reproduce", "code"),
-        Column("reason", "prose"),
+        Column("computed again by", "code"),
     )
     more = len(judged) - len(shown)
     note = f"{bad} of {len(judged)} judged cases do not pass as they should." if bad else "Every judged case passes."
@@ -155,7 +158,7 @@ def offenders(stored: Stored, specs: Mapping[str, str]) -> Table:
     if more:
         note += f" The other {more} are in the table of every verdict."
     caption = "Worst cases first, with the command that computes the candidate's side again"
-    return Table("offenders", caption, columns, rows, ("verdicts.csv", "offenders.tex"), note)
+    return without_empty(Table("offenders", caption, columns, rows, ("verdicts.csv", "offenders.tex"), note))
 
 
 def _verdict(row: pd.Series) -> Cell:
@@ -171,8 +174,8 @@ def all_verdicts(stored: Stored) -> Table:
                 Cell(row["gate"]),
                 Cell(row["candidate"]),
                 Cell(row["reference"]),
-                _name(row["quantity"]),
-                *_case(row),
+                Cell(words(row["quantity"])),
+                *case_cells(row),
                 *_numbers(row),
                 Cell(row["reason"] or ""),
             )
@@ -185,8 +188,8 @@ def all_verdicts(stored: Stored) -> Table:
         Column("candidate"),
         Column("reference"),
         Column("quantity"),
-        *_CASE_COLUMNS,
+        *CASE_COLUMNS,
         *_NUMBERS,
         Column("reason", "prose"),
     )
-    return Table("verdicts", "Every gate in every case", columns, rows, ("verdicts.csv",))
+    return without_empty(Table("verdicts", "Every gate in every case", columns, rows, ("verdicts.csv",)))

@@ -42,11 +42,14 @@ const Plots = (() => {
         renderers.push(drawn.varea({ field: "x" }, { field: "low" }, { field: "high" }, { source, fill_color: colour, fill_alpha: 0.2 }));
       }
       if (plot.mark !== "points") {
-        renderers.push(drawn.line({ field: "x" }, { field: "y" }, { source, line_color: colour, line_dash: dash, line_width: 2 }));
+        renderers.push(drawn.line({ field: "x" }, { field: "y" }, { source, line_color: colour, line_dash: dash, line_width: plot.mark === "line" && series.model === "fscm" ? 3.5 : 2,
+          line_alpha: plot.mark === "line" && series.model === "fscm" ? 0.45 : 1 }));
       }
+      // On a line that is drawn through many points, they are there to be pointed at, not to be seen.
+      const seen = plot.mark === "line" ? 0 : 1;
       const points = drawn.scatter({ field: "x" }, { field: "y" }, {
-        source, marker, size: plot.mark === "line" ? 4 : 8, fill_color: plot.mark === "line" ? colour : "white",
-        fill_alpha: plot.mark === "line" ? 0.35 : 1, line_color: colour, line_alpha: plot.mark === "line" ? 0.5 : 1, line_width: 1.3,
+        source, marker, size: 8, fill_color: "white", fill_alpha: seen, line_color: colour, line_alpha: seen, line_width: 1.3,
+        hover_fill_color: colour, hover_fill_alpha: 1, hover_line_color: colour, hover_line_alpha: 1,
       });
       renderers.push(points);
       tips.push(points);

@@ -44,10 +44,10 @@ const Tables = (() => {
 
   function element(cell, kind) {
     const made = document.createElement(kind === "head" ? "th" : "td");
-    const [text, exact] = Array.isArray(cell) ? cell : [cell];
+    const [text, exact, more] = Array.isArray(cell) ? cell : [cell];
     if (kind === "head") made.scope = "row";
     if (kind === "number" || kind === "prose") made.className = kind;
-    if (exact !== undefined) {
+    if (exact) {
       made.dataset.v = exact;
       if (exact !== text && kind === "number") made.title = exact;
     }
@@ -57,6 +57,11 @@ const Tables = (() => {
       badge.textContent = `${DATA.symbols[text]} ${text}`;
       made.append(badge);
     } else made.textContent = text;
+    if (more) {
+      const small = document.createElement("small");
+      small.textContent = more;
+      made.append(small);
+    }
     return made;
   }
 
@@ -124,15 +129,12 @@ const Tables = (() => {
     }
   }
 
-  // Print everything: what is folded, and what a plot's choice has left out of its table.
-  let before = [];
+  // Print what is folded too; a table beside a plot has the numbers of the plot that is printed.
   addEventListener("beforeprint", () => {
-    before = Object.values(byId).map((table) => [table, table.group]);
-    for (const [table] of before) { layOut(table); table.group = null; show(table); }
+    Object.values(byId).forEach(layOut);
     document.querySelectorAll("details:not([open])").forEach((fold) => { fold.open = true; fold.dataset.folded = ""; });
   });
   addEventListener("afterprint", () => {
-    for (const [table, group] of before) { table.group = group; show(table); }
     document.querySelectorAll("details[data-folded]").forEach((fold) => { fold.open = false; delete fold.dataset.folded; });
   });
 
