@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any, cast
 
 import pandas as pd
 
@@ -196,7 +197,8 @@ def models(stored: Stored, specs: Mapping[str, str]) -> Table:
     said = stored.record.get("models", {})
     seconds = stored.record["seconds"]["by_model"]
     rows = []
-    for (name, version), of_model in every.groupby(["model", "model_version"]):
+    for key, of_model in every.groupby(["model", "model_version"]):
+        name, version = map(str, cast(tuple[Any, Any], key))
         ended = of_model["status"].value_counts()
         rows.append(
             Row(

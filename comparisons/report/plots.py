@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, field
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pandas as pd
@@ -85,6 +85,12 @@ def _options(values: Iterable[float]) -> tuple[tuple[str, str], ...]:
     return tuple((parameter_text(value), parameter_text(value)) for value in sorted(set(values)))
 
 
+def _grouped(table: pd.DataFrame, names: list[str]) -> Iterator[tuple[tuple[Any, ...], pd.DataFrame]]:
+    """Return the rows of each combination, sorted; without Poisson's ratio, that is one of its own."""
+    for key, rows in table.groupby(names, dropna=False):
+        yield cast(tuple[Any, ...], key), rows
+
+
 def kappa_group(row: pd.Series) -> str:
     """Return the choice that shows a relative error."""
     return _key(row["quantity"], row["reference"], row["n"], row["k"])
@@ -94,8 +100,8 @@ def kappa(stored: Stored) -> Plot:
     """Relative errors over the Tabor number, one picture for each n and k."""
     table = stored.kappa.sort_values(["model", "mu"], kind="stable")
     series = []
-    for (model, quantity, reference, n, k, nu), rows in table.groupby(
-        ["model", "quantity", "reference", "n", "k", "nu"], dropna=False, sort=False
+    for (model, quantity, reference, n, k, nu), rows in _grouped(
+        table, ["model", "quantity", "reference", "n", "k", "nu"]
     ):
         percent, band = 100 * rows["kappa"], 100 * rows["u_kappa"]
         series.append(
@@ -180,7 +186,7 @@ def curves(stored: Stored) -> list[Plot]:
                 y=rows["y"].tolist(),
                 says=[f"{x_symbol} = {x:.6g}, {y_symbol} = {y:.6g}" for x, y in zip(rows["x"], rows["y"], strict=True)],
             )
-            for (model, n, k, mu, nu), rows in chosen.groupby(["model", "n", "k", "mu", "nu"], dropna=False)
+            for (model, n, k, mu, nu), rows in _grouped(chosen, ["model", "n", "k", "mu", "nu"])
         ]
         # The reference lies below: where the others are right, they cover it with their dashes.
         series.sort(key=lambda one: one.model != _REFERENCE)
@@ -261,7 +267,7 @@ def _over_size(
                 for _, row in of_model.iterrows()
             ],
         )
-        for (quantity, model), of_model in rows.groupby(["quantity", "model"])
+        for (quantity, model), of_model in _grouped(rows, ["quantity", "model"])
     ]
     options = tuple((name, words(name)) for name in sorted(set(rows["quantity"]), key=_by_use))
     return Plot(

@@ -90,10 +90,9 @@ def matrix(stored: Stored) -> Table:
                     Cell(gate["gate"], more=fact.get("requirement", "")),
                     Cell(gate["candidate"]),
                     Cell(gate["reference"]),
-                    Cell(_counted(of_gate["verdict"]), float(len(of_gate)), marks),
+                    Cell(_counted(of_gate["verdict"]), float(len(of_gate)), marks, gate["reason"] or ""),
                     _error(gate),
                     replace(_limits(gate), more=_grounds(fact)),
-                    Cell(gate["reason"] or ""),
                 )
             )
         )
@@ -107,9 +106,8 @@ def matrix(stored: Stored) -> Table:
         Column("limits of E", "prose"),
         Column("reason", "prose"),
     )
-    return without_empty(
-        Table("matrix", "Gates, worst first; one square a case", columns, rows, ("verdicts.csv", "verdicts.tex"))
-    )
+    caption = "Gates, worst first; one square a case"
+    return without_empty(Table("matrix", caption, columns, rows, ("verdicts.csv", "verdicts.tex")))
 
 
 def _grounds(fact: dict[Any, Any]) -> str:
