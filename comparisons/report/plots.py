@@ -154,17 +154,17 @@ _CURVES = {
         "δ",
         "P",
         "displacement δ / z₀",
-        "load P / (π Q^(2/n) Δγ z₀^(2/n−1)), tension negative",
+        "load P / (π Q^(2/n) Δγ z₀^(2/n−1))",
         "The whole equilibrium path, its unstable part included, from far away (left) into contact. A machine that "
-        "controls the displacement jumps where the path turns back.",
+        "controls the displacement jumps where the path turns back. Tension is negative.",
     ),
     "pull_off_pressure": (
         "Pressure under the punch at pull-off",
         "r",
         "p",
         "radius r / (Q z₀)^(1/n)",
-        "pressure p z₀ / Δγ, tension negative",
-        "The pressure where the load is smallest, out to a gap of 10 z₀.",
+        "pressure p z₀ / Δγ",
+        "The pressure where the load is smallest, out to a gap of 10 z₀; tension is negative.",
     ),
 }
 

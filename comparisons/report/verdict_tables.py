@@ -104,7 +104,6 @@ def matrix(stored: Stored) -> Table:
         Column("cases", "marks"),
         Column("worst E(U)", "number"),
         Column("limits of E", "prose"),
-        Column("reason", "prose"),
     )
     caption = "Gates, worst first; one square a case"
     return without_empty(Table("matrix", caption, columns, rows, ("verdicts.csv", "verdicts.tex")))
