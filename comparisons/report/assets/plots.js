@@ -132,5 +132,10 @@ const Plots = (() => {
     const { x_range, y_range } = made[id].drawn;
     return [x_range.start, x_range.end, y_range.start, y_range.end];
   }
-  return { ready, range };
+  // Where the frame of a plot is in its box, in pixels: left, top, width, height.
+  function inner(id) {
+    const { bbox } = Bokeh.index.find_one_by_id(made[id].drawn.id).frame;
+    return [bbox.left, bbox.top, bbox.width, bbox.height];
+  }
+  return { ready, range, inner };
 })();
