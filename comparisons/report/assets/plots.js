@@ -30,7 +30,9 @@ const Plots = (() => {
       drawn.add_layout(new Bokeh.Span({ location: 0, dimension: "width", line_color: "#87919c", line_width: 1 }));
     }
     const layers = [];
-    const tips = [];
+    // One hover tool for each side, so that models which agree are read off side by side.
+    const tips = { left: [], right: [], above: [], below: [] };
+    const placed = {};
     for (const series of plot.series) {
       const [colour, dash, marker] = DATA.looks[series.model];
       const source = new Bokeh.ColumnDataSource({ data: {
@@ -42,20 +44,26 @@ const Plots = (() => {
         renderers.push(drawn.varea({ field: "x" }, { field: "low" }, { field: "high" }, { source, fill_color: colour, fill_alpha: 0.2 }));
       }
       if (plot.mark !== "points") {
-        renderers.push(drawn.line({ field: "x" }, { field: "y" }, { source, line_color: colour, line_dash: dash, line_width: plot.mark === "line" && series.model === "fscm" ? 3.5 : 2,
-          line_alpha: plot.mark === "line" && series.model === "fscm" ? 0.45 : 1 }));
+        const below = plot.mark === "line" && series.model === "fscm";
+        renderers.push(drawn.line({ field: "x" }, { field: "y" }, {
+          source, line_color: colour, line_dash: dash, line_width: below ? 3.5 : 2, line_alpha: below ? 0.45 : 1,
+        }));
       }
-      // On a line that is drawn through many points, they are there to be pointed at, not to be seen.
-      const seen = plot.mark === "line" ? 0 : 1;
-      const points = drawn.scatter({ field: "x" }, { field: "y" }, {
-        source, marker, size: 8, fill_color: "white", fill_alpha: seen, line_color: colour, line_alpha: seen, line_width: 1.3,
-        hover_fill_color: colour, hover_fill_alpha: 1, hover_line_color: colour, hover_line_alpha: 1,
-      });
-      renderers.push(points);
-      tips.push(points);
+      if (plot.mark !== "line") {
+        renderers.push(drawn.scatter({ field: "x" }, { field: "y" }, {
+          source, marker, size: 8, fill_color: "white", line_color: colour, line_width: 1.3,
+        }));
+      }
+      // What is pointed at: the nearest of a line's points, or a point itself.
+      placed[series.group] = (placed[series.group] ?? -1) + 1;
+      tips[Object.keys(tips)[placed[series.group] % 4]].push(renderers.at(-1));
       layers.push({ series, renderers });
     }
-    drawn.add_tools(new Bokeh.HoverTool({ renderers: tips, tooltips: [["model", "@name"], ["", "@says"]] }));
+    for (const [attachment, renderers] of Object.entries(tips)) {
+      drawn.add_tools(new Bokeh.HoverTool({
+        renderers, attachment, line_policy: "nearest", tooltips: [["model", "@name"], ["", "@says"]],
+      }));
+    }
     const one = { plot, figure, drawn, layers, view: null };
     made[plot.id] = one;
 

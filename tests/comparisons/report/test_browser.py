@@ -249,7 +249,7 @@ def test_a_plot_zooms_by_buttons(opened):
     assert ranges(opened, "plot-force-curve")[3] > 2.3 > before[3]
 
 
-def test_a_plot_zooms_to_a_box_and_is_read_off(opened):
+def test_a_plot_zooms_to_a_box_and_is_read_off(opened, hostile):
     from selenium.webdriver.common.action_chains import ActionChains
 
     canvas = find(opened, "#plot-force-curve .canvas")
@@ -262,12 +262,13 @@ def test_a_plot_zooms_to_a_box_and_is_read_off(opened):
     assert before[0] < after[0] < after[1] < before[1]
     assert before[2] < after[2] < after[3] < before[3]
     click(opened, find(opened, "#plot-force-curve [data-zoom=reset]"))
-    # Along the line P = -1.7, the smallest load, which is at displacement 0: somewhere there a tip must appear.
+    # The smallest load, P = -1.7, is at displacement 0.
     x0, x1, y0, y1 = ranges(opened, "plot-force-curve")
     tips = """
+      const inside = (node) => [...(node.shadowRoot?.childNodes ?? []), ...node.childNodes];
       const text = (node) => (node.nodeType === Node.TEXT_NODE ? node.data : "")
-        + [...(node.shadowRoot?.childNodes ?? []), ...node.childNodes].map(text).join("");
-      return text(document.querySelector("#plot-force-curve .canvas"));
+        + (node.localName === "style" ? "" : inside(node).map(text).join(""));
+      return Array.from(document.querySelectorAll(".bk-Tooltip"), text).join(" ");
     """
     frame = opened.execute_script("return Plots.inner('plot-force-curve')")
     left, top, width, height = frame
@@ -275,7 +276,10 @@ def test_a_plot_zooms_to_a_box_and_is_read_off(opened):
     x = left + width * (0.0 - x0) / (x1 - x0) - box["width"] / 2
     y = top + height * (y1 + 1.7) / (y1 - y0) - box["height"] / 2
     ActionChains(opened).move_to_element_with_offset(canvas, round(x), round(y)).perform()
-    wait(lambda: "P = -1.7" in opened.execute_script(tips))
+    wait(lambda: "δ = 0, P = -1.7" in opened.execute_script(tips))
+    # The other model, 0.01 to the right, is read off beside it, and its name is text.
+    assert "δ = 0.01, P = -1.7" in opened.execute_script(tips)
+    assert hostile.script in opened.execute_script(tips)
 
 
 def test_the_choices_choose(opened, run_folder):
