@@ -35,10 +35,11 @@ const Plots = (() => {
     const placed = {};
     for (const series of plot.series) {
       const [colour, dash, marker] = DATA.looks[series.model];
-      const source = new Bokeh.ColumnDataSource({ data: {
+      const data = {
         x: series.x, y: series.y, low: series.low ?? series.y, high: series.high ?? series.y,
         says: series.says, name: series.x.map(() => series.label),
-      } });
+      };
+      const source = new Bokeh.ColumnDataSource({ data });
       const renderers = [];
       if (series.low) {
         renderers.push(drawn.varea({ field: "x" }, { field: "low" }, { field: "high" }, { source, fill_color: colour, fill_alpha: 0.2 }));
@@ -50,8 +51,9 @@ const Plots = (() => {
         }));
       }
       if (plot.mark !== "line") {
+        // A source of its own: pointing at a marker would take away the line and the band of the same source.
         renderers.push(drawn.scatter({ field: "x" }, { field: "y" }, {
-          source, marker, size: 8, fill_color: "white", line_color: colour, line_width: 1.3,
+          source: new Bokeh.ColumnDataSource({ data }), marker, size: 8, fill_color: "white", line_color: colour, line_width: 1.3,
         }));
       }
       // What is pointed at: the nearest of a line's points, or a point itself.

@@ -4,6 +4,7 @@ Skipped where there is no Chromium with its driver, unless FSCM_BENCH_BROWSER=re
 """
 
 import base64
+import importlib
 import json
 import os
 import re
@@ -15,6 +16,8 @@ import pandas as pd
 import pytest
 
 from comparisons.cli import main
+
+_REQUIRED = os.environ.get("FSCM_BENCH_BROWSER") == "required"
 
 PHONE, DESKTOP = (375, 800), (1280, 900)
 _ARGUMENTS = (
@@ -32,16 +35,21 @@ def programs():
     if browser and driver:
         return browser, driver
     reason = "Chromium or chromedriver is not installed (Debian: apt-get install chromium chromium-driver)"
-    if os.environ.get("FSCM_BENCH_BROWSER") == "required":
+    if _REQUIRED:
         pytest.fail(reason)
     pytest.skip(reason)
+
+
+def package(name):
+    """Import what only the tests need; skips or fails where it is missing."""
+    return importlib.import_module(name) if _REQUIRED else pytest.importorskip(name)
 
 
 @pytest.fixture(scope="module")
 def browser(tmp_path_factory):
     """A fresh browser, started once."""
     chromium, driver = programs()
-    webdriver = pytest.importorskip("selenium.webdriver")
+    webdriver = package("selenium.webdriver")
     options = webdriver.ChromeOptions()
     options.binary_location = chromium
     for argument in (*_ARGUMENTS, f"--user-data-dir={tmp_path_factory.mktemp('profile')}"):
@@ -250,12 +258,11 @@ def test_a_plot_zooms_by_buttons(opened):
 
 
 def test_a_plot_zooms_to_a_box_and_is_read_off(opened, hostile):
-    from selenium.webdriver.common.action_chains import ActionChains
-
+    actions = package("selenium.webdriver.common.action_chains").ActionChains
     canvas = find(opened, "#plot-force-curve .canvas")
     opened.execute_script("arguments[0].scrollIntoView({ block: 'center' })", canvas)
     before = ranges(opened, "plot-force-curve")
-    drag = ActionChains(opened).move_to_element_with_offset(canvas, -60, -60).click_and_hold()
+    drag = actions(opened).move_to_element_with_offset(canvas, -60, -60).click_and_hold()
     drag.move_by_offset(60, 60).move_by_offset(60, 60).release().perform()
     wait(lambda: ranges(opened, "plot-force-curve") != before)
     after = ranges(opened, "plot-force-curve")
@@ -275,11 +282,44 @@ def test_a_plot_zooms_to_a_box_and_is_read_off(opened, hostile):
     box = canvas.rect
     x = left + width * (0.0 - x0) / (x1 - x0) - box["width"] / 2
     y = top + height * (y1 + 1.7) / (y1 - y0) - box["height"] / 2
-    ActionChains(opened).move_to_element_with_offset(canvas, round(x), round(y)).perform()
+    actions(opened).move_to_element_with_offset(canvas, round(x), round(y)).perform()
     wait(lambda: "δ = 0, P = -1.7" in opened.execute_script(tips))
     # The other model, 0.01 to the right, is read off beside it, and its name is text.
     assert "δ = 0.01, P = -1.7" in opened.execute_script(tips)
     assert hostile.script in opened.execute_script(tips)
+
+
+def test_a_curve_stays_whole_while_it_is_pointed_at(opened):
+    actions = package("selenium.webdriver.common.action_chains").ActionChains
+    canvas = find(opened, "#plot-kappa .canvas")
+    opened.execute_script("arguments[0].scrollIntoView({ block: 'center' })", canvas)
+    # How long the drawing instructions of every path are, once what has changed is drawn.
+    ink = """
+      const done = arguments[0];
+      const inside = (node) => [...(node.shadowRoot?.children ?? []), ...node.children];
+      const paths = (node) => [node, ...inside(node).flatMap(paths)].filter((one) => one.localName === "path");
+      const length = () => paths(document.querySelector("#plot-kappa .canvas"))
+        .reduce((sum, path) => sum + path.getAttribute("d").length, 0);
+      requestAnimationFrame(() => requestAnimationFrame(() => done(length())));
+    """
+    before = opened.execute_async_script(ink)
+    place = """
+      const [x0, x1, y0, y1] = Plots.range("plot-kappa");
+      const [left, top, width, height] = Plots.inner("plot-kappa");
+      const { x, y } = DATA.plots[0].series.find((s) => s.group === "pull_off_force|fscm|2|0");
+      const at = (v, a, b) => (v - a) / (b - a);
+      return [left + width * at(Math.log(x[5]), Math.log(x0), Math.log(x1)), top + height * at(y[5], y1, y0)];
+    """
+    x, y = opened.execute_script(place)
+    x, y = round(x - canvas.size["width"] / 2), round(y - canvas.size["height"] / 2)
+    for step in (2, 1, 0):
+        actions(opened).move_to_element_with_offset(canvas, x - step, y).perform()
+    inspected = """
+      const { renderers } = Bokeh.documents.flatMap((one) => one.roots())[0];
+      return renderers.some((one) => one.data_source.inspected.indices.length > 0);
+    """
+    wait(lambda: opened.execute_script(inspected))
+    assert opened.execute_async_script(ink) >= before > 10_000
 
 
 def test_the_choices_choose(opened, run_folder):
@@ -320,7 +360,7 @@ def test_a_phone_does_not_scroll_sideways(browser, page, folded):
 
 @pytest.mark.parametrize("measures", [DESKTOP, PHONE], ids=["desktop", "phone"])
 def test_it_is_accessible(browser, page, measures):
-    axe = pytest.importorskip("axe_core_python.selenium").Axe()
+    axe = package("axe_core_python.selenium").Axe()
     show(browser, page, *measures)
     for table in ("verdicts", "convergence"):
         unfold(browser, table)
