@@ -11,7 +11,7 @@ from comparisons.outputs.verdicts import worst_cases
 from comparisons.report import number_tables, plots, verdict_tables
 from comparisons.report.folder import Stored
 from comparisons.report.look import Look, looks
-from comparisons.report.plots import Plot
+from comparisons.report.plot import Plot
 from comparisons.report.table import Table, table_tex
 from comparisons.store import csv_text
 from comparisons.verdict import Verdict, roll_up

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
-from dataclasses import asdict, dataclass, field
-from typing import Any, cast
 
 import numpy as np
 import pandas as pd
 
 from comparisons.outputs.verdicts import parameter_text
 from comparisons.report.folder import Stored
+from comparisons.report.plot import Control, Plot, Series, grouped, key, options
 from comparisons.report.table import kappa_cell, words
 
-__all__ = ["Control", "Plot", "Series", "convergence", "curve_group", "curves", "kappa", "kappa_group"]
+__all__ = ["convergence", "curve_group", "curves", "kappa", "kappa_group"]
 
 # Where the load is below this share of the pull-off force, a curve approaches the axis and ends the first view.
 _FAINT = 0.02
@@ -23,90 +21,22 @@ _FAINT = 0.02
 _REFERENCE = "fscm"
 
 
-@dataclass(frozen=True, slots=True)
-class Control:
-    """A choice: its label, its options as (key, text), and the one that is shown first (else the first)."""
-
-    label: str
-    options: tuple[tuple[str, str], ...]
-    first: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Series:
-    """The points of one model under one choice; `low` and `high` bound a band, `says` is read off a point."""
-
-    group: str
-    model: str
-    label: str
-    x: list[float]
-    y: list[float]
-    says: list[str]
-    low: list[float] | None = None
-    high: list[float] | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Plot:
-    """One plot: axes, choices, series; `views` holds the first view [x0, x1, y0, y1] of a group if not all of it.
-
-    `mark` is "both" for a line with markers, "line" or "points"; `table` the id of the table with the numbers.
-    """
-
-    id: str
-    title: str
-    x_label: str
-    y_label: str
-    x_scale: str
-    y_scale: str
-    mark: str
-    controls: tuple[Control, ...]
-    series: list[Series]
-    table: str
-    caption: str
-    views: dict[str, list[float]] = field(default_factory=dict)
-
-    @property
-    def models(self) -> list[str]:
-        """Names of what can be switched on and off, in the order of the series."""
-        return list(dict.fromkeys(series.model for series in self.series))
-
-    def data(self) -> dict[str, Any]:
-        """Return what the page's script draws, ready for JSON."""
-        wanted = ("id", "x_label", "y_label", "x_scale", "y_scale", "mark", "table", "views")
-        return {name: getattr(self, name) for name in wanted} | {"series": [asdict(series) for series in self.series]}
-
-
-def _key(*parts: str | float) -> str:
-    return "|".join(part if isinstance(part, str) else parameter_text(part) for part in parts)
-
-
-def _options(values: Iterable[float]) -> tuple[tuple[str, str], ...]:
-    return tuple((parameter_text(value), parameter_text(value)) for value in sorted(set(values)))
-
-
-def _grouped(table: pd.DataFrame, names: list[str]) -> Iterator[tuple[tuple[Any, ...], pd.DataFrame]]:
-    """Return the rows of each combination, sorted; without Poisson's ratio, that is one of its own."""
-    for key, rows in table.groupby(names, dropna=False):
-        yield cast(tuple[Any, ...], key), rows
-
-
 def kappa_group(row: pd.Series) -> str:
     """Return the choice that shows a relative error."""
-    return _key(row["quantity"], row["reference"], row["n"], row["k"])
+    return key(row["quantity"], row["reference"], row["n"], row["k"])
 
 
 def kappa(stored: Stored) -> Plot:
     """Relative errors over the Tabor number, one picture for each n and k."""
     table = stored.kappa.sort_values(["model", "mu"], kind="stable")
     series = []
-    for (model, quantity, reference, n, k, nu), rows in _grouped(
+    for (model, quantity, reference, n, k, nu), rows in grouped(
         table, ["model", "quantity", "reference", "n", "k", "nu"]
     ):
         percent, band = 100 * rows["kappa"], 100 * rows["u_kappa"]
         series.append(
             Series(
-                group=_key(quantity, reference, n, k),
+                group=key(quantity, reference, n, k),
                 model=model,
                 label=model if math.isnan(nu) else f"{model}, ν = {nu:g}",
                 x=rows["mu"].tolist(),
@@ -123,8 +53,8 @@ def kappa(stored: Stored) -> Plot:
     controls = (
         Control("quantity", tuple((q, words(q)) for q in dict.fromkeys(pairs["quantity"]))),
         Control("reference", tuple((r, r) for r in dict.fromkeys(pairs["reference"]))),
-        Control("shape index n", _options(table["n"]), first="2"),
-        Control("gradient exponent k", _options(table["k"])),
+        Control("shape index n", options(table["n"]), first="2"),
+        Control("gradient exponent k", options(table["k"])),
     )
     return Plot(
         id="plot-kappa",
@@ -144,7 +74,7 @@ def kappa(stored: Stored) -> Plot:
 
 def curve_group(row: pd.Series) -> str:
     """Return the choice that shows a point of a curve."""
-    return _key(*(row[name] for name in ("n", "k", "mu")))
+    return key(*(row[name] for name in ("n", "k", "mu")))
 
 
 #: Quantity -> (title, symbol on x, symbol on y, label of x, label of y, caption).
@@ -179,22 +109,22 @@ def curves(stored: Stored) -> list[Plot]:
             continue
         series = [
             Series(
-                group=_key(n, k, mu),
+                group=key(n, k, mu),
                 model=model,
                 label=model if math.isnan(nu) else f"{model}, ν = {nu:g}",
                 x=rows["x"].tolist(),
                 y=rows["y"].tolist(),
                 says=[f"{x_symbol} = {x:.6g}, {y_symbol} = {y:.6g}" for x, y in zip(rows["x"], rows["y"], strict=True)],
             )
-            for (model, n, k, mu, nu), rows in _grouped(chosen, ["model", "n", "k", "mu", "nu"])
+            for (model, n, k, mu, nu), rows in grouped(chosen, ["model", "n", "k", "mu", "nu"])
         ]
         # The reference lies below: where the others are right, they cover it with their dashes.
         series.sort(key=lambda one: one.model != _REFERENCE)
         cases = chosen[["n", "k", "mu"]].drop_duplicates().sort_values(["n", "k", "mu"])
-        options = tuple(
-            (_key(n, k, mu), f"n = {n:g}, k = {k:g}, μ = {mu:g}") for n, k, mu in cases.itertuples(index=False)
+        choices = tuple(
+            (key(n, k, mu), f"n = {n:g}, k = {k:g}, μ = {mu:g}") for n, k, mu in cases.itertuples(index=False)
         )
-        views = {key: _view([s for s in series if s.group == key]) for key, _ in options}
+        views = {case: _view([s for s in series if s.group == case]) for case, _ in choices}
         plots.append(
             Plot(
                 id=f"plot-{quantity.replace('_', '-')}",
@@ -204,11 +134,11 @@ def curves(stored: Stored) -> list[Plot]:
                 x_scale="linear",
                 y_scale="linear",
                 mark="line",
-                controls=(Control("case", options),),
+                controls=(Control("case", choices),),
                 series=series,
                 table=quantity,
                 caption=caption,
-                views={key: view for key, view in views.items() if view and quantity == "force_curve"},
+                views={case: view for case, view in views.items() if view and quantity == "force_curve"},
             )
         )
     return plots
@@ -267,9 +197,9 @@ def _over_size(
                 for _, row in of_model.iterrows()
             ],
         )
-        for (quantity, model), of_model in _grouped(rows, ["quantity", "model"])
+        for (quantity, model), of_model in grouped(rows, ["quantity", "model"])
     ]
-    options = tuple((name, words(name)) for name in sorted(set(rows["quantity"]), key=_by_use))
+    choices = tuple((name, words(name)) for name in sorted(set(rows["quantity"]), key=_by_use))
     return Plot(
         id=id,
         title=title,
@@ -278,7 +208,7 @@ def _over_size(
         x_scale="log",
         y_scale=y_scale,
         mark="points",
-        controls=(Control("quantity", options),),
+        controls=(Control("quantity", choices),),
         series=series,
         table="convergence",
         caption=caption,

@@ -70,22 +70,25 @@ def render(page: Page) -> str:
     environment.filters |= {"verdict_class": verdict_class}
     scripts = [_script(files("bokeh").joinpath(name).read_text(encoding="utf-8")) for name in _BOKEH]
     scripts += [_script(_asset(name)) for name in ("tables.js", "plots.js")]
-    return environment.get_template("report.html").render(
-        page=page,
-        verdicts=list(map(str, Verdict)),
-        style=Markup(_asset("report.css")),
-        scripts=scripts,
-        policy=_policy(scripts),
-        data=script_json(
-            {
-                "tables": {table.id: table.data() for table in page.tables.values() if table.long},
-                "plots": [plot.data() for plot in page.every_plot],
-                "looks": {name: [look.colour, look.dash, look.marker] for name, look in page.looks.items()},
-                "files": page.files,
-                "symbols": {str(name): symbol for name, symbol in SYMBOLS.items()},
-            }
-        ),
-    ) + ("\n")
+    return (
+        environment.get_template("report.html").render(
+            page=page,
+            verdicts=list(map(str, Verdict)),
+            style=Markup(_asset("report.css")),
+            scripts=scripts,
+            policy=_policy(scripts),
+            data=script_json(
+                {
+                    "tables": {table.id: table.data() for table in page.tables.values() if table.long},
+                    "plots": [plot.data() for plot in page.every_plot],
+                    "looks": {name: [look.colour, look.dash, look.marker] for name, look in page.looks.items()},
+                    "files": page.files,
+                    "symbols": {str(name): symbol for name, symbol in SYMBOLS.items()},
+                }
+            ),
+        )
+        + "\n"
+    )
 
 
 def _asset(name: str) -> str:
@@ -94,9 +97,9 @@ def _asset(name: str) -> str:
 
 def _script(text: str) -> Markup:
     """A script as it stands in the page; a link to a map of its source would be asked for over the network."""
-    lines = [line for line in text.splitlines() if not line.startswith("//# sourceMappingURL")]
-    # HTML turns a carriage return into a line's end, and with it the hash would change.
-    return Markup("\n".join(lines).replace("</script", "<\\/script").replace("\r", ""))
+    # HTML reads a carriage return as a line's end, and the hash of the script would then be another.
+    lines = [line for line in text.replace("\r", "").split("\n") if not line.startswith("//# sourceMappingURL")]
+    return Markup("\n".join(lines).replace("</script", "<\\/script"))
 
 
 def _policy(scripts: list[Markup]) -> str:
