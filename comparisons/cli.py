@@ -16,14 +16,27 @@ from typing import NoReturn
 
 from threadpoolctl import threadpool_limits
 
-from comparisons.commands import bench, check_model, curve, fem, judge, listing, new_model, paper, run, solve, sweep
+from comparisons.commands import (
+    bench,
+    check_model,
+    curve,
+    fem,
+    judge,
+    listing,
+    new_model,
+    paper,
+    report,
+    run,
+    solve,
+    sweep,
+)
 from comparisons.commands.options import WRONG_INPUT
 from comparisons.progress import log
 from comparisons.provenance import package_version
 
 __all__ = ["main"]
 
-_COMMANDS = (run, judge, paper, sweep, solve, curve, fem, listing, check_model, new_model, bench)
+_COMMANDS = (run, judge, report, paper, sweep, solve, curve, fem, listing, check_model, new_model, bench)
 _INTERRUPTED, _BROKEN_PIPE = 130, 141
 
 

@@ -21,7 +21,7 @@ from comparisons.gates import GIVEN, Gate
 from comparisons.run import asked_at, plan
 from comparisons.verdict import Verdict, combined, decide, expecting_failure, roll_up
 
-__all__ = ["Judged", "by_gate", "judge", "relevant"]
+__all__ = ["Judged", "by_gate", "judge", "relevant", "worst_first"]
 
 _NEEDED = {"model", "quantity", "n", "k", "mu", "nu", "value", "u_num", "status", "reason"}
 _NEEDED_OF_CURVES = {"model", "quantity", "n", "k", "mu", "nu", "x", "y", "u_distance", "status", "reason"}
@@ -341,6 +341,14 @@ def by_gate(judged: pd.DataFrame) -> pd.DataFrame:
     )
     order = table["verdict"].map(lambda verdict: Verdict(verdict).rank).astype(int)
     return table.iloc[order.argsort(kind="stable")].reset_index(drop=True)
+
+
+def worst_first(judged: pd.DataFrame) -> pd.DataFrame:
+    """Return the rows with the worst verdict first; of one verdict, the nearest to a limit or farthest beyond."""
+    order = pd.DataFrame(
+        {"rank": [Verdict(verdict).rank for verdict in judged["verdict"]], "nearness": -_margin(judged).to_numpy()}
+    )
+    return judged.iloc[order.sort_values(["rank", "nearness"], kind="stable").index].reset_index(drop=True)
 
 
 def _margin(rows: pd.DataFrame) -> pd.Series:

@@ -59,7 +59,7 @@ LAYERS = (
         "comparisons.publish",
         "comparisons.bench",
     ),
-    ("comparisons.paper",),
+    ("comparisons.paper", "comparisons.report"),
     ("comparisons.commands",),
     ("comparisons.cli",),
 )

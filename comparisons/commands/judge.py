@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import shlex
 from collections.abc import Mapping
 from hashlib import sha256
 from pathlib import Path
@@ -53,8 +52,9 @@ def call(args: argparse.Namespace) -> int:
     for name, content in {"cases": cases_text(), "gates": text}.items():
         if sha256(content.encode()).hexdigest() != record[f"{name}_sha256"]:
             log(f"the {name} have changed since {args.folder} was computed; judged by those of today")
-    judged = judge_and_write(args.folder, gates, asked_of(grids(tier), models), rows, curves, models)
-    print_verdicts(judged, record["arguments"]["outside"])
+    specs = record["arguments"]["outside"]
+    judged = judge_and_write(args.folder, gates, asked_of(grids(tier), models), rows, curves, models, specs)
+    print_verdicts(judged, specs)
     return STATUS[roll_up(judged["verdict"])]
 
 
@@ -65,34 +65,33 @@ def judge_and_write(
     rows: pd.DataFrame,
     curves: pd.DataFrame,
     models: list[str] | None,
+    specs: Mapping[str, str],
 ) -> pd.DataFrame:
     """Judge and write the verdicts beside the results; return what `comparisons.judge.judge` does."""
     judged = judge(gates, chosen, rows, curves, models)
-    to_step_summary(write_verdicts(folder, judged, gates))
+    to_step_summary(write_verdicts(folder, judged, gates, specs))
     return judged
 
 
-def print_verdicts(judged: pd.DataFrame, outside: Mapping[str, str]) -> None:
+def print_verdicts(judged: pd.DataFrame, specs: Mapping[str, str]) -> None:
     """Print the matrix of gates, worst first, and the verdict over all.
 
     Parameters
     ----------
     judged : DataFrame
         As `comparisons.judge.judge` returns it.
-    outside : mapping of str to str
+    specs : mapping of str to str
         The SPEC that finds each model from outside: the command that computes a case again needs it.
     """
     console = output()
     if judged.empty:
         log("no gate was evaluated")
         return
-    shown = matrix(judged)
+    shown = matrix(judged, specs)
     console.print(rich_table(shown.drop(columns=["command", "reason"]), "verdicts, worst first"))
     width = shown["gate"].str.len().max()
     console.print("the worst case of each gate is computed again by", style="bold")
     for gate, line, reason in zip(shown["gate"], shown["command"], shown["reason"], strict=True):
-        for name, spec in outside.items():
-            line = line.replace(f"--model {name} ", f"--model {shlex.quote(spec)} ")
         console.print(f"{gate:{width}}  {line}" + (f"  # {reason}" if reason else ""), markup=False, soft_wrap=True)
     counts = judged["verdict"].map(str).value_counts()
     console.print(

@@ -6,6 +6,7 @@ import argparse
 import sys
 import time
 from collections import Counter
+from collections.abc import Mapping
 from datetime import UTC, datetime
 from hashlib import sha256
 from pathlib import Path
@@ -23,7 +24,7 @@ from comparisons.figures import references
 from comparisons.figures.style import save
 from comparisons.gates import gates_text, load_gates, of_tier
 from comparisons.model import ComputationFailed
-from comparisons.models import identify
+from comparisons.models import Outside, create, identify
 from comparisons.progress import log
 from comparisons.provenance import environment
 from comparisons.record import write_record
@@ -102,7 +103,7 @@ def call(args: argparse.Namespace) -> int:
     kappa = _kappa(table, chosen, given)
     maxima = largest(kappa)
     _write(folder, table, curves, kappa, maxima)
-    judged = judge_and_write(folder, gates, chosen, table, curves, given)
+    judged = judge_and_write(folder, gates, chosen, table, curves, given, specs)
     verdict = roll_up(judged["verdict"])
     write_record(
         {
@@ -119,6 +120,7 @@ def call(args: argparse.Namespace) -> int:
             "started": started.isoformat(timespec="seconds"),
             "finished": datetime.now(UTC).isoformat(timespec="seconds"),
             "seconds": {"run": elapsed, "by_model": _seconds(rows)},
+            "models": _described({task.model for task in tasks}, outside),
             "rows": {"all": len(rows), "resumed": resumed, **Counter(row.status for row in rows)},
             "cases_sha256": sha256(cases_text().encode()).hexdigest(),
             "gates_sha256": sha256(rules.encode()).hexdigest(),
@@ -145,6 +147,15 @@ def _kappa(table: pd.DataFrame, chosen: list[Grid], models: list[str] | None) ->
         ]
         tables.append(relative_error(table[mine], reference))
     return pd.concat(tables, ignore_index=True)
+
+
+def _described(names: set[str], outside: Mapping[str, Outside]) -> dict[str, dict[str, str]]:
+    """Return what each model says of itself."""
+    models = {name: outside.get(name) or create(name) for name in sorted(names)}
+    return {
+        name: {"version": model.version, "citation": model.citation, "domain": model.domain}
+        for name, model in models.items()
+    }
 
 
 def _seconds(rows: list[Row]) -> dict[str, float]:

@@ -72,11 +72,13 @@ def create(name: str, poisson_ratio: float | None = None) -> Model:
 
 @dataclass(frozen=True, slots=True)
 class Outside:
-    """A model from outside by its own name and version, and the SPEC that finds it."""
+    """A model from outside by what it says of itself, and the SPEC that finds it."""
 
     name: str
     version: str
     spec: str
+    citation: str
+    domain: str
 
 
 def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, Outside]]:
@@ -95,7 +97,7 @@ def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, Outside]]:
             raise ValueError(f"two models are called {model.name}: each needs its own name")
         names.append(model.name)
         if spec not in MODELS:
-            outside[model.name] = Outside(model.name, model.version, spec)
+            outside[model.name] = Outside(model.name, model.version, spec, model.citation, model.domain)
     return names, outside
 
 

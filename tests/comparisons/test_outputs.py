@@ -1,6 +1,7 @@
 """What people paste: digits, Markdown, LaTeX, JUnit XML, files."""
 
 import math
+from functools import partial
 from xml.etree import ElementTree
 
 import pandas as pd
@@ -124,7 +125,7 @@ def test_latex_is_booktabs_and_escapes_what_is_special():
 
 
 def test_junit_has_one_test_case_a_gate_and_case():
-    root = ElementTree.fromstring(junit(JUDGED, command))
+    root = ElementTree.fromstring(junit(JUDGED, partial(command, specs={})))
     assert root.attrib == {"name": "fscm-bench", "tests": "6", "errors": "1", "failures": "2", "skipped": "2"}
     assert [suite.get("name") for suite in root] == ["ONE", "TWO", "THREE", "FOUR"]
     cases = root.findall(".//testcase")
@@ -143,20 +144,24 @@ def test_junit_has_one_test_case_a_gate_and_case():
 
 
 def test_the_command_of_a_row():
-    assert command(pd.Series(ROW | {"nu": 0.25})) == (
+    assert command(pd.Series(ROW | {"nu": 0.25}), {}) == (
         "fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0.4 --mu 1 --nu 0.25"
     )
-    assert command(pd.Series(ROW | {"quantity": "force_curve"})) == "fscm-bench curve --model jkr --n 2 --k 0.4 --mu 1"
+    assert (
+        command(pd.Series(ROW | {"quantity": "force_curve"}), {}) == "fscm-bench curve --model jkr --n 2 --k 0.4 --mu 1"
+    )
+    elsewhere = command(pd.Series(ROW), {"jkr": "my models/jkr.py:JKR"})
+    assert elsewhere == "fscm-bench solve --model 'my models/jkr.py:JKR' --quantity pull_off_force --n 2 --k 0.4 --mu 1"
 
 
 def test_the_matrix_is_worst_first():
-    shown = matrix(JUDGED)
+    shown = matrix(JUDGED, {})
     assert shown["verdict"].tolist() == ["ERROR", "FAIL", "INCONCLUSIVE", "XFAIL"]
     assert shown["cases"].tolist() == ["0", "2", "1", "1 (1 n/a)"]
 
 
 def test_the_files(tmp_path):
-    write_verdicts(tmp_path, JUDGED, [])
+    write_verdicts(tmp_path, JUDGED, [], {})
     assert {path.name for path in tmp_path.iterdir()} == set(FILES)
     again = pd.read_parquet(tmp_path / "verdicts.parquet")
     assert again["verdict"].tolist() == JUDGED["verdict"].tolist()

@@ -1,0 +1,151 @@
+"use strict";
+// Plots of stored numbers, drawn by Bokeh: choices, models on and off, views that zoom and move.
+const Plots = (() => {
+  const made = {};
+
+  function make(plot) {
+    const figure = document.getElementById(plot.id);
+    const canvas = figure.querySelector(".canvas");
+    const box = new Bokeh.BoxZoomTool();
+    const touch = matchMedia("(pointer: coarse)").matches;
+    const drawn = Bokeh.Plotting.figure({
+      x_axis_type: plot.x_scale, y_axis_type: plot.y_scale, x_axis_label: plot.x_label, y_axis_label: plot.y_label,
+      x_range: new Bokeh.Range1d({ start: 1, end: 2 }), y_range: new Bokeh.Range1d({ start: 1, end: 2 }),
+      // Vectors, so that print is as sharp as the screen.
+      output_backend: "svg", sizing_mode: "stretch_both", toolbar_location: null, tools: [],
+      background_fill_color: null, border_fill_color: null, outline_line_color: "#d5dae0", min_border_right: 12,
+    });
+    drawn.add_tools(box);
+    // A finger scrolls the page past the plot; the buttons zoom.
+    drawn.toolbar.active_drag = touch ? null : box;
+    for (const axis of [...drawn.xaxes, ...drawn.yaxes]) {
+      Object.assign(axis, {
+        axis_label_text_font: "system-ui, sans-serif", axis_label_text_font_style: "normal", axis_label_text_font_size: "13px",
+        major_label_text_font: "system-ui, sans-serif", major_label_text_font_size: "12px",
+        axis_label_text_color: "#1b1f24", major_label_text_color: "#4d5661", axis_line_color: "#87919c",
+        major_tick_line_color: "#87919c", minor_tick_line_color: "#c3cad1",
+      });
+    }
+    if (plot.y_scale === "linear") {
+      drawn.add_layout(new Bokeh.Span({ location: 0, dimension: "width", line_color: "#87919c", line_width: 1 }));
+    }
+    const layers = [];
+    // One hover tool for each side, so that models which agree are read off side by side.
+    const tips = { left: [], right: [], above: [], below: [] };
+    const placed = {};
+    for (const series of plot.series) {
+      const [colour, dash, marker] = DATA.looks[series.model];
+      const data = {
+        x: series.x, y: series.y, low: series.low ?? series.y, high: series.high ?? series.y,
+        says: series.says, name: series.x.map(() => series.label),
+      };
+      const source = new Bokeh.ColumnDataSource({ data });
+      const renderers = [];
+      if (series.low) {
+        renderers.push(drawn.varea({ field: "x" }, { field: "low" }, { field: "high" }, { source, fill_color: colour, fill_alpha: 0.2 }));
+      }
+      if (plot.mark !== "points") {
+        const below = plot.mark === "line" && series.model === "fscm";
+        renderers.push(drawn.line({ field: "x" }, { field: "y" }, {
+          source, line_color: colour, line_dash: dash, line_width: below ? 3.5 : 2, line_alpha: below ? 0.45 : 1,
+        }));
+      }
+      if (plot.mark !== "line") {
+        // A source of its own: pointing at a marker would take away the line and the band of the same source.
+        renderers.push(drawn.scatter({ field: "x" }, { field: "y" }, {
+          source: new Bokeh.ColumnDataSource({ data }), marker, size: 8, fill_color: "white", line_color: colour, line_width: 1.3,
+        }));
+      }
+      // What is pointed at: the nearest of a line's points, or a point itself.
+      placed[series.group] = (placed[series.group] ?? -1) + 1;
+      tips[Object.keys(tips)[placed[series.group] % 4]].push(renderers.at(-1));
+      layers.push({ series, renderers });
+    }
+    for (const [attachment, renderers] of Object.entries(tips)) {
+      drawn.add_tools(new Bokeh.HoverTool({
+        renderers, attachment, line_policy: "nearest", tooltips: [["model", "@name"], ["", "@says"]],
+      }));
+    }
+    const one = { plot, figure, drawn, layers, view: null };
+    made[plot.id] = one;
+
+    figure.querySelectorAll("select, .models input").forEach((control) => control.addEventListener("change", () => {
+      choose(one);
+    }));
+    figure.querySelectorAll("[data-zoom]").forEach((button) => button.addEventListener("click", () => move(one, button.dataset.zoom)));
+    choose(one);
+    return Bokeh.Plotting.show(drawn, canvas);
+  }
+
+  function choose(one) {
+    const group = Array.from(one.figure.querySelectorAll("select"), (select) => select.value).join("|");
+    const on = new Set(Array.from(one.figure.querySelectorAll(".models input:checked"), (input) => input.value));
+    let any = false;
+    for (const { series, renderers } of one.layers) {
+      const visible = series.group === group && on.has(series.model);
+      any ||= visible;
+      for (const renderer of renderers) renderer.visible = visible;
+    }
+    const here = new Set(one.layers.filter(({ series }) => series.group === group).map(({ series }) => series.model));
+    for (const input of one.figure.querySelectorAll(".models input")) input.closest("label").hidden = !here.has(input.value);
+    one.figure.querySelector(".empty").hidden = here.size > 0;
+    const words = Array.from(one.figure.querySelectorAll(".choices label"), (label) =>
+      `${label.firstChild.textContent.trim()}: ${label.querySelector("select").selectedOptions[0]?.textContent ?? ""}`);
+    one.figure.querySelector(".choice").textContent = words.join(", ");
+    Tables.choose(one.plot.table, group);
+    one.group = group;
+    if (any) look(one, one.plot.views[group] ?? whole(one));
+  }
+
+  // The view of everything that is visible, with a margin.
+  function whole(one) {
+    const shown = one.layers.filter(({ renderers }) => renderers[0].visible).map(({ series }) => series);
+    const span = (values, scale) => {
+      const f = scale === "log" ? Math.log10 : Number;
+      const finite = values.map(f).filter(Number.isFinite);
+      let [low, high] = [Math.min(...finite), Math.max(...finite)];
+      if (!(high > low)) [low, high] = [low - 0.5, high + 0.5];
+      const margin = 0.06 * (high - low);
+      return [low - margin, high + margin].map((v) => (scale === "log" ? 10 ** v : v));
+    };
+    const y = shown.flatMap((series) => [...series.y, ...(series.low ?? []), ...(series.high ?? [])]);
+    return [...span(shown.flatMap((series) => series.x), one.plot.x_scale), ...span(y, one.plot.y_scale)];
+  }
+
+  function look(one, [x0, x1, y0, y1]) {
+    one.drawn.x_range.setv({ start: x0, end: x1 });
+    one.drawn.y_range.setv({ start: y0, end: y1 });
+  }
+
+  const STEPS = { in: [0, 0, 0.7], out: [0, 0, 1 / 0.7], left: [-0.2, 0, 1], right: [0.2, 0, 1], up: [0, 0.2, 1], down: [0, -0.2, 1] };
+
+  function move(one, how) {
+    if (how === "reset") return choose(one);
+    if (how === "all") return look(one, whole(one));
+    const [dx, dy, factor] = STEPS[how];
+    const { x_range, y_range } = one.drawn;
+    return look(one, [...shifted(x_range, one.plot.x_scale, dx, factor), ...shifted(y_range, one.plot.y_scale, dy, factor)]);
+  }
+
+  function shifted(range, scale, shift, factor) {
+    const [there, back] = scale === "log" ? [Math.log10, (v) => 10 ** v] : [Number, Number];
+    const [low, high] = [there(range.start), there(range.end)];
+    const [middle, half] = [(low + high) / 2 + shift * (high - low), (factor * (high - low)) / 2];
+    return [back(middle - half), back(middle + half)];
+  }
+
+  Bokeh.set_log_level("warn");
+  const ready = Promise.all(DATA.plots.map(make)).then(() => { document.documentElement.dataset.plots = "drawn"; });
+
+  // What a reader sees of an axis, for tests and for the curious: Plots.range("plot-kappa").
+  function range(id) {
+    const { x_range, y_range } = made[id].drawn;
+    return [x_range.start, x_range.end, y_range.start, y_range.end];
+  }
+  // Where the frame of a plot is in its box, in pixels: left, top, width, height.
+  function inner(id) {
+    const { bbox } = Bokeh.index.find_one_by_id(made[id].drawn.id).frame;
+    return [bbox.left, bbox.top, bbox.width, bbox.height];
+  }
+  return { ready, range, inner };
+})();

@@ -1,0 +1,393 @@
+"""The page in a real browser: headless Chromium with everything it would ask the network for recorded.
+
+Skipped where there is no Chromium with its driver, unless FSCM_BENCH_BROWSER=required says that there must be.
+"""
+
+import base64
+import importlib
+import json
+import os
+import re
+import shutil
+import time
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from comparisons.cli import main
+
+_REQUIRED = os.environ.get("FSCM_BENCH_BROWSER") == "required"
+
+PHONE, DESKTOP = (375, 800), (1280, 900)
+_ARGUMENTS = (
+    *("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync"),
+    *("--disable-background-networking", "--disable-component-update", "--disable-dev-shm-usage"),
+)
+#: A page is drawn in about two seconds; a machine that is busy may take far longer.
+_PATIENCE = 60
+
+
+def programs():
+    """The browser and its driver; skips or fails where they are missing."""
+    browser = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    driver = shutil.which("chromedriver")
+    if browser and driver:
+        return browser, driver
+    reason = "Chromium or chromedriver is not installed (Debian: apt-get install chromium chromium-driver)"
+    if _REQUIRED:
+        pytest.fail(reason)
+    pytest.skip(reason)
+
+
+def package(name):
+    """Import what only the tests need; skips or fails where it is missing."""
+    return importlib.import_module(name) if _REQUIRED else pytest.importorskip(name)
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    """A fresh browser, started once."""
+    chromium, driver = programs()
+    webdriver = package("selenium.webdriver")
+    options = webdriver.ChromeOptions()
+    options.binary_location = chromium
+    for argument in (*_ARGUMENTS, f"--user-data-dir={tmp_path_factory.mktemp('profile')}"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    started = webdriver.Chrome(options=options, service=webdriver.ChromeService(executable_path=driver))
+    started.set_script_timeout(_PATIENCE)
+    yield started
+    started.quit()
+
+
+@pytest.fixture(scope="module")
+def page(run_folder, tmp_path_factory):
+    path = tmp_path_factory.mktemp("page") / "report.html"
+    assert main(["report", str(run_folder), "--out", str(path)]) == 0
+    return path
+
+
+def size(browser, width, height):
+    metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 500}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+
+
+def wait(condition):
+    end = time.monotonic() + _PATIENCE
+    while not condition():
+        assert time.monotonic() < end, "the page is not ready"
+        time.sleep(0.05)
+
+
+def drawn(browser):
+    return browser.execute_script("return document.documentElement.dataset.plots === 'drawn'")
+
+
+def show(browser, path, width, height):
+    """Open a page and return what was asked for and what was said meanwhile."""
+    browser.get("about:blank")
+    for kind in ("browser", "performance"):
+        browser.get_log(kind)
+    size(browser, width, height)
+    browser.get(path.as_uri())
+    wait(lambda: drawn(browser))
+
+
+@pytest.fixture
+def opened(browser, page):
+    """The page on a desktop."""
+    show(browser, page, *DESKTOP)
+    return browser
+
+
+def find(browser, selector):
+    return browser.find_element("css selector", selector)
+
+
+def click(browser, element):
+    """Click on what is first brought into view: the boxes of tables scroll too."""
+    browser.execute_script("arguments[0].scrollIntoView({ block: 'center', inline: 'center' })", element)
+    element.click()
+
+
+def cells(browser, table, column):
+    """The exact numbers, or else the texts, of the visible rows of a column."""
+    script = """
+      const rows = Array.from(document.querySelectorAll(`#table-${arguments[0]} tbody tr`)).filter((r) => !r.hidden);
+      const heads = Array.from(document.querySelectorAll(`#table-${arguments[0]} thead th`), (h) => h.innerText.trim());
+      const at = heads.indexOf(arguments[1]);
+      return rows.map((row) => row.cells[at].dataset.v ?? row.cells[at].textContent);
+    """
+    return browser.execute_script(script, table, column)
+
+
+def unfold(browser, table):
+    browser.execute_script("document.querySelector(arguments[0]).closest('details').open = true", f"#table-{table}")
+    wait(lambda: browser.execute_script("return document.querySelector(arguments[0]) !== null", f"#table-{table} td"))
+
+
+def head(browser, table, label):
+    buttons = browser.find_elements("css selector", f"#table-{table} thead button")
+    return next(button for button in buttons if button.text == label)
+
+
+def sorting(browser, table, label):
+    return head(browser, table, label).find_element("xpath", "..").get_attribute("aria-sort")
+
+
+def requests(browser):
+    messages = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
+    return [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
+
+
+def test_it_opens_without_an_error_and_without_the_network(browser, page, hostile):
+    show(browser, page, *DESKTOP)
+    said = [entry for entry in browser.get_log("browser") if entry["level"] not in {"INFO", "DEBUG"}]
+    assert said == []
+    assert {url for url in requests(browser) if not url.startswith("data:")} == {page.as_uri()}
+    assert browser.title == "fscm-bench report: ERROR"
+    assert browser.execute_script("return window.hostile") is None
+    assert hostile.script in find(browser, "#plot-kappa .models").text
+
+
+def test_a_hostile_name_does_nothing_even_without_the_policy(browser, page, tmp_path):
+    text = page.read_text(encoding="utf-8")
+    bare = tmp_path / "bare.html"
+    bare.write_text(re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", text), encoding="utf-8")
+    assert "default-src" not in bare.read_text(encoding="utf-8")
+    show(browser, bare, *DESKTOP)
+    for table in ("verdicts", "kappa", "force_curve", "convergence", "results"):
+        unfold(browser, table)
+    assert browser.execute_script("return [window.hostile ?? null, document.images.length]") == [None, 0]
+
+
+def test_the_policy_stops_what_is_not_ours(opened):
+    opened.execute_script("const s = document.createElement('script'); s.textContent = 'window.hostile = 1';"
+                          "document.body.append(s)")  # fmt: skip
+    assert opened.execute_script("return window.hostile") is None
+    assert any("Content Security Policy" in entry["message"] for entry in opened.get_log("browser"))
+
+
+@pytest.mark.parametrize("how", ["click", "keyboard"])
+def test_tables_sort(opened, how, run_folder):
+    stored = pd.read_parquet(run_folder / "verdicts.parquet")
+    unfold(opened, "verdicts")
+    for direction, rising in (("ascending", True), ("descending", False)):
+        button = head(opened, "verdicts", "E")
+        if how == "click":
+            click(opened, button)
+        else:
+            opened.execute_script("arguments[0].focus()", button)
+            opened.switch_to.active_element.send_keys("\ue007")
+        assert sorting(opened, "verdicts", "E") == direction
+        shown = cells(opened, "verdicts", "E")
+        # What has no number comes last either way.
+        numbers = [float(text) for text in shown if text]
+        assert shown[len(numbers) :] == ["", ""]
+        assert numbers == sorted(stored["error"].dropna(), reverse=not rising)
+    click(opened, head(opened, "verdicts", "candidate"))
+    assert sorting(opened, "verdicts", "E") == "none"
+    assert cells(opened, "verdicts", "candidate")[-1] == "jkr"
+
+
+def test_a_long_table_sorts_too(opened, run_folder):
+    unfold(opened, "results")
+    click(opened, head(opened, "results", "value"))
+    numbers = [float(text) for text in cells(opened, "results", "value") if text]
+    assert numbers == sorted(pd.read_parquet(run_folder / "results.parquet")["value"].dropna())
+
+
+def test_tables_filter(opened):
+    entry = find(opened, "#table-offenders .filter")
+    entry.send_keys("fail jkr-limit")
+    assert cells(opened, "offenders", "gate") == ["JKR-LIMIT-PULL-OFF"] * 2
+    assert find(opened, "#table-offenders .count").text == "2 of 7 rows"
+    entry.clear()
+    entry.send_keys("no such thing")
+    assert cells(opened, "offenders", "gate") == []
+
+
+def test_numbers_shown_are_numbers_stored(opened, run_folder):
+    tables = {
+        name: pd.read_parquet(run_folder / f"{name}.parquet") for name in ("results", "kappa", "curves", "verdicts")
+    }
+    for table in ("results", "verdicts"):
+        unfold(opened, table)
+    for table, label, source, column in (
+        ("results", "value", "results", "value"),
+        ("results", "u_num", "results", "u_num"),
+        ("verdicts", "E", "verdicts", "error"),
+        ("verdicts", "U", "verdicts", "uncertainty"),
+        ("verdicts", "reference's value", "verdicts", "reference_value"),
+    ):
+        shown = [float(text) if text else np.nan for text in cells(opened, table, label)]
+        np.testing.assert_array_equal(shown, tables[source][column])
+    script = """
+      return Bokeh.documents.flatMap((d) => d.roots()).map((root) => root.renderers.map((renderer) => {
+        const source = renderer.data_source;
+        return [Array.from(source.get_column("x")), Array.from(source.get_column("y"))];
+      }));
+    """
+    plots = opened.execute_script(script)
+    kappa, curves = tables["kappa"], tables["curves"]
+    drawn = {(x, y) for xs, ys in plots[0] for x, y in zip(xs, ys, strict=True)}
+    assert drawn == set(zip(kappa["mu"], 100 * kappa["kappa"], strict=True))
+    force = curves[(curves["quantity"] == "force_curve") & (curves["status"] == "ok")]
+    assert {(x, y) for xs, ys in plots[1] for x, y in zip(xs, ys, strict=True)} == set(
+        zip(force["x"], force["y"], strict=True)
+    )
+
+
+def ranges(browser, plot):
+    return browser.execute_script("return Plots.range(arguments[0])", plot)
+
+
+def test_a_plot_zooms_by_buttons(opened):
+    before = ranges(opened, "plot-force-curve")
+    find(opened, "#plot-force-curve [data-zoom=in]").send_keys("\ue007")
+    after = ranges(opened, "plot-force-curve")
+    assert before[0] < after[0] < after[1] < before[1]
+    assert (after[1] - after[0]) / (before[1] - before[0]) == pytest.approx(0.7)
+    click(opened, find(opened, "#plot-force-curve [data-zoom=right]"))
+    assert ranges(opened, "plot-force-curve")[0] > after[0]
+    click(opened, find(opened, "#plot-force-curve [data-zoom=reset]"))
+    assert ranges(opened, "plot-force-curve") == before
+    click(opened, find(opened, "#plot-force-curve [data-zoom=all]"))
+    assert ranges(opened, "plot-force-curve")[3] > 2.3 > before[3]
+
+
+def test_a_plot_zooms_to_a_box_and_is_read_off(opened, hostile):
+    actions = package("selenium.webdriver.common.action_chains").ActionChains
+    canvas = find(opened, "#plot-force-curve .canvas")
+    opened.execute_script("arguments[0].scrollIntoView({ block: 'center' })", canvas)
+    before = ranges(opened, "plot-force-curve")
+    drag = actions(opened).move_to_element_with_offset(canvas, -60, -60).click_and_hold()
+    drag.move_by_offset(60, 60).move_by_offset(60, 60).release().perform()
+    wait(lambda: ranges(opened, "plot-force-curve") != before)
+    after = ranges(opened, "plot-force-curve")
+    assert before[0] < after[0] < after[1] < before[1]
+    assert before[2] < after[2] < after[3] < before[3]
+    click(opened, find(opened, "#plot-force-curve [data-zoom=reset]"))
+    # The smallest load, P = -1.7, is at displacement 0.
+    x0, x1, y0, y1 = ranges(opened, "plot-force-curve")
+    tips = """
+      const inside = (node) => [...(node.shadowRoot?.childNodes ?? []), ...node.childNodes];
+      const text = (node) => (node.nodeType === Node.TEXT_NODE ? node.data : "")
+        + (node.localName === "style" ? "" : inside(node).map(text).join(""));
+      return Array.from(document.querySelectorAll(".bk-Tooltip"), text).join(" ");
+    """
+    frame = opened.execute_script("return Plots.inner('plot-force-curve')")
+    left, top, width, height = frame
+    box = canvas.rect
+    x = left + width * (0.0 - x0) / (x1 - x0) - box["width"] / 2
+    y = top + height * (y1 + 1.7) / (y1 - y0) - box["height"] / 2
+    actions(opened).move_to_element_with_offset(canvas, round(x), round(y)).perform()
+    wait(lambda: "δ = 0, P = -1.7" in opened.execute_script(tips))
+    # The other model, 0.01 to the right, is read off beside it, and its name is text.
+    assert "δ = 0.01, P = -1.7" in opened.execute_script(tips)
+    assert hostile.script in opened.execute_script(tips)
+
+
+def test_a_curve_stays_whole_while_it_is_pointed_at(opened):
+    actions = package("selenium.webdriver.common.action_chains").ActionChains
+    canvas = find(opened, "#plot-kappa .canvas")
+    opened.execute_script("arguments[0].scrollIntoView({ block: 'center' })", canvas)
+    # How long the drawing instructions of every path are, once what has changed is drawn.
+    ink = """
+      const done = arguments[0];
+      const inside = (node) => [...(node.shadowRoot?.children ?? []), ...node.children];
+      const paths = (node) => [node, ...inside(node).flatMap(paths)].filter((one) => one.localName === "path");
+      const length = () => paths(document.querySelector("#plot-kappa .canvas"))
+        .reduce((sum, path) => sum + path.getAttribute("d").length, 0);
+      requestAnimationFrame(() => requestAnimationFrame(() => done(length())));
+    """
+    before = opened.execute_async_script(ink)
+    place = """
+      const [x0, x1, y0, y1] = Plots.range("plot-kappa");
+      const [left, top, width, height] = Plots.inner("plot-kappa");
+      const { x, y } = DATA.plots[0].series.find((s) => s.group === "pull_off_force|fscm|2|0");
+      const at = (v, a, b) => (v - a) / (b - a);
+      return [left + width * at(Math.log(x[5]), Math.log(x0), Math.log(x1)), top + height * at(y[5], y1, y0)];
+    """
+    x, y = opened.execute_script(place)
+    x, y = round(x - canvas.size["width"] / 2), round(y - canvas.size["height"] / 2)
+    for step in (2, 1, 0):
+        actions(opened).move_to_element_with_offset(canvas, x - step, y).perform()
+    inspected = """
+      const { renderers } = Bokeh.documents.flatMap((one) => one.roots())[0];
+      return renderers.some((one) => one.data_source.inspected.indices.length > 0);
+    """
+    wait(lambda: opened.execute_script(inspected))
+    assert opened.execute_async_script(ink) >= before > 10_000
+
+
+def test_the_choices_choose(opened, run_folder):
+    kappa = pd.read_parquet(run_folder / "kappa.parquet")
+    unfold(opened, "kappa")
+    for n, k in ((2, 0), (1, 0.4)):
+        for index, text in ((2, f"{n}"), (3, f"{k}")):
+            select = opened.find_elements("css selector", "#plot-kappa select")[index]
+            click(opened, next(o for o in select.find_elements("css selector", "option") if o.text == text))
+        chosen = kappa[(kappa["n"] == n) & (kappa["k"] == k)]
+        assert [float(text) for text in cells(opened, "kappa", "κ (%)")] == chosen["kappa"].tolist()
+    before = ranges(opened, "plot-kappa")
+    click(opened, find(opened, "#plot-kappa .models input"))
+    # Without the model that is off by most, the picture is another.
+    assert ranges(opened, "plot-kappa") != before
+
+
+def test_files_can_be_saved(opened, run_folder, tmp_path):
+    behaviour = {"behavior": "allow", "downloadPath": str(tmp_path)}
+    opened.execute_cdp_cmd("Browser.setDownloadBehavior", behaviour)
+    for name in ("verdicts.csv", "verdicts.tex"):
+        click(opened, find(opened, f"#table-matrix [data-file='{name}']"))
+        wait(lambda name=name: (tmp_path / name).exists())
+        assert (tmp_path / name).read_bytes() == (run_folder / name).read_bytes()
+
+
+@pytest.mark.parametrize("folded", [True, False])
+def test_a_phone_does_not_scroll_sideways(browser, page, folded):
+    show(browser, page, *PHONE)
+    if not folded:
+        for table in ("verdicts", "kappa", "convergence", "results"):
+            unfold(browser, table)
+    assert browser.execute_script("return document.documentElement.scrollWidth") <= PHONE[0]
+    # The wide tables do so in their own boxes.
+    assert browser.execute_script("const b = document.querySelector('#table-offenders .scroll');"
+                                  "return b.scrollWidth > b.clientWidth")  # fmt: skip
+
+
+@pytest.mark.parametrize("measures", [DESKTOP, PHONE], ids=["desktop", "phone"])
+def test_it_is_accessible(browser, page, measures):
+    axe = package("axe_core_python.selenium").Axe()
+    show(browser, page, *measures)
+    for table in ("verdicts", "convergence"):
+        unfold(browser, table)
+    found = axe.run(browser)
+    assert [(one["id"], [node["html"] for node in one["nodes"]][:3]) for one in found["violations"]] == []
+    assert len(found["passes"]) > 20
+
+
+def test_it_prints_with_everything_unfolded(opened):
+    opened.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    look = "return Array.from(document.querySelectorAll(arguments[0]), (e) => e.checkVisibility())"
+    assert set(opened.execute_script(look, ".controls")) == {False}
+    assert set(opened.execute_script(look, ".canvas")) == {True}
+    opened.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+    opened.execute_script("""
+      window.printed = [];
+      addEventListener("beforeprint", () => {
+        window.printed = [document.querySelectorAll("details:not([open])").length,
+                          document.querySelectorAll("#table-results tbody tr").length];
+      });
+    """)
+    printed = opened.execute_cdp_cmd("Page.printToPDF", {"printBackground": True, "preferCSSPageSize": True})
+    pdf = base64.b64decode(printed["data"])
+    assert pdf.startswith(b"%PDF")
+    assert len(pdf) > 100_000
+    folded, rows = opened.execute_script("return window.printed")
+    assert folded == 0
+    assert rows == 354
+    # And it is folded again afterwards.
+    assert opened.execute_script("return document.querySelectorAll('details[open]').length") == 0
