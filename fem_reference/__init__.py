@@ -20,6 +20,7 @@ from fem_reference.solution import (
     event_state,
     profile,
     solve,
+    solve_together,
     trace,
 )
 from fem_reference.traction import LennardJones
@@ -42,5 +43,6 @@ __all__ = [
     "event_state",
     "profile",
     "solve",
+    "solve_together",
     "trace",
 ]

@@ -31,8 +31,11 @@ QUANTITIES = (
     "jump_out_gap",
     "zero_load_displacement",
     "hysteresis_energy",
+    "jump_in_energy",
+    "jump_out_energy",
 )
-"""What can be asked, in physical units; pull_off_force is the positive number -min P."""
+"""What can be asked, in physical units; pull_off_force is the positive number -min P, and the energies lost by
+the two jumps add up to that of the cycle."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -113,6 +116,10 @@ def locate(points: list[Point], quantity: str) -> tuple[float, Point]:
         return point.state.displacement, point
     if quantity == "hysteresis_energy":
         return hysteresis(points)
+    if quantity == "jump_in_energy":
+        return jump_in_loss(points)
+    if quantity == "jump_out_energy":
+        return jump_out_loss(points)
     jump_in, jump_out = folds(points)
     point = jump_in if quantity.startswith("jump_in") else jump_out
     return (point.state.central_gap if quantity.endswith("gap") else point.state.displacement), point
@@ -178,11 +185,26 @@ def zero_load(points: list[Point]) -> Point:
 
 def hysteresis(points: list[Point]) -> tuple[float, Point]:
     """Return the energy lost by the jumps of one cycle of displacement control, and the jump-out."""
-    jump_in, jump_out = folds(points)
-    landed = _at_displacement(points, jump_in.state.displacement, last=True)
-    free = _at_displacement(points, jump_out.state.displacement, last=False)
-    energy = [p.leg.contact.energy(p.state.y) for p in (jump_in, landed, jump_out, free)]
-    return energy[0] - energy[1] + energy[2] - energy[3], jump_out
+    jump_out, point = jump_out_loss(points)
+    return jump_in_loss(points)[0] + jump_out, point
+
+
+def jump_in_loss(points: list[Point]) -> tuple[float, Point]:
+    """Return the energy lost by the jump into contact, and the point in contact where it lands."""
+    start = folds(points)[0]
+    end = _at_displacement(points, start.state.displacement, last=True)
+    return _energy(start) - _energy(end), end
+
+
+def jump_out_loss(points: list[Point]) -> tuple[float, Point]:
+    """Return the energy lost by the jump out of contact, and the point where it begins."""
+    start = folds(points)[1]
+    end = _at_displacement(points, start.state.displacement, last=False)
+    return _energy(start) - _energy(end), start
+
+
+def _energy(point: Point) -> float:
+    return point.leg.contact.energy(point.state.y)
 
 
 def _at_displacement(points: list[Point], delta: float, last: bool) -> Point:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,6 +35,7 @@ __all__ = [
     "event_state",
     "profile",
     "solve",
+    "solve_together",
     "trace",
 ]
 
@@ -69,6 +71,11 @@ WIDTH_SHARE = 0.18
 FAR_HEIGHT = 1e4
 """Height of the punch, in z0, at the end of the mesh: beyond it the traction enters P in closed form and its
 displacement (below 1e-8 z0 even for a cone) is dropped."""
+
+HOMOGENEOUS_DEPTH = 64.0
+"""End of the mesh relative to the depth over which the modulus leaves its surface law: the exterior beyond takes
+it
+for the power law of great depth."""
 
 REFINEMENTS = 8
 """Attempts to find the edge width before the search is given up."""
@@ -209,25 +216,61 @@ def solve(
     >>> abs(answer.value / (3.141592653589793 * 1.67066478) - 1.0) < 1e-5
     True
     """
-    _check_request(quantity, accuracy)
+    return solve_together(solid, punch, law, (quantity,), accuracy)[quantity]
+
+
+def solve_together(
+    solid: Solid | CustomSolid,
+    punch: Punch,
+    law: LennardJones,
+    quantities: Sequence[str],
+    accuracy: str = "default",
+) -> dict[str, Solution]:
+    """Compute several quantities on the meshes that suit the first of them, walking each path once.
+
+    Parameters
+    ----------
+    solid, punch, law, accuracy
+        As for `solve`.
+    quantities : sequence of str
+        Of `QUANTITIES`.  The mesh of a solid that is no power law is finest at the contact edge of the first:
+        others whose edge is elsewhere are less certain, and say so.
+
+    Returns
+    -------
+    dict of str to Solution
+        `seconds` are those of all together.
+
+    Raises
+    ------
+    ValueError, NoSuchEvent, NotConverged
+        As `solve`, if one of them fails.
+    """
+    for quantity in quantities:
+        _check_request(quantity, accuracy)
     begin = time.perf_counter()
     level = ACCURACIES[accuracy]
     problem = _Problem(solid, punch, law)
-    spec, size = problem.adapted(quantity, level)
-    events = [problem.event(quantity, problem.at_density(spec, density), size) for density in level.densities]
+    spec, size = problem.adapted(quantities[0], level)
+    walks = [walk(problem.contact(problem.at_density(spec, density), size)) for density in level.densities]
+    found = {quantity: [locate(points, quantity) for points in walks] for quantity in quantities}
     ratio = math.sqrt(level.densities[0] / level.densities[2])
-    values = tuple(event.value for event in events)
-    outcome = three_meshes((values[0], values[1], values[2]), ratio, level.order, problem.scale(quantity, values[2]))
-    last = events[-1].point
-    return Solution(
-        outcome.value,
-        outcome.u_num,
-        last.leg.contact.compliance.unknowns,
-        events[-1].iterations,
-        last.state.residual,
-        time.perf_counter() - begin,
-        outcome.observed_order,
-    )
+    solutions = {}
+    for quantity, events in found.items():
+        coarse, medium, fine = (value for value, _ in events)
+        scale = problem.scale(quantity, fine)
+        outcome = three_meshes((coarse, medium, fine), ratio, level.order, scale)
+        point = events[-1][1]
+        solutions[quantity] = Solution(
+            outcome.value,
+            outcome.u_num,
+            point.leg.contact.compliance.unknowns,
+            sum(p.state.iterations for p in walks[-1]),
+            point.state.residual,
+            time.perf_counter() - begin,
+            outcome.observed_order,
+        )
+    return solutions
 
 
 def trace(solid: Solid | CustomSolid, punch: Punch, law: LennardJones, accuracy: str = "default") -> Path:
@@ -345,7 +388,8 @@ class _Problem:
             depth = min(depth, 0.2 * modulus.surface_depth / size)
         far = radius_at_height(self.punch, FAR_HEIGHT * self.law.z0)
         near = radius_at_height(self.punch, EDGE_RISE * self.law.z0)
-        extent = 2.0 ** math.ceil(math.log2(min(max(far / near, 50.0), 1e6)))
+        deep = HOMOGENEOUS_DEPTH * modulus.surface_depth / size if math.isfinite(modulus.surface_depth) else 0.0
+        extent = 2.0 ** math.ceil(math.log2(min(max(far / near, 50.0, deep), 1e6)))
         return MeshSpec(width, depth, extent, level.densities[0], level.order, APEX_WIDTH)
 
     def first_width(self, radius: float) -> float:
@@ -371,7 +415,7 @@ class _Problem:
                 # An under-resolved edge is pinned to the elements, and its path may not be traversable.
                 spec = self.spec(0.25 * spec.edge_width, size, level)
                 continue
-            if quantity not in ("zero_load_displacement", "hysteresis_energy"):
+            if quantity not in ("zero_load_displacement", "hysteresis_energy", "jump_in_energy"):
                 # Beyond the pull-off the edge is sharper relative to its radius, but nobody asked.
                 deepest = min(range(len(points)), key=lambda i: points[i].state.load)
                 points_used = points[: deepest + 2]
