@@ -6,7 +6,7 @@ import pytest
 
 from comparisons.models.bradley import rigid_pull_off
 from comparisons.paper.answers import quantity
-from comparisons.paper.error_bands import bands, rates
+from comparisons.paper.error_bands import bands, coefficients, rates
 from comparisons.paper.error_grid import CANDIDATES, TABOR, all_cases, calls, errors, errors_at
 from comparisons.paper.error_maps import ERROR_MAPS_JUMPS, lattice
 from comparisons.paper.workshop import Call, Workshop
@@ -95,3 +95,15 @@ def test_rates():
     assert found["mu_to"].tolist() == [2.0, 4.0]
     assert found["rate"].tolist() == pytest.approx([2.0, 2.0])
     assert rates(table_of([0.1, 0.1, -0.1, 0.1], mu))["rate"].isna().all()
+
+
+def test_the_power_of_the_jump_in_is_exact_and_its_coefficient_is_not():
+    """Eq. 47 at n = 2, k = 0: between mu = 5 and 10 the FSCM's coefficient is one number, below C_in."""
+    rows = []
+    for mu in (5.0, 10.0):
+        found = quantity("fscm", "jump_in_displacement", 2.0, 0.0, mu)
+        rows.append({"model": "semi-rigid", "n": 2.0, "k": 0.0, "mu": mu, "fscm": found["value"], "u_fscm": 0.0})
+    table = coefficients(pd.DataFrame(rows))
+    assert table["semi_rigid"].to_numpy() == pytest.approx(1.4 * (5.0 * np.pi / np.sqrt(2.0)) ** (2.0 / 7.0), rel=1e-12)
+    assert table["fscm"][0] == pytest.approx(table["fscm"][1], rel=1e-3)
+    assert table["excess"].between(0.04, 0.07).all()
