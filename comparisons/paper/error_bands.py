@@ -154,7 +154,8 @@ def coefficients(table: pd.DataFrame) -> pd.DataFrame:
     """
     rows = []
     found = table[(table["model"] == "semi-rigid") & table["fscm"].notna()]
-    for (n, k), part in found.groupby(["n", "k"], sort=False):
+    for n, k in found[["n", "k"]].drop_duplicates().to_numpy(float).tolist():
+        part = found[(found["n"] == n) & (found["k"] == k)]
         exponent = (2.0 * n + k - 1.0) / (4.0 * n + k - 1.0)
         semi_rigid = jump_in_coefficient(n, k)
         for mu, fscm, u_fscm in part.sort_values("mu")[["mu", "fscm", "u_fscm"]].to_numpy(float)[-2:].tolist():
@@ -201,9 +202,11 @@ def _curves(axes: Axes, table: pd.DataFrame, title: str) -> None:
             axes.plot(part["mu"], 100.0 * part["kappa"].abs(), label=f"n = {n:g}, k = {k:g}", **style)
     axes.set(title=title, xscale="log", yscale="log", xlabel=r"Tabor number $\mu$", ylabel=r"$|\kappa|$ in per cent")
     axes.set_xticks([1, 2, 5, 10, 20], labels=["1", "2", "5", "10", "20"])
-    axes.minorticks_off()
     for limit in LIMITS:
         axes.axhline(100.0 * limit, color="0.5", lw=0.6, ls=":")
+    ticks = [tick for tick in (0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20) if tick >= 0.9 * axes.get_ylim()[0]]
+    axes.set_yticks(ticks, labels=[f"{tick:g}" for tick in ticks])
+    axes.minorticks_off()
 
 
 ERROR_BANDS = Plate(

@@ -8,6 +8,8 @@ from functools import partial
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
@@ -33,6 +35,11 @@ Array = NDArray[np.float64]
 #: Bands of |kappa| in per cent, white to dark; the last is open.
 _BANDS = (0.0, 1.0, 2.0, 5.0, 10.0, 20.0, 1e9)
 _GREYS = ("#ffffff", "#ebebeb", "#d0d0d0", "#adadad", "#868686", "#5c5c5c")
+#: The same for kappa with its sign, so that between two points it passes zero where it does.
+_SIGNED_BANDS = (*(-band for band in _BANDS[:0:-1]), *_BANDS[1:])
+_SIGNED_GREYS = (*_GREYS[:0:-1], *_GREYS)
+#: Distance that labels keep from each other and from the frame, in pixels of the figure.
+_LABEL_ROOM = 28.0
 #: Lines of kappa in per cent: overestimates full, underestimates dashed.
 _LINES = (-20.0, -10.0, -5.0, -2.0, -1.0, 1.0, 2.0, 5.0, 10.0, 20.0)
 
@@ -87,34 +94,76 @@ def lattice(table: pd.DataFrame, across: str) -> tuple[Array, Array, Array]:
     return square.columns.to_numpy(float), square.index.to_numpy(float), square.to_numpy(float)
 
 
-def _map(axes: Axes, table: pd.DataFrame, across: str) -> QuadContourSet:
+def _map(axes: Axes, table: pd.DataFrame, across: str) -> None:
     x, mu, kappa = lattice(table, across)
     # NaN: no jump, or refused.
     axes.set_facecolor("0.95")
     axes.patch.set(hatch="////", edgecolor="0.75", linewidth=0.0)
-    filled = axes.contourf(x, mu, np.abs(kappa), levels=_BANDS, colors=_GREYS)
-    known = kappa[np.isfinite(kappa)]
-    levels = [level for level in _LINES if known.min() < level < known.max()]
-    if levels:
-        styles = ["--" if level < 0 else "-" for level in levels]
-        lines = axes.contour(x, mu, kappa, levels=levels, colors="black", linewidths=0.8, linestyles=styles)
-        for label in axes.clabel(lines, fmt=lambda level: f"{level:+g} %", fontsize=7):
-            label.set_bbox({"boxstyle": "round,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.85})
+    axes.contourf(x, mu, kappa, levels=_SIGNED_BANDS, colors=_SIGNED_GREYS)
     axes.set_yscale("log")
     axes.grid(visible=False)
     if across == "n":
         axes.set_xscale("log")
         axes.set_xticks([1, 2, 3, 5, 8], labels=["1", "2", "3", "5", "8"])
         axes.minorticks_off()
-    return filled
+    known = kappa[np.isfinite(kappa)]
+    levels = [level for level in _LINES if known.min() < level < known.max()]
+    if levels:
+        styles = ["--" if level < 0 else "-" for level in levels]
+        axes.contour(x, mu, kappa, levels=levels, colors="black", linewidths=0.8, linestyles=styles)
 
 
-def _bar(figure: Figure, filled: QuadContourSet) -> None:
+def _label(axes: Axes) -> None:
+    """Label the lines where there is room, 1 % first; the grey says the rest.
+
+    After the layout: what is room depends on the size of the axes.
+    """
+    drawn = [part for part in axes.collections if isinstance(part, QuadContourSet) and not part.filled]
+    if not drawn:
+        return
+    lines = drawn[0]
+    frame = axes.get_window_extent()
+    taken: list[Array] = []
+    ranked = sorted(zip(lines.levels, lines.allsegs, strict=True), key=lambda pair: abs(pair[0]))
+    for _, segments in ranked:
+        dense = [_dense(axes.transData.transform(segment)) for segment in segments if len(segment) > 1]
+        if not dense:
+            continue
+        points = np.concatenate(dense)
+        inside = [points[:, 0] - frame.x0, frame.x1 - points[:, 0], points[:, 1] - frame.y0, frame.y1 - points[:, 1]]
+        room = np.minimum(np.min(inside, axis=0), 2.0 * _LABEL_ROOM)
+        for place in taken:
+            room = np.minimum(room, np.hypot(*(points - place).T))
+        best = int(np.argmax(room))
+        if room[best] >= _LABEL_ROOM:
+            taken.append(points[best])
+    if not taken:
+        return
+    places = [(float(x), float(y)) for x, y in axes.transData.inverted().transform(taken)]
+    for label in lines.axes.clabel(lines, fmt=lambda level: f"{level:+g} %", fontsize=7, manual=places):
+        label.set_bbox({"boxstyle": "round,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.85})
+
+
+def _dense(points: Array) -> Array:
+    """Points of a line, in pixels, with others between them."""
+    share = np.linspace(0.0, 1.0, 8)[:, None, None]
+    return ((1.0 - share) * points[:-1] + share * points[1:]).reshape(-1, 2)
+
+
+def _finish(figure: Figure) -> None:
+    """Add the scale, and the labels of the lines once the layout is known."""
+    maps = list(figure.axes)
+    colours = ScalarMappable(
+        BoundaryNorm(_BANDS[:-1], len(_GREYS) - 1), ListedColormap(_GREYS[:-1]).with_extremes(over=_GREYS[-1])
+    )
     bar = figure.colorbar(
-        filled, ax=figure.axes, location="bottom", fraction=0.03, pad=0.02, aspect=50, spacing="uniform"
+        colours, ax=maps, location="bottom", fraction=0.03, pad=0.02, aspect=50, spacing="uniform", extend="max"
     )
     bar.set_ticks(list(_BANDS[:-1]), labels=[f"{band:g}" for band in _BANDS[:-1]])
     bar.set_label(r"$|\kappa|$ in per cent; lines: $\kappa$, full where the model is above FSCM, dashed below")
+    figure.draw_without_rendering()
+    for axes in maps:
+        _label(axes)
 
 
 def _draw_pull_off(tables: Tables, across: str, held: str, slices: Sequence[float]) -> Figure:
@@ -126,13 +175,13 @@ def _draw_pull_off(tables: Tables, across: str, held: str, slices: Sequence[floa
         letters = iter("abcdefgh")
         for row, model in zip(grid, _PULL_OFF, strict=True):
             for axes, value in zip(row, slices, strict=True):
-                filled = _map(axes, table[(table["model"] == model) & (table[held] == value)], across)
+                _map(axes, table[(table["model"] == model) & (table[held] == value)], across)
                 axes.set_title(rf"({next(letters)}) {_NAMES[model]}, ${held}$ = {value:g}")
         for axes in grid[:, 0]:
             axes.set_ylabel(r"Tabor number $\mu$")
         for axes in grid[-1]:
             axes.set_xlabel(label)
-        _bar(figure, filled)
+        _finish(figure)
     return figure
 
 
@@ -147,14 +196,14 @@ def _draw_jumps(tables: Tables) -> Figure:
             for axes, (_, model, event) in zip(row, _JUMPS, strict=True):
                 part = table[(table["model"] == model) & (table[held] == value)]
                 part = part[part[across].isin(SHAPES if across == "n" else GRADIENTS)]
-                filled = _map(axes, part, across)
+                _map(axes, part, across)
                 axes.set_title(rf"({next(letters)}) {_NAMES[model]} {event}, ${held}$ = {value:g}")
                 axes.set_xlabel({"n": r"shape index $n$", "k": r"gradient exponent $k$"}[across])
                 axes.set_ylim(0.5, 5.0)
                 axes.set_yticks([0.5, 1, 2, 5], labels=["0.5", "1", "2", "5"])
                 axes.minorticks_off()
             row[0].set_ylabel(r"Tabor number $\mu$")
-        _bar(figure, filled)
+        _finish(figure)
     return figure
 
 
