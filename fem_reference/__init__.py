@@ -19,6 +19,7 @@ from fem_reference.solution import (
     event_state,
     profile,
     solve,
+    solve_together,
     trace,
 )
 from fem_reference.traction import LennardJones
@@ -41,5 +42,6 @@ __all__ = [
     "event_state",
     "profile",
     "solve",
+    "solve_together",
     "trace",
 ]

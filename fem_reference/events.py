@@ -17,7 +17,7 @@ from fem_reference.contact import Contact
 from fem_reference.errors import NoSuchEvent
 from fem_reference.path import Point, march, path
 
-__all__ = ["QUANTITIES", "Event", "find_event", "locate", "walk"]
+__all__ = ["LOSSES", "QUANTITIES", "Event", "find_event", "locate", "walk"]
 
 ROOT_TOLERANCE = 1e-11
 """Relative tolerance of the parameter at an event; P is stationary there and delta moves by as little."""
@@ -33,6 +33,10 @@ QUANTITIES = (
     "hysteresis_energy",
 )
 """What can be asked, in physical units; pull_off_force is the positive number -min P."""
+
+LOSSES = ("jump_in_energy", "jump_out_energy")
+"""What can be asked besides: the energies lost by the two jumps, which add up to that of the cycle.  Each needs
+one contact edge only, so that a mesh that is fine at one radius gives it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,7 +85,7 @@ def find_event(contact: Contact, quantity: str) -> Event:
     contact : Contact
         The problem.
     quantity : str
-        One of `QUANTITIES`.
+        One of `QUANTITIES` or `LOSSES`.
 
     Returns
     -------
@@ -96,8 +100,8 @@ def find_event(contact: Contact, quantity: str) -> Event:
     NotConverged
         If the path cannot be followed.
     """
-    if quantity not in QUANTITIES:
-        raise ValueError(f"quantity {quantity!r} is unknown; choose one of {', '.join(QUANTITIES)}")
+    if quantity not in QUANTITIES + LOSSES:
+        raise ValueError(f"quantity {quantity!r} is unknown; choose one of {', '.join(QUANTITIES + LOSSES)}")
     points = walk(contact)
     value, point = locate(points, quantity)
     return Event(quantity, value, point, sum(p.state.iterations for p in points))
@@ -113,6 +117,10 @@ def locate(points: list[Point], quantity: str) -> tuple[float, Point]:
         return point.state.displacement, point
     if quantity == "hysteresis_energy":
         return hysteresis(points)
+    if quantity == "jump_in_energy":
+        return jump_in_loss(points)
+    if quantity == "jump_out_energy":
+        return jump_out_loss(points)
     jump_in, jump_out = folds(points)
     point = jump_in if quantity.startswith("jump_in") else jump_out
     return (point.state.central_gap if quantity.endswith("gap") else point.state.displacement), point
@@ -178,11 +186,26 @@ def zero_load(points: list[Point]) -> Point:
 
 def hysteresis(points: list[Point]) -> tuple[float, Point]:
     """Return the energy lost by the jumps of one cycle of displacement control, and the jump-out."""
-    jump_in, jump_out = folds(points)
-    landed = _at_displacement(points, jump_in.state.displacement, last=True)
-    free = _at_displacement(points, jump_out.state.displacement, last=False)
-    energy = [p.leg.contact.energy(p.state.y) for p in (jump_in, landed, jump_out, free)]
-    return energy[0] - energy[1] + energy[2] - energy[3], jump_out
+    jump_out, point = jump_out_loss(points)
+    return jump_in_loss(points)[0] + jump_out, point
+
+
+def jump_in_loss(points: list[Point]) -> tuple[float, Point]:
+    """Return the energy lost by the jump into contact, and the point in contact where it lands."""
+    start = folds(points)[0]
+    end = _at_displacement(points, start.state.displacement, last=True)
+    return _energy(start) - _energy(end), end
+
+
+def jump_out_loss(points: list[Point]) -> tuple[float, Point]:
+    """Return the energy lost by the jump out of contact, and the point where it begins."""
+    start = folds(points)[1]
+    end = _at_displacement(points, start.state.displacement, last=False)
+    return _energy(start) - _energy(end), start
+
+
+def _energy(point: Point) -> float:
+    return point.leg.contact.energy(point.state.y)
 
 
 def _at_displacement(points: list[Point], delta: float, last: bool) -> Point:

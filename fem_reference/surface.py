@@ -16,7 +16,6 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 from scipy import linalg
-from skfem import ElementLinePp
 
 from fem_reference.assembly import assemble_half_space
 from fem_reference.condensation import surface_stiffness
@@ -95,15 +94,22 @@ class Trace:
 
 
 def _line_functions(nodes: Array, order: int, s: Array) -> Array:
+    """Functions of scikit-fem's `ElementLinePp` in chain order, at radii `s`.
+
+    Written out, because that class makes its polynomials anew in every call, and the path asks for one radius
+    at a time.
+    """
     element = np.clip(np.searchsorted(nodes, s, side="right") - 1, 0, nodes.size - 2)
     x = (s - nodes[element]) / np.diff(nodes)[element]
-    line = ElementLinePp(order)
+    legendre = np.polynomial.legendre.legvander(2.0 * x - 1.0, order)
     values = np.zeros((s.size, nodes.size + (nodes.size - 1) * (order - 1)))
     rows = np.arange(s.size)
-    for local in range(order + 1):
-        value = line.lbasis(x[None, :], local)[0]
-        column = element + local if local < 2 else nodes.size + element * (order - 1) + local - 2
-        values[rows, column] = value
+    values[rows, element] = 1.0 - x
+    values[rows, element + 1] = x
+    for degree in range(2, order + 1):
+        # The integral of the Legendre polynomial of one degree less, normalised.
+        rise = legendre[:, degree] - legendre[:, degree - 2]
+        values[rows, nodes.size + element * (order - 1) + degree - 2] = rise / np.sqrt(4.0 * degree - 2.0)
     return values
 
 

@@ -20,6 +20,8 @@ ALLOWED = {
     "comparisons.commands.fem": ("fem_reference", "fscm.problem", "fscm.profile", "fscm.surface_law"),
     # Shows the functions inside the FSCM.
     "comparisons.paper.kernel_functions": ("fscm",),
+    # Asks the finite elements about a solid that is no power law, which no dimensionless problem describes.
+    "comparisons.paper.surface_modulus": ("fscm.physical", "fscm.problem", "fem_reference"),
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
     "comparisons.models.stieltjes_model": ("fscm",),

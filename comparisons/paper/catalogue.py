@@ -12,6 +12,11 @@ __all__ = ["NAMES", "plates"]
 #: name -> "module:plate"; a module is imported only when its plate is asked for.
 _PLATES = {
     "2": "comparisons.paper.kernel_functions:KERNEL_FUNCTIONS",
+    "error-maps-shape": "comparisons.paper.error_maps:ERROR_MAPS_SHAPE",
+    "error-maps-gradient": "comparisons.paper.error_maps:ERROR_MAPS_GRADIENT",
+    "error-maps-jumps": "comparisons.paper.error_maps:ERROR_MAPS_JUMPS",
+    "error-bands": "comparisons.paper.error_bands:ERROR_BANDS",
+    "surface-modulus": "comparisons.paper.surface_modulus:SURFACE_MODULUS",
 }
 
 #: What `--figure` takes: the numbers of the paper's figures, then what is not in the paper.

@@ -1,0 +1,117 @@
+"""Errors of the closed forms against the full self-consistent model over (n, mu) and (k, mu).
+
+The error is relative, kappa = (model - FSCM) / |FSCM|, also for the jumps: wherever a jump exists its displacement is
+beyond -z0, so nothing is divided by something small, and a share of what an experiment measures is what one asks for.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import pandas as pd
+
+from comparisons.paper.answers import quantity
+from comparisons.paper.workshop import Answers, Call
+
+__all__ = [
+    "CANDIDATES",
+    "GRADIENTS",
+    "GRADIENT_SLICES",
+    "SHAPES",
+    "SHAPE_SLICES",
+    "TABOR",
+    "calls",
+    "errors",
+    "errors_at",
+]
+
+#: What is judged, by quantity.  DMT has Bradley's pull-off force by the choice of its cohesive stress (Eq. 74).
+CANDIDATES = {
+    "pull_off_force": ("md-improved", "md-original", "jkr", "bradley"),
+    "jump_in_displacement": ("semi-rigid",),
+    "jump_out_displacement": ("jkr", "md-improved", "md-original"),
+}
+
+#: Tabor numbers, from nearly rigid to nearly JKR; jumps exist from about 0.7 on.
+TABOR = (0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.6, 0.8, 1.0, 1.4, 2.0, 3.2, 5.0)
+
+#: Maps over the shape index (the attraction of the 9-3 law has no finite sum for n <= 2/3), at these gradients.
+SHAPES = (0.8, 1.0, 1.2, 1.5, 2.0, 2.5, 3.5, 5.0, 8.0)
+SHAPE_SLICES = (0.0, 0.4)
+
+#: Maps over the gradient exponent (beyond 0.8 the cohesive edge is too narrow at large mu), at these shapes.
+GRADIENTS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8)
+GRADIENT_SLICES = (1.5, 2.0)
+
+Case = tuple[float, float, float]
+
+
+def shape_cases() -> list[Case]:
+    """Return (n, k, mu) of the maps over the shape index."""
+    return [(n, k, mu) for k in SHAPE_SLICES for n in SHAPES for mu in TABOR]
+
+
+def gradient_cases() -> list[Case]:
+    """Return (n, k, mu) of the maps over the gradient exponent."""
+    return [(n, k, mu) for n in GRADIENT_SLICES for k in GRADIENTS for mu in TABOR]
+
+
+def all_cases() -> list[Case]:
+    """Return every (n, k, mu), each once."""
+    return list(dict.fromkeys(shape_cases() + gradient_cases()))
+
+
+def errors_at(n: float, k: float, mu: float) -> dict[str, dict[str, Any]]:
+    """Return by quantity what the FSCM and the closed forms answer, as `comparisons.paper.answers.quantity` does.
+
+    Examples
+    --------
+    >>> found = errors_at(2.0, 0.4, 0.1)
+    >>> round(found["pull_off_force"]["fscm"]["value"], 6), found["jump_in_displacement"]["fscm"]["status"]
+    (1.983795, 'not-applicable')
+    """
+    return {
+        name: {model: quantity(model, name, n, k, mu) for model in ("fscm", *models)}
+        for name, models in CANDIDATES.items()
+    }
+
+
+def calls(cases: Iterable[Case]) -> Sequence[Call]:
+    """Return the calls of these cases; soft, sharp and steep ones take longest."""
+    return [Call.of(errors_at, *case) for case in sorted(cases, key=lambda case: (-case[2], case[0], -case[1]))]
+
+
+def errors(answers: Answers, cases: Iterable[Case], quantities: Iterable[str]) -> pd.DataFrame:
+    """Return one row a case, quantity and model.
+
+    Returns
+    -------
+    DataFrame
+        ``n``, ``k``, ``mu``, ``quantity``, ``model``; ``value``, ``u_num``, ``fscm``, ``u_fscm`` and ``kappa``,
+        ``u_kappa`` (its numerical uncertainty), NaN where one of the two has no answer; ``reason`` then says why.
+    """
+    rows = []
+    for case in cases:
+        found = answers[Call.of(errors_at, *case)]
+        for name in quantities:
+            for model in CANDIDATES[name]:
+                key = {"n": case[0], "k": case[1], "mu": case[2], "quantity": name, "model": model}
+                rows.append(key | _error(found[name]["fscm"], found[name][model]))
+    return pd.DataFrame(rows)
+
+
+def _error(fscm: dict[str, Any], candidate: dict[str, Any]) -> dict[str, Any]:
+    missing = math.nan
+    row: dict[str, Any] = {
+        "value": candidate["value"] if candidate["value"] is not None else missing,
+        "u_num": candidate["u_num"] if candidate["u_num"] is not None else missing,
+        "fscm": fscm["value"] if fscm["value"] is not None else missing,
+        "u_fscm": fscm["u_num"] if fscm["u_num"] is not None else missing,
+    }
+    size = abs(row["fscm"])
+    kappa = (row["value"] - row["fscm"]) / size
+    # The FSCM enters twice: in the difference and in the unit.
+    u_kappa = math.hypot(row["u_num"], row["u_fscm"] * (1.0 + abs(kappa))) / size
+    return row | {"kappa": kappa, "u_kappa": u_kappa, "reason": fscm["reason"] or candidate["reason"]}

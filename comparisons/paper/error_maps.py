@@ -1,0 +1,233 @@
+"""Maps of the errors of the closed forms: pull-off force over (n, mu) and (k, mu), and the two jumps over both."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.contour import QuadContourSet
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from comparisons.figures.style import styled
+from comparisons.paper.error_grid import (
+    GRADIENT_SLICES,
+    GRADIENTS,
+    SHAPE_SLICES,
+    SHAPES,
+    calls,
+    errors,
+    gradient_cases,
+    shape_cases,
+)
+from comparisons.paper.plate import Plate, Tables
+from comparisons.paper.workshop import Answers, Call
+
+__all__ = ["ERROR_MAPS_GRADIENT", "ERROR_MAPS_JUMPS", "ERROR_MAPS_SHAPE"]
+
+Array = NDArray[np.float64]
+
+#: Bands of |kappa| in per cent, white to dark; the last is open.
+_BANDS = (0.0, 1.0, 2.0, 5.0, 10.0, 20.0, 1e9)
+_GREYS = ("#ffffff", "#ebebeb", "#d0d0d0", "#adadad", "#868686", "#5c5c5c")
+#: The same for kappa with its sign, so that between two points it passes zero where it does.
+_SIGNED_BANDS = (*(-band for band in _BANDS[:0:-1]), *_BANDS[1:])
+_SIGNED_GREYS = (*_GREYS[:0:-1], *_GREYS)
+#: Distance that labels keep from each other and from the frame, in pixels of the figure.
+_LABEL_ROOM = 28.0
+#: Lines of kappa in per cent: overestimates full, underestimates dashed.
+_LINES = (-20.0, -10.0, -5.0, -2.0, -1.0, 1.0, 2.0, 5.0, 10.0, 20.0)
+
+_NAMES = {
+    "md-improved": "improved M-D",
+    "md-original": "original M-D",
+    "jkr": "JKR",
+    "bradley": "Bradley = DMT",
+    "semi-rigid": "semi-rigid",
+}
+_PULL_OFF = ("md-improved", "md-original", "jkr", "bradley")
+_JUMPS = (("jump_in_displacement", "semi-rigid", "jump-in"), ("jump_out_displacement", "jkr", "jump-out"))
+_JUMP_NAMES = tuple(name for name, _, _ in _JUMPS)
+
+
+def _shape_calls() -> Sequence[Call]:
+    return calls(shape_cases())
+
+
+def _gradient_calls() -> Sequence[Call]:
+    return calls(gradient_cases())
+
+
+def _jump_calls() -> Sequence[Call]:
+    return calls(dict.fromkeys(shape_cases() + gradient_cases()))
+
+
+def _shape_tables(answers: Answers) -> Tables:
+    return {"": errors(answers, shape_cases(), ("pull_off_force",))}
+
+
+def _gradient_tables(answers: Answers) -> Tables:
+    return {"": errors(answers, gradient_cases(), ("pull_off_force",))}
+
+
+def _jump_tables(answers: Answers) -> Tables:
+    table = errors(answers, dict.fromkeys(shape_cases() + gradient_cases()), _JUMP_NAMES)
+    shown = [table[(table["quantity"] == name) & (table["model"] == model)] for name, model, _ in _JUMPS]
+    return {"": pd.concat(shown, ignore_index=True)}
+
+
+def lattice(table: pd.DataFrame, across: str) -> tuple[Array, Array, Array]:
+    """Return the values of `across` and of mu, and kappa in per cent, shape (mu, across), NaN where unknown.
+
+    Examples
+    --------
+    >>> table = pd.DataFrame({"n": [1.0, 2.0], "mu": [0.1, 0.1], "kappa": [0.01, -0.5]})
+    >>> lattice(table, "n")[2]
+    array([[  1., -50.]])
+    """
+    square = 100.0 * table.pivot(index="mu", columns=across, values="kappa")
+    return square.columns.to_numpy(float), square.index.to_numpy(float), square.to_numpy(float)
+
+
+def _map(axes: Axes, table: pd.DataFrame, across: str) -> None:
+    x, mu, kappa = lattice(table, across)
+    # NaN: no jump, or refused.
+    axes.set_facecolor("0.95")
+    axes.patch.set(hatch="////", edgecolor="0.75", linewidth=0.0)
+    axes.contourf(x, mu, kappa, levels=_SIGNED_BANDS, colors=_SIGNED_GREYS)
+    axes.set_yscale("log")
+    axes.grid(visible=False)
+    if across == "n":
+        axes.set_xscale("log")
+        axes.set_xticks([1, 2, 3, 5, 8], labels=["1", "2", "3", "5", "8"])
+        axes.minorticks_off()
+    known = kappa[np.isfinite(kappa)]
+    levels = [level for level in _LINES if known.min() < level < known.max()]
+    if levels:
+        styles = ["--" if level < 0 else "-" for level in levels]
+        axes.contour(x, mu, kappa, levels=levels, colors="black", linewidths=0.8, linestyles=styles)
+
+
+def _label(axes: Axes) -> None:
+    """Label the lines where there is room, 1 % first; the grey says the rest.
+
+    After the layout: what is room depends on the size of the axes.
+    """
+    drawn = [part for part in axes.collections if isinstance(part, QuadContourSet) and not part.filled]
+    if not drawn:
+        return
+    lines = drawn[0]
+    frame = axes.get_window_extent()
+    taken: list[Array] = []
+    ranked = sorted(zip(lines.levels, lines.allsegs, strict=True), key=lambda pair: abs(pair[0]))
+    for _, segments in ranked:
+        dense = [_dense(axes.transData.transform(segment)) for segment in segments if len(segment) > 1]
+        if not dense:
+            continue
+        points = np.concatenate(dense)
+        inside = [points[:, 0] - frame.x0, frame.x1 - points[:, 0], points[:, 1] - frame.y0, frame.y1 - points[:, 1]]
+        room = np.minimum(np.min(inside, axis=0), 2.0 * _LABEL_ROOM)
+        for place in taken:
+            room = np.minimum(room, np.hypot(*(points - place).T))
+        best = int(np.argmax(room))
+        if room[best] >= _LABEL_ROOM:
+            taken.append(points[best])
+    if not taken:
+        return
+    places = [(float(x), float(y)) for x, y in axes.transData.inverted().transform(taken)]
+    for label in lines.axes.clabel(lines, fmt=lambda level: f"{level:+g} %", fontsize=7, manual=places):
+        label.set_bbox({"boxstyle": "round,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.85})
+
+
+def _dense(points: Array) -> Array:
+    """Points of a line, in pixels, with others between them."""
+    share = np.linspace(0.0, 1.0, 8)[:, None, None]
+    return ((1.0 - share) * points[:-1] + share * points[1:]).reshape(-1, 2)
+
+
+def _finish(figure: Figure) -> None:
+    """Add the scale, and the labels of the lines once the layout is known."""
+    maps = list(figure.axes)
+    colours = ScalarMappable(
+        BoundaryNorm(_BANDS[:-1], len(_GREYS) - 1), ListedColormap(_GREYS[:-1]).with_extremes(over=_GREYS[-1])
+    )
+    bar = figure.colorbar(
+        colours, ax=maps, location="bottom", fraction=0.03, pad=0.02, aspect=50, spacing="uniform", extend="max"
+    )
+    bar.set_ticks(list(_BANDS[:-1]), labels=[f"{band:g}" for band in _BANDS[:-1]])
+    bar.set_label(r"$|\kappa|$ in per cent; lines: $\kappa$, full where the model is above FSCM, dashed below")
+    figure.draw_without_rendering()
+    for axes in maps:
+        _label(axes)
+
+
+def _draw_pull_off(tables: Tables, across: str, held: str, slices: Sequence[float]) -> Figure:
+    table = tables[""]
+    label = {"n": r"shape index $n$", "k": r"gradient exponent $k$"}[across]
+    with styled():
+        figure = Figure(figsize=(7.2, 10.4), layout="constrained")
+        grid = figure.subplots(len(_PULL_OFF), 2, sharex=True, sharey=True)
+        letters = iter("abcdefgh")
+        for row, model in zip(grid, _PULL_OFF, strict=True):
+            for axes, value in zip(row, slices, strict=True):
+                _map(axes, table[(table["model"] == model) & (table[held] == value)], across)
+                axes.set_title(rf"({next(letters)}) {_NAMES[model]}, ${held}$ = {value:g}")
+        for axes in grid[:, 0]:
+            axes.set_ylabel(r"Tabor number $\mu$")
+        for axes in grid[-1]:
+            axes.set_xlabel(label)
+        _finish(figure)
+    return figure
+
+
+def _draw_jumps(tables: Tables) -> Figure:
+    table = tables[""]
+    columns = [("n", "k", value) for value in SHAPE_SLICES] + [("k", "n", value) for value in GRADIENT_SLICES]
+    with styled():
+        figure = Figure(figsize=(7.2, 10.4), layout="constrained")
+        grid = figure.subplots(len(columns), 2, sharey=True)
+        letters = iter("abcdefgh")
+        for row, (across, held, value) in zip(grid, columns, strict=True):
+            for axes, (_, model, event) in zip(row, _JUMPS, strict=True):
+                part = table[(table["model"] == model) & (table[held] == value)]
+                part = part[part[across].isin(SHAPES if across == "n" else GRADIENTS)]
+                _map(axes, part, across)
+                axes.set_title(rf"({next(letters)}) {_NAMES[model]} {event}, ${held}$ = {value:g}")
+                axes.set_xlabel({"n": r"shape index $n$", "k": r"gradient exponent $k$"}[across])
+                axes.set_ylim(0.5, 5.0)
+                axes.set_yticks([0.5, 1, 2, 5], labels=["0.5", "1", "2", "5"])
+                axes.minorticks_off()
+            row[0].set_ylabel(r"Tabor number $\mu$")
+        _finish(figure)
+    return figure
+
+
+ERROR_MAPS_SHAPE = Plate(
+    name="error-maps-shape",
+    stem="error_maps_shape",
+    title="Error of the pull-off force of the closed forms over shape index and Tabor number",
+    calls=_shape_calls,
+    tables=_shape_tables,
+    draw=partial(_draw_pull_off, across="n", held="k", slices=SHAPE_SLICES),
+)
+ERROR_MAPS_GRADIENT = Plate(
+    name="error-maps-gradient",
+    stem="error_maps_gradient",
+    title="Error of the pull-off force of the closed forms over gradient exponent and Tabor number",
+    calls=_gradient_calls,
+    tables=_gradient_tables,
+    draw=partial(_draw_pull_off, across="k", held="n", slices=GRADIENT_SLICES),
+)
+ERROR_MAPS_JUMPS = Plate(
+    name="error-maps-jumps",
+    stem="error_maps_jumps",
+    title="Errors of the semi-rigid jump-in and of JKR's jump-out; none where there is no jump",
+    calls=_jump_calls,
+    tables=_jump_tables,
+    draw=_draw_jumps,
+)
