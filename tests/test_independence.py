@@ -22,6 +22,7 @@ ALLOWED = {
     "comparisons.paper.kernel_functions": ("fscm",),
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
+    "comparisons.models.gibson_limit": ("fscm",),
     "comparisons.models.stieltjes_model": ("fscm",),
     "comparisons.models.fem_model": (
         "fscm.physical",
