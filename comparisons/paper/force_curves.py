@@ -24,7 +24,7 @@ _CASES_4 = [(n, 0.4, mu) for n in _SHAPES for mu in _TABOR_NUMBERS]
 _CASES_6 = [(2.0, k, mu) for mu in (0.5, 1.0) for k in _GRADIENTS]
 #: Ranges of displacement and load of each panel.
 _RANGES_4 = {
-    1.0: ((-5.0, 7.0), (-17.5, 4.0)),
+    1.0: ((-5.0, 13.0), (-17.5, 2.5)),
     1.5: ((-5.0, 6.0), (-3.6, 1.0)),
     2.0: ((-6.0, 6.0), (-2.15, 0.6)),
     5.0: ((-7.0, 4.0), (-1.75, 0.5)),
@@ -61,10 +61,11 @@ def _finish(figure: Figure, panels: Sequence[Axes], columns: int) -> None:
     for letter, axes in zip("abcd", panels, strict=False):
         axes.set_title(f"({letter})  {axes.get_title()}", loc="left")
         axes.set_title("")
-        if axes.get_subplotspec().is_last_row():
-            axes.set_xlabel(r"displacement $\delta/z_0$")
-        if axes.get_subplotspec().is_first_col():
-            axes.set_ylabel(r"load $\bar P$")
+    # Two panels a row.
+    for axes in panels[-2:]:
+        axes.set_xlabel(r"displacement $\delta/z_0$")
+    for axes in panels[::2]:
+        axes.set_ylabel(r"load $\bar P$")
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=columns)
 

@@ -74,8 +74,9 @@ def _calls() -> Sequence[Call]:
 
 
 def _tables(answers: Answers) -> Tables:
-    near = answers[Call.of(near_critical, _N, _K)]["jumps"]
-    computed = [*near, *({"mu": mu} | answers[Call.of(jumps, _N, _K, mu)] for mu in TABOR_NUMBERS)]
+    # Where the two jumps part, then evenly.
+    first = answers[Call.of(near_critical, _N, _K)]["jumps"][0]
+    computed = [first, *({"mu": mu} | answers[Call.of(jumps, _N, _K, mu)] for mu in TABOR_NUMBERS)]
     computed_columns = ["mu", *(f"{u}{name}" for name in _MODELS for u in ("", "u_"))]
     fscm = pd.DataFrame(computed)[computed_columns].sort_values("mu")
     closed = pd.DataFrame(answers[Call.of(asymptotes, _N, _K)])
@@ -123,11 +124,11 @@ def _coefficients(axes: Axes, table: pd.DataFrame) -> None:
     for limit, text in ((8.0 / 3.0, "8/3"), (2.0, "2")):
         axes.plot(1.0, limit, ls="none", marker="o", ms=4, color="0.2", clip_on=False)
         axes.annotate(text, (1.0, limit), (6, -3), textcoords="offset points", annotation_clip=False)
-    axes.set(
-        xlim=(0.0, 1.0), xlabel="gradient exponent k", ylabel=r"$C^{\mathrm{in}}$ (thick), $C^{\mathrm{out}}$ (thin)"
-    )
+    axes.set(xlim=(0.0, 1.0), xlabel="gradient exponent $k$")
+    axes.set_ylabel(r"$C^{\mathrm{in}}$ (thick), $C^{\mathrm{out}}$ (thin)")
     axes.set_title("(b)", loc="left")
-    axes.legend()
+    # Between the two bundles of curves.
+    axes.legend(loc="center", bbox_to_anchor=(0.45, 0.7), ncols=2)
 
 
 JUMP_ASYMPTOTES = Plate(

@@ -22,7 +22,18 @@ _GRADIENTS = (0.0, 0.2, 0.4, 0.6)
 #: Above the critical Tabor numbers, which are between 0.69 and 0.79.
 TABOR_NUMBERS = (0.85, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0)
 #: The gaps of the two jumps part like the square root of the excess over the critical Tabor number.
-_EXCESSES = (1e-4, 1e-3, 4e-3, 1e-2, 2e-2, 4e-2)
+_EXCESSES = (1e-4, 1e-3, 4e-3, 1e-2, 2e-2, 4e-2, 7e-2, 0.12)
+#: Where the two branches are named.
+_LABEL_AT = 3.5
+_LABELS = {
+    ("displacement", "in"): (12, 10),
+    ("displacement", "out"): (32, 2),
+    ("gap", "in"): (-28, 10),
+    ("gap", "out"): (-75, 6),
+}
+#: Places of the insets and what they show.
+_INSETS = {"displacement": (0.1, 0.08, 0.4, 0.4), "gap": (0.52, 0.16, 0.45, 0.33)}
+_NEAR, _NEAR_RANGES = (0.65, 0.95), {"displacement": (-1.7, -1.1), "gap": (0.0, 0.6)}
 QUANTITIES = ("jump_in_displacement", "jump_in_gap", "jump_out_displacement", "jump_out_gap")
 
 
@@ -78,9 +89,7 @@ def _tables(answers: Answers) -> Tables:
     rows, critical = [], []
     for k in _GRADIENTS:
         near = answers[Call.of(near_critical, 2.0, k)]
-        critical.append(
-            {"n": 2.0, "k": k, "critical_tabor_number": near["mu"], "u_critical_tabor_number": near["u_mu"]}
-        )
+        critical.append({"n": 2.0, "k": k, "mu": near["mu"], "u_mu": near["u_mu"]})
         far = [{"mu": mu} | answers[Call.of(jumps, 2.0, k, mu)] for mu in TABOR_NUMBERS]
         rows += [{"n": 2.0, "k": k} | row for row in [*near["jumps"], *far]]
     table = pd.DataFrame(rows).sort_values(["k", "mu"], ignore_index=True)
@@ -103,20 +112,25 @@ def _draw(tables: Tables) -> Figure:
 
 
 def _branches(axes: Axes, tables: Tables, kind: str) -> None:
-    for index, (k, part) in enumerate(tables[""].groupby("k")):
-        mu = float(tables["critical"].set_index("k").loc[k, "critical_tabor_number"])
+    # Where the branches begin, enlarged.
+    inset = axes.inset_axes(_INSETS[kind])
+    for index, (k, mu) in enumerate(zip(_GRADIENTS, tables["critical"]["mu"], strict=True)):
+        part = tables[""][tables[""]["k"] == k]
         style = {"color": COLOURS[index], "ls": LINES[index]}
         inward, outward = part[f"jump_in_{kind}"], part[f"jump_out_{kind}"]
         # Both branches begin in one point, at the critical Tabor number, between their first points.
         meeting = 0.5 * (inward.iloc[0] + outward.iloc[0])
-        axes.plot([mu, *part["mu"]], [meeting, *inward], label=rf"k = {k:g}, $\mu_c$ = {mu:.4f}", **style)
-        axes.plot([mu, *part["mu"]], [meeting, *outward], **style)
-        axes.plot(mu, meeting, marker="o", ms=4, color=COLOURS[index], mfc="white")
-    last = tables[""][tables[""]["mu"] == TABOR_NUMBERS[-3]]
-    for name, side in (("in", "bottom"), ("out", "top")):
-        axes.annotate(
-            f"jump {name}", (TABOR_NUMBERS[-3], float(last[f"jump_{name}_{kind}"].mean())), ha="right", va=side
-        )
+        for shown in (axes, inset):
+            label = rf"k = {k:g}, $\mu_c$ = {mu:.4f}"
+            shown.plot([mu, *part["mu"]], [meeting, *inward], label=label, **style)
+            shown.plot([mu, *part["mu"]], [meeting, *outward], **style)
+            shown.plot(mu, meeting, marker="o", ms=4, color=COLOURS[index], mfc="white")
+    inset.set(xlim=_NEAR, ylim=_NEAR_RANGES[kind])
+    inset.tick_params(labelsize=7, pad=2)
+    last = tables[""][tables[""]["mu"] == _LABEL_AT]
+    for name in ("in", "out"):
+        place = (_LABEL_AT, float(last[f"jump_{name}_{kind}"].mean()))
+        axes.annotate(f"jump {name}", place, _LABELS[kind, name], textcoords="offset points", ha="center")
 
 
 JUMPS = Plate(

@@ -146,7 +146,7 @@ OVER_TABOR_NUMBERS = Plate(
     title="Surface and pressure at pull-off for n = 2, k = 0.4, over the Tabor number",
     calls=lambda: _calls(_CASES_5),
     tables=lambda answers: _tables(_CASES_5, answers),
-    draw=lambda tables: _draw(tables, "mu", r"$\mu$", 5.0, (-1.0, 3.0)),
+    draw=lambda tables: _draw(tables, "mu", r"$\mu$", 5.0, (-0.2, 6.2)),
 )
 
 OVER_GRADIENTS = Plate(
@@ -155,5 +155,5 @@ OVER_GRADIENTS = Plate(
     title="Surface and pressure at pull-off for n = 2, mu = 1, over the gradient exponent",
     calls=lambda: _calls(_CASES_7),
     tables=lambda answers: _tables(_CASES_7, answers),
-    draw=lambda tables: _draw(tables, "k", "k", 4.0, (-0.5, 2.0)),
+    draw=lambda tables: _draw(tables, "k", "k", 4.0, (-0.1, 2.0)),
 )

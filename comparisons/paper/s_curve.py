@@ -95,12 +95,12 @@ def _draw(tables: Tables) -> Figure:
     curves, points = tables["curves"], tables["points"].set_index("name")
     path, jkr = (curves[curves["model"] == model] for model in ("fscm", "jkr"))
     with styled():
-        figure = Figure(figsize=(7.2, 4.2), layout="constrained")
+        figure = Figure(figsize=(7.2, 4.8), layout="constrained")
         grid = figure.add_gridspec(2, 2, width_ratios=(1.0, 1.35))
         above = figure.add_subplot(grid[0, 0])
         below = figure.add_subplot(grid[1, 0], sharex=above)
-        _against_gap(above, path, points, "displacement", (0.40, 0.30, 0.57, 0.66))
-        _against_gap(below, path, points, "load", (0.40, 0.10, 0.57, 0.62))
+        _against_gap(above, path, points, "displacement", (0.38, 0.5, 0.59, 0.46))
+        _against_gap(below, path, points, "load", (0.38, 0.17, 0.59, 0.50))
         above.set(xlim=_GAPS, ylim=_DISPLACEMENTS, ylabel=r"displacement $\delta/z_0$")
         above.tick_params(labelbottom=False)
         below.set(ylim=_LOADS, ylabel=r"load $\bar P$", xlabel=r"central gap $H_0/z_0$")
@@ -121,10 +121,10 @@ def _against_gap(
         shown.plot(some["central_gap"], some[name], ls="none", marker="o", ms=3.5, color=COLOURS[2])
         for label, point in some.iterrows():
             shown.annotate(
-                str(label), (point["central_gap"], point[name]), (4, 4), textcoords="offset points", fontsize=8
+                str(label), (point["central_gap"], point[name]), (3, 4), textcoords="offset points", fontsize=8
             )
     inset.set(xlim=_NEAR_GAPS, ylim=_DISPLACEMENTS if name == "displacement" else _LOADS)
-    inset.tick_params(labelsize=7)
+    inset.tick_params(labelsize=7, pad=2)
 
 
 def _plane(axes: Axes, path: pd.DataFrame, jkr: pd.DataFrame, points: pd.DataFrame, energy: pd.Series) -> None:
@@ -133,17 +133,17 @@ def _plane(axes: Axes, path: pd.DataFrame, jkr: pd.DataFrame, points: pd.DataFra
     axes.plot(path["displacement"], path["load"], color=COLOURS[0], label="FSCM")
     axes.plot(jkr["displacement"], jkr["load"], color=COLOURS[2], ls="--", label="JKR-n-k")
     axes.axhline(0.0, color="0.4", lw=0.8)
+    places = _places(points)
     for start, end in (("A", "A'"), ("B", "B'")):
-        ends = [tuple(points.loc[name, ["displacement", "load"]]) for name in (end, start)]
-        axes.annotate("", *ends, arrowprops={"arrowstyle": "-|>", "color": COLOURS[1], "lw": 1.2, "ls": ":"})
+        arrow = {"arrowstyle": "-|>", "color": COLOURS[1], "lw": 1.2, "ls": ":"}
+        axes.annotate("", places[end], places[start], arrowprops=arrow)
     axes.plot(points["displacement"], points["load"], ls="none", marker="o", ms=4, color=COLOURS[2])
     for name, offset in _BESIDE.items():
-        point = points.loc[name]
-        axes.annotate(name, (point["displacement"], point["load"]), offset, textcoords="offset points")
+        axes.annotate(name, places[name], offset, textcoords="offset points")
     area = short(float(energy["value"]), float(energy["u_num"]))
     axes.annotate(
         f"hysteresis\n{area}",
-        (float(np.mean(points.loc[["A", "B"], "displacement"])), -0.75),
+        (0.5 * (places["A"][0] + places["B"][0]), -0.75),
         (-0.9, -0.62),
         arrowprops={"arrowstyle": "-", "color": "0.4", "lw": 0.7},
     )
@@ -152,20 +152,24 @@ def _plane(axes: Axes, path: pd.DataFrame, jkr: pd.DataFrame, points: pd.DataFra
     axes.legend(loc="lower right")
 
 
+def _places(points: pd.DataFrame) -> dict[str, tuple[float, float]]:
+    """Displacement and load of each point, by name."""
+    return dict(zip(points.index, zip(points["displacement"], points["load"], strict=True), strict=True))
+
+
 def _loop(path: pd.DataFrame, points: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
     """Outline B'-A-A'-B-B' of what a cycle of displacement control loses."""
     displacement, load = path["displacement"].to_numpy(), path["load"].to_numpy()
     falling = np.diff(displacement) < 0.0
     top, bottom = int(np.argmax(falling)), int(np.flatnonzero(falling)[-1]) + 1
-    far = slice(int(np.searchsorted(displacement[:top], points.loc["B'", "displacement"])), top + 1)
-    near = slice(bottom, bottom + int(np.searchsorted(displacement[bottom:], points.loc["A'", "displacement"])))
-    ends = points[["displacement", "load"]].to_numpy()
-    order = dict(zip(points.index, ends, strict=True))
+    places = _places(points)
+    far = slice(int(np.searchsorted(displacement[:top], places["B'"][0])), top + 1)
+    near = slice(bottom, bottom + int(np.searchsorted(displacement[bottom:], places["A'"][0])))
     outline = np.vstack(
         [
-            order["B'"],
+            places["B'"],
             np.column_stack([displacement[far], load[far]]),
-            order["A'"],
+            places["A'"],
             np.column_stack([displacement[near], load[near]])[::-1],
         ]
     )
