@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.figures.style import COLOURS, LINES, styled
-from comparisons.model import ComputationFailed, NotApplicable
+from comparisons.models.solver import translated
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
 from fscm import Analysis, NoSuchEvent, NotConverged, solve
@@ -42,9 +42,9 @@ def jumps(n: float, k: float, mu: float) -> dict[str, float]:
 
     Raises
     ------
-    NotApplicable
+    comparisons.model.NotApplicable
         Below the critical Tabor number.
-    ComputationFailed
+    comparisons.model.ComputationFailed
         If a fold was not reached.
 
     Examples
@@ -55,14 +55,10 @@ def jumps(n: float, k: float, mu: float) -> dict[str, float]:
     """
     analysis = Analysis(Problem(n, k, mu))
     found: dict[str, float] = {}
-    try:
+    with translated(NoSuchEvent, NotConverged):
         for name in QUANTITIES:
             solution = analysis.solution(name)
             found |= {name: float(solution.value), f"u_{name}": float(solution.u_num)}
-    except NoSuchEvent as reason:
-        raise NotApplicable(str(reason)) from reason
-    except NotConverged as failure:
-        raise ComputationFailed(str(failure)) from failure
     return found
 
 
@@ -71,10 +67,11 @@ def near_critical(n: float, k: float) -> dict[str, Any]:
 
     Raises
     ------
-    NotApplicable, ComputationFailed
+    comparisons.model.NotApplicable, comparisons.model.ComputationFailed
         As `jumps`.
     """
-    critical = solve(Problem(n, k, 1.0), "critical_tabor_number")
+    with translated(NoSuchEvent, NotConverged):
+        critical = solve(Problem(n, k, 1.0), "critical_tabor_number")
     above = [float(critical.value) * (1.0 + excess) for excess in _EXCESSES]
     found = [{"mu": mu} | jumps(n, k, mu) for mu in above]
     return {"mu": float(critical.value), "u_mu": float(critical.u_num), "jumps": found}

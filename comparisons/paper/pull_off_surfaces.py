@@ -12,11 +12,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.figures.style import COLOURS, LINES, styled
-from comparisons.model import ComputationFailed
 from comparisons.models.gibson_limit import gibson_profile
+from comparisons.models.solver import translated
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
-from fscm import Analysis, NotConverged, solve
+from fscm import Analysis, NoSuchEvent, NotConverged, solve
 from fscm.analysis import FLOOR, SAFETY
 from fscm.equilibrium import State
 from fscm.problem import Problem
@@ -47,7 +47,7 @@ def surface(n: float, k: float, mu: float) -> dict[str, Any]:
 
     Raises
     ------
-    ComputationFailed
+    comparisons.model.ComputationFailed
         If the pull-off was not found.
 
     Examples
@@ -59,10 +59,8 @@ def surface(n: float, k: float, mu: float) -> dict[str, Any]:
     problem = Problem(n, k, mu)
     if k == 1.0:
         return _gibson(problem)
-    try:
+    with translated(NoSuchEvent, NotConverged):
         event = Analysis(problem).event("pull_off")
-    except NotConverged as failure:
-        raise ComputationFailed(str(failure)) from failure
     edge = event.value.scale if event.value.follows_edge else 1.0
     radius = np.unique(np.concatenate([np.linspace(0.0, _FARTHEST, _STEPS + 1), edge * (1.0 + _AROUND_EDGE)]))
     check, value = _sampled(event.check, radius), _sampled(event.value, radius)

@@ -10,11 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.figures.style import COLOURS, styled
+from comparisons.models.solver import translated
 from comparisons.outputs.digits import short
 from comparisons.paper import answers
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
-from fscm import Analysis
+from fscm import Analysis, NoSuchEvent, NotConverged
 from fscm.analysis import FLOOR, SAFETY, EventPair
 from fscm.equilibrium import State
 from fscm.problem import Problem
@@ -44,6 +45,13 @@ def named_points(n: float, k: float, mu: float) -> dict[str, dict[str, float]]:
     A and B are the jump-in and the jump-out, A' and B' where these land under displacement control, C is the
     pull-off and D the zero of the load.
 
+    Raises
+    ------
+    comparisons.model.NotApplicable
+        Below the critical Tabor number, where nothing jumps.
+    comparisons.model.ComputationFailed
+        If a point was not reached.
+
     Examples
     --------
     >>> points = named_points(2, 0.4, 1)
@@ -51,14 +59,15 @@ def named_points(n: float, k: float, mu: float) -> dict[str, dict[str, float]]:
     (0.0, -1.78848171)
     """
     analysis = Analysis(Problem(n, k, mu))
-    pairs = {
-        "B'": analysis.landing("jump_out"),
-        "A": analysis.event("jump_in"),
-        "B": analysis.event("jump_out"),
-        "A'": analysis.landing("jump_in"),
-        "C": analysis.event("pull_off"),
-        "D": analysis.event("zero_load"),
-    }
+    with translated(NoSuchEvent, NotConverged):
+        pairs = {
+            "B'": analysis.landing("jump_out"),
+            "A": analysis.event("jump_in"),
+            "B": analysis.event("jump_out"),
+            "A'": analysis.landing("jump_in"),
+            "C": analysis.event("pull_off"),
+            "D": analysis.event("zero_load"),
+        }
     return {name: _coordinates(pair) for name, pair in pairs.items()}
 
 
@@ -75,19 +84,19 @@ def _calls() -> Sequence[Call]:
     return [_CURVE, Call.of(named_points, *_CASE), _ENERGY, _JKR]
 
 
-def _tables(answers: Answers) -> Tables:
+def _tables(answered: Answers) -> Tables:
     parts = []
     for model, call in (("fscm", _CURVE), ("jkr", _JKR)):
-        found = answers[call]
+        found = answered[call]
         columns = {name: found[name] for name in ("displacement", "u_displacement", "load", "u_load")}
-        # The central gap is the parameter of the path; JKR has none.
+        # The coordinate along the path, at which displacement and load are uncertain; JKR has none.
         gaps = {"central_gap": found["columns"].get("central_gap", np.nan)}
         parts.append(pd.DataFrame({"model": model} | gaps | columns))
-    points = pd.DataFrame.from_dict(answers[Call.of(named_points, *_CASE)], orient="index").rename_axis("name")
+    points = pd.DataFrame.from_dict(answered[Call.of(named_points, *_CASE)], orient="index").rename_axis("name")
     return {
         "curves": pd.concat(parts, ignore_index=True),
         "points": points.reset_index(),
-        "hysteresis": pd.DataFrame([{"quantity": "hysteresis_energy"} | answers[_ENERGY]]),
+        "hysteresis": pd.DataFrame([{"quantity": "hysteresis_energy"} | answered[_ENERGY]]),
     }
 
 
@@ -117,12 +126,13 @@ def _against_gap(
         shown.plot(path["central_gap"], path[name], color=COLOURS[0])
         shown.axhline(0.0, color="0.4", lw=0.8)
     near = (points["central_gap"] > _NEAR_GAPS[0]) & (points["central_gap"] < _NEAR_GAPS[1])
-    for shown, some in ((axes, points[~near]), (inset, points[near])):
+    # Names stand on the convex side of the curve.
+    inside = (3, 4) if name == "displacement" else (6, -7)
+    for shown, some, beside in ((axes, points[~near], (3, 4)), (inset, points[near], inside)):
         shown.plot(some["central_gap"], some[name], ls="none", marker="o", ms=3.5, color=COLOURS[2])
         for label, point in some.iterrows():
-            shown.annotate(
-                str(label), (point["central_gap"], point[name]), (3, 4), textcoords="offset points", fontsize=8
-            )
+            place = point["central_gap"], point[name]
+            shown.annotate(str(label), place, beside, textcoords="offset points", fontsize=8)
     inset.set(xlim=_NEAR_GAPS, ylim=_DISPLACEMENTS if name == "displacement" else _LOADS)
     inset.tick_params(labelsize=7, pad=2)
 
