@@ -131,8 +131,8 @@ def _against_gap(
     for shown, some, beside in ((axes, points[~near], (3, 4)), (inset, points[near], inside)):
         shown.plot(some["central_gap"], some[name], ls="none", marker="o", ms=3.5, color=COLOURS[2])
         for label, point in some.iterrows():
-            place = point["central_gap"], point[name]
-            shown.annotate(str(label), place, beside, textcoords="offset points", fontsize=8)
+            where = point["central_gap"], point[name]
+            shown.annotate(str(label), where, beside, textcoords="offset points", fontsize=8)
     inset.set(xlim=_NEAR_GAPS, ylim=_DISPLACEMENTS if name == "displacement" else _LOADS)
     inset.tick_params(labelsize=7, pad=2)
 
