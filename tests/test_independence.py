@@ -22,8 +22,14 @@ ALLOWED = {
     "comparisons.paper.kernel_functions": ("fscm",),
     # Asks the finite elements about a solid that is no power law, which no dimensionless problem describes.
     "comparisons.paper.surface_modulus": ("fscm.physical", "fscm.problem", "fem_reference"),
+    # Shows where a jump lands and what the surface is at pull-off, which no quantity of a model says.
+    "comparisons.paper.s_curve": ("fscm",),
+    "comparisons.paper.pull_off_surfaces": ("fscm",),
+    # Both jumps of one path, at every Tabor number, in half the time of asking for each.
+    "comparisons.paper.jumps": ("fscm",),
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
+    "comparisons.models.gibson_limit": ("fscm",),
     "comparisons.models.stieltjes_model": ("fscm",),
     "comparisons.models.fem_model": (
         "fscm.physical",
