@@ -100,7 +100,7 @@ def gibson_profile(problem: Problem) -> Profile:
     level = np.array([local.level(float(H)) for H in gap])
     radius = (problem.n * np.maximum(level + delta, 0.0)) ** (1.0 / problem.n)
     # The two levels of the front are one, but for rounding.
-    return Profile(np.maximum.accumulate(radius), problem.law.traction(gap), gap, _U_DISTANCE)
+    return Profile(np.maximum.accumulate(radius), problem.law.traction(gap), gap, _U_DISTANCE, _U_DISTANCE)
 
 
 def _towards(first: float, last: float) -> Array:
