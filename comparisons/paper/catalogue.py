@@ -12,6 +12,11 @@ __all__ = ["NAMES", "plates"]
 #: name -> "module:plate"; a module is imported only when its plate is asked for.
 _PLATES = {
     "2": "comparisons.paper.kernel_functions:KERNEL_FUNCTIONS",
+    "11": "comparisons.paper.gradient_effect:GRADIENT_EFFECT",
+    "12": "comparisons.paper.surface_laws:SURFACE_LAWS",
+    "14": "comparisons.paper.pull_off_models:PULL_OFF",
+    "15": "comparisons.paper.pull_off_models:PULL_OFF_BY_RIGID_LIMIT",
+    "16": "comparisons.paper.pull_off_models:PULL_OFF_BY_SOFT_LIMIT",
 }
 
 #: What `--figure` takes: the numbers of the paper's figures, then what is not in the paper.
