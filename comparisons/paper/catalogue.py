@@ -14,9 +14,11 @@ _PLATES = {
     "2": "comparisons.paper.kernel_functions:KERNEL_FUNCTIONS",
     "11": "comparisons.paper.gradient_effect:GRADIENT_EFFECT",
     "12": "comparisons.paper.surface_laws:SURFACE_LAWS",
+    "13": "comparisons.paper.force_curve_models:FORCE_CURVE_MODELS",
     "14": "comparisons.paper.pull_off_models:PULL_OFF",
     "15": "comparisons.paper.pull_off_models:PULL_OFF_BY_RIGID_LIMIT",
     "16": "comparisons.paper.pull_off_models:PULL_OFF_BY_SOFT_LIMIT",
+    "17": "comparisons.paper.surface_models:SURFACE_MODELS",
 }
 
 #: What `--figure` takes: the numbers of the paper's figures, then what is not in the paper.
