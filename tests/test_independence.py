@@ -20,6 +20,8 @@ ALLOWED = {
     "comparisons.commands.fem": ("fem_reference", "fscm.problem", "fscm.profile", "fscm.surface_law"),
     # Shows the functions inside the FSCM.
     "comparisons.paper.kernel_functions": ("fscm",),
+    # Takes the published scheme apart: what is left out, the mesh, the steps, one at a time.
+    "comparisons.paper.scheme_ingredients": ("fscm",),
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
     "comparisons.models.stieltjes_model": ("fscm",),
@@ -37,6 +39,7 @@ LAYERS = (
     (
         "comparisons.model",
         "comparisons.quantities",
+        "comparisons.claims",
         "comparisons.distance",
         "comparisons.shapes",
         "comparisons.uncertainty",

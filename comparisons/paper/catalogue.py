@@ -19,6 +19,7 @@ _PLATES = {
     "15": "comparisons.paper.pull_off_models:PULL_OFF_BY_RIGID_LIMIT",
     "16": "comparisons.paper.pull_off_models:PULL_OFF_BY_SOFT_LIMIT",
     "17": "comparisons.paper.surface_models:SURFACE_MODELS",
+    "numbers": "comparisons.paper.published_numbers:PUBLISHED_NUMBERS",
 }
 
 #: What `--figure` takes: the numbers of the paper's figures, then what is not in the paper.

@@ -174,7 +174,7 @@ PULL_OFF = Plate(
     name="14",
     stem="fig14_pull_off_models",
     title="Pull-off force of the original and improved Maugis-Dugdale models and of the FSCM, k = 0.4",
-    calls=lambda: [*_limits("bradley")(), *_limits("jkr")()],
+    calls=lambda: list(dict.fromkeys([*_limits("bradley")(), *_limits("jkr")()])),
     tables=_pull_off_tables,
     draw=_draw_forces,
 )
