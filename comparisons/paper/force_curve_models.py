@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -18,7 +19,7 @@ __all__ = ["FORCE_CURVE_MODELS"]
 _SHAPES = (1.0, 1.5, 2.0, 5.0)
 _K, _MU = 0.4, 1.0
 #: Name and look, lines as in the paper: original dashed, improved solid.
-_MODELS = {
+_MODELS: dict[str, tuple[str, dict[str, Any]]] = {
     "fscm": ("FSCM", {"color": COLOURS[0], "ls": "-", "lw": 2.6, "alpha": 0.35}),
     "md-original": ("original M-D-n-k", {"color": COLOURS[2], "ls": "--"}),
     "md-improved": ("improved M-D-n-k", {"color": COLOURS[1], "ls": "-"}),

@@ -111,15 +111,15 @@ def _draw(tables: Tables) -> Figure:
         largest = tables["largest"]
         right.plot(largest["n"], 100 * largest["chi_max"], color=COLOURS[0])
         right.axhline(100 * _LIMIT, color="0.4", lw=0.8, ls="--")
-        for region in tables["regions"].itertuples():
-            right.axvspan(region.n_from, region.n_to, color=COLOURS[1], alpha=0.2, lw=0)
-            words = f"{region.n_from:.3f} ≤ n ≤ {region.n_to:.3f}"
-            middle = max(0.5 * (region.n_from + region.n_to), 1.35)
+        ends = tables["regions"][["n_from", "n_to"]].to_numpy()
+        # The first region is too narrow for its words.
+        for (low, high), place, align in zip(ends, ((1.35, 3.0), (4.8, 17.0)), ("left", "center"), strict=True):
+            right.axvspan(low, high, color=COLOURS[1], alpha=0.2, lw=0)
             right.annotate(
-                words,
-                (0.5 * (region.n_from + region.n_to), 100 * _LIMIT),
-                (middle, 17.0 if middle > 2 else 3.0),
-                ha="center" if middle > 2 else "left",
+                f"{low:.3f} ≤ n ≤ {high:.3f}",
+                (0.5 * (low + high), 100 * _LIMIT),
+                place,
+                ha=align,
                 fontsize=8,
                 arrowprops={"arrowstyle": "-", "lw": 0.6, "color": "0.3"},
             )

@@ -25,7 +25,7 @@ from comparisons.paper.workshop import Answers, Call
 from comparisons.tables import rich_table
 from fscm.surface_law import LennardJones93
 
-__all__ = ["PUBLISHED_NUMBERS", "cause"]
+__all__ = ["PUBLISHED_NUMBERS", "cause", "judged"]
 
 Number = tuple[float, float]
 
@@ -126,10 +126,11 @@ def _alone(row: Repeated) -> str:
 
 def _tables(answers: Answers) -> Tables:
     again = repeated(answers)
-    return {"": pd.DataFrame([_row(claim, answers, again) for claim in published()]), "causes": frame(again)}
+    return {"": pd.DataFrame([judged(claim, answers, again) for claim in published()]), "causes": frame(again)}
 
 
-def _row(claim: Published, answers: Answers, again: Sequence[Repeated]) -> dict[str, str | float]:
+def judged(claim: Published, answers: Answers, again: Sequence[Repeated]) -> dict[str, str | float]:
+    """Return the row of a published number, from the answers and the repetitions of those that have any."""
     rows = [row for row in again if row.claim == claim]
     mu = math.nan
     if rows:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -25,7 +26,7 @@ TABOR_NUMBERS = tuple(float(f"{mu:.3g}") for mu in np.geomspace(0.01, 10.0, 31))
 _MODELS = ("fscm", "md-original", "md-improved")
 _NAMES = {"fscm": "FSCM", "md-original": "original M-D-n-k", "md-improved": "improved M-D-n-k"}
 #: Line styles as in the paper: original dashed, improved solid; the FSCM as points.
-_STYLES = {
+_STYLES: dict[str, dict[str, Any]] = {
     "fscm": {"ls": "none", "marker": "o", "ms": 3.5, "mfc": "white", "color": COLOURS[0], "zorder": 3},
     "md-original": {"ls": "--", "color": COLOURS[2]},
     "md-improved": {"ls": "-", "color": COLOURS[1]},
@@ -121,7 +122,7 @@ def _draw_by_rigid(tables: Tables) -> Figure:
 def _draw_by_soft(tables: Tables) -> Figure:
     with styled():
         figure = Figure(figsize=(7.2, 6.6), layout="constrained")
-        above, below = figure.subfigures(2, 1, height_ratios=[1.0, 1.15])
+        above, below = np.ravel(figure.subfigures(2, 1, height_ratios=[1.0, 1.15], squeeze=False))
         axes = above.subplots()
         for index, (n, of_shape) in enumerate(tables[""].groupby("n")):
             for model, style in _STYLES.items():

@@ -110,9 +110,9 @@ def _draw(tables: Tables) -> Figure:
         left.set_title("(a)", loc="left")
         right.set_title("(b)", loc="left")
         for axes, at in ((left, 0.02), (right, 0.98)):
-            for row in tables["radii"].itertuples():
-                for letter, radius in (("a", row.contact_radius), ("c", row.cohesive_radius)):
-                    _mark(axes, radius, letter, at, row.model)
+            for model, a, c in tables["radii"].to_numpy():
+                _mark(axes, float(a), "a", at, str(model))
+                _mark(axes, float(c), "c", at, str(model))
         figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
 

@@ -60,7 +60,7 @@ class TaborCurve:
         True
         """
         degree = len(forces) - 1
-        coefficients = chebyshev.chebfit(chebyshev.chebpts2(degree + 1), np.log(forces), degree)
+        coefficients = np.asarray(chebyshev.chebfit(chebyshev.chebpts2(degree + 1), np.log(forces), degree), float)
         return cls(coefficients, _SAFETY * float(np.max(np.abs(coefficients[-_LAST:]))))
 
     def __call__(self, mu: Array) -> Array:
