@@ -20,10 +20,16 @@ ALLOWED = {
     "comparisons.commands.fem": ("fem_reference", "fscm.problem", "fscm.profile", "fscm.surface_law"),
     # Shows the functions inside the FSCM.
     "comparisons.paper.kernel_functions": ("fscm",),
+    # Shows where a jump lands and what the surface is at pull-off, which no quantity of a model says.
+    "comparisons.paper.s_curve": ("fscm",),
+    "comparisons.paper.pull_off_surfaces": ("fscm",),
+    # Both jumps of one path, at every Tabor number, in half the time of asking for each.
+    "comparisons.paper.jumps": ("fscm",),
     # Takes the published scheme apart: what is left out, the mesh, the steps, one at a time.
     "comparisons.paper.scheme_ingredients": ("fscm",),
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
+    "comparisons.models.gibson_limit": ("fscm",),
     "comparisons.models.stieltjes_model": ("fscm",),
     "comparisons.models.fem_model": (
         "fscm.physical",

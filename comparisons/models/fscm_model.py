@@ -9,6 +9,7 @@ import numpy as np
 import fscm
 from comparisons.distance import spread
 from comparisons.model import Curve, Profile, Result
+from comparisons.models.gibson_limit import gibson_curve, gibson_profile
 from comparisons.models.solver import result_of, translated
 from comparisons.shapes import pressure_near
 from fscm.path import profiles_of
@@ -44,6 +45,8 @@ class FullSelfConsistent:
     def curve(self, problem: Problem) -> Curve:
         """Return the whole equilibrium path, from far away into contact."""
         with translated(fscm.NoSuchEvent, fscm.NotConverged):
+            if problem.k == 1.0:
+                return gibson_curve(problem)
             path = fscm.trace(problem, longest_step=_STEP)
         columns = {"central_gap": path.central_gap, "edge_radius": path.edge_radius}
         shares = path.u_displacement / np.ptp(path.displacement), path.u_load / np.ptp(path.load)
@@ -52,6 +55,8 @@ class FullSelfConsistent:
     def pull_off_profile(self, problem: Problem) -> Profile:
         """Return the surface where P is smallest, and as its uncertainty the distance of the two meshes."""
         with translated(fscm.NoSuchEvent, fscm.NotConverged):
+            if problem.k == 1.0:
+                return gibson_profile(problem)
             event = fscm.Analysis(problem).event("pull_off")
         check, value = profiles_of(event.check), profiles_of(event.value)
         return Profile(

@@ -11,7 +11,16 @@ __all__ = ["NAMES", "plates"]
 
 #: name -> "module:plate"; a module is imported only when its plate is asked for.
 _PLATES = {
+    "1": "comparisons.paper.sketch:SKETCH",
     "2": "comparisons.paper.kernel_functions:KERNEL_FUNCTIONS",
+    "3": "comparisons.paper.s_curve:S_CURVE",
+    "4": "comparisons.paper.force_curves:OVER_TABOR_NUMBERS",
+    "5": "comparisons.paper.pull_off_surfaces:OVER_TABOR_NUMBERS",
+    "6": "comparisons.paper.force_curves:OVER_GRADIENTS",
+    "7": "comparisons.paper.pull_off_surfaces:OVER_GRADIENTS",
+    "8": "comparisons.paper.jumps:JUMPS",
+    "9": "comparisons.paper.jump_asymptotes:JUMP_ASYMPTOTES",
+    "10": "comparisons.paper.transition:TRANSITION",
     "11": "comparisons.paper.gradient_effect:GRADIENT_EFFECT",
     "12": "comparisons.paper.surface_laws:SURFACE_LAWS",
     "13": "comparisons.paper.force_curve_models:FORCE_CURVE_MODELS",

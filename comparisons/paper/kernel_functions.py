@@ -13,32 +13,41 @@ from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
 from fscm import kernel
 
-__all__ = ["KERNEL_FUNCTIONS"]
+__all__ = ["KERNEL_FUNCTIONS", "values"]
 
-#: Gradient exponents; at k = 1 both functions are steps at s = 1.
-_GRADIENTS = (0.0, 0.2, 0.4, 0.6, 0.8)
-#: The derivative is singular at s = 1, where the curve is cut.
-_RATIOS = np.unique(
-    np.concatenate([np.linspace(0.0, 3.0, 151), 1.0 + np.geomspace(1e-4, 0.02, 12), 1.0 - np.geomspace(1e-4, 0.02, 12)])
-)
+#: Gradient exponents; at k = 1, the Gibson limit, both functions are steps at s = 1.
+_GRADIENTS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
+_FARTHEST = 3.0
+#: Near s = 0, where Psi_k falls like -s^(1-k), and on both sides of s = 1, where the derivative is singular.
+_NEAR = np.geomspace(1e-6, 0.02, 24)
+_RATIOS = np.unique(np.concatenate([np.linspace(0.0, _FARTHEST, 151), _NEAR, 1.0 + _NEAR, 1.0 - _NEAR]))
 
 
 def values(k: float) -> dict[str, list[float | None]]:
-    """Return Phi_k (Eq. 18), its derivative (Eq. 19) and Psi_k (Eq. 22) at `_RATIOS`; None where infinite.
+    """Return Phi_k (Eq. 18), its derivative (Eq. 19) and Psi_k (Eq. 22) over s = t/r; None where infinite.
+
+    At k = 1 they are the limits k -> 1 at every s: a step, zero but for a delta function at s = 1, and a step.
 
     Examples
     --------
-    >>> values(0.4)["psi"][0]
-    0.0
+    >>> values(0.4)["psi"][0], values(1.0)["phi"][-1]
+    (0.0, 1.0)
     """
-    away = _RATIOS != 1.0
-    slope = np.full(_RATIOS.shape, np.nan)
-    # Eq. 19 is (1-k) times the ring response at unit radius.
-    slope[away] = (1.0 - k) * kernel.ring_response(k, np.ones(away.sum()), _RATIOS[away])
+    if k == 1.0:
+        # Phi_k(1) = Gamma(1-k) / [Gamma((1-k)/2) Gamma((3-k)/2)] -> 1/2, and Psi_k(0) = 0 for every k < 1.
+        phi = np.heaviside(_RATIOS - 1.0, 0.5)
+        slope = np.where(_RATIOS == 1.0, np.inf, 0.0)
+        psi = np.where(_RATIOS > 0.0, phi - 1.0, 0.0)
+    else:
+        phi, psi = kernel.Phi(k, _RATIOS), kernel.Psi(k, _RATIOS)
+        away = _RATIOS != 1.0
+        slope = np.full(_RATIOS.shape, np.inf)
+        # Eq. 19 is (1-k) times the ring response at unit radius.
+        slope[away] = (1.0 - k) * kernel.ring_response(k, np.ones(away.sum()), _RATIOS[away])
     return {
-        "phi": kernel.Phi(k, _RATIOS).tolist(),
-        "slope": [None if np.isnan(value) else float(value) for value in slope],
-        "psi": kernel.Psi(k, _RATIOS).tolist(),
+        "phi": phi.tolist(),
+        "slope": [float(value) if np.isfinite(value) else None for value in slope],
+        "psi": psi.tolist(),
     }
 
 
@@ -53,17 +62,24 @@ def _tables(answers: Answers) -> Tables:
 
 def _draw(tables: Tables) -> Figure:
     with styled():
-        figure = Figure(figsize=(7.2, 3.4), layout="constrained")
+        figure = Figure(figsize=(7.2, 3.8), layout="constrained")
         left, right = figure.subplots(1, 2)
-        for index, (k, part) in enumerate(tables[""].groupby("k")):
-            colour, line = COLOURS[index], LINES[index]
-            left.plot(part["s"], part["phi"], color=colour, ls=line, label=f"k = {k:g}")
-            left.plot(part["s"], part["slope"], color=colour, ls=line, lw=0.7)
-            right.plot(part["s"], part["psi"], color=colour, ls=line, label=f"k = {k:g}")
-        left.set(xlabel="s = t/r", ylabel=r"$\Phi_k$ (thick), $\Phi_k'$ (thin)", xlim=(0, 3), ylim=(0, 3), title="(a)")
-        right.set(xlabel="s = t/r", ylabel=r"$\Psi_k$", xlim=(0, 3), title="(b)")
-        left.legend()
-        right.legend()
+        for index, k in enumerate(_GRADIENTS):
+            part = tables[""][tables[""]["k"] == k]
+            style = {"color": COLOURS[index], "ls": LINES[index]}
+            label = f"k = {k:g}" + (" (Gibson)" if k == 1.0 else "")
+            left.plot(part["s"], part["phi"], label=label, **style)
+            if k < 1.0:
+                left.plot(part["s"], part["slope"], lw=0.7, **style)
+            shown = part[part["s"] > 0.0] if k == 1.0 else part
+            right.plot(shown["s"], shown["psi"], **style)
+        left.set(xlabel="s = t/r", ylabel=r"$\Phi_k(s)$ (thick), $\Phi_k'(s)$ (thin)", ylim=(0.0, 2.5))
+        right.set(xlabel="s = t/r", ylabel=r"$\Psi_k(s)$", ylim=(-1.05, 0.05))
+        for axes, letter in ((left, "a"), (right, "b")):
+            axes.set_xlim(0.0, _FARTHEST)
+            axes.set_title(f"({letter})", loc="left")
+        handles, labels = left.get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=len(_GRADIENTS))
     return figure
 
 

@@ -1,0 +1,64 @@
+"""At k = 1 curve and surface follow from algebra: closed forms of the paraboloid, and the events of the solver."""
+
+import numpy as np
+import pytest
+
+from comparisons.models.gibson_limit import gibson_curve, gibson_profile
+from fscm.gibson import GibsonSolid
+from fscm.gibson_surface import LocalEquilibrium
+from fscm.problem import Problem
+
+
+@pytest.mark.parametrize("mu", [0.3, 1.0, 3.0])
+def test_the_load_on_a_paraboloid_is_twice_the_energy_at_its_axis(mu):
+    problem = Problem(2, 1, mu)
+    local = LocalEquilibrium(problem.law, problem.compliance)
+    curve = gibson_curve(problem)
+    gaps = curve.columns["central_gap"]
+    # On the way back from A to B the load is that of the open branch.
+    gaps = np.where(np.isnan(gaps), [local.far(-delta) for delta in curve.displacement], gaps)
+    # P = 2 int p du from the axis outwards, and de/du = -p.
+    expected = [2 * local.energy(gap) for gap in gaps]
+    assert np.abs(curve.load - expected).max() < curve.u_distance * np.ptp(curve.load)
+
+
+@pytest.mark.parametrize(("n", "mu"), [(1, 1.0), (2, 0.3), (5, 1.0)])
+def test_the_curve_has_the_events_of_the_solid(n, mu):
+    problem = Problem(n, 1, mu)
+    solid, curve = GibsonSolid(problem), gibson_curve(problem)
+    force = solid.solution("pull_off_force").value
+    assert -curve.load.min() == pytest.approx(force, rel=1e-3)
+    assert -curve.load.min() <= force * (1 + 1e-12)
+    assert curve.load[-1] == pytest.approx(force, rel=1e-12)
+    falling = np.flatnonzero(np.diff(curve.displacement) < 0)
+    if mu > 0.64:
+        fold = solid.solution("jump_in_displacement").value
+        assert curve.displacement[falling[0]] == pytest.approx(fold, abs=1e-12)
+        out = solid.solution("jump_out_displacement").value
+        assert curve.displacement[falling[-1] + 1] == pytest.approx(out, abs=1e-12)
+    else:
+        assert not len(falling)
+
+
+@pytest.mark.parametrize(("n", "mu"), [(1, 0.3), (2, 0.3), (2, 1.0), (5, 1.0)])
+def test_the_surface_balances_and_carries_the_pull_off_force(n, mu):
+    problem = Problem(n, 1, mu)
+    solid = GibsonSolid(problem)
+    surface = gibson_profile(problem)
+    # Eq. 28 with w = M p.
+    delta = solid.solution("pull_off_displacement").value
+    deformation = problem.compliance * surface.pressure
+    assert surface.gap == pytest.approx(surface.radius**n / n - delta + deformation, abs=1e-9)
+    assert np.diff(surface.radius).min() >= 0
+    # p = -(8/3) f^-3 beyond the last point.
+    f, area = 10.5 + delta, (n * (10.5 + delta)) ** (2 / n)
+    tail = 8 / 3 * f**-3 * area * 2 / n / (3 - 2 / n)
+    load = np.trapezoid(surface.pressure, surface.radius**2)
+    assert -load + tail == pytest.approx(solid.solution("pull_off_force").value, rel=0.02)
+
+
+def test_the_front_is_a_jump_of_the_gap():
+    surface = gibson_profile(Problem(2, 1, 1.0))
+    jump = np.diff(surface.gap).argmax()
+    assert surface.radius[jump + 1] == pytest.approx(surface.radius[jump], abs=1e-14)
+    assert surface.gap[jump + 1] - surface.gap[jump] > 0.5
