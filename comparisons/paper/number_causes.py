@@ -26,6 +26,9 @@ from comparisons.paper.workshop import Answers, Call
 __all__ = ["CONVERGED", "Repeated", "calls", "cohesive_forces", "frame", "repeated"]
 
 CONVERGED = "converged: mu from 0.01 to 10, tail carried, sigma_0 exact"
+CONVERGED_CHI = "k up to 1, the Gibson limit"
+#: Rounding of chi in percent, and of the ends of its regions, which are roots to 1e-10.
+CHI_ROUNDING, REGION_ROUNDING = 1e-11, 1e-9
 
 _K = 0.4
 #: Degrees of the series in log(mu); the closed forms cost little.
@@ -45,8 +48,8 @@ _PLACES = {
 _CONE = 1.0
 #: Jin et al. (2021) left out the decimals of 1.026, as Sec. 4.2 tells.
 _JIN_STRESS = 1.0
-#: A gradient exponent near 1, where a computation that cannot take the limit k = 1 might stop.
-_SHORT_OF_GIBSON = 0.999
+#: Gradient exponents near 1, where a computation that cannot take the limit k = 1 might stop.
+_SHORT_OF_GIBSON = (0.9995, 0.999)
 _SPARSE = np.array([step * 10.0**power for power in (-2, -1, 0) for step in (1, 2, 5)] + [10.0])
 
 
@@ -90,7 +93,7 @@ def calls() -> Sequence[Call]:
     claims = published("largest_relative_error")
     found = [Call.of(scheme.scheme_force, *place) for place in _at_places()]
     found += [Call.of(scheme.sampled_force, *place) for place in _at_places()]
-    found += [Call.of(insensitive_regions, 1.0), Call.of(insensitive_regions, _SHORT_OF_GIBSON)]
+    found += [Call.of(insensitive_regions, up_to) for up_to in (1.0, *_SHORT_OF_GIBSON)]
     for n in sorted({claim.n for claim in claims}):
         found += [Call.of(scheme.exact_force, n, _K, mu) for mu in tabor_numbers(_EXACT_DEGREE)]
     found += [Call.of(scheme.exact_force, *place) for place in _at_places()]
@@ -132,20 +135,18 @@ class Repeated:
 def repeated(answers: Answers) -> list[Repeated]:
     """Return every repetition, those of one number together and the converged one first."""
     rows = [row for claim in published("largest_relative_error") for row in _errors(claim, answers)]
-    for claim in published("largest_chi"):
-        rows.append(Repeated(claim, CONVERGED_CHI, 100.0 * largest_chi(claim.n)[0], CHI_ROUNDING))
-        short = 100.0 * largest_chi(claim.n, _SHORT_OF_GIBSON)[0]
-        rows.append(Repeated(claim, f"k up to {_SHORT_OF_GIBSON:g}", short, CHI_ROUNDING, stated=False))
-    for claim in published("insensitive_region"):
-        for words, up_to in ((CONVERGED_CHI, 1.0), (f"k up to {_SHORT_OF_GIBSON:g}", _SHORT_OF_GIBSON)):
+    for up_to in (1.0, *_SHORT_OF_GIBSON):
+        stated = up_to == 1.0
+        words = CONVERGED_CHI if stated else f"k up to {up_to:g}"
+        for claim in published("largest_chi"):
+            rows.append(
+                Repeated(claim, words, 100.0 * largest_chi(claim.n, up_to)[0], CHI_ROUNDING, stated=up_to == 1.0)
+            )
+        for claim in published("insensitive_region"):
             end = answers[Call.of(insensitive_regions, up_to)][claim.index]
-            rows.append(Repeated(claim, words, end, REGION_ROUNDING, stated=up_to == 1.0))
+            rows.append(Repeated(claim, words, end, REGION_ROUNDING, stated=stated))
+    rows.sort(key=lambda row: (row.claim.name, row.claim.model, row.claim.n, row.claim.index))
     return rows
-
-
-CONVERGED_CHI = "k up to 1, the Gibson limit"
-#: Rounding of chi in percent, and of the ends of its regions, which are roots to 1e-10.
-CHI_ROUNDING, REGION_ROUNDING = 1e-11, 1e-9
 
 
 def _errors(claim: Published, answers: Answers) -> Iterator[Repeated]:
