@@ -5,26 +5,20 @@ kappa = (model - reference) / reference (Sec. 4.3.2 of the paper), here for any 
 
 from __future__ import annotations
 
-import tomllib
-from dataclasses import dataclass
-from decimal import Decimal
-from importlib.resources import files
-
 import numpy as np
 import pandas as pd
 from rich.table import Table
 from rich.text import Text
 
+from comparisons.claims import published
 from comparisons.quantities import QUANTITIES
 
 __all__ = [
-    "Published",
     "agreement",
     "beside_published",
     "by_case",
     "largest",
     "largest_by_gradient",
-    "published",
     "relative_error",
     "rich_table",
     "statuses",
@@ -126,42 +120,6 @@ def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
     return table.drop(columns=["kappa", "u_kappa"])
 
 
-@dataclass(frozen=True, slots=True)
-class Published:
-    """A number a paper prints: its text, so that the number of digits is known, and what it is of."""
-
-    source: str
-    quantity: str
-    model: str
-    n: float
-    k: float
-    percent: str
-
-    def verdict(self, kappa: float, u_kappa: float) -> str:
-        """Say whether a computed largest abs(kappa) has the published digits, rounded or cut off.
-
-        Nothing tells how a paper shortens its numbers, so 15.95 agrees with both 15.9 and 16.0.
-
-        Examples
-        --------
-        >>> Published("Sec. 4.3.2", "pull_off_force", "md-improved", 5, 0.4, "6.7").verdict(0.0668, 1e-6)
-        'agrees'
-        """
-        step = Decimal(1).scaleb(Decimal(self.percent).as_tuple().exponent)  # type: ignore[arg-type]
-        low, high = (Decimal(100 * (abs(kappa) + sign * u_kappa)) for sign in (-1, 1))
-        published = Decimal(self.percent)
-        # Rounding admits half a step to either side, cutting off a whole step above.
-        if published - step / 2 <= low and high < published + step:
-            return "agrees"
-        return "undecided" if low < published + step and high >= published - step / 2 else "differs"
-
-
-def published() -> list[Published]:
-    """Return the published maxima of abs(kappa)."""
-    text = files("comparisons").joinpath("published.toml").read_text(encoding="utf-8")
-    return [Published(**table) for table in tomllib.loads(text)["largest_relative_error"]]
-
-
 def largest(kappa: pd.DataFrame) -> pd.DataFrame:
     """Return the largest abs(kappa) for each quantity, model, n and k, beside the published number.
 
@@ -171,16 +129,16 @@ def largest(kappa: pd.DataFrame) -> pd.DataFrame:
         Columns quantity, model, n, k, cases, mu (where the largest is), at_end (whether that is an end of
         the range of mu, so that a wider one may give more), kappa, u_kappa, published_percent, verdict.
     """
-    known = {(p.quantity, p.model, p.n, p.k): p for p in published()}
+    known = {("pull_off_force", p.model, p.n, p.k): p for p in published("largest_relative_error")}
     worst = kappa.loc[kappa["kappa"].abs().groupby([kappa[name] for name in _SERIES]).idxmax()]
     table = worst[[*_SERIES, "mu", "kappa", "u_kappa"]].sort_values(_SERIES, ignore_index=True)
     ends = kappa.groupby(_SERIES)["mu"].agg(["size", "min", "max"]).reset_index(drop=True)
     table.insert(4, "cases", ends["size"])
     table.insert(6, "at_end", (table["mu"] == ends["min"]) | (table["mu"] == ends["max"]))
     papers = [known.get(key) for key in table[_SERIES].itertuples(index=False, name=None)]
-    table["published_percent"] = [paper.percent if paper else "" for paper in papers]
+    table["published_percent"] = [paper.text if paper else "" for paper in papers]
     table["verdict"] = [
-        paper.verdict(value, bound) if paper else ""
+        paper.verdict(100.0 * abs(value), 100.0 * bound) if paper else ""
         for paper, value, bound in zip(papers, table["kappa"], table["u_kappa"], strict=True)
     ]
     return table

@@ -27,6 +27,8 @@ ALLOWED = {
     "comparisons.paper.pull_off_surfaces": ("fscm",),
     # Both jumps of one path, at every Tabor number, in half the time of asking for each.
     "comparisons.paper.jumps": ("fscm",),
+    # Takes the published scheme apart: what is left out, the mesh, the steps, one at a time.
+    "comparisons.paper.scheme_ingredients": ("fscm",),
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
     "comparisons.models.gibson_limit": ("fscm",),
@@ -45,6 +47,7 @@ LAYERS = (
     (
         "comparisons.model",
         "comparisons.quantities",
+        "comparisons.claims",
         "comparisons.distance",
         "comparisons.shapes",
         "comparisons.uncertainty",

@@ -62,12 +62,15 @@ def call(args: argparse.Namespace) -> int:
     shown, status = output(), OK
     for plate in chosen:
         try:
-            written = write(plate, workshop.answers, folder)
+            tables = plate.tables(workshop.answers)
+            written = write(plate, tables, folder)
         except ComputationFailed as failure:
             log(f"{plate.stem}: {failure}")
             status = FAILED
             continue
         kinds = Counter(path.suffix[1:] for path in written)
         shown.print(f"{plate.stem}: {plate.title} ({', '.join(f'{count} {kind}' for kind, count in kinds.items())})")
+        if plate.shown:
+            shown.print(plate.shown(tables))
     shown.print(f"written to {folder}")
     return status

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from comparisons.figures.style import COLOURS, MARKERS, styled
 
-__all__ = ["draw"]
+__all__ = ["draw", "panels"]
 
 #: Model -> (line style, face of the markers): dashed and solid as in the paper.
 _MODELS = {"md-original": ("--", "white"), "md-improved": ("-", None)}
@@ -33,22 +33,27 @@ def draw(kappa: pd.DataFrame, k: float = 0.4) -> Figure:
     with styled():
         figure = Figure(figsize=(7.2, 4.2), layout="constrained")
         whole, near = figure.subplots(1, 2)
-        for index, (n, of_shape) in enumerate(chosen.groupby("n")):
-            for model in _MODELS:
-                points = of_shape[of_shape["model"] == model]
-                for axes in (whole, near) if len(points) else ():
-                    _plot(axes, points, index, model, f"n = {n:g}, {model}")
-        for axes in (whole, near):
-            axes.set_xscale("log")
-            axes.set_xlabel(r"Tabor number $\mu$")
-            axes.axhline(0, color="0.4", lw=0.8)
-        whole.set_ylabel(r"relative error of the pull-off force $\kappa$ (%)")
+        panels(whole, near, chosen)
         near.set_title("enlarged")
-        near.set_ylim(-9, 9)
         figure.suptitle(f"Maugis-Dugdale models against the full self-consistent model, k = {k:g}")
         handles, labels = whole.get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=4)
     return figure
+
+
+def panels(whole: Axes, near: Axes, kappa: pd.DataFrame) -> None:
+    """Draw kappa (of one quantity and gradient exponent, sorted by mu) into two axes: all of it, and near zero."""
+    for index, (n, of_shape) in enumerate(kappa.groupby("n")):
+        for model in _MODELS:
+            points = of_shape[of_shape["model"] == model]
+            for axes in (whole, near) if len(points) else ():
+                _plot(axes, points, index, model, f"n = {n:g}, {model}")
+    for axes in (whole, near):
+        axes.set_xscale("log")
+        axes.set_xlabel(r"Tabor number $\mu$")
+        axes.axhline(0, color="0.4", lw=0.8)
+    whole.set_ylabel(r"relative error of the pull-off force $\kappa$ (%)")
+    near.set_ylim(-9, 9)
 
 
 def _plot(axes: Axes, points: pd.DataFrame, index: int, model: str, label: str) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pandas as pd
 from matplotlib.figure import Figure
+from rich.table import Table
 
 from comparisons.figures.style import save
 from comparisons.paper.workshop import Answers, Call
@@ -40,6 +41,10 @@ class Plate:
         Makes its tables of the answers; raises `comparisons.model.ComputationFailed` as they do.
     draw : callable or None
         Draws the tables; None for a plate that is a table only.
+    texts : callable or None
+        Makes texts of the tables, by the suffix of the file each goes to (".md").
+    shown : callable or None
+        Makes the table that the command prints.
     """
 
     name: str
@@ -48,25 +53,29 @@ class Plate:
     calls: Callable[[], Sequence[Call]]
     tables: Callable[[Answers], Tables]
     draw: Callable[[Tables], Figure] | None
+    texts: Callable[[Tables], dict[str, str]] | None = None
+    shown: Callable[[Tables], Table] | None = None
 
 
-def write(plate: Plate, answers: Answers, folder: Path) -> list[Path]:
-    """Write the CSV of every table and the picture; return the paths.
+def write(plate: Plate, tables: Tables, folder: Path) -> list[Path]:
+    """Write the CSV of every table, the picture and the texts; return the paths.
 
     Raises
     ------
-    comparisons.model.ComputationFailed
-        If a call that the plate needs has failed; nothing is written then.
     ValueError
         If a file cannot be written.
     """
-    tables = plate.tables(answers)
     figure = plate.draw(tables) if plate.draw else None
     written = []
     for name, table in tables.items():
         path = folder / (f"{plate.stem}_{name}.csv" if name else f"{plate.stem}.csv")
         with atomic(path) as file:
             file.write(csv_text(table).encode())
+        written.append(path)
+    for suffix, text in (plate.texts(tables) if plate.texts else {}).items():
+        path = folder / f"{plate.stem}{suffix}"
+        with atomic(path) as file:
+            file.write(text.encode())
         written.append(path)
     if figure is not None:
         for path in (folder / f"{plate.stem}{suffix}" for suffix in _FORMATS):

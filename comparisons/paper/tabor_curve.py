@@ -1,0 +1,129 @@
+"""A force as a function of the Tabor number, from its values at Chebyshev points: for maxima over ranges of mu."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+__all__ = ["RANGE", "Extreme", "TaborCurve", "crossing", "largest_error", "tabor_numbers"]
+
+Array = NDArray[np.float64]
+
+#: The paper shows mu from 0.01 to a few; beyond 10 nothing is left of the differences.
+RANGE = (0.01, 10.0)
+# The last coefficients are the error of a series that ends there, within a factor: measured at random mu, never
+# more than 3 times the largest of the last five.
+_LAST, _SAFETY = 5, 3.0
+# Points of the search; the largest is refined by a parabola, whose error is then below 1e-8 of the maximum.
+_SEARCH = 4001
+
+
+def tabor_numbers(degree: int) -> tuple[float, ...]:
+    """Return the Chebyshev points of log(mu) on `RANGE`, `degree` + 1 of them, increasing.
+
+    Examples
+    --------
+    >>> [round(mu, 6) for mu in tabor_numbers(2)]
+    [0.01, 0.316228, 10.0]
+    """
+    low, high = np.log(RANGE)
+    points = low + 0.5 * (chebyshev.chebpts2(degree + 1) + 1.0) * (high - low)
+    return tuple(float(mu) for mu in np.exp(points))
+
+
+@dataclass(frozen=True)
+class TaborCurve:
+    """A positive force over mu, as a series for its logarithm.
+
+    Attributes
+    ----------
+    coefficients : ndarray
+    error : float
+        Bound on the relative error of the force between the points.
+    """
+
+    coefficients: Array
+    error: float
+
+    @classmethod
+    def through(cls, forces: Array) -> TaborCurve:
+        """Return the curve through forces at `tabor_numbers` of the degree that fits their number.
+
+        Examples
+        --------
+        >>> curve = TaborCurve.through(np.array(tabor_numbers(8)) ** 0.5)
+        >>> bool(np.isclose(curve(np.array([0.04]))[0], 0.2, rtol=1e-12))
+        True
+        """
+        degree = len(forces) - 1
+        coefficients = np.asarray(chebyshev.chebfit(chebyshev.chebpts2(degree + 1), np.log(forces), degree), float)
+        return cls(coefficients, _SAFETY * float(np.max(np.abs(coefficients[-_LAST:]))))
+
+    def __call__(self, mu: Array) -> Array:
+        """The force, shape of `mu`."""
+        low, high = np.log(RANGE)
+        return np.asarray(np.exp(chebyshev.chebval(2.0 * (np.log(mu) - low) / (high - low) - 1.0, self.coefficients)))
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """The largest relative error, signed, its bound, and the Tabor number it is at."""
+
+    kappa: float
+    u: float
+    mu: float
+
+
+def largest_error(
+    model: TaborCurve, exact: TaborCurve, low: float = RANGE[0], high: float = RANGE[1], sampled: Array | None = None
+) -> Extreme:
+    """Return the largest abs(kappa) of a model for mu from `low` to `high`, or at sampled Tabor numbers.
+
+    Examples
+    --------
+    >>> mu = np.array(tabor_numbers(20))
+    >>> hump = TaborCurve.through(1.0 + 0.1 / (1.0 + np.log(mu) ** 2 / 10.0))
+    >>> found = largest_error(hump, TaborCurve.through(np.ones(21)))
+    >>> round(found.kappa, 6), round(found.mu, 4)
+    (0.1, 1.0)
+    """
+
+    def kappa(mu: Array) -> Array:
+        return model(mu) / exact(mu) - 1.0
+
+    mu = np.geomspace(low, high, _SEARCH) if sampled is None else sampled
+    values = kappa(mu)
+    at = int(np.argmax(np.abs(values)))
+    value, place = float(values[at]), float(mu[at])
+    if sampled is None and 0 < at < _SEARCH - 1:
+        value, place = _parabola(np.log(mu[at - 1 : at + 2]), values[at - 1 : at + 2])
+        place = float(np.exp(place))
+    return Extreme(value, (1.0 + abs(value)) * (model.error + exact.error), place)
+
+
+def _parabola(x: Array, y: Array) -> tuple[float, float]:
+    """Extreme of the parabola through three points with equal steps, and where it is."""
+    rise, bend = 0.5 * (y[2] - y[0]), y[2] - 2.0 * y[1] + y[0]
+    return float(y[1] - 0.5 * rise**2 / bend), float(x[1] - (x[1] - x[0]) * rise / bend)
+
+
+def crossing(function: Callable[[Array], Array], target: float) -> float | None:
+    """Return the first mu of `RANGE` at which a function passes a value, or None.
+
+    Examples
+    --------
+    >>> round(crossing(lambda mu: mu, 0.5), 6)
+    0.5
+    """
+    mu = np.geomspace(*RANGE, _SEARCH)
+    excess = function(mu) - target
+    turns = np.flatnonzero(np.diff(np.sign(excess)))
+    if not turns.size:
+        return None
+    i = int(turns[0])
+    share = excess[i] / (excess[i] - excess[i + 1])
+    return float(mu[i] * (mu[i + 1] / mu[i]) ** share)

@@ -1,0 +1,37 @@
+"""What the paper prints as numbers: all of it is there, and formulas are judged as formulas."""
+
+from collections import Counter
+
+import pytest
+
+from comparisons.claims import Published, published
+
+
+def test_every_published_number_is_there():
+    assert Counter(number.name for number in published()) == {
+        "theoretical_strength": 1,
+        "bradley_pull_off": 4,
+        "eta": 5,
+        "critical_tabor_number": 4,
+        "jump_in_limit": 1,
+        "jump_out_limit": 1,
+        "jump_in_prefactor": 1,
+        "jump_in_exponent": 1,
+        "largest_chi": 4,
+        "insensitive_region": 4,
+        "largest_relative_error": 8,
+    }
+    assert len(set(published())) == len(published())
+
+
+@pytest.mark.parametrize(
+    ("computed", "u", "verdict"),
+    [(8 / 3, 0.0, "agrees"), (2.6666667, 0.0, "differs"), (2.6666667, 1e-7, "agrees"), (2.67, 1e-7, "differs")],
+)
+def test_a_formula_has_no_last_digit_to_be_generous_with(computed, u, verdict):
+    assert Published("", "", "", "8/3", exact=8 / 3).verdict(computed, u) == verdict
+
+
+@pytest.mark.parametrize(("computed", "verdict"), [(2.8796, "agrees"), (2.8809, "agrees"), (2.8794, "differs")])
+def test_a_last_zero_counts_as_a_digit(computed, verdict):
+    assert Published("", "", "", "2.880").verdict(computed, 1e-12) == verdict
