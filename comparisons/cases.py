@@ -127,8 +127,8 @@ def _known(what: str, names: list[str], register: Mapping[str, object] | Sequenc
             raise ValueError(f"{where}: unknown {what} {name!r}; known are {', '.join(register)}")
 
 
-def _grid(table: dict[str, Any], where: str) -> Grid:
-    expected = {*_LISTS, *_TEXTS}
+def _grid(table: dict[str, Any], where: str, tier: str | None) -> Grid:
+    expected = {*_LISTS, *_TEXTS} - ({"tier"} if tier else set())
     if wrong := sorted((expected - table.keys()) | (table.keys() - expected - {*_OPTIONAL})):
         raise ValueError(
             f"{where}: {', '.join(wrong)} missing or unknown; a grid has {', '.join(sorted(expected))} "
@@ -137,7 +137,7 @@ def _grid(table: dict[str, Any], where: str) -> Grid:
     for key in (*_LISTS, *(key for key in _OPTIONAL if key in table)):
         if not (isinstance(table[key], list) and table[key]):
             raise ValueError(f"{where}: {key} must be a list with at least one entry")
-    _known("tier", [table["tier"]], TIERS, where)
+    _known("tier", [tier or table["tier"]], TIERS, where)
     _known("model", [table["reference"], *table["models"]], MODELS, where)
     _known("quantity", table["quantities"], (*QUANTITIES, *SHAPES), where)
     parameters = product(table["n"], table["k"], table["mu"], table.get("nu", [None]))
@@ -145,7 +145,7 @@ def _grid(table: dict[str, Any], where: str) -> Grid:
     return Grid(
         id=table["id"],
         title=table["title"],
-        tier=table["tier"],
+        tier=tier or table["tier"],
         reference=table["reference"],
         models=tuple(table["models"]),
         quantities=tuple(table["quantities"]),
@@ -154,8 +154,15 @@ def _grid(table: dict[str, Any], where: str) -> Grid:
     )
 
 
-def load_grids(text: str) -> list[Grid]:
+def load_grids(text: str, tier: str | None = None) -> list[Grid]:
     """Read grids from TOML text.
+
+    Parameters
+    ----------
+    text : str
+        ``[[grid]]`` tables and nothing else.
+    tier : str, optional
+        The tier of all of them, which then state none.
 
     Raises
     ------
@@ -163,9 +170,11 @@ def load_grids(text: str) -> list[Grid]:
         If the text is not TOML, or a grid has a missing, unknown or inadmissible entry; the message names it.
     """
     tables = tomllib.loads(text)
-    if tables.keys() != {"grid"}:
+    if tables.keys() != {"grid"} or not isinstance(tables["grid"], list):
         raise ValueError(f"a case file holds [[grid]] tables and nothing else, not {', '.join(sorted(tables))}")
-    read = [_grid(table, f"grid {table.get('id', number)}") for number, table in enumerate(tables["grid"], start=1)]
+    read = [
+        _grid(table, f"grid {table.get('id', number)}", tier) for number, table in enumerate(tables["grid"], start=1)
+    ]
     ids = [grid.id for grid in read]
     if len(set(ids)) < len(ids):
         raise ValueError(f"the id of a grid must be its own; found {', '.join(sorted(ids))}")

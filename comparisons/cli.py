@@ -8,6 +8,7 @@ shells have it, 130 after Ctrl-C and 141 when the reader of a pipe went away).
 from __future__ import annotations
 
 import argparse
+import logging
 import os
 import sys
 from collections.abc import Sequence
@@ -15,14 +16,27 @@ from typing import NoReturn
 
 from threadpoolctl import threadpool_limits
 
-from comparisons.commands import bench, check_model, curve, fem, judge, listing, new_model, report, run, solve
+from comparisons.commands import (
+    bench,
+    check_model,
+    curve,
+    fem,
+    judge,
+    listing,
+    new_model,
+    paper,
+    report,
+    run,
+    solve,
+    sweep,
+)
 from comparisons.commands.options import WRONG_INPUT
 from comparisons.progress import log
 from comparisons.provenance import package_version
 
 __all__ = ["main"]
 
-_COMMANDS = (run, judge, report, solve, curve, fem, listing, check_model, new_model, bench)
+_COMMANDS = (run, judge, report, paper, sweep, solve, curve, fem, listing, check_model, new_model, bench)
 _INTERRUPTED, _BROKEN_PIPE = 130, 141
 
 
@@ -86,6 +100,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         The exit status.
     """
     arguments = sys.argv[1:] if arguments is None else arguments
+    # Embedding a font in a PDF, it remarks on the date in the font's file.
+    logging.getLogger("fontTools").setLevel(logging.ERROR)
     try:
         args = _parser().parse_args(_keep_negative_numbers(arguments))
         # One thread for BLAS: processes share the work, and sums come in the same order every time.

@@ -29,6 +29,7 @@ METRICS = {
     "rel": "(candidate - reference) / |reference|",
     "abs": "candidate - reference",
     "range-relative": "(candidate - reference) / range of the reference over the cases",
+    "en": "(candidate - reference) / sqrt(u_candidate^2 + u_reference^2): is the error inside what both claim?",
     "curve": "largest distance of the two curves, as a fraction of the picture",
 }
 BASES = ("derived", "published", "measured")
@@ -57,7 +58,8 @@ class Gate:
     lower, upper : float
         Signed limits of the error; -inf or inf for none.
     max_reference_uncertainty : float
-        Largest uncertainty of the reference, in the unit of the metric, with which the gate may pass.
+        Largest uncertainty of the reference, in the unit of the metric, with which the gate may pass; for "en"
+        relative to the reference, or uncertainties without bound would pass.
     basis : str
         Where the limits come from: one of "derived", "published", "measured".
     grounds : str

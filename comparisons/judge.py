@@ -246,6 +246,8 @@ def _judge_case(gate: Gate, case: Case, answers: _Answers, scale: float) -> Judg
 def _error(gate: Gate, case: Case, answers: _Answers, scale: float) -> tuple[float, float, float, dict[str, Any]]:
     """Return E, U and the reference's own share u, in the unit of the metric, and the values."""
     true, u_true = answers.number(_key(gate.reference, gate, gate.reference_case(case)))
+    if gate.metric == "en":
+        return _normalised(*answers.number(_key(gate.candidate, gate, case)), true, u_true)
     unit = {"rel": abs(true), "abs": 1.0, "range-relative": scale}[gate.metric]
     if unit == 0.0:
         raise _Unusable(Verdict.ERROR, f"the reference {gate.reference} is or has a range of zero: use metric abs")
@@ -257,6 +259,15 @@ def _error(gate: Gate, case: Case, answers: _Answers, scale: float) -> tuple[flo
         error, u = abs(error) - abs(rival), math.hypot(u, u_rival)
     facts = {"value": value, "u_num": u_num, "reference_value": true, "u_reference": u_true}
     return error, combined(u), u_reference, facts
+
+
+def _normalised(value: float, u_num: float, true: float, u_true: float) -> tuple[float, float, float, dict[str, Any]]:
+    """E_n of ISO 13528: the error in units of what both sides claim, so that it has no uncertainty of its own."""
+    claimed = math.hypot(u_num, u_true)
+    if claimed == 0.0 or true == 0.0:
+        raise _Unusable(Verdict.ERROR, "the reference or both uncertainties are zero: use metric abs")
+    facts = {"value": value, "u_num": u_num, "reference_value": true, "u_reference": u_true}
+    return (value - true) / claimed, 0.0, u_true / abs(true), facts
 
 
 def _metric(

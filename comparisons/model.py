@@ -104,14 +104,15 @@ class Profile:
     ----------
     radius, pressure, gap : ndarray, shape (m,)
         r / (Q z0)^(1/n), p z0 / dgamma (tension negative) and H / z0.
-    u_distance : float
-        As of a `Curve`, for the pressure over the radius out to a gap of 10.
+    u_distance, u_gap_distance : float
+        As of a `Curve`, for the pressure and for the gap over the radius, out to a gap of 10.
     """
 
     radius: NDArray[np.float64]
     pressure: NDArray[np.float64]
     gap: NDArray[np.float64]
     u_distance: float = 0.0
+    u_gap_distance: float = 0.0
 
 
 @runtime_checkable

@@ -6,19 +6,12 @@ which fails costs its own rows and nothing else.
 
 from __future__ import annotations
 
-import os
-import signal
-import threading
 import time
 from collections.abc import Generator, Iterable, Mapping
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from contextlib import closing
 from dataclasses import dataclass, replace
 from itertools import groupby
-from multiprocessing import get_context, parent_process
-from multiprocessing.process import BaseProcess
 from traceback import extract_tb
-
-from threadpoolctl import threadpool_limits
 
 from comparisons.cases import Case, Grid
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
@@ -26,6 +19,7 @@ from comparisons.models import Outside, create, knows_poisson
 from comparisons.quantities import QUANTITIES
 from comparisons.shapes import SHAPES, Points
 from comparisons.store import Row
+from comparisons.workers import each
 
 __all__ = ["Task", "answer", "ask", "asked_at", "compute", "plan"]
 
@@ -173,22 +167,6 @@ def answer(task: Task) -> Row:
         return _row(model, task.quantity, task.case, started, status="failed", reason=str(refusal))
 
 
-def _start_worker() -> None:
-    """Prepare a worker: one thread (the cores are taken by the workers), and no life after the parent's."""
-    threadpool_limits(1)
-    # Ctrl-C reaches the whole process group: end at once, without a traceback; the parent has the last word.
-    if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
-    parent = parent_process()
-    if parent is not None:
-        threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
-
-
-def _end_with(parent: BaseProcess) -> None:
-    parent.join()
-    os._exit(1)
-
-
 def _batches(tasks: list[Task]) -> list[list[Task]]:
     """Questions about one case to one model go to one process, where the solver finds its meshes again."""
     return [list(batch) for _, batch in groupby(tasks, key=lambda task: (task.model, task.case))]
@@ -208,14 +186,6 @@ def compute(tasks: list[Task], jobs: int) -> Generator[Row]:
     RuntimeError
         If a worker process dies (`concurrent.futures.BrokenExecutor`), as one short of memory does.
     """
-    if jobs == 1 or len(tasks) <= 1:
-        yield from map(answer, tasks)
-        return
-    # "spawn": a fresh interpreter, the same on every platform, and safe beside the threads of a progress bar.
-    with ProcessPoolExecutor(min(jobs, len(tasks)), get_context("spawn"), initializer=_start_worker) as pool:
-        pending = [pool.submit(_answer_all, batch) for batch in _batches(tasks)]
-        try:
-            for future in as_completed(pending):
-                yield from future.result()
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
+    with closing(each(_answer_all, _batches(tasks), jobs)) as answers:
+        for rows in answers:
+            yield from rows

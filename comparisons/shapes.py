@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.model import KnowsProfiles, Model, NotApplicable, TracesCurve
+from comparisons.model import KnowsProfiles, Model, NotApplicable, Profile, TracesCurve
 from fscm.problem import Problem
 
-__all__ = ["SHAPES", "Points", "Shape", "pressure_near"]
+__all__ = ["SHAPES", "Points", "Shape", "near"]
 
 Array = NDArray[np.float64]
 
@@ -48,21 +48,30 @@ def _force_curve(model: Model, problem: Problem) -> Points:
     return _points(curve.displacement, curve.load, curve.u_distance)
 
 
-def _pull_off_pressure(model: Model, problem: Problem) -> Points:
+def _pull_off_profile(model: Model, problem: Problem) -> Profile:
     if not isinstance(model, KnowsProfiles):
-        raise NotApplicable("the model has no pressure profile")
-    profile = model.pull_off_profile(problem)
-    return _points(*pressure_near(profile.radius, profile.pressure, profile.gap), profile.u_distance)
+        raise NotApplicable("the model does not know the surface at pull-off")
+    return model.pull_off_profile(problem)
+
+
+def _pull_off_pressure(model: Model, problem: Problem) -> Points:
+    profile = _pull_off_profile(model, problem)
+    return _points(*near(profile.gap, profile.radius, profile.pressure), profile.u_distance)
+
+
+def _pull_off_gap(model: Model, problem: Problem) -> Points:
+    profile = _pull_off_profile(model, problem)
+    return _points(*near(profile.gap, profile.radius, profile.gap), profile.u_gap_distance)
 
 
 #: Profiles are stored out to this gap, in z0, where the traction has fallen to 0.2 % of its largest.
 FARTHEST_GAP = 10.0
 
 
-def pressure_near(radius: Array, pressure: Array, gap: Array) -> tuple[Array, Array]:
-    """Return radius and pressure out to the gap `FARTHEST_GAP`."""
-    near = gap <= FARTHEST_GAP
-    return radius[near], pressure[near]
+def near(gap: Array, x: Array, y: Array) -> tuple[Array, Array]:
+    """Return the points of a profile out to the gap `FARTHEST_GAP`."""
+    inside = gap <= FARTHEST_GAP
+    return x[inside], y[inside]
 
 
 def _points(x: Array, y: Array, u_distance: float) -> Points:
@@ -87,6 +96,14 @@ SHAPES: dict[str, Shape] = {
             "(Q z0)^(1/n); dgamma / z0",
             "pressure over the radius where P is smallest; tension negative",
             _pull_off_pressure,
+        ),
+        Shape(
+            "pull_off_gap",
+            "radius",
+            "gap",
+            "(Q z0)^(1/n); z0",
+            "gap over the radius where P is smallest",
+            _pull_off_gap,
         ),
     )
 }

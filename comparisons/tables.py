@@ -15,8 +15,11 @@ import pandas as pd
 from rich.table import Table
 from rich.text import Text
 
+from comparisons.quantities import QUANTITIES
+
 __all__ = [
     "Published",
+    "agreement",
     "beside_published",
     "by_case",
     "largest",
@@ -28,6 +31,8 @@ __all__ = [
 ]
 
 _CASE = ["quantity", "n", "k", "mu", "nu"]
+#: Kinds of quantities whose error is stated as a fraction of them; displacements and gaps may pass through zero.
+_RELATIVE = ("load", "energy")
 _SERIES = ["quantity", "model", "n", "k"]
 
 
@@ -81,6 +86,44 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
             "u_kappa",
         ]
     ]
+
+
+def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
+    """Return how far a model is from a reference in every case both answer, beside what both claim.
+
+    Parameters
+    ----------
+    rows : DataFrame
+        Stored results (`comparisons.store.COLUMNS`).
+    model, reference : str
+        Names of the two.
+
+    Returns
+    -------
+    DataFrame
+        Columns quantity, model, n, k, mu, nu, value, u_num, reference, reference_value, u_reference,
+        difference, claimed, en.  Difference and claimed = sqrt(u_num^2 + u_reference^2) are relative for forces
+        and energies, else in the unit of the quantity; en = difference / claimed is within -1 and 1 where the
+        claims are right.
+
+    Examples
+    --------
+    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "mu": 1.0, "nu": np.nan, "status": "ok"}
+    >>> rows = pd.DataFrame([case | {"model": "a", "value": 4.004, "u_num": 0.008},
+    ...                      case | {"model": "b", "value": 4.0, "u_num": 0.0}])
+    >>> agreement(rows, "a", "b")[["difference", "claimed", "en"]].round(9).values.tolist()
+    [[0.001, 0.002, 0.5]]
+    """
+    # Poisson's ratio makes no difference to one of the two, which then has none.
+    of_reference = rows[rows["model"] == reference].drop(columns="nu")
+    cases = rows.loc[rows["model"] == model, [*_CASE]].merge(of_reference, on=[name for name in _CASE if name != "nu"])
+    table = relative_error(pd.concat([rows[rows["model"] == model], cases]), reference)
+    relative = table["quantity"].map(lambda name: QUANTITIES[name].kind in _RELATIVE)
+    scale = table["reference_value"].abs().where(relative, 1.0)
+    table["difference"] = (table["value"] - table["reference_value"]) / scale
+    table["claimed"] = np.hypot(table["u_num"], table["u_reference"]) / scale
+    table["en"] = table["difference"] / table["claimed"]
+    return table.drop(columns=["kappa", "u_kappa"])
 
 
 @dataclass(frozen=True, slots=True)

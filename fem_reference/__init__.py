@@ -1,10 +1,9 @@
 """An independent axisymmetric finite-element model of adhesive contact of graded materials.
 
 Physical quantities in any consistent units: a half-space with Young's modulus E(z) and Poisson ratio nu, a
-rigid
-punch f(r), a surface law p(H).  The solid is meshed with high-order elements and closed by the exact
-stiffness
-of the infinite exterior, condensed to its surface, and brought into equilibrium with the surface law.
+rigid punch f(r), a surface law p(H).  The solid is meshed with high-order elements and closed by the exact
+stiffness of the infinite exterior, condensed to its surface, and brought into equilibrium with the surface
+law.
 """
 
 from fem_reference.errors import NoSuchEvent, NotConverged

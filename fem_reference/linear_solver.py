@@ -8,8 +8,7 @@ closes the symmetric cycle.  In between, the vertex functions of the hierarchica
 the bilinear space, carry the smooth error to pyamg's smoothed aggregation.
 
 Measured: 6 to 20 iterations to 1e-10 from 4e3 to 3e5 unknowns, k = 0 ... 0.8, nu = 0 ... 0.45, with and
-without
-an edge a thousandth of its radius wide.
+without an edge a thousandth of its radius wide.
 """
 
 from __future__ import annotations

@@ -7,8 +7,7 @@ that node, and the path goes on in the radius c of the edge.  P and delta are sm
 of c, through both folds.
 
 A solid whose modulus is no power law has a compliance for one size only.  There the mesh stands still, and
-the
-edge moves over it.
+the edge moves over it.
 """
 
 from __future__ import annotations

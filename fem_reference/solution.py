@@ -70,6 +70,9 @@ FAR_HEIGHT = 1e4
 """Height of the punch, in z0, at the end of the mesh: beyond it the traction enters P in closed form and its
 displacement (below 1e-8 z0 even for a cone) is dropped."""
 
+LARGEST_EXTENT = 1e8
+"""Of a mesh, in units of its edge radius.  It costs an element for each factor of two."""
+
 REFINEMENTS = 8
 """Attempts to find the edge width before the search is given up."""
 
@@ -142,6 +145,8 @@ class Solution:
         Wall-clock time of everything.
     observed_order : float
         Order of convergence in the mesh density over the three meshes.
+    densities, values : tuple of float
+        The meshes, coarse to fine, and the quantity on each.
     """
 
     value: float
@@ -151,6 +156,8 @@ class Solution:
     residual: float
     seconds: float
     observed_order: float
+    densities: tuple[float, float, float]
+    values: tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -216,8 +223,8 @@ def solve(
     spec, size = problem.adapted(quantity, level)
     events = [problem.event(quantity, problem.at_density(spec, density), size) for density in level.densities]
     ratio = math.sqrt(level.densities[0] / level.densities[2])
-    values = tuple(event.value for event in events)
-    outcome = three_meshes((values[0], values[1], values[2]), ratio, level.order, problem.scale(quantity, values[2]))
+    coarse, medium, fine = (event.value for event in events)
+    outcome = three_meshes((coarse, medium, fine), ratio, level.order, problem.scale(quantity, fine))
     last = events[-1].point
     return Solution(
         outcome.value,
@@ -227,6 +234,8 @@ def solve(
         last.state.residual,
         time.perf_counter() - begin,
         outcome.observed_order,
+        level.densities,
+        (coarse, medium, fine),
     )
 
 
@@ -335,8 +344,11 @@ class _Problem:
         """Size of a quantity, for the floor of its uncertainty."""
         return max(abs(value), self.law.z0) if "force" not in quantity and "energy" not in quantity else abs(value)
 
-    def spec(self, width: float, size: float, level: Accuracy) -> MeshSpec:
-        """Mesh for an edge of that relative width; lengths are rounded so that similar cases share a mesh."""
+    def spec(self, width: float, size: float, level: Accuracy, smallest: float) -> MeshSpec:
+        """Mesh for an edge of that relative width; lengths are rounded so that similar cases share a mesh.
+
+        Also where its edge has the radius `smallest`, the mesh ends where the punch is `FAR_HEIGHT` high.
+        """
         modulus = self.solid.modulus
         k = modulus.surface_exponent
         width = 2.0 ** math.floor(math.log2(min(max(width, 1e-6), 0.25)))
@@ -344,8 +356,7 @@ class _Problem:
         if math.isfinite(modulus.surface_depth):
             depth = min(depth, 0.2 * modulus.surface_depth / size)
         far = radius_at_height(self.punch, FAR_HEIGHT * self.law.z0)
-        near = radius_at_height(self.punch, EDGE_RISE * self.law.z0)
-        extent = 2.0 ** math.ceil(math.log2(min(max(far / near, 50.0), 1e6)))
+        extent = 2.0 ** math.ceil(math.log2(min(max(far / smallest, 50.0), LARGEST_EXTENT)))
         return MeshSpec(width, depth, extent, level.densities[0], level.order, APEX_WIDTH)
 
     def first_width(self, radius: float) -> float:
@@ -363,13 +374,14 @@ class _Problem:
         scaling = isinstance(self.solid.modulus, PowerLaw)
         size = 2.0 * radius_at_height(self.punch, self.law.z0)
         width = self.first_width(size)
-        spec = self.spec(width, size, level)
+        smallest = radius_at_height(self.punch, EDGE_RISE * self.law.z0)
+        spec = self.spec(width, size, level, smallest)
         for _ in range(REFINEMENTS):
             try:
                 points = walk(self.contact(spec, size))
             except NotConverged:
                 # An under-resolved edge is pinned to the elements, and its path may not be traversable.
-                spec = self.spec(0.25 * spec.edge_width, size, level)
+                spec = self.spec(0.25 * spec.edge_width, size, level, smallest)
                 continue
             if quantity not in ("zero_load_displacement", "hysteresis_energy"):
                 # Beyond the pull-off the edge is sharper relative to its radius, but nobody asked.
@@ -378,13 +390,16 @@ class _Problem:
             else:
                 points_used = points
             widths = [edge_width(point) for point in points_used if point.leg.touching]
-            needed = self.spec(WIDTH_SHARE * min(widths, default=1.0), size, level)
-            if needed.edge_width >= spec.edge_width:
+            if scaling:
+                # Contact may be born on a spot much smaller than the punch, and the mesh shrinks with it.
+                smallest = min(smallest, *(point.state.size for point in points_used))
+            needed = self.spec(WIDTH_SHARE * min(widths, default=1.0), size, level, smallest)
+            if needed.edge_width >= spec.edge_width and needed.extent <= spec.extent:
                 if scaling:
                     return spec, size
                 point = locate(points, quantity)[1]
                 if not point.leg.touching or abs(point.contact_radius / size - 1.0) <= 0.5 * spec.edge_width:
                     return spec, size
                 size = point.contact_radius
-            spec = self.spec(min(needed.edge_width, spec.edge_width), size, level)
+            spec = self.spec(min(needed.edge_width, spec.edge_width), size, level, smallest)
         raise NotConverged("the width of the contact edge was not found; the edge is finer than the mesh can follow")

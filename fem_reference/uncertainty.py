@@ -1,8 +1,7 @@
 """Numerical uncertainty of one number from three meshes: observed order, Richardson estimate, safety factor.
 
 Every element of a mesh is `density` times a length that belongs to the problem, so three densities in
-constant
-ratio are a family of similar meshes and the error behaves like density^p.
+constant ratio are a family of similar meshes and the error behaves like density^p.
 """
 
 from __future__ import annotations
@@ -14,8 +13,7 @@ __all__ = ["Convergence", "three_meshes"]
 
 SAFETY = 3.0
 """Factor on the Richardson estimate: high orders are seldom in their asymptotic range (measured: the true
-error
-stays below a third of the bound)."""
+error stays below a third of the bound)."""
 
 FLOOR = 2e-7
 """Relative error that refinement in the family does not show: first layer, exterior, tail, quadrature (measured

@@ -18,6 +18,8 @@ ALLOWED = {
     "comparisons.foreign": ("fscm.physical", "fscm.problem", "fscm.profile", "fscm.surface_law"),
     # Shows what is inside the finite elements: fields, ladder, solver table.
     "comparisons.commands.fem": ("fem_reference", "fscm.problem", "fscm.profile", "fscm.surface_law"),
+    # Shows the functions inside the FSCM.
+    "comparisons.paper.kernel_functions": ("fscm",),
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
     "comparisons.models.stieltjes_model": ("fscm",),
@@ -40,6 +42,7 @@ LAYERS = (
         "comparisons.uncertainty",
         "comparisons.verdict",
         "comparisons.store",
+        "comparisons.workers",
         "comparisons.record",
         "comparisons.progress",
         "comparisons.provenance",
@@ -56,7 +59,7 @@ LAYERS = (
         "comparisons.publish",
         "comparisons.bench",
     ),
-    ("comparisons.report",),
+    ("comparisons.paper", "comparisons.report"),
     ("comparisons.commands",),
     ("comparisons.cli",),
 )

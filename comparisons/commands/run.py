@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 import time
 from collections import Counter
 from collections.abc import Mapping
-from concurrent.futures import BrokenExecutor
-from contextlib import closing
 from datetime import UTC, datetime
 from hashlib import sha256
 from pathlib import Path
@@ -18,29 +15,31 @@ import pandas as pd
 from rich.table import Table
 
 from comparisons.cases import TIERS, VERIFICATION, Grid, asked_of, cases_text, grids
+from comparisons.commands.computing import add_jobs, checked_jobs, complete, folder_for
 from comparisons.commands.judge import STATUS, judge_and_write, print_verdicts
 from comparisons.commands.options import FAILED, output
+from comparisons.figures import agreement as agreement_figure
 from comparisons.figures import kappa as kappa_figure
 from comparisons.figures import references
 from comparisons.figures.style import save
 from comparisons.gates import gates_text, load_gates, of_tier
+from comparisons.model import ComputationFailed
 from comparisons.models import Outside, create, identify
-from comparisons.progress import counting, log
-from comparisons.provenance import code_digest, environment
+from comparisons.progress import log
+from comparisons.provenance import environment
 from comparisons.record import write_record
-from comparisons.run import Task, compute, plan
+from comparisons.run import plan
 from comparisons.shapes import SHAPES
 from comparisons.store import (
-    Journal,
     Row,
     curve_frame,
     frame,
-    prepare_folder,
     write_curves,
     write_results,
     write_table,
 )
 from comparisons.tables import (
+    agreement,
     beside_published,
     by_case,
     largest,
@@ -52,6 +51,9 @@ from comparisons.tables import (
 from comparisons.verdict import roll_up
 
 __all__ = ["add", "call"]
+
+#: The two truths, which are compared whenever a run has both.
+REFERENCE, SECOND_REFERENCE = "fscm", "fem"
 
 
 def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -66,7 +68,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="compare these models instead of those each grid names",
     )
     parser.add_argument("--gates", metavar="FILE", type=Path, help="judge by these gates instead of the standing ones")
-    parser.add_argument("--jobs", metavar="N", type=int, default=_cores(), help="processes (default: one a core)")
+    add_jobs(parser)
     parser.add_argument(
         "--out",
         metavar="DIR",
@@ -76,14 +78,9 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.set_defaults(call=call)
 
 
-def _cores() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 def call(args: argparse.Namespace) -> int:
     """Compute what is missing, write and print; return the exit status."""
-    if args.jobs < 1:
-        raise ValueError(f"--jobs {args.jobs} is outside 1, 2, ...: the computations need at least one process")
+    jobs = checked_jobs(args.jobs)
     # Before anything is computed or written, every model that was asked for has been opened.
     names, outside = identify(args.model or [])
     given = None if args.model is None else names
@@ -91,19 +88,14 @@ def call(args: argparse.Namespace) -> int:
     rules = gates_text(args.gates)
     gates = of_tier(load_gates(rules, names), args.tier)
     started = datetime.now(UTC)
-    folder = prepare_folder(args.out or Path("results", "runs", started.astimezone().strftime("%Y-%m-%dT%H-%M-%S")))
+    folder = folder_for(args.out, started)
     chosen = asked_of(grids(args.tier), given)
     tasks = plan(chosen, given, outside)
-    journal = Journal(folder / "journal.jsonl", code_digest())
-    resumed = len(journal.rows)
     clock = time.perf_counter()
     try:
-        rows = _complete(tasks, journal, args.jobs)
-    except KeyboardInterrupt:
-        log(_safe(journal, folder))
-        raise
-    except BrokenExecutor:
-        log(f"a worker process died (out of memory?); {_safe(journal, folder)}")
+        rows, resumed = complete(tasks, folder, jobs)
+    except ComputationFailed as failure:
+        log(str(failure))
         return FAILED
     elapsed = time.perf_counter() - clock
     table = frame(row for row in rows if row.quantity not in SHAPES)
@@ -121,7 +113,7 @@ def call(args: argparse.Namespace) -> int:
                 "model": given,
                 "outside": specs,
                 "gates": None if args.gates is None else str(args.gates),
-                "jobs": args.jobs,
+                "jobs": jobs,
                 "out": str(folder),
             },
             "command": [Path(sys.argv[0]).name, *sys.argv[1:]],
@@ -166,34 +158,6 @@ def _described(names: set[str], outside: Mapping[str, Outside]) -> dict[str, dic
     }
 
 
-def _safe(journal: Journal, folder: Path) -> str:
-    return f"{len(journal.rows)} finished computations are safe; go on with --out {folder}"
-
-
-def _complete(tasks: list[Task], journal: Journal, jobs: int) -> list[Row]:
-    """Return the rows of all tasks, computing those the journal does not have.
-
-    A stored row of another version of a model from outside does not count.
-    """
-    versions = {task.model: task.outside.version for task in tasks if task.outside}
-
-    def current(row: Row) -> bool:
-        return versions.get(row.model, row.model_version) == row.model_version
-
-    stored = {row.key for row in journal.rows if current(row)}
-    missing = [task for task in tasks if task.key not in stored]
-    log(
-        f"{len(missing)} computations on {jobs} processes"
-        + (f", {len(tasks) - len(missing)} are stored" if stored else "")
-    )
-    with counting("computing", len(missing)) as count, closing(compute(missing, jobs)) as answers:
-        for row in answers:
-            journal.add(row)
-            count()
-    wanted = {task.key for task in tasks}
-    return [row for row in journal.rows if row.key in wanted and current(row)]
-
-
 def _seconds(rows: list[Row]) -> dict[str, float]:
     """Return the computing time summed over the processes, by model."""
     seconds: Counter[str] = Counter()
@@ -208,6 +172,10 @@ def _write(folder: Path, table: pd.DataFrame, curves: pd.DataFrame, kappa: pd.Da
     write_table(kappa, folder / "kappa")
     write_table(maxima, folder / "largest_kappa")
     figures = {"fig16b_kappa": kappa_figure.draw(kappa)}
+    apart = agreement(table, SECOND_REFERENCE, REFERENCE)
+    if not apart.empty:
+        write_table(apart, folder / "agreement")
+        figures["agreement"] = agreement_figure.draw(apart)
     if not curves.empty:
         figures["references"] = references.draw(curves)
     for name, figure in figures.items():

@@ -10,11 +10,12 @@ from matplotlib.figure import Figure
 
 from comparisons.store import atomic
 
-__all__ = ["COLOURS", "FORMATS", "MARKERS", "picture_path", "save", "styled"]
+__all__ = ["COLOURS", "FORMATS", "LINES", "MARKERS", "picture_path", "save", "styled"]
 
 #: Okabe and Ito's colours that stay apart for every kind of colour vision and, in this order, in grey.
 COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
+LINES: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 1)), (0, (3, 1)))
 
 #: File formats of a figure, by suffix.
 FORMATS = (".png", ".pdf", ".svg")
@@ -28,7 +29,7 @@ _SETTINGS: Any = {
     "legend.frameon": False,
     "legend.fontsize": 8,
     "figure.dpi": 100,
-    "savefig.dpi": 200,
+    "savefig.dpi": 150,
     "pdf.fonttype": 42,
     "svg.hashsalt": "fscm-bench",
 }

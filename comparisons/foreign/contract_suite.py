@@ -1,8 +1,8 @@
 """What `check-model` asks of a model from outside, and how it says what is wrong.
 
 A check that fails tells an author what to look for; it is no verdict on how good the model is.  The only
-values that
-are compared are wide open: they find a missing pi, a sign, a swapped pair of arguments, a wrong unit.
+values that are compared are wide open: they find a missing pi, a sign, a swapped pair of arguments, a wrong
+unit.
 """
 
 from __future__ import annotations
@@ -87,9 +87,8 @@ CLAIMS: dict[str, tuple[str, tuple[float, ...], Callable[[Problem], float]]] = {
     "jkr": ("JKR, mu -> infinity", (2.0, 5.0, 10.0, 30.0, 100.0), _jkr),
 }
 _LIMIT_CASES = ((2.0, 0.0), (2.0, 0.4), (1.0, 0.2), (5.0, 0.6))
-#: The approach to a limit is a power of mu that differs between models; at the ends of the lists above
-#: those known
-#: here (double-Hertz, Maugis-Dugdale) are within 1 %.
+#: The approach to a limit is a power of mu that differs between models; at the ends of the lists above those
+#: known here (double-Hertz, Maugis-Dugdale) are within 1 %.
 _LIMIT_TOLERANCE = 0.05
 
 

@@ -19,9 +19,8 @@ For codes that cannot be shipped and for measurements.  `model.toml`:
     k = [0]
     mu = [0.1, 1, 2]
 
-The CSV has the columns quantity, n, k, mu, value, u_num and one row for each case that is covered, no
-other.  `u_num` bounds
-the numerical error of the value (for a measurement, its uncertainty).
+The CSV has the columns quantity, n, k, mu, value, u_num and one row for each case that is covered, no other.
+`u_num` bounds the numerical error of the value (for a measurement, its uncertainty).
 """
 
 from __future__ import annotations

@@ -7,6 +7,8 @@ equations are right as well.  No scale is 1 and no two are equal, or a wrong pow
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import lru_cache
 from typing import ClassVar
 
 import fem_reference
@@ -14,7 +16,8 @@ from comparisons.distance import spread
 from comparisons.model import Curve, NotApplicable, Profile, Result
 from comparisons.models.solver import result_of, translated
 from comparisons.quantities import QUANTITIES
-from comparisons.shapes import pressure_near
+from comparisons.shapes import near
+from comparisons.uncertainty import declared_order, three_grids
 from fem_reference import export
 from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
@@ -53,7 +56,7 @@ class FiniteElements:
         physical, solid, punch, law = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             solution = fem_reference.solve(solid, punch, law, quantity)
-        return result_of(solution, unit=physical.scales[QUANTITIES[quantity].kind])
+        return result_of(_audited(solution, quantity), unit=physical.scales[QUANTITIES[quantity].kind])
 
     def curve(self, problem: Problem) -> Curve:
         """Return the equilibrium path from far away into compression."""
@@ -97,6 +100,9 @@ class FiniteElements:
 
     def pull_off_profile(self, problem: Problem) -> Profile:
         """Return the surface where P is smallest, and as its uncertainty the distance of two meshes."""
+        return _surface_at_pull_off(self._poisson_ratio, problem)
+
+    def _surface_at_pull_off(self, problem: Problem) -> Profile:
         physical, solid, punch, law = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             found = [fem_reference.profile(solid, punch, law, accuracy=level) for level in _LEVELS]
@@ -108,7 +114,12 @@ class FiniteElements:
             )
             for profile in found
         )
-        return Profile(*fine, spread(*pressure_near(radius, pressure, gap), *pressure_near(*fine)))
+        fine_radius, fine_pressure, fine_gap = fine
+        return Profile(
+            *fine,
+            spread(*near(gap, radius, pressure), *near(fine_gap, fine_radius, fine_pressure)),
+            spread(*near(gap, radius, gap), *near(fine_gap, fine_radius, fine_gap)),
+        )
 
     def _physical(
         self, problem: Problem
@@ -124,3 +135,15 @@ class FiniteElements:
             fem_reference.PowerPunch(n=physical.n, Q=physical.Q),
             fem_reference.LennardJones(work_of_adhesion=physical.work_of_adhesion, z0=physical.z0),
         )
+
+
+def _audited(solution: fem_reference.Solution, quantity: str) -> fem_reference.Solution:
+    """Take the solver's own bound only where the procedure every model is held to gives no larger one."""
+    family = three_grids(solution.densities, solution.values, declared_order(FiniteElements.name, quantity))
+    return replace(solution, u_num=max(solution.u_num, family.u_num))
+
+
+@lru_cache(maxsize=1)
+def _surface_at_pull_off(poisson_ratio: float, problem: Problem) -> Profile:
+    """One surface answers for its pressure and its gap, which are asked one after the other."""
+    return FiniteElements(poisson_ratio)._surface_at_pull_off(problem)

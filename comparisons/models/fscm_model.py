@@ -10,7 +10,7 @@ import fscm
 from comparisons.distance import spread
 from comparisons.model import Curve, Profile, Result
 from comparisons.models.solver import result_of, translated
-from comparisons.shapes import pressure_near
+from comparisons.shapes import near
 from fscm.path import profiles_of
 from fscm.problem import Problem
 
@@ -58,8 +58,6 @@ class FullSelfConsistent:
             value.radius,
             value.pressure,
             value.gap,
-            spread(
-                *pressure_near(check.radius, check.pressure, check.gap),
-                *pressure_near(value.radius, value.pressure, value.gap),
-            ),
+            spread(*near(check.gap, check.radius, check.pressure), *near(value.gap, value.radius, value.pressure)),
+            spread(*near(check.gap, check.radius, check.gap), *near(value.gap, value.radius, value.gap)),
         )

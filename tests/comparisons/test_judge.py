@@ -70,6 +70,34 @@ def verdict(rows, gate=GATE, grids=GRIDS, curves=None, models=None):
     return roll_up(judged["verdict"]), judged
 
 
+EN = GATE.replace('"rel"', '"en"').replace("lower = -0.1", "lower = -1").replace("upper = 0.1", "upper = 1")
+
+
+@pytest.mark.parametrize(
+    ("apart", "expected"), [(1.4e-6, "PASS"), (-1.4e-6, "PASS"), (1.5e-6, "FAIL"), (-1.5e-6, "FAIL")]
+)
+def test_en_asks_whether_the_error_is_inside_both_claims(apart, expected):
+    # Both claim 1e-6, together 1.414e-6.
+    found, judged = verdict(results(fscm=2.0, jkr=2.0 + apart), EN)
+    assert found == expected
+    assert judged["error"].tolist() == pytest.approx([apart / 1.41421356e-6] * 4, rel=1e-6)
+
+
+def test_en_does_not_pass_because_the_reference_claims_nothing():
+    rows = results(fscm=2.0, jkr=2.1)
+    rows.loc[rows["model"] == "fscm", "u_num"] = 1.0
+    found, judged = verdict(rows, EN)
+    assert found == "INCONCLUSIVE"
+    assert "tolerates" in judged["reason"][0]
+
+
+@pytest.mark.parametrize(("reference", "u"), [(0.0, 1e-6), (2.0, 0.0)])
+def test_en_without_a_scale_is_an_error(reference, u):
+    rows = results(fscm=reference, jkr=2.0)
+    rows["u_num"] = u
+    assert verdict(rows, EN)[0] == "ERROR"
+
+
 def test_right_within_limits_passes_and_counts_its_cases():
     found, judged = verdict(results(fscm=2.0, jkr=2.1))
     assert found == "PASS"

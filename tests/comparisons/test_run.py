@@ -6,9 +6,9 @@ from concurrent.futures.process import BrokenProcessPool
 import pandas as pd
 import pytest
 
-import comparisons.commands.run as command
 from comparisons.cases import Case, load_grids
 from comparisons.cli import main
+from comparisons.commands import computing
 from comparisons.outputs.verdicts import FILES as VERDICTS
 from comparisons.run import Task, answer, compute, plan
 from comparisons.store import Journal
@@ -104,7 +104,7 @@ def interrupt_after(count, error=KeyboardInterrupt):
 def test_an_interrupted_run_goes_on_where_it_was(small_grid, tmp_path, monkeypatch, capsys):
     run(tmp_path / "whole")
     with monkeypatch.context() as patch:
-        patch.setattr(command, "compute", interrupt_after(5))
+        patch.setattr(computing, "compute", interrupt_after(5))
         assert run(tmp_path / "cut") == 130
     assert "5 finished computations are safe" in capsys.readouterr().err
     assert run(tmp_path / "cut") == 0
@@ -114,7 +114,7 @@ def test_an_interrupted_run_goes_on_where_it_was(small_grid, tmp_path, monkeypat
 
 
 def test_a_worker_that_dies_loses_nothing_that_was_finished(small_grid, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(command, "compute", interrupt_after(3, BrokenProcessPool))
+    monkeypatch.setattr(computing, "compute", interrupt_after(3, BrokenProcessPool))
     assert run(tmp_path) == 4
     assert "3 finished computations are safe" in capsys.readouterr().err
 

@@ -115,6 +115,20 @@ def test_events_lie_on_the_traced_path():
     assert np.all(np.diff(path.contact_radius[path.contact_radius > 0]) > 0)
 
 
+def test_contact_born_on_a_small_spot():
+    """Under a flat punch on a nearly linear gradient contact is born at 1e-3 of the radius it then has.
+
+    The attraction of the rest of the punch holds the displacement back; the turning point is that of the
+    integral equation.
+    """
+    path = trace(_solid(0.6, 3.0, 0.3, n=5.0), PowerPunch(5.0, 1.0), LennardJones(1.0, 1.0), "quick")
+    young = (path.contact_radius > 0.007) & (path.contact_radius < 0.015)
+    turn = int(np.flatnonzero(young)[path.displacement[young].argmax()])
+    # The parabola through the steps beside the turning point, 10 % of the radius apart.
+    a, b, c = np.polyfit(np.log(path.contact_radius[turn - 1 : turn + 2]), path.displacement[turn - 1 : turn + 2], 2)
+    assert c - b**2 / (4 * a) == pytest.approx(-3.53337, abs=2e-4)
+
+
 def test_profile_is_consistent():
     solid, punch, law = _solid(0.0, 1.0, 0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
     r = np.linspace(0.0, 6.0, 50)

@@ -1,14 +1,12 @@
 """The double-Hertz model of a paraboloid on a power-law graded half-space.
 
 Greenwood and Johnson (1998) let the adhesive traction be the difference of two Hertz distributions, of radii
-a (contact) and c > a (cohesive zone), K times as strong as Hertz's at a.  Jin, Guo and Gao (2013) took
-that over to
-graded solids.  The equations below were derived anew for this example, as follows.
+a (contact) and c > a (cohesive zone), K times as strong as Hertz's at a.  Jin, Guo and Gao (2013) took that
+over to graded solids.  The equations below were derived anew for this example, as follows.
 
 Variables as in fscm-bench with mu = 1 ("tilde": delta = mu delta~, P = P~ for n = 2).  A Hertz contact of
-radius a is
-a stack of flat punches of radius x < a with the displacements D'(x) dx, D = x^2 / (1 + k); each carries the
-pressure (S/2) (x^2 - r^2)^((k-1)/2), S = sin(pi s) / (pi s), s = (1 - k)/2.  Hence
+radius a is a stack of flat punches of radius x < a with the displacements D'(x) dx, D = x^2 / (1 + k); each
+carries the pressure (S/2) (x^2 - r^2)^((k-1)/2), S = sin(pi s) / (pi s), s = (1 - k)/2.  Hence
 
     p_a(r) = S (a^2 - r^2)^((1+k)/2) / (1 + k)^2,            load h a^(3+k),   h = 2 S / ((1+k)^2 (3+k)).
 
@@ -16,9 +14,8 @@ The pressure p_a - K (p_c - p_a) gives inside r < a a uniform shift, and outside
 
     delta = D(a) - K (D(c) - D(a)),    P = h [a^(3+k) - K (c^(3+k) - a^(3+k))],    H(r) = (1 + K) H_a(r).
 
-A flat punch at the edge works on the gap of Hertz as integral_a^c (c^2-r^2)^(-s) dH_a = c^(k-1) (D(c) -
-D(a)) (an
-Abel inversion), so the work of adhesion 1 = integral of the traction over the gap is
+A flat punch at the edge works on the gap of Hertz as integral_a^c (c^2-r^2)^(-s) dH_a = c^(k-1) (D(c) - D(a))
+(an Abel inversion), so the work of adhesion 1 = integral of the traction over the gap is
 
     1 = K (1+K) W,    W = (S/2) integral_a^c D'(x) x^(k-1) (D(x) - D(a)) dx
                         = S (1+k)^-2 [ (c^(3+k) - a^(3+k)) / (3+k) - a^2 (c^(1+k) - a^(1+k)) / (1+k) ],
@@ -38,8 +35,7 @@ from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 STRENGTH = 16.0 * math.sqrt(3.0) / 27.0
 
 #: The states are followed by t = -log(1 - a/c) from first contact, t = 0.  The width of the cohesive zone
-#: falls as
-#: mu^(-2/(1-k)): 1e-40 of the radius at k = 0.9, mu = 100, so nothing below may subtract a from c.
+#: falls as mu^(-2/(1-k)): 1e-40 of the radius at k = 0.9, mu = 100, so nothing below may subtract a from c.
 T_MAX, STEPS = 150.0, 301
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
 

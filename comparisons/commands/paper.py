@@ -1,0 +1,73 @@
+"""``fscm-bench paper``: compute every figure of the paper again, its data beside it."""
+
+from __future__ import annotations
+
+import argparse
+from collections import Counter
+from concurrent.futures import BrokenExecutor
+from contextlib import closing
+from pathlib import Path
+
+from comparisons.commands.options import FAILED, OK, output
+from comparisons.model import ComputationFailed
+from comparisons.paper.catalogue import NAMES, plates
+from comparisons.paper.plate import write
+from comparisons.paper.workshop import Workshop
+from comparisons.progress import counting, log
+from comparisons.provenance import code_digest
+from comparisons.store import prepare_folder
+from comparisons.workers import usable_cores
+
+__all__ = ["add", "call"]
+
+
+def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the arguments."""
+    parser = parsers.add_parser(
+        "paper", help="the figures and numbers of the paper, computed again", description=__doc__
+    )
+    parser.add_argument(
+        "--figure", metavar="N", nargs="+", action="extend", help=f"only these of {', '.join(NAMES)} (default: all)"
+    )
+    parser.add_argument("--jobs", metavar="N", type=int, default=usable_cores(), help="processes (default: one a core)")
+    parser.add_argument(
+        "--out",
+        metavar="DIR",
+        type=Path,
+        default=Path("results", "runs", "paper"),
+        help="folder for the files (default: %(default)s); resumed if it has some answers",
+    )
+    parser.set_defaults(call=call)
+
+
+def call(args: argparse.Namespace) -> int:
+    """Compute what is missing, write the plates, name their files; return the exit status."""
+    if args.jobs < 1:
+        raise ValueError(f"--jobs {args.jobs} is outside 1, 2, ...: the computations need at least one process")
+    chosen = plates(args.figure)
+    folder = prepare_folder(args.out)
+    workshop = Workshop(folder / "calls.jsonl", code_digest())
+    calls = [call for plate in chosen for call in plate.calls()]
+    waiting = workshop.missing(calls)
+    try:
+        with counting("paper", len(waiting)) as advance, closing(workshop.work(waiting, args.jobs)) as done:
+            for _ in done:
+                advance()
+    except KeyboardInterrupt:
+        log(f"what is finished is kept in {folder}; the same command goes on")
+        raise
+    except BrokenExecutor:
+        log(f"a worker process died (out of memory?); what is finished is kept in {folder}; the same command goes on")
+        return FAILED
+    shown, status = output(), OK
+    for plate in chosen:
+        try:
+            written = write(plate, workshop.answers, folder)
+        except ComputationFailed as failure:
+            log(f"{plate.stem}: {failure}")
+            status = FAILED
+            continue
+        kinds = Counter(path.suffix[1:] for path in written)
+        shown.print(f"{plate.stem}: {plate.title} ({', '.join(f'{count} {kind}' for kind, count in kinds.items())})")
+    shown.print(f"written to {folder}")
+    return status

@@ -1,0 +1,165 @@
+"""Calls of functions by name, made once, on every core, their answers kept on disk.
+
+An interrupted run loses no finished call: the journal gains a line as each ends, and the same folder goes on.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Generator, Iterable
+from contextlib import closing
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from comparisons.model import ComputationFailed, NotApplicable
+from comparisons.workers import each
+
+__all__ = ["Answers", "Call", "Workshop"]
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """A function of a module, by name, and the numbers and words it is called with.
+
+    The function must depend on its arguments alone and return what JSON can hold: finite numbers, texts, None,
+    lists and dictionaries of them.  It may raise as a model does.
+    """
+
+    function: str
+    arguments: tuple[float | str, ...]
+
+    @classmethod
+    def of(cls, function: Callable[..., Any], *arguments: float | str) -> Call:
+        """Return the call `function(*arguments)`, not made yet.
+
+        Examples
+        --------
+        >>> from math import hypot
+        >>> Call.of(hypot, 3, 4)
+        Call(function='math:hypot', arguments=(3, 4))
+        """
+        return cls(f"{function.__module__}:{function.__qualname__}", arguments)
+
+    @property
+    def words(self) -> str:
+        """The call as one would write it."""
+        return f"{self.function.partition(':')[2]}({', '.join(map(str, self.arguments))})"
+
+
+@dataclass(frozen=True, slots=True)
+class _Outcome:
+    call: Call
+    answer: Any = None
+    failure: str | None = None
+
+
+def _make(call: Call) -> _Outcome:
+    module, _, name = call.function.partition(":")
+    try:
+        return _Outcome(call, answer=getattr(import_module(module), name)(*call.arguments))
+    except (ComputationFailed, NotApplicable) as error:
+        return _Outcome(call, failure=str(error))
+
+
+class Answers:
+    """What the calls returned, by call."""
+
+    def __init__(self) -> None:
+        self._outcomes: dict[Call, _Outcome] = {}
+
+    def add(self, outcome: _Outcome) -> None:
+        """Keep one."""
+        self._outcomes[outcome.call] = outcome
+
+    def __contains__(self, call: Call) -> bool:
+        return call in self._outcomes
+
+    def __getitem__(self, call: Call) -> Any:
+        """Return the answer to a call.
+
+        Raises
+        ------
+        ComputationFailed
+            If the function did not return one; the message is its reason.
+        """
+        outcome = self._outcomes[call]
+        if outcome.failure is not None:
+            raise ComputationFailed(f"{call.words}: {outcome.failure}")
+        return outcome.answer
+
+
+class Workshop:
+    """Makes calls and keeps their answers in a journal.
+
+    Parameters
+    ----------
+    path : Path
+        The journal; made when it does not exist.
+    fingerprint : str
+        Identifies the code.  A journal of other code is refused: its answers may differ.
+
+    Raises
+    ------
+    ValueError
+        If the file is not a journal, or one of other code.
+    """
+
+    def __init__(self, path: Path, fingerprint: str) -> None:
+        self._path = path
+        self.answers = Answers()
+        if path.exists() and path.stat().st_size:
+            self._read(fingerprint)
+        else:
+            self._append({"fingerprint": fingerprint})
+
+    def _read(self, fingerprint: str) -> None:
+        # A line without its end was being written when the run was stopped: that call is made again.
+        whole, end, torn = self._path.read_text(encoding="utf-8").rpartition("\n")
+        try:
+            header, *lines = [json.loads(line) for line in whole.splitlines()] or [{}]
+            found = header.get("fingerprint")
+            outcomes = [
+                _Outcome(Call(line["function"], tuple(line["arguments"])), line["answer"], line["failure"])
+                for line in lines
+            ]
+        except (ValueError, TypeError, KeyError, AttributeError):
+            raise ValueError(f"{self._path} is not a journal of calls; choose another folder with --out") from None
+        if found != fingerprint:
+            raise ValueError(f"{self._path.parent} holds answers of another version of the code; choose another --out")
+        if torn:
+            os.truncate(self._path, len(f"{whole}{end}".encode()))
+        for outcome in outcomes:
+            self.answers.add(outcome)
+
+    def _append(self, content: dict[str, Any]) -> None:
+        with self._path.open("a", encoding="utf-8") as file:
+            file.write(json.dumps(content, allow_nan=False) + "\n")
+
+    def missing(self, calls: Iterable[Call]) -> list[Call]:
+        """Return those calls that have no answer yet, each once, in the order given."""
+        return [call for call in dict.fromkeys(calls) if call not in self.answers]
+
+    def work(self, calls: Iterable[Call], jobs: int) -> Generator[Call]:
+        """Make the calls that have no answer yet, on `jobs` processes; yield each as it is answered.
+
+        Raises
+        ------
+        ValueError
+            If an answer cannot be kept, as one that holds a NaN.
+        """
+        with closing(each(_make, self.missing(calls), jobs)) as outcomes:
+            for outcome in outcomes:
+                self._append(
+                    {
+                        "function": outcome.call.function,
+                        "arguments": outcome.call.arguments,
+                        "answer": outcome.answer,
+                        "failure": outcome.failure,
+                    }
+                )
+                # Answers fresh and read again must be the same, so that a resumed run writes the same files.
+                self.answers.add(outcome)
+                yield outcome.call

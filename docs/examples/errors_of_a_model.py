@@ -1,0 +1,20 @@
+"""How wrong is JKR, and how sure are we?  The relative error of a model against the Tabor number, with its band.
+
+python docs/examples/errors_of_a_model.py
+"""
+
+import pandas as pd
+
+from comparisons.cases import Case
+from comparisons.models import create
+from comparisons.run import ask
+from comparisons.store import frame
+from comparisons.tables import relative_error
+
+models = [create("fscm"), create("jkr"), create("md-improved")]
+cases = [Case(n=2, k=0.4, mu=mu) for mu in (0.1, 0.3, 1.0, 3.0)]
+rows = frame(ask(model, "pull_off_force", case) for case in cases for model in models)
+
+kappa = relative_error(rows, reference="fscm")
+with pd.option_context("display.width", 120):
+    print(kappa[["model", "mu", "value", "reference_value", "u_reference", "kappa", "u_kappa"]].to_string(index=False))

@@ -1,0 +1,46 @@
+"""The finite elements as a model: surfaces at pull-off beside the integral equation, and the audit of their bound."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import fem_reference
+from comparisons.distance import curve_distance
+from comparisons.models.fem_model import FiniteElements, _audited
+from comparisons.models.fscm_model import FullSelfConsistent
+from comparisons.shapes import SHAPES, near
+from fscm.problem import Problem
+
+PROBLEM = Problem(n=2, k=0.4, mu=0.5)
+
+#: Largest distance as a fraction of the picture; measured 2e-7 (gap) and 2e-5 (pressure, whose reference is a spline
+#: between its nodes).
+GAP, PRESSURE = 2e-6, 1e-4
+
+
+def test_gap_and_pressure_at_pull_off_are_those_of_the_integral_equation():
+    fem, fscm = (model.pull_off_profile(PROBLEM) for model in (FiniteElements(), FullSelfConsistent()))
+    for name, limit in (("gap", GAP), ("pressure", PRESSURE)):
+        points = [near(p.gap, p.radius, getattr(p, name)) for p in (fem, fscm)]
+        assert curve_distance(*points[0], *points[1]).value < limit
+    assert 0 < fem.u_gap_distance < 1e-4
+    assert 0 < fscm.u_gap_distance < 1e-5
+
+
+def test_both_shapes_are_cut_at_the_same_gap():
+    model = FullSelfConsistent()
+    pressure, gap = (SHAPES[name].ask(model, PROBLEM) for name in ("pull_off_pressure", "pull_off_gap"))
+    assert pressure.x == gap.x
+    assert max(gap.y) <= 10 < max(model.pull_off_profile(PROBLEM).gap)
+    # The gap determines the pressure (Eq. 9).
+    assert pressure.y == pytest.approx(PROBLEM.law.traction(np.array(gap.y)).tolist())
+
+
+def test_a_bound_its_own_meshes_do_not_bear_out_is_raised():
+    solution = fem_reference.Solution(1.0, 1e-9, 100, 3, 1e-12, 0.1, 6.0, (1.05, 0.85, 0.69), (1.01, 1.003, 1.0))
+    raised = _audited(solution, "pull_off_force")
+    assert raised.u_num > 1e-3
+    assert replace(raised, u_num=1e-9) == solution
+    kept = replace(solution, values=(1.0 + 3e-12, 1.0 + 1e-12, 1.0))
+    assert _audited(kept, "pull_off_force") == kept
