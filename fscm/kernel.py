@@ -213,7 +213,8 @@ class _Primitive:
         # y = 0 is the value at one; the smallest float stands in for it under the logarithm.
         L = box_cox(np.log(np.maximum(yn, np.finfo(float).tiny)), self._k)
         start = self._at_one_minus_one if minus_one else self._at_one
-        out[near] = start + yn * (_horner(self._D, u) + _horner(self._C, u) * L)
+        # y L first: near k = 1 either factor alone is at the end of the range of numbers.
+        out[near] = start + yn * _horner(self._D, u) + _horner(self._C, u) * (yn * L)
         x2 = x[~near] ** 2
         out[~near] = x2 * _horner(self._taylor_minus_one, x2 * (2.0 / _NEAR_LIMIT) - 1.0) + (0.0 if minus_one else 1.0)
         return out

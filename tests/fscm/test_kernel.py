@@ -116,3 +116,13 @@ def test_continuity_in_k_at_zero() -> None:
 def test_exponent_outside_range_is_refused(k: float) -> None:
     with pytest.raises(ValueError, match=r"outside \[0, 1\)"):
         Kernel(k)
+
+
+@pytest.mark.parametrize("k", [0.99, 0.995, 0.9999])
+def test_primitives_at_the_ring_itself_near_the_gibson_limit(k):
+    """Gauss's theorem: Gamma(1-k) / (Gamma((1-k)/2) Gamma((3-k)/2)) at s = 1."""
+    exact = float(
+        mpmath.gamma(1 - mpmath.mpf(k)) / mpmath.gamma((1 - mpmath.mpf(k)) / 2) / mpmath.gamma((3 - mpmath.mpf(k)) / 2)
+    )
+    assert Phi(k, np.array([1.0]))[0] == pytest.approx(exact, rel=1e-13)
+    assert Psi(k, np.array([1.0]))[0] == pytest.approx(exact - 1.0, rel=1e-13)
