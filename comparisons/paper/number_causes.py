@@ -135,17 +135,15 @@ class Repeated:
 def repeated(answers: Answers) -> list[Repeated]:
     """Return every repetition, those of one number together and the converged one first."""
     rows = [row for claim in published("largest_relative_error") for row in _errors(claim, answers)]
-    for up_to in (1.0, *_SHORT_OF_GIBSON):
-        stated = up_to == 1.0
-        words = CONVERGED_CHI if stated else f"k up to {up_to:g}"
-        for claim in published("largest_chi"):
-            rows.append(
-                Repeated(claim, words, 100.0 * largest_chi(claim.n, up_to)[0], CHI_ROUNDING, stated=up_to == 1.0)
-            )
-        for claim in published("insensitive_region"):
+    ranges = {1.0: CONVERGED_CHI} | {up_to: f"k up to {up_to:g}" for up_to in _SHORT_OF_GIBSON}
+    for claim in published("largest_chi"):
+        for up_to, words in ranges.items():
+            largest = 100.0 * largest_chi(claim.n, up_to)[0]
+            rows.append(Repeated(claim, words, largest, CHI_ROUNDING, stated=up_to == 1.0))
+    for claim in published("insensitive_region"):
+        for up_to, words in ranges.items():
             end = answers[Call.of(insensitive_regions, up_to)][claim.index]
-            rows.append(Repeated(claim, words, end, REGION_ROUNDING, stated=stated))
-    rows.sort(key=lambda row: (row.claim.name, row.claim.model, row.claim.n, row.claim.index))
+            rows.append(Repeated(claim, words, end, REGION_ROUNDING, stated=up_to == 1.0))
     return rows
 
 
@@ -196,7 +194,7 @@ def _errors(claim: Published, answers: Answers) -> Iterator[Repeated]:
     start = crossing(lambda mu: 100.0 * abs(printed(mu) / exact(mu) - 1.0), claim.value)
     if mu == RANGE[0] and start is not None:
         fitted = largest_error(printed, exact, low=start)
-        yield row(f"{rounded}; mu from {start:.4f}", replace(fitted, mu=start), stated=False)
+        yield row(f"{rounded}; mu from {start:.4f}, fitted", replace(fitted, mu=start), stated=False)
 
 
 def _single(model: TaborCurve, force: float, u: float, mu: float) -> Extreme:

@@ -9,7 +9,7 @@ from comparisons.paper.workshop import Answers
 
 def test_it_is_a_picture_only(tmp_path):
     assert SKETCH.calls() == ()
-    written = write(SKETCH, Answers(), tmp_path)
+    written = write(SKETCH, SKETCH.tables(Answers()), tmp_path)
     assert sorted(path.name for path in written) == ["fig01_sketch.pdf", "fig01_sketch.png"]
     assert all(path.stat().st_size > 1000 for path in written)
 
