@@ -31,7 +31,7 @@ def draw(agreement: pd.DataFrame) -> Figure:
     rows = -(-len(quantities) // columns)
     with styled():
         figure = Figure(figsize=(9.6, 0.8 + 2.3 * rows), layout="constrained")
-        panels = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+        panels = figure.subplots(rows, columns, sharey=True, squeeze=False)
         for axes, quantity in zip(panels.flat, quantities, strict=False):
             _panel(axes, agreement[agreement["quantity"] == quantity], sorted(agreement["n"].unique()))
             axes.set_title(quantity.replace("_", " "), fontsize=9)
@@ -57,3 +57,6 @@ def _panel(axes: Axes, rows: pd.DataFrame, shapes: list[float]) -> None:
         axes.plot(mu, size, ls="none", marker=marker, ms=3.5, mfc="white", color=colour, label=f"n = {n:g}")
     axes.set_xscale("log")
     axes.set_yscale("log")
+    ticks = sorted(rows["mu"].unique())
+    axes.set_xticks(ticks, [f"{mu:g}" for mu in ticks])
+    axes.set_xticks([], minor=True)
