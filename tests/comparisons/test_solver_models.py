@@ -52,7 +52,9 @@ def test_the_finite_elements_are_asked_for_the_same_tabor_number_and_answer_in_t
         )
         seen.update(mu=physical.tabor_number, nu=solid.nu, quantity=asked)
         unit = physical.scales[QUANTITIES[asked].kind]
-        return fem_reference.Solution(2.5 * unit, 0.5 * unit, 9, 8, 7e-16, 0.6, 5.0)
+        return fem_reference.Solution(
+            2.5 * unit, 0.5 * unit, 9, 8, 7e-16, 0.6, 5.0, (1.05, 0.85, 0.69), (2.5 * unit,) * 3
+        )
 
     monkeypatch.setattr(fem_reference, "solve", one_unit)
     result = FiniteElements(0.2).evaluate(Case(1.5, 0.4, 0.8).problem(), quantity)
