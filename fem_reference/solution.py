@@ -80,8 +80,8 @@ HOMOGENEOUS_DEPTH = 64.0
 it for the power law of great depth (measured: four times as far changes displacements by 1.3e-7 z0 at most)."""
 
 GAP_ORDER = 2.0
-"""Declared order of the central gap in contact: the stress under the tip of a cone is singular, which decides it, not
-the element (measured worst error / u_num with the element's order: 1.15 at n = 1, k = 0.6, mu = 3)."""
+"""Declared order of the central gap at jump-out, in contact: the stress under the tip of a cone is singular, which
+decides it, not the element (measured worst error / u_num with the element's order: 1.15 at n = 1, k = 0.6, mu = 3)."""
 
 REFINEMENTS = 8
 """Attempts to find the edge width before the search is given up."""
@@ -269,7 +269,7 @@ def solve_together(
     for quantity, events in found.items():
         coarse, medium, fine = (value for value, _ in events)
         scale = problem.scale(quantity, fine)
-        order = GAP_ORDER if quantity.endswith("gap") else level.order
+        order = GAP_ORDER if quantity == "jump_out_gap" else level.order
         outcome = three_meshes((coarse, medium, fine), ratio, order, scale)
         point = events[-1][1]
         solutions[quantity] = Solution(
