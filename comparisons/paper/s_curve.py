@@ -9,9 +9,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.figures.style import COLOURS, styled
+from comparisons.figures.style import COLOURS, MODEL_NAMES, lettered, styled
 from comparisons.models.solver import translated
-from comparisons.outputs.digits import short
 from comparisons.paper import answers
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
@@ -113,7 +112,7 @@ def _draw(tables: Tables) -> Figure:
         above.set(xlim=_GAPS, ylim=_DISPLACEMENTS, ylabel=r"displacement $\delta/z_0$")
         above.tick_params(labelbottom=False)
         below.set(ylim=_LOADS, ylabel=r"load $\bar P$", xlabel=r"central gap $H_0/z_0$")
-        above.set_title("(a)", loc="left")
+        lettered(above, "a")
         _plane(figure.add_subplot(grid[:, 1]), path, jkr, points, tables["hysteresis"].iloc[0])
     return figure
 
@@ -126,8 +125,8 @@ def _against_gap(
         shown.plot(path["central_gap"], path[name], color=COLOURS[0])
         shown.axhline(0.0, color="0.4", lw=0.8)
     near = (points["central_gap"] > _NEAR_GAPS[0]) & (points["central_gap"] < _NEAR_GAPS[1])
-    # Names stand on the convex side of the curve.
-    inside = (3, 4) if name == "displacement" else (6, -7)
+    # Names stand on the convex side of the curve, and inside the frame.
+    inside = (5, 1) if name == "displacement" else (6, -7)
     for shown, some, beside in ((axes, points[~near], (3, 4)), (inset, points[near], inside)):
         shown.plot(some["central_gap"], some[name], ls="none", marker="o", ms=3.5, color=COLOURS[2])
         for label, point in some.iterrows():
@@ -140,8 +139,8 @@ def _against_gap(
 def _plane(axes: Axes, path: pd.DataFrame, jkr: pd.DataFrame, points: pd.DataFrame, energy: pd.Series) -> None:
     outline = _loop(path, points)
     axes.fill(*outline, color=COLOURS[6], alpha=0.35, lw=0)
-    axes.plot(path["displacement"], path["load"], color=COLOURS[0], label="FSCM")
-    axes.plot(jkr["displacement"], jkr["load"], color=COLOURS[2], ls="--", label="JKR-n-k")
+    axes.plot(path["displacement"], path["load"], color=COLOURS[0], label=MODEL_NAMES["fscm"])
+    axes.plot(jkr["displacement"], jkr["load"], color=COLOURS[2], ls="--", label=MODEL_NAMES["jkr"])
     axes.axhline(0.0, color="0.4", lw=0.8)
     places = _places(points)
     for start, end in (("A", "A'"), ("B", "B'")):
@@ -150,15 +149,14 @@ def _plane(axes: Axes, path: pd.DataFrame, jkr: pd.DataFrame, points: pd.DataFra
     axes.plot(points["displacement"], points["load"], ls="none", marker="o", ms=4, color=COLOURS[2])
     for name, offset in _BESIDE.items():
         axes.annotate(name, places[name], offset, textcoords="offset points")
-    area = short(float(energy["value"]), float(energy["u_num"]))
     axes.annotate(
-        f"hysteresis\n{area}",
+        f"hysteresis loss\n$\\oint\\,\\bar P\\,d\\delta/z_0$ = {energy['value']:.4f}",
         (0.5 * (places["A"][0] + places["B"][0]), -0.75),
         (-0.9, -0.62),
         arrowprops={"arrowstyle": "-", "color": "0.4", "lw": 0.7},
     )
     axes.set(xlim=_DISPLACEMENTS, ylim=_LOADS, xlabel=r"displacement $\delta/z_0$", ylabel=r"load $\bar P$")
-    axes.set_title("(b)", loc="left")
+    lettered(axes, "b", r"$n$ = {:g}, $k$ = {:g}, $\mu$ = {:g}".format(*_CASE))
     axes.legend(loc="lower right")
 
 
