@@ -52,7 +52,7 @@ def _panel(axes: Axes, curves: pd.DataFrame, quantity: str) -> None:
         for model, points in case.groupby("model"):
             points = points.sort_values("point")
             line = {"ls": "-"} if model == "fscm" else {"ls": "none", "marker": "o", "ms": 2.5, "mfc": "white"}
-            axes.plot(points["x"], points["y"], color=colour, label=f"{MODEL_NAMES[model]}, {label}", **line)
+            axes.plot(points["x"], points["y"], color=colour, label=f"{MODEL_NAMES[str(model)]}, {label}", **line)
     axes.axhline(0, color="0.4", lw=0.8)
     axes.set_xlim(*x_limits)
     if y_limits:
