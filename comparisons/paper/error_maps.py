@@ -140,7 +140,9 @@ def _label(axes: Axes) -> None:
     if not taken:
         return
     places = [(float(x), float(y)) for x, y in axes.transData.inverted().transform(taken)]
-    for label in lines.axes.clabel(lines, fmt=lambda level: f"{level:+g} %", fontsize=7, manual=places):
+    for label in lines.axes.clabel(
+        lines, fmt=lambda level: f"{level:+g} %".replace("-", "\N{MINUS SIGN}"), fontsize=7, manual=places
+    ):
         label.set_bbox({"boxstyle": "round,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.85})
 
 
