@@ -35,7 +35,7 @@ _BESIDE = {"B'": (-3, 6), "A": (4, 5), "B": (-11, -9), "A'": (7, -3), "C": (-3, 
 #: Shown of central gap and displacement: the approach goes on to the left of (b) and to the right of (a).
 _GAPS, _DISPLACEMENTS, _LOADS = (-0.35, 6.0), (-7.2, 7.6), (-2.05, 0.55)
 #: In contact the central gap hardly moves; an inset shows it.
-_NEAR_GAPS = (-0.024, 0.034)
+_NEAR_GAPS, _NEAR_DISPLACEMENTS = (-0.024, 0.034), (-7.2, 9.0)
 
 
 def named_points(n: float, k: float, mu: float) -> dict[str, dict[str, float]]:
@@ -125,14 +125,14 @@ def _against_gap(
         shown.plot(path["central_gap"], path[name], color=COLOURS[0])
         shown.axhline(0.0, color="0.4", lw=0.8)
     near = (points["central_gap"] > _NEAR_GAPS[0]) & (points["central_gap"] < _NEAR_GAPS[1])
-    # Names stand on the convex side of the curve, and inside the frame.
-    inside = (5, 1) if name == "displacement" else (6, -7)
+    # Names stand on the convex side of the curve.
+    inside = (3, 4) if name == "displacement" else (6, -7)
     for shown, some, beside in ((axes, points[~near], (3, 4)), (inset, points[near], inside)):
         shown.plot(some["central_gap"], some[name], ls="none", marker="o", ms=3.5, color=COLOURS[2])
         for label, point in some.iterrows():
             where = point["central_gap"], point[name]
             shown.annotate(str(label), where, beside, textcoords="offset points", fontsize=8)
-    inset.set(xlim=_NEAR_GAPS, ylim=_DISPLACEMENTS if name == "displacement" else _LOADS)
+    inset.set(xlim=_NEAR_GAPS, ylim=_NEAR_DISPLACEMENTS if name == "displacement" else _LOADS)
     inset.tick_params(labelsize=7, pad=2)
 
 
