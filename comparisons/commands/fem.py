@@ -106,7 +106,8 @@ def _fields(args: argparse.Namespace) -> int:
         axes = figure.axes[0]
         axes.set_xlabel(r"radius $r / (Q z_0)^{1/n}$, deformation magnified")
         axes.set_ylabel(r"depth $z / (Q z_0)^{1/n}$")
-        axes.set_title(f"{args.event.rsplit('_', 1)[0].replace('_', '-')} at {case.label}")
+        event = args.event.rsplit("_", 1)[0].replace("_", "-")
+        axes.set_title(rf"{event} at $n$ = {case.n:g}, $k$ = {case.k:g}, $\mu$ = {case.mu:g}, $\nu$ = {args.nu:g}")
         figure.axes[1].set_ylabel(r"axial stress $\sigma_{zz} z_0 / \Delta\gamma$, tension positive")
         save(figure, args.plot)
     return OK

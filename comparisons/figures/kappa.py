@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import Any
+
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
-from comparisons.figures.style import COLOURS, MARKERS, styled
+from comparisons.figures.style import COLOURS, MARKERS, MODEL_NAMES, lettered, styled
 
-__all__ = ["draw", "panels"]
+__all__ = ["draw", "handles", "panels"]
 
 #: Model -> (line style, face of the markers): dashed and solid as in the paper.
 _MODELS = {"md-original": ("--", "white"), "md-improved": ("-", None)}
+
+#: Colour in the legend of what is common to every n.
+_ANY = "0.45"
 
 
 def draw(kappa: pd.DataFrame, k: float = 0.4) -> Figure:
@@ -29,16 +36,29 @@ def draw(kappa: pd.DataFrame, k: float = 0.4) -> Figure:
     Figure
         Left all of it, right the neighbourhood of zero, where the improved model lives.
     """
-    chosen = kappa[(kappa["quantity"] == "pull_off_force") & (kappa["k"] == k)].sort_values("mu")
+    # A run may ask others at more shapes; colours and legend are for those drawn.
+    drawn = kappa["model"].isin(_MODELS)
+    chosen = kappa[drawn & (kappa["quantity"] == "pull_off_force") & (kappa["k"] == k)].sort_values("mu")
     with styled():
         figure = Figure(figsize=(7.2, 4.2), layout="constrained")
         whole, near = figure.subplots(1, 2)
         panels(whole, near, chosen)
-        near.set_title("enlarged")
-        figure.suptitle(f"Maugis-Dugdale models against the full self-consistent model, k = {k:g}")
-        handles, labels = whole.get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=4)
+        lettered(whole, "a", f"pull-off force, $k$ = {k:g}")
+        lettered(near, "b", "enlarged")
+        figure.legend(handles=handles(chosen["n"].unique()), loc="outside lower center", ncols=6, columnspacing=1.2)
     return figure
+
+
+def handles(shapes: Iterable[float]) -> list[Line2D]:
+    """Return what the legend shows: the colour and marker of each n, increasing, and the line of each model."""
+    found = [
+        Line2D([], [], color=COLOURS[index], marker=MARKERS[index], ms=3.5, label=f"$n$ = {n:g}")
+        for index, n in enumerate(sorted(shapes))
+    ]
+    for model, (line, face) in _MODELS.items():
+        style: dict[str, Any] = {"color": _ANY, "marker": MARKERS[0], "ms": 3.5, "mfc": face or _ANY}
+        found.append(Line2D([], [], ls=line, label=MODEL_NAMES[model], **style))
+    return found
 
 
 def panels(whole: Axes, near: Axes, kappa: pd.DataFrame) -> None:
@@ -47,7 +67,7 @@ def panels(whole: Axes, near: Axes, kappa: pd.DataFrame) -> None:
         for model in _MODELS:
             points = of_shape[of_shape["model"] == model]
             for axes in (whole, near) if len(points) else ():
-                _plot(axes, points, index, model, f"n = {n:g}, {model}")
+                _plot(axes, points, index, model, f"$n$ = {n:g}, {MODEL_NAMES[model]}")
     for axes in (whole, near):
         axes.set_xscale("log")
         axes.set_xlabel(r"Tabor number $\mu$")

@@ -6,7 +6,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.figures.style import COLOURS, styled
+from comparisons.figures.style import COLOURS, MODEL_NAMES, lettered, styled
 
 __all__ = ["draw"]
 
@@ -37,9 +37,9 @@ def draw(curves: pd.DataFrame) -> Figure:
     """
     with styled():
         figure = Figure(figsize=(7.2, 4.0), layout="constrained")
-        for axes, quantity in zip(figure.subplots(1, 2), _PANELS, strict=True):
+        for letter, axes, quantity in zip("ab", figure.subplots(1, 2), _PANELS, strict=True):
             _panel(axes, curves[(curves["quantity"] == quantity) & (curves["status"] == "ok")], quantity)
-        figure.suptitle("Two references that share no code")
+            lettered(axes, letter)
         handles, labels = figure.axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=2)
     return figure
@@ -48,11 +48,11 @@ def draw(curves: pd.DataFrame) -> Figure:
 def _panel(axes: Axes, curves: pd.DataFrame, quantity: str) -> None:
     x_limits, y_limits, x_label, y_label = _PANELS[quantity]
     for index, ((n, k, mu), case) in enumerate(curves.groupby(["n", "k", "mu"])):
-        colour, label = COLOURS[index % len(COLOURS)], f"n = {n:g}, k = {k:g}, $\\mu$ = {mu:g}"
+        colour, label = COLOURS[index % len(COLOURS)], f"$n$ = {n:g}, $k$ = {k:g}, $\\mu$ = {mu:g}"
         for model, points in case.groupby("model"):
             points = points.sort_values("point")
             line = {"ls": "-"} if model == "fscm" else {"ls": "none", "marker": "o", "ms": 2.5, "mfc": "white"}
-            axes.plot(points["x"], points["y"], color=colour, label=f"{model}, {label}", **line)
+            axes.plot(points["x"], points["y"], color=colour, label=f"{MODEL_NAMES[str(model)]}, {label}", **line)
     axes.axhline(0, color="0.4", lw=0.8)
     axes.set_xlim(*x_limits)
     if y_limits:

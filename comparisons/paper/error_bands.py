@@ -11,7 +11,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.figures.style import COLOURS, LINES, MARKERS, styled
+from comparisons.figures.style import COLOURS, LINES, MARKERS, lettered, styled
 from comparisons.models.semi_rigid import jump_in_coefficient
 from comparisons.paper.error_grid import CANDIDATES, all_cases, calls, errors
 from comparisons.paper.plate import Plate, Tables
@@ -184,9 +184,9 @@ def _draw(tables: Tables) -> Figure:
     with styled():
         figure = Figure(figsize=(7.2, 3.8), layout="constrained")
         left, right = figure.subplots(1, 2)
-        _curves(left, table[table["model"] == "semi-rigid"], "(a) jump-in: semi-rigid")
+        _curves(left, table[table["model"] == "semi-rigid"], "a", "jump-in, semi-rigid")
         jkr = table[(table["model"] == "jkr") & (table["quantity"] == "jump_out_displacement")]
-        _curves(right, jkr, "(b) jump-out: JKR")
+        _curves(right, jkr, "b", "jump-out, JKR")
         guide = np.array([5.0, 20.0])
         right.plot(guide, 0.05 * (guide / 20.0) ** -2.0, color="0.4", lw=2.5, alpha=0.5, label=r"$\mu^{-2}$")
         handles, labels = right.get_legend_handles_labels()
@@ -194,13 +194,15 @@ def _draw(tables: Tables) -> Figure:
     return figure
 
 
-def _curves(axes: Axes, table: pd.DataFrame, title: str) -> None:
+def _curves(axes: Axes, table: pd.DataFrame, letter: str, words: str) -> None:
     for index, n in enumerate(_SHOWN):
         for k, line in ((0.0, LINES[0]), (0.4, LINES[1])):
             part = table[(table["n"] == n) & (table["k"] == k) & table["kappa"].notna()]
             style = {"color": COLOURS[index], "ls": line, "marker": MARKERS[index], "ms": 3.5, "lw": 1.0}
-            axes.plot(part["mu"], 100.0 * part["kappa"].abs(), label=f"n = {n:g}, k = {k:g}", **style)
-    axes.set(title=title, xscale="log", yscale="log", xlabel=r"Tabor number $\mu$", ylabel=r"$|\kappa|$ in per cent")
+            axes.plot(part["mu"], 100.0 * part["kappa"].abs(), label=f"$n$ = {n:g}, $k$ = {k:g}", **style)
+    lettered(axes, letter, words)
+    axes.set(xscale="log", yscale="log", xlabel=r"Tabor number $\mu$")
+    axes.set_ylabel(r"relative error of the displacement $|\kappa|$ (%)")
     axes.set_xticks([1, 2, 5, 10, 20], labels=["1", "2", "5", "10", "20"])
     for limit in LIMITS:
         axes.axhline(100.0 * limit, color="0.5", lw=0.6, ls=":")

@@ -14,7 +14,7 @@ from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from comparisons.figures.style import styled
+from comparisons.figures.style import lettered, styled
 from comparisons.paper.error_grid import (
     GRADIENT_SLICES,
     GRADIENTS,
@@ -140,7 +140,9 @@ def _label(axes: Axes) -> None:
     if not taken:
         return
     places = [(float(x), float(y)) for x, y in axes.transData.inverted().transform(taken)]
-    for label in lines.axes.clabel(lines, fmt=lambda level: f"{level:+g} %", fontsize=7, manual=places):
+    for label in lines.axes.clabel(
+        lines, fmt=lambda level: f"{level:+g} %".replace("-", "\N{MINUS SIGN}"), fontsize=7, manual=places
+    ):
         label.set_bbox({"boxstyle": "round,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.85})
 
 
@@ -150,7 +152,7 @@ def _dense(points: Array) -> Array:
     return ((1.0 - share) * points[:-1] + share * points[1:]).reshape(-1, 2)
 
 
-def _finish(figure: Figure) -> None:
+def _finish(figure: Figure, words: str, more: str = "") -> None:
     """Add the scale, and the labels of the lines once the layout is known."""
     maps = list(figure.axes)
     colours = ScalarMappable(
@@ -160,7 +162,9 @@ def _finish(figure: Figure) -> None:
         colours, ax=maps, location="bottom", fraction=0.03, pad=0.02, aspect=50, spacing="uniform", extend="max"
     )
     bar.set_ticks(list(_BANDS[:-1]), labels=[f"{band:g}" for band in _BANDS[:-1]])
-    bar.set_label(r"$|\kappa|$ in per cent; lines: $\kappa$, full where the model is above FSCM, dashed below")
+    bar.set_label(
+        rf"$|\kappa|$ of the {words} (%); lines: $\kappa$, full where the model is above the FSCM, dashed below{more}"
+    )
     figure.draw_without_rendering()
     for axes in maps:
         _label(axes)
@@ -176,12 +180,12 @@ def _draw_pull_off(tables: Tables, across: str, held: str, slices: Sequence[floa
         for row, model in zip(grid, _PULL_OFF, strict=True):
             for axes, value in zip(row, slices, strict=True):
                 _map(axes, table[(table["model"] == model) & (table[held] == value)], across)
-                axes.set_title(rf"({next(letters)}) {_NAMES[model]}, ${held}$ = {value:g}")
+                lettered(axes, next(letters), rf"{_NAMES[model]}, ${held}$ = {value:g}")
         for axes in grid[:, 0]:
             axes.set_ylabel(r"Tabor number $\mu$")
         for axes in grid[-1]:
             axes.set_xlabel(label)
-        _finish(figure)
+        _finish(figure, "pull-off force")
     return figure
 
 
@@ -197,13 +201,13 @@ def _draw_jumps(tables: Tables) -> Figure:
                 part = table[(table["model"] == model) & (table[held] == value)]
                 part = part[part[across].isin(SHAPES if across == "n" else GRADIENTS)]
                 _map(axes, part, across)
-                axes.set_title(rf"({next(letters)}) {_NAMES[model]} {event}, ${held}$ = {value:g}")
+                lettered(axes, next(letters), rf"{_NAMES[model]} {event}, ${held}$ = {value:g}")
                 axes.set_xlabel({"n": r"shape index $n$", "k": r"gradient exponent $k$"}[across])
                 axes.set_ylim(0.5, 5.0)
                 axes.set_yticks([0.5, 1, 2, 5], labels=["0.5", "1", "2", "5"])
                 axes.minorticks_off()
             row[0].set_ylabel(r"Tabor number $\mu$")
-        _finish(figure)
+        _finish(figure, "displacement", "\nhatched: no jump")
     return figure
 
 

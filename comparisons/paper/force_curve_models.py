@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from comparisons.figures.style import COLOURS, styled
+from comparisons.figures.style import MODEL_LINES, MODEL_NAMES, lettered, styled
 from comparisons.paper.answers import curve
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
@@ -18,12 +17,6 @@ __all__ = ["FORCE_CURVE_MODELS"]
 
 _SHAPES = (1.0, 1.5, 2.0, 5.0)
 _K, _MU = 0.4, 1.0
-#: Name and look, lines as in the paper: original dashed, improved solid.
-_MODELS: dict[str, tuple[str, dict[str, Any]]] = {
-    "fscm": ("FSCM", {"color": COLOURS[0], "ls": "-", "lw": 2.6, "alpha": 0.35}),
-    "md-original": ("original M-D-n-k", {"color": COLOURS[2], "ls": "--"}),
-    "md-improved": ("improved M-D-n-k", {"color": COLOURS[1], "ls": "-"}),
-}
 #: The picture ends to the left where the FSCM's load has faded to this share of the pull-off force.
 _FAINT = 0.04
 
@@ -33,13 +26,13 @@ def _question(model: str, n: float) -> Call:
 
 
 def _calls() -> Sequence[Call]:
-    return [_question(model, n) for model in _MODELS for n in _SHAPES]
+    return [_question(model, n) for model in MODEL_LINES for n in _SHAPES]
 
 
 def _tables(answers: Answers) -> Tables:
     parts = []
     for n in _SHAPES:
-        for model in _MODELS:
+        for model in MODEL_LINES:
             found = answers[_question(model, n)]
             shape = {"displacement": [np.nan], "load": [np.nan]} | {
                 name: found[name] for name in ("displacement", "load") if name in found
@@ -56,9 +49,9 @@ def _draw(tables: Tables) -> Figure:
         for letter, axes, (n, of_shape) in zip(
             "abcd", figure.subplots(2, 2).flat, tables[""].groupby("n"), strict=True
         ):
-            for model, (name, style) in _MODELS.items():
+            for model, style in MODEL_LINES.items():
                 part = of_shape[of_shape["model"] == model]
-                axes.plot(part["displacement"], part["load"], label=name, **style)
+                axes.plot(part["displacement"], part["load"], label=MODEL_NAMES[model], **style)
             exact = of_shape[of_shape["model"] == "fscm"]
             depth = -of_shape["load"].min()
             top = 0.35 * depth
@@ -67,8 +60,15 @@ def _draw(tables: Tables) -> Figure:
             axes.axhline(0, color="0.4", lw=0.8)
             axes.set(xlim=(seen.min() - margin, seen.max() + margin), ylim=(-1.12 * depth, top))
             axes.set(xlabel=r"displacement $\delta/z_0$", ylabel=r"load $\bar P$")
-            axes.set_title(f"({letter}) n = {n:g}", loc="left")
-        figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+            lettered(axes, letter, rf"$n$ = {n:g}, $k$ = {_K:g}, $\mu$ = {_MU:g}")
+        # Eqs. 66-69 hold in contact only; there both curves end.
+        figure.legend(
+            *figure.axes[0].get_legend_handles_labels(),
+            loc="outside lower center",
+            ncols=3,
+            title="M-D-$n$-$k$ as far as there is contact, $a > 0$",
+            title_fontsize=8,
+        )
     return figure
 
 

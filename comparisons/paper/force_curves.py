@@ -8,7 +8,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.figures.style import COLOURS, LINES, styled
+from comparisons.figures.style import COLOURS, LINES, lettered, styled
 from comparisons.paper import answers
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
@@ -59,7 +59,7 @@ def _family(axes: Axes, curves: pd.DataFrame, name: str, symbol: str, values: Se
 
 def _finish(figure: Figure, panels: Sequence[Axes], columns: int) -> None:
     for letter, axes in zip("abcd", panels, strict=False):
-        axes.set_title(f"({letter})  {axes.get_title()}", loc="left")
+        lettered(axes, letter, axes.get_title())
         axes.set_title("")
     # Two panels a row.
     for axes in panels[-2:]:
@@ -77,7 +77,7 @@ def _draw_4(tables: Tables) -> Figure:
         for n, axes in zip(_SHAPES, panels, strict=True):
             curves = tables[""][tables[""]["n"] == n]
             _family(axes, curves, "mu", r"$\mu$", _TABOR_NUMBERS)
-            axes.set(xlim=_RANGES_4[n][0], ylim=_RANGES_4[n][1], title=f"n = {n:g}")
+            axes.set(xlim=_RANGES_4[n][0], ylim=_RANGES_4[n][1], title=f"$n$ = {n:g}, $k$ = 0.4")
         _finish(figure, list(panels), len(_TABOR_NUMBERS))
     return figure
 
@@ -87,8 +87,8 @@ def _draw_6(tables: Tables) -> Figure:
         figure = Figure(figsize=(7.2, 3.6), layout="constrained")
         panels = figure.subplots(1, 2).ravel()
         for (mu, ranges), axes in zip(_RANGES_6.items(), panels, strict=True):
-            _family(axes, tables[""][tables[""]["mu"] == mu], "k", "k", _GRADIENTS)
-            axes.set(xlim=ranges[0], ylim=ranges[1], title=rf"n = 2, $\mu$ = {mu:g}")
+            _family(axes, tables[""][tables[""]["mu"] == mu], "k", "$k$", _GRADIENTS)
+            axes.set(xlim=ranges[0], ylim=ranges[1], title=rf"$n$ = 2, $\mu$ = {mu:g}")
         _finish(figure, list(panels), len(_GRADIENTS))
     return figure
 

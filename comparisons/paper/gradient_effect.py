@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from scipy.optimize import brentq, minimize_scalar
 
 from comparisons.cases import Case
-from comparisons.figures.style import COLOURS, LINES, styled
+from comparisons.figures.style import COLOURS, LINES, lettered, styled
 from comparisons.models.jkr import JKR
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
@@ -104,19 +104,21 @@ def _draw(tables: Tables) -> Figure:
         figure = Figure(figsize=(7.2, 3.4), layout="constrained")
         left, right = figure.subplots(1, 2)
         for index, (n, part) in enumerate(tables[""].groupby("n")):
-            left.plot(part["k"], 100 * part["chi"], color=COLOURS[index], ls=LINES[index], label=f"n = {n:g}")
+            left.plot(part["k"], 100 * part["chi"], color=COLOURS[index], ls=LINES[index], label=f"$n$ = {n:g}")
         left.set(xlabel=r"gradient exponent $k$", ylabel=r"deviation $\chi$ (%)", xlim=(0, 1), ylim=(0, None))
-        left.set_title("(a)", loc="left")
+        lettered(left, "a")
         left.legend()
         largest = tables["largest"]
         right.plot(largest["n"], 100 * largest["chi_max"], color=COLOURS[0])
         right.axhline(100 * _LIMIT, color="0.4", lw=0.8, ls="--")
         ends = tables["regions"][["n_from", "n_to"]].to_numpy()
-        # The first region is too narrow for its words.
-        for (low, high), place, align in zip(ends, ((1.35, 3.0), (4.8, 17.0)), ("left", "center"), strict=True):
+        # The first region is too narrow for its words; they stand beside it.
+        for (low, high), place, align, then in zip(
+            ends, ((1.3, 2.0), (4.8, 17.0)), ("left", "center"), ("\n", " "), strict=True
+        ):
             right.axvspan(low, high, color=COLOURS[1], alpha=0.2, lw=0)
             right.annotate(
-                f"{low:.3f} ≤ n ≤ {high:.3f}",
+                f"{low:.3f} ≤ $n${then}≤ {high:.3f}",
                 (0.5 * (low + high), 100 * _LIMIT),
                 place,
                 ha=align,
@@ -124,7 +126,7 @@ def _draw(tables: Tables) -> Figure:
                 arrowprops={"arrowstyle": "-", "lw": 0.6, "color": "0.3"},
             )
         right.set(xlabel=r"shape index $n$", ylabel=r"largest deviation $\chi_{\max}$ (%)", ylim=(0, 50), xlim=(0.9, 8))
-        right.set_title("(b)", loc="left")
+        lettered(right, "b")
     return figure
 
 

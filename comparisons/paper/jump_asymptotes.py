@@ -10,7 +10,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.figures.style import COLOURS, LINES, MARKERS, styled
+from comparisons.figures.style import COLOURS, LINES, MARKERS, lettered, styled
 from comparisons.models.semi_rigid import jump_in_coefficient
 from comparisons.paper.answers import quantity
 from comparisons.paper.jumps import TABOR_NUMBERS, jumps, near_critical
@@ -113,20 +113,20 @@ def _displacements(axes: Axes, table: pd.DataFrame) -> None:
             label=f"jump {label.split(',')[0]}, FSCM",
         )
     axes.set(xlim=(0.0, 5.1), xlabel=r"Tabor number $\mu$", ylabel=r"displacement at the jumps $\delta/z_0$")
-    axes.set_title(f"(a)  n = {_N:g}, k = {_K:g}", loc="left")
+    lettered(axes, "a", f"$n$ = {_N:g}, $k$ = {_K:g}")
     axes.legend()
 
 
 def _coefficients(axes: Axes, table: pd.DataFrame) -> None:
     for index, (n, part) in enumerate(table.groupby("n")):
-        axes.plot(part["k"], part["C_in"], color=COLOURS[index], ls=LINES[index], label=f"n = {n:g}")
+        axes.plot(part["k"], part["C_in"], color=COLOURS[index], ls=LINES[index], label=f"$n$ = {n:g}")
         axes.plot(part["k"], part["C_out"], color=COLOURS[index], ls=LINES[index], lw=0.8)
     for limit, text in ((8.0 / 3.0, "8/3"), (2.0, "2")):
         axes.plot(1.0, limit, ls="none", marker="o", ms=4, color="0.2", clip_on=False)
         axes.annotate(text, (1.0, limit), (6, -3), textcoords="offset points", annotation_clip=False)
     axes.set(xlim=(0.0, 1.0), xlabel="gradient exponent $k$")
     axes.set_ylabel(r"$C^{\mathrm{in}}$ (thick), $C^{\mathrm{out}}$ (thin)")
-    axes.set_title("(b)", loc="left")
+    lettered(axes, "b")
     # Between the two bundles of curves.
     axes.legend(loc="center", bbox_to_anchor=(0.45, 0.7), ncols=2)
 

@@ -9,7 +9,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.figures.style import COLOURS, LINES, styled
+from comparisons.figures.style import COLOURS, LINES, lettered, styled
 from comparisons.models.solver import translated
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
@@ -32,7 +32,7 @@ _LABELS = {
     ("gap", "out"): (-75, 6),
 }
 #: Places of the insets and what they show.
-_INSETS = {"displacement": (0.1, 0.08, 0.4, 0.4), "gap": (0.52, 0.16, 0.45, 0.33)}
+_INSETS = {"displacement": (0.13, 0.08, 0.38, 0.4), "gap": (0.52, 0.16, 0.45, 0.33)}
 _NEAR, _NEAR_RANGES = (0.65, 0.95), {"displacement": (-1.7, -1.1), "gap": (0.0, 0.6)}
 QUANTITIES = ("jump_in_displacement", "jump_in_gap", "jump_out_displacement", "jump_out_gap")
 
@@ -99,7 +99,7 @@ def _draw(tables: Tables) -> Figure:
         panels = figure.subplots(1, 2)
         for axes, kind, letter in zip(panels, ("displacement", "gap"), "ab", strict=True):
             _branches(axes, tables, kind)
-            axes.set_title(f"({letter})", loc="left")
+            lettered(axes, letter, "$n$ = 2")
             axes.set(xlabel=r"Tabor number $\mu$", xlim=(0.5, 5.0))
         panels[0].set_ylabel(r"displacement at the jumps $\delta/z_0$")
         panels[1].set_ylabel(r"central gap at the jumps $H_0/z_0$")
@@ -118,7 +118,7 @@ def _branches(axes: Axes, tables: Tables, kind: str) -> None:
         # Both branches begin in one point, at the critical Tabor number, between their first points.
         meeting = 0.5 * (inward.iloc[0] + outward.iloc[0])
         for shown in (axes, inset):
-            label = rf"k = {k:g}, $\mu_c$ = {mu:.4f}"
+            label = rf"$k$ = {k:g}, $\mu_c$ = {mu:.4f}"
             shown.plot([mu, *part["mu"]], [meeting, *inward], label=label, **style)
             shown.plot([mu, *part["mu"]], [meeting, *outward], **style)
             shown.plot(mu, meeting, marker="o", ms=4, color=COLOURS[index], mfc="white")

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from comparisons.figures.style import COLOURS, LINES, styled
+from comparisons.figures.style import COLOURS, LINES, lettered, styled
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
 from fscm import kernel
@@ -67,17 +67,17 @@ def _draw(tables: Tables) -> Figure:
         for index, k in enumerate(_GRADIENTS):
             part = tables[""][tables[""]["k"] == k]
             style = {"color": COLOURS[index], "ls": LINES[index]}
-            label = f"k = {k:g}" + (" (Gibson)" if k == 1.0 else "")
+            label = f"$k$ = {k:g}" + (" (Gibson)" if k == 1.0 else "")
             left.plot(part["s"], part["phi"], label=label, **style)
             if k < 1.0:
                 left.plot(part["s"], part["slope"], lw=0.7, **style)
             shown = part[part["s"] > 0.0] if k == 1.0 else part
             right.plot(shown["s"], shown["psi"], **style)
-        left.set(xlabel="s = t/r", ylabel=r"$\Phi_k(s)$ (thick), $\Phi_k'(s)$ (thin)", ylim=(0.0, 2.5))
-        right.set(xlabel="s = t/r", ylabel=r"$\Psi_k(s)$", ylim=(-1.05, 0.05))
+        left.set(xlabel="ratio of radii $s = t/r$", ylabel=r"$\Phi_k(s)$ (thick), $\Phi_k'(s)$ (thin)", ylim=(0.0, 2.5))
+        right.set(xlabel="ratio of radii $s = t/r$", ylabel=r"$\Psi_k(s)$", ylim=(-1.05, 0.05))
         for axes, letter in ((left, "a"), (right, "b")):
             axes.set_xlim(0.0, _FARTHEST)
-            axes.set_title(f"({letter})", loc="left")
+            lettered(axes, letter)
         handles, labels = left.get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=len(_GRADIENTS))
     return figure

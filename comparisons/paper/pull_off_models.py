@@ -9,9 +9,10 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from comparisons.figures import kappa as kappa_figure
-from comparisons.figures.style import COLOURS, MARKERS, styled
+from comparisons.figures.style import COLOURS, MARKERS, MODEL_NAMES, lettered, styled
 from comparisons.paper.answers import quantity
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
@@ -24,7 +25,6 @@ _K = 0.4
 #: Ten a decade, the preferred numbers of the series R10 but for rounding.
 TABOR_NUMBERS = tuple(float(f"{mu:.3g}") for mu in np.geomspace(0.01, 10.0, 31))
 _MODELS = ("fscm", "md-original", "md-improved")
-_NAMES = {"fscm": "FSCM", "md-original": "original M-D-n-k", "md-improved": "improved M-D-n-k"}
 #: Line styles as in the paper: original dashed, improved solid; the FSCM as points.
 _STYLES: dict[str, dict[str, Any]] = {
     "fscm": {"ls": "none", "marker": "o", "ms": 3.5, "mfc": "white", "color": COLOURS[0], "zorder": 3},
@@ -87,17 +87,15 @@ def _draw_forces(tables: Tables) -> Figure:
         for letter, axes, (n, of_shape) in zip(
             "abcd", figure.subplots(2, 2).flat, tables[""].groupby("n"), strict=True
         ):
-            for name, words in (("bradley", "Bradley"), ("jkr", "JKR-n-k")):
+            for name, line in (("bradley", "-."), ("jkr", ":")):
                 part = of_shape[of_shape["model"] == name]
-                axes.plot(
-                    part["mu"], part["value"], color="0.55", lw=0.9, ls="-." if name == "bradley" else ":", label=words
-                )
+                axes.plot(part["mu"], part["value"], color="0.55", lw=0.9, ls=line, label=MODEL_NAMES[name])
             own = of_shape[of_shape["model"].isin(_MODELS)]["value"]
             _lines(axes, of_shape, "value")
-            axes.set(xscale="log", yscale="log", xlim=(0.008, 12.0), ylim=(0.85 * own.min(), 1.15 * own.max()))
+            axes.set(xscale="log", yscale="log", xlim=(0.008, 12.0), ylim=_framed(own))
             axes.set(xlabel=_MU, ylabel=r"pull-off force $-\bar P_c$")
             _plain_ticks(axes)
-            axes.set_title(f"({letter}) n = {n:g}", loc="left")
+            lettered(axes, letter, f"$n$ = {n:g}, $k$ = {_K:g}")
         _legend(figure)
     return figure
 
@@ -114,7 +112,7 @@ def _draw_by_rigid(tables: Tables) -> Figure:
             if of_shape["ratio"].max() > 4.0:
                 axes.set_yscale("log")
                 _plain_ticks(axes)
-            axes.set_title(f"({letter}) n = {n:g}", loc="left")
+            lettered(axes, letter, f"$n$ = {n:g}, $k$ = {_K:g}")
         _legend(figure)
     return figure
 
@@ -124,30 +122,45 @@ def _draw_by_soft(tables: Tables) -> Figure:
         figure = Figure(figsize=(7.2, 6.6), layout="constrained")
         above, below = np.ravel(figure.subfigures(2, 1, height_ratios=[1.0, 1.15], squeeze=False))
         axes = above.subplots()
-        for index, (n, of_shape) in enumerate(tables[""].groupby("n")):
+        for index, (_, of_shape) in enumerate(tables[""].groupby("n")):
             for model, style in _STYLES.items():
                 part = of_shape[of_shape["model"] == model]
                 look = style | {"color": COLOURS[index]}
                 if model == "fscm":
                     look["marker"] = MARKERS[index]
-                axes.plot(part["mu"], part["ratio"], label=f"n = {n:g}, {_NAMES[model]}", **look)
+                axes.plot(part["mu"], part["ratio"], **look)
         axes.axhline(1.0, color="0.55", lw=0.9, ls=":")
         axes.set(xscale="log", yscale="log", xlim=(0.008, 12.0), xlabel=_MU, ylabel=r"$P_c/P_c^{\mathrm{JKR}}$")
         _plain_ticks(axes)
-        axes.set_title("(a) scaled by the soft limit", loc="left")
-        above.legend(*axes.get_legend_handles_labels(), loc="outside right center")
+        lettered(axes, "a", f"scaled by the soft limit, $k$ = {_K:g}")
+        above.legend(handles=_handles(), loc="outside right center")
         whole, near = below.subplots(1, 2)
         kappa_figure.panels(whole, near, tables["kappa"])
-        whole.set_title("(b) relative error", loc="left")
-        near.set_title("(b) enlarged", loc="left")
-        below.legend(*whole.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+        lettered(whole, "b", f"relative error, $k$ = {_K:g}")
+        lettered(near, "b", "enlarged")
+        below.legend(handles=kappa_figure.handles(_SHAPES), loc="outside lower center", ncols=6, columnspacing=1.2)
     return figure
+
+
+def _handles() -> list[Line2D]:
+    """What the legend of Fig. 16(a) shows: the colour and marker of each n, the line of each model."""
+    colours = list(zip(_SHAPES, COLOURS, MARKERS, strict=False))
+    shapes = [Line2D([], [], color=c, marker=m, ms=3.5, mfc="white", label=f"$n$ = {n:g}") for n, c, m in colours]
+    models = [Line2D([], [], label=MODEL_NAMES[name], **(look | {"color": "0.45"})) for name, look in _STYLES.items()]
+    return [*shapes, *models]
+
+
+def _framed(values: pd.Series) -> tuple[float, float]:
+    """Limits of a logarithmic axis, a tenth of the range and at least 2 % beyond it."""
+    low, high = float(values.min()), float(values.max())
+    beyond = max((high / low) ** 0.1, 1.02)
+    return low / beyond, high * beyond
 
 
 def _lines(axes: Axes, of_shape: pd.DataFrame, column: str) -> None:
     for model, style in _STYLES.items():
         part = of_shape[of_shape["model"] == model]
-        axes.plot(part["mu"], part[column], label=_NAMES[model], **style)
+        axes.plot(part["mu"], part[column], label=MODEL_NAMES[model], **style)
 
 
 def _plain_ticks(axes: Axes) -> None:

@@ -11,7 +11,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.figures.style import COLOURS, LINES, styled
+from comparisons.figures.style import COLOURS, LINES, lettered, styled
 from comparisons.models.gibson_limit import gibson_profile
 from comparisons.models.solver import translated
 from comparisons.paper.plate import Plate, Tables
@@ -109,7 +109,8 @@ def _tables(cases: Iterable[tuple[float, float, float]], answers: Answers) -> Ta
     return {"": pd.concat(parts, ignore_index=True)}
 
 
-def _draw(tables: Tables, name: str, symbol: str, farthest: float, heights: tuple[float, float]) -> Figure:
+def _draw(tables: Tables, name: str, farthest: float, heights: tuple[float, float]) -> Figure:
+    symbol, held = {"mu": (r"$\mu$", "$n$ = 2, $k$ = 0.4"), "k": ("$k$", r"$n$ = 2, $\mu$ = 1")}[name]
     with styled():
         figure = Figure(figsize=(7.2, 3.7), layout="constrained")
         left, right = figure.subplots(1, 2)
@@ -125,14 +126,14 @@ def _draw(tables: Tables, name: str, symbol: str, farthest: float, heights: tupl
         )
         left.set(ylim=heights, ylabel=r"height of the surface $-w/z_0$")
         right.set(ylabel=r"pressure $p z_0/\Delta\gamma$")
-        _finish(figure, left, right, farthest)
+        _finish(figure, left, right, farthest, held)
     return figure
 
 
-def _finish(figure: Figure, left: Axes, right: Axes, farthest: float) -> None:
+def _finish(figure: Figure, left: Axes, right: Axes, farthest: float, held: str) -> None:
     for letter, axes in zip("ab", (left, right), strict=True):
         axes.set(xlim=(0.0, farthest), xlabel=r"radius $r/(Qz_0)^{1/n}$")
-        axes.set_title(f"({letter})", loc="left")
+        lettered(axes, letter, held)
     handles, labels = left.get_legend_handles_labels()
     (punch,) = left.plot([], [], color="0.4", lw=0.6, ls=(0, (6, 3)))
     figure.legend([*handles, punch], [*labels, r"punch $f-\delta$"], loc="outside lower center", ncols=4)
@@ -144,7 +145,7 @@ OVER_TABOR_NUMBERS = Plate(
     title="Surface and pressure at pull-off for n = 2, k = 0.4, over the Tabor number",
     calls=lambda: _calls(_CASES_5),
     tables=lambda answers: _tables(_CASES_5, answers),
-    draw=lambda tables: _draw(tables, "mu", r"$\mu$", 5.0, (-0.2, 6.2)),
+    draw=lambda tables: _draw(tables, "mu", 5.0, (-0.2, 6.2)),
 )
 
 OVER_GRADIENTS = Plate(
@@ -153,5 +154,5 @@ OVER_GRADIENTS = Plate(
     title="Surface and pressure at pull-off for n = 2, mu = 1, over the gradient exponent",
     calls=lambda: _calls(_CASES_7),
     tables=lambda answers: _tables(_CASES_7, answers),
-    draw=lambda tables: _draw(tables, "k", "k", 4.0, (-0.1, 2.0)),
+    draw=lambda tables: _draw(tables, "k", 4.0, (-0.1, 2.0)),
 )

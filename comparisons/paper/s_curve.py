@@ -9,9 +9,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.figures.style import COLOURS, styled
+from comparisons.figures.style import COLOURS, MODEL_NAMES, lettered, styled
 from comparisons.models.solver import translated
-from comparisons.outputs.digits import short
 from comparisons.paper import answers
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
@@ -36,7 +35,7 @@ _BESIDE = {"B'": (-3, 6), "A": (4, 5), "B": (-11, -9), "A'": (7, -3), "C": (-3, 
 #: Shown of central gap and displacement: the approach goes on to the left of (b) and to the right of (a).
 _GAPS, _DISPLACEMENTS, _LOADS = (-0.35, 6.0), (-7.2, 7.6), (-2.05, 0.55)
 #: In contact the central gap hardly moves; an inset shows it.
-_NEAR_GAPS = (-0.024, 0.034)
+_NEAR_GAPS, _NEAR_DISPLACEMENTS = (-0.024, 0.034), (-7.2, 9.0)
 
 
 def named_points(n: float, k: float, mu: float) -> dict[str, dict[str, float]]:
@@ -113,7 +112,7 @@ def _draw(tables: Tables) -> Figure:
         above.set(xlim=_GAPS, ylim=_DISPLACEMENTS, ylabel=r"displacement $\delta/z_0$")
         above.tick_params(labelbottom=False)
         below.set(ylim=_LOADS, ylabel=r"load $\bar P$", xlabel=r"central gap $H_0/z_0$")
-        above.set_title("(a)", loc="left")
+        lettered(above, "a")
         _plane(figure.add_subplot(grid[:, 1]), path, jkr, points, tables["hysteresis"].iloc[0])
     return figure
 
@@ -133,15 +132,15 @@ def _against_gap(
         for label, point in some.iterrows():
             where = point["central_gap"], point[name]
             shown.annotate(str(label), where, beside, textcoords="offset points", fontsize=8)
-    inset.set(xlim=_NEAR_GAPS, ylim=_DISPLACEMENTS if name == "displacement" else _LOADS)
+    inset.set(xlim=_NEAR_GAPS, ylim=_NEAR_DISPLACEMENTS if name == "displacement" else _LOADS)
     inset.tick_params(labelsize=7, pad=2)
 
 
 def _plane(axes: Axes, path: pd.DataFrame, jkr: pd.DataFrame, points: pd.DataFrame, energy: pd.Series) -> None:
     outline = _loop(path, points)
     axes.fill(*outline, color=COLOURS[6], alpha=0.35, lw=0)
-    axes.plot(path["displacement"], path["load"], color=COLOURS[0], label="FSCM")
-    axes.plot(jkr["displacement"], jkr["load"], color=COLOURS[2], ls="--", label="JKR-n-k")
+    axes.plot(path["displacement"], path["load"], color=COLOURS[0], label=MODEL_NAMES["fscm"])
+    axes.plot(jkr["displacement"], jkr["load"], color=COLOURS[2], ls="--", label=MODEL_NAMES["jkr"])
     axes.axhline(0.0, color="0.4", lw=0.8)
     places = _places(points)
     for start, end in (("A", "A'"), ("B", "B'")):
@@ -150,15 +149,14 @@ def _plane(axes: Axes, path: pd.DataFrame, jkr: pd.DataFrame, points: pd.DataFra
     axes.plot(points["displacement"], points["load"], ls="none", marker="o", ms=4, color=COLOURS[2])
     for name, offset in _BESIDE.items():
         axes.annotate(name, places[name], offset, textcoords="offset points")
-    area = short(float(energy["value"]), float(energy["u_num"]))
     axes.annotate(
-        f"hysteresis\n{area}",
+        f"hysteresis loss\n$\\oint\\,\\bar P\\,d\\delta/z_0$ = {energy['value']:.4f}",
         (0.5 * (places["A"][0] + places["B"][0]), -0.75),
         (-0.9, -0.62),
         arrowprops={"arrowstyle": "-", "color": "0.4", "lw": 0.7},
     )
     axes.set(xlim=_DISPLACEMENTS, ylim=_LOADS, xlabel=r"displacement $\delta/z_0$", ylabel=r"load $\bar P$")
-    axes.set_title("(b)", loc="left")
+    lettered(axes, "b", r"$n$ = {:g}, $k$ = {:g}, $\mu$ = {:g}".format(*_CASE))
     axes.legend(loc="lower right")
 
 

@@ -63,16 +63,17 @@ def _draw(tables: Tables) -> Figure:
 def _lengths(axes: Axes, surface: Callable[[float], float]) -> None:
     arrow = {"arrowstyle": "<->", "lw": 0.9, "shrinkA": 0, "shrinkB": 0}
     axes.plot([-3.4, 2.2], [-_DELTA, -_DELTA], color="0.35", lw=0.7, ls=":")
-    for at, low, high, text, side in (
-        (-3.2, -_DELTA, 0.0, r"$\delta$", 1),
-        (-0.55, surface(-0.55), 0.0, r"$w(r)$", 1),
-        (2.0, -_DELTA, 2.0**2 / 2.0 - _DELTA, r"$f(r)$", -1),
-        (2.45, surface(2.45), 2.45**2 / 2.0 - _DELTA, r"$H(r)$", 1),
+    for at, low, high, text, side, share in (
+        (-3.2, -_DELTA, 0.0, r"$\delta$", 1, 0.5),
+        (-0.55, surface(-0.55), 0.0, r"$w(r)$", 1, 0.5),
+        # Its name stands above the surface, which passes the middle of the length.
+        (2.0, -_DELTA, 2.0**2 / 2.0 - _DELTA, r"$f(r)$", 1, 0.65),
+        (2.45, surface(2.45), 2.45**2 / 2.0 - _DELTA, r"$H(r)$", 1, 0.5),
     ):
         axes.annotate("", (at, low), (at, high), arrowprops=arrow)
         axes.annotate(
             text,
-            (at, 0.5 * (low + high)),
+            (at, low + share * (high - low)),
             (5 * side, 0),
             textcoords="offset points",
             va="center",

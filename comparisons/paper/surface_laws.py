@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from comparisons.figures.style import COLOURS, LINES, styled
+from comparisons.figures.style import COLOURS, MODEL_LINES, lettered, styled
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
@@ -60,7 +60,9 @@ def _draw(tables: Tables) -> Figure:
         left, right = figure.subplots(1, 2)
         stress = tables[""][np.isfinite(tables[""]["n"])]
         left.plot(stress["n"], stress["eta"], color=COLOURS[0], label=r"$\eta(n)$")
-        left.axhline(THEORETICAL_STRENGTH, color=COLOURS[2], ls=":", label=r"theoretical strength $\sigma_{th}$")
+        left.axhline(
+            THEORETICAL_STRENGTH, color=COLOURS[2], ls=":", label=r"theoretical strength $\sigma_{\mathrm{th}}$"
+        )
         for n in _MARKED:
             left.plot(n, eta(n), "o", color=COLOURS[0], ms=4)
             left.annotate(f"({n:g}, {eta(n):.3f})", (n, eta(n)), (6, -9), textcoords="offset points", fontsize=8)
@@ -69,19 +71,19 @@ def _draw(tables: Tables) -> Figure:
         left.set(xlim=(0.7, 100), ylim=(0, 1.15), xticks=[1, 2, 5, 10, 20, 50, 100])
         left.set_xticklabels(["1", "2", "5", "10", "20", "50", "100"])
         left.minorticks_off()
-        left.set_title("(a)", loc="left")
+        lettered(left, "a")
         left.legend(loc="lower right")
         names = {
             "fscm": "FSCM (9-3 law)",
             "md-original": rf"original M-D: $\sigma_0$ = {THEORETICAL_STRENGTH:.3f}",
-            "md-improved": rf"improved M-D, n = {_DRAWN:g}: $\sigma_0$ = {eta(_DRAWN):.3f}",
+            "md-improved": rf"improved M-D, $n$ = {_DRAWN:g}: $\sigma_0$ = {eta(_DRAWN):.3f}",
         }
-        for index, (model, name) in enumerate(names.items()):
+        for model, name in names.items():
             law = tables["laws"][tables["laws"]["model"] == model]
-            right.plot(law["gap"], law["pressure"], color=COLOURS[index], ls=LINES[index], label=name)
+            right.plot(law["gap"], law["pressure"], label=name, **MODEL_LINES[model])
         right.axhline(0, color="0.4", lw=0.8)
         right.set(xlabel=r"gap $H/z_0$", ylabel=r"pressure $p_s z_0/\Delta\gamma$", xlim=(-0.1, 4), ylim=(-1.15, 0.9))
-        right.set_title("(b)", loc="left")
+        lettered(right, "b")
         right.legend(loc="upper right")
     return figure
 

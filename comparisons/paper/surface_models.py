@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.cases import Case
-from comparisons.figures.style import COLOURS, styled
+from comparisons.figures.style import MODEL_LINES, MODEL_NAMES, lettered, styled
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
 from comparisons.paper.answers import profile, quantity
 from comparisons.paper.plate import Plate, Tables
@@ -20,12 +20,6 @@ __all__ = ["SURFACE_MODELS", "cohesive_surface"]
 
 _N, _K, _MU = 2.0, 0.4, 1.0
 _COHESIVE = {model.name: model for model in (MaugisDugdaleOriginal(), MaugisDugdaleImproved())}
-_NAMES = {"fscm": "FSCM", "md-original": "original M-D-n-k", "md-improved": "improved M-D-n-k"}
-_STYLES: dict[str, dict[str, Any]] = {
-    "fscm": {"color": COLOURS[0], "ls": "-", "lw": 2.6, "alpha": 0.35},
-    "md-original": {"color": COLOURS[2], "ls": "--"},
-    "md-improved": {"color": COLOURS[1], "ls": "-"},
-}
 _FARTHEST = 3.0
 
 
@@ -96,9 +90,9 @@ def _draw(tables: Tables) -> Figure:
     with styled():
         figure = Figure(figsize=(7.2, 3.7), layout="constrained")
         left, right = figure.subplots(1, 2)
-        for model, style in _STYLES.items():
+        for model, style in MODEL_LINES.items():
             part = tables[""][tables[""]["model"] == model]
-            left.plot(part["radius"], part["height"], label=_NAMES[model], **style)
+            left.plot(part["radius"], part["height"], label=MODEL_NAMES[model], **style)
             right.plot(part["radius"], part["pressure"], **style)
         exact = tables[""][tables[""]["model"] == "fscm"]
         left.plot(exact["radius"], exact["punch"], color="0.45", ls=":", lw=0.9, label="punch (FSCM)")
@@ -107,8 +101,8 @@ def _draw(tables: Tables) -> Figure:
             axes.set(xlabel=r"radius $r/(Qz_0)^{1/n}$", xlim=(0, _FARTHEST))
         left.set(ylabel=r"height of the surface $-w/z_0$", ylim=(0.0, 1.75))
         right.set(ylabel=r"pressure $p z_0/\Delta\gamma$")
-        left.set_title("(a)", loc="left")
-        right.set_title("(b)", loc="left")
+        for letter, axes in (("a", left), ("b", right)):
+            lettered(axes, letter, rf"$n$ = {_N:g}, $k$ = {_K:g}, $\mu$ = {_MU:g}")
         for axes, at in ((left, 0.02), (right, 0.98)):
             for model, a, c in tables["radii"].to_numpy():
                 _mark(axes, float(a), "a", at, str(model))
@@ -118,19 +112,22 @@ def _draw(tables: Tables) -> Figure:
 
 
 def _mark(axes: Axes, radius: float, letter: str, at: float, model: str) -> None:
-    """Mark a or c of a model by a thin line in its colour."""
-    style = _STYLES[model]
+    """Mark a or c of a model by a thin line in its colour, with its name on the side where no other line is near."""
+    style = MODEL_LINES[model]
     axes.axvline(radius, color=style["color"], ls=style["ls"], lw=0.6)
-    low = at < 0.5
-    shift = 0.0 if model == "md-original" else (0.06 if low else -0.06)
-    axes.text(
-        radius + 0.02,
-        at + shift,
-        rf"${letter}_{{\mathrm{{{'orig' if model == 'md-original' else 'impr'}}}}}$",
-        transform=axes.get_xaxis_transform(),
+    low, original = at < 0.5, model == "md-original"
+    # From the left a and a of the improved and original, c of the original and improved: one slot holds two names.
+    left = (letter == "a") != original
+    up = 0.07 if original and letter == "a" else 0.0
+    axes.annotate(
+        rf"${letter}_{{\mathrm{{{'orig' if original else 'impr'}}}}}$",
+        (radius, at + (up if low else -up)),
+        (-2 if left else 2, 0),
+        xycoords=axes.get_xaxis_transform(),
+        textcoords="offset points",
         color=style["color"],
         fontsize=8,
-        ha="left",
+        ha="right" if left else "left",
         va="bottom" if low else "top",
     )
 

@@ -8,20 +8,20 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from comparisons.figures.style import COLOURS, MARKERS, styled
+from comparisons.figures.style import COLOURS, MARKERS, lettered, styled
 
 __all__ = ["draw"]
 
 _PANELS = (
-    (r"(a) pull-off force", r"$-P_c\,/\,\pi Q\Delta\gamma$", ("pull_off_force",)),
-    (r"(b) displacement at pull-off", r"$\delta_c\,/\,z_0$", ("pull_off_displacement",)),
+    ("pull-off force", r"$-P_c\,/\,\pi Q\Delta\gamma$", ("pull_off_force",)),
+    ("displacement at pull-off", r"$\delta_c\,/\,z_0$", ("pull_off_displacement",)),
     (
-        r"(c) jump-in (open) and jump-out (filled)",
+        "jump-in (open) and jump-out (filled)",
         r"$\delta\,/\,z_0$",
         ("jump_in_displacement", "jump_out_displacement"),
     ),
     (
-        r"(d) energy lost in a cycle",
+        "energy lost in a cycle",
         r"$W\,/\,\pi Q\Delta\gamma z_0$",
         ("hysteresis_energy",),
     ),
@@ -33,10 +33,12 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     table = tables[""]
     with styled():
         figure = Figure(figsize=(7.2, 6.0), layout="constrained")
-        for axes, (title, label, names) in zip(figure.subplots(2, 2, sharex=True).flat, _PANELS, strict=True):
+        panels = figure.subplots(2, 2, sharex=True).flat
+        for letter, axes, (words, label, names) in zip("abcd", panels, _PANELS, strict=True):
+            lettered(axes, letter, words)
             for name in names:
                 _curves(axes, table[table["quantity"] == name], hollow=name == "jump_in_displacement")
-            axes.set(title=title, ylabel=label, xscale="log")
+            axes.set(ylabel=label, xscale="log")
         for axes in figure.axes[2:]:
             axes.set_xlabel(r"offset $z_s\,/\,(Qz_0)^{1/n}$")
         # Solids as soft as the thinnest skins would fill the picture with what nobody asks.

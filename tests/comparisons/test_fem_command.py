@@ -55,5 +55,5 @@ def test_picture_of_both_references() -> None:
     ]
     figure = references.draw(pd.DataFrame(rows))
     labels = [line.get_label() for line in figure.axes[0].lines]
-    assert [label.split(",")[0] for label in labels[:2]] == ["fem", "fscm"]
+    assert [label.split(",")[0] for label in labels[:2]] == ["FEM", "FSCM"]
     assert len(figure.axes) == 2

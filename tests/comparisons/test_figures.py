@@ -26,10 +26,18 @@ def test_fig_16b_shows_both_models_for_every_shape_at_one_k():
     axes = figure.axes[0]
     assert axes.get_xscale() == "log"
     lines = {line.get_label(): line for line in axes.get_lines() if not line.get_label().startswith("_")}
-    assert set(lines) == {f"n = {n}, {model}" for n in (1, 2) for model in ("md-original", "md-improved")}
-    np.testing.assert_allclose(lines["n = 2, md-improved"].get_xdata(), [0.1, 1, 2])
-    np.testing.assert_allclose(lines["n = 2, md-improved"].get_ydata(), [0.2, 2, 4])
-    assert lines["n = 2, md-improved"].get_linestyle() != lines["n = 2, md-original"].get_linestyle()
+    assert set(lines) == {f"$n$ = {n}, {model} M-D-$n$-$k$" for n in (1, 2) for model in ("original", "improved")}
+    improved = "$n$ = 2, improved M-D-$n$-$k$"
+    np.testing.assert_allclose(lines[improved].get_xdata(), [0.1, 1, 2])
+    np.testing.assert_allclose(lines[improved].get_ydata(), [0.2, 2, 4])
+    assert lines[improved].get_linestyle() != lines["$n$ = 2, original M-D-$n$-$k$"].get_linestyle()
+
+
+def test_fig_16b_has_no_legend_for_a_shape_without_a_maugis_dugdale_model():
+    others = errors().query("n == 2").assign(n=3.0, model="jkr")
+    figure = kappa.draw(pd.concat([errors(), others]))
+    names = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert names == ["$n$ = 1", "$n$ = 2", "original M-D-$n$-$k$", "improved M-D-$n$-$k$"]
 
 
 def test_fig_16b_of_nothing_is_empty():
