@@ -1,20 +1,22 @@
 """The verification ladder: what the elastic half-space must reproduce, one row a rung.
 
 Each function measures one kind of error and returns rows; a row passes when the error is below its limit.
-`elastic_ladder` collects them.  Errors of surface displacements are relative to the central displacement.
+`elastic_ladder` collects them, with those of `fem_reference.identities` at the foot.  Errors of surface
+displacements are relative to the central displacement.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_reference.identities import identity_rungs, manufactured_rungs
 from fem_reference.modulus import Modulus, OffsetPowerLaw, PowerLaw
 from fem_reference.reference_solutions import gaussian_displacement, power_displacement
+from fem_reference.rung import Rung
 from fem_reference.surface import MeshSpec, Trace, compliance_for
 
 __all__ = [
@@ -22,7 +24,6 @@ __all__ = [
     "EXPONENTS",
     "FINE",
     "POISSON",
-    "Rung",
     "disc_rungs",
     "elastic_ladder",
     "far_field_rungs",
@@ -47,32 +48,6 @@ EDGE = MeshSpec(1e-3, 2e-5, 64.0, 0.69, 6)
 
 LIMITS = {"default": 5e-6, "fine": 5e-7, "edge": 1e-6}
 """Largest error allowed, relative to w(0) (measured: 1.4e-6 at nu = 0.49, 2e-7, 3e-7)."""
-
-
-@dataclass(frozen=True, slots=True)
-class Rung:
-    """One row of the ladder.
-
-    Attributes
-    ----------
-    rung, case : str
-        What is tested, and on what.
-    error, limit : float
-        Measured relative error and the largest allowed.
-    unknowns : int
-        Size of the finite-element problem.
-    """
-
-    rung: str
-    case: str
-    error: float
-    limit: float
-    unknowns: int
-
-    @property
-    def passed(self) -> bool:
-        """Whether the error is below the limit."""
-        return self.error <= self.limit
 
 
 def surface_displacement(
@@ -223,7 +198,8 @@ def elastic_ladder(full: bool = False) -> list[Rung]:
     True
     """
     few = EXPONENTS if full else (0.0, 0.4, 0.8)
-    rows = gaussian_rungs(DEFAULT, "default", few, POISSON if full else (0.25,))
+    rows = manufactured_rungs() + identity_rungs()
+    rows += gaussian_rungs(DEFAULT, "default", few, POISSON if full else (0.25,))
     if full:
         rows += gaussian_rungs(FINE, "fine", EXPONENTS, POISSON)
     rows += gaussian_rungs(DEFAULT, "default", (0.0, 0.4), (0.49,))
