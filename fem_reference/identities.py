@@ -31,11 +31,14 @@ ROUNDING_LIMIT = 1e-12
 SOLVER_LIMIT = 1e-8
 """Residual 1e-10 of the conjugate gradients times what the preconditioner leaves of the condition number."""
 
+K, NU = 0.4, 0.3
+"""Material of the rungs whose case does not name another."""
+
 UNIT = 1e3
 """Factor on every length in the scaling test: millimetres for metres."""
 
 
-def manufactured_rungs(k: float = 0.4, nu: float = 0.3) -> list[Rung]:
+def manufactured_rungs() -> list[Rung]:
     """(a) The error of a manufactured solution with graded modulus falls as h^(p+1): shortfall of the order.
 
     Examples
@@ -43,10 +46,10 @@ def manufactured_rungs(k: float = 0.4, nu: float = 0.3) -> list[Rung]:
     >>> [rung.passed for rung in manufactured_rungs()]
     [True, True, True]
     """
-    modulus, side = OffsetPowerLaw(1.0, 1.0, k, 0.5), 1.5
+    modulus, side = OffsetPowerLaw(1.0, 1.0, K, 0.5), 1.5
     rows = []
     for order, (coarse, fine) in MESHES.items():
-        errors = [manufactured_error(uniform_grid(side, n), modulus, nu, order, SMOOTH) for n in (coarse, fine)]
+        errors = [manufactured_error(uniform_grid(side, n), modulus, NU, order, SMOOTH) for n in (coarse, fine)]
         observed = math.log(errors[0] / errors[1]) / math.log(fine / coarse)
         case = f"degree {order}: order {observed:.2f} of {order + 1}"
         shortfall = max(0.0, order + 1 - observed)
@@ -54,7 +57,7 @@ def manufactured_rungs(k: float = 0.4, nu: float = 0.3) -> list[Rung]:
     return rows
 
 
-def identity_rungs(k: float = 0.4, nu: float = 0.3) -> list[Rung]:
+def identity_rungs() -> list[Rung]:
     """(g) Patch tests, symmetry, energy balance, unit scaling.
 
     Examples
@@ -66,14 +69,14 @@ def identity_rungs(k: float = 0.4, nu: float = 0.3) -> list[Rung]:
     patch = graded_grid(extent=3.0, density=1.0)
     for name, grid, modulus, field in (
         ("biaxial strain, k = 0", patch, PowerLaw(1.0, 1.0, 0.0), BIAXIAL),
-        (f"confined column, k = {k}", uniform_grid(1.0, 1), PowerLaw(1.0, 1.0, k), column(k)),
+        (f"confined column, k = {K}", uniform_grid(1.0, 1), PowerLaw(1.0, 1.0, K), column(K)),
     ):
-        error = manufactured_error(grid, modulus, nu, 3, field)
+        error = manufactured_error(grid, modulus, NU, 3, field)
         size = 2 * (3 * grid.r.size - 2) * (3 * grid.z.size - 2)
         rows.append(Rung("patch test", name, error, PATCH_LIMIT, size))
 
-    grid, case = graded_grid(edge_width=0.05, extent=16.0, density=0.9), f"k = {k}, nu = {nu}"
-    half_space = assemble_half_space(grid, PowerLaw(1.0, 1.0, k), nu)
+    grid, case = graded_grid(edge_width=0.05, extent=16.0, density=0.9), f"k = {K}, nu = {NU}"
+    half_space = assemble_half_space(grid, PowerLaw(1.0, 1.0, K), NU)
     matrix, unknowns = half_space.matrix, int(half_space.free.size)
     asymmetry = float(abs(matrix - matrix.T).max() / abs(matrix).max())
     rows.append(Rung("stiffness is symmetric", case, asymmetry, ROUNDING_LIMIT, unknowns))
@@ -89,7 +92,7 @@ def identity_rungs(k: float = 0.4, nu: float = 0.3) -> list[Rung]:
     # The same body in other units of length: E is that of the same depth, a stiffness per radian a modulus times
     # a length.
     scaled = Grid(UNIT * grid.r, UNIT * grid.z)
-    other = surface_stiffness(assemble_half_space(scaled, PowerLaw(1.0, UNIT, k), nu))
+    other = surface_stiffness(assemble_half_space(scaled, PowerLaw(1.0, UNIT, K), NU))
     apart = float(np.abs(other / UNIT - S).max() / np.abs(S).max())
     rows.append(Rung("units of length do not matter", case, apart, SOLVER_LIMIT, unknowns))
     return rows

@@ -250,9 +250,10 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
     begin = time.perf_counter()
     free = half_space.free
     A = half_space.matrix[free][:, free].tocsr()
-    D = sparse.diags_array(_scaling(A.diagonal()))
+    scale = _scaling(A.diagonal())
+    D = sparse.diags_array(scale)
     A = (D @ A @ D).tocsc()
-    b = D @ load[free]
+    b = scale * load[free]
     try:
         factors = factorise(A)
         x = factors.solve(b)
@@ -267,7 +268,7 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
             "nearly singular; check modulus, mesh and nu"
         )
     storage = 12 * factors.nnz
-    return LinearResult(_expand(half_space, D @ x), 0, residual, seconds, storage)
+    return LinearResult(_expand(half_space, scale * x), 0, residual, seconds, storage)
 
 
 def solve_bordered(
