@@ -171,7 +171,9 @@ def load_grids(text: str, tier: str | None = None) -> list[Grid]:
     """
     tables = tomllib.loads(text)
     if tables.keys() != {"grid"} or not isinstance(tables["grid"], list):
-        raise ValueError(f"a case file holds [[grid]] tables and nothing else, not {', '.join(sorted(tables))}")
+        raise ValueError(
+            f"a case file holds [[grid]] tables and nothing else, not {', '.join(sorted(tables)) or 'nothing'}"
+        )
     read = [
         _grid(table, f"grid {table.get('id', number)}", tier) for number, table in enumerate(tables["grid"], start=1)
     ]

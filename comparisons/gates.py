@@ -171,7 +171,10 @@ def load_gates(text: str, models: Iterable[str] = ()) -> list[Gate]:
     Traceback (most recent call last):
     ValueError: gate 1: basis, candidate, cases, ... missing or unknown; ...
     """
-    tables = tomllib.loads(text)
+    try:
+        tables = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(f"the gates file is not TOML: {error}") from None
     if tables.keys() != {"gate"} or not isinstance(tables["gate"], list):
         raise ValueError(
             f"a gates file holds [[gate]] tables and nothing else, not {', '.join(sorted(tables)) or 'nothing'}"

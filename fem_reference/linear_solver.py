@@ -97,10 +97,7 @@ class ElasticPreconditioner:
     def __init__(self, half_space: HalfSpace) -> None:
         free = half_space.free
         A = half_space.matrix[free][:, free].tocsr()
-        diagonal = A.diagonal()
-        if not np.all(diagonal > 0):
-            raise NotConverged("the stiffness has a non-positive diagonal entry; check modulus, mesh and nu")
-        self.scale: Array = 1.0 / np.sqrt(diagonal)
+        self.scale: Array = _scaling(A.diagonal())
         D = sparse.diags_array(self.scale)
         self.matrix: sparse.csr_array = (D @ A @ D).tocsr()
         self._strips = self._factor_strips(half_space)
@@ -248,14 +245,15 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
     Raises
     ------
     NotConverged
-        If the matrix is singular.
+        If the matrix is singular, or so nearly that the residual is not that of a factorisation.
     """
     begin = time.perf_counter()
     free = half_space.free
     A = half_space.matrix[free][:, free].tocsr()
-    D = sparse.diags_array(1.0 / np.sqrt(A.diagonal()))
+    scale = _scaling(A.diagonal())
+    D = sparse.diags_array(scale)
     A = (D @ A @ D).tocsc()
-    b = D @ load[free]
+    b = scale * load[free]
     try:
         factors = factorise(A)
         x = factors.solve(b)
@@ -264,8 +262,13 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
     seconds = time.perf_counter() - begin
     norm = float(np.linalg.norm(b))
     residual = float(np.linalg.norm(b - A @ x)) / norm if norm > 0 else 0.0
+    if not residual <= TOLERANCE:
+        raise NotConverged(
+            f"the factorisation leaves a residual of {residual:.1e}, not {TOLERANCE:.1e}: the stiffness matrix is "
+            "nearly singular; check modulus, mesh and nu"
+        )
     storage = 12 * factors.nnz
-    return LinearResult(_expand(half_space, D @ x), 0, residual, seconds, storage)
+    return LinearResult(_expand(half_space, scale * x), 0, residual, seconds, storage)
 
 
 def solve_bordered(
@@ -313,6 +316,13 @@ def solve_bordered(
     if not residual <= tolerance:
         raise NotConverged(f"GMRES reached a residual of {residual:.1e} in {count} steps, not {tolerance:.1e}")
     return x, count
+
+
+def _scaling(diagonal: Array) -> Array:
+    """Symmetric scaling to a unit diagonal, which a positive definite matrix has."""
+    if not np.all(diagonal > 0):
+        raise NotConverged("the stiffness has a non-positive diagonal entry; check modulus, mesh and nu")
+    return np.asarray(1.0 / np.sqrt(diagonal))
 
 
 def _expand(half_space: HalfSpace, x: Array) -> Array:

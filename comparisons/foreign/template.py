@@ -6,6 +6,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from comparisons.foreign.wording import model_name
+from comparisons.models import MODELS
 
 __all__ = ["write_template"]
 
@@ -38,9 +39,12 @@ def write_template(folder: Path) -> tuple[list[Path], str]:
     Raises
     ------
     ValueError
-        If the folder is not empty, its name cannot be that of a model, or nothing can be written there.
+        If the folder is not empty, its name cannot be that of a model or is that of one of ours, or nothing can be
+        written there.
     """
     name = model_name(folder.resolve().name)
+    if name in MODELS:
+        raise ValueError(f"{name} is the name of one of our models; choose another for the folder and its model")
     module = name.replace("-", "_").replace(".", "_").lower()
     if not module.isidentifier():
         raise ValueError(f"the folder's name {name} begins with a digit: no Python module can be called that")

@@ -95,7 +95,7 @@ def test_the_reference_may_be_asked_elsewhere():
         ("min_cases = 3", 'min_cases = 3\nnot_applicable = "pass"', "not_applicable = 'pass'"),
         ("[[gate]]", "[[gates]]", "nothing else"),
         ("[[gate]]", "[gate]", "nothing else"),
-        ("[[gate]]", "[[gate]", "line"),
+        ("[[gate]]", "[[gate]", "the gates file is not TOML"),
     ],
 )
 def test_what_is_wrong_is_refused_and_named(old, new, says, tmp_path, capsys):

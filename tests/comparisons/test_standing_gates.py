@@ -69,14 +69,14 @@ def changed(gate, change):
     return rows, curves
 
 
-# A factor of 1.7 and a wrong sign are outside every gate; the wrong exponent is mu^0.4 for mu^0 times 2, so
-# that it shows at mu = 1 too; "swapped" gives each case the answer of another, as a model does that takes n
-# for k.
+# A factor of 1.7 and a wrong sign are outside every gate.  The wrong exponent is a power of mu too many, with a
+# scale that is no case's, or it would not show there.  Swapped n and k is the factor 1 / (1 + k) of Eq. 51 written
+# with n; at (k, n) itself no problem is admissible.
 MISTAKES = {
     "factor": lambda rows: 1.7 * rows["value"],
     "sign": lambda rows: -rows["value"],
-    "exponent": lambda rows: rows["value"] * (2.0 * rows["mu"] + 1.0) ** 0.4 * 1.2,
-    "swapped": lambda rows: rows["value"] * ((1.0 + rows["n"]) / (1.0 + rows["k"])),
+    "exponent": lambda rows: rows["value"] * (rows["mu"] / 7.0) ** 0.4,
+    "swapped": lambda rows: rows["value"] * ((1.0 + rows["k"]) / (1.0 + rows["n"])),
 }
 
 

@@ -54,7 +54,7 @@ def test_other_models_may_be_asked(tmp_path):
         (GRID + 'tier = "quick"', "tier missing or unknown"),
         (GRID.replace("jkr", "jrk"), "unknown model 'jrk'"),
         ("grid = 3", "[[grid]] tables"),
-        ("", "[[grid]] tables"),
+        ("", "[[grid]] tables and nothing else, not nothing"),
         ("[[grid", "grid.toml"),
     ],
 )

@@ -77,7 +77,8 @@ def test_the_workflow_knows_the_exit_statuses(package):
 
 
 @pytest.mark.parametrize(
-    ("name", "says"), [("<b>", "letters, digits"), ("3d", "begins with a digit"), ("given", "gates")]
+    ("name", "says"),
+    [("<b>", "letters, digits"), ("3d", "begins with a digit"), ("given", "gates"), ("jkr", "one of our models")],
 )
 def test_a_name_that_cannot_be_is_refused(tmp_path, capsys, name, says):
     assert main(["new-model", str(tmp_path / name)]) == 2
