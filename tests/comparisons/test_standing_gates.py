@@ -49,6 +49,13 @@ def test_the_committed_results_pass(gate):
     assert verdict(gate) == (Verdict.XFAIL if gate.expected_failure else Verdict.PASS)
 
 
+@pytest.mark.parametrize("gate", [gate for gate in GATES if gate.worst_measured is not None], ids=lambda gate: gate.id)
+def test_the_worst_case_stated_is_that_of_the_committed_results(gate):
+    """To two digits, as it is written."""
+    errors = judge([gate], GRIDS, ROWS, CURVES)["error"]
+    assert gate.worst_measured == pytest.approx(errors[errors.abs().idxmax()], rel=0.05)
+
+
 def test_they_are_enough():
     judged = judge(GATES, GRIDS, ROWS, CURVES)
     evaluated = judged[judged["verdict"].isin(["PASS", "XFAIL"])]
