@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from hashlib import sha256
 from pathlib import Path
 
@@ -12,7 +12,7 @@ import pandas as pd
 from comparisons.cases import Grid, asked_of, cases_text, grids
 from comparisons.commands.options import FAILED, FAILS, INCONCLUSIVE, OK, output
 from comparisons.gates import Gate, gates_text, load_gates, of_tier
-from comparisons.judge import judge
+from comparisons.judge import judge, left_out
 from comparisons.outputs.markdown import to_step_summary
 from comparisons.outputs.verdicts import matrix, write_verdicts
 from comparisons.progress import log
@@ -21,7 +21,7 @@ from comparisons.store import read_table
 from comparisons.tables import rich_table
 from comparisons.verdict import Verdict, roll_up
 
-__all__ = ["STATUS", "add", "call", "judge_and_write", "print_verdicts"]
+__all__ = ["STATUS", "add", "call", "judge_and_write", "own_gates", "print_verdicts"]
 
 #: Verdict over all gates -> exit status.
 STATUS = {
@@ -47,15 +47,45 @@ def call(args: argparse.Namespace) -> int:
     record = read_record(args.folder / "run.json")
     models, tier = record["arguments"]["model"], record["arguments"]["tier"]
     text = gates_text(args.gates)
-    gates = of_tier(load_gates(text, models or ()), tier)
+    chosen = asked_of(grids(tier), models)
+    gates = of_tier(load_gates(text), tier) if args.gates is None else own_gates(text, args.gates, tier, chosen, models)
     rows, curves = (read_table(args.folder / name) for name in ("results.parquet", "curves.parquet"))
     for name, content in {"cases": cases_text(), "gates": text}.items():
         if sha256(content.encode()).hexdigest() != record[f"{name}_sha256"]:
             log(f"the {name} have changed since {args.folder} was computed; judged by those of today")
     specs = record["arguments"]["outside"]
-    judged = judge_and_write(args.folder, gates, asked_of(grids(tier), models), rows, curves, models, specs)
+    judged = judge_and_write(args.folder, gates, chosen, rows, curves, models, specs)
     print_verdicts(judged, specs)
     return STATUS[roll_up(judged["verdict"])]
+
+
+def own_gates(text: str, path: Path, tier: str, chosen: Sequence[Grid], models: Sequence[str] | None) -> list[Gate]:
+    """Return the gates of a file of somebody's own that a run can judge, and say how many it leaves out.
+
+    Parameters
+    ----------
+    text, path
+        Of the file.
+    tier : str
+        Of the run.
+    chosen : sequence of Grid
+        What the run computes.
+    models : sequence of str or None
+        Models given in place of those each grid names.
+
+    Raises
+    ------
+    ValueError
+        If a gate is wrong or needs a model that is not computed; one sentence says which.
+    """
+    every = load_gates(text, models or ())
+    gates = of_tier(every, tier)
+    others = left_out(gates, chosen, models)
+    if others:
+        log(f"{len(others)} of {len(every)} gates of {path} are left out: their candidate is not given to this run")
+    if len(gates) < len(every):
+        log(f"{len(every) - len(gates)} of {len(every)} gates of {path} are left out: they are of the tier full")
+    return gates
 
 
 def judge_and_write(

@@ -16,7 +16,7 @@ from rich.table import Table
 
 from comparisons.cases import TIERS, VERIFICATION, Grid, asked_of, cases_text, grids
 from comparisons.commands.computing import add_jobs, checked_jobs, complete, folder_for
-from comparisons.commands.judge import STATUS, judge_and_write, print_verdicts
+from comparisons.commands.judge import STATUS, judge_and_write, own_gates, print_verdicts
 from comparisons.commands.options import FAILED, output
 from comparisons.figures import agreement as agreement_figure
 from comparisons.figures import kappa as kappa_figure
@@ -86,10 +86,14 @@ def call(args: argparse.Namespace) -> int:
     given = None if args.model is None else names
     specs = {name: model.spec for name, model in outside.items()}
     rules = gates_text(args.gates)
-    gates = of_tier(load_gates(rules, names), args.tier)
+    chosen = asked_of(grids(args.tier), given)
+    gates = (
+        of_tier(load_gates(rules), args.tier)
+        if args.gates is None
+        else own_gates(rules, args.gates, args.tier, chosen, given)
+    )
     started = datetime.now(UTC)
     folder = folder_for(args.out, started)
-    chosen = asked_of(grids(args.tier), given)
     tasks = plan(chosen, given, outside)
     clock = time.perf_counter()
     try:

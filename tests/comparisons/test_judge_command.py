@@ -79,6 +79,55 @@ def test_other_gates_than_those_of_the_run_are_named(folder, small_grid, tmp_pat
     assert "the gates have changed since" in capsys.readouterr().err
 
 
+RIVAL = ('"rel"', '"rel"\nrival = "twelve-percent"'), ("lower = 0.09", "lower = -inf"), ("upper = 0.11", "upper = 0.0")
+
+
+@pytest.mark.parametrize("candidate", ["ten-percent", "given"])
+@pytest.mark.parametrize("command", ["run", "judge"])
+def test_a_gate_whose_rival_is_not_computed_is_refused_and_adding_it_helps(
+    small_grid, tmp_path, capsys, candidate, command
+):
+    out = ["--jobs", "1", "--out", str(tmp_path / "run"), "--model", "ten-percent"]
+    rules = gates(small_grid, tmp_path, *RIVAL, ('candidate = "ten-percent"', f'candidate = "{candidate}"'))
+    if command == "judge":
+        assert main(["run", *out]) == 0
+        capsys.readouterr()
+    assert main(["run", *out, *rules] if command == "run" else ["judge", str(tmp_path / "run"), *rules]) == 2
+    shown = capsys.readouterr()
+    assert shown.err == (
+        "fscm-bench: gate TEN-PERCENT needs twelve-percent, which this run does not compute: "
+        "add --model twelve-percent\n"
+    )
+    assert shown.out == ""
+    out[-1:] = ["ten-percent", "twelve-percent"]
+    out[out.index("--out") + 1] = str(tmp_path / "both")
+    assert main(["run", *out, *rules]) == 0
+    # The rival is not asked by how much it exceeds itself.
+    assert "PASS: 1 gates, 4 cases PASS" in capsys.readouterr().out
+    assert main(["judge", str(tmp_path / "both"), *rules]) == 0
+
+
+@pytest.mark.parametrize("command", ["run", "judge"])
+def test_gates_that_are_left_out_are_counted(small_grid, tmp_path, capsys, command):
+    other = small_grid.replace("TEN-PERCENT", "OTHER").replace('"ten-percent"', '"refuses"')
+    later = small_grid.replace("TEN-PERCENT", "LATER").replace('"quick"', '"full"')
+    rules = gates(small_grid + other + later, tmp_path)
+    arguments = ["run", "--jobs", "1", "--out", str(tmp_path / "run"), "--model", "ten-percent"]
+    assert main([*arguments, *rules]) == 0
+    if command == "judge":
+        capsys.readouterr()
+        assert main(["judge", str(tmp_path / "run"), *rules]) == 0
+    told = capsys.readouterr().err
+    assert re.search("1 of 3 gates of .*gates.toml are left out: their candidate is not given", told)
+    assert re.search("1 of 3 gates of .*gates.toml are left out: they are of the tier full", told)
+
+
+def test_a_gate_for_given_models_is_counted_when_none_is_given(small_grid, tmp_path, capsys):
+    rules = gates(small_grid + small_grid.replace("TEN", "ANY").replace('"ten-percent"', '"given"'), tmp_path)
+    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), *rules]) == 0
+    assert "1 of 2 gates" in capsys.readouterr().err
+
+
 def test_results_spoilt_after_the_run_are_an_error(folder, capsys):
     table = pd.read_parquet(folder / "results.parquet")
     table.drop(columns="u_num").to_parquet(folder / "results.parquet")
