@@ -129,3 +129,5 @@ def print_verdicts(judged: pd.DataFrame, specs: Mapping[str, str]) -> None:
         + ", ".join(f"{count} cases {name}" for name, count in counts.items()),
         style="bold",
     )
+    for record in shown[shown["verdict"] == Verdict.ERROR].itertuples():
+        log(f"a gate is in error: {record.gate} of {record.candidate}: {record.reason}")

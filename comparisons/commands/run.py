@@ -135,8 +135,10 @@ def call(args: argparse.Namespace) -> int:
     )
     _print(table, kappa, maxima)
     print_verdicts(judged, specs)
+    if failed := sum(row.status == "failed" for row in rows):
+        log(f"{failed} computations failed")
     log(f"results are in {folder}")
-    return FAILED if any(row.status == "failed" for row in rows) else STATUS[verdict]
+    return FAILED if failed else STATUS[verdict]
 
 
 def _kappa(table: pd.DataFrame, chosen: list[Grid], models: list[str] | None) -> pd.DataFrame:

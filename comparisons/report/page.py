@@ -61,7 +61,7 @@ class Page:
 
 #: What the verdict over all gates means to somebody who sees it for the first time.
 _MEANINGS = {
-    Verdict.ERROR: "Something could not be judged: a value or a row is missing, or no gate was evaluated.",
+    Verdict.ERROR: "Something could not be judged: a value, a row or a case is missing, or no gate was evaluated.",
     Verdict.FAIL: "At least one gate fails: an error is outside its limits, whatever the uncertainties.",
     Verdict.XPASS: "A gate that is declared to fail passes: its declaration is out of date.",
     Verdict.INCONCLUSIVE: "Nothing fails, but for at least one gate the uncertainties are too large for a verdict.",

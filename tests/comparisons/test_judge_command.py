@@ -70,6 +70,8 @@ def test_the_exit_status_is_the_verdict(small_grid, tmp_path, capsys, changes, s
     assert main([*arguments, *gates(small_grid, tmp_path, *changes)]) == status
     shown = capsys.readouterr()
     assert verdict in shown.out or "no gate was evaluated" in shown.err
+    # Status 4 is explained where the program says what went wrong.
+    assert ("a gate is in error: TEN-PERCENT of " in shown.err) == (verdict == "ERROR" and "no gate" not in shown.err)
     if command == "run":
         assert json.loads((tmp_path / "run" / "run.json").read_text())["verdicts"]["all"] == verdict
 
