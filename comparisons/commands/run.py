@@ -16,7 +16,7 @@ from rich.table import Table
 
 from comparisons.cases import TIERS, VERIFICATION, Grid, asked_of, cases_text, grids
 from comparisons.commands.computing import add_jobs, checked_jobs, complete, folder_for
-from comparisons.commands.judge import STATUS, judge_and_write, own_gates, print_verdicts
+from comparisons.commands.judge import GATES, STATUS, counted, judge_and_write, own_gates, print_verdicts
 from comparisons.commands.options import FAILED, output
 from comparisons.figures import agreement as agreement_figure
 from comparisons.figures import kappa as kappa_figure
@@ -32,6 +32,7 @@ from comparisons.run import plan
 from comparisons.shapes import SHAPES
 from comparisons.store import (
     Row,
+    atomic,
     curve_frame,
     frame,
     write_curves,
@@ -94,6 +95,8 @@ def call(args: argparse.Namespace) -> int:
     )
     started = datetime.now(UTC)
     folder = folder_for(args.out, started)
+    if (folder / GATES).exists() and not (folder / "journal.jsonl").exists() and gates_text(folder / GATES) != rules:
+        raise ValueError(f"{folder / GATES} is not of a run, which would replace it; choose another folder with --out")
     tasks = plan(chosen, given, outside)
     clock = time.perf_counter()
     try:
@@ -107,6 +110,8 @@ def call(args: argparse.Namespace) -> int:
     kappa = _kappa(table, chosen, given)
     maxima = largest(kappa)
     _write(folder, table, curves, kappa, maxima)
+    with atomic(folder / GATES) as file:
+        file.write(rules.encode())
     judged = judge_and_write(folder, gates, chosen, table, curves, given, specs)
     verdict = roll_up(judged["verdict"])
     write_record(
@@ -128,7 +133,7 @@ def call(args: argparse.Namespace) -> int:
             "rows": {"all": len(rows), "resumed": resumed, **Counter(row.status for row in rows)},
             "cases_sha256": sha256(cases_text().encode()).hexdigest(),
             "gates_sha256": sha256(rules.encode()).hexdigest(),
-            "verdicts": {"all": str(verdict), **Counter(map(str, judged["verdict"]))},
+            "verdicts": counted(judged),
             **environment(),
         },
         folder / "run.json",

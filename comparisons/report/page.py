@@ -166,6 +166,9 @@ def _provenance(stored: Stored) -> list[tuple[str, str]]:
         ("CPU", f"{machine['cpu']}, {machine['cores']} cores"),
         ("BLAS", "; ".join(f"{one['library']} {one['version']}, {one['threads']} threads" for one in record["blas"])),
     ]
+    if "judged_again" in record:
+        again = record["judged_again"]
+        facts.append(("judged again", f"by {again['gates']}, SHA-256 {again['gates_sha256']}"))
     then, now = record["verdicts"], {"all": str(roll_up(stored.verdicts["verdict"])), **dict(_counts(stored))}
     if then != now:
         facts.append(("judged again", f"yes; at the end of the run the verdicts were {_pairs(then)}"))

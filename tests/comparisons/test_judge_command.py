@@ -8,6 +8,9 @@ import pytest
 
 from comparisons.cli import main
 from comparisons.outputs.verdicts import FILES
+from comparisons.record import read_record
+from comparisons.report.folder import read_folder
+from comparisons.report.page import make_page
 
 
 @pytest.fixture
@@ -76,9 +79,60 @@ def test_the_exit_status_is_the_verdict(small_grid, tmp_path, capsys, changes, s
         assert json.loads((tmp_path / "run" / "run.json").read_text())["verdicts"]["all"] == verdict
 
 
-def test_other_gates_than_those_of_the_run_are_named(folder, small_grid, tmp_path, capsys):
-    main(["judge", str(folder), *gates(small_grid, tmp_path, ("0.11", "0.12"))])
-    assert "the gates have changed since" in capsys.readouterr().err
+def test_other_gates_than_those_of_the_run_are_named_and_the_record_agrees(folder, small_grid, tmp_path, capsys):
+    finished = read_record(folder / "run.json")
+    assert main(["judge", str(folder), *gates(small_grid, tmp_path, ("upper = 0.11", "upper = 0.095"))]) == 1
+    assert re.search("judged by .*gates.toml, not by the gates .* was run with", capsys.readouterr().err)
+    record = read_record(folder / "run.json")
+    assert record["verdicts"] == {"all": "FAIL", "FAIL": 4}
+    assert record["judged_again"]["gates"] == str(tmp_path / "gates.toml")
+    assert set(pd.read_csv(folder / "verdicts.csv")["verdict"]) == {"FAIL"}
+    page = dict(make_page(read_folder(folder)).provenance)
+    assert page["judged again"].startswith(f"by {tmp_path / 'gates.toml'}, SHA-256")
+    # Without --gates the run's own are back, and nothing of the others is left.
+    assert main(["judge", str(folder)]) == 0
+    assert read_record(folder / "run.json") == finished
+
+
+@pytest.mark.parametrize("models", [[], ["--model", "ten-percent"]])
+def test_a_run_is_judged_again_by_the_gates_it_was_made_with(small_grid, tmp_path, capsys, models):
+    other = small_grid.replace("TEN-PERCENT", "OTHER").replace('"ten-percent"', '"refuses"')
+    rules = gates(small_grid + other * bool(models), tmp_path, ("upper = 0.11", "upper = 0.095"))
+    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), *models, *rules]) == 1
+    before = {name: (tmp_path / "run" / name).read_bytes() for name in (*FILES, "run.json", "gates.toml")}
+    (tmp_path / "gates.toml").unlink()
+    capsys.readouterr()
+    assert main(["judge", str(tmp_path / "run")]) == 1
+    assert "run/gates.toml, the gates of the run" in capsys.readouterr().err
+    assert {name: (tmp_path / "run" / name).read_bytes() for name in before} == before
+
+
+def test_standing_gates_of_models_that_were_not_given_do_not_matter(small_grid, tmp_path, capsys, monkeypatch):
+    rival = small_grid.replace("TEN-PERCENT", "OTHER") + 'rival = "twelve-percent"\n'
+    for command in ("run", "judge"):
+        monkeypatch.setattr(
+            f"comparisons.commands.{command}.gates_text", lambda path: path.read_text() if path else small_grid + rival
+        )
+    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), "--model", "ten-percent"]) == 0
+    assert main(["judge", str(tmp_path / "run")]) == 0
+    assert "left out" not in capsys.readouterr().err
+
+
+def test_a_gates_file_of_somebodys_own_is_not_replaced(small_grid, tmp_path, capsys):
+    rules = gates(small_grid, tmp_path, ("upper = 0.11", "upper = 0.12"))
+    text = (tmp_path / "gates.toml").read_text()
+    out = ["run", "--jobs", "1", "--out", str(tmp_path)]
+    assert main(out) == 2
+    assert "gates.toml is not of a run" in capsys.readouterr().err
+    assert main([*out, *rules]) == 0
+    assert (tmp_path / "gates.toml").read_text() == text
+    assert main(out) == 0
+
+
+def test_a_run_that_kept_no_gates_is_judged_by_the_standing_ones(folder, capsys):
+    (folder / "gates.toml").unlink()
+    assert main(["judge", str(folder)]) == 0
+    assert "judged by the standing gates" in capsys.readouterr().err
 
 
 RIVAL = ('"rel"', '"rel"\nrival = "twelve-percent"'), ("lower = 0.09", "lower = -inf"), ("upper = 0.11", "upper = 0.0")
