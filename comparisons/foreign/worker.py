@@ -24,7 +24,7 @@ from typing import IO, Any
 import numpy as np
 
 from comparisons.foreign.landlock import write_only_in
-from comparisons.foreign.limits import Limits, cpu_seconds_from_now, limit_resources
+from comparisons.foreign.limits import LARGEST_COUNT, Limits, cpu_seconds_from_now, limit_resources
 from comparisons.foreign.source import load_file, source_digest
 from comparisons.foreign.units import InUnits, PhysicalModel
 from comparisons.foreign.wording import one_line
@@ -35,6 +35,7 @@ __all__ = ["main"]
 
 _OURS = Path(__file__).resolve().parent.parent
 _LARGEST_CURVE = 1_000_000
+_COUNTS = ("size", "iterations")
 
 
 def main(answers: int) -> None:
@@ -124,8 +125,7 @@ def _evaluate(model: Any, request: dict[str, Any]) -> dict[str, Any]:
         raise ComputationFailed(f"the model returned {_kind(result)}, which is not a comparisons.model.Result")
     numbers_of = {name: _real(name, getattr(result, name)) for name in ("value", "u_num", "residual")}
     Result(numbers_of["value"], numbers_of["u_num"])
-    counts = {name: int(_real(name, getattr(result, name))) for name in ("size", "iterations")}
-    return {"status": "ok", **numbers_of, **counts}
+    return {"status": "ok", **numbers_of, **{name: _count(name, getattr(result, name)) for name in _COUNTS}}
 
 
 def _curve(model: Any, request: dict[str, Any]) -> dict[str, Any]:
@@ -157,6 +157,14 @@ def _real(name: str, value: object) -> float:
     number = float(value)
     if not math.isfinite(number):
         raise ComputationFailed(f"the model gave {number} as {name}, which is not a finite number")
+    return number
+
+
+def _count(name: str, value: object) -> int:
+    """Return a number of things, as the stored tables have it."""
+    number = int(_real(name, value))
+    if not 0 <= number < LARGEST_COUNT:
+        raise ComputationFailed(f"the model gave {_kind(value)} as {name}, which is outside [0, 2^63): it counts")
     return number
 
 

@@ -5,6 +5,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pandas as pd
 import pytest
@@ -14,7 +15,7 @@ from comparisons.cli import main
 from comparisons.commands import run
 from comparisons.foreign.child import PATIENCE
 from comparisons.foreign.loading import door_of
-from comparisons.foreign.proxy import connect
+from comparisons.foreign.proxy import ForeignModel, connect
 from comparisons.foreign.wording import model_name
 from comparisons.models import create
 from comparisons.run import ask
@@ -43,6 +44,9 @@ NONSENSE = [
     ("return Result(np.array([1.0, 2.0]), 0.0)", "TypeError in evaluate"),
     ("return Result(np.array(1.5), 0.0)", "an array of shape ()"),
     ("return Result(True, 0.0)", "bool True"),
+    ("return Result(1.5, 0.0, size=10**30)", f"int {10**30} as size, which is outside [0, 2^63)"),
+    ("return Result(1.5, 0.0, iterations=2**63)", "as iterations, which is outside [0, 2^63)"),
+    ("return Result(1.5, 0.0, iterations=-1)", "int -1 as iterations, which is outside [0, 2^63)"),
     ("return '<b>1.5</b>'", "str '<b>1.5</b>', which is not a comparisons.model.Result"),
     ("return 1.5 + 2j", "complex (1.5+2j)"),
     ("return np.ones(7)", "an array of shape (7,)"),
@@ -74,6 +78,14 @@ def test_nonsense_is_a_failed_row_with_a_reason(nonsense, number, says):
     assert (answer.status, answer.value, answer.model) == ("failed", None, "stranger")
     assert says in answer.reason
     assert answer.reason.isprintable()
+
+
+@pytest.mark.parametrize("count", [10**30, -1, 2**63])
+def test_a_process_that_writes_a_count_of_its_own_is_not_believed(count):
+    answer = {"status": "ok", "value": 1.5, "u_num": 0.0, "size": count, "iterations": 0, "residual": 0.0}
+    said = {"name": "stranger", "version": "1", "citation": "", "domain": "", "digest": "0" * 64}
+    model = ForeignModel(SimpleNamespace(ask=lambda **_: answer), said | {"limits": [], "physical": False})
+    assert ask(model, "pull_off_force", CASE).reason == "its process wrote something that is not an answer"
 
 
 @pytest.mark.parametrize(
