@@ -267,6 +267,8 @@ def _judge_case(gate: Gate, case: Case, answers: _Answers, scale: float) -> Judg
             verdict = Verdict.ERROR
         return replace(one, verdict=verdict, reason=trouble.reason)
     verdict, reason = decide(error, u_error, gate.lower, gate.upper), ""
+    if verdict is Verdict.ERROR:
+        reason = f"the error {error:g} +- {u_error:g} is not a finite number"
     if verdict is Verdict.PASS and u_reference > gate.max_reference_uncertainty:
         verdict = Verdict.INCONCLUSIVE
         reason = f"u of {gate.reference} is {u_reference:.2g}; the gate tolerates {gate.max_reference_uncertainty:.2g}"

@@ -194,6 +194,15 @@ def test_results_spoilt_after_the_run_are_an_error(folder, capsys):
     assert "truth has no row" in capsys.readouterr().out
 
 
+def test_absurd_but_finite_values_are_judged_and_reported(small_grid, tmp_path, capsys):
+    rules = gates(small_grid, tmp_path, ('"ten-percent"', '"absurd"'))
+    out = tmp_path / "run"
+    assert main(["run", "--jobs", "1", "--out", str(out), "--model", "absurd", *rules]) == 1
+    assert "FAIL: 1 gates, 4 cases FAIL" in capsys.readouterr().out
+    assert main(["report", str(out)]) == 0
+    assert (out / "report.html").stat().st_size > 0
+
+
 @pytest.mark.parametrize("lost", ["run.json", "results.parquet", "curves.parquet"])
 def test_a_folder_that_is_no_finished_run_is_wrong_input(folder, lost, capsys):
     (folder / lost).unlink()

@@ -93,6 +93,7 @@ def test_a_process_that_writes_a_count_of_its_own_is_not_believed(count):
     [
         ("os._exit(0)", "ended its process with exit status 0"),
         ("ctypes.string_at(0)", "killed by SIGSEGV"),
+        ("os.kill(os.getpid(), 40)", "killed by signal 40"),
         (
             "for fd in range(3, 20):\n    with suppress(OSError):\n        os.write(fd, b'{}\\n')",
             "not an answer",
