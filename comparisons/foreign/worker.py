@@ -81,9 +81,9 @@ def _serve(requests: IO[str], out: IO[str]) -> None:
                 cpu_seconds_from_now(limits)
                 reply = _answers[request["ask"]](model, request)
         except NotApplicable as refusal:
-            reply = {"status": "not-applicable", "reason": one_line(str(refusal))}
+            reply = {"status": "not-applicable", "reason": _words(refusal)}
         except BaseException as error:
-            reply = {"status": "failed", "reason": _explain(error, limits)}
+            reply = {"status": "failed", "reason": _explain(error, limits, request["ask"])}
         reply["seconds"] = time.perf_counter() - started
         out.write(json.dumps(reply, allow_nan=False) + "\n")
         out.flush()
@@ -192,18 +192,31 @@ def _is_theirs(filename: str) -> bool:
     return not filename.startswith("<") and not Path(filename).is_relative_to(_OURS)
 
 
-def _explain(error: BaseException, limits: Limits) -> str:
+def _words(thing: object, by: Callable[[object], str] = str) -> str:
+    """Return what an exception says; its class may be of the model, and fail at that."""
+    try:
+        return one_line(by(thing))
+    except BaseException as worse:
+        return f"its text cannot be had: __{by.__name__}__ raises {type(worse).__name__}"
+
+
+def _explain(error: BaseException, limits: Limits, asked: str) -> str:
     """Return what happened in one line; the model's own refusals in its words, defects with their place."""
     if isinstance(error, ComputationFailed):
-        return one_line(str(error)) or "the model failed and did not say why"
+        return _words(error) or "the model failed and did not say why"
     name = type(error).__name__
     if isinstance(error, MemoryError):
         return f"MemoryError: the model asked for more than its {limits.megabytes:g} MB"
     if isinstance(error, SystemExit):
-        return f"SystemExit: the model called sys.exit({one_line(repr(error.code), 60)})"
+        return f"SystemExit: the model called sys.exit({one_line(_words(error.code, repr), 60)})"
+    if isinstance(error, SyntaxError) and error.lineno and _is_theirs(error.filename or "<"):
+        # It has no frame of its own: the place is in the exception.
+        where = f"line {error.lineno} of {Path(error.filename).name}"
+        return one_line(f"{type(error).__name__} in {where}: {error.msg}")
     every = traceback.extract_tb(error.__traceback__)
     # The place in the author's code: a Result that refuses a text was given it there.
     frames = [frame for frame in every if _is_theirs(frame.filename)] or every
     place = f" in {frames[-1].name}, line {frames[-1].lineno} of {Path(frames[-1].filename).name}" if frames else ""
-    hint = " (a case outside the domain is NotApplicable)" if isinstance(error, ValueError) else ""
-    return one_line(f"{name}{place}: {error}{hint}")
+    # Loading a model asks no case.
+    hint = " (a case outside the domain is NotApplicable)" if isinstance(error, ValueError) and asked != "open" else ""
+    return one_line(f"{name}{place}: {_words(error)}{hint}")

@@ -53,6 +53,10 @@ NONSENSE = [
     ("pass", "NoneType None"),
     ("return 1.5", "float 1.5"),
     ("raise ComputationFailed('no\\x1b[31m root\\nfound')", "no[31m root found"),
+    ("raise type('Odd', (Exception,), {'__str__': lambda self: 1 / 0})", "__str__ raises ZeroDivisionError"),
+    ("raise type('Odd', (ComputationFailed,), {'__str__': lambda self: 1 / 0})", "__str__ raises ZeroDivisionError"),
+    ("sys.exit(type('Odd', (), {'__repr__': lambda self: 1 / 0})())", "__repr__ raises ZeroDivisionError"),
+    ("import mangled", "SyntaxError in line 2 of mangled.py: "),
     ("raise ComputationFailed", "did not say why"),
     ("raise ValueError('k is large')", "k is large (a case outside the domain is NotApplicable)"),
 ]
@@ -65,6 +69,7 @@ def nonsense(tmp_path_factory):
         f"        if problem.mu == {number}:\n            {body}" for number, (body, _) in enumerate(NONSENSE, 1)
     )
     file = tmp_path_factory.mktemp("nonsense") / "stranger.py"
+    file.with_name("mangled.py").write_text("x = 1\nx = (\n")
     file.write_text(f"{HEAD.format(name='stranger')}\n    def evaluate(self, problem, quantity):\n{bodies}\n")
     spec = f"{file}:Model"
     model = connect(door_of(spec), spec)
@@ -123,6 +128,12 @@ def test_one_that_allocates_without_bound_runs_into_its_limit(write_model, monke
     assert answer.status == "failed"
     assert "1500 MB" in answer.reason
     assert row(spec).status == "failed"
+
+
+def test_a_refusal_whose_text_cannot_be_had_is_a_refusal(write_model):
+    answer = row(write_model("raise type('Odd', (NotApplicable,), {'__str__': lambda self: 1 / 0})"))
+    assert answer.status == "not-applicable"
+    assert "__str__ raises ZeroDivisionError" in answer.reason
 
 
 def test_printing_disturbs_nobody(write_model, capfd):
@@ -238,12 +249,14 @@ def test_a_model_with_such_a_name_is_wrong_input(write_model, capsys, name, says
     ("text", "says"),
     [
         ("import no_such_module_at_all", "no_such_module_at_all"),
-        ("def f(:", "SyntaxError"),
+        ("x = 1\ndef f(:", "SyntaxError in line 2 of stranger.py: invalid syntax"),
+        ("exec('def f(:')", "SyntaxError in <module>, line 1 of stranger.py"),
         ("import os; os._exit(5)", "exit status 5"),
         ("import sys; sys.exit()", "sys.exit(None)"),
         ("x = 1", "does not define Model"),
         ("class Model:\n    pass", "name"),
         ("class Model:\n    name = version = citation = domain = 'x'", "evaluate"),
+        ("class Model:\n    def __init__(self):\n        raise ValueError('no such table')", "no such table"),
         ("class Model:\n    def __init__(self, radius):\n        pass", "radius"),
     ],
 )
@@ -254,6 +267,7 @@ def test_one_that_cannot_be_loaded_is_wrong_input(tmp_path, capsys, text, says):
     assert main(["solve", "--model", f"{file}:Model", *arguments]) == 2
     shown = capsys.readouterr()
     assert "cannot be loaded" in shown.err
+    assert "NotApplicable" not in shown.err
     assert says in shown.err
     assert shown.out == ""
 
