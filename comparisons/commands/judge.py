@@ -100,7 +100,7 @@ def own_gates(text: str, path: Path, tier: str, chosen: Sequence[Grid], models: 
     ValueError
         If a gate is wrong or needs a model that is not computed; one sentence says which.
     """
-    every = load_gates(text, models or ())
+    every = load_gates(text, models or (), str(path))
     gates = of_tier(every, tier)
     others = left_out(gates, chosen, models)
     if others:

@@ -209,7 +209,7 @@ def _explain(error: BaseException, limits: Limits, asked: str) -> str:
         return f"MemoryError: the model asked for more than its {limits.megabytes:g} MB"
     if isinstance(error, SystemExit):
         return f"SystemExit: the model called sys.exit({one_line(_words(error.code, repr), 60)})"
-    if isinstance(error, SyntaxError) and error.lineno and _is_theirs(error.filename or "<"):
+    if isinstance(error, SyntaxError) and error.lineno and error.filename and _is_theirs(error.filename):
         # It has no frame of its own: the place is in the exception.
         where = f"line {error.lineno} of {Path(error.filename).name}"
         return one_line(f"{type(error).__name__} in {where}: {error.msg}")

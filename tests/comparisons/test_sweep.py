@@ -55,7 +55,17 @@ def test_other_models_may_be_asked(tmp_path):
         (GRID.replace("jkr", "jrk"), "unknown model 'jrk'"),
         ("grid = 3", "[[grid]] tables"),
         ("", "[[grid]] tables"),
-        ("[[grid", "grid.toml"),
+        ("", "grid.toml: a case file holds [[grid]] tables and nothing else, not nothing"),
+        ("[[grid", "grid.toml is not TOML"),
+        ("grid = [1]", "[[grid]] tables"),
+        ("x = " + "[" * 5000 + "]" * 5000, "nested too deeply"),
+        (GRID.replace("mu = [0.5, 2]", 'mu = [0.5, "2"]'), "mu must be a list of numbers; '2' is none"),
+        (GRID.replace("mu = [0.5, 2]", "mu = [1" + "0" * 400 + "]"), "mu must be a list of numbers"),
+        (GRID + 'nu = ["a"]', "nu must be a list of numbers"),
+        (GRID + "tags = [[]]", "tags must be a list of names"),
+        (GRID.replace('["jkr", "bradley"]', "[{}]"), "models must be a list of names"),
+        (GRID.replace('reference = "md-improved"', 'reference = ["md-improved"]'), "must be a text"),
+        (GRID.replace('id = "mine"', "id = 1"), "id = 1 must be a text"),
     ],
 )
 def test_what_is_refused(tmp_path, capsys, text, why):
