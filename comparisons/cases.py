@@ -7,7 +7,6 @@ unnoticed.
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
@@ -17,6 +16,7 @@ from typing import Any
 from comparisons.models import MODELS
 from comparisons.quantities import QUANTITIES
 from comparisons.shapes import SHAPES
+from comparisons.toml_text import is_real, names, parse
 from fscm.problem import Problem
 
 __all__ = ["TIERS", "VERIFICATION", "Case", "Grid", "asked_of", "cases_text", "grids", "load_grids"]
@@ -117,6 +117,7 @@ class Grid:
 
 
 _LISTS = ("models", "quantities", "n", "k", "mu")
+_PARAMETERS = ("n", "k", "mu", "nu")
 _OPTIONAL = ("nu", "tags")
 _TEXTS = ("id", "title", "tier", "reference")
 
@@ -125,6 +126,10 @@ def _known(what: str, names: list[str], register: Mapping[str, object] | Sequenc
     for name in names:
         if name not in register:
             raise ValueError(f"{where}: unknown {what} {name!r}; known are {', '.join(register)}")
+
+
+def _is_text(entry: object) -> bool:
+    return isinstance(entry, str)
 
 
 def _grid(table: dict[str, Any], where: str, tier: str | None) -> Grid:
@@ -137,6 +142,12 @@ def _grid(table: dict[str, Any], where: str, tier: str | None) -> Grid:
     for key in (*_LISTS, *(key for key in _OPTIONAL if key in table)):
         if not (isinstance(table[key], list) and table[key]):
             raise ValueError(f"{where}: {key} must be a list with at least one entry")
+        fits, kind = (is_real, "numbers") if key in _PARAMETERS else (_is_text, "names")
+        if wrong := [entry for entry in table[key] if not fits(entry)]:
+            raise ValueError(f"{where}: {key} must be a list of {kind}; {wrong[0]!r} is none")
+    for key in sorted(expected & {*_TEXTS}):
+        if not _is_text(table[key]):
+            raise ValueError(f"{where}: {key} = {table[key]!r} must be a text")
     _known("tier", [tier or table["tier"]], TIERS, where)
     _known("model", [table["reference"], *table["models"]], MODELS, where)
     _known("quantity", table["quantities"], (*QUANTITIES, *SHAPES), where)
@@ -154,7 +165,7 @@ def _grid(table: dict[str, Any], where: str, tier: str | None) -> Grid:
     )
 
 
-def load_grids(text: str, tier: str | None = None) -> list[Grid]:
+def load_grids(text: str, tier: str | None = None, source: str = "the case file") -> list[Grid]:
     """Read grids from TOML text.
 
     Parameters
@@ -163,17 +174,19 @@ def load_grids(text: str, tier: str | None = None) -> list[Grid]:
         ``[[grid]]`` tables and nothing else.
     tier : str, optional
         The tier of all of them, which then state none.
+    source : str
+        What the text is of, for the sentence that refuses it.
 
     Raises
     ------
     ValueError
         If the text is not TOML, or a grid has a missing, unknown or inadmissible entry; the message names it.
     """
-    tables = tomllib.loads(text)
-    if tables.keys() != {"grid"} or not isinstance(tables["grid"], list):
-        raise ValueError(
-            f"a case file holds [[grid]] tables and nothing else, not {', '.join(sorted(tables)) or 'nothing'}"
-        )
+    tables = parse(text, source)
+    if tables.keys() != {"grid"}:
+        raise ValueError(f"{source}: a case file holds [[grid]] tables and nothing else, not {names(tables)}")
+    if not isinstance(tables["grid"], list) or not all(isinstance(table, dict) for table in tables["grid"]):
+        raise ValueError(f"{source}: a case file holds [[grid]] tables and nothing else; its grid is something else")
     read = [
         _grid(table, f"grid {table.get('id', number)}", tier) for number, table in enumerate(tables["grid"], start=1)
     ]

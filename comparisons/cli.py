@@ -1,8 +1,8 @@
 """The command line: parses, calls the command, turns what went wrong into one sentence and an exit status.
 
 Results go to stdout, progress and messages to stderr.  Exit status: 0 done and every gate passes, 1 a gate
-fails, 2 wrong input, 3 a gate is inconclusive, 4 a computation failed or there was nothing to judge (and, as
-shells have it, 130 after Ctrl-C and 141 when the reader of a pipe went away).
+fails, 2 wrong input, 3 a gate is inconclusive, 4 a computation failed, a gate is in error, or there was
+nothing to judge (and, as shells have it, 130 after Ctrl-C and 141 when the reader of a pipe went away).
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def _parser() -> argparse.ArgumentParser:
         prog="fscm-bench",
         description="How wrong is a model of adhesive contact of graded materials, and how sure are we?",
         epilog="Exit status: 0 done and every gate passes, 1 a gate fails, 2 wrong input, 3 inconclusive, "
-        "4 a computation failed or no gate was evaluated.",
+        "4 a computation failed, a gate is in error, or no gate was evaluated.",
     )
     parser.add_argument("--version", action="version", version=f"fscm-bench {package_version()}")
     parsers = parser.add_subparsers(metavar="COMMAND", required=True)

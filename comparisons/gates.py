@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 import re
-import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from importlib.resources import files
@@ -19,6 +18,7 @@ from comparisons.cases import TIERS, Case, Grid
 from comparisons.models import MODELS
 from comparisons.quantities import QUANTITIES
 from comparisons.shapes import SHAPES
+from comparisons.toml_text import is_real, names, parse
 
 __all__ = ["GIVEN", "METRICS", "Gate", "gates_text", "load_gates", "of_tier"]
 
@@ -150,7 +150,7 @@ _OPTIONAL: dict[str, type | tuple[type, ...]] = {
 _ID = re.compile(r"[A-Z0-9]+(-[A-Z0-9.]+)*")
 
 
-def load_gates(text: str, models: Iterable[str] = ()) -> list[Gate]:
+def load_gates(text: str, models: Iterable[str] = (), source: str = "the gates file") -> list[Gate]:
     """Read gates from TOML text.
 
     Parameters
@@ -159,6 +159,8 @@ def load_gates(text: str, models: Iterable[str] = ()) -> list[Gate]:
         ``[[gate]]`` tables and nothing else.
     models : iterable of str
         Names of models that may be named besides those of the register.
+    source : str
+        What the text is of, for the sentence that refuses it.
 
     Raises
     ------
@@ -171,14 +173,11 @@ def load_gates(text: str, models: Iterable[str] = ()) -> list[Gate]:
     Traceback (most recent call last):
     ValueError: gate 1: basis, candidate, cases, ... missing or unknown; ...
     """
-    try:
-        tables = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise ValueError(f"the gates file is not TOML: {error}") from None
-    if tables.keys() != {"gate"} or not isinstance(tables["gate"], list):
-        raise ValueError(
-            f"a gates file holds [[gate]] tables and nothing else, not {', '.join(sorted(tables)) or 'nothing'}"
-        )
+    tables = parse(text, source)
+    if tables.keys() != {"gate"}:
+        raise ValueError(f"{source}: a gates file holds [[gate]] tables and nothing else, not {names(tables)}")
+    if not isinstance(tables["gate"], list) or not all(isinstance(table, dict) for table in tables["gate"]):
+        raise ValueError(f"{source}: a gates file holds [[gate]] tables and nothing else; its gate is something else")
     known = {*MODELS, *models}
     read = [
         _gate(table, f"gate {table.get('id', number)}", known) for number, table in enumerate(tables["gate"], start=1)
@@ -197,7 +196,8 @@ def _gate(table: dict[str, Any], where: str, models: set[str]) -> Gate:
             f"and may have {', '.join(_OPTIONAL)}"
         )
     for key, kind in (_FIELDS | _OPTIONAL).items():
-        if key in table and (not isinstance(table[key], kind) or isinstance(table[key], bool)):
+        fits = is_real if kind == (int, float) else lambda value, kind=kind: isinstance(value, kind)
+        if key in table and (not fits(table[key]) or isinstance(table[key], bool)):
             raise ValueError(f"{where}: {key} = {table[key]!r} has the wrong type")
     gate = Gate(**table)
     if not _ID.fullmatch(gate.id):
@@ -240,16 +240,21 @@ def _check_numbers(gate: Gate, where: str) -> None:
     if not set(gate.cases) <= {*_PARAMETERS, "tags"} or not set(gate.reference_at) <= set(_PARAMETERS):
         raise ValueError(f"{where}: cases may restrict {', '.join(_PARAMETERS)} and tags; reference_at all but tags")
     for name, limits in gate.cases.items():
-        ordered = name == "tags" or (
-            isinstance(limits, list)
-            and len(limits) == 2
-            and all(isinstance(end, int | float) for end in limits)
-            and limits[0] <= limits[1]
-        )
-        if not (isinstance(limits, list) and limits and ordered):
+        if not isinstance(limits, list) or not (_are_names(limits) if name == "tags" else _are_ends(limits)):
             raise ValueError(
                 f"{where}: cases.{name} = {limits!r} must be " + ("names" if name == "tags" else "[low, high]")
             )
+    for name, value in gate.reference_at.items():
+        if not (is_real(value) and math.isfinite(value)):
+            raise ValueError(f"{where}: reference_at.{name} = {value!r} must be a number")
+
+
+def _are_names(entries: list[Any]) -> bool:
+    return bool(entries) and all(isinstance(entry, str) for entry in entries)
+
+
+def _are_ends(entries: list[Any]) -> bool:
+    return len(entries) == 2 and all(map(is_real, entries)) and entries[0] <= entries[1]
 
 
 def gates_text(path: Path | None = None) -> str:

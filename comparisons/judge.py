@@ -21,7 +21,7 @@ from comparisons.gates import GIVEN, Gate
 from comparisons.run import asked_at, plan
 from comparisons.verdict import Verdict, combined, decide, expecting_failure, roll_up
 
-__all__ = ["Judged", "by_gate", "judge", "relevant", "worst_first"]
+__all__ = ["Judged", "by_gate", "judge", "left_out", "relevant", "worst_first"]
 
 _NEEDED = {"model", "quantity", "n", "k", "mu", "nu", "value", "u_num", "status", "reason"}
 _NEEDED_OF_CURVES = {"model", "quantity", "n", "k", "mu", "nu", "x", "y", "u_distance", "status", "reason"}
@@ -75,16 +75,49 @@ def relevant(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str]
     models : sequence of str or None
         Models given in place of those each grid names; None for those.
     """
-    references = {grid.reference for grid in grids}
     chosen: list[Gate] = []
     for gate in gates:
         if gate.candidate == GIVEN:
-            chosen += [replace(gate, candidate=name) for name in models or ()]
-        elif models is None or (
-            gate.candidate in models and {gate.reference, gate.rival} - {None} <= references | set(models)
-        ):
+            # By how much a rival exceeds itself is no question.
+            chosen += [replace(gate, candidate=name) for name in models or () if name != gate.rival]
+        elif models is None or (gate.candidate in models and not _not_computed(gate, grids, models)):
             chosen.append(gate)
     return chosen
+
+
+def left_out(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> list[Gate]:
+    """Return the gates about models that are not given, which a run leaves out.
+
+    Parameters
+    ----------
+    gates, grids, models
+        As of `relevant`.
+
+    Raises
+    ------
+    ValueError
+        If a gate is about a model that is given, but its reference or rival is not computed: left out as well, it
+        would let the run pass without having been asked.
+    """
+    if models is None:
+        return [gate for gate in gates if gate.candidate == GIVEN]
+    others = []
+    for gate in gates:
+        missing = sorted(_not_computed(gate, grids, models))
+        if gate.candidate not in {GIVEN, *models}:
+            others.append(gate)
+        elif missing:
+            raise ValueError(
+                f"gate {gate.id} needs {' and '.join(missing)}, which this run does not compute: "
+                f"add --model {' '.join(missing)}"
+            )
+    return others
+
+
+def _not_computed(gate: Gate, grids: Sequence[Grid], models: Sequence[str]) -> set[str]:
+    """Return which of the models that a gate compares with are neither given nor the reference of a grid."""
+    needed = {gate.reference} if gate.rival is None else {gate.reference, gate.rival}
+    return needed - {grid.reference for grid in grids} - set(models)
 
 
 def judge(
@@ -234,6 +267,8 @@ def _judge_case(gate: Gate, case: Case, answers: _Answers, scale: float) -> Judg
             verdict = Verdict.ERROR
         return replace(one, verdict=verdict, reason=trouble.reason)
     verdict, reason = decide(error, u_error, gate.lower, gate.upper), ""
+    if verdict is Verdict.ERROR:
+        reason = f"the error {error:g} +- {u_error:g} is not a finite number"
     if verdict is Verdict.PASS and u_reference > gate.max_reference_uncertainty:
         verdict = Verdict.INCONCLUSIVE
         reason = f"u of {gate.reference} is {u_reference:.2g}; the gate tolerates {gate.max_reference_uncertainty:.2g}"

@@ -61,6 +61,8 @@ def read_record(path: Path) -> dict[str, Any]:
         ) from None
     except ValueError:
         raise ValueError(f"{path} is not JSON text") from None
+    except RecursionError:
+        raise ValueError(f"{path} is not the record of a run: its brackets are nested too deeply") from None
     if problem := _problem(content):
         raise ValueError(f"{path} is not the record of a run: {problem}")
     return dict(content)

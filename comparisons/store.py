@@ -315,7 +315,7 @@ class Journal:
             header, *lines = [json.loads(line) for line in whole.splitlines()] or [{}]
             self.rows = [Row(**line) for line in lines]
             found = header.get("fingerprint")
-        except (ValueError, TypeError, AttributeError):
+        except (ValueError, TypeError, AttributeError, RecursionError):
             raise ValueError(f"{self.path} is not a journal of a run; choose another folder with --out") from None
         if found is None and not self.rows:
             self.path.unlink()

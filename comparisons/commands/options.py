@@ -12,7 +12,7 @@ from comparisons.cases import Case
 
 __all__ = ["FAILED", "FAILS", "INCONCLUSIVE", "OK", "WRONG_INPUT", "add_case", "case_of", "number", "output"]
 
-#: A gate that fails is 1; a computation that failed, or that there was nothing to judge, is 4.
+#: A gate that fails is 1; a computation that failed, a gate in error, or that there was nothing to judge, is 4.
 OK, FAILS, WRONG_INPUT, INCONCLUSIVE, FAILED = 0, 1, 2, 3, 4
 
 #: Columns of a table when stdout is no terminal, where rich would assume 80 and break the lines.

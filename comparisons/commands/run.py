@@ -16,7 +16,7 @@ from rich.table import Table
 
 from comparisons.cases import TIERS, VERIFICATION, Grid, asked_of, cases_text, grids
 from comparisons.commands.computing import add_jobs, add_out, checked_jobs, complete, folder_for
-from comparisons.commands.judge import STATUS, judge_and_write, print_verdicts
+from comparisons.commands.judge import GATES, STATUS, counted, judge_and_write, own_gates, print_verdicts
 from comparisons.commands.options import FAILED, output
 from comparisons.figures import agreement as agreement_figure
 from comparisons.figures import kappa as kappa_figure
@@ -32,6 +32,7 @@ from comparisons.run import plan
 from comparisons.shapes import SHAPES
 from comparisons.store import (
     Row,
+    atomic,
     curve_frame,
     frame,
     write_curves,
@@ -81,10 +82,16 @@ def call(args: argparse.Namespace) -> int:
     given = None if args.model is None else names
     specs = {name: model.spec for name, model in outside.items()}
     rules = gates_text(args.gates)
-    gates = of_tier(load_gates(rules, names), args.tier)
+    chosen = asked_of(grids(args.tier), given)
+    gates = (
+        of_tier(load_gates(rules), args.tier)
+        if args.gates is None
+        else own_gates(rules, args.gates, args.tier, chosen, given)
+    )
     started = datetime.now(UTC)
     folder = folder_for(args.out, started)
-    chosen = asked_of(grids(args.tier), given)
+    if (folder / GATES).exists() and not (folder / "journal.jsonl").exists() and gates_text(folder / GATES) != rules:
+        raise ValueError(f"{folder / GATES} is not of a run, which would replace it; choose another folder with --out")
     tasks = plan(chosen, given, outside)
     clock = time.perf_counter()
     try:
@@ -98,6 +105,8 @@ def call(args: argparse.Namespace) -> int:
     kappa = _kappa(table, chosen, given)
     maxima = largest(kappa)
     _write(folder, table, curves, kappa, maxima)
+    with atomic(folder / GATES) as file:
+        file.write(rules.encode())
     judged = judge_and_write(folder, gates, chosen, table, curves, given, specs)
     verdict = roll_up(judged["verdict"])
     write_record(
@@ -119,15 +128,17 @@ def call(args: argparse.Namespace) -> int:
             "rows": {"all": len(rows), "resumed": resumed, **Counter(row.status for row in rows)},
             "cases_sha256": sha256(cases_text().encode()).hexdigest(),
             "gates_sha256": sha256(rules.encode()).hexdigest(),
-            "verdicts": {"all": str(verdict), **Counter(map(str, judged["verdict"]))},
+            "verdicts": counted(judged),
             **environment(),
         },
         folder / "run.json",
     )
     _print(table, kappa, maxima)
     print_verdicts(judged, specs)
+    if failed := sum(row.status == "failed" for row in rows):
+        log(f"{failed} computations failed")
     log(f"results are in {folder}")
-    return FAILED if any(row.status == "failed" for row in rows) else STATUS[verdict]
+    return FAILED if failed else STATUS[verdict]
 
 
 def _kappa(table: pd.DataFrame, chosen: list[Grid], models: list[str] | None) -> pd.DataFrame:

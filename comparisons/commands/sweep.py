@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from datetime import UTC, datetime
 from pathlib import Path
-from tomllib import TOMLDecodeError
 
 import pandas as pd
 
@@ -72,8 +71,8 @@ def call(args: argparse.Namespace) -> int:
 
 def _grids(path: Path) -> list[Grid]:
     try:
-        return load_grids(path.read_text(encoding="utf-8"), tier=TIERS[0])
+        return load_grids(path.read_text(encoding="utf-8"), tier=TIERS[0], source=str(path))
     except OSError as error:
         raise ValueError(f"the file {path} cannot be read ({error.strerror})") from None
-    except (UnicodeDecodeError, TOMLDecodeError) as error:
-        raise ValueError(f"the file {path} is not TOML: {error}") from None
+    except UnicodeDecodeError:
+        raise ValueError(f"the file {path} is not UTF-8 text") from None

@@ -179,8 +179,16 @@ class Child:
         if code is None:
             return _failed("its process closed the pipe for its answers")
         if code < 0:
-            return _failed(f"its process was killed by {signal.Signals(-code).name}")
+            return _failed(f"its process was killed by {_signal_name(-code)}")
         return _failed(f"it ended its process with exit status {code}, as os._exit does")
+
+
+def _signal_name(number: int) -> str:
+    """Return e.g. SIGKILL; most real-time signals have a number only."""
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"
 
 
 def _failed(reason: str) -> dict[str, Any]:

@@ -30,7 +30,6 @@ import hashlib
 import io
 import math
 import re
-import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import product
@@ -40,6 +39,7 @@ from typing import Any
 from comparisons.foreign.wording import model_name, one_line
 from comparisons.model import NotApplicable, Result
 from comparisons.quantities import QUANTITIES
+from comparisons.toml_text import is_real, parse
 from fscm.problem import Problem
 from fscm.profile import PowerLaw
 from fscm.surface_law import LennardJones93
@@ -133,7 +133,7 @@ def read_submission(folder: Path) -> Submission:
 
 
 def _submission(folder: Path) -> Submission:
-    manifest = tomllib.loads(_bytes(folder, MANIFEST, _LARGEST_MANIFEST).decode())
+    manifest = parse(_text_of(_bytes(folder, MANIFEST, _LARGEST_MANIFEST), MANIFEST), MANIFEST)
     optional = {"limits"}
     expected = {*_TEXTS, "units", "covers"}
     if wrong := sorted((expected - manifest.keys()) | (manifest.keys() - expected - optional)):
@@ -179,6 +179,14 @@ def _bytes(folder: Path, name: str, largest: int) -> bytes:
     return path.read_bytes()
 
 
+def _text_of(content: bytes, file: str) -> str:
+    try:
+        return content.decode()
+    except UnicodeDecodeError as error:
+        line = content[: error.start].count(b"\n") + 1
+        raise ValueError(f"{file}, line {line}: byte 0x{content[error.start]:02x} is not UTF-8 text") from None
+
+
 def _text(name: str, value: object) -> str:
     if not (isinstance(value, str) and value.strip()):
         raise ValueError(f"{MANIFEST}: {name} must be a text")
@@ -195,8 +203,11 @@ def _covered(tables: object) -> set[Key]:
         if table.keys() != set(_COVERS) or not all(isinstance(table[name], list) for name in _COVERS):
             raise ValueError(f"{MANIFEST}: a [[covers]] table has the lists {', '.join(_COVERS)} and no other")
         for quantity in table["quantities"]:
-            if quantity not in QUANTITIES:
+            if not isinstance(quantity, str) or quantity not in QUANTITIES:
                 raise ValueError(f"{MANIFEST}: unknown quantity {quantity!r}; known are {', '.join(QUANTITIES)}")
+        for name in ("n", "k", "mu"):
+            if wrong := [entry for entry in table[name] if not is_real(entry)]:
+                raise ValueError(f"{MANIFEST}: {name} in [[covers]] must be a list of numbers; {wrong[0]!r} is none")
         if math.prod(len(table[name]) for name in _COVERS) > _MOST_CASES:
             raise ValueError(f"{MANIFEST}: [[covers]] has more than {_MOST_CASES} cases")
         for quantity, n, k, mu in product(*(table[name] for name in _COVERS)):
@@ -220,14 +231,22 @@ def _check_units(units: object, quantities: set[str]) -> None:
 
 def _rows(content: bytes, file: str, covered: set[Key]) -> dict[Key, tuple[float, float]]:
     # strict: a quotation mark that is not closed is an error, not the rest of the file.
-    reader = csv.reader(io.StringIO(content.decode(), newline=""), strict=True)
+    # A byte order mark, which spreadsheets write, belongs to no cell.
+    reader = csv.reader(io.StringIO(_text_of(content, file).removeprefix("\ufeff"), newline=""), strict=True)
     rows: dict[Key, tuple[float, float]] = {}
+    blank = ""
     try:
         header = next(reader, [])
         if header != _COLUMNS:
             raise ValueError(f"{file}: the first line must be {','.join(_COLUMNS)}")
         for cells in reader:
             where = f"{file}, line {reader.line_num}"
+            if not cells:
+                # Blank lines are the end of a file, or something is missing between.
+                blank = blank or where
+                continue
+            if blank:
+                raise ValueError(f"{blank}: a blank line, and rows after it")
             if len(cells) != len(_COLUMNS):
                 raise ValueError(f"{where}: {len(cells)} cells, not {len(_COLUMNS)}")
             quantity, *rest = cells
@@ -254,6 +273,9 @@ def _rows(content: bytes, file: str, covered: set[Key]) -> dict[Key, tuple[float
 def _number(cell: str, name: str, where: str) -> float:
     try:
         number = float(cell)
+        if "_" in cell:
+            # Ten to Python; whoever wrote 1_0 meant something else.
+            raise ValueError
     except ValueError:
         raise ValueError(f"{where}: {name} = {one_line(repr(cell), 40)} is not a number") from None
     if not math.isfinite(number):

@@ -11,13 +11,16 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 
-__all__ = ["Limits", "cpu_seconds_from_now", "limit_resources"]
+__all__ = ["LARGEST_COUNT", "Limits", "cpu_seconds_from_now", "limit_resources"]
 
 _TIME, _MEMORY = "FSCM_BENCH_TIME_LIMIT", "FSCM_BENCH_MEMORY_LIMIT"
 _DEFAULT_SECONDS, _DEFAULT_MEGABYTES = 60.0, 4096.0
 
 #: One file in the scratch folder; a model has no business writing more.
 _LARGEST_FILE = 256_000_000
+
+#: Counts (of unknowns, of iterations) are below it: tables store them with 64 bits and a sign.
+LARGEST_COUNT = 2**63
 
 #: The parent ends a question by the clock; the limit of processor time is for a child whose parent was
 #: killed.

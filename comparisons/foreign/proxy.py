@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.foreign.child import Child
-from comparisons.foreign.limits import Limits
+from comparisons.foreign.limits import LARGEST_COUNT, Limits
 from comparisons.foreign.wording import model_name, one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from comparisons.quantities import QUANTITIES
@@ -54,8 +54,8 @@ class ForeignModel:
             return Result(
                 value=float(answer["value"]),
                 u_num=float(answer["u_num"]),
-                size=int(answer["size"]),
-                iterations=int(answer["iterations"]),
+                size=_count(answer["size"]),
+                iterations=_count(answer["iterations"]),
                 residual=float(answer["residual"]),
                 seconds=_seconds(answer),
             )
@@ -119,6 +119,14 @@ def connect(door: dict[str, Any], spec: str, poisson_ratio: float | None = None)
     except ValueError:
         child.close()
         raise
+
+
+def _count(value: Any) -> int:
+    """Read a count; the worker has refused those that do not fit, but what answers may not be the worker."""
+    count = int(value)
+    if not 0 <= count < LARGEST_COUNT:
+        raise ValueError
+    return count
 
 
 def _seconds(answer: dict[str, Any]) -> float:

@@ -24,7 +24,7 @@ from typing import IO, Any
 import numpy as np
 
 from comparisons.foreign.landlock import write_only_in
-from comparisons.foreign.limits import Limits, cpu_seconds_from_now, limit_resources
+from comparisons.foreign.limits import LARGEST_COUNT, Limits, cpu_seconds_from_now, limit_resources
 from comparisons.foreign.source import load_file, source_digest
 from comparisons.foreign.units import InUnits, PhysicalModel
 from comparisons.foreign.wording import one_line
@@ -35,6 +35,7 @@ __all__ = ["main"]
 
 _OURS = Path(__file__).resolve().parent.parent
 _LARGEST_CURVE = 1_000_000
+_COUNTS = ("size", "iterations")
 
 
 def main(answers: int) -> None:
@@ -80,9 +81,9 @@ def _serve(requests: IO[str], out: IO[str]) -> None:
                 cpu_seconds_from_now(limits)
                 reply = _answers[request["ask"]](model, request)
         except NotApplicable as refusal:
-            reply = {"status": "not-applicable", "reason": one_line(str(refusal))}
+            reply = {"status": "not-applicable", "reason": _words(refusal)}
         except BaseException as error:
-            reply = {"status": "failed", "reason": _explain(error, limits)}
+            reply = {"status": "failed", "reason": _explain(error, limits, request["ask"])}
         reply["seconds"] = time.perf_counter() - started
         out.write(json.dumps(reply, allow_nan=False) + "\n")
         out.flush()
@@ -124,8 +125,7 @@ def _evaluate(model: Any, request: dict[str, Any]) -> dict[str, Any]:
         raise ComputationFailed(f"the model returned {_kind(result)}, which is not a comparisons.model.Result")
     numbers_of = {name: _real(name, getattr(result, name)) for name in ("value", "u_num", "residual")}
     Result(numbers_of["value"], numbers_of["u_num"])
-    counts = {name: int(_real(name, getattr(result, name))) for name in ("size", "iterations")}
-    return {"status": "ok", **numbers_of, **counts}
+    return {"status": "ok", **numbers_of, **{name: _count(name, getattr(result, name)) for name in _COUNTS}}
 
 
 def _curve(model: Any, request: dict[str, Any]) -> dict[str, Any]:
@@ -160,6 +160,14 @@ def _real(name: str, value: object) -> float:
     return number
 
 
+def _count(name: str, value: object) -> int:
+    """Return a number of things, as the stored tables have it."""
+    number = int(_real(name, value))
+    if not 0 <= number < LARGEST_COUNT:
+        raise ComputationFailed(f"the model gave {_kind(value)} as {name}, which is outside [0, 2^63): it counts")
+    return number
+
+
 def _array(name: str, values: object) -> list[float]:
     array = np.asarray(values)
     if array.ndim != 1 or array.dtype.kind not in "fiu" or not 1 <= len(array) <= _LARGEST_CURVE:
@@ -184,18 +192,31 @@ def _is_theirs(filename: str) -> bool:
     return not filename.startswith("<") and not Path(filename).is_relative_to(_OURS)
 
 
-def _explain(error: BaseException, limits: Limits) -> str:
+def _words(thing: object, by: Callable[[object], str] = str) -> str:
+    """Return what an exception says; its class may be of the model, and fail at that."""
+    try:
+        return one_line(by(thing))
+    except BaseException as worse:
+        return f"its text cannot be had: __{by.__name__}__ raises {type(worse).__name__}"
+
+
+def _explain(error: BaseException, limits: Limits, asked: str) -> str:
     """Return what happened in one line; the model's own refusals in its words, defects with their place."""
     if isinstance(error, ComputationFailed):
-        return one_line(str(error)) or "the model failed and did not say why"
+        return _words(error) or "the model failed and did not say why"
     name = type(error).__name__
     if isinstance(error, MemoryError):
         return f"MemoryError: the model asked for more than its {limits.megabytes:g} MB"
     if isinstance(error, SystemExit):
-        return f"SystemExit: the model called sys.exit({one_line(repr(error.code), 60)})"
+        return f"SystemExit: the model called sys.exit({one_line(_words(error.code, repr), 60)})"
+    if isinstance(error, SyntaxError) and error.lineno and error.filename and _is_theirs(error.filename):
+        # It has no frame of its own: the place is in the exception.
+        where = f"line {error.lineno} of {Path(error.filename).name}"
+        return one_line(f"{type(error).__name__} in {where}: {error.msg}")
     every = traceback.extract_tb(error.__traceback__)
     # The place in the author's code: a Result that refuses a text was given it there.
     frames = [frame for frame in every if _is_theirs(frame.filename)] or every
     place = f" in {frames[-1].name}, line {frames[-1].lineno} of {Path(frames[-1].filename).name}" if frames else ""
-    hint = " (a case outside the domain is NotApplicable)" if isinstance(error, ValueError) else ""
-    return one_line(f"{name}{place}: {error}{hint}")
+    # Loading a model asks no case.
+    hint = " (a case outside the domain is NotApplicable)" if isinstance(error, ValueError) and asked != "open" else ""
+    return one_line(f"{name}{place}: {_words(error)}{hint}")

@@ -7,6 +7,9 @@ from decimal import ROUND_CEILING, ROUND_HALF_EVEN, Decimal
 
 __all__ = ["short"]
 
+#: A double has 17 digits; where the uncertainty is far below the last of them, zeros in between say nothing.
+_MOST_DIGITS = 20
+
 
 def short(value: float, uncertainty: float | None) -> str:
     """Return e.g. 1.788482(3): the digits in brackets are the uncertainty of the last ones before them.
@@ -42,7 +45,10 @@ def short(value: float, uncertainty: float | None) -> str:
         place -= 1
     step = Decimal(1).scaleb(place)
     u = u.quantize(step, ROUND_CEILING)
-    rounded = Decimal(repr(float(value))).quantize(step, ROUND_HALF_EVEN)
+    number = Decimal(repr(float(value)))
+    if number.adjusted() - place > _MOST_DIGITS:
+        return f"{float(value)!r}({int(u.scaleb(-place))}e{place})"
+    rounded = number.quantize(step, ROUND_HALF_EVEN)
     if place <= 0:
         return f"{rounded:f}({int(u.scaleb(-place))})"
     return f"{int(rounded.scaleb(-place))}({int(u.scaleb(-place))})e{place}"

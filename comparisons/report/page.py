@@ -61,7 +61,7 @@ class Page:
 
 #: What the verdict over all gates means to somebody who sees it for the first time.
 _MEANINGS = {
-    Verdict.ERROR: "Something could not be judged: a value or a row is missing, or no gate was evaluated.",
+    Verdict.ERROR: "Something could not be judged: a value, a row or a case is missing, or no gate was evaluated.",
     Verdict.FAIL: "At least one gate fails: an error is outside its limits, whatever the uncertainties.",
     Verdict.XPASS: "A gate that is declared to fail passes: its declaration is out of date.",
     Verdict.INCONCLUSIVE: "Nothing fails, but for at least one gate the uncertainties are too large for a verdict.",
@@ -166,6 +166,9 @@ def _provenance(stored: Stored) -> list[tuple[str, str]]:
         ("CPU", f"{machine['cpu']}, {machine['cores']} cores"),
         ("BLAS", "; ".join(f"{one['library']} {one['version']}, {one['threads']} threads" for one in record["blas"])),
     ]
+    if "judged_again" in record:
+        again = record["judged_again"]
+        facts.append(("judged again", f"by {again['gates']}, SHA-256 {again['gates_sha256']}"))
     then, now = record["verdicts"], {"all": str(roll_up(stored.verdicts["verdict"])), **dict(_counts(stored))}
     if then != now:
         facts.append(("judged again", f"yes; at the end of the run the verdicts were {_pairs(then)}"))

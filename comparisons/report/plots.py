@@ -29,9 +29,11 @@ def kappa_group(row: pd.Series) -> str:
 def kappa(stored: Stored) -> Plot:
     """Relative errors over the Tabor number, one picture for each n and k."""
     table = stored.kappa.sort_values(["model", "mu"], kind="stable")
+    # An absurd value overflows in percent; it is in the tables, but there is no place for it in a picture.
+    finite = table[np.isfinite(100 * table["kappa"]) & np.isfinite(100 * table["u_kappa"])]
     series = []
     for (model, quantity, reference, n, k, nu), rows in grouped(
-        table, ["model", "quantity", "reference", "n", "k", "nu"]
+        finite, ["model", "quantity", "reference", "n", "k", "nu"]
     ):
         percent, band = 100 * rows["kappa"], 100 * rows["u_kappa"]
         series.append(

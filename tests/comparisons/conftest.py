@@ -41,6 +41,8 @@ class Toy:
 ANSWERS = {
     "truth": lambda problem: 2.0,
     "ten-percent": lambda problem: 2.2,
+    "twelve-percent": lambda problem: 2.24,
+    "absurd": lambda problem: 1e20 if problem.k == 0 else -1.7e308,
     "refuses": lambda problem: NotApplicable("it has no such [thing]"),
     "fails": lambda problem: ComputationFailed("100 iterations were not enough; start nearer"),
     "broken": lambda problem: ZeroDivisionError("float division by zero"),

@@ -95,7 +95,14 @@ def test_the_reference_may_be_asked_elsewhere():
         ("min_cases = 3", 'min_cases = 3\nnot_applicable = "pass"', "not_applicable = 'pass'"),
         ("[[gate]]", "[[gates]]", "nothing else"),
         ("[[gate]]", "[gate]", "nothing else"),
-        ("[[gate]]", "[[gate]", "the gates file is not TOML"),
+        ("[[gate]]", "[[gate]", "is not TOML: "),
+        ("[[gate]]", "x = " + "[" * 5000 + "]" * 5000 + "\n[[gate]]", "nested too deeply"),
+        ('tags = ["blue"]', 'tags = [["blue"]]', "must be names"),
+        ('tags = ["blue"]', "tags = []", "must be names"),
+        ("n = [1, 2]", "n = [true, true]", "[low, high]"),
+        ("lower = -0.1", "lower = -1" + "0" * 400, "wrong type"),
+        ("min_cases = 3", 'min_cases = 3\nreference_at = { k = "1" }', "must be a number"),
+        ("min_cases = 3", "min_cases = 3\nreference_at = { k = nan }", "must be a number"),
     ],
 )
 def test_what_is_wrong_is_refused_and_named(old, new, says, tmp_path, capsys):
@@ -107,6 +114,15 @@ def test_what_is_wrong_is_refused_and_named(old, new, says, tmp_path, capsys):
     shown = capsys.readouterr()
     assert shown.err.count("\n") == 1
     assert says in shown.err
+
+
+@pytest.mark.parametrize("text", ["gate = [1]", "gate = [[]]", "gate = 1", "", "[[gate]", "\ufeff" + GATE])
+def test_a_file_of_another_shape_is_refused_by_its_name(text, tmp_path, capsys):
+    (tmp_path / "mine.toml").write_text(text)
+    assert main(["run", "--gates", str(tmp_path / "mine.toml"), "--out", str(tmp_path / "out")]) == 2
+    shown = capsys.readouterr()
+    assert shown.err.count("\n") == 1
+    assert "mine.toml" in shown.err
 
 
 def test_two_gates_of_one_id_are_refused():

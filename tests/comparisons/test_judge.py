@@ -253,6 +253,12 @@ def test_a_reference_of_zero_needs_another_metric():
     assert verdict(results(fscm=2.0, jkr=2.0), GATE.replace('"rel"', '"range-relative"'))[0] == "ERROR"
 
 
+def test_an_error_beyond_all_numbers_says_so():
+    found, judged = verdict(results(fscm=0.5, jkr=1.7e308))
+    assert found == "ERROR"
+    assert judged["reason"].iloc[0].startswith("the error inf +- ")
+
+
 def test_gates_for_models_that_are_given():
     gate = GATE.replace('"jkr"', '"given"')
     rows = results(fscm=2.0, jkr=2.0, dmt=2.5)

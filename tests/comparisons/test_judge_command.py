@@ -8,6 +8,9 @@ import pytest
 
 from comparisons.cli import main
 from comparisons.outputs.verdicts import FILES
+from comparisons.record import read_record
+from comparisons.report.folder import read_folder
+from comparisons.report.page import make_page
 
 
 @pytest.fixture
@@ -70,13 +73,115 @@ def test_the_exit_status_is_the_verdict(small_grid, tmp_path, capsys, changes, s
     assert main([*arguments, *gates(small_grid, tmp_path, *changes)]) == status
     shown = capsys.readouterr()
     assert verdict in shown.out or "no gate was evaluated" in shown.err
+    # Status 4 is explained where the program says what went wrong.
+    assert ("a gate is in error: TEN-PERCENT of " in shown.err) == (verdict == "ERROR" and "no gate" not in shown.err)
     if command == "run":
         assert json.loads((tmp_path / "run" / "run.json").read_text())["verdicts"]["all"] == verdict
 
 
-def test_other_gates_than_those_of_the_run_are_named(folder, small_grid, tmp_path, capsys):
-    main(["judge", str(folder), *gates(small_grid, tmp_path, ("0.11", "0.12"))])
-    assert "the gates have changed since" in capsys.readouterr().err
+def test_other_gates_than_those_of_the_run_are_named_and_the_record_agrees(folder, small_grid, tmp_path, capsys):
+    finished = read_record(folder / "run.json")
+    assert main(["judge", str(folder), *gates(small_grid, tmp_path, ("upper = 0.11", "upper = 0.095"))]) == 1
+    assert re.search("judged by .*gates.toml, not by the gates .* was run with", capsys.readouterr().err)
+    record = read_record(folder / "run.json")
+    assert record["verdicts"] == {"all": "FAIL", "FAIL": 4}
+    assert record["judged_again"]["gates"] == str(tmp_path / "gates.toml")
+    assert set(pd.read_csv(folder / "verdicts.csv")["verdict"]) == {"FAIL"}
+    page = dict(make_page(read_folder(folder)).provenance)
+    assert page["judged again"].startswith(f"by {tmp_path / 'gates.toml'}, SHA-256")
+    # Without --gates the run's own are back, and nothing of the others is left.
+    assert main(["judge", str(folder)]) == 0
+    assert read_record(folder / "run.json") == finished
+
+
+@pytest.mark.parametrize("models", [[], ["--model", "ten-percent"]])
+def test_a_run_is_judged_again_by_the_gates_it_was_made_with(small_grid, tmp_path, capsys, models):
+    other = small_grid.replace("TEN-PERCENT", "OTHER").replace('"ten-percent"', '"refuses"')
+    rules = gates(small_grid + other * bool(models), tmp_path, ("upper = 0.11", "upper = 0.095"))
+    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), *models, *rules]) == 1
+    before = {name: (tmp_path / "run" / name).read_bytes() for name in (*FILES, "run.json", "gates.toml")}
+    (tmp_path / "gates.toml").unlink()
+    capsys.readouterr()
+    assert main(["judge", str(tmp_path / "run")]) == 1
+    assert "run/gates.toml, the gates of the run" in capsys.readouterr().err
+    assert {name: (tmp_path / "run" / name).read_bytes() for name in before} == before
+
+
+def test_standing_gates_of_models_that_were_not_given_do_not_matter(small_grid, tmp_path, capsys, monkeypatch):
+    rival = small_grid.replace("TEN-PERCENT", "OTHER") + 'rival = "twelve-percent"\n'
+    for command in ("run", "judge"):
+        monkeypatch.setattr(
+            f"comparisons.commands.{command}.gates_text", lambda path: path.read_text() if path else small_grid + rival
+        )
+    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), "--model", "ten-percent"]) == 0
+    assert main(["judge", str(tmp_path / "run")]) == 0
+    assert "left out" not in capsys.readouterr().err
+
+
+def test_a_gates_file_of_somebodys_own_is_not_replaced(small_grid, tmp_path, capsys):
+    rules = gates(small_grid, tmp_path, ("upper = 0.11", "upper = 0.12"))
+    text = (tmp_path / "gates.toml").read_text()
+    out = ["run", "--jobs", "1", "--out", str(tmp_path)]
+    assert main(out) == 2
+    assert "gates.toml is not of a run" in capsys.readouterr().err
+    assert main([*out, *rules]) == 0
+    assert (tmp_path / "gates.toml").read_text() == text
+    assert main(out) == 0
+
+
+def test_a_run_that_kept_no_gates_is_judged_by_the_standing_ones(folder, capsys):
+    (folder / "gates.toml").unlink()
+    assert main(["judge", str(folder)]) == 0
+    assert "judged by the standing gates" in capsys.readouterr().err
+
+
+RIVAL = ('"rel"', '"rel"\nrival = "twelve-percent"'), ("lower = 0.09", "lower = -inf"), ("upper = 0.11", "upper = 0.0")
+
+
+@pytest.mark.parametrize("candidate", ["ten-percent", "given"])
+@pytest.mark.parametrize("command", ["run", "judge"])
+def test_a_gate_whose_rival_is_not_computed_is_refused_and_adding_it_helps(
+    small_grid, tmp_path, capsys, candidate, command
+):
+    out = ["--jobs", "1", "--out", str(tmp_path / "run"), "--model", "ten-percent"]
+    rules = gates(small_grid, tmp_path, *RIVAL, ('candidate = "ten-percent"', f'candidate = "{candidate}"'))
+    if command == "judge":
+        assert main(["run", *out]) == 0
+        capsys.readouterr()
+    assert main(["run", *out, *rules] if command == "run" else ["judge", str(tmp_path / "run"), *rules]) == 2
+    shown = capsys.readouterr()
+    assert shown.err == (
+        "fscm-bench: gate TEN-PERCENT needs twelve-percent, which this run does not compute: "
+        "add --model twelve-percent\n"
+    )
+    assert shown.out == ""
+    out[-1:] = ["ten-percent", "twelve-percent"]
+    out[out.index("--out") + 1] = str(tmp_path / "both")
+    assert main(["run", *out, *rules]) == 0
+    # The rival is not asked by how much it exceeds itself.
+    assert "PASS: 1 gates, 4 cases PASS" in capsys.readouterr().out
+    assert main(["judge", str(tmp_path / "both"), *rules]) == 0
+
+
+@pytest.mark.parametrize("command", ["run", "judge"])
+def test_gates_that_are_left_out_are_counted(small_grid, tmp_path, capsys, command):
+    other = small_grid.replace("TEN-PERCENT", "OTHER").replace('"ten-percent"', '"refuses"')
+    later = small_grid.replace("TEN-PERCENT", "LATER").replace('"quick"', '"full"')
+    rules = gates(small_grid + other + later, tmp_path)
+    arguments = ["run", "--jobs", "1", "--out", str(tmp_path / "run"), "--model", "ten-percent"]
+    assert main([*arguments, *rules]) == 0
+    if command == "judge":
+        capsys.readouterr()
+        assert main(["judge", str(tmp_path / "run"), *rules]) == 0
+    told = capsys.readouterr().err
+    assert re.search("1 of 3 gates of .*gates.toml are left out: their candidate is not given", told)
+    assert re.search("1 of 3 gates of .*gates.toml are left out: they are of the tier full", told)
+
+
+def test_a_gate_for_given_models_is_counted_when_none_is_given(small_grid, tmp_path, capsys):
+    rules = gates(small_grid + small_grid.replace("TEN", "ANY").replace('"ten-percent"', '"given"'), tmp_path)
+    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), *rules]) == 0
+    assert "1 of 2 gates" in capsys.readouterr().err
 
 
 def test_results_spoilt_after_the_run_are_an_error(folder, capsys):
@@ -87,6 +192,15 @@ def test_results_spoilt_after_the_run_are_an_error(folder, capsys):
     table[table["model"] != "truth"].to_parquet(folder / "results.parquet")
     assert main(["judge", str(folder)]) == 4
     assert "truth has no row" in capsys.readouterr().out
+
+
+def test_absurd_but_finite_values_are_judged_and_reported(small_grid, tmp_path, capsys):
+    rules = gates(small_grid, tmp_path, ('"ten-percent"', '"absurd"'))
+    out = tmp_path / "run"
+    assert main(["run", "--jobs", "1", "--out", str(out), "--model", "absurd", *rules]) == 1
+    assert "FAIL: 1 gates, 4 cases FAIL" in capsys.readouterr().out
+    assert main(["report", str(out)]) == 0
+    assert (out / "report.html").stat().st_size > 0
 
 
 @pytest.mark.parametrize("lost", ["run.json", "results.parquet", "curves.parquet"])

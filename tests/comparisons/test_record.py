@@ -26,6 +26,12 @@ def good():
     return GOOD | environment()
 
 
+def test_one_nested_without_end_is_refused(tmp_path):
+    (tmp_path / "run.json").write_text("[" * 200_000 + "]" * 200_000)
+    with pytest.raises(ValueError, match=r"run.json is not the record of a run"):
+        read_record(tmp_path / "run.json")
+
+
 def test_what_is_written_is_read(good, tmp_path):
     write_record(good, tmp_path / "run.json")
     assert read_record(tmp_path / "run.json") == json.loads(json.dumps(good))

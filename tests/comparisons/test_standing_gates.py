@@ -13,7 +13,7 @@ import pytest
 
 from comparisons.cases import grids
 from comparisons.gates import GIVEN, gates_text, load_gates, of_tier
-from comparisons.judge import judge, relevant
+from comparisons.judge import by_gate, judge, relevant
 from comparisons.publish import PUBLISHED, drift, read_published
 from comparisons.run import answer, plan
 from comparisons.shapes import SHAPES
@@ -199,6 +199,18 @@ def test_the_gate_for_given_models_lets_the_right_pass_and_the_wrong_fail():
         "bradley": "FAIL",
         "md-improved": "PASS",
     }
+
+
+def test_a_right_model_of_one_shape_and_gradient_is_judged_and_what_it_leaves_out_is_counted():
+    (gate,) = (gate for gate in ALL if gate.candidate == GIVEN)
+    grid = [grid for grid in GRIDS if grid.id == "transition"]
+    truth = ROWS[ROWS["model"] == "fscm"]
+    asked = {task.key[1:5] for task in plan(grid, ["fscm"])}
+    truth = truth[[key in asked for key in truth[["quantity", "n", "k", "mu"]].itertuples(index=False, name=None)]]
+    covers = (truth["n"] == 2) & (truth["k"] == 0) & (truth["mu"] >= 1.5)
+    mine = truth.assign(model="mine", status=covers.map({True: "ok", False: "not-applicable"}))
+    judged = by_gate(judge([gate], grid, pd.concat([truth, mine]), CURVES, ["mine"]))
+    assert judged[["verdict", "cases", "left_out"]].to_numpy().tolist() == [["PASS", 4, len(mine) - 4]]
 
 
 def test_the_code_computes_what_is_committed():

@@ -1,5 +1,6 @@
 """Predictions as data: what is right is read exactly, what is wrong is refused with its place."""
 
+import hashlib
 import os
 
 import pytest
@@ -43,6 +44,13 @@ def with_row(number, text):
 @pytest.mark.parametrize(
     ("wrong", "says"),
     [
+        ({"change": {'["pull_off_force"]': '[["a"]]'}}, "unknown quantity ['a']"),
+        ({"change": {'["pull_off_force"]': "[{a=1}]"}}, "unknown quantity {'a': 1}"),
+        ({"change": {"n = [2]": 'n = ["2"]'}}, "n in [[covers]] must be a list of numbers; '2' is none"),
+        ({"change": {"n = [2]": "n = [1" + "0" * 400 + "]"}}, "n in [[covers]] must be a list of numbers"),
+        ({"change": {'name = "': "x = " + "[" * 5000 + "]" * 5000 + '\nname = "'}}, "nested too deeply"),
+        ({"rows": with_row(1, "pull_off_force,2,0,1,1_6,0")}, "line 3: value = '1_6' is not a number"),
+        ({"rows": [*ROWS[:2], "", *ROWS[2:]]}, "line 4: a blank line, and rows after it"),
         ({"digest": "0" * 64}, "has the SHA-256"),
         (
             {"rows": ROWS[:-1]},
@@ -77,7 +85,7 @@ def with_row(number, text):
         ({"change": {'licence = "CC-BY-4.0"': ""}}, "licence missing or unknown"),
         ({"change": {"[units]": 'colour = "red"\n[units]'}}, "colour missing or unknown"),
         ({"change": {"k = [0, 0.4]": "k = [0, 1.4]"}}, "[0, 1]"),
-        ({"change": {"k = [0, 0.4]": 'k = [0, "0.4"]'}}, "gradient exponent k"),
+        ({"change": {"k = [0, 0.4]": 'k = [0, "0.4"]'}}, "k in [[covers]] must be a list of numbers"),
         ({"change": {"k = [0, 0.4]": "k = []"}}, "no case"),
         ({"change": {"k = [0, 0.4]": "q = [0, 0.4]"}}, "has the lists"),
         ({"change": {'["pull_off_force"]': '["pull_off"]'}}, "unknown quantity 'pull_off'"),
@@ -96,6 +104,33 @@ def test_what_is_wrong_is_refused_with_its_place(write_data, capsys, wrong, says
     assert says in shown.err
     assert shown.err.count("\n") == 1
     assert shown.out == ""
+
+
+def rewritten(folder, content):
+    """Replace the CSV and the hash of it."""
+    manifest = (folder / "model.toml").read_text()
+    before = hashlib.sha256((folder / "predictions.csv").read_bytes()).hexdigest()
+    (folder / "predictions.csv").write_bytes(content)
+    (folder / "model.toml").write_text(manifest.replace(before, hashlib.sha256(content).hexdigest()))
+    return folder
+
+
+@pytest.mark.parametrize("wrap", [lambda text: b"\xef\xbb\xbf" + text, lambda text: text + b"\n\n\r\n"])
+def test_what_spreadsheets_and_editors_add_does_no_harm(write_data, wrap):
+    folder = write_data()
+    rows = read_submission(folder).rows
+    assert read_submission(rewritten(folder, wrap((folder / "predictions.csv").read_bytes()))).rows == rows
+
+
+def test_bytes_that_are_no_text_are_named_by_file_and_line(write_data):
+    folder = write_data()
+    content = (folder / "predictions.csv").read_bytes()
+    rewritten(folder, content.replace(b"0.4,0.1", b"0.4\xb1,0.1"))
+    with pytest.raises(ValueError, match=r"predictions.csv, line 4: byte 0xb1 is not UTF-8"):
+        read_submission(folder)
+    (folder / "model.toml").write_bytes(b"# \xe9\n")
+    with pytest.raises(ValueError, match=r"model.toml, line 1: byte 0xe9 is not UTF-8"):
+        read_submission(folder)
 
 
 def test_a_link_that_leads_out_is_not_followed(write_data, tmp_path):

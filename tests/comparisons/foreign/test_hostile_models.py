@@ -5,6 +5,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pandas as pd
 import pytest
@@ -14,7 +15,7 @@ from comparisons.cli import main
 from comparisons.commands import run
 from comparisons.foreign.child import PATIENCE
 from comparisons.foreign.loading import door_of
-from comparisons.foreign.proxy import connect
+from comparisons.foreign.proxy import ForeignModel, connect
 from comparisons.foreign.wording import model_name
 from comparisons.models import create
 from comparisons.run import ask
@@ -43,12 +44,19 @@ NONSENSE = [
     ("return Result(np.array([1.0, 2.0]), 0.0)", "TypeError in evaluate"),
     ("return Result(np.array(1.5), 0.0)", "an array of shape ()"),
     ("return Result(True, 0.0)", "bool True"),
+    ("return Result(1.5, 0.0, size=10**30)", f"int {10**30} as size, which is outside [0, 2^63)"),
+    ("return Result(1.5, 0.0, iterations=2**63)", "as iterations, which is outside [0, 2^63)"),
+    ("return Result(1.5, 0.0, iterations=-1)", "int -1 as iterations, which is outside [0, 2^63)"),
     ("return '<b>1.5</b>'", "str '<b>1.5</b>', which is not a comparisons.model.Result"),
     ("return 1.5 + 2j", "complex (1.5+2j)"),
     ("return np.ones(7)", "an array of shape (7,)"),
     ("pass", "NoneType None"),
     ("return 1.5", "float 1.5"),
     ("raise ComputationFailed('no\\x1b[31m root\\nfound')", "no[31m root found"),
+    ("raise type('Odd', (Exception,), {'__str__': lambda self: 1 / 0})", "__str__ raises ZeroDivisionError"),
+    ("raise type('Odd', (ComputationFailed,), {'__str__': lambda self: 1 / 0})", "__str__ raises ZeroDivisionError"),
+    ("sys.exit(type('Odd', (), {'__repr__': lambda self: 1 / 0})())", "__repr__ raises ZeroDivisionError"),
+    ("import mangled", "SyntaxError in line 2 of mangled.py: "),
     ("raise ComputationFailed", "did not say why"),
     ("raise ValueError('k is large')", "k is large (a case outside the domain is NotApplicable)"),
 ]
@@ -61,6 +69,7 @@ def nonsense(tmp_path_factory):
         f"        if problem.mu == {number}:\n            {body}" for number, (body, _) in enumerate(NONSENSE, 1)
     )
     file = tmp_path_factory.mktemp("nonsense") / "stranger.py"
+    file.with_name("mangled.py").write_text("x = 1\nx = (\n")
     file.write_text(f"{HEAD.format(name='stranger')}\n    def evaluate(self, problem, quantity):\n{bodies}\n")
     spec = f"{file}:Model"
     model = connect(door_of(spec), spec)
@@ -76,11 +85,20 @@ def test_nonsense_is_a_failed_row_with_a_reason(nonsense, number, says):
     assert answer.reason.isprintable()
 
 
+@pytest.mark.parametrize("count", [10**30, -1, 2**63])
+def test_a_process_that_writes_a_count_of_its_own_is_not_believed(count):
+    answer = {"status": "ok", "value": 1.5, "u_num": 0.0, "size": count, "iterations": 0, "residual": 0.0}
+    said = {"name": "stranger", "version": "1", "citation": "", "domain": "", "digest": "0" * 64}
+    model = ForeignModel(SimpleNamespace(ask=lambda **_: answer), said | {"limits": [], "physical": False})
+    assert ask(model, "pull_off_force", CASE).reason == "its process wrote something that is not an answer"
+
+
 @pytest.mark.parametrize(
     ("body", "says"),
     [
         ("os._exit(0)", "ended its process with exit status 0"),
         ("ctypes.string_at(0)", "killed by SIGSEGV"),
+        ("os.kill(os.getpid(), 40)", "killed by signal 40"),
         (
             "for fd in range(3, 20):\n    with suppress(OSError):\n        os.write(fd, b'{}\\n')",
             "not an answer",
@@ -110,6 +128,12 @@ def test_one_that_allocates_without_bound_runs_into_its_limit(write_model, monke
     assert answer.status == "failed"
     assert "1500 MB" in answer.reason
     assert row(spec).status == "failed"
+
+
+def test_a_refusal_whose_text_cannot_be_had_is_a_refusal(write_model):
+    answer = row(write_model("raise type('Odd', (NotApplicable,), {'__str__': lambda self: 1 / 0})"))
+    assert answer.status == "not-applicable"
+    assert "__str__ raises ZeroDivisionError" in answer.reason
 
 
 def test_printing_disturbs_nobody(write_model, capfd):
@@ -225,12 +249,14 @@ def test_a_model_with_such_a_name_is_wrong_input(write_model, capsys, name, says
     ("text", "says"),
     [
         ("import no_such_module_at_all", "no_such_module_at_all"),
-        ("def f(:", "SyntaxError"),
+        ("x = 1\ndef f(:", "SyntaxError in line 2 of stranger.py: invalid syntax"),
+        ("exec('def f(:')", "SyntaxError in <module>, line 1 of stranger.py"),
         ("import os; os._exit(5)", "exit status 5"),
         ("import sys; sys.exit()", "sys.exit(None)"),
         ("x = 1", "does not define Model"),
         ("class Model:\n    pass", "name"),
         ("class Model:\n    name = version = citation = domain = 'x'", "evaluate"),
+        ("class Model:\n    def __init__(self):\n        raise ValueError('no such table')", "no such table"),
         ("class Model:\n    def __init__(self, radius):\n        pass", "radius"),
     ],
 )
@@ -241,6 +267,7 @@ def test_one_that_cannot_be_loaded_is_wrong_input(tmp_path, capsys, text, says):
     assert main(["solve", "--model", f"{file}:Model", *arguments]) == 2
     shown = capsys.readouterr()
     assert "cannot be loaded" in shown.err
+    assert "NotApplicable" not in shown.err
     assert says in shown.err
     assert shown.out == ""
 
