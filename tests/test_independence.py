@@ -67,10 +67,9 @@ LAYERS = (
         "comparisons.tables",
         "comparisons.figures",
         "comparisons.outputs",
-        "comparisons.publish",
         "comparisons.bench",
     ),
-    ("comparisons.paper", "comparisons.report"),
+    ("comparisons.paper", "comparisons.report", "comparisons.publish"),
     ("comparisons.commands",),
     ("comparisons.cli",),
 )

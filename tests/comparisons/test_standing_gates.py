@@ -5,6 +5,8 @@ The mistakes are those people make: a factor, a sign, a wrong exponent, n and k 
 """
 
 import math
+import shlex
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +14,11 @@ import pandas as pd
 import pytest
 
 from comparisons.cases import grids
+from comparisons.cli import main
+from comparisons.commands.options import case_of
 from comparisons.gates import GIVEN, gates_text, load_gates, of_tier
 from comparisons.judge import by_gate, judge, relevant
+from comparisons.outputs.verdicts import command
 from comparisons.publish import PUBLISHED, drift, read_published
 from comparisons.run import answer, plan
 from comparisons.shapes import SHAPES
@@ -62,6 +67,27 @@ def test_they_are_enough():
     assert evaluated["gate"].nunique() >= 25
     assert len(evaluated) >= 200
     assert roll_up(judged["verdict"]) == "XFAIL"
+
+
+def test_the_command_that_is_shown_asks_what_the_gate_is_about(monkeypatch):
+    """Of every gate of every tier, in the first and last case of each of its grids."""
+    asked = []
+    for name in ("solve", "curve"):
+        monkeypatch.setattr(
+            f"comparisons.commands.{name}.call", lambda args, name=name: asked.append((name, args)) or 0
+        )
+    for gate, grid in product(load_gates(gates_text()), grids("full")):
+        cases = [case for case in grid.cases if gate.selects(grid, case) and gate.quantity in grid.quantities]
+        for case in {*cases[:1], *cases[-1:]}:
+            candidate = "jkr" if gate.candidate == GIVEN else gate.candidate
+            row = pd.Series({"candidate": candidate, "quantity": gate.quantity, "nu": None, **case.parameters})
+            assert main(shlex.split(command(row, {}))[1:]) == 0
+            name, args = asked[-1]
+            assert name == ("curve" if gate.quantity in SHAPES else "solve")
+            assert (args.model, args.quantity) == ([candidate] if name == "curve" else candidate, gate.quantity)
+            assert case_of(args) == case
+    assert {args.quantity for name, args in asked if name == "curve"} == set(SHAPES)
+    assert any(args.nu is not None for _, args in asked)
 
 
 def changed(gate, change):
