@@ -8,7 +8,8 @@ from fem_reference.events import find_event
 from fem_reference.modulus import PowerLaw
 from fem_reference.punch import PowerPunch
 from fem_reference.reference_solutions import surface_constant
-from fem_reference.solution import Solid, event_state
+from fem_reference.solid import Solid
+from fem_reference.states import event_state
 from fem_reference.surface import MeshSpec, compliance_for
 from fem_reference.traction import LennardJones
 from fem_reference.uncondensed import FullContact
