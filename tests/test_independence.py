@@ -49,6 +49,7 @@ LAYERS = (
         "comparisons.quantities",
         "comparisons.claims",
         "comparisons.distance",
+        "comparisons.toml_text",
         "comparisons.shapes",
         "comparisons.uncertainty",
         "comparisons.verdict",
@@ -73,6 +74,7 @@ LAYERS = (
     ("comparisons.paper", "comparisons.report"),
     ("comparisons.commands",),
     ("comparisons.cli",),
+    ("comparisons.start",),
 )
 
 
