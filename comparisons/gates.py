@@ -231,6 +231,8 @@ def _check_numbers(gate: Gate, where: str) -> None:
         )
     if gate.metric == "curve" and gate.lower != -math.inf:
         raise ValueError(f"{where}: a distance has no lower limit; state lower = -inf")
+    if gate.rival and gate.metric in ("en", "curve"):
+        raise ValueError(f"{where}: the metric {gate.metric} compares with no rival; state rel, abs or range-relative")
     if not 0.0 < gate.max_reference_uncertainty < math.inf:
         raise ValueError(f"{where}: max_reference_uncertainty must be positive and finite")
     if gate.min_cases < 1:

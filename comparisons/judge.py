@@ -26,6 +26,9 @@ __all__ = ["Judged", "by_gate", "judge", "left_out", "relevant", "worst_first"]
 _NEEDED = {"model", "quantity", "n", "k", "mu", "nu", "value", "u_num", "status", "reason"}
 _NEEDED_OF_CURVES = {"model", "quantity", "n", "k", "mu", "nu", "x", "y", "u_distance", "status", "reason"}
 
+#: What to change in a gate that asks a model where it does not apply.
+_CURE = 'name the cases it applies to in the gate, e.g. cases = { k = [0, 0] }, or state not_applicable = "leave-out"'
+
 Key = tuple[str, str, float, float, float, float | None]
 
 
@@ -262,10 +265,10 @@ def _judge_case(gate: Gate, case: Case, answers: _Answers, scale: float) -> Judg
             _distance(gate, case, answers) if gate.metric == "curve" else _error(gate, case, answers, scale)
         )
     except _Unusable as trouble:
-        verdict = trouble.verdict
+        verdict, reason = trouble.verdict, trouble.reason
         if verdict is Verdict.NOT_APPLICABLE and gate.not_applicable == "error":
-            verdict = Verdict.ERROR
-        return replace(one, verdict=verdict, reason=trouble.reason)
+            verdict, reason = Verdict.ERROR, f"{reason} ({_CURE})"
+        return replace(one, verdict=verdict, reason=reason)
     verdict, reason = decide(error, u_error, gate.lower, gate.upper), ""
     if verdict is Verdict.ERROR:
         reason = f"the error {error:g} +- {u_error:g} is not a finite number"

@@ -71,12 +71,13 @@ class PowerLaw:
         return self.n
 
     def height(self, r: Array) -> Array:
-        """f(r) = r^n / n."""
-        return np.asarray(r, float) ** self.n / self.n
+        """f(r) = r^n / n, infinite where no double holds it."""
+        with np.errstate(over="ignore"):
+            return np.asarray(r, float) ** self.n / self.n
 
     def slope(self, r: Array) -> Array:
-        """df/dr = r^(n-1), infinite at r = 0 for n < 1."""
-        with np.errstate(divide="ignore"):
+        """df/dr = r^(n-1), infinite at r = 0 for n < 1 and where no double holds it."""
+        with np.errstate(divide="ignore", over="ignore"):
             return np.asarray(r, float) ** (self.n - 1.0)
 
 

@@ -49,6 +49,7 @@ LAYERS = (
         "comparisons.quantities",
         "comparisons.claims",
         "comparisons.distance",
+        "comparisons.toml_text",
         "comparisons.shapes",
         "comparisons.uncertainty",
         "comparisons.verdict",
@@ -72,6 +73,7 @@ LAYERS = (
     ("comparisons.paper", "comparisons.report", "comparisons.publish"),
     ("comparisons.commands",),
     ("comparisons.cli",),
+    ("comparisons.start",),
 )
 
 

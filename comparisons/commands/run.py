@@ -177,7 +177,10 @@ def _write(folder: Path, table: pd.DataFrame, curves: pd.DataFrame, kappa: pd.Da
     write_curves(curves, folder / "curves")
     write_table(kappa, folder / "kappa")
     write_table(maxima, folder / "largest_kappa")
-    figures = {"fig16b_kappa": kappa_figure.draw(kappa)}
+    figures = {}
+    # A run of other models has nothing of what the figure shows.
+    if not kappa_figure.shown(kappa).empty:
+        figures["fig16b_kappa"] = kappa_figure.draw(kappa)
     apart = agreement(table, SECOND_REFERENCE, REFERENCE)
     if not apart.empty:
         write_table(apart, folder / "agreement")
@@ -200,8 +203,10 @@ def _print(table: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame) -> No
         console.print(rich_table(troubles, "failed computations"))
     console.print(rich_table(statuses(table), "computations"))
     console.print(_titled(largest_by_gradient(maxima), "largest abs(kappa) in percent"))
-    title = "largest abs(kappa) in percent beside the published (at_end: at an end of the range of mu)"
-    console.print(_titled(beside_published(maxima), title))
+    stated = beside_published(maxima)
+    if not stated[0].empty:
+        title = "largest abs(kappa) in percent beside the published (at_end: at an end of the range of mu)"
+        console.print(_titled(stated, title))
 
 
 def _titled(shown: tuple[pd.DataFrame, dict[str, str]], title: str) -> Table:

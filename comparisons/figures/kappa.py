@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 
 from comparisons.figures.style import COLOURS, MARKERS, MODEL_NAMES, lettered, styled
 
-__all__ = ["draw", "handles", "panels"]
+__all__ = ["draw", "handles", "panels", "shown"]
 
 #: Model -> (line style, face of the markers): dashed and solid as in the paper.
 _MODELS = {"md-original": ("--", "white"), "md-improved": ("-", None)}
@@ -36,9 +36,7 @@ def draw(kappa: pd.DataFrame, k: float = 0.4) -> Figure:
     Figure
         Left all of it, right the neighbourhood of zero, where the improved model lives.
     """
-    # A run may ask others at more shapes; colours and legend are for those drawn.
-    drawn = kappa["model"].isin(_MODELS)
-    chosen = kappa[drawn & (kappa["quantity"] == "pull_off_force") & (kappa["k"] == k)].sort_values("mu")
+    chosen = shown(kappa, k).sort_values("mu")
     with styled():
         figure = Figure(figsize=(7.2, 4.2), layout="constrained")
         whole, near = figure.subplots(1, 2)
@@ -47,6 +45,12 @@ def draw(kappa: pd.DataFrame, k: float = 0.4) -> Figure:
         lettered(near, "b", "enlarged")
         figure.legend(handles=handles(chosen["n"].unique()), loc="outside lower center", ncols=6, columnspacing=1.2)
     return figure
+
+
+def shown(kappa: pd.DataFrame, k: float = 0.4) -> pd.DataFrame:
+    """Return the rows that `draw` draws: a run may ask other models, and at more shapes."""
+    drawn = kappa["model"].isin(_MODELS)
+    return kappa[drawn & (kappa["quantity"] == "pull_off_force") & (kappa["k"] == k)]
 
 
 def handles(shapes: Iterable[float]) -> list[Line2D]:

@@ -3,6 +3,9 @@
 NAME                 an entry point of the group `fscm_bench.models` of an installed package
 FILE.py:CLASS        a local file
 FOLDER               predictions as data: a folder with a `model.toml`
+
+A name that is both an entry point and a folder with a `model.toml` is refused; with a separator (./NAME) it is
+the folder.
 """
 
 from __future__ import annotations
@@ -40,7 +43,7 @@ def door_of(spec: str) -> dict[str, Any]:
     Raises
     ------
     ValueError
-        If nothing is there; the sentence says what a SPEC can be.
+        If nothing is there, or more than one; the sentence says what a SPEC can be.
 
     Examples
     --------
@@ -60,16 +63,23 @@ def door_of(spec: str) -> dict[str, Any]:
     folder = Path(spec).expanduser()
     if folder.name == MANIFEST:
         folder = folder.parent
-    if (folder / MANIFEST).is_file():
+    data = (folder / MANIFEST).is_file()
+    count = 0 if os.sep in spec else len({entry for entry in entry_points(group=GROUP) if entry.name == spec})
+    if data and count:
+        raise ValueError(
+            f"{spec!r} is both a folder with a {MANIFEST} and a model of an installed package: "
+            f"name the folder .{os.sep}{spec}, or ask for the other from elsewhere"
+        )
+    if data:
         return {"kind": "data", "folder": str(folder.resolve())}
-    if os.sep in spec or folder.is_dir():
-        raise ValueError(f"{one_line(spec, 200)} is neither FILE.py:CLASS nor a folder with a {MANIFEST}")
-    if (count := len({entry for entry in entry_points(group=GROUP) if entry.name == spec})) > 1:
+    if count > 1:
         raise ValueError(f"{count} installed packages have a model {spec!r}; name it FILE.py:CLASS instead")
+    # A folder without predictions hides no entry point: a package is often installed from a folder of its name.
+    if count == 0 and (os.sep in spec or folder.is_dir()):
+        raise ValueError(f"{one_line(spec, 200)} is neither FILE.py:CLASS nor a folder with a {MANIFEST}")
     if count == 0:
         raise ValueError(
-            f"no installed package has a model {one_line(spec, 60)!r} (entry points of group "
-            f"{GROUP}), and it is "
+            f"no installed package has a model {one_line(spec, 60)!r} (entry points of group {GROUP}), and it is "
             f"neither FILE.py:CLASS nor a folder with a {MANIFEST}"
         )
     return {"kind": "entry point", "group": GROUP, "name": spec}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import keyword
+import sys
 from importlib.resources import files
 from pathlib import Path
 
@@ -9,6 +11,10 @@ from comparisons.foreign.wording import model_name
 from comparisons.models import MODELS
 
 __all__ = ["write_template"]
+
+#: What the model or its tools import, or take for their own file, and would find beside the model instead.
+_SHADOWED = {"comparisons", "fem_reference", "fscm", "numpy", "scipy", "pandas", "pytest", "setup", "conftest"}
+_IMPORTED = {"NotApplicable", "Result"}
 
 #: Where each file of the template goes; MODULE is the name of the module.
 _PLACES = {
@@ -43,14 +49,13 @@ def write_template(folder: Path) -> tuple[list[Path], str]:
         written there.
     """
     name = model_name(folder.resolve().name)
-    if name in MODELS:
-        raise ValueError(f"{name} is the name of one of our models; choose another for the folder and its model")
     module = name.replace("-", "_").replace(".", "_").lower()
-    if not module.isidentifier():
-        raise ValueError(f"the folder's name {name} begins with a digit: no Python module can be called that")
+    cls = "".join(part.title() for part in module.split("_"))
+    if why := _unusable(name, module, cls):
+        raise ValueError(f"the folder's name {name} {why}; choose another")
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise ValueError(f"{folder} exists and is not an empty folder")
-    words = {"MODEL": name, "MODULE": module, "CLASS": "".join(part.title() for part in module.split("_"))}
+    words = {"MODEL": name, "MODULE": module, "CLASS": cls}
     written = []
     try:
         for source, place in _PLACES.items():
@@ -64,3 +69,20 @@ def write_template(folder: Path) -> tuple[list[Path], str]:
     except OSError as error:
         raise ValueError(f"{folder} cannot be written ({error.strerror})") from None
     return written, f"{folder / module}.py:{words['CLASS']}"
+
+
+def _unusable(name: str, module: str, cls: str) -> str:
+    """Return why a package of that name would not work; nothing if it would."""
+    if name in MODELS or module in {model.replace("-", "_") for model in MODELS}:
+        return "is that of one of our own models"
+    if not name[-1].isalnum():
+        return "ends in a sign: no package can be installed under it"
+    if not module.isidentifier():
+        return "begins with a digit: no Python module can be called that"
+    if keyword.iskeyword(module) or keyword.iskeyword(cls):
+        return "is a word of the Python language"
+    if module in _SHADOWED | sys.stdlib_module_names:
+        return f"would make a module {module}.py, which hides another of that name"
+    if cls in _IMPORTED:
+        return f"would make a class {cls}, which hides what the template imports"
+    return ""

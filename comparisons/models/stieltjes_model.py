@@ -61,6 +61,7 @@ class CoarsePublishedScheme(PublishedScheme):
     """
 
     name: ClassVar[str] = "fscm-stieltjes-400"
+    domain: ClassVar[str] = PublishedScheme.domain.replace("2500", "400")
 
     def __init__(self) -> None:
         super().__init__(segments=400)

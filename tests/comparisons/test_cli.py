@@ -4,11 +4,15 @@ import io
 import json
 import subprocess
 import sys
+import tomllib
+from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pandas as pd
 import pytest
 
+from comparisons import start
 from comparisons.cases import Case
 from comparisons.cli import main
 from comparisons.models import MODELS, create
@@ -234,3 +238,21 @@ def test_a_reader_that_leaves_is_no_disaster():
         process.stdout.close()
         message = process.stderr.read()
     assert (process.returncode, message) == (141, b"")
+
+
+class _Interrupted(ModuleType):
+    def __getattr__(self, name):
+        raise KeyboardInterrupt
+
+
+def test_an_interruption_of_the_imports_is_one_sentence(monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "comparisons.cli", _Interrupted("comparisons.cli"))
+    assert start.main() == 130
+    assert capsys.readouterr().err == "fscm-bench: interrupted\n"
+
+
+def test_the_console_script_imports_nothing_slow_before_it_can_be_interrupted():
+    project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text(encoding="utf-8"))
+    module, _, name = project["project"]["scripts"]["fscm-bench"].partition(":")
+    program = f"import sys; from {module} import {name}; sys.exit('numpy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0

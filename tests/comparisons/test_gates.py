@@ -88,6 +88,7 @@ def test_the_reference_may_be_asked_elsewhere():
         ("lower = -0.1\nupper = 0.1", "lower = -inf\nupper = inf", "one must be finite"),
         ("lower = -0.1", "lower = nan", "admit nothing"),
         ("1e-6", "0", "positive"),
+        ('metric = "rel"', 'metric = "en"\nrival = "dmt"', "compares with no rival"),
         ("1e-6", "inf", "positive"),
         ("n = [1, 2]", "n = [2, 1]", "[low, high]"),
         ("n = [1, 2]", "n = 1", "[low, high]"),

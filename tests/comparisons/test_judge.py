@@ -253,6 +253,22 @@ def test_a_reference_of_zero_needs_another_metric():
     assert verdict(results(fscm=2.0, jkr=2.0), GATE.replace('"rel"', '"range-relative"'))[0] == "ERROR"
 
 
+def test_a_case_that_does_not_apply_names_its_cure():
+    rows = results(fscm=2.0, jkr=2.0)
+    rows.loc[(rows["model"] == "jkr") & (rows["k"] == 0.4), ["status", "reason"]] = "not-applicable", "k = 0 alone"
+    found, judged = verdict(rows)
+    assert found == "ERROR"
+    (reason,) = set(judged.loc[judged["verdict"] == "ERROR", "reason"])
+    assert reason.startswith("jkr: k = 0 alone (")
+    assert "k = [0, 0]" in reason
+    assert 'not_applicable = "leave-out"' in reason
+    for cure in (
+        GATE.replace('tags = ["blue"]', "k = [0, 0]").replace("min_cases = 4", "min_cases = 2"),
+        GATE.replace("min_cases = 4", 'min_cases = 2\nnot_applicable = "leave-out"'),
+    ):
+        assert verdict(rows, cure)[0] == "PASS"
+
+
 def test_an_error_beyond_all_numbers_says_so():
     found, judged = verdict(results(fscm=0.5, jkr=1.7e308))
     assert found == "ERROR"

@@ -21,9 +21,8 @@ FILES = {
     "kappa.parquet",
     "largest_kappa.csv",
     "largest_kappa.parquet",
-    "fig16b_kappa.png",
-    "fig16b_kappa.pdf",
     "run.json",
+    "gates.toml",
     "curves.csv",
     "curves.parquet",
     *VERDICTS,
@@ -51,13 +50,15 @@ def read(folder, name="results.csv"):
     return (folder / name).read_bytes()
 
 
-def test_a_run_leaves_its_tables_figure_and_record(small_grid, tmp_path, capsys):
+def test_a_run_leaves_its_tables_and_record(small_grid, tmp_path, capsys):
     assert run(tmp_path / "out") == 0
     assert {path.name for path in (tmp_path / "out").iterdir()} == FILES
     shown = capsys.readouterr()
     assert "ten-percent" in shown.out
     assert "+10.000" in shown.out
     assert "results are in" in shown.err
+    # Of models that the paper does not know there is nothing to show beside its numbers.
+    assert "beside the published" not in shown.out
     table = pd.read_parquet(tmp_path / "out" / "results.parquet")
     assert table.groupby("status").size().to_dict() == {"not-applicable": 4, "ok": 8}
     kappa = pd.read_csv(tmp_path / "out" / "kappa.csv")
@@ -82,6 +83,14 @@ def test_the_record_says_where_the_numbers_come_from(small_grid, tmp_path):
     assert all(library["threads"] == 1 for library in record["blas"])
     assert record["started"] <= record["finished"]
     assert set(record["seconds"]["by_model"]) == {"truth", "ten-percent", "refuses"}
+
+
+def test_the_figure_and_numbers_of_the_paper_are_shown_where_there_are_some(tmp_path, monkeypatch, capsys):
+    grid = STANDING.replace('"jkr"', '"md-improved"').replace("1.5, 2", "2")
+    monkeypatch.setattr("comparisons.commands.run.grids", lambda tier: load_grids(grid))
+    run(tmp_path)
+    assert (tmp_path / "fig16b_kappa.png").exists()
+    assert "beside the published" in capsys.readouterr().out
 
 
 def test_two_runs_give_the_same_bytes(small_grid, tmp_path):

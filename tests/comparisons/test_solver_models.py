@@ -21,6 +21,13 @@ def test_a_jump_below_the_critical_tabor_number_is_not_applicable():
     assert "critical Tabor number" in row.reason
 
 
+@pytest.mark.parametrize(("name", "segments"), [("fscm-stieltjes", 2500), ("fscm-stieltjes-400", 400)])
+def test_the_published_scheme_states_its_own_segments(name, segments):
+    model = create(name)
+    assert model._segments == segments
+    assert f"wider than the {segments} segments" in model.domain
+
+
 def test_the_curve_of_the_reference_holds_its_own_pull_off():
     curve = create("fscm").curve(Case(2, 0.4, 1).problem())
     assert -curve.load.min() == pytest.approx(1.78848171, rel=1e-3)

@@ -4,14 +4,21 @@ import re
 import shlex
 import subprocess
 import sys
+from dataclasses import fields
 from pathlib import Path
 
 import mpmath
 import pytest
 
 from comparisons import cli
+from comparisons.cases import asked_of, grids
+from comparisons.gates import Gate, load_gates
+from comparisons.judge import by_gate, judge, left_out
+from comparisons.publish import read_published
 from comparisons.quantities import QUANTITIES
+from comparisons.run import plan
 from fscm import kernel
+from fscm.physical import PhysicalProblem
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = sorted((ROOT / "docs" / "examples").glob("*.py"))
@@ -79,6 +86,47 @@ def test_links_lead_somewhere(path):
 def test_every_quantity_has_a_symbol():
     text = (ROOT / "docs" / "symbols.md").read_text(encoding="utf-8")
     assert [name for name in QUANTITIES if f"`{name}`" not in text] == []
+
+
+def test_the_tabor_number_is_that_of_the_code():
+    text = (ROOT / "docs" / "symbols.md").read_text(encoding="utf-8")
+    formula = re.search(r"^    mu = (.*)$", text, flags=re.MULTILINE)[1].replace("^", "**")
+    body = {"E0": 3e6, "c0": 2e-5, "nu": 0.3, "z0": 4e-10}
+    for n, k, Q in ((2, 0, 1e-6), (2, 0.4, 1e-6), (1, 0.2, 0.5), (5, 0.6, 1e-24)):
+        problem = PhysicalProblem(**body, n=n, k=k, Q=Q, work_of_adhesion=0.05)
+        names = {"n": n, "k": k, "Q": Q, "c0": body["c0"], "z0": body["z0"], "dgamma": 0.05}
+        mu = eval(formula, names | {"b": problem.response_factor, "Es": problem.contact_modulus})
+        assert mu == pytest.approx(problem.tabor_number, rel=1e-12)
+        if (n, k) == (2, 0):
+            ordinary = (Q * 0.05**2 / (problem.contact_modulus**2 * body["z0"] ** 3)) ** (1 / 3)
+            assert mu == pytest.approx(ordinary, rel=1e-12)
+
+
+def test_the_gates_of_the_document_are_judged_as_it_says():
+    text = (ROOT / "docs" / "judge_your_model.md").read_text(encoding="utf-8")
+    example = re.search(r"```toml\n(\[\[gate\]\].*?)```", text, flags=re.DOTALL)[1]
+    rows, curves = read_published(ROOT / "results" / "published")
+    chosen = asked_of(grids("quick"), ["md-improved", "jkr"])
+    asked = {task.key for task in plan(chosen, ["md-improved", "jkr"])}
+    keys = rows[["model", "quantity", "n", "k", "mu"]].itertuples(index=False, name=None)
+    rows = rows[[(*key, None) in asked for key in keys]]
+    assert left_out(load_gates(example), chosen, ["md-improved", "jkr"]) == []
+    judged = by_gate(judge(load_gates(example), chosen, rows, curves, ["md-improved", "jkr"]))
+    assert judged[["gate", "candidate"]].to_numpy().tolist() == [
+        ["SOFT-PARABOLOID", "md-improved"],
+        ["SOFT-PARABOLOID", "jkr"],
+        ["BETTER-THAN-JKR", "md-improved"],
+    ]
+    assert set(judged["verdict"]) == {"PASS"}
+    with pytest.raises(ValueError, match=r"gate BETTER-THAN-JKR needs jkr, .*: add --model jkr"):
+        left_out(load_gates(example), chosen, ["md-improved"])
+
+
+def test_every_key_of_a_gate_is_explained():
+    text = (ROOT / "docs" / "judge_your_model.md").read_text(encoding="utf-8")
+    table = text[text.index("| key | what it is |") :].partition("\n\n")[0]
+    told = {name for line in table.splitlines() for name in re.findall(r"`(\w+)`", line.split("|")[1])}
+    assert told == {field.name for field in fields(Gate)}
 
 
 def test_every_module_named_in_the_theory_exists():

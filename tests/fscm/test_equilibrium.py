@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fscm import NotConverged, Problem
+from fscm import NotConverged, Problem, solve
 from fscm.continuation import equilibrium_path, lead_control, lead_of
 from fscm.equilibrium import Control, State
 from fscm.newton import newton
@@ -79,3 +79,9 @@ def test_state_satisfies_the_equations(state: State) -> None:
 def test_no_number_where_there_is_no_equilibrium(control: Control) -> None:
     with pytest.raises(NotConverged):
         newton(_state(Problem(2, 0.4, 3.0), True), control)
+
+
+@pytest.mark.parametrize(("n", "k"), [(1e3, 0.0), (1e6, 0.4)])
+def test_a_punch_too_flat_for_doubles_is_refused_without_a_warning(n, k):
+    with pytest.raises(NotConverged, match="not finite"):
+        solve(Problem(n=n, k=k, mu=1.0), "pull_off_force")

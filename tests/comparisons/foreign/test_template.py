@@ -78,11 +78,28 @@ def test_the_workflow_knows_the_exit_statuses(package):
 
 @pytest.mark.parametrize(
     ("name", "says"),
-    [("<b>", "letters, digits"), ("3d", "begins with a digit"), ("given", "gates"), ("jkr", "one of our models")],
+    [
+        ("<b>", "letters, digits"),
+        ("3d", "begins with a digit"),
+        ("given", "gates"),
+        ("fscm", "one of our own models"),
+        ("md-improved", "one of our own models"),
+        ("MD.improved", "one of our own models"),
+        ("comparisons", "hides another"),
+        ("fem-reference", "hides another"),
+        ("Json", "hides another"),
+        ("numpy", "hides another"),
+        ("lambda", "Python language"),
+        ("true", "Python language"),
+        ("not-applicable", "what the template imports"),
+        ("my-model-", "ends in a sign"),
+    ],
 )
 def test_a_name_that_cannot_be_is_refused(tmp_path, capsys, name, says):
     assert main(["new-model", str(tmp_path / name)]) == 2
-    assert says in capsys.readouterr().err
+    shown = capsys.readouterr().err
+    assert says in shown
+    assert shown.count("\n") == 1
     assert not (tmp_path / name).exists()
 
 

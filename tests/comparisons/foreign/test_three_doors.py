@@ -212,3 +212,21 @@ sys.exit(main(["check-model", "double-hertz"]))
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_a_folder_without_predictions_does_not_hide_an_installed_model(installed_example, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / installed_example).mkdir()
+    assert create(installed_example).name == installed_example
+    with pytest.raises(ValueError, match=r"neither FILE.py:CLASS nor a folder"):
+        create(f"./{installed_example}")
+
+
+def test_a_folder_with_predictions_and_an_installed_model_of_its_name_are_told_apart(
+    installed_example, write_data, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    write_data().rename(tmp_path / installed_example)
+    with pytest.raises(ValueError, match=f"name the folder ./{installed_example}"):
+        create(installed_example)
+    assert create(f"./{installed_example}").name == "measured"
