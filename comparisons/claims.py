@@ -11,7 +11,10 @@ from dataclasses import dataclass
 from decimal import Decimal
 from importlib.resources import files
 
-__all__ = ["Published", "published"]
+__all__ = ["REPRODUCED", "Published", "published"]
+
+#: Verdicts on a number that may have been shortened to the published one.
+REPRODUCED = ("agrees", "cut off")
 
 # Of a formula written as a decimal here.
 _ROUNDING = 2.0**-52
@@ -58,9 +61,9 @@ class Published:
         return float(self.text) if self.exact is None else self.exact
 
     def verdict(self, computed: float, u: float) -> str:
-        """Say whether a computed number has the published digits, rounded or cut off.
+        """Say whether a computed number has the published digits.
 
-        Nothing tells how a paper shortens its numbers, so 15.95 agrees with both 15.9 and 16.0.
+        Nothing tells how a paper shortens its numbers: most are rounded, and 6.78 for 6.7 was cut off.
 
         Parameters
         ----------
@@ -70,23 +73,30 @@ class Published:
         Returns
         -------
         str
-            "agrees", "differs", or "undecided" where `u` allows both.  A formula agrees with what `u` allows.
+            "agrees" where it rounds to them, "cut off" where it has them only if its further digits are dropped,
+            "differs", or "undecided" where `u` allows more than one of these.  A formula agrees with what `u` allows.
 
         Examples
         --------
-        >>> Published("", "Sec. 4.3.2", "", "6.7", "%").verdict(6.68, 1e-4)
-        'agrees'
+        >>> [Published("", "Sec. 4.3.2", "", "6.7", "%").verdict(value, 1e-4) for value in (6.68, 6.78, 6.82)]
+        ['agrees', 'cut off', 'differs']
         """
         if self.exact is not None:
             return "agrees" if abs(computed - self.exact) <= u + _ROUNDING * abs(self.exact) else "differs"
         low, high = Decimal(computed) - Decimal(u), Decimal(computed) + Decimal(u)
         stated = Decimal(self.text)
-        step = Decimal(1).scaleb(stated.as_tuple().exponent)  # type: ignore[arg-type]
-        # Rounding admits half a step to either side, cutting off a whole step above.
-        least, most = stated - step / 2, stated + step
-        if least <= low and high < most:
-            return "agrees"
-        return "undecided" if low < most and high >= least else "differs"
+        found = {_of_digits(value, stated) for value in (low, high)}
+        if low <= stated <= high:
+            found.add("agrees")
+        return found.pop() if len(found) == 1 else "undecided"
+
+
+def _of_digits(value: Decimal, stated: Decimal) -> str:
+    """Return how an exact value relates to the digits stated; a tie may be rounded either way."""
+    step = Decimal(1).scaleb(stated.as_tuple().exponent)  # type: ignore[arg-type]
+    if abs(value - stated) <= step / 2:
+        return "agrees"
+    return "cut off" if stated < value < stated + step else "differs"
 
 
 def published(name: str | None = None) -> list[Published]:

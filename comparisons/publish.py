@@ -1,7 +1,8 @@
-"""The results that are committed: the quick tier and the paper's plates as CSV, 17 digits, so that a change shows.
+"""The results that are committed, numbers as CSV with 17 digits, so that a change shows.
 
 ``python -m comparisons.publish FOLDER`` takes them from the folder of a finished ``fscm-bench run`` or, with its
-pictures, of ``fscm-bench paper``.
+pictures, of ``fscm-bench paper``.  Of a run of the quick tier these are the results, the curves, the largest errors and
+their pictures; of one of the full tier how far both references are apart, of which the quick tier has a few cases only.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import numpy as np
 import pandas as pd
 
 from comparisons.paper.catalogue import plates
+from comparisons.record import read_record
 from comparisons.store import atomic, csv_text, read_table
 
 __all__ = ["PLATES", "PUBLISHED", "changes", "drift", "publish", "publish_plates", "read_published"]
@@ -25,9 +27,14 @@ PLATES = PUBLISHED / "paper"
 
 _KEY = ["model", "quantity", "n", "k", "mu", "nu"]
 # What depends on the machine or on the work done (seconds, iterations, residual) is left out.
-_FILES = {
+_TABLES = {
     "quick.csv": ("results.parquet", [*_KEY, "value", "u_num", "status", "reason"]),
     "curves.csv": ("curves.parquet", [*_KEY, "point", "x", "y", "u_distance", "status", "reason"]),
+}
+#: What is taken as it is, by tier: the committed name, and that in the folder of the run.
+_COPIES = {
+    "quick": {name: name for name in ("largest_kappa.csv", "fig16b_kappa.png", "fig16b_kappa.pdf", "references.png")},
+    "full": {f"references_agreement.{suffix}": f"agreement.{suffix}" for suffix in ("csv", "png")},
 }
 _TEXTS = ("model", "quantity", "status", "reason")
 
@@ -37,14 +44,29 @@ SAME = 1e-6
 
 
 def publish(folder: Path, target: Path = PUBLISHED) -> list[Path]:
-    """Write the committed files from those of a run; return their paths."""
+    """Replace the committed files by those of a run, as far as its tier makes them; return their paths.
+
+    Raises
+    ------
+    ValueError
+        If it is no finished run, lacks a file, or was asked for other models than the standing ones; nothing is
+        changed then.
+    """
+    asked = read_record(folder / "run.json")["arguments"]
+    if asked["model"] is not None:
+        raise ValueError(f"{folder} has the models {', '.join(asked['model'])} only: publish a run without --model")
+    tables = _TABLES if asked["tier"] == "quick" else {}
+    texts = {name: csv_text(read_table(folder / source)[columns]) for name, (source, columns) in tables.items()}
+    contents = {name: text.encode() for name, text in texts.items()}
+    for name, source in _COPIES[asked["tier"]].items():
+        if not (folder / source).exists():
+            raise ValueError(f"{folder} lacks {source}: publish the folder of a finished run")
+        contents[name] = (folder / source).read_bytes()
     target.mkdir(parents=True, exist_ok=True)
-    written = []
-    for name, (source, columns) in _FILES.items():
+    for name, content in contents.items():
         with atomic(target / name) as file:
-            file.write(csv_text(read_table(folder / source)[columns]).encode())
-        written.append(target / name)
-    return written
+            file.write(content)
+    return [target / name for name in contents]
 
 
 def publish_plates(folder: Path, target: Path = PLATES) -> list[Path]:
@@ -99,7 +121,7 @@ def changes(stored: pd.DataFrame, computed: pd.DataFrame) -> list[str]:
 
 def read_published(target: Path = PUBLISHED) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Return the committed results and curves as tables fit for `comparisons.judge.judge`."""
-    rows, curves = (_read(target / name) for name in _FILES)
+    rows, curves = (_read(target / name) for name in _TABLES)
     return rows, curves
 
 
@@ -143,8 +165,7 @@ def main(arguments: Sequence[str]) -> int:
     except ValueError as error:
         print(error, file=sys.stderr)
         return 2
-    for path in written:
-        print(path)
+    print(f"{folder} gave {', '.join(map(str, written))}; nothing else was changed.")
     return 0
 
 

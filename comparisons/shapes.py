@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.model import KnowsProfiles, Model, NotApplicable, Profile, TracesCurve
+from comparisons.model import Curve, KnowsProfiles, Model, NotApplicable, Profile, TracesCurve
 from fscm.problem import Problem
 
-__all__ = ["SHAPES", "Points", "Shape", "near"]
+__all__ = ["SHAPES", "Points", "Shape", "near", "traced"]
 
 Array = NDArray[np.float64]
 
@@ -41,10 +41,15 @@ class Shape:
     ask: Callable[[Model, Problem], Points]
 
 
-def _force_curve(model: Model, problem: Problem) -> Points:
+def traced(model: Model, problem: Problem) -> Curve:
+    """Return the force-displacement curve of a model, or raise `NotApplicable` or `ComputationFailed`."""
     if not isinstance(model, TracesCurve):
         raise NotApplicable("the model has no force-displacement curve")
-    curve = model.curve(problem)
+    return model.curve(problem)
+
+
+def _force_curve(model: Model, problem: Problem) -> Points:
+    curve = traced(model, problem)
     return _points(curve.displacement, curve.load, curve.u_distance)
 
 

@@ -109,9 +109,7 @@ def _checked(sizes: Sequence[float], values: Sequence[float], fewest: int) -> tu
     return h[order], f[order]
 
 
-def three_grids(
-    sizes: Sequence[float], values: Sequence[float], declared: float, safety: float = SAFETY
-) -> GridConvergence:
+def three_grids(sizes: Sequence[float], values: Sequence[float], declared: float) -> GridConvergence:
     """Observed order, Richardson extrapolation and grid convergence index of three grids.
 
     Parameters
@@ -120,8 +118,6 @@ def three_grids(
         Typical element sizes, in any order, and the value on each grid.
     declared : float
         Order the quantity converges with; what was observed is not trusted beyond it.
-    safety : float
-        Factor on the Richardson estimate.
 
     Returns
     -------
@@ -148,7 +144,7 @@ def three_grids(
     used = min(max(p, _LOWEST), declared) if math.isfinite(p) else _LOWEST
     error = fine / ((h2 / h1) ** used - 1.0)
     oscillates = coarse / fine < 0.0
-    factor = CAUTIOUS_SAFETY if oscillates or not p >= _LOWEST else safety
+    factor = CAUTIOUS_SAFETY if oscillates or not p >= _LOWEST else SAFETY
     size = max(abs(error), abs(f1 - f3)) if oscillates or not p > 0.0 else abs(error)
     return GridConvergence(f1, f1 - error, factor * size, p)
 

@@ -10,18 +10,9 @@ from fem_reference.errors import NoSuchEvent, NotConverged
 from fem_reference.events import QUANTITIES
 from fem_reference.modulus import CustomModulus, OffsetPowerLaw, PowerLaw
 from fem_reference.punch import CustomPunch, PowerPunch
-from fem_reference.solution import (
-    CustomSolid,
-    Path,
-    Profile,
-    Solid,
-    Solution,
-    event_state,
-    profile,
-    solve,
-    solve_together,
-    trace,
-)
+from fem_reference.solid import CustomSolid, Solid
+from fem_reference.solution import Solution, solve, solve_together
+from fem_reference.states import Path, Profile, event_state, profile, trace
 from fem_reference.traction import LennardJones
 
 __all__ = [

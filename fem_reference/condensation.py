@@ -95,7 +95,7 @@ def surface_stiffness(half_space: HalfSpace) -> Array:
     Raises
     ------
     NotConverged
-        When the factorisation meets a singular matrix.
+        When the matrix is singular or not positive definite.
     """
     order = dissection_order(half_space)
     m = half_space.surface.size
@@ -113,5 +113,10 @@ def surface_stiffness(half_space: HalfSpace) -> Array:
     if np.abs(S - S.T).max() > SYMMETRY_TOLERANCE * np.abs(S).max():
         raise NotConverged("the surface stiffness is not symmetric; the matrix is not positive definite")
     S = 0.5 * (S + S.T) / scale[-m:, None] / scale[-m:]
-    linalg.cholesky(S)
+    try:
+        linalg.cholesky(S)
+    except linalg.LinAlgError as error:
+        raise NotConverged(
+            f"the surface stiffness is not positive definite ({error}); check modulus and mesh"
+        ) from error
     return S

@@ -52,15 +52,13 @@ class Event:
 Pair = tuple[Point, Point]
 
 
-def walk(contact: Contact, beyond: float | None = None) -> list[Point]:
+def walk(contact: Contact) -> list[Point]:
     """Walk the path until the load is compressive again and every fold lies behind.
 
     Parameters
     ----------
     contact : Contact
         The problem.
-    beyond : float, optional
-        Go on until the displacement exceeds this value too.
     """
     points: list[Point] = []
     summit = -float("inf")
@@ -69,8 +67,7 @@ def walk(contact: Contact, beyond: float | None = None) -> list[Point]:
         if point.leg.touching:
             settled = point.state.load > 0 and point.displacement_rate > 0 and point.load_rate > 0
             # After a jump-in, the contact branch at the displacement of the jump belongs to the cycle.
-            reached = point.state.displacement >= max(summit, -float("inf") if beyond is None else beyond)
-            if settled and reached:
+            if settled and point.state.displacement >= summit:
                 break
         elif point.displacement_rate > 0:
             summit = max(summit, point.state.displacement)

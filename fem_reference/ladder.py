@@ -1,20 +1,22 @@
 """The verification ladder: what the elastic half-space must reproduce, one row a rung.
 
 Each function measures one kind of error and returns rows; a row passes when the error is below its limit.
-`elastic_ladder` collects them.  Errors of surface displacements are relative to the central displacement.
+`elastic_ladder` collects them, with those of `fem_reference.identities` at the foot.  Errors of surface
+displacements are relative to the central displacement.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_reference.identities import identity_rungs, manufactured_rungs
 from fem_reference.modulus import Modulus, OffsetPowerLaw, PowerLaw
 from fem_reference.reference_solutions import gaussian_displacement, power_displacement
+from fem_reference.rung import Rung
 from fem_reference.surface import MeshSpec, Trace, compliance_for
 
 __all__ = [
@@ -22,7 +24,6 @@ __all__ = [
     "EXPONENTS",
     "FINE",
     "POISSON",
-    "Rung",
     "disc_rungs",
     "elastic_ladder",
     "far_field_rungs",
@@ -36,6 +37,9 @@ Array = NDArray[np.float64]
 EXPONENTS = (0.0, 0.1, 0.2, 0.4, 0.6, 0.8)
 POISSON = (0.0, 0.25, 0.45)
 
+K, NU = 0.4, 0.25
+"""Material of the rungs that are about something else."""
+
 DEFAULT = MeshSpec(0.25, 2e-3, 64.0, 0.69, 6)
 """The density of the default accuracy, for a load of unit radius."""
 
@@ -47,32 +51,6 @@ EDGE = MeshSpec(1e-3, 2e-5, 64.0, 0.69, 6)
 
 LIMITS = {"default": 5e-6, "fine": 5e-7, "edge": 1e-6}
 """Largest error allowed, relative to w(0) (measured: 1.4e-6 at nu = 0.49, 2e-7, 3e-7)."""
-
-
-@dataclass(frozen=True, slots=True)
-class Rung:
-    """One row of the ladder.
-
-    Attributes
-    ----------
-    rung, case : str
-        What is tested, and on what.
-    error, limit : float
-        Measured relative error and the largest allowed.
-    unknowns : int
-        Size of the finite-element problem.
-    """
-
-    rung: str
-    case: str
-    error: float
-    limit: float
-    unknowns: int
-
-    @property
-    def passed(self) -> bool:
-        """Whether the error is below the limit."""
-        return self.error <= self.limit
 
 
 def surface_displacement(
@@ -155,7 +133,7 @@ def _power(beta: float) -> Callable[[Array], Array]:
     return pressure
 
 
-def disc_rungs(exponents: Iterable[float], nu: float = 0.25, spec: MeshSpec = EDGE) -> list[Rung]:
+def disc_rungs(exponents: Iterable[float]) -> list[Rung]:
     """(b, d) Uniform disc, Hertz pressure (Giannakopoulos and Suresh 1997), flat punch; 0 <= r <= 0.95."""
     r = np.linspace(0.0, 0.95, 40)
     rows = []
@@ -166,27 +144,27 @@ def disc_rungs(exponents: Iterable[float], nu: float = 0.25, spec: MeshSpec = ED
             ("flat punch gives a plane", -0.5 * (1.0 - k)),
         ):
             pressure = _power(beta)
-            w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), nu, spec, pressure, disc=True)
-            exact = power_displacement(r, k, nu, beta)
+            w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), NU, EDGE, pressure, disc=True)
+            exact = power_displacement(r, k, NU, beta)
             error = float(np.abs(w(r) - exact).max() / exact[0])
-            rows.append(Rung(name, f"k = {k}, nu = {nu}", error, LIMITS["edge"], unknowns))
+            rows.append(Rung(name, f"k = {k}, nu = {NU}", error, LIMITS["edge"], unknowns))
     return rows
 
 
-def far_field_rungs(k: float = 0.4, nu: float = 0.25) -> list[Rung]:
+def far_field_rungs() -> list[Rung]:
     """(e) The displacement does not depend on where the exterior begins."""
     r = np.linspace(0.0, 4.0, 41)
-    base, _ = surface_displacement(PowerLaw(1.0, 1.0, k), nu, DEFAULT, lambda s: np.exp(-(s**2)))
+    base, _ = surface_displacement(PowerLaw(1.0, 1.0, K), NU, DEFAULT, lambda s: np.exp(-(s**2)))
     rows = []
     for extent in (8.0, 16.0, 512.0):
         spec = MeshSpec(DEFAULT.edge_width, DEFAULT.surface_depth, extent, DEFAULT.density, DEFAULT.order)
-        w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), nu, spec, lambda s: np.exp(-(s**2)))
+        w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, K), NU, spec, lambda s: np.exp(-(s**2)))
         error = float(np.abs(w(r) - base(r)).max() / base(r)[0])
-        rows.append(Rung("interior of another size", f"extent {extent:g} against 64, k = {k}", error, 2e-6, unknowns))
+        rows.append(Rung("interior of another size", f"extent {extent:g} against 64, k = {K}", error, 2e-6, unknowns))
     return rows
 
 
-def limit_rungs(nu: float = 0.25) -> list[Rung]:
+def limit_rungs() -> list[Rung]:
     """(f) A vanishing surface modulus tends to the power law, a vanishing exponent to the homogeneous solid.
 
     The distance must fall with the parameter at the rate theory gives: first order in k, and first order in
@@ -194,21 +172,20 @@ def limit_rungs(nu: float = 0.25) -> list[Rung]:
     """
     r = np.linspace(0.0, 4.0, 41)
     rows = []
-    exact = gaussian_displacement(r, 0.0, nu)
+    exact = gaussian_displacement(r, 0.0, NU)
     unit = {}
     for k in (2e-3, 1e-3):
-        w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), nu, DEFAULT, lambda s: np.exp(-(s**2)))
+        w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), NU, DEFAULT, lambda s: np.exp(-(s**2)))
         unit[k] = float(np.abs(w(r) - exact).max() / exact[0])
     rate = abs(unit[2e-3] / unit[1e-3] - 2.0)
     rows.append(Rung("k -> 0 tends to the homogeneous solid, first order", "k = 2e-3, 1e-3", rate, 0.02, unknowns))
-    k = 0.4
-    exact = gaussian_displacement(r, k, nu)
+    exact = gaussian_displacement(r, K, NU)
     for z_s in (1e-2, 1e-3):
         depth = min(DEFAULT.surface_depth, 0.2 * z_s)
         spec = MeshSpec(DEFAULT.edge_width, depth, DEFAULT.extent, DEFAULT.density, DEFAULT.order)
-        w, unknowns = surface_displacement(OffsetPowerLaw(1.0, 1.0, k, z_s), nu, spec, lambda s: np.exp(-(s**2)))
+        w, unknowns = surface_displacement(OffsetPowerLaw(1.0, 1.0, K, z_s), NU, spec, lambda s: np.exp(-(s**2)))
         unit[z_s] = float(np.abs(w(r) - exact).max() / exact[0])
-    rate = abs(np.log10(unit[1e-2] / unit[1e-3]) - (1.0 - k))
+    rate = abs(np.log10(unit[1e-2] / unit[1e-3]) - (1.0 - K))
     rows.append(Rung("z_s -> 0 tends to the power law as z_s^(1-k)", "z_s = 1e-2, 1e-3", float(rate), 0.1, unknowns))
     return rows
 
@@ -223,7 +200,8 @@ def elastic_ladder(full: bool = False) -> list[Rung]:
     True
     """
     few = EXPONENTS if full else (0.0, 0.4, 0.8)
-    rows = gaussian_rungs(DEFAULT, "default", few, POISSON if full else (0.25,))
+    rows = manufactured_rungs() + identity_rungs()
+    rows += gaussian_rungs(DEFAULT, "default", few, POISSON if full else (0.25,))
     if full:
         rows += gaussian_rungs(FINE, "fine", EXPONENTS, POISSON)
     rows += gaussian_rungs(DEFAULT, "default", (0.0, 0.4), (0.49,))

@@ -1,48 +1,32 @@
-"""Conjugate gradients for the half-space, preconditioned by a symmetric two-level cycle on pyamg.
+"""Linear systems of the half-space: conjugate gradients, a direct solve, and GMRES for a bordered tangent.
 
-The meshes are tensor products with elements of every aspect ratio, thin columns under a contact edge and thin
-rows under the surface.  The smoother therefore solves whole strips: all unknowns strictly between two grid
-lines two elements apart (overlapping line Schwarz).  Every other strip is independent of the next, so a
-direction takes two sparse factorisations ("zebra"), and a sweep is columns, then rows; the reverse sweep
-closes the symmetric cycle.  In between, the vertex functions of the hierarchical element, which are exactly
-the bilinear space, carry the smooth error to pyamg's smoothed aggregation.
-
-Measured: 6 to 20 iterations to 1e-10 from 4e3 to 3e5 unknowns, k = 0 ... 0.8, nu = 0 ... 0.45, with and
-without an edge a thousandth of its radius wide.
+Each returns a solution whose residual was recomputed at the end, or raises.
 """
 
 from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import pyamg
 from numpy.typing import NDArray
 from scipy import sparse
-from scipy.sparse.linalg import LinearOperator, SuperLU, cg, splu
+from scipy.sparse.linalg import LinearOperator, cg
 
 from fem_reference.assembly import HalfSpace
-from fem_reference.condensation import grid_positions
 from fem_reference.errors import NotConverged
+from fem_reference.preconditioner import ElasticPreconditioner, factorise, unit_scaling
 
-__all__ = ["ElasticPreconditioner", "LinearResult", "factorise", "solve_bordered", "solve_cg", "solve_direct"]
+__all__ = ["LinearResult", "solve_bordered", "solve_cg", "solve_direct"]
 
 Array = NDArray[np.float64]
-Index = NDArray[np.intp]
 
 TOLERANCE = 1e-10
 """Relative residual: the displacement is then good to 1e-9, below the discretisation of any fine mesh."""
 
 ITERATIONS = 60
 """Three times the most ever needed; more means that the preconditioner does not fit the matrix."""
-
-COARSE_CYCLES = 2
-"""V-cycles of smoothed aggregation a correction: one costs up to 8 more outer iterations, three gain none."""
-
-COARSEST = 300
-"""Unknowns pyamg solves directly."""
 
 DIRECTIONS = 150
 """Krylov directions for an indefinite tangent: each negative direction of the surface law costs a few."""
@@ -71,114 +55,6 @@ class LinearResult:
     residual: float
     seconds: float
     storage: int = 0
-
-
-def factorise(matrix: Any) -> SuperLU:
-    """Factorise by SuperLU in its symmetric mode, ten times faster here than its default."""
-    return splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-
-
-class ElasticPreconditioner:
-    """Symmetric positive definite approximate inverse of the scaled stiffness on the free rows.
-
-    Parameters
-    ----------
-    half_space : HalfSpace
-        The assembled half-space.
-
-    Attributes
-    ----------
-    matrix : csr_array
-        The scaled stiffness D A D on the free rows.
-    scale : ndarray
-        The diagonal of D.
-    """
-
-    def __init__(self, half_space: HalfSpace) -> None:
-        free = half_space.free
-        A = half_space.matrix[free][:, free].tocsr()
-        diagonal = A.diagonal()
-        if not np.all(diagonal > 0):
-            raise NotConverged("the stiffness has a non-positive diagonal entry; check modulus, mesh and nu")
-        self.scale: Array = 1.0 / np.sqrt(diagonal)
-        D = sparse.diags_array(self.scale)
-        self.matrix: sparse.csr_array = (D @ A @ D).tocsr()
-        self._strips = self._factor_strips(half_space)
-        self._vertices, self._coarse = self._build_coarse(half_space)
-
-    def _factor_strips(self, half_space: HalfSpace) -> list[tuple[Index, SuperLU, sparse.csr_array]]:
-        strips = []
-        for position in grid_positions(half_space):
-            place = np.repeat(position, 2)[half_space.free]
-            for dropped in (2, 0):
-                inside = np.flatnonzero(place % 4 != dropped)
-                rows = self.matrix[inside]
-                try:
-                    factors = factorise(rows[:, inside])
-                except RuntimeError as error:
-                    raise NotConverged(f"a strip of the mesh is singular ({error}); check modulus and mesh") from error
-                strips.append((inside, factors, rows))
-        return strips
-
-    def _build_coarse(self, half_space: HalfSpace) -> tuple[Index, pyamg.MultilevelSolver]:
-        """Galerkin matrix of the vertex functions, in 2 x 2 blocks, and its aggregation hierarchy."""
-        basis, free = half_space.basis, half_space.free
-        rows = 2 * basis.nodal_dofs[0][:, None] + np.arange(2)
-        position = np.full(half_space.matrix.shape[0], -1)
-        position[free] = np.arange(free.size)
-        vertices = position[rows.ravel()]
-        present = vertices >= 0
-        kept = vertices[present]
-        size = vertices.size
-        # A vertex on the axis has no u_r: a unit row keeps the blocks whole.
-        spread = sparse.csr_array(
-            (np.ones(kept.size), (np.flatnonzero(present), np.arange(kept.size))), (size, kept.size)
-        )
-        padding = sparse.diags_array((~present).astype(float))
-        coarse = spread @ self.matrix[kept][:, kept] @ spread.T + padding
-        unit = np.zeros(size)
-        unit[present] = 1.0 / self.scale[kept]
-        candidates = np.zeros((size, 2))
-        candidates[0::2, 0], candidates[1::2, 1] = unit[0::2], unit[1::2]
-        smoother = ("block_gauss_seidel", {"sweep": "symmetric", "iterations": 1})
-        hierarchy = pyamg.smoothed_aggregation_solver(
-            sparse.bsr_matrix(sparse.csr_matrix(coarse), blocksize=(2, 2)),
-            B=candidates,
-            strength=("evolution", {"epsilon": 4.0, "k": 2}),
-            smooth=("energy", {"krylov": "cg", "maxiter": 3}),
-            presmoother=smoother,
-            postsmoother=smoother,
-            max_coarse=COARSEST,
-        )
-        return vertices, hierarchy
-
-    def __call__(self, b: Array) -> Array:
-        """Apply the cycle to a right-hand side of the scaled system, shape (free,)."""
-        b = np.asarray(b, float).ravel()
-        x = np.zeros_like(b)
-        first, factors, _ = self._strips[0]
-        x[first] = factors.solve(b[first])
-        for inside, factors, rows in self._strips[1:]:
-            x[inside] += factors.solve(b[inside] - rows @ x)
-        present = self._vertices >= 0
-        residual = np.zeros(self._vertices.size)
-        residual[present] = (b - self.matrix @ x)[self._vertices[present]]
-        correction = self._coarse.solve(residual, tol=1e-300, maxiter=COARSE_CYCLES, cycle="V")
-        x[self._vertices[present]] += correction[present]
-        for inside, factors, rows in reversed(self._strips):
-            x[inside] += factors.solve(b[inside] - rows @ x)
-        return x
-
-    @property
-    def storage(self) -> int:
-        """Bytes of the factors, the scaled matrix and the strips' rows."""
-        factors = sum(12 * lu.nnz for _, lu, _ in self._strips)
-        rows = sum(12 * part.nnz for _, _, part in self._strips)
-        return factors + rows + 12 * self.matrix.nnz
-
-    def operator(self) -> LinearOperator:
-        """Return the cycle as a scipy operator."""
-        return LinearOperator(self.matrix.shape, self.__call__, dtype=float)
 
 
 def solve_cg(
@@ -248,14 +124,15 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
     Raises
     ------
     NotConverged
-        If the matrix is singular.
+        If the matrix is singular, or so nearly that the residual is not that of a factorisation.
     """
     begin = time.perf_counter()
     free = half_space.free
     A = half_space.matrix[free][:, free].tocsr()
-    D = sparse.diags_array(1.0 / np.sqrt(A.diagonal()))
+    scale = unit_scaling(A.diagonal())
+    D = sparse.diags_array(scale)
     A = (D @ A @ D).tocsc()
-    b = D @ load[free]
+    b = scale * load[free]
     try:
         factors = factorise(A)
         x = factors.solve(b)
@@ -264,8 +141,13 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
     seconds = time.perf_counter() - begin
     norm = float(np.linalg.norm(b))
     residual = float(np.linalg.norm(b - A @ x)) / norm if norm > 0 else 0.0
+    if not residual <= TOLERANCE:
+        raise NotConverged(
+            f"the factorisation leaves a residual of {residual:.1e}, not {TOLERANCE:.1e}: the stiffness matrix is "
+            "nearly singular; check modulus, mesh and nu"
+        )
     storage = 12 * factors.nnz
-    return LinearResult(_expand(half_space, D @ x), 0, residual, seconds, storage)
+    return LinearResult(_expand(half_space, scale * x), 0, residual, seconds, storage)
 
 
 def solve_bordered(

@@ -19,18 +19,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from fem_reference.contact import (
-    CentralGap,
-    Contact,
-    Control,
-    EdgeGap,
-    EdgeRadius,
-    ProfileRise,
-    Size,
-    State,
-    newton,
-)
+from fem_reference.contact import Contact
+from fem_reference.controls import CentralGap, Control, EdgeGap, EdgeRadius, ProfileRise, Size
 from fem_reference.errors import NotConverged
+from fem_reference.newton import State, newton
 from fem_reference.punch import radius_at_height
 from fem_reference.surface import FixedCompliance
 

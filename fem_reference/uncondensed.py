@@ -22,8 +22,9 @@ from skfem import BilinearForm, FacetBasis, LinearForm
 from fem_reference.assembly import HalfSpace, assemble_half_space
 from fem_reference.chains import line_unknowns
 from fem_reference.errors import NotConverged
-from fem_reference.linear_solver import ElasticPreconditioner, solve_bordered, solve_cg
+from fem_reference.linear_solver import solve_bordered, solve_cg
 from fem_reference.modulus import PowerLaw
+from fem_reference.preconditioner import ElasticPreconditioner
 from fem_reference.punch import Punch
 from fem_reference.surface import MeshSpec
 from fem_reference.traction import LennardJones

@@ -12,8 +12,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fscm.equilibrium import STEP_TOLERANCE, Control, Discretisation, State, newton
+from fscm.equilibrium import Control, Discretisation, State
 from fscm.errors import NotConverged
+from fscm.newton import STEP_TOLERANCE, newton
 from fscm.panels import Array, PanelMesh
 from fscm.problem import Problem
 

@@ -17,8 +17,9 @@ import numpy as np
 from scipy.optimize import brentq
 
 from fscm.adaptivity import fit, initial_mesh, rescaled_mesh
-from fscm.equilibrium import STEP_TOLERANCE, Control, Discretisation, Rates, State, newton
+from fscm.equilibrium import Control, Discretisation, Rates, State
 from fscm.errors import NotConverged
+from fscm.newton import STEP_TOLERANCE, newton
 from fscm.problem import Problem
 
 __all__ = ["Point", "equilibrium_path", "lead_control", "lead_of", "moved", "rates_of"]

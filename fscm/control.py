@@ -12,6 +12,7 @@ from fscm.analysis import (
     COARSE_ORDER,
     COARSE_TOLERANCE,
     FLOOR,
+    MAX_POINTS,
     SAFETY,
     VALUE_MESH,
     EventPair,
@@ -29,7 +30,6 @@ _FUNCTIONALS: dict[str, Callable[[State], float]] = {
     "displacement": lambda state: state.displacement,
     "load": lambda state: state.load,
 }
-_MAX_POINTS = 600
 
 
 @dataclass(frozen=True)
@@ -91,8 +91,8 @@ def equilibria(problem: Problem, control: str, value: float) -> list[Equilibrium
         past = condition(state, None) * (-1.0 if control == "central_gap" else 1.0) > 0.0
         if state.follows_edge and state.load > 0.0 and past:
             break
-        if len(points) > _MAX_POINTS:
-            raise NotConverged(f"{control} = {value} was not reached in {_MAX_POINTS} steps along the path")
+        if len(points) > MAX_POINTS:
+            raise NotConverged(f"{control} = {value} was not reached in {MAX_POINTS} steps along the path")
     found = [bracket for rising in (True, False) for bracket in events.brackets(points, condition, rising)]
     found.sort(key=lambda bracket: next(i for i, p in enumerate(points) if p is bracket[0]))
     return [_solved(bracket, condition) for bracket in found]

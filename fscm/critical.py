@@ -14,9 +14,10 @@ from scipy.optimize import brentq
 
 from fscm.analysis import CHECK_MESH, FLOOR, SAFETY, VALUE_MESH, Analysis, Solution
 from fscm.continuation import lead_control, lead_of, moved, rates_of
-from fscm.equilibrium import Discretisation, State, newton
+from fscm.equilibrium import Discretisation, State
 from fscm.errors import NoSuchEvent, NotConverged
 from fscm.events import refined, slowest
+from fscm.newton import newton
 from fscm.problem import Problem
 
 __all__ = ["critical_tabor_number"]

@@ -1,4 +1,4 @@
-r"""Equilibrium of the surface: residual, exact tangent and bordered Newton.
+r"""Equilibrium of the surface: the state on a mesh, its residual and its exact bordered tangent.
 
 Radii are r = c s with the mesh in s.  The half-space has no length of its own, so one response matrix W
 serves every scale c:  w(c s) = M (1-k) c^{1-k} (W p)(s).  Unknowns are the gaps H at the nodes, the
@@ -9,9 +9,6 @@ displacement delta and log c; the equations are
     a control:  linear in  (H_0, delta, P, log c)   (central gap, displacement, load, arc length: all alike)
 
 The bordered matrix is regular at the folds, where the tangent of R alone is singular.
-
-Beyond the last node f is so large that p = -C f^-m (1 - m e/f), e = w - delta - singular gap, which gives the
-tail of P and of w in closed form.
 """
 
 from __future__ import annotations
@@ -28,17 +25,9 @@ from fscm.errors import NotConverged
 from fscm.kernel import kernel_of
 from fscm.panels import Array, PanelMesh
 from fscm.problem import Problem
+from fscm.tail import Tail, tail_energy, tail_of, tail_uncertainty
 
-__all__ = ["Control", "Discretisation", "State", "newton"]
-
-# Newton stops when the last step changes no gap by more than this, relative to 1 + |H|; the step after it
-# would be at rounding level, since convergence is quadratic.
-STEP_TOLERANCE = 1e-9
-_MAX_ITERATIONS = 25
-# A gap may fall to this fraction of its distance to the singular gap in one iteration, and not below
-# _LOWEST of it: at a quarter of the distance the 9-3 law reaches 7e5 times its strength.
-_SHRINK = 0.4
-_LOWEST = 0.25
+__all__ = ["Control", "Discretisation", "Linearisation", "Rates", "State"]
 
 
 @dataclass(frozen=True)
@@ -80,36 +69,6 @@ class Discretisation:
 
 
 @dataclass(frozen=True)
-class _Tail:
-    """Load and displacement from radii beyond the mesh, and their derivatives by log c."""
-
-    load: float
-    displacement: float
-    load_rate: float
-    displacement_rate: float
-
-
-def _tail(d: Discretisation, c: float, shift: float) -> _Tail:
-    """The tail at scale c for the gap f + shift - singular gap at the end of the mesh."""
-    problem = d.problem
-    C, m = problem.law.decay
-    if C == 0.0:
-        return _Tail(0.0, 0.0, 0.0, 0.0)
-    T = c * d.mesh.breaks[-1]
-    F = float(problem.profile.height(np.array([T]))[0])
-    g, k = problem.profile.growth, problem.k
-    e = (shift - problem.law.singular_gap) / F
-    strength = C * F**-m
-
-    def integral(power: float) -> float:  # of t^{power-1} p from T on, over -C F^-m T^power
-        return 1.0 / (m * g - power) - m * e / ((m + 1.0) * g - power)
-
-    load = -2.0 * strength * T**2 * integral(2.0)
-    displacement = -problem.compliance * (1.0 - k) * strength * T ** (1.0 - k) * integral(1.0 - k)
-    return _Tail(load, displacement, (2.0 - m * g) * load, (1.0 - k - m * g) * displacement)
-
-
-@dataclass(frozen=True)
 class State:
     """One equilibrium state on its discretisation.
 
@@ -141,15 +100,20 @@ class State:
         """Node radii r = c s, shape (N,)."""
         return self.scale * self.disc.mesh.nodes
 
+    @property
+    def end(self) -> float:
+        """Radius where the mesh ends."""
+        return float(self.scale * self.disc.mesh.breaks[-1])
+
     @cached_property
     def pressure(self) -> Array:
         """p at the nodes, shape (N,)."""
         return self.disc.problem.law.traction(self.gap)
 
     @cached_property
-    def tail(self) -> _Tail:
+    def tail(self) -> Tail:
         """Contribution of radii beyond the mesh."""
-        return _tail(self.disc, self.scale, -self.displacement)
+        return tail_of(self.disc.problem, self.end, self.displacement)
 
     @cached_property
     def deformation(self) -> Array:
@@ -173,14 +137,8 @@ class State:
 
     @property
     def tail_uncertainty(self) -> float:
-        """Bound on the error of the closed tail: the next term of its expansion, on the load."""
-        problem = self.disc.problem
-        C, m = problem.law.decay
-        if C == 0.0:
-            return 0.0
-        F = float(problem.profile.height(np.array([self.scale * self.disc.mesh.breaks[-1]]))[0])
-        e = (-self.displacement - problem.law.singular_gap) / F
-        return 0.5 * m * (m + 1.0) * e * e * abs(self.tail.load)
+        """Bound on the error of the closed tail, on the load."""
+        return tail_uncertainty(self.disc.problem, self.end, self.displacement, self.tail.load)
 
     @cached_property
     def energy(self) -> float:
@@ -193,25 +151,11 @@ class State:
         d, law = self.disc, self.disc.problem.law
         area = 2.0 * self.scale**2 * d.mesh.weights * d.mesh.nodes
         density = 0.5 * self.pressure * self.deformation + law.energy(self.gap)
-        return float(area @ density) + self._energy_tail()
-
-    def _energy_tail(self) -> float:
-        """int e(H) 2 r dr beyond the mesh, e = -C/(m-1) f^(1-m) (1 - (m-1) e/f)."""
-        problem = self.disc.problem
-        C, m = problem.law.decay
-        if C == 0.0:
-            return 0.0
-        T = self.scale * self.disc.mesh.breaks[-1]
-        F = float(problem.profile.height(np.array([T]))[0])
-        g = problem.profile.growth
-        excess = (m - 1.0) * g - 2.0
-        leading = -math.log(T) if excess == 0.0 else 1.0 / excess
-        shift = (-self.displacement - problem.law.singular_gap) / F
-        return -2.0 * C / (m - 1.0) * F ** (1.0 - m) * T**2 * (leading - (m - 1.0) * shift / (m * g - 2.0))
+        return float(area @ density) + tail_energy(self.disc.problem, self.end, self.displacement)
 
     @cached_property
-    def _system(self) -> _Linearisation:
-        return _Linearisation(self)
+    def _system(self) -> Linearisation:
+        return Linearisation(self)
 
     def rates(self, follow: str = "log_scale") -> Rates:
         """Exact derivatives along the path, per unit of `follow` ("log_scale" or "gap")."""
@@ -239,7 +183,7 @@ class Rates:
         )
 
 
-class _Linearisation:
+class Linearisation:
     """Residual, tangent and functionals at a state (which need not be in equilibrium)."""
 
     def __init__(self, state: State) -> None:
@@ -293,6 +237,7 @@ class _Linearisation:
         return x
 
     def violation(self, control: Control) -> float:
+        """Left side of the control minus its value."""
         s = self.state
         return (
             control.gap * s.central_gap
@@ -303,6 +248,7 @@ class _Linearisation:
         )
 
     def rates(self, control: Control) -> Rates:
+        """Derivatives along the path by the left side of the control."""
         N = len(self.residual)
         rhs = np.zeros(N + 2)
         rhs[N + 1] = 1.0
@@ -315,60 +261,3 @@ class _Linearisation:
             float(self.axis_gap_row @ dH) - dd + self.axis_gap_scale * dc,
             float(self.load_row @ dH) + self.load_scale * dc,
         )
-
-
-def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) -> State:
-    """Solve for equilibrium under a control, from a guess.
-
-    Parameters
-    ----------
-    guess : State
-        Its discretisation, anchor and (when the scale is fixed) scale are kept.
-    control : Control
-    tolerance : float
-        Largest change of a gap in the last step, relative to 1 + |H|.
-
-    Returns
-    -------
-    State
-        Converged: the last step is below the tolerance relative to 1 + |H|.
-
-    Raises
-    ------
-    NotConverged
-        After too many iterations, or when a gap is driven towards the singular gap.
-    """
-    law = guess.disc.problem.law
-    floor = law.singular_gap
-    state = guess
-    for iteration in range(1, _MAX_ITERATIONS + 1):
-        # What overflows, e.g. by the infinite height of a very flat punch far outside, is found by the next check.
-        with np.errstate(over="ignore", invalid="ignore"):
-            system = _Linearisation(state)
-            rhs = np.concatenate([system.residual, [system.anchor, system.violation(control)]])
-        if not np.all(np.isfinite(rhs)):
-            raise NotConverged("Newton met a residual that is not finite; start from a closer state")
-        step = -system.solve(control, rhs)
-        N = len(state.gap)
-        dH = step[:N]
-        clearance = state.gap - floor
-        with np.errstate(divide="ignore", invalid="ignore"):
-            limit = np.where(dH < 0.0, (clearance - np.maximum(_SHRINK * clearance, _LOWEST * -floor)) / -dH, np.inf)
-        damping = float(min(1.0, max(limit.min(), 0.0), 0.7 / max(abs(step[N + 1]), 1e-300)))
-        if damping < 1e-3:
-            raise NotConverged("Newton is driven into the singular gap of the surface law; take a smaller step")
-        state = State(
-            state.disc,
-            state.scale * math.exp(damping * step[N + 1]),
-            state.gap + damping * dH,
-            state.displacement + damping * float(step[N]),
-            state.follows_edge,
-            iteration,
-            float(np.max(np.abs(rhs[:N]) / (1.0 + np.abs(state.gap)))),
-        )
-        change = float(np.max(np.abs(dH) / (1.0 + np.abs(state.gap))))
-        if not math.isfinite(change) or change > 1e6:
-            raise NotConverged("Newton diverged; take a smaller step")
-        if damping == 1.0 and change < tolerance:
-            return state
-    raise NotConverged(f"Newton did not converge in {_MAX_ITERATIONS} iterations (last change {change:.1e})")

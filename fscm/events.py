@@ -14,8 +14,9 @@ from scipy.optimize import brentq, minimize_scalar
 
 from fscm.adaptivity import fit, on_mesh
 from fscm.continuation import Point, lead_control, lead_of, moved, rates_of
-from fscm.equilibrium import Rates, State, newton
+from fscm.equilibrium import Rates, State
 from fscm.errors import NotConverged
+from fscm.newton import newton
 from fscm.panels import PanelMesh
 
 __all__ = [

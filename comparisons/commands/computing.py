@@ -15,12 +15,22 @@ from comparisons.run import Task, compute
 from comparisons.store import Journal, Row, prepare_folder
 from comparisons.workers import usable_cores
 
-__all__ = ["add_jobs", "checked_jobs", "complete", "folder_for"]
+__all__ = ["add_jobs", "add_out", "checked_jobs", "complete", "folder_for"]
 
 
 def add_jobs(parser: argparse.ArgumentParser) -> None:
     """Declare the number of processes."""
     parser.add_argument("--jobs", metavar="N", type=int, default=usable_cores(), help="processes (default: one a core)")
+
+
+def add_out(parser: argparse.ArgumentParser) -> None:
+    """Declare the folder for the results."""
+    parser.add_argument(
+        "--out",
+        metavar="DIR",
+        type=Path,
+        help="folder for the results (default: results/runs/TIME); resumed if it has some",
+    )
 
 
 def checked_jobs(jobs: int) -> int:

@@ -77,9 +77,9 @@ def call(args: argparse.Namespace) -> int:
 
 def _fields(args: argparse.Namespace) -> int:
     """Write the state of an event as vtu and picture."""
-    missing = [name for name in ("n", "k", "mu") if getattr(args, name) is None]
+    missing = [f"--{name}" for name in ("n", "k", "mu") if getattr(args, name) is None]
     if missing:
-        raise ValueError(f"--vtu and --plot need a case: --{' and --'.join(missing)} is missing")
+        raise ValueError(f"--vtu and --plot need a case; give {', '.join(missing)} too")
     case = case_of(args)
     if args.vtu:
         if args.vtu.suffix != ".vtu":

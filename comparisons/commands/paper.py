@@ -8,6 +8,7 @@ from concurrent.futures import BrokenExecutor
 from contextlib import closing
 from pathlib import Path
 
+from comparisons.commands.computing import add_jobs, checked_jobs
 from comparisons.commands.options import FAILED, OK, output
 from comparisons.model import ComputationFailed
 from comparisons.paper.catalogue import NAMES, plates
@@ -16,7 +17,6 @@ from comparisons.paper.workshop import Workshop
 from comparisons.progress import counting, log
 from comparisons.provenance import code_digest
 from comparisons.store import prepare_folder
-from comparisons.workers import usable_cores
 
 __all__ = ["add", "call"]
 
@@ -29,7 +29,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.add_argument(
         "--figure", metavar="N", nargs="+", action="extend", help=f"only these of {', '.join(NAMES)} (default: all)"
     )
-    parser.add_argument("--jobs", metavar="N", type=int, default=usable_cores(), help="processes (default: one a core)")
+    add_jobs(parser)
     parser.add_argument(
         "--out",
         metavar="DIR",
@@ -42,15 +42,14 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def call(args: argparse.Namespace) -> int:
     """Compute what is missing, write the plates, name their files; return the exit status."""
-    if args.jobs < 1:
-        raise ValueError(f"--jobs {args.jobs} is outside 1, 2, ...: the computations need at least one process")
+    jobs = checked_jobs(args.jobs)
     chosen = plates(args.figure)
     folder = prepare_folder(args.out)
     workshop = Workshop(folder / "calls.jsonl", code_digest())
     calls = [call for plate in chosen for call in plate.calls()]
     waiting = workshop.missing(calls)
     try:
-        with counting("paper", len(waiting)) as advance, closing(workshop.work(waiting, args.jobs)) as done:
+        with counting("paper", len(waiting)) as advance, closing(workshop.work(waiting, jobs)) as done:
             for _ in done:
                 advance()
     except KeyboardInterrupt:

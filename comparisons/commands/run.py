@@ -15,7 +15,7 @@ import pandas as pd
 from rich.table import Table
 
 from comparisons.cases import TIERS, VERIFICATION, Grid, asked_of, cases_text, grids
-from comparisons.commands.computing import add_jobs, checked_jobs, complete, folder_for
+from comparisons.commands.computing import add_jobs, add_out, checked_jobs, complete, folder_for
 from comparisons.commands.judge import GATES, STATUS, counted, judge_and_write, own_gates, print_verdicts
 from comparisons.commands.options import FAILED, output
 from comparisons.figures import agreement as agreement_figure
@@ -70,12 +70,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     )
     parser.add_argument("--gates", metavar="FILE", type=Path, help="judge by these gates instead of the standing ones")
     add_jobs(parser)
-    parser.add_argument(
-        "--out",
-        metavar="DIR",
-        type=Path,
-        help="folder for the results (default: results/runs/TIME); resumed if it has some",
-    )
+    add_out(parser)
     parser.set_defaults(call=call)
 
 

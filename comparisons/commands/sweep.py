@@ -9,7 +9,7 @@ from pathlib import Path
 import pandas as pd
 
 from comparisons.cases import TIERS, Grid, load_grids
-from comparisons.commands.computing import add_jobs, checked_jobs, complete, folder_for
+from comparisons.commands.computing import add_jobs, add_out, checked_jobs, complete, folder_for
 from comparisons.commands.options import FAILED, OK, output
 from comparisons.model import ComputationFailed
 from comparisons.models import identify
@@ -32,12 +32,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "--model", metavar="SPEC", nargs="+", action="extend", help="ask these models instead of those each grid names"
     )
     add_jobs(parser)
-    parser.add_argument(
-        "--out",
-        metavar="DIR",
-        type=Path,
-        help="folder for the results (default: results/runs/TIME); resumed if it has some",
-    )
+    add_out(parser)
     parser.set_defaults(call=call)
 
 

@@ -45,7 +45,8 @@ def write_template(folder: Path) -> tuple[list[Path], str]:
     Raises
     ------
     ValueError
-        If the folder is not empty, its name cannot be that of a model, or nothing can be written there.
+        If the folder is not empty, its name cannot be that of a model or is that of one of ours, or nothing can be
+        written there.
     """
     name = model_name(folder.resolve().name)
     module = name.replace("-", "_").replace(".", "_").lower()

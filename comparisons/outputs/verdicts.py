@@ -63,9 +63,8 @@ def command(row: pd.Series, specs: Mapping[str, str]) -> str:
     if not case:
         return "fscm-bench list gates"
     model = shlex.quote(specs.get(row["candidate"], row["candidate"]))
-    if row["quantity"] in SHAPES:
-        return f"fscm-bench curve --model {model} {case.partition(' --nu')[0]}"
-    return f"fscm-bench solve --model {model} --quantity {row['quantity']} {case}"
+    asking = "curve" if row["quantity"] in SHAPES else "solve"
+    return f"fscm-bench {asking} --model {model} --quantity {row['quantity']} {case}"
 
 
 def parameter_text(value: float) -> str:

@@ -10,7 +10,7 @@ import pandas as pd
 from rich.table import Table
 
 from comparisons.cases import Case
-from comparisons.claims import Published, published
+from comparisons.claims import REPRODUCED, Published, published
 from comparisons.models.closed_form import EPS
 from comparisons.models.cohesive_stress import eta
 from comparisons.models.jkr import JKR
@@ -102,13 +102,13 @@ def cause(rows: Sequence[Repeated]) -> str:
     if converged.verdict != "differs":
         return ""
     stated = [row for row in others if row.stated]
-    reproducing = [row for row in stated if row.verdict == "agrees"]
+    reproducing = [row for row in stated if row.verdict in REPRODUCED]
     if reproducing:
         words = f"reproduced by {_said(reproducing[0])}"
         against = stated[0]
         # What the paper states most plainly, the size of the domain, may lead away from its number.
-        return words if against.verdict == "agrees" or against.ingredient in words else f"{words}; {_alone(against)}"
-    elsewhere = " or ".join(_said(row) for row in others if row.verdict == "agrees")
+        return words if against.verdict in REPRODUCED or against.ingredient in words else f"{words}; {_alone(against)}"
+    elsewhere = " or ".join(_said(row) for row in others if row.verdict in REPRODUCED)
     plain = f"; {_alone(stated[0])}" if stated else ""
     if not elsewhere:
         nearest = min(others, key=lambda row: abs(abs(row.value) - converged.claim.value))
@@ -117,7 +117,8 @@ def cause(rows: Sequence[Repeated]) -> str:
 
 
 def _said(row: Repeated) -> str:
-    return f"{row.ingredient} ({abs(row.value):.5g})"
+    shortened = ", cut off" if row.verdict == "cut off" else ""
+    return f"{row.ingredient} ({abs(row.value):.5g}{shortened})"
 
 
 def _alone(row: Repeated) -> str:
@@ -183,7 +184,7 @@ def readable(table: pd.DataFrame) -> pd.DataFrame:
     )
 
 
-_TITLE = "Numbers published in the paper, computed again"
+_TITLE = "Numbers published in the paper, computed again (cut off: they agree if further digits are dropped)"
 
 
 def _texts(tables: Tables) -> dict[str, str]:

@@ -32,6 +32,29 @@ def test_a_formula_has_no_last_digit_to_be_generous_with(computed, u, verdict):
     assert Published("", "", "", "8/3", exact=8 / 3).verdict(computed, u) == verdict
 
 
-@pytest.mark.parametrize(("computed", "verdict"), [(2.8796, "agrees"), (2.8809, "agrees"), (2.8794, "differs")])
+@pytest.mark.parametrize(("computed", "verdict"), [(2.8796, "agrees"), (2.8809, "cut off"), (2.8794, "differs")])
 def test_a_last_zero_counts_as_a_digit(computed, verdict):
     assert Published("", "", "", "2.880").verdict(computed, 1e-12) == verdict
+
+
+@pytest.mark.parametrize(
+    ("text", "computed"), [("40.8", 40.8855), ("1.056", 1.05661), ("3.5", 3.562), ("15.9", 15.9506), ("4.4", 4.499)]
+)
+def test_digits_that_are_cut_off_rather_than_rounded_are_told_apart(text, computed):
+    claim = Published("", "", "", text)
+    step = 10.0 ** -len(text.partition(".")[2])
+    assert claim.verdict(computed, 1e-9) == "cut off"
+    assert claim.verdict(claim.value + 0.49 * step, 1e-9) == "agrees"
+    assert claim.verdict(claim.value - 0.49 * step, 1e-9) == "agrees"
+    # Numbers are not cut off upwards.
+    assert claim.verdict(claim.value - 0.51 * step, 1e-9) == "differs"
+    assert claim.verdict(claim.value + 1.01 * step, 1e-9) == "differs"
+
+
+@pytest.mark.parametrize("place", [-0.5, 0.5, 1.0])
+def test_across_a_border_nothing_is_decided(place):
+    assert Published("", "", "", "3.5").verdict(3.5 + 0.1 * place, 1e-6) == "undecided"
+
+
+def test_a_bound_wider_than_every_digit_decides_nothing():
+    assert Published("", "", "", "3.5").verdict(9.0, 100.0) == "undecided"

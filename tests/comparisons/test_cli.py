@@ -8,13 +8,16 @@ import tomllib
 from pathlib import Path
 from types import ModuleType
 
+import numpy as np
 import pandas as pd
 import pytest
 
 from comparisons import start
+from comparisons.cases import Case
 from comparisons.cli import main
-from comparisons.models import MODELS
+from comparisons.models import MODELS, create
 from comparisons.quantities import QUANTITIES
+from comparisons.shapes import SHAPES
 
 CASE = ["--n", "2", "--k", "0.4", "--mu", "1"]
 
@@ -180,6 +183,33 @@ def test_curve_goes_to_files(tmp_path, capsys):
     assert capsys.readouterr().out == ""
     assert pd.read_csv(files[0])["model"].eq("jkr").all()
     assert files[1].read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(("quantity", "y"), [("pull_off_pressure", "pressure"), ("pull_off_gap", "gap")])
+def test_curve_asks_for_the_surface_at_pull_off(tmp_path, monkeypatch, capsys, quantity, y):
+    drawn = []
+    monkeypatch.setattr("comparisons.commands.curve.save", lambda figure, path: drawn.append(figure))
+    csv, case = tmp_path / "surface.csv", ["--n", "2", "--k", "0", "--mu", "0.3", "--nu", "0.2"]
+    files = ["--csv", str(csv), "--plot", str(tmp_path / "surface.png")]
+    assert main(["curve", "--model", "fscm", "jkr", "--quantity", quantity, *case, *files]) == 0
+    assert "jkr: not-applicable: the model does not know the surface" in capsys.readouterr().err
+    table = pd.read_csv(csv)
+    assert list(table) == ["model", "radius", y]
+    expected = SHAPES[quantity].ask(create("fscm"), Case(2, 0, 0.3).problem())
+    np.testing.assert_array_equal(table["radius"], expected.x)
+    np.testing.assert_array_equal(table[y], expected.y)
+    (axes,) = drawn[0].axes
+    assert axes.get_xlabel().startswith("radius")
+    assert axes.get_ylabel().startswith(y)
+    np.testing.assert_array_equal(axes.get_lines()[0].get_ydata(), expected.y)
+
+
+def test_curve_hands_on_poissons_ratio(toys, monkeypatch):
+    asked = []
+    monkeypatch.setattr("comparisons.commands.curve.create", lambda name, nu: asked.append(nu) or create(name, nu))
+    assert main(["curve", "--model", "truth", *CASE, "--nu", "0.25"]) == 0
+    assert asked == [0.25]
+    assert main(["curve", "--model", "truth", *CASE, "--nu", "0.5"]) == 2
 
 
 @pytest.mark.parametrize(("model", "status"), [("refuses", 0), ("fails", 4)])

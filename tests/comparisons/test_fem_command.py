@@ -30,7 +30,7 @@ def test_fields_for_paraview(tmp_path: Path) -> None:
     ("arguments", "message"),
     [
         (["fem"], "nothing to do"),
-        (["fem", "--vtu", "x.vtu", "--n", "2"], "--k and --mu"),
+        (["fem", "--vtu", "x.vtu", "--n", "2"], "give --k, --mu too"),
         ([*CASE, "--vtu", "x.vtk"], "vtu"),
         ([*CASE, "--plot", "x.png", "--nu", "0.5"], "nu"),
         (["fem", "--n", "-1", "--k", "0", "--mu", "1", "--plot", "x.png"], "n = -1"),

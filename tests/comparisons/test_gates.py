@@ -150,8 +150,6 @@ def test_a_standing_gate_is_fit_to_be_cited(gate):
     assert gate.grounds
     if gate.worst_measured is not None:
         assert gate.lower <= gate.worst_measured <= gate.upper
-        # Limits much wider than what was measured would let a regression by.
-        assert abs(gate.worst_measured) > 0.0
     declared = {
         case
         for grid in grids(gate.tier)

@@ -151,8 +151,8 @@ def test_the_command_of_a_row():
     assert command(pd.Series(ROW | {"nu": 0.25}), {}) == (
         "fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0.4 --mu 1 --nu 0.25"
     )
-    assert (
-        command(pd.Series(ROW | {"quantity": "force_curve"}), {}) == "fscm-bench curve --model jkr --n 2 --k 0.4 --mu 1"
+    assert command(pd.Series(ROW | {"quantity": "pull_off_gap", "nu": 0.25}), {}) == (
+        "fscm-bench curve --model jkr --quantity pull_off_gap --n 2 --k 0.4 --mu 1 --nu 0.25"
     )
     elsewhere = command(pd.Series(ROW), {"jkr": "my models/jkr.py:JKR"})
     assert elsewhere == "fscm-bench solve --model 'my models/jkr.py:JKR' --quantity pull_off_force --n 2 --k 0.4 --mu 1"

@@ -1,6 +1,7 @@
 """The documents are true: examples run, links lead somewhere, every quantity has its symbol, formulas hold."""
 
 import re
+import shlex
 import subprocess
 import sys
 from dataclasses import fields
@@ -9,6 +10,7 @@ from pathlib import Path
 import mpmath
 import pytest
 
+from comparisons import cli
 from comparisons.cases import asked_of, grids
 from comparisons.gates import Gate, load_gates
 from comparisons.judge import by_gate, judge, left_out
@@ -44,6 +46,34 @@ def test_the_tutorial_quotes_its_example():
     code = (ROOT / "docs" / "examples" / "gecko_pad.py").read_text(encoding="utf-8")
     for name, value in re.findall(r"^    (\w+)=([\d.e-]+),", text, flags=re.MULTILINE):
         assert f"{name}={value}," in code
+
+
+def blocks(path, language):
+    """The code blocks of a document in a language."""
+    return re.findall(rf"^```{language}\n(.*?)^```", path.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+
+
+COMMANDS = [line for path in DOCUMENTS for block in blocks(path, "sh") for line in block.splitlines()]
+
+
+@pytest.mark.parametrize("line", [line for line in COMMANDS if line.startswith("fscm-bench ")])
+def test_a_command_people_are_told_to_type_is_one(line):
+    """It parses: names of commands and options, choices, what is required."""
+    _, *arguments = shlex.split(line, comments=True)
+    cli._parser().parse_args(cli._keep_negative_numbers(arguments))
+
+
+def test_commands_are_found():
+    assert len([line for line in COMMANDS if line.startswith("fscm-bench ")]) > 20
+
+
+def test_the_python_of_the_front_page_runs(tmp_path):
+    (code,) = blocks(ROOT / "README.md", "python")
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    value, u_num = map(float, done.stdout.split())
+    assert value == pytest.approx(1.78848171, abs=5e-9)
+    assert 0.0 < u_num < 1e-9
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.name)

@@ -3,20 +3,12 @@
 import numpy as np
 import pytest
 
-from fem_reference.contact import (
-    ArcLength,
-    CentralGap,
-    Contact,
-    Displacement,
-    EdgeGap,
-    EdgeRadius,
-    ProfileRise,
-    Size,
-    newton,
-)
+from fem_reference.contact import Contact
+from fem_reference.controls import ArcLength, CentralGap, Displacement, EdgeGap, EdgeRadius, ProfileRise, Size
 from fem_reference.errors import NoSuchEvent, NotConverged
 from fem_reference.events import find_event, folds, locate, walk
 from fem_reference.modulus import PowerLaw
+from fem_reference.newton import newton
 from fem_reference.path import Leg, march
 from fem_reference.punch import CustomPunch, PowerPunch, radius_at_height
 from fem_reference.surface import MeshSpec, compliance_for

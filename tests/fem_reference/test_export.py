@@ -8,7 +8,7 @@ from fem_reference.contact import Contact
 from fem_reference.events import find_event
 from fem_reference.export import contact_field, draw, write_vtu
 from fem_reference.punch import PowerPunch
-from fem_reference.solution import Solid
+from fem_reference.solid import Solid
 from fem_reference.surface import MeshSpec, compliance_for
 from fem_reference.traction import LennardJones
 

@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 from scipy import integrate, special
 
+from fem_reference import manufactured
+from fem_reference.identities import identity_rungs, manufactured_rungs
 from fem_reference.ladder import (
     DEFAULT,
     EXPONENTS,
@@ -77,6 +79,19 @@ def test_homogeneous_textbook_values():
     assert power_displacement(np.array(0.0), 0.0, 0.3, 0.5) == pytest.approx(np.pi / 2 / E_star)
     # p = (1 - r^2)^(-1/2) has P = 2 pi.
     assert power_displacement(np.array(0.7), 0.0, 0.3, -0.5) == pytest.approx(2 * np.pi / (2 * E_star))
+
+
+def test_order_patch_tests_and_identities():
+    _assert_all_pass(manufactured_rungs() + identity_rungs())
+
+
+def test_the_foot_of_the_ladder_can_break(monkeypatch):
+    """A stress of another Poisson ratio than the stiffness has is solved by another field."""
+    exact = manufactured._load
+    monkeypatch.setattr(manufactured, "_load", lambda basis, E, nu, field: exact(basis, E, nu + 0.01, field))
+    rungs = manufactured_rungs() + identity_rungs()
+    broken = {rung.rung for rung in rungs if not rung.passed}
+    assert broken == {"manufactured solution, graded", "patch test"}
 
 
 def test_gaussian_rungs_on_the_default_mesh():

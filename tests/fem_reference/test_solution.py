@@ -15,6 +15,7 @@ from fem_reference import (
     Solid,
     profile,
     solve,
+    solve_together,
     trace,
 )
 from fem_reference.reference_solutions import surface_constant
@@ -180,6 +181,7 @@ def test_stiff_solid_has_no_jump():
         (lambda: LennardJones(0.0, 1.0), "work of adhesion"),
         (lambda: _pull_off(0.0, 1.0, quantity="adhesion"), "choose one of"),
         (lambda: _pull_off(0.0, 1.0, accuracy="best"), "choose one of"),
+        (lambda: solve_together(_solid(0.4, 1.0, 0.3), PowerPunch(2.0, 1.0), LennardJones(1, 1), ()), "at least one"),
     ],
 )
 def test_impossible_input_is_refused(make, message):

@@ -8,7 +8,8 @@ import pytest
 
 from fscm import NotConverged, Problem, solve
 from fscm.continuation import equilibrium_path, lead_control, lead_of
-from fscm.equilibrium import Control, State, newton
+from fscm.equilibrium import Control, State
+from fscm.newton import newton
 
 PROBLEMS = [(2.0, 0.4, 1.0), (1.0, 0.0, 0.3), (5.0, 0.7, 1.5)]
 

@@ -1,0 +1,172 @@
+"""Controls: single equations that pick a point of the equilibrium path, with their derivatives.
+
+Two of them close the equations of `fem_reference.contact`: one keeps the mesh where it should be, the other is what a
+machine or the walk along the path prescribes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_reference.contact import Contact
+
+__all__ = [
+    "ArcLength",
+    "CentralGap",
+    "Control",
+    "Displacement",
+    "EdgeGap",
+    "EdgeRadius",
+    "ProfileRise",
+    "Size",
+]
+
+Array = NDArray[np.float64]
+
+
+class Control(Protocol):
+    """One equation that picks a point of the equilibrium path."""
+
+    def value(self, contact: Contact, y: Array) -> float:
+        """Left-hand side, zero at the point."""
+        ...
+
+    def gradient(self, contact: Contact, y: Array) -> Array:
+        """Its derivative with respect to y."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Size:
+    """The mesh has the size c."""
+
+    c: float
+
+    def value(self, contact: Contact, y: Array) -> float:
+        """Return c(y) - c."""
+        return float(y[-1] - self.c)
+
+    def gradient(self, contact: Contact, y: Array) -> Array:
+        """Return a unit vector."""
+        return _unit(y.size, -1)
+
+
+@dataclass(frozen=True, slots=True)
+class Displacement:
+    """The approach is delta."""
+
+    delta: float
+
+    def value(self, contact: Contact, y: Array) -> float:
+        """Return delta(y) - delta."""
+        return float(y[-2] - self.delta)
+
+    def gradient(self, contact: Contact, y: Array) -> Array:
+        """Return a unit vector."""
+        return _unit(y.size, -2)
+
+
+@dataclass(frozen=True, slots=True)
+class CentralGap:
+    """The gap at r = 0 is H0."""
+
+    H0: float
+
+    def value(self, contact: Contact, y: Array) -> float:
+        """Return H(0) - H0."""
+        return float(y[0] - y[-2] - self.H0)
+
+    def gradient(self, contact: Contact, y: Array) -> Array:
+        """Row of d H(0)."""
+        return _unit(y.size, 0) - _unit(y.size, -2)
+
+
+@dataclass(frozen=True, slots=True)
+class EdgeGap:
+    """The gap at the mesh node s = 1 is H1: the mesh follows the contact edge."""
+
+    H1: float
+
+    def value(self, contact: Contact, y: Array) -> float:
+        """Return H(s = 1) - H1."""
+        edge = contact.compliance.trace.edge
+        return float(y[edge] - y[-2] + contact.punch.height(y[-1]) - self.H1)
+
+    def gradient(self, contact: Contact, y: Array) -> Array:
+        """Row of d H(1)."""
+        edge = contact.compliance.trace.edge
+        row = _unit(y.size, edge) - _unit(y.size, -2)
+        row[-1] = float(contact.punch.slope(y[-1]))
+        return row
+
+
+@dataclass(frozen=True, slots=True)
+class EdgeRadius:
+    """The gap at the radius `radius`, anywhere on the mesh, is H1: the edge moves over a fixed mesh."""
+
+    H1: float
+    radius: float
+
+    def _row(self, contact: Contact, y: Array, shift: float = 0.0) -> Array:
+        s = (self.radius + shift) / float(y[-1])
+        return contact.compliance.trace.evaluate(np.array([s]))[0]
+
+    def value(self, contact: Contact, y: Array) -> float:
+        """Return H(radius) - H1."""
+        height = float(contact.punch.height(np.array(self.radius)))
+        return float(self._row(contact, y) @ y[:-2]) - float(y[-2]) + height - self.H1
+
+    def gradient(self, contact: Contact, y: Array) -> Array:
+        """Row of d H(radius) on a mesh of fixed size."""
+        return np.concatenate([self._row(contact, y), [-1.0, 0.0]])
+
+    def pace(self, contact: Contact, y: Array) -> float:
+        """Change of the right-hand side per unit radius, -dH/dr, by central differences of the trace."""
+        h = 1e-5 * self.radius
+        rise = float((self._row(contact, y, h) - self._row(contact, y, -h)) @ y[:-2]) / (2.0 * h)
+        return -rise - float(contact.punch.slope(np.array(self.radius)))
+
+
+@dataclass(frozen=True, slots=True)
+class ProfileRise:
+    """The gap at the mesh node s = 1 exceeds the central gap by `rise`: the mesh follows the profile."""
+
+    rise: float
+
+    def value(self, contact: Contact, y: Array) -> float:
+        """Return H(s = 1) - H(0) - rise."""
+        edge = contact.compliance.trace.edge
+        return float(y[edge] - y[0] + contact.punch.height(y[-1]) - self.rise)
+
+    def gradient(self, contact: Contact, y: Array) -> Array:
+        """Row of d (H(1) - H(0))."""
+        row = _unit(y.size, contact.compliance.trace.edge) - _unit(y.size, 0)
+        row[-1] = float(contact.punch.slope(y[-1]))
+        return row
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ArcLength:
+    """The point lies in the plane through `centre` normal to `direction` (both in y), `step` ahead."""
+
+    centre: Array
+    direction: Array
+    step: float
+
+    def value(self, contact: Contact, y: Array) -> float:
+        """Return direction . (y - centre) - step."""
+        return float(self.direction @ (y - self.centre)) - self.step
+
+    def gradient(self, contact: Contact, y: Array) -> Array:
+        """Return the direction."""
+        return self.direction
+
+
+def _unit(size: int, index: int) -> Array:
+    row = np.zeros(size)
+    row[index] = 1.0
+    return row

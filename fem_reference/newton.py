@@ -1,0 +1,130 @@
+"""Newton's method for the equilibrium equations under two controls, and the rates along the path."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import linalg
+
+from fem_reference.contact import Contact
+from fem_reference.controls import Control, EdgeRadius
+from fem_reference.errors import NotConverged
+
+__all__ = ["State", "newton"]
+
+Array = NDArray[np.float64]
+
+NEWTON_TOLERANCE = 1e-12
+"""Largest residual, in units of z0 plus the largest displacement: ten times the rounding of X F."""
+
+NEWTON_STEPS = 30
+"""Damped steps before a point of the path is given up and the path step halved."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """A converged point of the equilibrium path.
+
+    Attributes
+    ----------
+    y : ndarray, shape (m + 2,)
+        Displacement, approach and size.
+    load : float
+        P, compression positive.
+    load_rate : float
+        Derivative of P with respect to the parameter of the second control.
+    rate : ndarray, shape (m + 2,)
+        Derivative of y with respect to it.
+    iterations : int
+        Newton steps taken.
+    residual : float
+        Largest residual in units of z0.
+    """
+
+    y: Array
+    load: float
+    load_rate: float
+    rate: Array
+    iterations: int
+    residual: float
+
+    @property
+    def displacement(self) -> float:
+        """Approach delta."""
+        return float(self.y[-2])
+
+    @property
+    def displacement_rate(self) -> float:
+        """Derivative of delta with respect to the control."""
+        return float(self.rate[-2])
+
+    @property
+    def size(self) -> float:
+        """Size c of the mesh."""
+        return float(self.y[-1])
+
+    @property
+    def central_gap(self) -> float:
+        """Gap at r = 0."""
+        return float(self.y[0] - self.y[-2])
+
+
+def newton(contact: Contact, y: Array, first: Control, second: Control) -> State:
+    """Solve the equilibrium equations under two controls.
+
+    Parameters
+    ----------
+    contact : Contact
+        The problem.
+    y : ndarray, shape (m + 2,)
+        Starting point.
+    first, second : Control
+        Closing equations; the rates of the returned state are with respect to the second.
+
+    Returns
+    -------
+    State
+
+    Raises
+    ------
+    NotConverged
+        If the residual does not fall to the tolerance; take a closer starting point.
+    """
+    law = contact.law
+    m = contact.unknowns
+    y = np.array(y, float)
+    K = np.empty((m + 2, m + 2))
+    G = np.empty(m + 2)
+    size = math.inf
+    for iteration in range(NEWTON_STEPS + 1):
+        G[:m] = contact.residual(y)
+        G[m:] = first.value(contact, y), second.value(contact, y)
+        K[:m] = contact.tangent(y)
+        K[m], K[m + 1] = first.gradient(contact, y), second.gradient(contact, y)
+        factors = linalg.lu_factor(K, check_finite=False)
+        size = float(np.abs(G[:m]).max()) / law.z0
+        limit = NEWTON_TOLERANCE * (1.0 + float(np.abs(y[:m]).max()) / law.z0)
+        step = linalg.lu_solve(factors, G, check_finite=False)
+        if size <= limit and np.abs(step[: m + 1]).max() <= 1e3 * limit * law.z0:
+            pace = second.pace(contact, y) if isinstance(second, EdgeRadius) else 1.0
+            rate = pace * linalg.lu_solve(factors, np.eye(m + 2)[-1], check_finite=False)
+            slope = float(contact.load_gradient(y) @ rate)
+            return State(y, contact.load(y), slope, rate, iteration, size)
+        if not np.all(np.isfinite(step)):
+            break
+        y = y - _damping(contact, y, step) * step
+    raise NotConverged(f"Newton stopped at a residual of {size:.1e} z0; start closer to the solution")
+
+
+def _damping(contact: Contact, y: Array, step: Array) -> float:
+    """Largest factor that keeps every gap above the law's floor and the size within 30 %."""
+    factor = 1.0
+    if abs(step[-1]) > 0.3 * y[-1]:
+        factor = 0.3 * y[-1] / abs(step[-1])
+    lowest = min(contact.law.floor, 0.5 * (contact.gap(y).min() - contact.law.z0))
+    while factor > 1e-3 and contact.gap(y - factor * step).min() < lowest:
+        factor *= 0.5
+    return factor

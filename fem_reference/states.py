@@ -1,0 +1,120 @@
+"""What lies behind a number: the equilibrium path, the state at an event, and its profile, on the finest mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fem_reference.events import find_event, walk
+from fem_reference.mesh_choice import MeshChoice, requested
+from fem_reference.path import Point
+from fem_reference.punch import Punch
+from fem_reference.solid import CustomSolid, Solid
+from fem_reference.surface import MeshSpec
+from fem_reference.traction import LennardJones
+
+__all__ = ["Path", "Profile", "event_state", "profile", "trace"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Path:
+    """The equilibrium path: arrays of approach, load (tension negative), gap at r = 0, edge radius."""
+
+    displacement: Array
+    load: Array
+    central_gap: Array
+    contact_radius: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Profile:
+    """Surface state at a point of the path: radius, gap, pressure (compression positive), displacement."""
+
+    r: Array
+    gap: Array
+    pressure: Array
+    displacement: Array
+
+
+def trace(solid: Solid | CustomSolid, punch: Punch, law: LennardJones, accuracy: str = "default") -> Path:
+    """Walk the equilibrium path from far away until the load is compressive, on the finest mesh.
+
+    Raises
+    ------
+    ValueError
+        For an unknown accuracy.
+    NotConverged
+        If the path cannot be followed.
+    """
+    choice, spec, size = _finest(solid, punch, law, "zero_load_displacement", accuracy)
+    points = walk(choice.contact(spec, size))
+    return Path(
+        np.array([p.state.displacement for p in points]),
+        np.array([p.state.load for p in points]),
+        np.array([p.state.central_gap for p in points]),
+        np.array([p.contact_radius for p in points]),
+    )
+
+
+def event_state(
+    solid: Solid | CustomSolid,
+    punch: Punch,
+    law: LennardJones,
+    quantity: str = "pull_off_force",
+    accuracy: str = "default",
+) -> tuple[MeshSpec, Point]:
+    """Equilibrium at an event on the finest mesh, with the mesh: what fields and cross-checks start from.
+
+    Raises
+    ------
+    ValueError
+        For an unknown quantity or accuracy.
+    NoSuchEvent
+        If the path has no such point.
+    NotConverged
+        If an iteration misses its tolerance.
+    """
+    choice, spec, size = _finest(solid, punch, law, quantity, accuracy)
+    return spec, find_event(choice.contact(spec, size), quantity).point
+
+
+def profile(
+    solid: Solid | CustomSolid,
+    punch: Punch,
+    law: LennardJones,
+    quantity: str = "pull_off_force",
+    accuracy: str = "default",
+    radii: Array | None = None,
+) -> Profile:
+    """Surface gap, pressure and displacement at an event, at the Gauss points or at the wanted radii.
+
+    Raises
+    ------
+    ValueError
+        For an unknown quantity or accuracy, or radii beyond the mesh.
+    NotConverged
+        If the path cannot be followed.
+    """
+    _, point = event_state(solid, punch, law, quantity, accuracy)
+    mesh = point.leg.contact.compliance.trace
+    y = point.state.y
+    s = mesh.s if radii is None else np.asarray(radii, float) / y[-1]
+    if s.min() < 0 or s.max() > mesh.extent:
+        raise ValueError(f"radii up to {s.max() * y[-1]:.4g} leave the mesh, which ends at {mesh.extent * y[-1]:.4g}")
+    w = mesh.evaluate(s) @ y[:-2]
+    gap = -y[-2] + punch.height(s * y[-1]) + w
+    return Profile(s * y[-1], gap, law.traction(gap), w)
+
+
+def _finest(
+    solid: Solid | CustomSolid, punch: Punch, law: LennardJones, quantity: str, accuracy: str
+) -> tuple[MeshChoice, MeshSpec, float]:
+    """Choose the finest mesh for a quantity, and its size."""
+    level = requested((quantity,), accuracy)
+    choice = MeshChoice(solid, punch, law, level)
+    spec, size = choice.adapted(quantity)
+    return choice, replace(spec, density=level.densities[-1]), size

@@ -1,0 +1,112 @@
+"""What radii beyond the mesh add to the load, the displacement and the energy, in closed form.
+
+Beyond the last node, at the radius T, the profile f is so large that p = -C f^-m (1 - m e/f), with
+e = w - delta - singular gap.  There f grows as F (t/T)^g, and every integral is one of a power.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from fscm.problem import Problem
+
+__all__ = ["Tail", "tail_energy", "tail_of", "tail_uncertainty"]
+
+
+@dataclass(frozen=True)
+class Tail:
+    """Load and displacement from radii beyond the mesh, and their derivatives by log c.
+
+    Attributes
+    ----------
+    load, load_rate : float
+        Part of P, dimensionless (unit of Eq. 31).
+    displacement, displacement_rate : float
+        Part of w, in z0, the same at every radius of the mesh.
+    """
+
+    load: float
+    displacement: float
+    load_rate: float
+    displacement_rate: float
+
+
+def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
+    """Tail from the radius T on, at the approach delta.
+
+    Parameters
+    ----------
+    problem : Problem
+    T : float
+        End of the mesh, in (Q z0)^(1/n).
+    displacement : float
+        delta, in z0; w is neglected there beside it.
+
+    Examples
+    --------
+    A stiff cone under the 9-3 law, p = -(8/3) (r + 1)^-3 up to the ninth power, whose integral is known:
+
+    >>> T = 1000.0
+    >>> exact = -16.0 / 3.0 * (1.0 / (T + 1.0) - 0.5 / (T + 1.0) ** 2)
+    >>> abs(tail_of(Problem(n=1, k=0.0, mu=1.0), T, 0.0).load / exact - 1.0) < 1e-5
+    True
+    """
+    C, m = problem.law.decay
+    if C == 0.0:
+        return Tail(0.0, 0.0, 0.0, 0.0)
+    F = _height(problem, T)
+    g, k = problem.profile.growth, problem.k
+    e = (-displacement - problem.law.singular_gap) / F
+    strength = C * F**-m
+
+    def integral(power: float) -> float:  # of t^{power-1} p from T on, over -C F^-m T^power
+        return 1.0 / (m * g - power) - m * e / ((m + 1.0) * g - power)
+
+    load = -2.0 * strength * T**2 * integral(2.0)
+    w = -problem.compliance * (1.0 - k) * strength * T ** (1.0 - k) * integral(1.0 - k)
+    return Tail(load, w, (2.0 - m * g) * load, (1.0 - k - m * g) * w)
+
+
+def tail_uncertainty(problem: Problem, T: float, displacement: float, load: float) -> float:
+    """Bound on the error of the closed tail, on its load: the next term of its expansion.
+
+    Parameters
+    ----------
+    problem, T, displacement
+        As for `tail_of`.
+    load : float
+        Its load.
+    """
+    C, m = problem.law.decay
+    if C == 0.0:
+        return 0.0
+    e = (-displacement - problem.law.singular_gap) / _height(problem, T)
+    return 0.5 * m * (m + 1.0) * e * e * abs(load)
+
+
+def tail_energy(problem: Problem, T: float, displacement: float) -> float:
+    """int e(H) 2 r dr beyond the radius T, e = -C/(m-1) f^(1-m) (1 - (m-1) e/f).
+
+    Its finite part when the integral diverges: the constant left out is the same for all states of a problem.
+
+    Parameters
+    ----------
+    problem, T, displacement
+        As for `tail_of`.
+    """
+    C, m = problem.law.decay
+    if C == 0.0:
+        return 0.0
+    F = _height(problem, T)
+    g = problem.profile.growth
+    excess = (m - 1.0) * g - 2.0
+    leading = -math.log(T) if excess == 0.0 else 1.0 / excess
+    shift = (-displacement - problem.law.singular_gap) / F
+    return -2.0 * C / (m - 1.0) * F ** (1.0 - m) * T**2 * (leading - (m - 1.0) * shift / (m * g - 2.0))
+
+
+def _height(problem: Problem, T: float) -> float:
+    return float(problem.profile.height(np.array([T]))[0])

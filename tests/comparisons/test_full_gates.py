@@ -1,0 +1,149 @@
+"""The standing gates of the full tier can fail: their verdicts on made-up answers of both references.
+
+The full tier takes long and its results are not committed, so the two references agree here by construction: one
+number for each question, and for each curve points of one line, others for each model.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from comparisons.cases import VERIFICATION, grids
+from comparisons.gates import gates_text, load_gates
+from comparisons.judge import judge
+from comparisons.run import plan
+from comparisons.shapes import SHAPES
+from comparisons.store import Row, curve_frame, frame
+from comparisons.verdict import Verdict, roll_up
+
+GRIDS = [grid for grid in grids("full") if grid.tier == "full" and VERIFICATION in grid.tags]
+GATES = [gate for gate in load_gates(gates_text()) if gate.tier == "full"]
+EVERY_GATE = pytest.mark.parametrize("gate", GATES, ids=lambda gate: gate.id)
+
+#: Of the numbers, and of the curves as a fraction of the picture.
+U_NUM, U_DISTANCE = 1e-10, 1e-7
+#: Points of a curve of the candidate and of the reference.
+POINTS = {"fem": 15, "fscm": 45}
+
+
+def made_up(task):
+    """One answer for every question, by the case alone: what a model and another agree on."""
+    case = task.case
+    common = {
+        "model": task.model,
+        "model_version": "1",
+        "quantity": task.quantity,
+        "n": case.n,
+        "k": case.k,
+        "mu": case.mu,
+        "nu": case.nu,
+        "unit": "",
+        "status": "ok",
+        "reason": "",
+        "size": 1,
+        "iterations": 1,
+        "residual": 0.0,
+        "seconds": 0.0,
+    }
+    if task.quantity not in SHAPES:
+        return Row(value=case.n + case.k + case.mu, u_num=U_NUM, **common)
+    t = np.linspace(0.0, 1.0, POINTS[task.model])
+    return Row(value=None, u_num=None, points=(list(3.0 * t - 2.0), list(np.sin(3.0 * t)), U_DISTANCE), **common)
+
+
+ANSWERS = [made_up(task) for task in plan(GRIDS)]
+ROWS = frame(row for row in ANSWERS if not row.points)
+CURVES = curve_frame(row for row in ANSWERS if row.points)
+
+
+def verdict(gate, rows=ROWS, curves=CURVES):
+    return roll_up(judge([gate], GRIDS, rows, curves)["verdict"])
+
+
+def changed(gate, model, column, change):
+    """The results with one column of a model's answers to a gate's question changed."""
+    tables = {"rows": ROWS.copy(), "curves": CURVES.copy()}
+    table = tables["curves" if gate.metric == "curve" else "rows"]
+    mine = (table["model"] == model) & (table["quantity"] == gate.quantity)
+    assert mine.any()
+    table.loc[mine, column] = change(table[mine])
+    return tables
+
+
+def ordinate(gate):
+    return "y" if gate.metric == "curve" else "value"
+
+
+def test_they_are_there():
+    assert len(GATES) >= 15
+    assert {gate.metric for gate in GATES} == {"rel", "en", "curve"}
+
+
+@EVERY_GATE
+def test_answers_that_agree_pass(gate):
+    assert verdict(gate) == Verdict.PASS
+
+
+@EVERY_GATE
+@pytest.mark.parametrize(
+    "mistake",
+    [
+        lambda table, values: 1.7 * values,
+        lambda table, values: -values,
+        lambda table, values: values * (table["mu"] / 7.0) ** 0.4,
+        lambda table, values: values * (1.0 + table["k"]) / (1.0 + table["n"]),
+    ],
+    ids=["factor", "sign", "exponent", "swapped"],
+)
+def test_a_wrong_candidate_fails(gate, mistake):
+    column = ordinate(gate)
+    tables = changed(gate, gate.candidate, column, lambda table: mistake(table, table[column]))
+    assert verdict(gate, **tables) == Verdict.FAIL
+
+
+@EVERY_GATE
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_an_error_a_little_outside_the_limits_fails(gate, sign):
+    """In units of the gate's metric; of a curve, of the range of its ordinate, and what U hides besides."""
+    beyond = 1.1 * gate.upper
+
+    def change(table):
+        if gate.metric == "rel":
+            return table["value"] * (1.0 + sign * (beyond + 3.0 * U_NUM))
+        if gate.metric == "en":
+            return table["value"] + sign * beyond * math.hypot(U_NUM, U_NUM)
+        return table["y"] + sign * (beyond + 1e-5) * np.ptp(table["y"]) * 2.0
+
+    assert verdict(gate, **changed(gate, gate.candidate, ordinate(gate), change)) == Verdict.FAIL
+
+
+@EVERY_GATE
+def test_a_reference_less_certain_than_tolerated_is_not_passed(gate):
+    worst = 1.01 * gate.max_reference_uncertainty
+    if gate.metric == "curve":
+        tables = changed(gate, gate.reference, "u_distance", lambda table: worst)
+    else:
+        tables = changed(gate, gate.reference, "u_num", lambda table: worst * table["value"])
+    assert verdict(gate, **tables) == Verdict.INCONCLUSIVE
+
+
+@EVERY_GATE
+@pytest.mark.parametrize("side", ["candidate", "reference"])
+def test_a_nan_a_row_lost_and_a_column_lost_are_errors(gate, side):
+    column, model = ordinate(gate), getattr(gate, side)
+    name, table = ("curves", CURVES) if gate.metric == "curve" else ("rows", ROWS)
+    cases = judge([gate], GRIDS, ROWS, CURVES)
+    case = cases[cases["mu"].notna()].iloc[0]
+    mine = (table["model"] == model) & (table["quantity"] == gate.quantity)
+    mine &= np.logical_and.reduce([table[name] == case[name] for name in ("n", "k", "mu")])
+    assert mine.any()
+    holed = table.copy()
+    holed.loc[table.index[mine][0], column] = math.nan
+    for wrong in (holed, table[~mine], table.drop(columns=column)):
+        assert verdict(gate, **{name: wrong}) == Verdict.ERROR
+
+
+@EVERY_GATE
+def test_without_cases_a_gate_is_an_error(gate):
+    assert roll_up(judge([gate], [], ROWS, CURVES)["verdict"]) == Verdict.ERROR
