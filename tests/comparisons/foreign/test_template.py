@@ -83,6 +83,7 @@ def test_the_workflow_knows_the_exit_statuses(package):
         ("3d", "begins with a digit"),
         ("given", "gates"),
         ("fscm", "one of our own models"),
+        ("jkr", "one of our own models"),
         ("md-improved", "one of our own models"),
         ("MD.improved", "one of our own models"),
         ("comparisons", "hides another"),
