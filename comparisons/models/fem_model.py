@@ -43,6 +43,12 @@ class FiniteElements:
     ----------
     poisson_ratio : float
         In [0, 0.5); the dimensionless answer does not depend on it but for numerical errors.
+
+    Examples
+    --------
+    >>> FiniteElements().evaluate(Problem(n=2, k=0.95, mu=1.0), "pull_off_force")
+    Traceback (most recent call last):
+    comparisons.model.NotApplicable: the finite elements need k <= 0.9, not k = 0.95: ...
     """
 
     name: ClassVar[str] = "fem"
