@@ -104,6 +104,12 @@ class Grid:
         Sorted, without duplicates.
     tags : tuple of str
         Names that gates select several grids by.
+
+    Examples
+    --------
+    >>> grid = grids("quick")[0]
+    >>> grid.reference, grid.cases[0].label
+    ('fscm', 'n = 1, k = 0, mu = 0.01')
     """
 
     id: str
@@ -181,6 +187,23 @@ def load_grids(text: str, tier: str | None = None, source: str = "the case file"
     ------
     ValueError
         If the text is not TOML, or a grid has a missing, unknown or inadmissible entry; the message names it.
+
+    Examples
+    --------
+    >>> text = '''
+    ... [[grid]]
+    ... id = "mine"
+    ... title = "A sphere"
+    ... tier = "quick"
+    ... reference = "fscm"
+    ... models = ["jkr"]
+    ... quantities = ["pull_off_force"]
+    ... n = [2]
+    ... k = [0, 0.4]
+    ... mu = [0.1, 1]
+    ... '''
+    >>> [case.label for case in load_grids(text)[0].cases][:2]
+    ['n = 2, k = 0, mu = 0.1', 'n = 2, k = 0, mu = 1']
     """
     tables = parse(text, source)
     if tables.keys() != {"grid"}:
@@ -197,12 +220,24 @@ def load_grids(text: str, tier: str | None = None, source: str = "the case file"
 
 
 def cases_text() -> str:
-    """Return the text of the standing cases."""
+    """Return the text of the standing cases.
+
+    Examples
+    --------
+    >>> load_grids(cases_text()) == grids("full")
+    True
+    """
     return files("comparisons").joinpath("cases.toml").read_text(encoding="utf-8")
 
 
 def asked_of(chosen: Iterable[Grid], models: Sequence[str] | None) -> list[Grid]:
-    """Return the grids that a run computes: without those of verification if models are given to it."""
+    """Return the grids that a run computes: without those of verification if models are given to it.
+
+    Examples
+    --------
+    >>> all(VERIFICATION not in grid.tags for grid in asked_of(grids("quick"), ["jkr"]))
+    True
+    """
     return [grid for grid in chosen if models is None or VERIFICATION not in grid.tags]
 
 

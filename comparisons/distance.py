@@ -37,7 +37,15 @@ _FEWEST_POINTS = 8
 
 @dataclass(frozen=True, slots=True)
 class CurveDistance:
-    """The distance and what interpolating the reference may add to it; fractions of the picture."""
+    """The distance and what interpolating the reference may add to it; fractions of the picture.
+
+    Examples
+    --------
+    >>> t = np.linspace(0, 1, 21)
+    >>> found = curve_distance(t, t**2, t, t**2)
+    >>> found.value < 1e-15, found.u_interpolation < 1e-5
+    (True, True)
+    """
 
     value: float
     u_interpolation: float
@@ -85,7 +93,14 @@ def curve_distance(
 
 
 def spread(coarse_x: Array, coarse_y: Array, x: Array, y: Array) -> float:
-    """Bound the distance of computed points from the exact curve by that of a coarser computation."""
+    """Bound the distance of computed points from the exact curve by that of a coarser computation.
+
+    Examples
+    --------
+    >>> t, s = np.linspace(0, 1, 21), np.linspace(0, 1, 61)
+    >>> bool(0.0 < spread(t, np.sin(3 * t) + 1e-3, s, np.sin(3 * s)) < 2e-3)
+    True
+    """
     return _SAFETY * curve_distance(coarse_x, coarse_y, x, y, interpolated=False).value
 
 

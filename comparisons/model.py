@@ -29,11 +29,25 @@ __all__ = [
 
 
 class NotApplicable(Exception):
-    """The model does not define this quantity for this problem; the message says why."""
+    """The model does not define this quantity for this problem; the message says why.
+
+    Examples
+    --------
+    >>> raise NotApplicable("JKR has no jump into contact")
+    Traceback (most recent call last):
+    comparisons.model.NotApplicable: JKR has no jump into contact
+    """
 
 
 class ComputationFailed(Exception):
-    """The computation of the quantity did not converge; the message says what to change."""
+    """The computation of the quantity did not converge; the message says what to change.
+
+    Examples
+    --------
+    >>> Result(value=float("nan"), u_num=0.0)
+    Traceback (most recent call last):
+    comparisons.model.ComputationFailed: the model produced nan, which is not a finite number
+    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +71,11 @@ class Result:
         Wall-clock time of the computation.
     observed_order : float or None
         Order of convergence seen over several meshes; None where none was measured.
+
+    Examples
+    --------
+    >>> Result(value=1.5, u_num=2e-15).value
+    1.5
     """
 
     value: float
@@ -88,6 +107,12 @@ class Curve:
         What else the model knows on the path, e.g. ``central_gap``, ``contact_radius``, ``cohesive_radius``.
     u_distance : float
         Bound on the numerical distance of the points from the exact curve, as a fraction of its ranges.
+
+    Examples
+    --------
+    >>> curve = Curve(np.array([-1.0, 0.0]), np.array([-0.5, 0.2]), {"contact_radius": np.array([0.3, 0.8])})
+    >>> float(-curve.load.min())
+    0.5
     """
 
     displacement: NDArray[np.float64]
@@ -106,6 +131,11 @@ class Profile:
         r / (Q z0)^(1/n), p z0 / dgamma (tension negative) and H / z0.
     u_distance, u_gap_distance : float
         As of a `Curve`, for the pressure and for the gap over the radius, out to a gap of 10.
+
+    Examples
+    --------
+    >>> Profile(radius=np.array([0.1, 0.2]), pressure=np.array([0.3, -1.0]), gap=np.array([-0.1, 0.2])).u_distance
+    0.0
     """
 
     radius: NDArray[np.float64]
@@ -120,6 +150,20 @@ class Model(Protocol):
     """The contract of every model, ours or foreign.
 
     Attributes are plain data; `evaluate` is a pure function of its arguments.
+
+    Examples
+    --------
+    >>> class Rigid:
+    ...     name, version, citation, domain = "rigid", "1", "Bradley (1932)", "n = 2, mu -> 0"
+    ...
+    ...     def evaluate(self, problem: Problem, quantity: str) -> Result:
+    ...         if quantity != "pull_off_force":
+    ...             raise NotApplicable("a rigid sphere knows its pull-off force alone")
+    ...         return Result(value=2.0, u_num=0.0)
+    >>> isinstance(Rigid(), Model)
+    True
+    >>> Rigid().evaluate(Problem(n=2, k=0, mu=1e-3), "pull_off_force").value
+    2.0
     """
 
     name: str
@@ -134,7 +178,14 @@ class Model(Protocol):
 
 @runtime_checkable
 class TracesCurve(Protocol):
-    """A model that also knows its whole force-displacement curve."""
+    """A model that also knows its whole force-displacement curve.
+
+    Examples
+    --------
+    >>> from comparisons.models import create
+    >>> isinstance(create("jkr"), TracesCurve)
+    True
+    """
 
     def curve(self, problem: Problem) -> Curve:
         """Return the curve, or raise `NotApplicable` or `ComputationFailed`."""
@@ -143,7 +194,14 @@ class TracesCurve(Protocol):
 
 @runtime_checkable
 class KnowsProfiles(Protocol):
-    """A model that also knows gap and pressure over the radius."""
+    """A model that also knows gap and pressure over the radius.
+
+    Examples
+    --------
+    >>> from comparisons.models import create
+    >>> isinstance(create("fscm"), KnowsProfiles), isinstance(create("jkr"), KnowsProfiles)
+    (True, False)
+    """
 
     def pull_off_profile(self, problem: Problem) -> Profile:
         """Return the surface where P is smallest, or raise `NotApplicable` or `ComputationFailed`."""

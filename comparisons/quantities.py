@@ -9,7 +9,13 @@ __all__ = ["QUANTITIES", "Quantity"]
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A quantity: name, symbol, kind (which decides the unit) and meaning with sign rule."""
+    """A quantity: name, symbol, kind (which decides the unit) and meaning with sign rule.
+
+    Examples
+    --------
+    >>> QUANTITIES["pull_off_force"].unit
+    'pi Q^(2/n) dgamma z0^(2/n-1)'
+    """
 
     name: str
     symbol: str

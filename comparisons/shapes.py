@@ -42,7 +42,15 @@ class Shape:
 
 
 def traced(model: Model, problem: Problem) -> Curve:
-    """Return the force-displacement curve of a model, or raise `NotApplicable` or `ComputationFailed`."""
+    """Return the force-displacement curve of a model, or raise `NotApplicable` or `ComputationFailed`.
+
+    Examples
+    --------
+    >>> from comparisons.models import create
+    >>> curve = traced(create("bradley"), Problem(n=2, k=0, mu=0.1))
+    >>> round(float(curve.load.min()), 3)
+    -2.0
+    """
     if not isinstance(model, TracesCurve):
         raise NotApplicable("the model has no force-displacement curve")
     return model.curve(problem)
@@ -74,7 +82,13 @@ FARTHEST_GAP = 10.0
 
 
 def near(gap: Array, x: Array, y: Array) -> tuple[Array, Array]:
-    """Return the points of a profile out to the gap `FARTHEST_GAP`."""
+    """Return the points of a profile out to the gap `FARTHEST_GAP`.
+
+    Examples
+    --------
+    >>> near(np.array([0.0, 9.0, 11.0]), np.array([0.1, 4.0, 5.0]), np.array([-1.0, -0.1, 0.0]))[0].tolist()
+    [0.1, 4.0]
+    """
     inside = gap <= FARTHEST_GAP
     return x[inside], y[inside]
 

@@ -128,6 +128,14 @@ def largest(kappa: pd.DataFrame) -> pd.DataFrame:
     DataFrame
         Columns quantity, model, n, k, cases, mu (where the largest is), at_end (whether that is an end of
         the range of mu, so that a wider one may give more), kappa, u_kappa, published_percent, verdict.
+
+    Examples
+    --------
+    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": np.nan, "status": "ok", "u_num": 1e-9}
+    >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
+    >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
+    >>> largest(relative_error(rows, "fscm"))[["mu", "at_end", "published_percent", "verdict"]].values.tolist()
+    [[2.0, True, '0.73', 'differs']]
     """
     known = {("pull_off_force", p.model, p.n, p.k): p for p in published("largest_relative_error")}
     worst = kappa.loc[kappa["kappa"].abs().groupby([kappa[name] for name in _SERIES]).idxmax()]
@@ -148,6 +156,14 @@ def by_case(kappa: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
     """Return one row a case: the reference with its uncertainty, and kappa of each model in percent.
 
     The second value holds the formats of its columns, for `rich_table`.
+
+    Examples
+    --------
+    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": np.nan, "status": "ok", "u_num": 1e-9}
+    >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
+    >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
+    >>> by_case(relative_error(rows, "fscm"))[0]["md-improved"].round(3).tolist()
+    [-0.556, -1.143]
     """
     wide = kappa.pivot(index=["n", "k", "mu", "reference_value", "u_reference"], columns="model", values="kappa")
     shown = (100 * wide).reset_index().rename_axis(columns=None)
@@ -158,6 +174,14 @@ def largest_by_gradient(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, s
     """Return the largest abs(kappa) in percent, signed: one row a model and n, one column a k.
 
     The second value holds the formats of its columns, for `rich_table`.
+
+    Examples
+    --------
+    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": np.nan, "status": "ok", "u_num": 1e-9}
+    >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
+    >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
+    >>> largest_by_gradient(largest(relative_error(rows, "fscm")))[0]["k = 0.4"].round(3).tolist()
+    [-1.143]
     """
     wide = maxima.pivot(index=["quantity", "model", "n"], columns="k", values="kappa")
     wide.columns = pd.Index([f"k = {k:g}" for k in wide.columns])
@@ -165,19 +189,40 @@ def largest_by_gradient(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, s
 
 
 def beside_published(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
-    """Return the maxima a paper states, in percent, with the verdict; and the formats of the columns."""
+    """Return the maxima a paper states, in percent, with the verdict; and the formats of the columns.
+
+    Examples
+    --------
+    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": np.nan, "status": "ok", "u_num": 1e-9}
+    >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
+    >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
+    >>> beside_published(largest(relative_error(rows, "fscm")))[0]["kappa"].round(3).tolist()
+    [-1.143]
+    """
     stated = maxima[maxima["published_percent"] != ""].drop(columns=["quantity", "cases"])
     shown = stated.assign(kappa=100 * stated["kappa"], u_kappa=100 * stated["u_kappa"])
     return shown, {"kappa": "+.4f", "u_kappa": ".0e"}
 
 
 def statuses(rows: pd.DataFrame) -> pd.DataFrame:
-    """Return how many rows of each model ended with each status."""
+    """Return how many rows of each model ended with each status.
+
+    Examples
+    --------
+    >>> statuses(pd.DataFrame({"model": ["jkr", "jkr"], "status": ["ok", "failed"]})).values.tolist()
+    [['jkr', 1, 1]]
+    """
     return rows.groupby(["model", "status"]).size().unstack(fill_value=0).reset_index()
 
 
 def rich_table(table: pd.DataFrame, title: str, formats: dict[str, str] | None = None) -> Table:
-    """Return a pandas table for the terminal: numbers to the right, blank where missing."""
+    """Return a pandas table for the terminal: numbers to the right, blank where missing.
+
+    Examples
+    --------
+    >>> rich_table(pd.DataFrame({"model": ["jkr"], "kappa": [0.5]}), "errors", {"kappa": "+.2f"}).row_count
+    1
+    """
     shown = Table(title=title, title_justify="left", title_style="bold")
     for name in table:
         shown.add_column(str(name), justify="right" if pd.api.types.is_numeric_dtype(table[name]) else "left")

@@ -87,6 +87,12 @@ class GridConvergence:
         Bound on abs(value - exact).
     observed_order : float
         As fitted; NaN where the differences are noise or no order fits.
+
+    Examples
+    --------
+    >>> found = three_grids([1, 2, 4], [1.01, 1.04, 1.16], declared=2)
+    >>> found.value, round(found.extrapolated, 12), round(found.u_num, 12)
+    (1.01, 1.0, 0.0125)
     """
 
     value: float

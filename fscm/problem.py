@@ -18,6 +18,13 @@ __all__ = ["Problem"]
 # m * growth has to exceed this for the load integral of p ~ r^(-m growth) times r dr to converge.
 _LOAD_INTEGRAL = 2.0
 
+# The surface of a steeper punch rises by the largest double within a few contact radii: 10^300 overflows nearly.
+_LARGEST_N = 300.0
+
+# Range of M = 2 mu^((2n+k-1)/n).  Below, the solid is rigid to every digit of a double, with fourteen more to spare;
+# above, the cohesive edge, of a relative width 1 / M or less, is as narrow as the rounding of a radius.
+_LEAST_M, _LARGEST_M = 1e-30, 1e15
+
 
 @dataclass(frozen=True, slots=True, init=False)
 class Problem:
@@ -28,11 +35,12 @@ class Problem:
     Parameters
     ----------
     n : float
-        Shape index of the punch, > 0; it also enters the definition of `mu` (Eq. 29), which needs 2n + k > 1.
+        Shape index of the punch, 0 < n <= 300; it also enters the definition of `mu` (Eq. 29), which needs
+        2n + k > 1.
     k : float
         Gradient exponent of E = E0 (z/c0)^k, 0 <= k <= 1 (k = 1, the Gibson solid, is `fscm.gibson`).
     mu : float
-        Generalised Tabor number (Eq. 29), > 0.
+        Generalised Tabor number (Eq. 29), > 0 and such that 1e-30 <= M <= 1e15 (see `compliance`).
     profile : Profile, optional
         Punch shape; the power law r^n / n by default.
     law : SurfaceLaw, optional
@@ -74,6 +82,17 @@ class Problem:
             raise ValueError(
                 f"shape index n = {n:g} is outside ({(1.0 - k) / 2.0:g}, inf) for k = {k:g}: "
                 "the Tabor number of Eq. 29 is a power 1 / (2n + k - 1)"
+            )
+        if n > _LARGEST_N:
+            raise ValueError(
+                f"shape index n = {n:g} is outside (0, {_LARGEST_N:g}]: f = r^n / n overflows near the contact"
+            )
+        # By logarithms: the power itself may overflow.
+        log_M = math.log(2.0) + (2.0 * n + k - 1.0) / n * math.log(mu)
+        if not math.log(_LEAST_M) <= log_M <= math.log(_LARGEST_M):
+            raise ValueError(
+                f"Tabor number mu = {mu:g} gives M = 2 mu^((2n+k-1)/n) = 10^{log_M / math.log(10.0):.0f}, outside "
+                f"[{_LEAST_M:g}, {_LARGEST_M:g}]: the solid is rigid, or its cohesive edge a point, to all digits"
             )
         profile = PowerLaw(n) if profile is None else profile
         law = LennardJones93() if law is None else law

@@ -36,7 +36,13 @@ _KNOWS_POISSON = frozenset({"fem"})
 
 
 def knows_poisson(name: str) -> bool:
-    """Whether the answers of a model depend on Poisson's ratio, if only numerically."""
+    """Whether the answers of a model depend on Poisson's ratio, if only numerically.
+
+    Examples
+    --------
+    >>> knows_poisson("fem"), knows_poisson("fscm")
+    (True, False)
+    """
     return name in _KNOWS_POISSON
 
 
@@ -72,7 +78,13 @@ def create(name: str, poisson_ratio: float | None = None) -> Model:
 
 @dataclass(frozen=True, slots=True)
 class Outside:
-    """A model from outside by what it says of itself, and the SPEC that finds it."""
+    """A model from outside by what it says of itself, and the SPEC that finds it.
+
+    Examples
+    --------
+    >>> Outside("mine", "1", "mine.py:Mine", citation="none", domain="n = 2").spec
+    'mine.py:Mine'
+    """
 
     name: str
     version: str
@@ -88,6 +100,11 @@ def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, Outside]]:
     ------
     ValueError
         As `create`; also if two models have one name.
+
+    Examples
+    --------
+    >>> identify(["jkr", "dmt", "jkr"])
+    (['jkr', 'dmt'], {})
     """
     names: list[str] = []
     outside: dict[str, Outside] = {}

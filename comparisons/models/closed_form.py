@@ -26,7 +26,13 @@ FACTOR_ROUNDING = 16.0 * EPS
 
 
 class Estimate(NamedTuple):
-    """A value with a bound on its numerical error and the work it took."""
+    """A value with a bound on its numerical error and the work it took.
+
+    Examples
+    --------
+    >>> Estimate(2.0, 1e-16).iterations
+    0
+    """
 
     value: float
     u_num: float
@@ -62,6 +68,12 @@ class ClosedForm(ABC):
         As in `comparisons.model.Model`.
     undefined : dict of str to str
         Why the model does not define a quantity, one sentence each.
+
+    Examples
+    --------
+    >>> from comparisons.models.jkr import JKR
+    >>> round(JKR().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force").value, 12)   # (k + 3) / 2
+    1.7
     """
 
     name: ClassVar[str]

@@ -214,6 +214,12 @@ def edge_integrals(punch: GradedPunch, w: Array, rule: UnitRule = FINE) -> EdgeI
 
     x^2 / c^2 = xi^2 = alpha^2 + theta^2 y with alpha = a/c, theta = L/c and y = 1 - z^(1/s); the slopes use
     d(xi^2)/dw = 2 alpha^2 theta^2 (1 - y), d log(theta)/dw = -alpha^2 and d log(alpha)/dw = theta^2.
+
+    Examples
+    --------
+    >>> found = edge_integrals(GradedPunch(2.0, 0.0), np.array([0.0]))          # a = L = c / sqrt(2)
+    >>> round(float(np.exp(found.log_contact[0])), 6), round(float(np.exp(found.log_width[0])), 6)
+    (0.707107, 0.707107)
     """
     n, s = punch.n, punch.s
     log_alpha = -0.5 * np.logaddexp(0.0, -2.0 * w)

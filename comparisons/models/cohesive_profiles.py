@@ -64,7 +64,17 @@ class CohesiveProfiles:
 
 
 def pressure(contact: CohesiveContact, state: ContactState, r: Array) -> Array:
-    """p(r) in tilde variables, shape of `r` (1-D, > 0), for a state of one element."""
+    """p(r) in tilde variables, shape of `r` (1-D, > 0), for a state of one element.
+
+    Examples
+    --------
+    >>> from comparisons.models.graded_punch import GradedPunch
+    >>> contact = CohesiveContact(GradedPunch(2.0, 0.0), 1.0)
+    >>> state = contact.at(np.array([0.0]))
+    >>> edge = 0.5 * (state.contact_radius + state.cohesive_radius)
+    >>> pressure(contact, state, edge).tolist()                     # the cohesive stress
+    [-1.0]
+    """
     punch = contact.punch
     n, s = punch.n, punch.s
     a, c, L = _radii(state)
@@ -86,6 +96,14 @@ def gap(contact: CohesiveContact, state: ContactState, r: Array) -> Array:
 
     The integral of `cohesive_contact` is taken over (a, min(r, c)) and (c, r), each in y with x^2 linear in y
     and 1 - y = z^(1/s), which makes the kernel (r^2 - x^2)^(s-1) regular where it is singular.
+
+    Examples
+    --------
+    >>> from comparisons.models.graded_punch import GradedPunch
+    >>> contact = CohesiveContact(GradedPunch(2.0, 0.0), 1.0)
+    >>> state = contact.at(np.array([0.0]))
+    >>> gap(contact, state, state.cohesive_radius).round(12).tolist()       # Griffith: H(c) = 1 / Lambda
+    [1.0]
     """
     edge = _radii(state)
     a, c, L = edge
@@ -112,6 +130,15 @@ def cohesive_profiles(contact: CohesiveContact, state: ContactState, scale: Scal
     ------
     NotApplicable
         If the cohesive zone is so narrow that its width underflows.
+
+    Examples
+    --------
+    >>> from comparisons.models.graded_punch import GradedPunch
+    >>> contact = CohesiveContact(GradedPunch(2.0, 0.0), 1.0)
+    >>> state = contact.at(np.array([0.0]))
+    >>> found = cohesive_profiles(contact, state, contact.punch.scales(mu=1.0))
+    >>> float(found.pressure.min()), bool(found.gap[found.radius < found.contact_radius].max() == 0.0)
+    (-1.0, True)
     """
     a, c, L = _radii(state)
     if L / c < _NARROWEST:

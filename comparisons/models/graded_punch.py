@@ -28,7 +28,13 @@ __all__ = ["GradedPunch", "Scales"]
 
 @dataclass(frozen=True, slots=True)
 class Scales:
-    """Factors from tilde to barred variables."""
+    """Factors from tilde to barred variables.
+
+    Examples
+    --------
+    >>> GradedPunch(2.0, 0.0).scales(mu=4.0)
+    Scales(displacement=4.0, radius=2.0, load=1.0, pressure=0.25)
+    """
 
     displacement: float
     radius: float

@@ -32,6 +32,11 @@ class UnitRule:
         log(z), accurate where z rounds to 1.
     weight : ndarray, shape (m,)
         Weights of the integral over z from 0 to 1.
+
+    Examples
+    --------
+    >>> bool(abs(FINE.weight.sum() - 1.0) < 1e-14)
+    True
     """
 
     z: Array

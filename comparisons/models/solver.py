@@ -48,7 +48,15 @@ class Solution(Protocol):
 
 @contextmanager
 def translated(no_such_event: type[Exception], not_converged: type[Exception]) -> Iterator[None]:
-    """Turn a solver's own exceptions into `NotApplicable` and `ComputationFailed`."""
+    """Turn a solver's own exceptions into `NotApplicable` and `ComputationFailed`.
+
+    Examples
+    --------
+    >>> with translated(KeyError, ArithmeticError):
+    ...     raise ArithmeticError("50 iterations were not enough")
+    Traceback (most recent call last):
+    comparisons.model.ComputationFailed: 50 iterations were not enough
+    """
     try:
         yield
     except no_such_event as reason:
@@ -58,7 +66,13 @@ def translated(no_such_event: type[Exception], not_converged: type[Exception]) -
 
 
 def result_of(solution: Solution, unit: float = 1.0) -> Result:
-    """Return a solution as a result, its value and uncertainty divided by `unit`."""
+    """Return a solution as a result, its value and uncertainty divided by `unit`.
+
+    Examples
+    --------
+    >>> result_of(Result(value=3.0, u_num=3e-9), unit=2.0).value
+    1.5
+    """
     return Result(
         value=solution.value / unit,
         u_num=solution.u_num / unit,

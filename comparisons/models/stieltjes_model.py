@@ -58,6 +58,11 @@ class CoarsePublishedScheme(PublishedScheme):
 
     At small and moderate Tabor numbers what it leaves out beyond f = 50 is most of its error, with 2500
     segments as with 400 (n = 2, k = 0, mu = 0.5: 1.0e-3 of the pull-off force with either).
+
+    Examples
+    --------
+    >>> CoarsePublishedScheme().name
+    'fscm-stieltjes-400'
     """
 
     name: ClassVar[str] = "fscm-stieltjes-400"

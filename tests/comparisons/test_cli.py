@@ -113,6 +113,8 @@ def with_case(n="2", k="0.4", mu="1", nu="0.3"):
         (["solve", "--model", "jkr", "--quantity", "pull_off", *CASE], "the quantities are"),
         (["solve", "--model", "jkr", "--quantity", "pull_off_force", "--n", "2"], "--k, --mu"),
         ([*with_case(), "--format", "xml"], "'xml'"),
+        (with_case(n="1e300"), "(0, 300]"),
+        *[(with_case(mu=mu), "[1e-30, 1e+15]") for mu in ("1e300", "1e-300")],
         (["curve", "--model", "hertz", *CASE], "the models are"),
         (["curve", "--model", "jkr", *CASE, "--plot", "curve.doc"], ".png"),
         (["run", "--jobs", "0"], "at least one process"),

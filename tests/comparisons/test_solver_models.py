@@ -74,7 +74,8 @@ def test_the_finite_elements_are_asked_for_the_same_tabor_number_and_answer_in_t
     ("problem", "quantity", "reason"),
     [
         (fscm.Problem(0.9, 0, 1), "pull_off_force", "n >= 1"),
-        (fscm.Problem(2, 1, 1), "pull_off_force", "k < 1"),
+        (fscm.Problem(2, 1, 1), "pull_off_force", "k <= 0.9, not k = 1"),
+        (fscm.Problem(2, 0.95, 1), "pull_off_force", "k <= 0.9, not k = 0.95"),
         (fscm.Problem(2, 0, 1, law=Mie(12, 6)), "pull_off_force", "9-3 law"),
         (fscm.Problem(2, 0, 1), "critical_tabor_number", "do not compute"),
     ],

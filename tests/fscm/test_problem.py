@@ -58,6 +58,26 @@ def test_bad_shape_index_and_tabor_number(name, bad):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize("n", [301, 1e10, 1e300, 1.7e308])
+def test_a_punch_too_steep_for_doubles_is_refused(n):
+    with pytest.raises(ValueError, match=r"shape index n = .* is outside \(0, 300\]"):
+        Problem(n, 0.4, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("mu", "size"), [(1e300, "10^450"), (1e11, "10^17"), (1e-21, "10^-31"), (1e-300, "10^-450"), (5e-324, "10^-485")]
+)
+def test_a_tabor_number_at_which_doubles_end_is_refused(mu, size):
+    with pytest.raises(ValueError, match=r"Tabor number mu = .* outside \[1e-30, 1e\+15\]") as caught:
+        Problem(2, 0, mu)
+    assert f" = {size}," in str(caught.value)
+
+
+@pytest.mark.parametrize(("n", "mu"), [(300, 1.0), (2, 6e9), (2, 1e-20)])
+def test_what_doubles_can_hold_is_a_problem(n, mu):
+    assert 1e-30 <= Problem(n, 0, mu).compliance <= 1e15
+
+
 @pytest.mark.parametrize("bad", [*BAD, -1e-12, 1.0000001])
 def test_bad_gradient_exponent(bad):
     with pytest.raises(ValueError, match=r"gradient exponent k = .*\[0, 1\]"):
