@@ -41,6 +41,14 @@ class HalfSpace:
         Rows of u_z along the surface, in chain order.
     boundary : ndarray of int
         Rows on the square's side and bottom, coupled by the exterior.
+
+    Examples
+    --------
+    >>> from fem_reference.mesh import graded_grid
+    >>> from fem_reference.modulus import PowerLaw
+    >>> half_space = assemble_half_space(graded_grid(extent=4.0, density=1.5), PowerLaw(1.0, 1.0, 0.4), nu=0.3)
+    >>> bool(abs(half_space.matrix - half_space.matrix.T).max() < 1e-10)
+    True
     """
 
     body: Body

@@ -33,6 +33,14 @@ def line_unknowns(basis: Basis, axis: int, value: float, reverse: bool = False) 
     -------
     ndarray of int
         Vertices along the line, then edge functions element by element.
+
+    Examples
+    --------
+    >>> from skfem import ElementQuadP, MeshQuad
+    >>> basis = Basis(MeshQuad.init_tensor(np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0])), ElementQuadP(3))
+    >>> surface = line_unknowns(basis, 1, 0.0)
+    >>> surface.size, basis.mesh.p[0][surface[:3]].tolist()  # three vertices and two functions on each of two edges
+    (7, [0.0, 1.0, 2.0])
     """
     p = basis.mesh.p
     facets = basis.mesh.facets

@@ -32,7 +32,30 @@ TAIL_POINTS = 24
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Contact:
-    """A punch, a surface law and a solid condensed to its surface."""
+    """A punch, a surface law and a solid condensed to its surface.
+
+    Attributes
+    ----------
+    punch : Punch
+        f(r).
+    law : LennardJones
+        p(H).
+    compliance : Compliance
+        Of the solid, on its surface mesh.
+
+    Examples
+    --------
+    >>> from fem_reference.modulus import PowerLaw
+    >>> from fem_reference.punch import PowerPunch
+    >>> from fem_reference.surface import MeshSpec, compliance_for
+    >>> spec = MeshSpec(edge_width=0.25, surface_depth=0.08, extent=64.0, density=1.4, order=4)
+    >>> stiff = compliance_for(PowerLaw(50.0, 1.0, 0.0), 0.3, spec, size=1.0)
+    >>> contact = Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), stiff)
+    >>> apart = np.zeros(contact.unknowns + 2)
+    >>> apart[-2:] = -10.0, 1.0  # rigid, 10 z0 away, on a mesh of the size 1
+    >>> round(contact.load(apart), 4), round(-8 / 3 * math.pi / 11**2, 4)  # Bradley at a distance
+    (-0.0692, -0.0692)
+    """
 
     punch: Punch
     law: LennardJones

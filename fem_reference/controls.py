@@ -42,7 +42,13 @@ class Control(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Size:
-    """The mesh has the size c."""
+    """The mesh has the size c.
+
+    Examples
+    --------
+    >>> Size(1.5).value(None, np.array([0.0, -10.0, 2.0]))  # w, delta and c; the problem does not matter
+    0.5
+    """
 
     c: float
 
@@ -57,7 +63,13 @@ class Size:
 
 @dataclass(frozen=True, slots=True)
 class Displacement:
-    """The approach is delta."""
+    """The approach is delta.
+
+    Examples
+    --------
+    >>> Displacement(-9.0).value(None, np.array([0.0, -10.0, 2.0]))
+    -1.0
+    """
 
     delta: float
 
@@ -72,7 +84,13 @@ class Displacement:
 
 @dataclass(frozen=True, slots=True)
 class CentralGap:
-    """The gap at r = 0 is H0."""
+    """The gap at r = 0 is H0.
+
+    Examples
+    --------
+    >>> CentralGap(9.0).value(None, np.array([0.5, -10.0, 2.0]))  # H(0) = w(0) - delta = 10.5
+    1.5
+    """
 
     H0: float
 
@@ -151,7 +169,14 @@ class ProfileRise:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ArcLength:
-    """The point lies in the plane through `centre` normal to `direction` (both in y), `step` ahead."""
+    """The point lies in the plane through `centre` normal to `direction` (both in y), `step` ahead.
+
+    Examples
+    --------
+    >>> plane = ArcLength(np.zeros(2), np.array([0.6, 0.8]), step=1.0)
+    >>> round(plane.value(None, np.array([3.0, 4.0])), 12)
+    4.0
+    """
 
     centre: Array
     direction: Array

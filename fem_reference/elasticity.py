@@ -39,7 +39,34 @@ FIRST_LAYER_POINTS = 14
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Body:
-    """A meshed piece of solid: mesh, chart to the (r, z) plane, modulus, Poisson ratio and element order."""
+    """A meshed piece of solid: mesh, chart to the (r, z) plane, modulus, Poisson ratio and element order.
+
+    Attributes
+    ----------
+    mesh : MeshQuad
+        Quadrilaterals in the coordinates of the chart.
+    chart : Chart
+        From those to (r, z).
+    modulus : Modulus
+        E(z).
+    nu : float
+        Poisson ratio in [0, 0.5).
+    order : int
+        Degree of the elements, at least 2.
+
+    Raises
+    ------
+    ValueError
+        If the Poisson ratio or the order is outside its range.
+
+    Examples
+    --------
+    >>> from fem_reference.mapping import InteriorChart
+    >>> from fem_reference.modulus import PowerLaw
+    >>> Body(MeshQuad(), InteriorChart(0.5, 0.0), PowerLaw(1.0, 1.0, 0.0), nu=0.3, order=1)
+    Traceback (most recent call last):
+    ValueError: element order 1 is below 2: the hierarchical element starts there
+    """
 
     mesh: MeshQuad
     chart: Chart
@@ -136,6 +163,20 @@ def stiffness(body: Body, first_layer: NDArray[np.intp], depth_axis: int = 1) ->
     ------
     ValueError
         If the modulus is not positive.
+
+    Examples
+    --------
+    The displacement u_z = z of the unit square stores u K u / 2 = (lambda + 2 G) / 4 per radian, which is 0.3 for
+    E = 1 and nu = 1/4:
+
+    >>> from fem_reference.mapping import InteriorChart
+    >>> from fem_reference.modulus import PowerLaw
+    >>> body = Body(MeshQuad(), InteriorChart(1.0, 0.0), PowerLaw(1.0, 1.0, 0.0), nu=0.25, order=3)
+    >>> K, basis = stiffness(body, np.array([0]))
+    >>> u = np.zeros(2 * basis.N)
+    >>> u[2 * basis.nodal_dofs[0] + 1] = body.mesh.p[1]
+    >>> round(float(0.5 * u @ K @ u), 12)
+    0.3
     """
     element = ElementQuadP(body.order)
     mapping = ChartMapping(body.mesh, body.chart)

@@ -57,6 +57,20 @@ def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float, order: int) -> A
         Symmetric; unknowns are the two interleaved components along the chain that runs from the surface
         down the side and along the bottom to the axis.  No condition on the axis has been applied: the
         last vertex keeps its radial row, which the caller removes.
+
+    Raises
+    ------
+    NotConverged
+        If the doubling of shells does not end.
+
+    Examples
+    --------
+    The exterior resists every displacement of its boundary but the fixed row on the axis:
+
+    >>> grid = Grid(np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0, 2.0]))
+    >>> S = exterior_stiffness(grid, PowerLaw(1.0, 1.0, 0.4), nu=0.3, order=3)
+    >>> S.shape, int(np.sum(np.linalg.eigvalsh(S) > 1e-6))
+    ((26, 26), 25)
     """
     a = grid.extent
     k = modulus.depth_exponent

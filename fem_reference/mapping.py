@@ -47,7 +47,14 @@ def graded_depth(y: Array, first: float, k: float) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, slots=True)
 class InteriorChart:
-    """Identity below the first layer, graded inside it."""
+    """Identity below the first layer, graded inside it.
+
+    Examples
+    --------
+    >>> image, jacobian = InteriorChart(first=1.0, k=0.5)(np.array([[2.0], [0.5]]))
+    >>> image.ravel(), jacobian[1, 1]  # z = y^2, dz/dy = 2 y
+    (array([2.  , 0.25]), array([1.]))
+    """
 
     first: float
     k: float
@@ -79,7 +86,27 @@ class ShellChart:
 
 
 class ChartMapping(Mapping):
-    """A scikit-fem mapping that follows the straight element map by a chart."""
+    """A scikit-fem mapping that follows the straight element map by a chart.
+
+    Parameters
+    ----------
+    mesh : MeshQuad
+        Of straight quadrilaterals.
+    chart : Chart
+        From its coordinates to (r, z).
+
+    Raises
+    ------
+    TypeError
+        If the elements of the mesh are not straight quadrilaterals.
+
+    Examples
+    --------
+    >>> mapping = ChartMapping(MeshQuad(), InteriorChart(first=1.0, k=0.5))
+    >>> middle = np.array([[0.5], [0.5]])
+    >>> mapping.F(middle).ravel(), mapping.detDF(middle).ravel()
+    (array([0.5 , 0.25]), array([1.]))
+    """
 
     def __init__(self, mesh: MeshQuad, chart: Chart) -> None:
         base = mesh.mapping()

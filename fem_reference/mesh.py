@@ -29,6 +29,17 @@ class Grid:
         Radial nodes, from 0 to a.
     z : ndarray, shape (nz + 1,)
         Depth nodes, from 0 to a.
+
+    Raises
+    ------
+    ValueError
+        If the nodes do not rise strictly from 0, or the two sides differ.
+
+    Examples
+    --------
+    >>> grid = Grid(np.array([0.0, 1.0, 2.0]), np.array([0.0, 2.0]))
+    >>> grid.extent, grid.quads().nelements
+    (2.0, 2)
     """
 
     r: Array

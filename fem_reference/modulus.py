@@ -21,7 +21,13 @@ Array = NDArray[np.float64]
 
 @runtime_checkable
 class Modulus(Protocol):
-    """Young's modulus E(z) with its limiting exponents."""
+    """Young's modulus E(z) with its limiting exponents.
+
+    Examples
+    --------
+    >>> isinstance(PowerLaw(1.0, 1.0, 0.4), Modulus)
+    True
+    """
 
     @property
     def surface_exponent(self) -> float:

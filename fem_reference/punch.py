@@ -17,7 +17,13 @@ Array = NDArray[np.float64]
 
 @runtime_checkable
 class Punch(Protocol):
-    """An axisymmetric shape with f(0) = 0, rising without bound."""
+    """An axisymmetric shape with f(0) = 0, rising without bound.
+
+    Examples
+    --------
+    >>> isinstance(PowerPunch(n=2.0, Q=1.0), Punch)
+    True
+    """
 
     def height(self, r: Array) -> Array:
         """f(r), shape of `r`."""

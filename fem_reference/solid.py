@@ -34,7 +34,13 @@ class Solid:
 
     @property
     def modulus(self) -> Modulus:
-        """E(z)."""
+        """E(z).
+
+        Examples
+        --------
+        >>> float(Solid(E0=2.0, c0=1.0, k=0.5, nu=0.3, z_s=4.0).modulus(0.0))
+        4.0
+        """
         if self.z_s > 0:
             return OffsetPowerLaw(self.E0, self.c0, self.k, self.z_s)
         return PowerLaw(self.E0, self.c0, self.k)
@@ -42,7 +48,27 @@ class Solid:
 
 @dataclass(frozen=True, slots=True)
 class CustomSolid:
-    """Half-space with any modulus E(z) and a constant Poisson ratio."""
+    """Half-space with any modulus E(z) and a constant Poisson ratio.
+
+    Parameters
+    ----------
+    modulus : Modulus
+        E(z), with its exponents at the surface and at depth.
+    nu : float
+        Poisson ratio in [0, 0.5).
+
+    Raises
+    ------
+    ValueError
+        If the Poisson ratio is outside its range.
+
+    Examples
+    --------
+    >>> from fem_reference.modulus import CustomModulus
+    >>> stiffening = CustomModulus(lambda z: 1.0 + z**0.5, 0.0, 0.5, surface_depth=1.0)
+    >>> CustomSolid(stiffening, nu=0.3).modulus(4.0)
+    array(3.)
+    """
 
     modulus: Modulus
     nu: float

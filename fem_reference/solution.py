@@ -122,6 +122,17 @@ def solve_together(
     ------
     ValueError, NoSuchEvent, NotConverged
         As `solve`, if one of them fails.
+
+    Examples
+    --------
+    >>> from fem_reference import LennardJones, PowerPunch, Solid
+    >>> stiff = Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3)
+    >>> wanted = ("pull_off_force", "pull_off_displacement")
+    >>> found = solve_together(stiff, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), wanted, accuracy="quick")
+    >>> round(found["pull_off_force"].value, 3)  # Bradley's 2 pi for a rigid solid
+    6.226
+    >>> found["pull_off_force"].u_num < 1e-4
+    True
     """
     level = requested(quantities, accuracy)
     begin = time.perf_counter()

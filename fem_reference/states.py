@@ -49,6 +49,24 @@ def trace(solid: Solid | CustomSolid, punch: Punch, law: LennardJones, accuracy:
         For an unknown accuracy.
     NotConverged
         If the path cannot be followed.
+
+    Parameters
+    ----------
+    solid, punch, law, accuracy
+        As for `fem_reference.solution.solve`.
+
+    Returns
+    -------
+    Path
+        In the units of the input.
+
+    Examples
+    --------
+    >>> from fem_reference import LennardJones, PowerPunch, Solid
+    >>> stiff, sphere, law = Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
+    >>> path = trace(stiff, sphere, law, "quick")
+    >>> bool(path.load[0] < 0 < path.load[-1]), round(float(path.load.min()), 2)
+    (True, -6.22)
     """
     choice, spec, size = _finest(solid, punch, law, "zero_load_displacement", accuracy)
     points = walk(choice.contact(spec, size))
@@ -77,6 +95,21 @@ def event_state(
         If the path has no such point.
     NotConverged
         If an iteration misses its tolerance.
+
+    Returns
+    -------
+    spec : MeshSpec
+        The finest mesh, in units of the edge radius.
+    point : Point
+        The equilibrium, in the units of the input.
+
+    Examples
+    --------
+    >>> from fem_reference import LennardJones, PowerPunch, Solid
+    >>> stiff, sphere, law = Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
+    >>> spec, point = event_state(stiff, sphere, law, "pull_off_force", "quick")
+    >>> round(point.state.load, 3), spec.order
+    (-6.226, 6)
     """
     choice, spec, size = _finest(solid, punch, law, quantity, accuracy)
     return spec, find_event(choice.contact(spec, size), quantity).point
@@ -98,6 +131,25 @@ def profile(
         For an unknown quantity or accuracy, or radii beyond the mesh.
     NotConverged
         If the path cannot be followed.
+
+    Parameters
+    ----------
+    solid, punch, law, quantity, accuracy
+        As for `fem_reference.solution.solve`.
+    radii : ndarray, shape (q,), optional
+        Where, in the length unit of the input; the Gauss points of the surface mesh by default.
+
+    Returns
+    -------
+    Profile
+
+    Examples
+    --------
+    >>> from fem_reference import LennardJones, PowerPunch, Solid
+    >>> stiff, sphere, law = Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
+    >>> surface = profile(stiff, sphere, law, "pull_off_force", "quick", radii=np.array([0.0, 3.0]))
+    >>> bool(abs(surface.gap[1] - surface.gap[0] - 9 / 2) < 0.05)  # the sphere has risen 9/2, the solid hardly moved
+    True
     """
     _, point = event_state(solid, punch, law, quantity, accuracy)
     mesh = point.leg.contact.compliance.trace

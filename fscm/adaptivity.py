@@ -59,12 +59,27 @@ def _extended(breaks: Array, end: float) -> Array:
 
 
 def initial_mesh(problem: Problem, order: int) -> PanelMesh:
-    """A coarse mesh for the separated punch, scale 1, with a break at s = 1."""
+    """A coarse mesh for the separated punch, scale 1, with a break at s = 1.
+
+    Examples
+    --------
+    >>> mesh = initial_mesh(Problem(n=2, k=0.4, mu=1.0), order=10)
+    >>> bool(1.0 in mesh.breaks), bool(mesh.breaks[-1] ** 2 / 2 >= END_HEIGHT)
+    (True, True)
+    """
     return PanelMesh(_extended(np.array([0.0, 0.5, 1.0, 2.0]), _end_radius(problem)), order)
 
 
 def rescaled_mesh(problem: Problem, mesh: PanelMesh, old_scale: float, new_scale: float) -> PanelMesh:
-    """The same radii for another scale, with a break at s = 1 and an end where it should be."""
+    """The same radii for another scale, with a break at s = 1 and an end where it should be.
+
+    Examples
+    --------
+    >>> problem = Problem(n=2, k=0.4, mu=1.0)
+    >>> mesh = rescaled_mesh(problem, initial_mesh(problem, order=10), old_scale=1.0, new_scale=3.0)
+    >>> bool(1.0 in mesh.breaks), bool((3.0 * mesh.breaks[-1]) ** 2 / 2 >= END_HEIGHT)
+    (True, True)
+    """
     breaks = mesh.breaks * (old_scale / new_scale)
     if not np.any(breaks == 1.0):
         i = int(np.searchsorted(breaks, 1.0))

@@ -53,6 +53,12 @@ class Solution:
     residual : float
         Largest residual relative to 1 + |H| before the last Newton step.
     seconds : float
+
+    Examples
+    --------
+    >>> answer = Analysis(Problem(n=2, k=0, mu=1.0)).solution("pull_off_force")
+    >>> answer.u_num < 1e-10, answer.residual < 1e-12
+    (True, True)
     """
 
     value: float
@@ -65,7 +71,14 @@ class Solution:
 
 @dataclass(frozen=True)
 class EventPair:
-    """An event on the check mesh and on the value mesh."""
+    """An event on the check mesh and on the value mesh.
+
+    Examples
+    --------
+    >>> pair = Analysis(Problem(n=2, k=0.4, mu=1.0)).event("pull_off")
+    >>> pair.spread(lambda state: state.load) < 1e-9
+    True
+    """
 
     check: State
     value: State
@@ -163,6 +176,20 @@ class Analysis:
             When the path has no such point.
         NotConverged
             When it has, but it was not reached.
+
+        Parameters
+        ----------
+        name : str
+
+        Returns
+        -------
+        EventPair
+
+        Examples
+        --------
+        >>> state = Analysis(Problem(n=2, k=0.4, mu=1.0)).event("zero_load").value
+        >>> abs(state.load) < 1e-9, round(state.displacement, 6)
+        (True, 2.085962)
         """
         if name not in self._pairs:
             bracket, condition = self._bracket(name)

@@ -34,7 +34,14 @@ _FUNCTIONALS: dict[str, Callable[[State], float]] = {
 
 @dataclass(frozen=True)
 class EquilibriumState:
-    """One equilibrium state, dimensionless; `u_num` bounds the error of each of the three numbers."""
+    """One equilibrium state, dimensionless; `u_num` bounds the error of each of the three numbers.
+
+    Examples
+    --------
+    >>> (state,) = equilibria(Problem(n=2, k=0.4, mu=1.0), "central_gap", 0.5)
+    >>> abs(state.central_gap - 0.5) <= state.u_num < 1e-9
+    True
+    """
 
     central_gap: float
     displacement: float

@@ -6,8 +6,25 @@ __all__ = ["NoSuchEvent", "NotConverged"]
 
 
 class NotConverged(RuntimeError):
-    """The computation did not reach its tolerance; the message says what was tried and what to change."""
+    """The computation did not reach its tolerance; the message says what was tried and what to change.
+
+    Examples
+    --------
+    >>> try:
+    ...     raise NotConverged("Newton diverged; take a smaller step")
+    ... except RuntimeError as error:
+    ...     print(error)
+    Newton diverged; take a smaller step
+    """
 
 
 class NoSuchEvent(LookupError):
-    """The equilibrium path has no such event (no jump below the critical Tabor number, say)."""
+    """The equilibrium path has no such event (no jump below the critical Tabor number, say).
+
+    Examples
+    --------
+    >>> from fscm import Problem, solve
+    >>> solve(Problem(n=2, k=0, mu=0.1), "jump_in_gap")
+    Traceback (most recent call last):
+    fscm.errors.NoSuchEvent: the displacement rises monotonically along the path at mu = 0.1: there is no jump below ...
+    """

@@ -52,7 +52,24 @@ _DIGITS = 100
 
 
 def box_cox(log_y: Array, c: float) -> Array:
-    """(y^-c - 1)/c from log y, with the limit -log y at c = 0."""
+    """(y^-c - 1)/c from log y, with the limit -log y at c = 0.
+
+    Parameters
+    ----------
+    log_y : ndarray
+        Logarithm of y > 0.
+    c : float
+        Exponent.
+
+    Returns
+    -------
+    ndarray, shape of `log_y`
+
+    Examples
+    --------
+    >>> box_cox(np.log(np.array([0.25, 0.0625])), 0.5)
+    array([2., 6.])
+    """
     return -log_y if c == 0.0 else np.expm1(-c * log_y) / c
 
 
@@ -130,6 +147,14 @@ class Kernel:
         """Factors (S, C) of G = S + C L_k(distance / (r + t)), smooth in t across t = r.
 
         Valid where distance / (r + t) <= sqrt(1/2); all arguments are arrays of one shape.
+
+        Examples
+        --------
+        >>> kernel, r, t, distance = Kernel(0.4), np.array([1.0]), np.array([1.5]), np.array([0.5])
+        >>> S, C = kernel.near_parts(r, t, distance)
+        >>> whole = S + C * box_cox(np.log(distance / (r + t)), 0.4)
+        >>> bool(np.isclose(whole[0], kernel.response(r, t, distance)[0], rtol=1e-14))
+        True
         """
         total = r + t
         ratio = distance / total
@@ -144,6 +169,12 @@ class Kernel:
         """G_k(r, t), dimension radius^-k; `distance` is abs(r - t), > 0, to full relative accuracy.
 
         All arguments are arrays of one shape; r may be 0.
+
+        Examples
+        --------
+        >>> r, t = np.array([0.0]), np.array([4.0])
+        >>> Kernel(0.5).response(r, t, t - r)  # t^-k on the axis
+        array([0.5])
         """
         out = np.empty(np.shape(distance))
         near = distance <= math.sqrt(_NEAR_LIMIT) * (r + t)
@@ -160,11 +191,25 @@ class Kernel:
         return out
 
     def Phi(self, s: Array, offset: Array) -> Array:
-        """Primitive Phi_k(s) of Eq. 18; `offset` is s - 1 to full relative accuracy."""
+        """Primitive Phi_k(s) of Eq. 18; `offset` is s - 1 to full relative accuracy.
+
+        Examples
+        --------
+        >>> s = np.array([1.0])
+        >>> float(Kernel(0.0).Phi(s, s - 1.0)[0])  # 2 / pi
+        0.6366197...
+        """
         return self._primitive(s, offset, subtract_power=False)
 
     def Psi(self, s: Array, offset: Array) -> Array:
-        """Psi_k(s) = Phi_k(s) - s^{1-k} (Eq. 22), without cancellation at large s."""
+        """Psi_k(s) = Phi_k(s) - s^{1-k} (Eq. 22), without cancellation at large s.
+
+        Examples
+        --------
+        >>> kernel, s = Kernel(0.5), np.array([4.0])
+        >>> bool(np.isclose(kernel.Psi(s, s - 1.0)[0], kernel.Phi(s, s - 1.0)[0] - 2.0, atol=1e-14))
+        True
+        """
         return self._primitive(s, offset, subtract_power=True)
 
     def _primitive(self, s: Array, offset: Array, subtract_power: bool) -> Array:
@@ -222,7 +267,13 @@ class _Primitive:
 
 @lru_cache(maxsize=64)
 def kernel_of(k: float) -> Kernel:
-    """The kernel of an exponent, made once."""
+    """The kernel of an exponent, made once.
+
+    Examples
+    --------
+    >>> kernel_of(0.4) is kernel_of(0.4)
+    True
+    """
     return Kernel(k)
 
 

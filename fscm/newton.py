@@ -41,6 +41,20 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) ->
     ------
     NotConverged
         After too many iterations, or when a gap is driven towards the singular gap.
+
+    Examples
+    --------
+    A guess without deformation, 20 z0 apart:
+
+    >>> from fscm.adaptivity import initial_mesh
+    >>> from fscm.equilibrium import Discretisation
+    >>> from fscm.problem import Problem
+    >>> problem = Problem(n=2, k=0.4, mu=1.0)
+    >>> disc = Discretisation(problem, initial_mesh(problem, order=10))
+    >>> guess = State(disc, 1.0, disc.mesh.nodes**2 / 2 + 20.0, displacement=-20.0, follows_edge=False)
+    >>> state = newton(guess, Control(20.0, gap=1.0))
+    >>> round(state.central_gap, 9), state.iterations < 5
+    (20.0, True)
     """
     law = guess.disc.problem.law
     floor = law.singular_gap

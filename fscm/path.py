@@ -40,6 +40,15 @@ class EquilibriumPath:
         Radius where the tension is largest; nan while the central gap is above the gap of largest tension.
     u_displacement, u_load : float
         Numerical uncertainty of every delta and P.
+
+    Examples
+    --------
+    The work of the load along the path is the change of energy:
+
+    >>> path = trace(Problem(n=2, k=0, mu=0.5))
+    >>> work = np.trapezoid(path.load, path.displacement)
+    >>> bool(abs(work - (path.energy[-1] - path.energy[0])) < 1e-2)
+    True
     """
 
     central_gap: Array
@@ -53,7 +62,17 @@ class EquilibriumPath:
 
 @dataclass(frozen=True)
 class SurfaceProfiles:
-    """Gap, pressure and deformation over the radius at one state; arrays of shape (m,), dimensionless."""
+    """Gap, pressure and deformation over the radius at one state; arrays of shape (m,), dimensionless.
+
+    Examples
+    --------
+    Eq. 4, H = -delta + f + w, at the nodes:
+
+    >>> at_zero_load = profiles(Problem(n=2, k=0.4, mu=1.0), "zero_load")
+    >>> undeformed = at_zero_load.radius**2 / 2 - at_zero_load.displacement
+    >>> bool(np.allclose(at_zero_load.gap, undeformed + at_zero_load.deformation))
+    True
+    """
 
     radius: Array
     gap: Array
@@ -136,7 +155,14 @@ def _with_events(points: list[Point]) -> list[State]:
 
 
 def profiles_of(state: State) -> SurfaceProfiles:
-    """The surface at a state, at the nodes of its mesh."""
+    """The surface at a state, at the nodes of its mesh.
+
+    Examples
+    --------
+    >>> state = Analysis(Problem(n=2, k=0.4, mu=1.0)).event("zero_load").value
+    >>> abs(profiles_of(state).load) < 1e-9
+    True
+    """
     return SurfaceProfiles(state.radius, state.gap, state.pressure, state.deformation, state.displacement, state.load)
 
 

@@ -154,12 +154,24 @@ class PhysicalProblem:
             Punch in units of `z0` (heights) and `length_r` (radii).
         law : SurfaceLaw, optional
             Surface law in units of `z0` and `work_of_adhesion / z0`.
+
+        Examples
+        --------
+        >>> sphere = PhysicalProblem(E0=1.0, c0=1.0, k=0, nu=0, Q=1.0, n=2, work_of_adhesion=1.0, z0=1.0)
+        >>> sphere.problem()
+        Problem(n=2.0, k=0.0, mu=1.0, profile=PowerLaw(n=2.0), law=LennardJones93())
         """
         return Problem(self.n, self.k, self.tabor_number, profile, law)
 
     @property
     def contact_modulus(self) -> float:
-        """E* = E0 / (1 - nu^2) (traction)."""
+        """E* = E0 / (1 - nu^2) (traction).
+
+        Examples
+        --------
+        >>> PhysicalProblem(E0=3.0, c0=1.0, k=0, nu=0.4, Q=1.0, n=2, work_of_adhesion=1.0, z0=1.0).contact_modulus
+        3.571...
+        """
         return self.E0 / (1.0 - self.nu**2)
 
     @property
@@ -174,7 +186,15 @@ class PhysicalProblem:
 
     @property
     def tabor_number_jin(self) -> float:
-        """mu_Jin of Eq. 30: the Tabor number of Jin et al. (2021), without the factor b / (1 - k)."""
+        """mu_Jin of Eq. 30: the Tabor number of Jin et al. (2021), without the factor b / (1 - k).
+
+        Examples
+        --------
+        >>> graded = PhysicalProblem(E0=1.0, c0=1.0, k=0.5, nu=0.3, Q=1.0, n=2, work_of_adhesion=1.0, z0=1.0)
+        >>> n, k, b = graded.n, graded.k, graded.response_factor
+        >>> round(graded.tabor_number / graded.tabor_number_jin / (b / (1 - k)) ** (n / (2 * n + k - 1)), 12)
+        1.0
+        """
         n, k = self.n, self.k
         return self.tabor_number * response_factor_per_rest(k, self.nu) ** (-n / (2.0 * n + k - 1.0))
 
@@ -203,6 +223,12 @@ class PhysicalProblem:
 
         displacement, gap: z0; radius: (Q z0)^(1/n); traction: dgamma / z0; load: pi Q^(2/n) dgamma z0^(2/n-1)
         (Eq. 31); energy: load * displacement; stiffness: load / displacement; energy_per_area: dgamma.
+
+        Examples
+        --------
+        >>> sphere = PhysicalProblem(E0=1.0, c0=1.0, k=0, nu=0, Q=8.0, n=2, work_of_adhesion=3.0, z0=2.0)
+        >>> round(sphere.scales["radius"], 12), sphere.scales["traction"]
+        (4.0, 1.5)
         """
         z0, w = self.z0, self.work_of_adhesion
         r = self.Q ** (1.0 / self.n) * z0 ** (1.0 / self.n)
@@ -229,6 +255,12 @@ class PhysicalProblem:
         ------
         ValueError
             When `kind` is not one of the names in `scales`.
+
+        Examples
+        --------
+        >>> sphere = PhysicalProblem(E0=1.0, c0=1.0, k=0, nu=0, Q=1.0, n=2, work_of_adhesion=1.0, z0=2.0)
+        >>> sphere.to_dimensionless("gap", np.array([1.0, 4.0]))
+        array([0.5, 2. ])
         """
         return value / self._scale(kind)
 
@@ -243,6 +275,12 @@ class PhysicalProblem:
         ------
         ValueError
             When `kind` is not one of the names in `scales`.
+
+        Examples
+        --------
+        >>> sphere = PhysicalProblem(E0=1.0, c0=1.0, k=0, nu=0, Q=1.0, n=2, work_of_adhesion=1.0, z0=2.0)
+        >>> sphere.from_dimensionless("gap", np.array([0.5, 2.0]))
+        array([1., 4.])
         """
         return value * self._scale(kind)
 

@@ -23,7 +23,13 @@ Array = NDArray[np.float64]
 
 @runtime_checkable
 class Profile(Protocol):
-    """An axisymmetric punch shape; `growth` is the exponent g of f ~ r^g at infinity."""
+    """An axisymmetric punch shape; `growth` is the exponent g of f ~ r^g at infinity.
+
+    Examples
+    --------
+    >>> isinstance(PowerLaw(2.0), Profile)
+    True
+    """
 
     @property
     def growth(self) -> float:
@@ -123,7 +129,13 @@ class RoundedCone:
         return self.cone_slope * r * (r / (np.hypot(r, self.rounding) + self.rounding))
 
     def slope(self, r: Array) -> Array:
-        """df/dr = s r / sqrt(r^2 + c^2)."""
+        """df/dr = s r / sqrt(r^2 + c^2).
+
+        Examples
+        --------
+        >>> float(RoundedCone(3.0).slope(np.array(4.0)))
+        0.8
+        """
         r = np.asarray(r, float)
         return self.cone_slope * r / np.hypot(r, self.rounding)
 
@@ -186,7 +198,13 @@ class PowerSum:
         return sum((c * r**e for c, e in zip(self.coefficients, self.exponents, strict=True)), np.zeros_like(r))
 
     def slope(self, r: Array) -> Array:
-        """df/dr, infinite at r = 0 when an exponent is below 1."""
+        """df/dr, infinite at r = 0 when an exponent is below 1.
+
+        Examples
+        --------
+        >>> PowerSum([0.5, 0.125], [2, 4]).slope(np.array([2.0]))
+        array([6.])
+        """
         r = np.asarray(r, float)
         terms = zip(self.coefficients, self.exponents, strict=True)
         with np.errstate(divide="ignore"):

@@ -22,7 +22,13 @@ Array = NDArray[np.float64]
 
 @runtime_checkable
 class SurfaceLaw(Protocol):
-    """What the solver needs to know of a surface law."""
+    """What the solver needs to know of a surface law.
+
+    Examples
+    --------
+    >>> isinstance(LennardJones93(), SurfaceLaw)
+    True
+    """
 
     @property
     def singular_gap(self) -> float:
@@ -104,7 +110,13 @@ class LennardJones93:
         return q2 * q2 * q * (240.0 * q2 * q2 * q2 - 32.0)
 
     def energy(self, H: Array) -> Array:
-        """(1/3) (H+1)^-8 - (4/3) (H+1)^-2."""
+        """(1/3) (H+1)^-8 - (4/3) (H+1)^-2.
+
+        Examples
+        --------
+        >>> float(LennardJones93().energy(np.array(0.0)))
+        -1.0
+        """
         q2 = 1.0 / (np.asarray(H, float) + 1.0) ** 2
         return q2 * (q2 * q2 * q2 - 4.0) / 3.0
 
@@ -200,7 +212,13 @@ class Mie:
         return self._amplitude * q ** (n + 2.0) * (m * (m + 1.0) * e + (m - n) * (m + n + 1.0))
 
     def energy(self, H: Array) -> Array:
-        """U = A [(H+1)^(1-m) / (m-1) - (H+1)^(1-n) / (n-1)]."""
+        """U = A [(H+1)^(1-m) / (m-1) - (H+1)^(1-n) / (n-1)].
+
+        Examples
+        --------
+        >>> float(Mie(12, 6).energy(np.array(0.0)))
+        -1.0
+        """
         q, e = self._powers(H)
         m, n = self.repulsion, self.attraction
         return q ** (n - 1.0) * ((n - 1.0) / (m - n) * e - 1.0)
