@@ -7,8 +7,7 @@ samples.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 from scipy.optimize import brentq
@@ -17,7 +16,7 @@ from fem_reference.contact import Contact
 from fem_reference.errors import NoSuchEvent
 from fem_reference.path import Point, march, path
 
-__all__ = ["LOSSES", "QUANTITIES", "Event", "find_event", "locate", "walk"]
+__all__ = ["LOSSES", "QUANTITIES", "locate", "walk"]
 
 ROOT_TOLERANCE = 1e-11
 """Relative tolerance of the parameter at an event; P is stationary there and delta moves by as little."""
@@ -37,17 +36,6 @@ QUANTITIES = (
 LOSSES = ("jump_in_energy", "jump_out_energy")
 """What can be asked besides: the energies lost by the two jumps, which add up to that of the cycle.  Each needs
 one contact edge only, so that a mesh that is fine at one radius gives it."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Event:
-    """A quantity, the point of the path it was read from, and the Newton steps of the whole path."""
-
-    quantity: str
-    value: float
-    point: Point
-    iterations: int
-
 
 Pair = tuple[Point, Point]
 
@@ -74,38 +62,28 @@ def walk(contact: Contact) -> list[Point]:
     return points
 
 
-def find_event(contact: Contact, quantity: str) -> Event:
-    """Find one quantity on the path.
+def locate(points: Sequence[Point], quantity: str) -> tuple[float, Point]:
+    """Find one quantity on a path.
 
     Parameters
     ----------
-    contact : Contact
-        The problem.
+    points : sequence of Point
+        As `walk` returns them.
     quantity : str
         One of `QUANTITIES` or `LOSSES`.
 
     Returns
     -------
-    Event
+    value : float
+        In the units of the problem.
+    point : Point
+        Where it was read.
 
     Raises
     ------
-    ValueError
-        If the quantity is unknown.
     NoSuchEvent
         If the path has no such point.
-    NotConverged
-        If the path cannot be followed.
     """
-    if quantity not in QUANTITIES + LOSSES:
-        raise ValueError(f"quantity {quantity!r} is unknown; choose one of {', '.join(QUANTITIES + LOSSES)}")
-    points = walk(contact)
-    value, point = locate(points, quantity)
-    return Event(quantity, value, point, sum(p.state.iterations for p in points))
-
-
-def locate(points: list[Point], quantity: str) -> tuple[float, Point]:
-    """Value of a quantity on a walked path, and its point (see `find_event`)."""
     if quantity in ("pull_off_force", "pull_off_displacement"):
         point = pull_off(points)
         return (-point.state.load if quantity == "pull_off_force" else point.state.displacement), point
@@ -123,7 +101,7 @@ def locate(points: list[Point], quantity: str) -> tuple[float, Point]:
     return (point.state.central_gap if quantity.endswith("gap") else point.state.displacement), point
 
 
-def _pairs(points: list[Point], sign: Callable[[Point], float], rising: bool) -> list[Pair]:
+def _pairs(points: Sequence[Point], sign: Callable[[Point], float], rising: bool) -> list[Pair]:
     """Neighbours on one leg between which `sign` changes from negative to positive (or back)."""
     pairs = []
     for a, b in pairwise(points):
@@ -154,7 +132,7 @@ def _root(pair: Pair, function: Callable[[Point], float]) -> Point:
     return known[root]
 
 
-def pull_off(points: list[Point]) -> Point:
+def pull_off(points: Sequence[Point]) -> Point:
     """Return the deepest minimum of the load along the path."""
     minima = [_root(pair, lambda p: p.load_rate) for pair in _pairs(points, lambda p: p.load_rate, True)]
     if not minima:
@@ -162,7 +140,7 @@ def pull_off(points: list[Point]) -> Point:
     return min(minima, key=lambda p: p.state.load)
 
 
-def folds(points: list[Point]) -> Pair:
+def folds(points: Sequence[Point]) -> Pair:
     """Return the folds of displacement control: jump into contact and jump out of it."""
     maxima = _pairs(points, lambda p: p.displacement_rate, False)
     minima = _pairs(points, lambda p: p.displacement_rate, True)
@@ -173,7 +151,7 @@ def folds(points: list[Point]) -> Pair:
     return tops[0], min(bottoms, key=lambda p: p.state.displacement)
 
 
-def zero_load(points: list[Point]) -> Point:
+def zero_load(points: Sequence[Point]) -> Point:
     """Return the point in contact where the load changes from tension to compression."""
     pairs = _pairs(points, lambda p: p.state.load, True)
     if not pairs:
@@ -181,20 +159,20 @@ def zero_load(points: list[Point]) -> Point:
     return _root(pairs[-1], lambda p: p.state.load)
 
 
-def hysteresis(points: list[Point]) -> tuple[float, Point]:
+def hysteresis(points: Sequence[Point]) -> tuple[float, Point]:
     """Return the energy lost by the jumps of one cycle of displacement control, and the jump-out."""
     jump_out, point = jump_out_loss(points)
     return jump_in_loss(points)[0] + jump_out, point
 
 
-def jump_in_loss(points: list[Point]) -> tuple[float, Point]:
+def jump_in_loss(points: Sequence[Point]) -> tuple[float, Point]:
     """Return the energy lost by the jump into contact, and the point in contact where it lands."""
     start = folds(points)[0]
     end = _at_displacement(points, start.state.displacement, last=True)
     return _energy(start) - _energy(end), end
 
 
-def jump_out_loss(points: list[Point]) -> tuple[float, Point]:
+def jump_out_loss(points: Sequence[Point]) -> tuple[float, Point]:
     """Return the energy lost by the jump out of contact, and the point where it begins."""
     start = folds(points)[1]
     end = _at_displacement(points, start.state.displacement, last=False)
@@ -205,7 +183,7 @@ def _energy(point: Point) -> float:
     return point.leg.contact.energy(point.state.y)
 
 
-def _at_displacement(points: list[Point], delta: float, last: bool) -> Point:
+def _at_displacement(points: Sequence[Point], delta: float, last: bool) -> Point:
     """Return the first or the last point of the path at a displacement."""
     pairs = _pairs(points, lambda p: p.state.displacement - delta, True)
     if not pairs:

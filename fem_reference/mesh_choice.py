@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from fem_reference.contact import Contact
 from fem_reference.errors import NotConverged
 from fem_reference.events import LOSSES, QUANTITIES, locate, walk
 from fem_reference.modulus import PowerLaw
-from fem_reference.path import EDGE_RISE, edge_width
+from fem_reference.path import EDGE_RISE, Point, edge_width
 from fem_reference.punch import Punch, radius_at_height
 from fem_reference.solid import CustomSolid, Solid
 from fem_reference.surface import MeshSpec, compliance_for
@@ -129,6 +130,10 @@ class MeshChoice:
         """Discretise the problem on a mesh with its edge at the radius `size`."""
         return Contact(self.punch, self.law, compliance_for(self.solid.modulus, self.solid.nu, spec, size))
 
+    def walked(self, spec: MeshSpec, size: float) -> tuple[Point, ...]:
+        """The path on that mesh, walked once however many quantities are read from it."""
+        return _walked(self, spec, size)
+
     def spec(self, width: float, size: float, smallest: float) -> MeshSpec:
         """Mesh for an edge of that relative width; lengths are rounded so that similar cases share a mesh.
 
@@ -182,7 +187,7 @@ class MeshChoice:
         spec = self.spec(width, size, smallest)
         for _ in range(REFINEMENTS):
             try:
-                points = walk(self.contact(spec, size))
+                points = self.walked(spec, size)
             except NotConverged:
                 # An under-resolved edge is pinned to the elements, and its path may not be traversable.
                 spec = self.spec(0.25 * spec.edge_width, size, smallest)
@@ -207,3 +212,9 @@ class MeshChoice:
                 size = point.contact_radius
             spec = self.spec(min(needed.edge_width, spec.edge_width), size, smallest)
         raise NotConverged("the width of the contact edge was not found; the edge is finer than the mesh can follow")
+
+
+# The paths of one problem: three densities and the search for the width, on the meshes of two kinds of questions.
+@lru_cache(maxsize=12)
+def _walked(choice: MeshChoice, spec: MeshSpec, size: float) -> tuple[Point, ...]:
+    return tuple(walk(choice.contact(spec, size)))

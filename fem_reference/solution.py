@@ -10,7 +10,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from fem_reference.events import locate, walk
+from fem_reference.events import locate
 from fem_reference.mesh_choice import MeshChoice, requested
 from fem_reference.punch import Punch
 from fem_reference.solid import CustomSolid, Solid
@@ -138,7 +138,7 @@ def solve_together(
     begin = time.perf_counter()
     choice = MeshChoice(solid, punch, law, level)
     spec, size = choice.adapted(quantities[0])
-    walks = [walk(choice.contact(replace(spec, density=density), size)) for density in level.densities]
+    walks = [choice.walked(replace(spec, density=density), size) for density in level.densities]
     found = {quantity: [locate(points, quantity) for points in walks] for quantity in quantities}
     ratio = math.sqrt(level.densities[0] / level.densities[2])
     solutions = {}

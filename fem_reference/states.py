@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_reference.events import find_event, walk
+from fem_reference.events import locate
 from fem_reference.mesh_choice import MeshChoice, requested
 from fem_reference.path import Point
 from fem_reference.punch import Punch
@@ -69,7 +69,7 @@ def trace(solid: Solid | CustomSolid, punch: Punch, law: LennardJones, accuracy:
     (True, -6.22)
     """
     choice, spec, size = _finest(solid, punch, law, "zero_load_displacement", accuracy)
-    points = walk(choice.contact(spec, size))
+    points = choice.walked(spec, size)
     return Path(
         np.array([p.state.displacement for p in points]),
         np.array([p.state.load for p in points]),
@@ -112,7 +112,7 @@ def event_state(
     (-6.226, 6)
     """
     choice, spec, size = _finest(solid, punch, law, quantity, accuracy)
-    return spec, find_event(choice.contact(spec, size), quantity).point
+    return spec, locate(choice.walked(spec, size), quantity)[1]
 
 
 def profile(

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from fem_reference.contact import Contact
-from fem_reference.events import find_event
+from fem_reference.events import locate, walk
 from fem_reference.export import contact_field, draw, write_vtu
 from fem_reference.punch import PowerPunch
 from fem_reference.solid import Solid
@@ -19,7 +19,7 @@ SPEC = MeshSpec(0.125, 2.5e-3, 64.0, 0.9, 6)
 def state():
     solid = Solid(1.0, 1.0, 0.4, 0.3)
     contact = Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), compliance_for(solid.modulus, 0.3, SPEC, 1.0))
-    point = find_event(contact, "pull_off_force").point
+    point = locate(walk(contact), "pull_off_force")[1]
     return point, contact_field(solid, SPEC, point)
 
 

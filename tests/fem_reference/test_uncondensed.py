@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fem_reference.contact import Contact
-from fem_reference.events import find_event
+from fem_reference.events import locate, walk
 from fem_reference.modulus import PowerLaw
 from fem_reference.punch import PowerPunch
 from fem_reference.reference_solutions import surface_constant
@@ -38,7 +38,7 @@ def test_equilibrium_and_pull_off_agree_with_the_condensed_path(n, k):
     modulus, nu = PowerLaw(0.8, 1.3, k), 0.3
     punch, law = PowerPunch(n, 1.1), LennardJones(1.2, 0.9)
     contact = Contact(punch, law, compliance_for(modulus, nu, SPEC, 1.0))
-    point = find_event(contact, "pull_off_force").point
+    point = locate(walk(contact), "pull_off_force")[1]
     full = FullContact(modulus, nu, punch, law, SPEC)
     state = full.equilibrium(_start(full, contact, point.state), point.state.displacement, point.state.size)
     tail = _beyond(contact, point.state)
