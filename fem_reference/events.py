@@ -47,6 +47,19 @@ def walk(contact: Contact) -> list[Point]:
     ----------
     contact : Contact
         The problem.
+
+    Examples
+    --------
+    >>> from fem_reference.modulus import PowerLaw
+    >>> from fem_reference.punch import PowerPunch
+    >>> from fem_reference.surface import MeshSpec, compliance_for
+    >>> from fem_reference.traction import LennardJones
+    >>> spec = MeshSpec(edge_width=0.25, surface_depth=0.08, extent=64.0, density=1.4, order=4)
+    >>> stiff = compliance_for(PowerLaw(50.0, 1.0, 0.0), 0.3, spec, size=1.0)
+    >>> contact = Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), stiff)
+    >>> points = walk(contact)
+    >>> points[0].state.load < 0 < points[-1].state.load
+    True
     """
     points: list[Point] = []
     summit = -float("inf")
@@ -83,6 +96,18 @@ def locate(points: Sequence[Point], quantity: str) -> tuple[float, Point]:
     ------
     NoSuchEvent
         If the path has no such point.
+
+    Examples
+    --------
+    >>> from fem_reference.modulus import PowerLaw
+    >>> from fem_reference.punch import PowerPunch
+    >>> from fem_reference.surface import MeshSpec, compliance_for
+    >>> from fem_reference.traction import LennardJones
+    >>> spec = MeshSpec(edge_width=0.25, surface_depth=0.08, extent=64.0, density=1.4, order=4)
+    >>> stiff = compliance_for(PowerLaw(50.0, 1.0, 0.0), 0.3, spec, size=1.0)
+    >>> points = walk(Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), stiff))
+    >>> 6.2 < locate(points, "pull_off_force")[0] < 6.3  # 2 pi for a rigid solid
+    True
     """
     if quantity in ("pull_off_force", "pull_off_displacement"):
         point = pull_off(points)
@@ -133,7 +158,13 @@ def _root(pair: Pair, function: Callable[[Point], float]) -> Point:
 
 
 def pull_off(points: Sequence[Point]) -> Point:
-    """Return the deepest minimum of the load along the path."""
+    """Return the deepest minimum of the load along the path.
+
+    Raises
+    ------
+    NoSuchEvent
+        If the load has no minimum on the path.
+    """
     minima = [_root(pair, lambda p: p.load_rate) for pair in _pairs(points, lambda p: p.load_rate, True)]
     if not minima:
         raise NoSuchEvent("the load has no minimum along the path")
@@ -141,7 +172,19 @@ def pull_off(points: Sequence[Point]) -> Point:
 
 
 def folds(points: Sequence[Point]) -> Pair:
-    """Return the folds of displacement control: jump into contact and jump out of it."""
+    """Return the folds of displacement control: jump into contact and jump out of it.
+
+    Raises
+    ------
+    NoSuchEvent
+        If the displacement never turns back.
+
+    Examples
+    --------
+    >>> folds([])
+    Traceback (most recent call last):
+    fem_reference.errors.NoSuchEvent: the displacement rises all along the path: this solid is too stiff for jumps
+    """
     maxima = _pairs(points, lambda p: p.displacement_rate, False)
     minima = _pairs(points, lambda p: p.displacement_rate, True)
     if not maxima or not minima:

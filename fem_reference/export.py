@@ -62,7 +62,15 @@ class Field:
 
     @property
     def von_mises(self) -> Array:
-        """Von Mises stress, shape (n,)."""
+        """Von Mises stress, shape (n,).
+
+        Examples
+        --------
+        >>> point, cell = np.zeros((1, 2)), np.zeros((0, 4), int)
+        >>> uniaxial = np.array([[0.0, 0.0, -2.0, 0.0]])
+        >>> Field(point, cell, point, uniaxial, np.ones(1)).von_mises
+        array([2.])
+        """
         rr, tt, zz, rz = self.stress.T
         return np.sqrt(0.5 * ((rr - tt) ** 2 + (tt - zz) ** 2 + (zz - rr) ** 2) + 3.0 * rz**2)
 

@@ -110,6 +110,20 @@ def march(point: Point, step: float, stop: float) -> Iterator[Point]:
     ------
     NotConverged
         When the step has been cut below sense.
+
+    Examples
+    --------
+    >>> from fem_reference.modulus import PowerLaw
+    >>> from fem_reference.punch import PowerPunch
+    >>> from fem_reference.surface import MeshSpec, compliance_for
+    >>> from fem_reference.traction import LennardJones
+    >>> spec = MeshSpec(edge_width=0.25, surface_depth=0.08, extent=64.0, density=1.4, order=4)
+    >>> stiff = compliance_for(PowerLaw(50.0, 1.0, 0.0), 0.3, spec, size=1.0)
+    >>> contact = Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), stiff)
+    >>> first = next(approach(contact))
+    >>> *_, last = march(first, step=-0.5, stop=10.0)
+    >>> round(last.state.central_gap, 9)
+    10.0
     """
     direction = 1.0 if step > 0 else -1.0
     while (stop - point.parameter) * direction > 0:
@@ -132,7 +146,20 @@ def march(point: Point, step: float, stop: float) -> Iterator[Point]:
 
 
 def approach(contact: Contact) -> Iterator[Point]:
-    """Walk the leg of the central gap from far away to the birth of the contact edge."""
+    """Walk the leg of the central gap from far away to the birth of the contact edge.
+
+    Examples
+    --------
+    >>> from fem_reference.modulus import PowerLaw
+    >>> from fem_reference.punch import PowerPunch
+    >>> from fem_reference.surface import MeshSpec, compliance_for
+    >>> from fem_reference.traction import LennardJones
+    >>> spec = MeshSpec(edge_width=0.25, surface_depth=0.08, extent=64.0, density=1.4, order=4)
+    >>> stiff = compliance_for(PowerLaw(50.0, 1.0, 0.0), 0.3, spec, size=1.0)
+    >>> contact = Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), stiff)
+    >>> round(next(approach(contact)).state.central_gap, 9)  # in units of z0 = 1
+    12.0
+    """
     z0 = contact.law.z0
     start = FARTHEST_GAP * z0
     y = np.zeros(contact.unknowns + 2)
@@ -151,7 +178,21 @@ def approach(contact: Contact) -> Iterator[Point]:
 
 
 def spread(born: Point, largest: float) -> Iterator[Point]:
-    """Walk the leg of the contact edge from its birth out to the radius `largest`."""
+    """Walk the leg of the contact edge from its birth out to the radius `largest`.
+
+    Examples
+    --------
+    >>> from fem_reference.modulus import PowerLaw
+    >>> from fem_reference.punch import PowerPunch
+    >>> from fem_reference.surface import MeshSpec, compliance_for
+    >>> from fem_reference.traction import LennardJones
+    >>> spec = MeshSpec(edge_width=0.25, surface_depth=0.08, extent=64.0, density=1.4, order=4)
+    >>> stiff = compliance_for(PowerLaw(50.0, 1.0, 0.0), 0.3, spec, size=1.0)
+    >>> contact = Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), stiff)
+    >>> *_, born = approach(contact)
+    >>> round(next(spread(born, largest=2.0)).contact_radius / born.state.size, 9)
+    1.0
+    """
     contact = born.leg.contact
     peak = contact.law.peak_gap
     if isinstance(contact.compliance, FixedCompliance):
@@ -197,7 +238,22 @@ def edge_width(point: Point) -> float:
 
 
 def path(contact: Contact) -> Iterator[Point]:
-    """Walk the whole equilibrium path from far away into contact, until the consumer stops."""
+    """Walk the whole equilibrium path from far away into contact, until the consumer stops.
+
+    Examples
+    --------
+    >>> from fem_reference.modulus import PowerLaw
+    >>> from fem_reference.punch import PowerPunch
+    >>> from fem_reference.surface import MeshSpec, compliance_for
+    >>> from fem_reference.traction import LennardJones
+    >>> spec = MeshSpec(edge_width=0.25, surface_depth=0.08, extent=64.0, density=1.4, order=4)
+    >>> stiff = compliance_for(PowerLaw(50.0, 1.0, 0.0), 0.3, spec, size=1.0)
+    >>> contact = Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), stiff)
+    >>> walked = path(contact)
+    >>> a, b = next(walked), next(walked)
+    >>> a.state.central_gap > b.state.central_gap and a.state.load > b.state.load
+    True
+    """
     point: Point | None = None
     for point in approach(contact):
         yield point

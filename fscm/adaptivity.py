@@ -104,7 +104,15 @@ def _last_modes(modes: Array) -> Array:
 
 
 def indicator(state: State) -> Array:
-    """Estimated effect of the unresolved pressure of each panel, shape (m,), dimensionless."""
+    """Estimated effect of the unresolved pressure of each panel, shape (m,), dimensionless.
+
+    Examples
+    --------
+    >>> from fscm.continuation import equilibrium_path
+    >>> state = next(equilibrium_path(Problem(n=2, k=0.4, mu=1.0), order=10, tolerance=1e-4)).state
+    >>> bool(indicator(state).max() <= 1e-4)
+    True
+    """
     mesh = state.disc.mesh
     return _last_modes(mesh.modes(state.pressure)) * _weights(state, mesh.starts, mesh.lengths)
 
@@ -134,7 +142,16 @@ def _superfluous(state: State, tolerance: float) -> NDArray[np.intp]:
 
 
 def on_mesh(state: State, mesh: PanelMesh) -> State:
-    """The state interpolated to another mesh at the same scale: a guess, not an equilibrium."""
+    """The state interpolated to another mesh at the same scale: a guess, not an equilibrium.
+
+    Examples
+    --------
+    >>> from fscm.continuation import equilibrium_path
+    >>> state = next(equilibrium_path(Problem(n=2, k=0.4, mu=1.0), order=10, tolerance=1e-4)).state
+    >>> finer = on_mesh(state, PanelMesh(state.disc.mesh.breaks, order=12))
+    >>> finer.gap.size > state.gap.size, bool(np.allclose(finer.gap[-1], state.gap[-1], rtol=0.1))
+    (True, True)
+    """
     disc = Discretisation(state.disc.problem, mesh, state.disc)
     return State(disc, state.scale, state.disc.mesh.transfer(state.gap, mesh), state.displacement, state.follows_edge)
 
@@ -157,6 +174,14 @@ def fit(state: State, control: Control, tolerance: float, coarsen: bool = False)
     ------
     NotConverged
         When the refinement does not end.
+
+    Examples
+    --------
+    >>> from fscm.continuation import equilibrium_path
+    >>> state = next(equilibrium_path(Problem(n=2, k=0.4, mu=1.0), order=10, tolerance=1e-4)).state
+    >>> finer = fit(state, Control(state.central_gap, gap=1.0), tolerance=1e-9)
+    >>> bool(indicator(finer).max() <= 1e-9), abs(finer.load - state.load) < 1e-4
+    (True, True)
     """
     iterations = state.iterations
     step_tolerance = max(STEP_TOLERANCE, _NEWTON_MARGIN * tolerance)

@@ -45,7 +45,14 @@ _HAND_OVER = 0.05
 
 @dataclass(frozen=True)
 class Point:
-    """A state on the path and its unit tangent in arc length, oriented from separation into contact."""
+    """A state on the path and its unit tangent in arc length, oriented from separation into contact.
+
+    Examples
+    --------
+    >>> first = next(equilibrium_path(Problem(n=2, k=0.4, mu=1.0), order=10, tolerance=1e-4, start_gap=8.0))
+    >>> first.rates.displacement > 0.0 > first.rates.central_gap  # towards contact
+    True
+    """
 
     state: State
     rates: Rates
@@ -96,17 +103,38 @@ class _ArcLength:
 
 
 def lead_of(state: State) -> float:
-    """The leading variable: log c when the mesh follows the edge, else the central gap."""
+    """The leading variable: log c when the mesh follows the edge, else the central gap.
+
+    Examples
+    --------
+    >>> first = next(equilibrium_path(Problem(n=2, k=0.4, mu=1.0), order=10, tolerance=1e-4, start_gap=8.0))
+    >>> round(lead_of(first.state), 9)  # apart: the central gap
+    8.0
+    """
     return math.log(state.scale) if state.follows_edge else state.central_gap
 
 
 def lead_control(state: State, value: float) -> Control:
-    """The condition that the leading variable has a value."""
+    """The condition that the leading variable has a value.
+
+    Examples
+    --------
+    >>> first = next(equilibrium_path(Problem(n=2, k=0.4, mu=1.0), order=10, tolerance=1e-4, start_gap=8.0))
+    >>> lead_control(first.state, 7.5)
+    Control(value=7.5, gap=1.0, displacement=0.0, load=0.0, log_scale=0.0)
+    """
     return Control(value, log_scale=1.0) if state.follows_edge else Control(value, gap=1.0)
 
 
 def rates_of(state: State) -> Rates:
-    """Exact derivatives per unit of the leading variable."""
+    """Exact derivatives per unit of the leading variable.
+
+    Examples
+    --------
+    >>> first = next(equilibrium_path(Problem(n=2, k=0.4, mu=1.0), order=10, tolerance=1e-4, start_gap=8.0))
+    >>> round(rates_of(first.state).central_gap, 12)
+    1.0
+    """
     return state.rates("log_scale" if state.follows_edge else "gap")
 
 
@@ -120,7 +148,20 @@ def _predicted(state: State, rates: Rates, step: float) -> State:
 
 
 def moved(state: State, rates: Rates, value: float, tolerance: float = STEP_TOLERANCE) -> State:
-    """Equilibrium at another value of the leading variable, from the tangent predictor."""
+    """Equilibrium at another value of the leading variable, from the tangent predictor.
+
+    Raises
+    ------
+    NotConverged
+        When Newton's method fails.
+
+    Examples
+    --------
+    >>> first = next(equilibrium_path(Problem(n=2, k=0.4, mu=1.0), order=10, tolerance=1e-4, start_gap=8.0))
+    >>> nearer = moved(first.state, rates_of(first.state), 7.5)
+    >>> round(nearer.central_gap, 9), nearer.load < first.state.load
+    (7.5, True)
+    """
     return newton(_predicted(state, rates, value - lead_of(state)), lead_control(state, value), tolerance)
 
 
@@ -181,6 +222,13 @@ def equilibrium_path(
     ------
     NotConverged
         When the step becomes too small.
+
+    Examples
+    --------
+    >>> path = equilibrium_path(Problem(n=2, k=0.4, mu=1.0), order=10, tolerance=1e-4)
+    >>> a, b = next(path), next(path)
+    >>> a.state.central_gap > b.state.central_gap and a.state.load > b.state.load
+    True
     """
     arc = _ArcLength(1.0 + problem.mu, 2.0 * max(1.0, problem.mu ** ((2.0 - problem.n) / problem.n)))
     state = _far_state(problem, _start_gap(problem) if start_gap is None else start_gap, order, tolerance)

@@ -58,7 +58,17 @@ def zero_load(state: State, rates: Rates) -> float:
 
 
 def brackets(points: Sequence[Point], condition: Condition, rising: bool) -> list[Bracket]:
-    """Neighbouring points between which the condition turns positive (`rising`) or negative."""
+    """Neighbouring points between which the condition turns positive (`rising`) or negative.
+
+    Examples
+    --------
+    >>> from fscm.analysis import Analysis
+    >>> from fscm.problem import Problem
+    >>> points = Analysis(Problem(n=2, k=0.4, mu=1.0)).points
+    >>> before, after = brackets(points, load_fold, rising=True)[-1]
+    >>> load_fold(before.state, before.rates) < 0.0 <= load_fold(after.state, after.rates)
+    True
+    """
     found = []
     for a, b in pairwise(points):
         if a.state.follows_edge != b.state.follows_edge:
@@ -91,7 +101,17 @@ class _Between:
 
 
 def locate(a: Point, b: Point, condition: Condition) -> State:
-    """Root of the condition between two neighbouring points, on their coarse mesh."""
+    """Root of the condition between two neighbouring points, on their coarse mesh.
+
+    Examples
+    --------
+    >>> from fscm.analysis import Analysis
+    >>> from fscm.problem import Problem
+    >>> points = Analysis(Problem(n=2, k=0.4, mu=1.0)).points
+    >>> state = locate(*brackets(points, zero_load, rising=True)[-1], zero_load)
+    >>> abs(state.load) < 1e-5, round(state.displacement, 3)
+    (True, 2.086)
+    """
     between = _Between(a, b)
     root = brentq(lambda x: condition(*between(x)), between.low, between.high, xtol=_COARSE_LEAD_TOLERANCE, rtol=1e-12)
     return between(root)[0]
@@ -106,6 +126,15 @@ def slowest(points: Sequence[Point]) -> tuple[Point, Point, Point, float]:
         The place and its neighbours on the same stretch.
     rate : float
         Rate of the displacement there, per unit of the leading variable, oriented into contact.
+
+    Examples
+    --------
+    >>> from fscm.analysis import Analysis
+    >>> from fscm.problem import Problem
+    >>> points = Analysis(Problem(n=2, k=0.4, mu=1.0)).points
+    >>> *_, rate = slowest(points)
+    >>> rate < 0.0  # the displacement turns back: there are jumps
+    True
     """
     i = min(range(1, len(points) - 1), key=lambda j: points[j].rates.displacement)
     # Two steps to either side, on each stretch of its own when the mesh changes among them.
@@ -129,7 +158,17 @@ def _least_rate(a: Point, b: Point) -> tuple[Point, Point, Point, float]:
 
 
 def refined(state: State, order: int, tolerance: float) -> State:
-    """The state at the same leading variable, on a mesh of the given order refined to the tolerance."""
+    """The state at the same leading variable, on a mesh of the given order refined to the tolerance.
+
+    Examples
+    --------
+    >>> from fscm.analysis import Analysis
+    >>> from fscm.problem import Problem
+    >>> points = Analysis(Problem(n=2, k=0.4, mu=1.0)).points
+    >>> fine = refined(points[0].state, order=12, tolerance=1e-8)
+    >>> abs(fine.central_gap - points[0].state.central_gap) < 1e-9
+    True
+    """
     control = lead_control(state, lead_of(state))
     mesh = PanelMesh(state.disc.mesh.breaks, order)
     return fit(newton(on_mesh(state, mesh), control), control, tolerance, coarsen=True)
@@ -142,6 +181,15 @@ def sharpen(state: State, condition: Condition, order: int, tolerance: float) ->
     ------
     NotConverged
         When the secant method does not settle.
+
+    Examples
+    --------
+    >>> from fscm.analysis import Analysis
+    >>> from fscm.problem import Problem
+    >>> points = Analysis(Problem(n=2, k=0.4, mu=1.0)).points
+    >>> coarse = locate(*brackets(points, zero_load, rising=True)[-1], zero_load)
+    >>> abs(sharpen(coarse, zero_load, order=12, tolerance=1e-7).load) < 1e-12
+    True
     """
     state = refined(state, order, tolerance)
     iterations = state.iterations

@@ -29,6 +29,13 @@ class Cycle:
         Rows delta and P.  A jump is two consecutive columns of equal delta.
     jump_in, jump_out : ndarray, shape (2, 2), or None
         Columns before and after the jump.
+
+    Examples
+    --------
+    >>> from fscm.path import trace
+    >>> from fscm.problem import Problem
+    >>> displacement_cycle(trace(Problem(n=2, k=0.4, mu=0.3))).jump_in is None  # a stiff solid does not jump
+    True
     """
 
     loading: Array
@@ -76,6 +83,15 @@ def displacement_cycle(path: EquilibriumPath) -> Cycle:
 
 
 def load_controlled_retreat(path: EquilibriumPath) -> Array:
-    """Columns (delta, P), shape (2, m), of a retreat under load control: from the path's end to pull-off."""
+    """Columns (delta, P), shape (2, m), of a retreat under load control: from the path's end to pull-off.
+
+    Examples
+    --------
+    >>> delta, load = np.array([-3.0, -1.0, 0.0, 0.5]), np.array([-0.1, -1.0, -2.0, 1.0])
+    >>> path = EquilibriumPath(-delta, delta, load, np.zeros(4), np.full(4, np.nan), u_displacement=0.0, u_load=0.0)
+    >>> load_controlled_retreat(path)
+    array([[ 0.5,  0. ],
+           [ 1. , -2. ]])
+    """
     lowest = int(np.argmin(path.load))
     return np.array([path.displacement, path.load])[:, : lowest - 1 : -1] if lowest else np.empty((2, 0))

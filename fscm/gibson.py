@@ -120,12 +120,29 @@ class GibsonSolid:
         ValueError
             For a central gap between the two branches, where only the unstable germ of a contact would be,
             or below the singularity of the law.
+
+        Examples
+        --------
+        >>> problem = Problem(n=2, k=1, mu=1.5)
+        >>> p = float(problem.law.traction(np.array(10.0)))
+        >>> abs(GibsonSolid(problem).displacement(10.0) - (problem.compliance * p - 10.0)) < 1e-12
+        True
         """
         self._contact(central_gap)
         return -self._local.level(central_gap)
 
     def load(self, central_gap: float) -> float:
-        """P at a central gap on the open or the contact branch; ValueError as for `displacement`."""
+        """P at a central gap on the open or the contact branch; ValueError as for `displacement`.
+
+        Examples
+        --------
+        Of a paraboloid with all gaps on the far side, P = 2 U(H_0) + M p(H_0)^2:
+
+        >>> problem = Problem(n=2, k=1, mu=1.5)
+        >>> p, U = (float(f(np.array(10.0))) for f in (problem.law.traction, problem.law.energy))
+        >>> abs(GibsonSolid(problem).load(10.0) - (2.0 * U + problem.compliance * p**2)) < 1e-12
+        True
+        """
         contact = self._contact(central_gap)
         return self._sum(-self._local.level(central_gap), contact, 0)[0]
 

@@ -25,13 +25,28 @@ _ROOT_FLOOR = 1e-20
 
 
 def root(f: Callable[[float], float], a: float, b: float) -> float:
-    """Root of f between a and b, to rounding."""
+    """Root of f between a and b, to rounding.
+
+    Examples
+    --------
+    >>> root(lambda x: x * x - 2.0, 1.0, 2.0)
+    1.41421356237...
+    """
     return float(brentq(f, a, b, xtol=_ROOT_FLOOR, rtol=_ROOT, maxiter=500))
 
 
 @dataclass(frozen=True)
 class Front:
-    """Two stable gaps of one energy at one level u."""
+    """Two stable gaps of one energy at one level u.
+
+    Examples
+    --------
+    >>> from fscm.surface_law import LennardJones93
+    >>> point = LocalEquilibrium(LennardJones93(), 8.0)
+    >>> front = point.front
+    >>> abs(point.energy(front.near) - point.energy(front.far)) < 1e-12  # Maxwell's rule
+    True
+    """
 
     level: float
     near: float

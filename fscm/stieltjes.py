@@ -58,6 +58,12 @@ class StieltjesState:
     """An equilibrium: gaps H_1..H_N at the ends of the segments, displacement (Eq. 38) and load (Eq. 39).
 
     `change` is the largest change of a gap in the last of the `iterations`.
+
+    Examples
+    --------
+    >>> state = StieltjesScheme(Problem(n=2, k=0.4, mu=0.5), segments=100).solve(10.0)
+    >>> state.gap.shape, state.change < 1e-6
+    ((100,), True)
     """
 
     central_gap: float
@@ -70,7 +76,15 @@ class StieltjesState:
 
 @dataclass(frozen=True)
 class CentralGapRates:
-    """Derivatives of displacement and load by the central gap, along the path."""
+    """Derivatives of displacement and load by the central gap, along the path.
+
+    Examples
+    --------
+    >>> scheme = StieltjesScheme(Problem(n=2, k=0.4, mu=0.5), segments=100)
+    >>> rates = scheme.rates(scheme.solve(10.0))
+    >>> rates.load > 0.0 > rates.displacement  # moving apart, the pull weakens
+    True
+    """
 
     displacement: float
     load: float

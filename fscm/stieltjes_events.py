@@ -52,6 +52,12 @@ def find_event(scheme: StieltjesScheme, name: str) -> StieltjesState:
         edge is narrower than the segments and pins to them, or the path ends before contact.
     ValueError
         For an unknown name.
+
+    Examples
+    --------
+    >>> scheme = StieltjesScheme(Problem(n=2, k=0.4, mu=0.5), segments=100, gap_step=0.2)
+    >>> -1.9 < find_event(scheme, "pull_off").load < -1.8  # converged: -1.8663
+    True
     """
     if name not in _EVENTS:
         raise ValueError(f"unknown event {name!r}; known are {', '.join(_EVENTS)}")
