@@ -28,7 +28,13 @@ __all__ = ["ACCURACIES", "Accuracy", "MeshChoice", "requested"]
 
 @dataclass(frozen=True, slots=True)
 class Accuracy:
-    """Element order and the three mesh densities, coarse to fine."""
+    """Element order and the three mesh densities, coarse to fine.
+
+    Examples
+    --------
+    >>> ACCURACIES["quick"].densities[0] > ACCURACIES["fine"].densities[0]
+    True
+    """
 
     order: int
     densities: tuple[float, float, float]

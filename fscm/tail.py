@@ -79,6 +79,14 @@ def tail_uncertainty(problem: Problem, T: float, displacement: float, load: floa
         As for `tail_of`.
     load : float
         Its load.
+
+    Examples
+    --------
+    >>> problem, T = Problem(n=1, k=0.0, mu=1.0), 1000.0
+    >>> load = tail_of(problem, T, 0.0).load
+    >>> exact = -16.0 / 3.0 * (1.0 / (T + 1.0) - 0.5 / (T + 1.0) ** 2)
+    >>> abs(load - exact) <= tail_uncertainty(problem, T, 0.0, load) < 1e-5 * abs(load)
+    True
     """
     C, m = problem.law.decay
     if C == 0.0:
@@ -96,6 +104,14 @@ def tail_energy(problem: Problem, T: float, displacement: float) -> float:
     ----------
     problem, T, displacement
         As for `tail_of`.
+
+    Examples
+    --------
+    A stiff paraboloid under the 9-3 law, -(4/3) (f + 1)^-2 with 2 r dr = 2 df:
+
+    >>> T = 1000.0
+    >>> abs(tail_energy(Problem(n=2, k=0.0, mu=1.0), T, 0.0) * (T**2 / 2 + 1.0) / (-8.0 / 3.0) - 1.0) < 1e-10
+    True
     """
     C, m = problem.law.decay
     if C == 0.0:
