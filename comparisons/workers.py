@@ -7,6 +7,7 @@ import signal
 import threading
 from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from importlib import import_module
 from multiprocessing import get_context, parent_process
 from multiprocessing.process import BaseProcess
 from typing import TypeVar
@@ -58,6 +59,8 @@ def each(function: Callable[[Item], Answer], items: Sequence[Item], jobs: int) -
 
 def _start_worker() -> None:
     """Prepare a worker: one thread (the cores are taken by the workers), and no life after the parent's."""
+    # Only libraries that are loaded can be limited: this loads the linear algebra of both NumPy and SciPy.
+    import_module("scipy.linalg")
     threadpool_limits(1)
     # Ctrl-C reaches the whole process group: end at once, without a traceback; the parent has the last word.
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
