@@ -60,10 +60,8 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) ->
     floor = law.singular_gap
     state = guess
     for iteration in range(1, _MAX_ITERATIONS + 1):
-        # What overflows, e.g. by the infinite height of a very flat punch far outside, is found by the next check.
-        with np.errstate(over="ignore", invalid="ignore"):
-            system = Linearisation(state)
-            rhs = np.concatenate([system.residual, [system.anchor, system.violation(control)]])
+        system = Linearisation(state)
+        rhs = np.concatenate([system.residual, [system.anchor, system.violation(control)]])
         if not np.all(np.isfinite(rhs)):
             raise NotConverged("Newton met a residual that is not finite; start from a closer state")
         step = -system.solve(control, rhs)

@@ -81,7 +81,7 @@ def test_no_number_where_there_is_no_equilibrium(control: Control) -> None:
         newton(_state(Problem(2, 0.4, 3.0), True), control)
 
 
-@pytest.mark.parametrize(("n", "k"), [(1e3, 0.0), (1e6, 0.4)])
-def test_a_punch_too_flat_for_doubles_is_refused_without_a_warning(n, k):
-    with pytest.raises(NotConverged, match="not finite"):
+@pytest.mark.parametrize(("n", "k"), [(300.0, 0.0), (300.0, 0.4)])
+def test_the_flattest_punch_is_refused_without_a_warning(n, k):
+    with pytest.raises(NotConverged, match="did not converge"):
         solve(Problem(n=n, k=k, mu=1.0), "pull_off_force")
