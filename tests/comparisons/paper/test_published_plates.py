@@ -37,7 +37,8 @@ def test_every_plate_is_there_and_nothing_else():
     for stem, plate in stems.items():
         mine = {name for name in files if name.startswith((f"{stem}.", f"{stem}_"))}
         assert mine, f"{plate.name} is not committed"
-        assert (f"{stem}.png" in mine) == (plate.draw is not None)
+        for suffix in (".png", ".pdf"):
+            assert (f"{stem}{suffix}" in mine) == (plate.draw is not None)
         assert any(name.endswith(".csv") for name in mine) or plate.name == "1"
         files -= mine
     assert files == set()
