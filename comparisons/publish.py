@@ -161,11 +161,14 @@ def main(arguments: Sequence[str]) -> int:
         return 2
     folder = Path(arguments[0])
     try:
-        written = publish(folder) if (folder / "run.json").exists() else publish_plates(folder)
+        if (folder / "run.json").exists():
+            gave = ", ".join(map(str, publish(folder)))
+        else:
+            gave = f"{len(publish_plates(folder))} files of {PLATES}"
     except ValueError as error:
         print(error, file=sys.stderr)
         return 2
-    print(f"{folder} gave {', '.join(map(str, written))}; nothing else was changed.")
+    print(f"{folder} gave {gave}; nothing else was changed.")
     return 0
 
 

@@ -147,11 +147,6 @@ def solve_cg(
 def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
     """Solve A u = load by a symmetric sparse factorisation; the time includes the factorisation.
 
-    Raises
-    ------
-    NotConverged
-        If the matrix is singular, or so nearly that the residual is not that of a factorisation.
-
     Parameters
     ----------
     half_space : HalfSpace
@@ -162,6 +157,11 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
     Returns
     -------
     LinearResult
+
+    Raises
+    ------
+    NotConverged
+        If the matrix is singular, or so nearly that the residual is not that of a factorisation.
 
     Examples
     --------

@@ -58,6 +58,10 @@ linear in its thickness for 0 < k < 0.2, where z^(1-k) and z are hard to tell ap
 WIDTH_SHARE = 0.18
 """Resolved edge width relative to the length over which the gap rises by z0 at the edge."""
 
+NARROWEST, WIDEST = 1e-6, 0.25
+"""Relative width of an edge: the smallest that is meshed (it costs an element for each factor of two), and the
+largest, which resolves a surface without one."""
+
 FAR_HEIGHT = 1e4
 """Height of the punch, in z0, at the end of the mesh: beyond it the traction enters P in closed form and its
 displacement (below 1e-8 z0 even for a cone) is dropped."""
@@ -147,7 +151,7 @@ class MeshChoice:
         """
         modulus = self.solid.modulus
         k = modulus.surface_exponent
-        width = 2.0 ** math.floor(math.log2(min(max(width, 1e-6), 0.25)))
+        width = 2.0 ** math.floor(math.log2(min(max(width, NARROWEST), WIDEST)))
         depth = LAYER_DEPTH * width * min(1.0, 5.0 * k) if k > 0 else 0.3 * width
         if math.isfinite(modulus.surface_depth):
             depth = min(depth, 0.2 * modulus.surface_depth / size)

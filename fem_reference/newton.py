@@ -23,6 +23,15 @@ NEWTON_TOLERANCE = 1e-12
 NEWTON_STEPS = 30
 """Damped steps before a point of the path is given up and the path step halved."""
 
+LARGEST_GROWTH = 0.3
+"""Largest relative change of the size in a step: it stays positive, and the edge on its fine elements."""
+
+SMALLEST_DAMPING = 1e-3
+"""Fraction of a step below which none is sought: an iteration that needs it runs out of steps."""
+
+STEP_SHARE = 1e3
+"""Largest last step, in units of the largest residual: what the conditioning of the tangent leaves of it."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class State:
@@ -124,7 +133,7 @@ def newton(contact: Contact, y: Array, first: Control, second: Control) -> State
         size = float(np.abs(G[:m]).max()) / law.z0
         limit = NEWTON_TOLERANCE * (1.0 + float(np.abs(y[:m]).max()) / law.z0)
         step = linalg.lu_solve(factors, G, check_finite=False)
-        if size <= limit and np.abs(step[: m + 1]).max() <= 1e3 * limit * law.z0:
+        if size <= limit and np.abs(step[: m + 1]).max() <= STEP_SHARE * limit * law.z0:
             pace = second.pace(contact, y) if isinstance(second, EdgeRadius) else 1.0
             rate = pace * linalg.lu_solve(factors, np.eye(m + 2)[-1], check_finite=False)
             slope = float(contact.load_gradient(y) @ rate)
@@ -136,11 +145,11 @@ def newton(contact: Contact, y: Array, first: Control, second: Control) -> State
 
 
 def _damping(contact: Contact, y: Array, step: Array) -> float:
-    """Largest factor that keeps every gap above the law's floor and the size within 30 %."""
+    """Largest factor that keeps every gap above the law's floor and the size within reach."""
     factor = 1.0
-    if abs(step[-1]) > 0.3 * y[-1]:
-        factor = 0.3 * y[-1] / abs(step[-1])
+    if abs(step[-1]) > LARGEST_GROWTH * y[-1]:
+        factor = LARGEST_GROWTH * y[-1] / abs(step[-1])
     lowest = min(contact.law.floor, 0.5 * (contact.gap(y).min() - contact.law.z0))
-    while factor > 1e-3 and contact.gap(y - factor * step).min() < lowest:
+    while factor > SMALLEST_DAMPING and contact.gap(y - factor * step).min() < lowest:
         factor *= 0.5
     return factor

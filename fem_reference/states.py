@@ -43,13 +43,6 @@ class Profile:
 def trace(solid: Solid | CustomSolid, punch: Punch, law: LennardJones, accuracy: str = "default") -> Path:
     """Walk the equilibrium path from far away until the load is compressive, on the finest mesh.
 
-    Raises
-    ------
-    ValueError
-        For an unknown accuracy.
-    NotConverged
-        If the path cannot be followed.
-
     Parameters
     ----------
     solid, punch, law, accuracy
@@ -59,6 +52,13 @@ def trace(solid: Solid | CustomSolid, punch: Punch, law: LennardJones, accuracy:
     -------
     Path
         In the units of the input.
+
+    Raises
+    ------
+    ValueError
+        For an unknown accuracy.
+    NotConverged
+        If the path cannot be followed.
 
     Examples
     --------
@@ -87,6 +87,18 @@ def event_state(
 ) -> tuple[MeshSpec, Point]:
     """Equilibrium at an event on the finest mesh, with the mesh: what fields and cross-checks start from.
 
+    Parameters
+    ----------
+    solid, punch, law, quantity, accuracy
+        As for `fem_reference.solution.solve`.
+
+    Returns
+    -------
+    spec : MeshSpec
+        The finest mesh, in units of the edge radius.
+    point : Point
+        The equilibrium, in the units of the input.
+
     Raises
     ------
     ValueError
@@ -95,13 +107,6 @@ def event_state(
         If the path has no such point.
     NotConverged
         If an iteration misses its tolerance.
-
-    Returns
-    -------
-    spec : MeshSpec
-        The finest mesh, in units of the edge radius.
-    point : Point
-        The equilibrium, in the units of the input.
 
     Examples
     --------
@@ -125,13 +130,6 @@ def profile(
 ) -> Profile:
     """Surface gap, pressure and displacement at an event, at the Gauss points or at the wanted radii.
 
-    Raises
-    ------
-    ValueError
-        For an unknown quantity or accuracy, or radii beyond the mesh.
-    NotConverged
-        If the path cannot be followed.
-
     Parameters
     ----------
     solid, punch, law, quantity, accuracy
@@ -142,6 +140,13 @@ def profile(
     Returns
     -------
     Profile
+
+    Raises
+    ------
+    ValueError
+        For an unknown quantity or accuracy, or radii beyond the mesh.
+    NotConverged
+        If the path cannot be followed.
 
     Examples
     --------

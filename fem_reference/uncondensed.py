@@ -43,6 +43,9 @@ LINEAR_TOLERANCE = 1e-4
 """Relative residual of a Newton step (inexact Newton): the error falls by as much a step near the
 solution."""
 
+SMALLEST_DAMPING = 1e-3
+"""Fraction of a step below which none is sought."""
+
 RATE_TOLERANCE = 1e-7
 """Relative residual of the sensitivity solve, whose zero is the pull-off."""
 
@@ -255,6 +258,6 @@ class FullContact:
         full[self.half_space.free] = du
         damping = 1.0
         lowest = min(self.law.floor, 0.5 * (float(self.gap(u, delta, c).min()) - self.law.z0))
-        while damping > 1e-3 and self.gap(u - damping * full, delta - damping * ddelta, c).min() < lowest:
+        while damping > SMALLEST_DAMPING and self.gap(u - damping * full, delta - damping * ddelta, c).min() < lowest:
             damping *= 0.5
         return damping

@@ -170,13 +170,6 @@ class Analysis:
     def event(self, name: str) -> EventPair:
         """One of "pull_off", "jump_in", "jump_out", "zero_load", on two meshes.
 
-        Raises
-        ------
-        NoSuchEvent
-            When the path has no such point.
-        NotConverged
-            When it has, but it was not reached.
-
         Parameters
         ----------
         name : str
@@ -184,6 +177,13 @@ class Analysis:
         Returns
         -------
         EventPair
+
+        Raises
+        ------
+        NoSuchEvent
+            When the path has no such point.
+        NotConverged
+            When it has, but it was not reached.
 
         Examples
         --------

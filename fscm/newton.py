@@ -19,6 +19,12 @@ _MAX_ITERATIONS = 25
 # _LOWEST of it: at a quarter of the distance the 9-3 law reaches 7e5 times its strength.
 _SHRINK = 0.4
 _LOWEST = 0.25
+# Largest change of the logarithm of the scale in one iteration: a factor of two.
+_LARGEST_GROWTH = 0.7
+# Below this fraction of a step the iterations allowed lead nowhere.
+_SMALLEST_DAMPING = 1e-3
+# A step that changes a gap by this factor is no correction any more, and the next ones would overflow.
+_DIVERGED = 1e6
 
 
 def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) -> State:
@@ -70,8 +76,8 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) ->
         clearance = state.gap - floor
         with np.errstate(divide="ignore", invalid="ignore"):
             limit = np.where(dH < 0.0, (clearance - np.maximum(_SHRINK * clearance, _LOWEST * -floor)) / -dH, np.inf)
-        damping = float(min(1.0, max(limit.min(), 0.0), 0.7 / max(abs(step[N + 1]), 1e-300)))
-        if damping < 1e-3:
+        damping = float(min(1.0, max(limit.min(), 0.0), _LARGEST_GROWTH / max(abs(step[N + 1]), 1e-300)))
+        if damping < _SMALLEST_DAMPING:
             raise NotConverged("Newton is driven into the singular gap of the surface law; take a smaller step")
         state = State(
             state.disc,
@@ -83,7 +89,7 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) ->
             float(np.max(np.abs(rhs[:N]) / (1.0 + np.abs(state.gap)))),
         )
         change = float(np.max(np.abs(dH) / (1.0 + np.abs(state.gap))))
-        if not math.isfinite(change) or change > 1e6:
+        if not math.isfinite(change) or change > _DIVERGED:
             raise NotConverged("Newton diverged; take a smaller step")
         if damping == 1.0 and change < tolerance:
             return state

@@ -50,6 +50,9 @@ _ABOVE = {
     "critical_tabor_number": 0.0,
 }
 
+#: What the error towards a limit may grow by: a model that is exact there has rounding for errors.
+_STANDSTILL = 1e-6
+
 #: Relative change on a change of units that rounding explains: scales are powers with exponents up to 2/n, of
 #: logarithms up to 50, and a model's own roots are rarely better than 1e-10.
 _SCALING = 1e-8
@@ -224,10 +227,8 @@ def _deterministic(answers: _Answers) -> Finding:
             return Finding(
                 check,
                 WRONG,
-                f"{_label(question)} is {before[question]!r} the first time and {told} in a new "
-                f"process with the "
-                "questions in the opposite order: a random number, a clock, or something kept "
-                "between questions",
+                f"{_label(question)} is {before[question]!r} the first time and {told} in a new process with the "
+                "questions in the opposite order: a random number, a clock, or something kept between questions",
             )
     return Finding(check, OK, f"{len(before)} values are the same to the last bit in a new process")
 
@@ -252,11 +253,9 @@ def _units(answers: _Answers) -> Finding:
                 return Finding(
                     check,
                     WRONG,
-                    f"{_label(question)}, made dimensionless, is {first.value:g} in SI units and "
-                    f"{other.value:g} "
-                    "for the same problem in other units: a wrong power of a modulus, a length or a "
-                    "work of adhesion, "
-                    "or a constant that has a unit",
+                    f"{_label(question)}, made dimensionless, is {first.value:g} in SI units and {other.value:g} "
+                    "for the same problem in other units: a wrong power of a modulus, a length or a work of "
+                    "adhesion, or a constant that has a unit",
                 )
     return Finding(check, OK, f"{len(answers.given)} values in {len(SCALES)} systems of units")
 
@@ -283,13 +282,12 @@ def _limit(answers: _Answers, claim: str, check: str) -> Finding:
         if not errors:
             continue
         first, *_, last = (*errors, *errors)
-        if abs(errors[last]) > _LIMIT_TOLERANCE or abs(errors[last]) > abs(errors[first]) + 1e-6:
+        if abs(errors[last]) > _LIMIT_TOLERANCE or abs(errors[last]) > abs(errors[first]) + _STANDSTILL:
             return Finding(
                 check,
                 WRONG,
-                f"the pull-off force at n = {n:g}, k = {k:g} is {_percent(errors[first])} off "
-                f"{label} at mu = {first:g} "
-                f"and {_percent(errors[last])} at mu = {last:g}: it must come nearer, to "
+                f"the pull-off force at n = {n:g}, k = {k:g} is {_percent(errors[first])} off {label} at mu = "
+                f"{first:g} and {_percent(errors[last])} at mu = {last:g}: it must come nearer, to "
                 f"{_percent(_LIMIT_TOLERANCE)} at least",
             )
         told.append(f"{_percent(errors[last])} at n = {n:g}, k = {k:g}, mu = {last:g}")
