@@ -81,8 +81,6 @@ class ContactState:
     ----------
     contact_radius, cohesive_radius, cohesive_width : ndarray
         a, c and L = sqrt(c^2 - a^2); L stays accurate where a and c agree to rounding.
-    edge_strength : ndarray
-        T = Lambda L^(2s), by which the edge lowers the displacement.
     displacement, load : ndarray
         delta (Eq. 66) and P (Eq. 67).
     displacement_slope, load_slope : ndarray
@@ -94,7 +92,6 @@ class ContactState:
     contact_radius: Array
     cohesive_radius: Array
     cohesive_width: Array
-    edge_strength: Array
     displacement: Array
     load: Array
     displacement_slope: Array
@@ -157,7 +154,6 @@ class CohesiveContact:
             contact_radius=a,
             cohesive_radius=c,
             cohesive_width=np.exp(log_L),
-            edge_strength=T,
             displacement=flat - 2.0 * T,
             load=hertz - pull,
             displacement_slope=displacement_slope,
