@@ -9,7 +9,7 @@ __all__ = ["QUANTITIES", "Quantity"]
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A quantity: name, symbol, kind (which decides the unit) and meaning with sign rule.
+    """A quantity: name, symbol, kind (which decides unit and sign) and meaning.
 
     Examples
     --------
@@ -27,6 +27,11 @@ class Quantity:
         """The scale of the dimensionless value."""
         return _UNITS[self.kind]
 
+    @property
+    def sign(self) -> str:
+        """Which way is positive, and where zero is."""
+        return _SIGNS[self.kind]
+
 
 #: Kind -> scale; the kinds are those of `fscm.physical.PhysicalProblem.scales`, and plain numbers.
 _UNITS = {
@@ -37,17 +42,25 @@ _UNITS = {
     "number": "1",
 }
 
+_SIGNS = {
+    "load": "positive, though the load is a tension",
+    "energy": "never negative",
+    "displacement": "positive towards the half-space, zero where the undeformed gap at r = 0 is zero",
+    "gap": "zero at the equilibrium distance of two flat surfaces, above -1",
+    "number": "positive",
+}
+
 QUANTITIES: dict[str, Quantity] = {
     q.name: q
     for q in (
-        Quantity("pull_off_force", "-P_c", "load", "-min P along the equilibrium path; positive"),
+        Quantity("pull_off_force", "-P_c", "load", "-min P along the equilibrium path"),
         Quantity("pull_off_displacement", "delta_c", "displacement", "displacement where P is smallest"),
         Quantity("jump_in_displacement", "delta_in", "displacement", "fold where approach jumps into contact"),
         Quantity("jump_in_gap", "H0_in", "gap", "central gap at the jump-in fold"),
         Quantity("jump_out_displacement", "delta_out", "displacement", "fold where retreat jumps out of contact"),
         Quantity("jump_out_gap", "H0_out", "gap", "central gap at the jump-out fold"),
         Quantity("zero_load_displacement", "delta_0", "displacement", "displacement in contact where P = 0"),
-        Quantity("hysteresis_energy", "W_hys", "energy", "lost in one cycle of displacement control; >= 0"),
+        Quantity("hysteresis_energy", "W_hys", "energy", "lost in one cycle of displacement control"),
         Quantity("critical_tabor_number", "mu_crit", "number", "jumps and hysteresis exist above it; mu is ignored"),
     )
 }

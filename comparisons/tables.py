@@ -5,6 +5,8 @@ kappa = (model - reference) / reference (Sec. 4.3.2 of the paper), here for any 
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
 import pandas as pd
 from rich.table import Table
@@ -20,6 +22,7 @@ __all__ = [
     "largest",
     "largest_by_gradient",
     "relative_error",
+    "relative_uncertainty",
     "rich_table",
     "statuses",
 ]
@@ -28,6 +31,19 @@ _CASE = ["quantity", "n", "k", "mu", "nu"]
 #: Kinds of quantities whose error is stated as a fraction of them; displacements and gaps may pass through zero.
 _RELATIVE = ("load", "energy")
 _SERIES = ["quantity", "model", "n", "k"]
+
+_Numbers = TypeVar("_Numbers", float, pd.Series)
+
+
+def relative_uncertainty(value: _Numbers, u_num: _Numbers, reference: _Numbers, u_reference: _Numbers) -> _Numbers:
+    """Return what two uncertainties, as bounds, allow of a relative error; the reference is also its unit.
+
+    Examples
+    --------
+    >>> round(relative_uncertainty(1.1, 0.0, 1.0, 0.01), 12)
+    0.011
+    """
+    return (u_num + abs(value / reference) * u_reference) / abs(reference)
 
 
 def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
@@ -44,8 +60,7 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
     -------
     DataFrame
         Columns quantity, model, n, k, mu, nu, value, u_num, reference (its name), reference_value,
-        u_reference, kappa, u_kappa, sorted.  `u_kappa` is what the two uncertainties, as bounds, allow:
-        (u_num + abs(1 + kappa) u_reference) / abs(reference_value).
+        u_reference, kappa, u_kappa (`relative_uncertainty`), sorted.
 
     Examples
     --------
@@ -61,10 +76,11 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
         usable[is_reference].drop(columns="model").rename(columns={"value": "reference_value", "u_num": "u_reference"})
     )
     table = usable[~is_reference].merge(truth, on=_CASE, validate="many_to_one")
-    true, u_true = table["reference_value"], table["u_reference"]
     table["reference"] = reference
-    table["kappa"] = table["value"] / true - 1.0
-    table["u_kappa"] = (table["u_num"] + abs(1.0 + table["kappa"]) * u_true) / abs(true)
+    table["kappa"] = table["value"] / table["reference_value"] - 1.0
+    table["u_kappa"] = relative_uncertainty(
+        table["value"], table["u_num"], table["reference_value"], table["u_reference"]
+    )
     table = table.sort_values(["quantity", "model", "n", "k", "mu", "nu"], ignore_index=True)
     return table[
         [

@@ -11,7 +11,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from comparisons.cases import Case
-from comparisons.commands.options import FAILED, OK, add_case, case_of, number
+from comparisons.commands.options import FAILED, MODEL_SPEC, OK, add_case, case_of, number
 from comparisons.figures import force_curve, profiles
 from comparisons.figures.style import picture_path, save
 from comparisons.model import ComputationFailed, Model, NotApplicable
@@ -31,11 +31,11 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = parsers.add_parser("curve", help="force-displacement curves as CSV and as a plot", description=__doc__)
     parser.add_argument(
         "--model",
-        metavar="NAME",
+        metavar="SPEC",
         nargs="+",
         action="extend",
         required=True,
-        help="see: fscm-bench list models",
+        help=MODEL_SPEC,
     )
     parser.add_argument("--quantity", choices=SHAPES, default="force_curve", help="what to draw (default: force_curve)")
     add_case(parser)

@@ -45,7 +45,7 @@ def _models() -> pd.DataFrame:
 
 
 def _quantities() -> pd.DataFrame:
-    return pd.DataFrame([asdict(quantity) | {"unit": quantity.unit} for quantity in QUANTITIES.values()])
+    return pd.DataFrame([asdict(one) | {"unit": one.unit, "sign": one.sign} for one in QUANTITIES.values()])
 
 
 def _cases() -> pd.DataFrame:

@@ -10,10 +10,24 @@ from rich.console import Console
 
 from comparisons.cases import Case
 
-__all__ = ["FAILED", "FAILS", "INCONCLUSIVE", "OK", "WRONG_INPUT", "add_case", "case_of", "number", "output"]
+__all__ = [
+    "FAILED",
+    "FAILS",
+    "INCONCLUSIVE",
+    "MODEL_SPEC",
+    "OK",
+    "WRONG_INPUT",
+    "add_case",
+    "case_of",
+    "number",
+    "output",
+]
 
 #: A gate that fails is 1; a computation that failed, a gate in error, or that there was nothing to judge, is 4.
 OK, FAILS, WRONG_INPUT, INCONCLUSIVE, FAILED = 0, 1, 2, 3, 4
+
+#: What a SPEC is, where one is asked for.
+MODEL_SPEC = "a name (fscm-bench list models), FILE.py:CLASS, or a folder with a model.toml"
 
 #: Columns of a table when stdout is no terminal, where rich would assume 80 and break the lines.
 _WIDTH = 160
@@ -46,8 +60,8 @@ def number(text: str) -> float:
 def add_case(parser: argparse.ArgumentParser, required: bool = True) -> None:
     """Declare the parameters of one problem."""
     for name, meaning in (
-        ("--n", "shape index of the punch r^n/n, > 0 (1 cone, 2 paraboloid)"),
-        ("--k", "gradient exponent of E = E0 (z/c0)^k, 0 to 1"),
+        ("--n", "shape index of the punch r^n/n, 2/3 < n <= 300 (1 cone, 2 paraboloid)"),
+        ("--k", "gradient exponent of E = E0 (z/c0)^k, 0 to 1 (finite elements: to 0.9)"),
         ("--mu", "generalised Tabor number (Eq. 29), > 0"),
     ):
         parser.add_argument(name, type=number, required=required, help=meaning)

@@ -6,7 +6,7 @@ import argparse
 import json
 import math
 
-from comparisons.commands.options import FAILED, OK, add_case, case_of, number
+from comparisons.commands.options import FAILED, MODEL_SPEC, OK, add_case, case_of, number
 from comparisons.models import create
 from comparisons.progress import waiting
 from comparisons.quantities import QUANTITIES
@@ -19,7 +19,7 @@ __all__ = ["add", "call"]
 def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the arguments."""
     parser = parsers.add_parser("solve", help="one quantity of one problem by one model", description=__doc__)
-    parser.add_argument("--model", metavar="NAME", required=True, help="see: fscm-bench list models")
+    parser.add_argument("--model", metavar="SPEC", required=True, help=MODEL_SPEC)
     parser.add_argument("--quantity", metavar="NAME", required=True, help="see: fscm-bench list quantities")
     add_case(parser)
     parser.add_argument("--nu", type=number, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one")

@@ -198,11 +198,9 @@ def _signs(answers: _Answers) -> Finding:
     for question, answer in answers.given.items():
         quantity = question[0]
         if answer.value <= _ABOVE.get(quantity, -math.inf) or (quantity == "hysteresis_energy" and answer.value < 0):
-            return Finding(
-                check,
-                WRONG,
-                f"{_label(question)} is {answer.value:g}, but it is: {QUANTITIES[quantity].meaning}",
-            )
+            asked = QUANTITIES[quantity]
+            text = f"{_label(question)} is {answer.value:g}, but it is: {asked.meaning}, {asked.sign}"
+            return Finding(check, WRONG, text)
     if not answers.given:
         return Finding(check, SKIPPED, "there is no value")
     return Finding(check, OK, f"{len(answers.given)} values")
@@ -328,7 +326,7 @@ def _suspicion(ratios: list[float]) -> str:
 
 
 def _percent(error: float) -> str:
-    return f"{100.0 * error:.2g} %"
+    return f"{100.0 * error:.3g} %"
 
 
 def _label(question: Question) -> str:

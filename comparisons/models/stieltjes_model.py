@@ -57,7 +57,7 @@ class CoarsePublishedScheme(PublishedScheme):
     """The same with 400 segments: a second instead of minutes.
 
     At small and moderate Tabor numbers what it leaves out beyond f = 50 is most of its error, with 2500
-    segments as with 400 (n = 2, k = 0, mu = 0.5: 1.0e-3 of the pull-off force with either).
+    segments as with 400 (n = 2, k = 0, mu = 0.5: 0.06 % of the pull-off force with either).
 
     Examples
     --------

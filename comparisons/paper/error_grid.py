@@ -14,6 +14,7 @@ import pandas as pd
 
 from comparisons.paper.answers import quantity
 from comparisons.paper.workshop import Answers, Call
+from comparisons.tables import relative_uncertainty
 
 __all__ = [
     "CANDIDATES",
@@ -110,8 +111,6 @@ def _error(fscm: dict[str, Any], candidate: dict[str, Any]) -> dict[str, Any]:
         "fscm": fscm["value"] if fscm["value"] is not None else missing,
         "u_fscm": fscm["u_num"] if fscm["u_num"] is not None else missing,
     }
-    size = abs(row["fscm"])
-    kappa = (row["value"] - row["fscm"]) / size
-    # The FSCM enters twice: in the difference and in the unit.
-    u_kappa = math.hypot(row["u_num"], row["u_fscm"] * (1.0 + abs(kappa))) / size
+    kappa = (row["value"] - row["fscm"]) / abs(row["fscm"])
+    u_kappa = relative_uncertainty(row["value"], row["u_num"], row["fscm"], row["u_fscm"])
     return row | {"kappa": kappa, "u_kappa": u_kappa, "reason": fscm["reason"] or candidate["reason"]}

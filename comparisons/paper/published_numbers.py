@@ -113,7 +113,7 @@ def cause(rows: Sequence[Repeated]) -> str:
     if not elsewhere:
         nearest = min(others, key=lambda row: abs(abs(row.value) - converged.claim.value))
         return f"not reproduced; nearest is {_said(nearest)}{plain}"
-    return f"not by what the paper states, but by {elsewhere}{plain}"
+    return f"nothing the paper states gives it; these do: {elsewhere}{plain}"
 
 
 def _said(row: Repeated) -> str:
@@ -168,28 +168,40 @@ def readable(table: pd.DataFrame) -> pd.DataFrame:
         return ", ".join([*parts, *([row["model"]] if row["model"] else [])])
 
     def computed(row: pd.Series) -> str:
-        return short(row["computed"], max(row["u"], _LEAST_SHOWN))
+        return in_unit(short(row["computed"], max(row["u"], _LEAST_SHOWN)), row["unit"])
+
+    def difference(row: pd.Series) -> str:
+        small = abs(row["difference"]) <= _LEAST_SHOWN
+        return "0" if small else in_unit(f"{row['difference']:+.2g}", row["unit"])
+
+    def in_unit(text: str, unit: str) -> str:
+        return f"{text} {unit}" if unit else text
 
     return pd.DataFrame(
         {
             "where": table["where"],
             "quantity": table["quantity"],
             "case": table.apply(case, axis=1),
-            "published": table["published"] + table["unit"].map(lambda unit: f" {unit}" if unit else ""),
+            "published": table.apply(lambda row: in_unit(row["published"], row["unit"]), axis=1),
             "computed": table.apply(computed, axis=1),
             "verdict": table["verdict"],
-            "difference": table["difference"].map(lambda value: f"{value:+.2g}" if abs(value) > _LEAST_SHOWN else "0"),
+            "difference": table.apply(difference, axis=1),
             "cause": table["cause"],
         }
     )
 
 
-_TITLE = "Numbers published in the paper, computed again (cut off: they agree if further digits are dropped)"
+_TITLE = "Numbers published in the paper, computed again"
+_NOTES = (
+    "In brackets: a bound on the error in units of the last digit, at least 5e-10. Difference: of the sizes. Cut off: "
+    "the digits agree if further ones are dropped. In the causes f(r_max) is the height of the punch, in z0, where the "
+    "paper's integration ends, and sigma_0 the cohesive stress."
+)
 
 
 def _texts(tables: Tables) -> dict[str, str]:
     shown = readable(tables[""])
-    return {".md": markdown(shown, _TITLE), ".tex": latex(shown, _TITLE)}
+    return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": latex(shown, f"{_TITLE}. {_NOTES}")}
 
 
 def _shown(tables: Tables) -> Table:

@@ -11,7 +11,7 @@ import mpmath
 import pytest
 
 from comparisons import cli
-from comparisons.cases import asked_of, grids
+from comparisons.cases import asked_of, grids, load_grids
 from comparisons.gates import Gate, load_gates
 from comparisons.judge import by_gate, judge, left_out
 from comparisons.publish import read_published
@@ -28,6 +28,7 @@ DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 QUOTED = {
     "gecko_pad.py": ["Tabor number 2.6556", "27.066203 nN", "-1.34 %", "-0.74 %", "-1.23 %", "10.0064 aJ"],
     "own_shape_and_law.py": ["paraboloid    9-3   pull-off force 1.78848171", "rounded cone  10-4"],
+    "own_modulus.py": ["27.06620 nN", "25.96980 nN", "25.69680 nN"],
     "errors_of_a_model.py": ["md-improved", "1.788482"],
 }
 
@@ -68,12 +69,20 @@ def test_commands_are_found():
 
 
 def test_the_python_of_the_front_page_runs(tmp_path):
-    (code,) = blocks(ROOT / "README.md", "python")
-    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=300)
+    code = blocks(ROOT / "README.md", "python")
+    done = subprocess.run(
+        [sys.executable, "-c", "".join(code)], cwd=tmp_path, capture_output=True, text=True, timeout=300
+    )
     assert done.returncode == 0, done.stderr
     value, u_num = map(float, done.stdout.split())
     assert value == pytest.approx(1.78848171, abs=5e-9)
     assert 0.0 < u_num < 1e-9
+
+
+def test_the_grid_of_the_front_page_is_one():
+    (text,) = blocks(ROOT / "README.md", "toml")
+    (grid,) = load_grids(text, tier="quick")
+    assert len(grid.cases) == 12
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.name)
