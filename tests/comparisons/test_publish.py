@@ -146,17 +146,15 @@ def test_it_says_in_a_sentence_what_was_taken(tmp_path, target, monkeypatch, cap
 
 
 AGREEMENT = pd.read_csv(COMMITTED / "references_agreement.csv")
-_BEFORE_GAPS = pytest.mark.xfail(strict=False, reason="the committed file was made before the gaps were asked for")
 
 
-@pytest.mark.parametrize(
-    "event", [pytest.param(event, marks=_BEFORE_GAPS) if event.endswith("_gap") else event for event in EVENTS]
-)
+@pytest.mark.parametrize("event", EVENTS)
 def test_the_committed_references_agree_within_what_both_claim(event):
     rows = AGREEMENT[AGREEMENT["quantity"] == event]
     # Over four shapes, four gradients and four Tabor numbers; not every problem has a jump.
     assert len(rows) >= 45
-    assert (rows["n"].nunique(), rows["k"].nunique()) == (4, 4)
+    assert set(rows["n"]) >= {1.0, 1.5, 2.0, 5.0}
+    assert set(rows["k"]) == {0.0, 0.2, 0.4, 0.6}
     claimed = np.hypot(rows["u_num"], rows["u_reference"])
     assert (np.abs(rows["value"] - rows["reference_value"]) <= claimed).all()
     assert (np.abs(rows["difference"]) <= rows["claimed"]).all()
