@@ -108,7 +108,7 @@ def changes(stored: pd.DataFrame, computed: pd.DataFrame) -> list[str]:
     found = []
     for name in (name for name in stored.columns if not (name == "u" or name.startswith("u_"))):
         before, now = stored[name], computed[name]
-        if pd.api.types.is_numeric_dtype(before) and pd.api.types.is_numeric_dtype(now):
+        if _is_real(before) and _is_real(now):
             apart = (now - before).abs()
             if (before.isna() != now.isna()).any():
                 found.append(f"{name}: a number where there was none, or none where there was")
@@ -117,6 +117,10 @@ def changes(stored: pd.DataFrame, computed: pd.DataFrame) -> list[str]:
         elif not np.array_equal(before.fillna("").astype(str), now.fillna("").astype(str)):
             found.append(f"{name}: other texts")
     return found
+
+
+def _is_real(column: pd.Series) -> bool:
+    return pd.api.types.is_numeric_dtype(column) and not pd.api.types.is_bool_dtype(column)
 
 
 def read_published(target: Path = PUBLISHED) -> tuple[pd.DataFrame, pd.DataFrame]:

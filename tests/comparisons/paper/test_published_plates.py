@@ -52,6 +52,9 @@ def test_a_changed_number_text_or_row_is_seen():
     assert changes(stored, stored.assign(u_kappa=0.0)) == []
     assert changes(stored, stored.assign(model="jkr")) == ["model: other texts"]
     assert changes(stored, stored.iloc[:-1])[0].startswith("248 rows")
+    answered = stored.assign(stated=stored["mu"] > 1.0)
+    assert changes(answered, answered) == []
+    assert changes(answered, answered.assign(stated=True)) == ["stated: other texts"]
     gone = stored.assign(kappa=stored["kappa"].mask(stored.index == 7))
     assert changes(stored, gone) == ["kappa: a number where there was none, or none where there was"]
 
