@@ -3,10 +3,13 @@
 ``python -m comparisons.publish FOLDER`` takes them from the folder of a finished ``fscm-bench run`` or, with its
 pictures, of ``fscm-bench paper``.  Of a run of the quick tier these are the results, the curves, the largest errors and
 their pictures; of one of the full tier how far both references are apart, of which the quick tier has a few cases only.
+``python -m comparisons.publish --check FOLDER`` changes nothing and lists the results of a run that are not those
+committed.
 """
 
 from __future__ import annotations
 
+import argparse
 import math
 import sys
 from collections.abc import Sequence
@@ -19,7 +22,7 @@ from comparisons.paper.catalogue import plates
 from comparisons.record import read_record
 from comparisons.store import atomic, csv_text, read_table
 
-__all__ = ["PLATES", "PUBLISHED", "changes", "drift", "publish", "publish_plates", "read_published"]
+__all__ = ["PLATES", "PUBLISHED", "changes", "check", "drift", "publish", "publish_plates", "read_published"]
 
 #: Where they are, in a clone of the repository.
 PUBLISHED = Path("results", "published")
@@ -158,21 +161,39 @@ def drift(stored: pd.DataFrame, computed: pd.DataFrame) -> pd.DataFrame:
     return both.loc[drifted, [*_KEY, "value", "value_stored", "u_num", "u_num_stored", "status", "status_stored"]]
 
 
+def check(folder: Path) -> pd.DataFrame:
+    """Return the results of a run of the quick tier that are not those committed, as `drift` does.
+
+    Raises
+    ------
+    ValueError
+        If it is no finished run of that tier.
+    """
+    tier = read_record(folder / "run.json")["arguments"]["tier"]
+    if tier != "quick":
+        raise ValueError(f"{folder} is a run of the {tier} tier; the results that are committed are of the quick one")
+    return drift(read_published()[0], read_table(folder / "results.parquet"))
+
+
 def main(arguments: Sequence[str]) -> int:
-    """Publish what the folder that is given holds."""
-    if len(arguments) != 1:
-        print("usage: python -m comparisons.publish FOLDER", file=sys.stderr)
-        return 2
-    folder = Path(arguments[0])
+    """Publish what the folder that is given holds, or check it; return 1 if it has drifted, 2 if it is none."""
+    parser = argparse.ArgumentParser(prog="python -m comparisons.publish", description=__doc__)
+    parser.add_argument("--check", action="store_true", help="change nothing, and list the results that have drifted")
+    parser.add_argument("folder", metavar="FOLDER", type=Path, help="of a finished run, or of the paper")
+    args = parser.parse_args(arguments)
     try:
-        if (folder / "run.json").exists():
-            gave = ", ".join(map(str, publish(folder)))
+        if args.check:
+            drifted = check(args.folder)
+            print(f"{args.folder} is what is committed" if drifted.empty else csv_text(drifted))
+            return 0 if drifted.empty else 1
+        if (args.folder / "run.json").exists():
+            gave = ", ".join(map(str, publish(args.folder)))
         else:
-            gave = f"{len(publish_plates(folder))} files of {PLATES}"
+            gave = f"{len(publish_plates(args.folder))} files of {PLATES}"
     except ValueError as error:
         print(error, file=sys.stderr)
         return 2
-    print(f"{folder} gave {gave}; nothing else was changed.")
+    print(f"{args.folder} gave {gave}; nothing else was changed.")
     return 0
 
 

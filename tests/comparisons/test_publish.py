@@ -142,7 +142,22 @@ def test_it_says_in_a_sentence_what_was_taken(tmp_path, target, monkeypatch, cap
     assert said.count("\n") == 1
     assert all(str(PUBLISHED / name) in said for name in FROM_FULL)
     assert not any(name in said for name in FROM_QUICK)
-    assert main([str(run), "more"]) == 2
+    with pytest.raises(SystemExit, match="2"):
+        main([str(run), "more"])
+
+
+def test_a_run_is_compared_with_what_is_committed(tmp_path, monkeypatch, capsys):
+    run, clone = made_up(tmp_path / "run", "quick"), tmp_path / "clone"
+    monkeypatch.chdir(tmp_path)
+    publish(run, clone / PUBLISHED)
+    monkeypatch.chdir(clone)
+    assert main(["--check", str(run)]) == 0
+    write_results(frame([row(value=1.5 + 3e-9, u_num=1e-9)]), run / "results")
+    assert main(["--check", str(run)]) == 1
+    assert "1.500000003" in capsys.readouterr().out
+    full = made_up(tmp_path / "full", "full")
+    assert main(["--check", str(full)]) == 2
+    assert "quick" in capsys.readouterr().err
 
 
 AGREEMENT = pd.read_csv(COMMITTED / "references_agreement.csv")

@@ -252,6 +252,8 @@ def test_the_code_computes_what_is_committed():
         t for t in tasks if t.model == "fscm" and t.quantity == "pull_off_force" and t.case.n == 5 and t.case.k == 0.2
     ][::4]
     chosen += [t for t in tasks if t.model == "fscm" and t.case.n == 2 and t.case.k == 1]
+    # Soft: the path has shallow folds, of which the first is the jump.
+    chosen += [t for t in tasks if t.model == "fscm" and t.quantity == "jump_in_displacement" and t.case.mu == 5]
     chosen += [t for t in tasks if t.model == "fscm-stieltjes-400"][:1]
     found = drift(ROWS, frame(answer(task) for task in chosen))
     assert found.empty, found.to_string()
