@@ -1,8 +1,7 @@
-"""Stored results: one tidy row per model, quantity and case; a crash-safe journal; atomic files.
+"""Stored results: one tidy row per model, quantity and case; atomic files.
 
-The journal (`journal.jsonl`) gains a line as each computation ends, so an interrupted run loses no finished
-one and the same folder can be resumed.  The tables written at the end (`results.csv`, `results.parquet`) are
-sorted, and the CSV depends on the code and the cases alone: wall-clock times are only in the Parquet.
+The tables written at the end of a run (`results.csv`, `results.parquet`) are sorted, and the CSV depends on code and
+cases alone: wall-clock times are only in the Parquet.
 """
 
 from __future__ import annotations
@@ -23,7 +22,6 @@ import pyarrow.parquet as pq
 __all__ = [
     "COLUMNS",
     "CURVE_COLUMNS",
-    "Journal",
     "Row",
     "atomic",
     "csv_text",
@@ -281,54 +279,3 @@ def write_json(content: dict[str, Any], path: Path) -> None:
     """Write a JSON object; NaN and infinity are refused."""
     with atomic(path) as file:
         file.write(json.dumps(content, indent=2, allow_nan=False).encode() + b"\n")
-
-
-class Journal:
-    """The finished rows of a run, on disk as soon as they exist.
-
-    Parameters
-    ----------
-    path : Path
-        The journal file; made when it does not exist.
-    fingerprint : str
-        Identifies the code and the cases.  A journal of another fingerprint is refused: its rows may differ.
-
-    Raises
-    ------
-    ValueError
-        If the file is not a journal, or one of another fingerprint.
-    """
-
-    def __init__(self, path: Path, fingerprint: str) -> None:
-        self.path = path
-        self.rows: list[Row] = []
-        if path.exists():
-            self._read(fingerprint)
-        if not path.exists():
-            self._append({"fingerprint": fingerprint})
-
-    def _read(self, fingerprint: str) -> None:
-        text = self.path.read_text(encoding="utf-8")
-        # A line without its end was being written when the run was stopped: that computation is done again.
-        whole, _, torn = text.rpartition("\n")
-        try:
-            header, *lines = [json.loads(line) for line in whole.splitlines()] or [{}]
-            self.rows = [Row(**line) for line in lines]
-            found = header.get("fingerprint")
-        except (ValueError, TypeError, AttributeError, RecursionError):
-            raise ValueError(f"{self.path} is not a journal of a run; choose another folder with --out") from None
-        if found is None and not self.rows:
-            self.path.unlink()
-        elif found != fingerprint:
-            raise ValueError(f"{self.path.parent} holds results of another version of the code; choose another --out")
-        elif torn:
-            os.truncate(self.path, len(f"{whole}\n".encode()))
-
-    def _append(self, content: dict[str, Any]) -> None:
-        with self.path.open("a", encoding="utf-8") as file:
-            file.write(json.dumps(content, allow_nan=False) + "\n")
-
-    def add(self, row: Row) -> None:
-        """Store a finished row."""
-        self._append(asdict(row))
-        self.rows.append(row)

@@ -5,14 +5,16 @@ from __future__ import annotations
 import argparse
 from concurrent.futures import BrokenExecutor
 from contextlib import closing
+from dataclasses import asdict
 from datetime import datetime
 from pathlib import Path
 
+from comparisons.journal import Journal, alone_in
 from comparisons.model import ComputationFailed
 from comparisons.progress import counting, log
 from comparisons.provenance import code_digest
 from comparisons.run import Task, compute
-from comparisons.store import Journal, Row, prepare_folder
+from comparisons.store import Row, prepare_folder
 from comparisons.workers import usable_cores
 
 __all__ = ["add_jobs", "add_out", "checked_jobs", "complete", "folder_for"]
@@ -53,7 +55,7 @@ def complete(tasks: list[Task], folder: Path, jobs: int) -> tuple[list[Row], int
     Raises
     ------
     ValueError
-        If the folder holds results of other code.
+        If the folder holds results of other code, or another process computes into it.
     comparisons.model.ComputationFailed
         If a worker process dies.
     """
@@ -62,26 +64,25 @@ def complete(tasks: list[Task], folder: Path, jobs: int) -> tuple[list[Row], int
     def current(row: Row) -> bool:
         return versions.get(row.model, row.model_version) == row.model_version
 
-    journal = Journal(folder / "journal.jsonl", code_digest())
-    stored = {row.key for row in journal.rows if current(row)}
-    missing = [task for task in tasks if task.key not in stored]
-    log(
-        f"{len(missing)} computations on {jobs} processes"
-        + (f", {len(tasks) - len(missing)} are stored" if stored else "")
-    )
-    try:
-        with counting("computing", len(missing)) as count, closing(compute(missing, jobs)) as answers:
-            for row in answers:
-                journal.add(row)
-                count()
-    except KeyboardInterrupt:
-        log(_safe(journal, folder))
-        raise
-    except BrokenExecutor:
-        raise ComputationFailed(f"a worker process died (out of memory?); {_safe(journal, folder)}") from None
+    with alone_in(folder):
+        journal = Journal(folder / "journal.jsonl", code_digest(), lambda line: Row(**line), asdict)
+        stored = {row.key for row in journal.entries if current(row)}
+        missing = [task for task in tasks if task.key not in stored]
+        known = f", {len(tasks) - len(missing)} are stored" if stored else ""
+        log(f"{len(missing)} computations on {jobs} processes{known}")
+        try:
+            with counting("computing", len(missing)) as count, closing(compute(missing, jobs)) as answers:
+                for row in answers:
+                    journal.add(row)
+                    count()
+        except KeyboardInterrupt:
+            log(_safe(journal))
+            raise
+        except BrokenExecutor:
+            raise ComputationFailed(f"a worker process died (out of memory?); {_safe(journal)}") from None
     wanted = {task.key for task in tasks}
-    return [row for row in journal.rows if row.key in wanted and current(row)], len(stored)
+    return [row for row in journal.entries if row.key in wanted and current(row)], len(stored)
 
 
-def _safe(journal: Journal, folder: Path) -> str:
-    return f"{len(journal.rows)} finished computations are safe; go on with --out {folder}"
+def _safe(journal: Journal[Row]) -> str:
+    return f"{len(journal.entries)} finished computations are safe; go on with --out {journal.path.parent}"

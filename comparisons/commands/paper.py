@@ -10,6 +10,7 @@ from pathlib import Path
 
 from comparisons.commands.computing import add_jobs, checked_jobs
 from comparisons.commands.options import FAILED, OK, output
+from comparisons.journal import alone_in
 from comparisons.model import ComputationFailed
 from comparisons.paper.catalogue import NAMES, plates
 from comparisons.paper.plate import write
@@ -45,13 +46,14 @@ def call(args: argparse.Namespace) -> int:
     jobs = checked_jobs(args.jobs)
     chosen = plates(args.figure)
     folder = prepare_folder(args.out)
-    workshop = Workshop(folder / "calls.jsonl", code_digest())
     calls = [call for plate in chosen for call in plate.calls()]
-    waiting = workshop.missing(calls)
     try:
-        with counting("paper", len(waiting)) as advance, closing(workshop.work(waiting, jobs)) as done:
-            for _ in done:
-                advance()
+        with alone_in(folder):
+            workshop = Workshop(folder / "calls.jsonl", code_digest())
+            waiting = workshop.missing(calls)
+            with counting("paper", len(waiting)) as advance, closing(workshop.work(waiting, jobs)) as done:
+                for _ in done:
+                    advance()
     except KeyboardInterrupt:
         log(f"what is finished is kept in {folder}; the same command goes on")
         raise

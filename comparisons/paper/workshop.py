@@ -5,15 +5,14 @@ An interrupted run loses no finished call: the journal gains a line as each ends
 
 from __future__ import annotations
 
-import json
-import os
 from collections.abc import Callable, Generator, Iterable
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from comparisons.journal import Journal
 from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.workers import each
 
@@ -54,6 +53,14 @@ class _Outcome:
     call: Call
     answer: Any = None
     failure: str | None = None
+
+
+def _read(line: dict[str, Any]) -> _Outcome:
+    return _Outcome(Call(line["function"], tuple(line["arguments"])), line["answer"], line["failure"])
+
+
+def _written(outcome: _Outcome) -> dict[str, Any]:
+    return asdict(outcome.call) | {"answer": outcome.answer, "failure": outcome.failure}
 
 
 def _make(call: Call) -> _Outcome:
@@ -108,35 +115,10 @@ class Workshop:
     """
 
     def __init__(self, path: Path, fingerprint: str) -> None:
-        self._path = path
+        self._journal = Journal(path, fingerprint, _read, _written)
         self.answers = Answers()
-        if path.exists() and path.stat().st_size:
-            self._read(fingerprint)
-        else:
-            self._append({"fingerprint": fingerprint})
-
-    def _read(self, fingerprint: str) -> None:
-        # A line without its end was being written when the run was stopped: that call is made again.
-        whole, end, torn = self._path.read_text(encoding="utf-8").rpartition("\n")
-        try:
-            header, *lines = [json.loads(line) for line in whole.splitlines()] or [{}]
-            found = header.get("fingerprint")
-            outcomes = [
-                _Outcome(Call(line["function"], tuple(line["arguments"])), line["answer"], line["failure"])
-                for line in lines
-            ]
-        except (ValueError, TypeError, KeyError, AttributeError):
-            raise ValueError(f"{self._path} is not a journal of calls; choose another folder with --out") from None
-        if found != fingerprint:
-            raise ValueError(f"{self._path.parent} holds answers of another version of the code; choose another --out")
-        if torn:
-            os.truncate(self._path, len(f"{whole}{end}".encode()))
-        for outcome in outcomes:
+        for outcome in self._journal.entries:
             self.answers.add(outcome)
-
-    def _append(self, content: dict[str, Any]) -> None:
-        with self._path.open("a", encoding="utf-8") as file:
-            file.write(json.dumps(content, allow_nan=False) + "\n")
 
     def missing(self, calls: Iterable[Call]) -> list[Call]:
         """Return those calls that have no answer yet, each once, in the order given."""
@@ -152,14 +134,7 @@ class Workshop:
         """
         with closing(each(_make, self.missing(calls), jobs)) as outcomes:
             for outcome in outcomes:
-                self._append(
-                    {
-                        "function": outcome.call.function,
-                        "arguments": outcome.call.arguments,
-                        "answer": outcome.answer,
-                        "failure": outcome.failure,
-                    }
-                )
+                self._journal.add(outcome)
                 # Answers fresh and read again must be the same, so that a resumed run writes the same files.
                 self.answers.add(outcome)
                 yield outcome.call

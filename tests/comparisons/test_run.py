@@ -9,9 +9,9 @@ import pytest
 from comparisons.cases import Case, load_grids
 from comparisons.cli import main
 from comparisons.commands import computing
+from comparisons.journal import Journal
 from comparisons.outputs.verdicts import FILES as VERDICTS
 from comparisons.run import Task, answer, compute, plan
-from comparisons.store import Journal
 
 FILES = {
     "journal.jsonl",
@@ -52,7 +52,7 @@ def read(folder, name="results.csv"):
 
 def test_a_run_leaves_its_tables_and_record(small_grid, tmp_path, capsys):
     assert run(tmp_path / "out") == 0
-    assert {path.name for path in (tmp_path / "out").iterdir()} == FILES
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {*FILES, ".lock"}
     shown = capsys.readouterr()
     assert "ten-percent" in shown.out
     assert "+10.000" in shown.out
@@ -145,7 +145,7 @@ def test_a_failed_computation_costs_its_own_rows_and_the_exit_status(small_grid,
 
 
 def test_results_of_other_code_in_the_folder_are_refused(small_grid, tmp_path, capsys):
-    Journal(tmp_path / "journal.jsonl", "other code")
+    Journal(tmp_path / "journal.jsonl", "other code", dict, dict)
     assert run(tmp_path) == 2
     assert "another version of the code" in capsys.readouterr().err
 

@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 
 from comparisons.store import (
     COLUMNS,
-    Journal,
     Row,
     atomic,
     csv_text,
@@ -120,48 +119,3 @@ def test_places_that_cannot_be_written_are_refused(tmp_path):
     with pytest.raises(ValueError, match="it is a folder"):
         writable_file(tmp_path)
     assert sorted(os.listdir(tmp_path)) == ["file"]
-
-
-def test_a_journal_gives_back_what_was_added(tmp_path):
-    path = tmp_path / "journal.jsonl"
-    first = Journal(path, "x")
-    first.add(row(value=math.pi))
-    first.add(row("dmt", **REFUSED, status="failed", reason="line\nbreak"))
-    assert Journal(path, "x").rows == first.rows
-
-
-@pytest.mark.parametrize("cut", range(1, 60, 7))
-def test_a_line_cut_by_a_crash_is_forgotten_and_the_rest_kept(tmp_path, cut):
-    path = tmp_path / "journal.jsonl"
-    journal = Journal(path, "x")
-    journal.add(row(mu=1.0))
-    journal.add(row(mu=2.0))
-    os.truncate(path, path.stat().st_size - cut)
-    again = Journal(path, "x")
-    assert [r.mu for r in again.rows] == [1.0]
-    again.add(row(mu=3.0))
-    assert [r.mu for r in Journal(path, "x").rows] == [1.0, 3.0]
-
-
-def test_a_journal_cut_in_its_first_line_starts_again(tmp_path):
-    path = tmp_path / "journal.jsonl"
-    path.write_text('{"finger')
-    assert Journal(path, "x").rows == []
-    Journal(path, "x").add(row())
-    assert len(Journal(path, "x").rows) == 1
-
-
-def test_results_of_other_code_are_not_mixed_in(tmp_path):
-    path = tmp_path / "journal.jsonl"
-    Journal(path, "x").add(row())
-    with pytest.raises(ValueError, match="another version of the code"):
-        Journal(path, "y")
-
-
-@pytest.mark.parametrize("text", ["hello\n", "[1, 2]\n", '{"fingerprint": "x"}\n{"model": "jkr"}\n'])
-def test_another_file_is_not_taken_for_a_journal(tmp_path, text):
-    path = tmp_path / "journal.jsonl"
-    path.write_text(text)
-    with pytest.raises(ValueError, match="not a journal"):
-        Journal(path, "x")
-    assert path.read_text() == text
