@@ -29,11 +29,25 @@ const Plots = (() => {
     if (plot.y_scale === "linear") {
       drawn.add_layout(new Bokeh.Span({ location: 0, dimension: "width", line_color: "#87919c", line_width: 1 }));
     }
+    const one = { plot, figure, drawn, layers: {} };
+    made[plot.id] = one;
+
+    figure.querySelectorAll("select, .models input").forEach((control) => control.addEventListener("change", () => {
+      choose(one);
+    }));
+    figure.querySelectorAll("[data-zoom]").forEach((button) => button.addEventListener("click", () => move(one, button.dataset.zoom)));
+    choose(one);
+    return Bokeh.Plotting.show(drawn, canvas);
+  }
+
+  // The series of a choice, made when it is first looked at: a sweep has hundreds.
+  function layersOf(one, group) {
+    if (group in one.layers) return one.layers[group];
+    const { plot, drawn } = one;
     const layers = [];
     // One hover tool for each side, so that models which agree are read off side by side.
     const tips = { left: [], right: [], above: [], below: [] };
-    const placed = {};
-    for (const series of plot.series) {
+    for (const series of plot.series.filter((any) => any.group === group)) {
       const [colour, dash, marker] = DATA.looks[series.model];
       const data = {
         x: series.x, y: series.y, low: series.low ?? series.y, high: series.high ?? series.y,
@@ -57,49 +71,40 @@ const Plots = (() => {
         }));
       }
       // What is pointed at: the nearest of a line's points, or a point itself.
-      placed[series.group] = (placed[series.group] ?? -1) + 1;
-      tips[Object.keys(tips)[placed[series.group] % 4]].push(renderers.at(-1));
+      tips[Object.keys(tips)[layers.length % 4]].push(renderers.at(-1));
       layers.push({ series, renderers });
     }
     for (const [attachment, renderers] of Object.entries(tips)) {
+      if (renderers.length === 0) continue;
       drawn.add_tools(new Bokeh.HoverTool({
         renderers, attachment, line_policy: "nearest", tooltips: [["model", "@name"], ["", "@says"]],
       }));
     }
-    const one = { plot, figure, drawn, layers, view: null };
-    made[plot.id] = one;
-
-    figure.querySelectorAll("select, .models input").forEach((control) => control.addEventListener("change", () => {
-      choose(one);
-    }));
-    figure.querySelectorAll("[data-zoom]").forEach((button) => button.addEventListener("click", () => move(one, button.dataset.zoom)));
-    choose(one);
-    return Bokeh.Plotting.show(drawn, canvas);
+    return (one.layers[group] = layers);
   }
 
   function choose(one) {
     const group = Array.from(one.figure.querySelectorAll("select"), (select) => select.value).join("|");
     const on = new Set(Array.from(one.figure.querySelectorAll(".models input:checked"), (input) => input.value));
-    let any = false;
-    for (const { series, renderers } of one.layers) {
-      const visible = series.group === group && on.has(series.model);
-      any ||= visible;
-      for (const renderer of renderers) renderer.visible = visible;
+    const chosen = layersOf(one, group);
+    for (const layer of Object.values(one.layers).flat()) {
+      const visible = layer.series.group === group && on.has(layer.series.model);
+      for (const renderer of layer.renderers) renderer.visible = visible;
     }
-    const here = new Set(one.layers.filter(({ series }) => series.group === group).map(({ series }) => series.model));
+    const here = new Set(chosen.map(({ series }) => series.model));
     for (const input of one.figure.querySelectorAll(".models input")) input.closest("label").hidden = !here.has(input.value);
     one.figure.querySelector(".empty").hidden = here.size > 0;
     const words = Array.from(one.figure.querySelectorAll(".choices label"), (label) =>
       `${label.firstChild.textContent.trim()}: ${label.querySelector("select").selectedOptions[0]?.textContent ?? ""}`);
     one.figure.querySelector(".choice").textContent = words.join(", ");
     Tables.choose(one.plot.table, group);
-    one.group = group;
-    if (any) look(one, one.plot.views[group] ?? whole(one));
+    one.shown = chosen.filter(({ series }) => on.has(series.model)).map(({ series }) => series);
+    if (one.shown.length) look(one, one.plot.views[group] ?? whole(one));
   }
 
   // The view of everything that is visible, with a margin.
   function whole(one) {
-    const shown = one.layers.filter(({ renderers }) => renderers[0].visible).map(({ series }) => series);
+    const { shown } = one;
     const span = (values, scale) => {
       const f = scale === "log" ? Math.log10 : Number;
       const finite = values.map(f).filter(Number.isFinite);

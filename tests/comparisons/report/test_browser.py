@@ -223,7 +223,18 @@ def test_numbers_shown_are_numbers_stored(opened, run_folder):
     ):
         shown = [float(text) if text else np.nan for text in cells(opened, table, label)]
         np.testing.assert_array_equal(shown, tables[source][column])
+    # A series is drawn when its choice is first looked at: look at every one.
     script = """
+      const looked = (selects) => {
+        if (selects.length === 0) return;
+        const [first, ...others] = selects;
+        for (const option of first.options) {
+          first.value = option.value;
+          first.dispatchEvent(new Event("change"));
+          looked(others);
+        }
+      };
+      document.querySelectorAll("figure").forEach((figure) => looked(Array.from(figure.querySelectorAll("select"))));
       return Bokeh.documents.flatMap((d) => d.roots()).map((root) => root.renderers.map((renderer) => {
         const source = renderer.data_source;
         return [Array.from(source.get_column("x")), Array.from(source.get_column("y"))];
