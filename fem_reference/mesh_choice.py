@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -23,7 +24,7 @@ from fem_reference.solid import CustomSolid, Solid
 from fem_reference.surface import MeshSpec, compliance_for
 from fem_reference.traction import LennardJones
 
-__all__ = ["ACCURACIES", "Accuracy", "MeshChoice", "requested"]
+__all__ = ["ACCURACIES", "Accuracy", "MeshChoice", "chosen"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +46,7 @@ ACCURACIES = {
     "default": Accuracy(6, (1.05, 0.85, 0.69)),
     "fine": Accuracy(6, (0.75, 0.61, 0.5)),
 }
-"""Measured on n = 2, 9-3 law: pull-off forces to 1e-6, 1e-7 and 1e-8 of their value."""
+"""From coarse to fine.  Measured on n = 2, 9-3 law: pull-off forces to 1e-6, 1e-7 and 1e-8 of their value."""
 
 APEX_WIDTH = 0.05
 """Radial length resolved at r = 0, relative to the edge radius: a cone then has its pull-off force to
@@ -75,36 +76,6 @@ it for the power law of great depth (measured: four times as far changes displac
 
 REFINEMENTS = 8
 """Attempts to find the edge width before the search is given up."""
-
-
-def requested(quantities: Sequence[str], accuracy: str) -> Accuracy:
-    """Check what is asked for and return the accuracy of that name.
-
-    Parameters
-    ----------
-    quantities : sequence of str
-        Of `QUANTITIES` and `LOSSES`, at least one.
-    accuracy : str
-        Of `ACCURACIES`.
-
-    Raises
-    ------
-    ValueError
-        For no quantity, an unknown one, or an unknown accuracy.
-
-    Examples
-    --------
-    >>> requested(["pull_off_force"], "quick").densities
-    (1.4, 1.15, 0.95)
-    """
-    if not quantities:
-        raise ValueError(f"no quantity is asked for; choose at least one of {', '.join(QUANTITIES + LOSSES)}")
-    for quantity in quantities:
-        if quantity not in QUANTITIES + LOSSES:
-            raise ValueError(f"quantity {quantity!r} is unknown; choose one of {', '.join(QUANTITIES + LOSSES)}")
-    if accuracy not in ACCURACIES:
-        raise ValueError(f"accuracy {accuracy!r} is unknown; choose one of {', '.join(ACCURACIES)}")
-    return ACCURACIES[accuracy]
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,7 +171,10 @@ class MeshChoice:
                 points = self.walked(spec, size)
             except NotConverged:
                 # An under-resolved edge is pinned to the elements, and its path may not be traversable.
-                spec = self.spec(0.25 * spec.edge_width, size, smallest)
+                narrower = self.spec(0.25 * spec.edge_width, size, smallest)
+                if narrower == spec:
+                    raise
+                spec = narrower
                 continue
             if quantity not in ("zero_load_displacement", "hysteresis_energy", "jump_in_energy"):
                 # Beyond the pull-off the edge is sharper relative to its radius, but nobody asked.
@@ -222,6 +196,59 @@ class MeshChoice:
                 size = point.contact_radius
             spec = self.spec(min(needed.edge_width, spec.edge_width), size, smallest)
         raise NotConverged("the width of the contact edge was not found; the edge is finer than the mesh can follow")
+
+
+def chosen(
+    solid: Solid | CustomSolid, punch: Punch, law: LennardJones, quantities: Sequence[str], accuracy: str
+) -> tuple[MeshChoice, MeshSpec, float]:
+    """Choose the coarsest meshes, from those of an accuracy on, on which the path of a problem can be walked.
+
+    Under a flat punch contact begins on a spot so much smaller than the punch that coarse meshes lose the rim.
+
+    Parameters
+    ----------
+    solid, punch, law
+        The problem, in consistent units.
+    quantities : sequence of str
+        Of `QUANTITIES` and `LOSSES`, at least one; the mesh suits the first.
+    accuracy : str
+        Of `ACCURACIES`.
+
+    Returns
+    -------
+    choice : MeshChoice
+    spec, size
+        As `MeshChoice.adapted` returns them.
+
+    Raises
+    ------
+    ValueError
+        For no quantity, an unknown one, or an unknown accuracy.
+    NotConverged
+        If the path cannot be walked on the finest meshes either.
+
+    Examples
+    --------
+    >>> from fem_reference.punch import PowerPunch
+    >>> stiff = Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3)
+    >>> choice, spec, size = chosen(stiff, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), ["pull_off_force"], "quick")
+    >>> choice.level.densities, spec.density
+    ((1.4, 1.15, 0.95), 1.4)
+    """
+    if not quantities:
+        raise ValueError(f"no quantity is asked for; choose at least one of {', '.join(QUANTITIES + LOSSES)}")
+    for quantity in quantities:
+        if quantity not in QUANTITIES + LOSSES:
+            raise ValueError(f"quantity {quantity!r} is unknown; choose one of {', '.join(QUANTITIES + LOSSES)}")
+    if accuracy not in ACCURACIES:
+        raise ValueError(f"accuracy {accuracy!r} is unknown; choose one of {', '.join(ACCURACIES)}")
+    names = list(ACCURACIES)
+    for name in names[names.index(accuracy) : -1]:
+        choice = MeshChoice(solid, punch, law, ACCURACIES[name])
+        with suppress(NotConverged):
+            return choice, *choice.adapted(quantities[0])
+    choice = MeshChoice(solid, punch, law, ACCURACIES[names[-1]])
+    return choice, *choice.adapted(quantities[0])
 
 
 # The paths of one problem: three densities and the search for the width, on the meshes of two kinds of questions.

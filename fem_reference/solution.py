@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from fem_reference.events import locate
-from fem_reference.mesh_choice import MeshChoice, requested
+from fem_reference.mesh_choice import chosen
 from fem_reference.punch import Punch
 from fem_reference.solid import CustomSolid, Solid
 from fem_reference.traction import LennardJones
@@ -69,7 +69,7 @@ def solve(
     quantity : str
         One of `QUANTITIES` or `LOSSES`.
     accuracy : {"default", "fine", "quick"}
-        Mesh densities.
+        Mesh densities; finer ones are taken where a path cannot be walked on these.
 
     Returns
     -------
@@ -134,10 +134,9 @@ def solve_together(
     >>> found["pull_off_force"].u_num < 1e-4
     True
     """
-    level = requested(quantities, accuracy)
     begin = time.perf_counter()
-    choice = MeshChoice(solid, punch, law, level)
-    spec, size = choice.adapted(quantities[0])
+    choice, spec, size = chosen(solid, punch, law, quantities, accuracy)
+    level = choice.level
     walks = [choice.walked(replace(spec, density=density), size) for density in level.densities]
     found = {quantity: [locate(points, quantity) for points in walks] for quantity in quantities}
     ratio = math.sqrt(level.densities[0] / level.densities[2])

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_reference.events import locate
-from fem_reference.mesh_choice import MeshChoice, requested
+from fem_reference.mesh_choice import MeshChoice, chosen
 from fem_reference.path import Point
 from fem_reference.punch import Punch
 from fem_reference.solid import CustomSolid, Solid
@@ -171,7 +171,5 @@ def _finest(
     solid: Solid | CustomSolid, punch: Punch, law: LennardJones, quantity: str, accuracy: str
 ) -> tuple[MeshChoice, MeshSpec, float]:
     """Choose the finest mesh for a quantity, and its size."""
-    level = requested((quantity,), accuracy)
-    choice = MeshChoice(solid, punch, law, level)
-    spec, size = choice.adapted(quantity)
-    return choice, replace(spec, density=level.densities[-1]), size
+    choice, spec, size = chosen(solid, punch, law, (quantity,), accuracy)
+    return choice, replace(spec, density=choice.level.densities[-1]), size

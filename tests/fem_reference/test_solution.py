@@ -11,6 +11,7 @@ from fem_reference import (
     CustomSolid,
     LennardJones,
     NoSuchEvent,
+    NotConverged,
     PowerPunch,
     Solid,
     profile,
@@ -18,6 +19,7 @@ from fem_reference import (
     solve_together,
     trace,
 )
+from fem_reference.mesh_choice import ACCURACIES, MeshChoice, chosen
 from fem_reference.reference_solutions import surface_constant
 from fem_reference.uncertainty import three_meshes
 
@@ -76,6 +78,31 @@ def test_accuracies_agree_within_their_uncertainties(n, k, mu):
     coarse, fine = (_pull_off(k, mu, accuracy=a, n=n) for a in ("quick", "default"))
     assert abs(coarse.value - fine.value) <= coarse.u_num + fine.u_num
     assert fine.u_num <= 1e-5 * fine.value
+
+
+@pytest.mark.parametrize("walkable", ["quick", "default", "fine", None])
+def test_finer_meshes_are_taken_where_a_path_cannot_be_walked(monkeypatch, walkable):
+    """As that of n = 5, k = 0.6, mu = 3, whose contact begins on a spot a 500th of the rim."""
+    tried = []
+
+    def adapted(choice, quantity):
+        tried.append(choice.level)
+        if walkable is None or choice.level != ACCURACIES[walkable]:
+            raise NotConverged("the path stops")
+        return "the mesh", 1.0
+
+    monkeypatch.setattr(MeshChoice, "adapted", adapted)
+    problem = _solid(0.0, 1.0, 0.25), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
+    if walkable is None:
+        with pytest.raises(NotConverged, match="the path stops"):
+            chosen(*problem, ["pull_off_force"], "quick")
+        assert tried == list(ACCURACIES.values())
+    else:
+        choice, *mesh = chosen(*problem, ["pull_off_force"], "quick")
+        assert (choice.level, mesh) == (ACCURACIES[walkable], ["the mesh", 1.0])
+    if walkable == "quick":
+        with pytest.raises(NotConverged):
+            chosen(*problem, ["pull_off_force"], "default")
 
 
 def test_quick_answer_is_within_its_uncertainty():
