@@ -54,6 +54,7 @@ LAYERS = (
         "comparisons.uncertainty",
         "comparisons.verdict",
         "comparisons.store",
+        "comparisons.journal",
         "comparisons.workers",
         "comparisons.record",
         "comparisons.progress",
