@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-__all__ = ["gaussian_displacement", "power_displacement", "surface_constant"]
+__all__ = ["gaussian_displacement", "power_displacement", "ring_displacement", "surface_constant"]
 
 Array = NDArray[np.float64]
 
@@ -32,6 +32,20 @@ def surface_constant(k: float, nu: float) -> float:
     top = 2.0 ** (k + 1.0) * (k + 2.0) * q * math.sin(0.5 * math.pi * q)
     ratio = special.beta(0.5 * (3.0 + k + q), 0.5 * (3.0 + k - q)) / special.beta(0.5 * k, 0.5)
     return float(top / (k * (k + 1.0)) * ratio)
+
+
+def ring_displacement(r: Array, k: float, nu: float) -> Array:
+    """w(r), r != 1, under a ring of unit force a length at r = 1 on E = z^k (Eq. 6).
+
+    Examples
+    --------
+    >>> w = ring_displacement(np.array([0.0, 1e6]), 0.0, 0.0)
+    >>> [round(float(x), 9) for x in w * [1.0, 1e6]]  # 2 at the centre; far away the force 2 pi over pi r
+    [2.0, 2.0]
+    """
+    r = np.asarray(r, float)
+    distance = special.hyp2f1(0.5 * (1.0 + k), 0.5, 1.0, 4.0 * r / (1.0 + r) ** 2) / (1.0 + r) ** (1.0 + k)
+    return np.asarray(2.0 * surface_constant(k, nu) * (1.0 - nu**2) * distance)
 
 
 def gaussian_displacement(r: Array, k: float, nu: float) -> Array:

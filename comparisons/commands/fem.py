@@ -22,7 +22,7 @@ from fem_reference.solver_study import FULL_STUDY, QUICK_STUDY, solver_table
 
 __all__ = ["add", "call"]
 
-_ERRORS = {"error": ".1e", "limit": ".0e"}
+_ERRORS = {"error": ".1e", "limit": ".2g"}
 _STUDY = {"residual": ".0e", "setup_seconds": ".2f", "solve_seconds": ".2f", "megabytes": ".0f"} | {
     "direct_seconds": ".2f",
     "direct_megabytes": ".0f",

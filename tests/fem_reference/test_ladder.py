@@ -11,15 +11,23 @@ from fem_reference.ladder import (
     DEFAULT,
     EXPONENTS,
     FINE,
+    FINE_RING,
     POISSON,
+    RING,
     disc_rungs,
     far_field_rungs,
     gaussian_rungs,
     limit_rungs,
+    ring_rungs,
 )
 from fem_reference.mesh import graded_grid
 from fem_reference.modulus import PowerLaw
-from fem_reference.reference_solutions import gaussian_displacement, power_displacement, surface_constant
+from fem_reference.reference_solutions import (
+    gaussian_displacement,
+    power_displacement,
+    ring_displacement,
+    surface_constant,
+)
 
 QUADRATURE_TOLERANCE = 1e-8
 """scipy.integrate.quad with the logarithmic or power singularity at t = r as a break point: measured
@@ -111,6 +119,20 @@ def test_disc_hertz_and_flat_punch():
     _assert_all_pass(disc_rungs((0.0, 0.4)))
 
 
+def test_ring_load():
+    _assert_all_pass(ring_rungs(RING, "ring", (0.0, 0.4), (0.25,)))
+
+
+@pytest.mark.parametrize("k", [0.0, 0.4])
+def test_closed_form_of_the_ring_is_that_of_many_rings(k):
+    """The ring of Eq. 6 again, as point forces of 1/distance^(1+k) around it."""
+    angle = np.pi * np.arange(4000) / 2000
+    for r in (0.0, 0.5, 2.0):
+        distance = np.sqrt(1 + r**2 - 2 * r * np.cos(angle))
+        expected = 2 * surface_constant(k, 0.3) * (1 - 0.3**2) * np.mean(distance ** -(1 + k))
+        assert ring_displacement(np.array(r), k, 0.3) == pytest.approx(expected, rel=1e-13)
+
+
 def test_a_wrong_exact_solution_fails_the_rung():
     """The rung can fail: b(k, nu) of another Poisson ratio is off by per cents."""
     rung = gaussian_rungs(DEFAULT, "default", (0.4,), (0.25,))[0]
@@ -124,6 +146,12 @@ def test_every_material_on_default_and_fine_meshes():
     _assert_all_pass(gaussian_rungs(DEFAULT, "default", EXPONENTS, POISSON))
     _assert_all_pass(gaussian_rungs(FINE, "fine", EXPONENTS, POISSON))
     _assert_all_pass(gaussian_rungs(FINE, "fine", (0.0, 0.4), (0.49,)))
+
+
+@pytest.mark.heavy
+def test_every_ring():
+    _assert_all_pass(ring_rungs(RING, "ring", EXPONENTS, POISSON))
+    _assert_all_pass(ring_rungs(FINE_RING, "fine ring", EXPONENTS, POISSON))
 
 
 @pytest.mark.heavy
