@@ -220,7 +220,8 @@ class FullContact:
             If the secant iteration on dP/dc does not converge.
         """
         old = self.equilibrium(u, delta, c)
-        new = self._moved(old, 0.01 * c)
+        # The load falls up to its minimum and rises after it.
+        new = self._moved(old, -math.copysign(0.01 * c, old.load_rate))
         krylov, newton = old.krylov_steps + new.krylov_steps, old.newton_steps + new.newton_steps
         for _ in range(ROOT_STEPS):
             shift = -new.load_rate * (new.size - old.size) / (new.load_rate - old.load_rate)
