@@ -107,14 +107,31 @@ def surface_displacement(
 
 def gaussian_rungs(spec: MeshSpec, name: str, exponents: Iterable[float], poisson: Iterable[float]) -> list[Rung]:
     """(c, h) Under p = exp(-r^2), against Eqs. 6-7 in closed form, on 0 <= r <= 4."""
-    r = np.linspace(0.0, 4.0, 81)
-    rows = []
-    for k, nu in product(exponents, poisson):
-        w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), nu, spec, _GAUSSIAN)
-        exact = gaussian_displacement(r, k, nu)
-        error = float(np.abs(w(r) - exact).max() / exact[0])
-        rows.append(Rung("p = exp(-r^2) against Eq. 6", f"{name}, k = {k}, nu = {nu}", error, LIMITS[name], unknowns))
-    return rows
+    cases, r = product(exponents, poisson), np.linspace(0.0, 4.0, 81)
+    return [_against("p = exp(-r^2)", _GAUSSIAN, gaussian_displacement, r, spec, name, k, nu) for k, nu in cases]
+
+
+def ring_rungs(spec: MeshSpec, name: str, exponents: Iterable[float], poisson: Iterable[float]) -> list[Rung]:
+    """(c) Under a ring load, against Eqs. 6-7, on r <= 0.8 and 1.25 <= r <= 4: it is singular at r = 1."""
+    cases, r = product(exponents, poisson), np.concatenate([np.linspace(0.0, 0.8, 41), np.linspace(1.25, 4.0, 41)])
+    return [_against("ring load", ring_load, ring_displacement, r, spec, name, k, nu) for k, nu in cases]
+
+
+def _against(
+    what: str,
+    load: Callable[[Trace], Array],
+    exact: Callable[[Array, float, float], Array],
+    r: Array,
+    spec: MeshSpec,
+    name: str,
+    k: float,
+    nu: float,
+) -> Rung:
+    """Compare the displacement of one material under a load with Eq. 6, at radii of which the first is 0."""
+    w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), nu, spec, load)
+    expected = exact(r, k, nu)
+    error = float(np.abs(w(r) - expected).max() / expected[0])
+    return Rung(f"{what} against Eq. 6", f"{name}, k = {k}, nu = {nu}", error, LIMITS[name], unknowns)
 
 
 def _power(beta: float) -> Callable[[Array], Array]:
@@ -122,18 +139,6 @@ def _power(beta: float) -> Callable[[Array], Array]:
         return np.asarray(q**beta)
 
     return pressure
-
-
-def ring_rungs(spec: MeshSpec, name: str, exponents: Iterable[float], poisson: Iterable[float]) -> list[Rung]:
-    """(c) Under a ring load, against Eqs. 6-7, on r <= 0.8 and 1.25 <= r <= 4: it is singular at r = 1."""
-    r = np.concatenate([np.linspace(0.0, 0.8, 41), np.linspace(1.25, 4.0, 41)])
-    rows = []
-    for k, nu in product(exponents, poisson):
-        w, unknowns = surface_displacement(PowerLaw(1.0, 1.0, k), nu, spec, ring_load)
-        exact = ring_displacement(r, k, nu)
-        error = float(np.abs(w(r) - exact).max() / exact[0])
-        rows.append(Rung("ring load against Eq. 6", f"{name}, k = {k}, nu = {nu}", error, LIMITS[name], unknowns))
-    return rows
 
 
 def disc_rungs(exponents: Iterable[float]) -> list[Rung]:

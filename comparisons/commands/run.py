@@ -1,4 +1,4 @@
-"""``fscm-bench run``: compute the standing cases, judge them, and write verdicts, tables and a figure."""
+"""``fscm-bench run``: compute the standing cases, judge them, and write verdicts, tables and figures."""
 
 from __future__ import annotations
 
