@@ -6,8 +6,6 @@ so that a misspelt one cannot pass unnoticed.
 
 from __future__ import annotations
 
-import math
-import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from importlib.resources import files
@@ -15,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.cases import TIERS, Case, Grid
+from comparisons.gate_checks import PARAMETERS, check_compared, check_numbers, label, plain_text
 from comparisons.models import MODELS
 from comparisons.quantities import QUANTITIES
 from comparisons.shapes import SHAPES
@@ -60,6 +59,8 @@ class Gate:
     max_reference_uncertainty : float
         Largest uncertainty of the reference, in the unit of the metric, with which the gate may pass; for "en"
         relative to the reference, or uncertainties without bound would pass.
+    max_candidate_uncertainty : float or None
+        The same of the candidate; "en" must state it, where the error counts in units of both uncertainties.
     basis : str
         Where the limits come from: one of "derived", "published", "measured".
     grounds : str
@@ -94,6 +95,7 @@ class Gate:
     grounds: str
     min_cases: int
     tier: str
+    max_candidate_uncertainty: float | None = None
     worst_measured: float | None = None
     reference_at: Mapping[str, float] = field(default_factory=dict)
     rival: str | None = None
@@ -112,7 +114,7 @@ class Gate:
         tags = self.cases.get("tags")
         if tags is not None and not {grid.id, *grid.tags} & set(tags):
             return False
-        return all(self._within(name, getattr(case, name)) for name in _PARAMETERS if name in self.cases)
+        return all(self._within(name, getattr(case, name)) for name in PARAMETERS if name in self.cases)
 
     def _within(self, name: str, value: float | None) -> bool:
         low, high = self.cases[name]
@@ -123,7 +125,6 @@ class Gate:
         return replace(case, **self.reference_at)
 
 
-_PARAMETERS = ("n", "k", "mu", "nu")
 _FIELDS: dict[str, type | tuple[type, ...]] = {
     "id": str,
     "requirement": str,
@@ -141,13 +142,15 @@ _FIELDS: dict[str, type | tuple[type, ...]] = {
     "tier": str,
 }
 _OPTIONAL: dict[str, type | tuple[type, ...]] = {
+    "max_candidate_uncertainty": (int, float),
     "worst_measured": (int, float),
     "reference_at": dict,
     "rival": str,
     "not_applicable": str,
     "expected_failure": str,
 }
-_ID = re.compile(r"[A-Z0-9]+(-[A-Z0-9.]+)*")
+#: Sentences for readers.
+_TEXTS = ("requirement", "grounds", "expected_failure")
 
 
 def load_gates(text: str, models: Iterable[str] = (), source: str = "the gates file") -> list[Gate]:
@@ -179,9 +182,7 @@ def load_gates(text: str, models: Iterable[str] = (), source: str = "the gates f
     if not isinstance(tables["gate"], list) or not all(isinstance(table, dict) for table in tables["gate"]):
         raise ValueError(f"{source}: a gates file holds [[gate]] tables and nothing else; its gate is something else")
     known = {*MODELS, *models}
-    read = [
-        _gate(table, f"gate {table.get('id', number)}", known) for number, table in enumerate(tables["gate"], start=1)
-    ]
+    read = [_gate(table, label(table, number), known) for number, table in enumerate(tables["gate"], start=1)]
     ids = [gate.id for gate in read]
     if twice := sorted({id for id in ids if ids.count(id) > 1}):
         raise ValueError(f"the id of a gate must be its own; {', '.join(twice)} is there twice")
@@ -191,17 +192,17 @@ def load_gates(text: str, models: Iterable[str] = (), source: str = "the gates f
 def _gate(table: dict[str, Any], where: str, models: set[str]) -> Gate:
     wrong = sorted((_FIELDS.keys() - table.keys()) | (table.keys() - _FIELDS.keys() - _OPTIONAL.keys()))
     if wrong:
+        shown = [key if key.isprintable() else ascii(key) for key in wrong]
         raise ValueError(
-            f"{where}: {', '.join(wrong)} missing or unknown; a gate has {', '.join(_FIELDS)} "
+            f"{where}: {', '.join(shown)} missing or unknown; a gate has {', '.join(_FIELDS)} "
             f"and may have {', '.join(_OPTIONAL)}"
         )
     for key, kind in (_FIELDS | _OPTIONAL).items():
         fits = is_real if kind == (int, float) else lambda value, kind=kind: isinstance(value, kind)
         if key in table and (not fits(table[key]) or isinstance(table[key], bool)):
             raise ValueError(f"{where}: {key} = {table[key]!r} has the wrong type")
-    gate = Gate(**table)
-    if not _ID.fullmatch(gate.id):
-        raise ValueError(f"{where}: the id must be capitals, digits and dashes, to be cited and searched for")
+    gate = Gate(**table | {key: plain_text(key, table[key], where) for key in _TEXTS if key in table})
+    check_compared(gate, where)
     for key in ("candidate", "reference", "rival"):
         name = getattr(gate, key)
         if name is not None and name not in models and not (key == "candidate" and name == GIVEN):
@@ -220,43 +221,8 @@ def _gate(table: dict[str, Any], where: str, models: set[str]) -> Gate:
             f"{where}: unknown quantity {gate.quantity!r} for the metric {gate.metric}; "
             f"known are {', '.join(quantities)}"
         )
-    _check_numbers(gate, where)
+    check_numbers(gate, where)
     return gate
-
-
-def _check_numbers(gate: Gate, where: str) -> None:
-    if not gate.lower <= gate.upper or (math.isinf(gate.lower) and math.isinf(gate.upper)):
-        raise ValueError(
-            f"{where}: the limits {gate.lower:g} to {gate.upper:g} admit nothing or everything; one must be finite"
-        )
-    if gate.metric == "curve" and gate.lower != -math.inf:
-        raise ValueError(f"{where}: a distance has no lower limit; state lower = -inf")
-    if gate.rival and gate.metric in ("en", "curve"):
-        raise ValueError(f"{where}: the metric {gate.metric} compares with no rival; state rel, abs or range-relative")
-    if not 0.0 < gate.max_reference_uncertainty < math.inf:
-        raise ValueError(f"{where}: max_reference_uncertainty must be positive and finite")
-    if gate.min_cases < 1:
-        raise ValueError(f"{where}: min_cases = {gate.min_cases} is below 1: a gate without cases shows nothing")
-    if (gate.basis == "measured") != (gate.worst_measured is not None):
-        raise ValueError(f"{where}: a measured basis, and no other, states its worst_measured")
-    if not set(gate.cases) <= {*_PARAMETERS, "tags"} or not set(gate.reference_at) <= set(_PARAMETERS):
-        raise ValueError(f"{where}: cases may restrict {', '.join(_PARAMETERS)} and tags; reference_at all but tags")
-    for name, limits in gate.cases.items():
-        if not isinstance(limits, list) or not (_are_names(limits) if name == "tags" else _are_ends(limits)):
-            raise ValueError(
-                f"{where}: cases.{name} = {limits!r} must be " + ("names" if name == "tags" else "[low, high]")
-            )
-    for name, value in gate.reference_at.items():
-        if not (is_real(value) and math.isfinite(value)):
-            raise ValueError(f"{where}: reference_at.{name} = {value!r} must be a number")
-
-
-def _are_names(entries: list[Any]) -> bool:
-    return bool(entries) and all(isinstance(entry, str) for entry in entries)
-
-
-def _are_ends(entries: list[Any]) -> bool:
-    return len(entries) == 2 and all(map(is_real, entries)) and entries[0] <= entries[1]
 
 
 def gates_text(path: Path | None = None) -> str:

@@ -18,8 +18,10 @@ import pandas as pd
 from comparisons.cases import Case, Grid
 from comparisons.distance import curve_distance
 from comparisons.gates import GIVEN, Gate
+from comparisons.kappa import relative_difference
+from comparisons.outputs.digits import exact
 from comparisons.run import asked_at, plan
-from comparisons.verdict import Verdict, combined, decide, expecting_failure, roll_up
+from comparisons.verdict import Verdict, combined, crossing, decide, expecting_failure, roll_up
 
 __all__ = ["Judged", "by_gate", "judge", "left_out", "relevant", "worst_first"]
 
@@ -59,6 +61,22 @@ class Judged:
     reason: str
 
 
+@dataclass(frozen=True, slots=True)
+class _Error:
+    """The error of a candidate in one case, in the unit of the metric.
+
+    `shares` holds the parts of the uncertainty that the candidate, the reference and the rival have; the gate limits
+    `u_candidate` and `u_reference`.
+    """
+
+    error: float
+    uncertainty: float
+    u_candidate: float
+    u_reference: float
+    shares: dict[str, float]
+    facts: dict[str, Any]
+
+
 class _Unusable(Exception):
     """An answer cannot be judged; holds the verdict it leads to and why."""
 
@@ -81,8 +99,9 @@ def relevant(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str]
     chosen: list[Gate] = []
     for gate in gates:
         if gate.candidate == GIVEN:
-            # By how much a rival exceeds itself is no question.
-            chosen += [replace(gate, candidate=name) for name in models or () if name != gate.rival]
+            # A model is compared with itself neither as the rival nor, in the same cases, as the reference.
+            others = {gate.rival} if gate.reference_at else {gate.rival, gate.reference}
+            chosen += [replace(gate, candidate=name) for name in models or () if name not in others]
         elif models is None or (gate.candidate in models and not _not_computed(gate, grids, models)):
             chosen.append(gate)
     return chosen
@@ -261,28 +280,41 @@ def _judge_case(gate: Gate, case: Case, answers: _Answers, scale: float) -> Judg
     blank = _whole(gate, "")
     one = replace(blank, n=case.n, k=case.k, mu=case.mu, nu=asked_at(gate.candidate, case).nu)
     try:
-        error, u_error, u_reference, facts = (
-            _distance(gate, case, answers) if gate.metric == "curve" else _error(gate, case, answers, scale)
-        )
+        found = _distance(gate, case, answers) if gate.metric == "curve" else _error(gate, case, answers, scale)
     except _Unusable as trouble:
         verdict, reason = trouble.verdict, trouble.reason
         if verdict is Verdict.NOT_APPLICABLE and gate.not_applicable == "error":
             verdict, reason = Verdict.ERROR, f"{reason} ({_CURE})"
         return replace(one, verdict=verdict, reason=reason)
-    verdict, reason = decide(error, u_error, gate.lower, gate.upper), ""
+    verdict, reason = decide(found.error, found.uncertainty, gate.lower, gate.upper), ""
     if verdict is Verdict.ERROR:
-        reason = f"the error {error:g} +- {u_error:g} is not a finite number"
-    if verdict is Verdict.PASS and u_reference > gate.max_reference_uncertainty:
+        reason = f"the error {found.error:g} +- {found.uncertainty:g} is not a finite number"
+    elif verdict is Verdict.INCONCLUSIVE:
+        shares = {f"the {role} {getattr(gate, role)}": u for role, u in found.shares.items()}
+        reason = crossing(found.error, found.uncertainty, gate.lower, gate.upper, shares)
+    elif verdict is Verdict.PASS and (reason := _too_uncertain(gate, found)):
         verdict = Verdict.INCONCLUSIVE
-        reason = f"u of {gate.reference} is {u_reference:.2g}; the gate tolerates {gate.max_reference_uncertainty:.2g}"
     if gate.expected_failure:
         verdict = expecting_failure(verdict)
         reason = reason or gate.expected_failure
-    return replace(one, **facts, error=error, uncertainty=u_error, verdict=verdict, reason=reason)
+    return replace(one, **found.facts, error=found.error, uncertainty=found.uncertainty, verdict=verdict, reason=reason)
 
 
-def _error(gate: Gate, case: Case, answers: _Answers, scale: float) -> tuple[float, float, float, dict[str, Any]]:
-    """Return E, U and the reference's own share u, in the unit of the metric, and the values."""
+def _too_uncertain(gate: Gate, found: _Error) -> str:
+    """Return whose uncertainty is larger than the gate tolerates, with the numbers; nothing if none is."""
+    unit = " of the reference's value" if gate.metric in ("rel", "en") else ""
+    too_large = [
+        f"u of the {role} {getattr(gate, role)} is {u:.6g}{unit}; the gate tolerates {exact(limit)}"
+        for role, u, limit in (
+            ("candidate", found.u_candidate, gate.max_candidate_uncertainty),
+            ("reference", found.u_reference, gate.max_reference_uncertainty),
+        )
+        if limit is not None and u > limit
+    ]
+    return "; ".join(too_large)
+
+
+def _error(gate: Gate, case: Case, answers: _Answers, scale: float) -> _Error:
     true, u_true = answers.number(_key(gate.reference, gate, gate.reference_case(case)))
     if gate.metric == "en":
         return _normalised(*answers.number(_key(gate.candidate, gate, case)), true, u_true)
@@ -290,34 +322,36 @@ def _error(gate: Gate, case: Case, answers: _Answers, scale: float) -> tuple[flo
     if unit == 0.0:
         raise _Unusable(Verdict.ERROR, f"the reference {gate.reference} is or has a range of zero: use metric abs")
     value, u_num = answers.number(_key(gate.candidate, gate, case))
-    error, u, u_reference = _metric(gate, value, u_num, true, u_true, unit)
+    error, u, share = _metric(gate, value, u_num, true, u_true, unit)
+    shares = {"candidate": u_num / unit, "reference": share}
     if gate.rival:
         other, u_other = answers.number(_key(gate.rival, gate, case))
-        rival, u_rival, _ = _metric(gate, other, u_other, true, u_true, unit)
+        rival, u_rival, share_of_rival = _metric(gate, other, u_other, true, u_true, unit)
         error, u = abs(error) - abs(rival), math.hypot(u, u_rival)
+        shares |= {"reference": math.hypot(share, share_of_rival), "rival": u_other / unit}
     facts = {"value": value, "u_num": u_num, "reference_value": true, "u_reference": u_true}
-    return error, combined(u), u_reference, facts
+    return _Error(error, combined(u), u_num / unit, u_true / unit, shares, facts)
 
 
-def _normalised(value: float, u_num: float, true: float, u_true: float) -> tuple[float, float, float, dict[str, Any]]:
+def _normalised(value: float, u_num: float, true: float, u_true: float) -> _Error:
     """E_n of ISO 13528: the error in units of what both sides claim, so that it has no uncertainty of its own."""
     claimed = math.hypot(u_num, u_true)
     if claimed == 0.0 or true == 0.0:
         raise _Unusable(Verdict.ERROR, "the reference or both uncertainties are zero: use metric abs")
     facts = {"value": value, "u_num": u_num, "reference_value": true, "u_reference": u_true}
-    return (value - true) / claimed, 0.0, u_true / abs(true), facts
+    return _Error((value - true) / claimed, 0.0, u_num / abs(true), u_true / abs(true), {}, facts)
 
 
 def _metric(
     gate: Gate, value: float, u_num: float, true: float, u_true: float, unit: float
 ) -> tuple[float, float, float]:
-    """Error and its uncertainties; a relative error moves with its denominator too."""
-    error = (value - true) / unit
+    """Error, its uncertainty and the reference's share; a relative error moves with its denominator too."""
+    error = relative_difference(value, true) if gate.metric == "rel" else (value - true) / unit
     share = u_true / unit * (abs(value / true) if gate.metric == "rel" else 1.0)
-    return error, math.hypot(u_num / unit, share), u_true / unit
+    return error, math.hypot(u_num / unit, share), share
 
 
-def _distance(gate: Gate, case: Case, answers: _Answers) -> tuple[float, float, float, dict[str, Any]]:
+def _distance(gate: Gate, case: Case, answers: _Answers) -> _Error:
     x, y, u = answers.points(_key(gate.candidate, gate, case))
     true_x, true_y, u_true = answers.points(_key(gate.reference, gate, gate.reference_case(case)))
     try:
@@ -325,7 +359,8 @@ def _distance(gate: Gate, case: Case, answers: _Answers) -> tuple[float, float, 
     except ValueError as refusal:
         raise _Unusable(Verdict.ERROR, str(refusal)) from refusal
     u_true = math.hypot(u_true, found.u_interpolation)
-    return found.value, combined(u, u_true), u_true, {"u_num": u, "u_reference": u_true}
+    shares = {"candidate": u, "reference": u_true}
+    return _Error(found.value, combined(u, u_true), u, u_true, shares, {"u_num": u, "u_reference": u_true})
 
 
 def _whole(gate: Gate, reason: str) -> Judged:

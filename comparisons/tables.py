@@ -1,11 +1,10 @@
 """Tables made from stored results: relative errors, and the largest of them beside the published.
 
-kappa = (model - reference) / reference (Sec. 4.3.2 of the paper), here for any quantity.
+kappa = (model - reference) / abs(reference) (Sec. 4.3.2 of the paper for the pull-off force, which is positive), here
+for any quantity.
 """
 
 from __future__ import annotations
-
-from typing import TypeVar
 
 import numpy as np
 import pandas as pd
@@ -13,6 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from comparisons.claims import published
+from comparisons.kappa import relative_difference, relative_uncertainty
 from comparisons.quantities import QUANTITIES
 
 __all__ = [
@@ -22,7 +22,6 @@ __all__ = [
     "largest",
     "largest_by_gradient",
     "relative_error",
-    "relative_uncertainty",
     "rich_table",
     "statuses",
 ]
@@ -31,19 +30,6 @@ _CASE = ["quantity", "n", "k", "mu", "nu"]
 #: Kinds of quantities whose error is stated as a fraction of them; displacements and gaps may pass through zero.
 _RELATIVE = ("load", "energy")
 _SERIES = ["quantity", "model", "n", "k"]
-
-_Numbers = TypeVar("_Numbers", float, pd.Series)
-
-
-def relative_uncertainty(value: _Numbers, u_num: _Numbers, reference: _Numbers, u_reference: _Numbers) -> _Numbers:
-    """Return what two uncertainties, as bounds, allow of a relative error; the reference is also its unit.
-
-    Examples
-    --------
-    >>> round(relative_uncertainty(1.1, 0.0, 1.0, 0.01), 12)
-    0.011
-    """
-    return (u_num + abs(value / reference) * u_reference) / abs(reference)
 
 
 def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
@@ -60,7 +46,7 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
     -------
     DataFrame
         Columns quantity, model, n, k, mu, nu, value, u_num, reference (its name), reference_value,
-        u_reference, kappa, u_kappa (`relative_uncertainty`), sorted.
+        u_reference, kappa, u_kappa (`comparisons.kappa`), sorted.
 
     Examples
     --------
@@ -77,7 +63,7 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
     )
     table = usable[~is_reference].merge(truth, on=_CASE, validate="many_to_one")
     table["reference"] = reference
-    table["kappa"] = table["value"] / table["reference_value"] - 1.0
+    table["kappa"] = relative_difference(table["value"], table["reference_value"])
     table["u_kappa"] = relative_uncertainty(
         table["value"], table["u_num"], table["reference_value"], table["u_reference"]
     )

@@ -52,5 +52,11 @@ def is_real(value: object) -> bool:
 
 
 def names(tables: Mapping[str, object]) -> str:
-    """Return the keys of a file that should have others, for a sentence."""
-    return ", ".join(sorted(tables)) or "nothing"
+    r"""Return the keys of a file that should have others, for a sentence; those that cannot be printed are escaped.
+
+    Examples
+    --------
+    >>> names({"gates": 1, "\x1b[31m": 2})
+    "'\\x1b[31m', gates"
+    """
+    return ", ".join(key if key.isprintable() else ascii(key) for key in sorted(tables)) or "nothing"

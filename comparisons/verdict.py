@@ -8,10 +8,12 @@ between.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from enum import StrEnum
 
-__all__ = ["COVERAGE", "Verdict", "combined", "decide", "expecting_failure", "roll_up"]
+from comparisons.outputs.digits import exact
+
+__all__ = ["COVERAGE", "Verdict", "combined", "crossing", "decide", "expecting_failure", "roll_up"]
 
 #: k of U: two, as V&V 20 takes for 95 % of a normal distribution.  Here each u is already a bound, with a
 #: safety factor of its own, so that U errs on the side of "inconclusive".
@@ -72,6 +74,30 @@ def decide(error: float, uncertainty: float, lower: float, upper: float) -> Verd
     if high < lower or low > upper:
         return Verdict.FAIL
     return Verdict.INCONCLUSIVE
+
+
+def crossing(error: float, uncertainty: float, lower: float, upper: float, shares: Mapping[str, float]) -> str:
+    """Return why an error is inconclusive: the limits that its interval reaches across, and whose uncertainty it is.
+
+    Parameters
+    ----------
+    error, uncertainty, lower, upper : float
+        As of `decide`, which finds them inconclusive.
+    shares : mapping of str to float
+        The part of u of each model, in the unit of the limits, by words such as "the candidate jkr".
+
+    Examples
+    --------
+    >>> crossing(0.95, 0.1, -1.0, 1.0, {"the reference fscm": 1e-9, "the candidate jkr": 0.05})
+    'E = 0.95 +- 0.1 reaches across the limit 1, mostly by u of the candidate jkr: 0.05 (the reference fscm: 1e-09)'
+    """
+    limits = [limit for limit in (lower, upper) if error - uncertainty <= limit <= error + uncertainty]
+    (largest, share), *others = sorted(shares.items(), key=lambda item: -item[1])
+    rest = f" ({', '.join(f'{name}: {u:.2g}' for name, u in others)})" if others else ""
+    return (
+        f"E = {error:.4g} +- {uncertainty:.2g} reaches across the limit{'s' * (len(limits) > 1)} "
+        f"{' and '.join(map(exact, limits))}, mostly by u of {largest}: {share:.2g}{rest}"
+    )
 
 
 def expecting_failure(verdict: Verdict) -> Verdict:

@@ -49,6 +49,9 @@ LAYERS = (
         "comparisons.quantities",
         "comparisons.claims",
         "comparisons.distance",
+        "comparisons.kappa",
+        # How a number is written, also in the messages of the modules before `comparisons.outputs`.
+        "comparisons.outputs.digits",
         "comparisons.toml_text",
         "comparisons.shapes",
         "comparisons.uncertainty",
@@ -63,7 +66,7 @@ LAYERS = (
     # Whoever asks a model need not know whether it is ours.
     ("comparisons.models", "comparisons.foreign"),
     ("comparisons.cases",),
-    ("comparisons.run", "comparisons.gates"),
+    ("comparisons.run", "comparisons.gates", "comparisons.gate_checks"),
     ("comparisons.judge",),
     (
         "comparisons.tables",

@@ -5,10 +5,32 @@ from __future__ import annotations
 import math
 from decimal import ROUND_CEILING, ROUND_HALF_EVEN, Decimal
 
-__all__ = ["short"]
+__all__ = ["exact", "limits_text", "short"]
 
 #: A double has 17 digits; where the uncertainty is far below the last of them, zeros in between say nothing.
 _MOST_DIGITS = 20
+
+
+def exact(value: float) -> str:
+    """Return the shortest decimal that is the value, with every digit it was declared with: 2 rather than 2.0.
+
+    Examples
+    --------
+    >>> exact(-0.6495), exact(2.0), exact(1e-06), exact(-math.inf)
+    ('-0.6495', '2', '1e-06', '-inf')
+    """
+    return repr(float(value)).removesuffix(".0")
+
+
+def limits_text(lower: float, upper: float) -> str:
+    """Return the limits of a gate with every digit they were declared with, for tables of texts.
+
+    Examples
+    --------
+    >>> limits_text(-0.651, -0.6495)
+    '-0.651 to -0.6495'
+    """
+    return f"{exact(lower)} to {exact(upper)}"
 
 
 def short(value: float, uncertainty: float | None) -> str:
@@ -34,7 +56,7 @@ def short(value: float, uncertainty: float | None) -> str:
     if uncertainty is None or math.isnan(uncertainty):
         return f"{value:.6g}"
     if uncertainty == 0.0:
-        return repr(float(value)).removesuffix(".0")
+        return exact(value)
     if math.isinf(uncertainty):
         return f"{value:.6g}(inf)"
     # The shortest decimal of a double is what was meant: 3e-6 is 3 and not 3.0000000000000001 rounded up.

@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 
 import pandas as pd
 
+from comparisons.outputs.digits import limits_text
 from comparisons.verdict import Verdict
 
 __all__ = ["junit"]
@@ -53,7 +54,7 @@ def _case(suite: ElementTree.Element, row: pd.Series, command: Callable[[pd.Seri
         classname=_text(f"fscm-bench.{row['gate']}"),
         name=_text(f"{row['candidate']} {row['quantity']} {' '.join(given) or 'whole gate'}"),
     )
-    numbers = f"E = {row['error']}, U = {row['uncertainty']}, limits {row['lower']} to {row['upper']}"
+    numbers = f"E = {row['error']}, U = {row['uncertainty']}, limits {limits_text(row['lower'], row['upper'])}"
     element = _ELEMENTS.get(row["verdict"])
     if element:
         message = f"{row['verdict']}: {row['reason'] or numbers}"

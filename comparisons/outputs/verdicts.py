@@ -11,7 +11,7 @@ import pandas as pd
 
 from comparisons.gates import Gate
 from comparisons.judge import by_gate
-from comparisons.outputs.digits import short
+from comparisons.outputs.digits import exact, limits_text, short
 from comparisons.outputs.junit import junit
 from comparisons.outputs.latex import latex
 from comparisons.outputs.markdown import markdown
@@ -69,7 +69,7 @@ def command(row: pd.Series, specs: Mapping[str, str]) -> str:
 
 def parameter_text(value: float) -> str:
     """Return a parameter of a case, as short as it can be exactly: 0.4, and 2 rather than 2.0."""
-    return repr(float(value)).removesuffix(".0")
+    return exact(value)
 
 
 def matrix(judged: pd.DataFrame, specs: Mapping[str, str]) -> pd.DataFrame:
@@ -90,7 +90,7 @@ def matrix(judged: pd.DataFrame, specs: Mapping[str, str]) -> pd.DataFrame:
                 f"{a}" + (f" ({b} n/a)" if b else "") for a, b in zip(gates["cases"], gates["left_out"], strict=True)
             ],
             "worst E(U)": [error_text(row) for _, row in gates.iterrows()],
-            "limits": [f"{low:.3g} to {high:.3g}" for low, high in zip(gates["lower"], gates["upper"], strict=True)],
+            "limits": [limits_text(*limits) for limits in zip(gates["lower"], gates["upper"], strict=True)],
             "command": [command(row, specs) for _, row in gates.iterrows()],
             "reason": gates["reason"],
         },

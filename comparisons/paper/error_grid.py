@@ -12,9 +12,9 @@ from typing import Any
 
 import pandas as pd
 
+from comparisons.kappa import relative_difference, relative_uncertainty
 from comparisons.paper.answers import quantity
 from comparisons.paper.workshop import Answers, Call
-from comparisons.tables import relative_uncertainty
 
 __all__ = [
     "CANDIDATES",
@@ -111,6 +111,6 @@ def _error(fscm: dict[str, Any], candidate: dict[str, Any]) -> dict[str, Any]:
         "fscm": fscm["value"] if fscm["value"] is not None else missing,
         "u_fscm": fscm["u_num"] if fscm["u_num"] is not None else missing,
     }
-    kappa = (row["value"] - row["fscm"]) / abs(row["fscm"])
+    kappa = relative_difference(row["value"], row["fscm"])
     u_kappa = relative_uncertainty(row["value"], row["u_num"], row["fscm"], row["u_fscm"])
     return row | {"kappa": kappa, "u_kappa": u_kappa, "reason": fscm["reason"] or candidate["reason"]}

@@ -10,6 +10,7 @@ import pandas as pd
 
 from comparisons.gates import METRICS
 from comparisons.judge import by_gate, worst_first
+from comparisons.outputs.digits import exact, limits_text
 from comparisons.outputs.verdicts import command, error_text
 from comparisons.report.folder import Stored
 from comparisons.report.table import (
@@ -62,10 +63,10 @@ def _numbers(row: pd.Series) -> tuple[Cell, ...]:
 
 
 def _limits(row: pd.Series) -> Cell:
-    lower, upper = (number(row[name], ".4g").text for name in ("lower", "upper"))
-    if row["lower"] == float("-inf"):
-        return Cell(f"≤ {upper}")
-    return Cell(f"≥ {lower}" if row["upper"] == float("inf") else f"{lower} to {upper}")
+    lower, upper = row["lower"], row["upper"]
+    if lower == float("-inf"):
+        return Cell(f"≤ {exact(upper)}")
+    return Cell(f"≥ {exact(lower)}" if upper == float("inf") else limits_text(lower, upper))
 
 
 def matrix(stored: Stored) -> Table:

@@ -5,18 +5,22 @@ number for each question, and for each curve points of one line, others for each
 """
 
 import math
+from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from comparisons.cases import VERIFICATION, grids
 from comparisons.gates import gates_text, load_gates
 from comparisons.judge import judge
+from comparisons.publish import PUBLISHED
 from comparisons.run import plan
 from comparisons.shapes import SHAPES
 from comparisons.store import Row, curve_frame, frame
 from comparisons.verdict import Verdict, roll_up
 
+ROOT = Path(__file__).parents[2]
 GRIDS = [grid for grid in grids("full") if grid.tier == "full" and VERIFICATION in grid.tags]
 GATES = [gate for gate in load_gates(gates_text()) if gate.tier == "full"]
 EVERY_GATE = pytest.mark.parametrize("gate", GATES, ids=lambda gate: gate.id)
@@ -126,6 +130,31 @@ def test_a_reference_less_certain_than_tolerated_is_not_passed(gate):
     else:
         tables = changed(gate, gate.reference, "u_num", lambda table: worst * table["value"])
     assert verdict(gate, **tables) == Verdict.INCONCLUSIVE
+
+
+EN_GATES = pytest.mark.parametrize("gate", [gate for gate in GATES if gate.metric == "en"], ids=lambda gate: gate.id)
+
+
+@EN_GATES
+def test_a_candidate_less_certain_than_tolerated_is_not_passed(gate):
+    """Three times the reference, and so uncertain that both claims hold."""
+    worst = gate.max_candidate_uncertainty
+    for size, expected in ((0.99 * worst, Verdict.PASS), (1.01 * worst, Verdict.INCONCLUSIVE)):
+        tables = changed(gate, "fem", "u_num", lambda table, size=size: size * table["value"])
+        assert verdict(gate, **tables) == expected
+    tables = changed(gate, "fem", "value", lambda table: 3.0 * table["value"])
+    tables["rows"].loc[tables["rows"]["model"] == "fem", "u_num"] = 100.0
+    judged = judge([gate], GRIDS, tables["rows"], tables["curves"])
+    assert roll_up(judged["verdict"]) == Verdict.INCONCLUSIVE
+    assert judged["reason"].str.startswith("u of the candidate fem is ").all()
+
+
+@EN_GATES
+def test_the_uncertainty_tolerated_is_two_to_three_times_the_largest_committed(gate):
+    table = pd.read_csv(ROOT / PUBLISHED / "references_agreement.csv")
+    mine = table[(table["quantity"] == gate.quantity) & (table["model"] == gate.candidate)]
+    largest = (mine["u_num"] / mine["reference_value"].abs()).max()
+    assert 2.0 * largest <= gate.max_candidate_uncertainty <= 3.5 * largest
 
 
 @EVERY_GATE

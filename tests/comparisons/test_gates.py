@@ -104,6 +104,48 @@ def test_the_reference_may_be_asked_elsewhere():
         ("lower = -0.1", "lower = -1" + "0" * 400, "wrong type"),
         ("min_cases = 3", 'min_cases = 3\nreference_at = { k = "1" }', "must be a number"),
         ("min_cases = 3", "min_cases = 3\nreference_at = { k = nan }", "must be a number"),
+        ('metric = "rel"', 'metric = "en"', "the metric en needs max_candidate_uncertainty"),
+        ('metric = "rel"', 'metric = "en"\nmax_candidate_uncertainty = 1', "must be below 1 with the metric en"),
+        ("1e-6", "1e-6\nmax_candidate_uncertainty = 0", "max_candidate_uncertainty = 0 must be positive"),
+        ("1e-6", "1e-6\nmax_candidate_uncertainty = nan", "max_candidate_uncertainty = nan must be positive"),
+        ("1e-6", "1e-6\nmax_candidate_uncertainty = inf", "max_candidate_uncertainty = inf must be positive"),
+        ('"jkr"', '"fscm"', "candidate and reference are both 'fscm'"),
+        ('"jkr"', '"fscm"\nreference_at = {}', "candidate and reference are both 'fscm'"),
+        ("min_cases = 3", 'min_cases = 3\nrival = "jkr"', "candidate and rival are both 'jkr'"),
+        ("lower = -0.1", "lower = -1e300", "lower = -1e+300 is beyond 1000 in size"),
+        ("upper = 0.1", "upper = 1e300", "upper = 1e+300 is beyond 1000 in size"),
+        ("lower = -0.1\nupper = 0.1", "lower = -inf\nupper = 1000.5", "upper = 1000.5 is beyond 1000 in size"),
+        ("lower = -0.1\nupper = 0.1", "lower = -1000.5\nupper = inf", "lower = -1000.5 is beyond 1000 in size"),
+        ("upper = 0.1", "upper = 1e300 #", "state a smaller limit, or upper = inf for none"),
+        ('"derived"', '"measured"\nworst_measured = nan', "worst_measured = nan must be a finite number"),
+        ('"derived"', '"measured"\nworst_measured = inf', "worst_measured = inf must be a finite number"),
+        (
+            '"derived"',
+            '"measured"\nworst_measured = 0.1001',
+            "worst_measured = 0.1001 is not within the limits -0.1 to 0.1",
+        ),
+        (
+            '"derived"',
+            '"measured"\nexpected_failure = "Known."\nworst_measured = 0.1',
+            "worst_measured = 0.1 is within the limits -0.1 to 0.1",
+        ),
+        ("A limit.", "", "grounds = '' is empty"),
+        ("A limit.", " \\n\\t ", "is empty"),
+        ("JKR is right.", "  ", "requirement = '  ' is empty"),
+        ("min_cases = 3", 'min_cases = 3\nexpected_failure = ""', "expected_failure = '' is empty"),
+        ("A limit.", "A \\u001b[31mlimit.", "grounds holds the character '\\x1b'"),
+        ("JKR is", "JKR\\u202e is", "requirement holds the character '\\u202e'"),
+        ("JKR is", "JKR\\u0085 is", "requirement holds the character '\\x85'"),
+        (
+            "min_cases = 3",
+            'min_cases = 3\nexpected_failure = "\\u0007"',
+            "expected_failure holds the character '\\x07'",
+        ),
+        ("A-GATE", "A-GATE\\n", r"gate 1 (id = 'A-GATE\n')"),
+        ("A-GATE", "A-\\u001b[31mGATE", r"gate 1 (id = 'A-\x1b[31mGATE')"),
+        ("min_cases = 3", 'min_cases = 3\n"\\u001b[31m" = 1', r"'\x1b[31m' missing or unknown"),
+        ("[[gate]]", '"\\u001b[31m" = 1\n[[gate]]', r"not '\x1b[31m', gate"),
+        ("A-GATE", "\u0391-GATE", "capitals"),
     ],
 )
 def test_what_is_wrong_is_refused_and_named(old, new, says, tmp_path, capsys):
@@ -115,6 +157,37 @@ def test_what_is_wrong_is_refused_and_named(old, new, says, tmp_path, capsys):
     shown = capsys.readouterr()
     assert shown.err.count("\n") == 1
     assert says in shown.err
+    assert shown.err.rstrip("\n").isprintable()
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('"jkr"', '"fscm"\nreference_at = { k = 0 }'),
+        ("upper = 0.1", "upper = 1000"),
+        ("lower = -0.1\nupper = 0.1", "lower = -1000\nupper = inf"),
+        ('metric = "rel"\nlower = -0.1', 'metric = "abs"\nlower = -1e6'),
+        ('"derived"', '"measured"\nworst_measured = -0.1'),
+        ('"derived"', '"measured"\nexpected_failure = "Known."\nworst_measured = 0.1001'),
+        ('metric = "rel"', 'metric = "en"\nmax_candidate_uncertainty = 0.999'),
+        ("1e-6", "1e-6\nmax_candidate_uncertainty = 7"),
+    ],
+)
+def test_what_can_fail_is_read(old, new):
+    assert GATE.replace(old, new) != GATE
+    assert len(load_gates(GATE.replace(old, new))) == 1
+
+
+def test_the_candidate_at_its_own_parameters_is_no_other_reference():
+    same = GATE.replace('"jkr"', '"fscm"').replace("n = [1, 2]", "n = [2, 2], k = [0, 0]")
+    with pytest.raises(ValueError, match="always 0"):
+        load_gates(same + "reference_at = { n = 2, k = 0 }")
+    assert load_gates(same + "reference_at = { n = 2, k = 0.4 }")
+
+
+def test_line_ends_in_a_text_become_spaces():
+    (gate,) = load_gates(GATE.replace('"A limit."', '"""\nA limit,\n  of Eq. 51\tfor k = 0.\n"""'))
+    assert gate.grounds == "A limit, of Eq. 51 for k = 0."
 
 
 @pytest.mark.parametrize("text", ["gate = [1]", "gate = [[]]", "gate = 1", "", "[[gate]", "\ufeff" + GATE])

@@ -71,6 +71,7 @@ def verdict(rows, gate=GATE, grids=GRIDS, curves=None, models=None):
 
 
 EN = GATE.replace('"rel"', '"en"').replace("lower = -0.1", "lower = -1").replace("upper = 0.1", "upper = 1")
+EN += "max_candidate_uncertainty = 0.01\n"
 
 
 @pytest.mark.parametrize(
@@ -89,6 +90,115 @@ def test_en_does_not_pass_because_the_reference_claims_nothing():
     found, judged = verdict(rows, EN)
     assert found == "INCONCLUSIVE"
     assert "tolerates" in judged["reason"][0]
+
+
+def test_en_does_not_pass_because_the_candidate_claims_nothing():
+    rows = results(fscm=2.0, jkr=6.0)
+    rows.loc[rows["model"] == "jkr", "u_num"] = 100.0
+    found, judged = verdict(rows, EN)
+    assert found == "INCONCLUSIVE"
+    assert set(judged["reason"]) == {
+        "u of the candidate jkr is 50 of the reference's value; the gate tolerates 0.01",
+    }
+
+
+def test_en_of_two_sides_that_claim_nothing_names_both():
+    rows = results(fscm=2.0, jkr=6.0)
+    rows["u_num"] = 100.0
+    found, judged = verdict(rows, EN)
+    assert found == "INCONCLUSIVE"
+    assert set(judged["reason"]) == {
+        "u of the candidate jkr is 50 of the reference's value; the gate tolerates 0.01; "
+        "u of the reference fscm is 50 of the reference's value; the gate tolerates 0.001",
+    }
+
+
+def test_en_is_inconclusive_from_the_declared_uncertainty_of_the_candidate_on():
+    for u, expected in ((0.0199, "PASS"), (0.0201, "INCONCLUSIVE")):
+        # Relative to the reference, not to the value of the candidate.
+        rows = results(fscm=2.0, jkr=2.01)
+        rows.loc[rows["model"] == "jkr", "u_num"] = u
+        assert verdict(rows, EN)[0] == expected
+
+
+@pytest.mark.parametrize(("metric", "u"), [("rel", 0.02), ("abs", 0.01), ("range-relative", 0.005)])
+def test_a_limit_of_the_candidates_uncertainty_is_in_the_unit_of_the_metric(metric, u):
+    gate = GATE.replace('"rel"', f'"{metric}"') + "max_candidate_uncertainty = 0.01\n"
+    for factor, expected in ((0.99, "PASS"), (1.01, "INCONCLUSIVE")):
+        rows = results(fscm=lambda k, mu: 1.5 + mu, jkr=lambda k, mu: 1.5 + mu)
+        rows.loc[rows["model"] == "jkr", "u_num"] = factor * u
+        assert verdict(rows, gate)[0] == expected
+
+
+def test_a_failure_stays_a_failure_whatever_the_uncertainty():
+    rows = results(fscm=2.0, jkr=6.0)
+    rows.loc[rows["model"] == "jkr", "u_num"] = 0.1
+    assert verdict(rows, GATE + "max_candidate_uncertainty = 0.01\n")[0] == "FAIL"
+
+
+@pytest.mark.parametrize(
+    ("uncertain", "says"),
+    [
+        ("jkr", "mostly by u of the candidate jkr: 0.005 (the reference fscm: 5.5e-07)"),
+        ("fscm", "mostly by u of the reference fscm: 0.0055"),
+    ],
+)
+def test_an_inconclusive_verdict_says_whose_uncertainty_it_is(uncertain, says):
+    rows = results(fscm=2.0, jkr=2.19)
+    rows.loc[rows["model"] == uncertain, "u_num"] = 0.01
+    found, judged = verdict(rows, GATE.replace("1e-3", "1e-1"))
+    assert found == "INCONCLUSIVE"
+    assert judged["reason"].str.startswith("E = 0.095 +- 0.01").all()
+    assert judged["reason"].str.contains("reaches across the limit 0.1, ").all()
+    assert judged["reason"].str.contains(says, regex=False).all()
+
+
+@pytest.mark.parametrize("uncertain", ["jkr", "fscm", "dmt"])
+def test_an_inconclusive_comparison_with_a_rival_says_whose_uncertainty_it_is(uncertain):
+    gate = GATE.replace("lower = -0.1\nupper = 0.1", "lower = -inf\nupper = 0.0") + 'rival = "dmt"\n'
+    rows = results(fscm=2.0, jkr=2.1, dmt=2.101)
+    rows.loc[rows["model"] == uncertain, "u_num"] = 0.01
+    found, judged = verdict(rows, gate)
+    role = {"jkr": "candidate", "fscm": "reference", "dmt": "rival"}[uncertain]
+    assert found == "INCONCLUSIVE"
+    assert judged["reason"].str.contains(f"mostly by u of the {role} {uncertain}: 0.00", regex=False).all()
+
+
+def test_an_inconclusive_distance_of_curves_says_whose_uncertainty_it_is():
+    x = [i / 20 for i in range(21)]
+    case = {"quantity": "force_curve", "n": 2.0, "nu": math.nan, "status": "ok", "reason": ""}
+    curves = pd.DataFrame(
+        [
+            case | {"model": model, "k": k, "mu": mu, "x": at, "y": at, "u_distance": u}
+            for model, u in (("jkr", 0.2), ("fscm", 1e-9))
+            for k in (0.0, 0.4)
+            for mu in (0.5, 1.0)
+            for at in x
+        ]
+    )
+    gate = (
+        GATE.replace("pull_off_force", "force_curve")
+        .replace('"rel"', '"curve"')
+        .replace("lower = -0.1", "lower = -inf")
+    )
+    found, judged = verdict(results(), gate, curves=curves)
+    assert found == "INCONCLUSIVE"
+    assert judged["reason"].str.contains("mostly by u of the candidate jkr: 0.2", regex=False).all()
+    limited = gate.replace("upper = 0.1", "upper = 0.5") + "max_candidate_uncertainty = 0.1\n"
+    found, judged = verdict(results(), limited, curves=curves)
+    assert found == "INCONCLUSIVE"
+    assert set(judged["reason"]) == {"u of the candidate jkr is 0.2; the gate tolerates 0.1"}
+
+
+def test_a_limit_of_uncertainty_is_printed_with_all_its_digits():
+    rows = results(fscm=2.0, jkr=2.0)
+    rows.loc[rows["model"] == "fscm", "u_num"] = 3e-3
+    _, judged = verdict(rows, GATE.replace("1e-3", "1.2345e-3"))
+    assert (
+        judged["reason"]
+        .str.endswith("u of the reference fscm is 0.0015 of the reference's value; the gate tolerates 0.0012345")
+        .all()
+    )
 
 
 @pytest.mark.parametrize(("reference", "u"), [(0.0, 1e-6), (2.0, 0.0)])
@@ -281,6 +391,15 @@ def test_gates_for_models_that_are_given():
     assert judge(load_gates(gate), GRIDS, rows).empty
     _, judged = verdict(rows, gate, models=["jkr", "dmt"])
     assert by_gate(judged).set_index("candidate")["verdict"].to_dict() == {"dmt": "FAIL", "jkr": "PASS"}
+
+
+def test_a_given_model_is_not_compared_with_itself():
+    rows = results(fscm=lambda k, mu: 2.0 + 0.1 * k, jkr=2.0)
+    gate = GATE.replace('"jkr"', '"given"')
+    _, judged = verdict(rows, gate, models=["fscm", "jkr"])
+    assert set(judged["candidate"]) == {"jkr"}
+    _, judged = verdict(rows, gate + "reference_at = { k = 0 }\n", models=["fscm", "jkr"])
+    assert set(judged["candidate"]) == {"fscm", "jkr"}
 
 
 def test_a_gate_of_a_model_that_is_not_asked_does_not_count():

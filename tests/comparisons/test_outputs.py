@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 import pandas as pd
 import pytest
 
-from comparisons.outputs.digits import short
+from comparisons.outputs.digits import exact, limits_text, short
 from comparisons.outputs.junit import junit
 from comparisons.outputs.latex import latex
 from comparisons.outputs.markdown import markdown, to_step_summary
@@ -97,6 +97,22 @@ def test_the_digits_never_promise_more_than_there_is():
         digits, brackets = text.rstrip(")").split("(")
         decimals = len(digits.partition(".")[2])
         assert int(brackets) * 10**-decimals >= u * (1 - 1e-12)
+
+
+DECLARED = [(-0.651, -0.6495), (-0.0074, -0.00725), (0.0, 1.23456789e-9), (-math.inf, 0.1 + 0.2), (-1000.0, math.inf)]
+
+
+@pytest.mark.parametrize(("lower", "upper"), DECLARED)
+def test_limits_are_shown_with_the_digits_they_were_declared_with(lower, upper):
+    low, high = limits_text(lower, upper).split(" to ")
+    assert (float(low), float(high)) == (lower, upper)
+    judged = JUDGED.assign(lower=lower, upper=upper)
+    assert set(matrix(judged, {})["limits"]) == {f"{exact(lower)} to {exact(upper)}"}
+    assert f"| {low} to {high} |" in markdown(matrix(judged, {}), "Verdicts")
+    assert f"{low} to {high} \\\\" in latex(matrix(judged, {})[["gate", "limits"]], "Verdicts")
+    root = ElementTree.fromstring(junit(judged, partial(command, specs={})))
+    texts = [case[0].text for case in root.findall(".//testcase")]
+    assert all(f"limits {low} to {high}" in text for text in texts)
 
 
 def test_markdown_is_safe_in_a_table_and_in_html():

@@ -2,6 +2,7 @@
 
 import io
 import math
+from pathlib import Path
 
 import pandas as pd
 import pytest
@@ -9,7 +10,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.console import Console
 
+from comparisons.cases import Case, Grid
 from comparisons.claims import Published, published
+from comparisons.gates import load_gates
+from comparisons.judge import judge
+from comparisons.paper.error_grid import errors, errors_at
+from comparisons.paper.workshop import Call
+from comparisons.publish import PLATES
 from comparisons.tables import (
     beside_published,
     by_case,
@@ -19,6 +26,24 @@ from comparisons.tables import (
     rich_table,
     statuses,
 )
+
+GATE = """
+[[gate]]
+id = "JUMP-OUT"
+requirement = "JKR jumps out where the FSCM does."
+quantity = "jump_out_displacement"
+candidate = "jkr"
+reference = "fscm"
+cases = { n = [1, 1] }
+metric = "rel"
+lower = -1
+upper = 1
+max_reference_uncertainty = 1e-3
+basis = "derived"
+grounds = "An example."
+min_cases = 1
+tier = "quick"
+"""
 
 
 def stored(model, mu, value, u_num=0.0, **other):
@@ -128,3 +153,39 @@ def test_maxima_for_reading_keep_their_sign_and_their_place():
     assert stated[["n", "k", "kappa", "published_percent", "verdict"]].to_numpy().tolist() == [
         [2, 0.4, pytest.approx(-10), "0.73", "differs"]
     ]
+
+
+@pytest.mark.parametrize(("value", "reference"), [(-2.1, -2.0), (-1.9, -2.0), (0.5, -2.0), (1.9, 2.0), (-1.0, 2.0)])
+def test_one_sign_of_kappa_in_tables_gates_and_error_maps(value, reference):
+    """Positive where the model is above the reference, also where both are negative."""
+    case = {"quantity": "jump_out_displacement", "n": 1.0}
+    rows = pd.DataFrame([stored("jkr", 1, value, 1e-9, **case), stored("fscm", 1, reference, 1e-9, **case)])
+    expected = (value - reference) / abs(reference)
+    (kappa,) = relative_error(rows, "fscm")["kappa"]
+    grid = Grid("g", "", "quick", "fscm", ("jkr",), ("jump_out_displacement",), (Case(1.0, 0.4, 1),))
+    (gate,) = load_gates(GATE)
+    (judged,) = judge([gate], [grid], rows.assign(reason=""))["error"]
+    call = Call.of(errors_at, 1.0, 0.4, 1)
+    found = {row["model"]: {"value": row["value"], "u_num": 1e-9, "reason": ""} for row in rows.to_dict("records")}
+    others = dict.fromkeys(("md-improved", "md-original"), found["jkr"])
+    (mapped, *_) = errors(
+        {call: {"jump_out_displacement": found | others}}, [(1.0, 0.4, 1)], ["jump_out_displacement"]
+    )["kappa"]
+    assert kappa == judged == mapped == expected
+
+
+def test_the_committed_errors_of_the_jumps_have_the_sign_of_the_tables():
+    table = pd.read_csv(Path(__file__).parents[2] / PLATES / "error_maps_jumps.csv")
+    known = table[(table["quantity"] == "jump_out_displacement") & table["kappa"].notna()]
+    rows = [known.assign(status="ok", nu=math.nan)]
+    reference = known.drop_duplicates(["n", "k", "mu"])
+    rows.append(
+        reference.assign(model="fscm", value=reference["fscm"], u_num=reference["u_fscm"], status="ok", nu=math.nan)
+    )
+    again = relative_error(pd.concat(rows), "fscm").merge(known, on=["model", "n", "k", "mu"], suffixes=("", "_map"))
+    assert (again["reference_value"] < 0.0).all()
+    assert again["kappa"].to_numpy() == pytest.approx(again["kappa_map"].to_numpy(), rel=0.0, abs=1e-14)
+    (jkr,) = again.loc[
+        (again["model"] == "jkr") & (again["n"] == 1.0) & (again["k"] == 0.4) & (again["mu"] == 2.0), "kappa"
+    ]
+    assert jkr == pytest.approx(0.0524, abs=5e-5)

@@ -63,6 +63,8 @@ def test_the_workflow_knows_the_exit_statuses(package):
     assert "fscm-bench check-model my-model" in text
     assert "fscm-bench run --model my-model --gates gates.toml --out results" in text
     assert f'"$status" -eq {INCONCLUSIVE}' in text
+    # It is told apart and fails the job all the same.
+    assert "exit 0" not in text
     meanings = {
         OK: "pass",
         FAILS: "fails",
@@ -74,6 +76,23 @@ def test_the_workflow_knows_the_exit_statuses(package):
     for status, meaning in meanings.items():
         assert re.search(rf"{status} [^,]*{meaning}", line), meaning
     assert "if: always()" in text
+
+
+@pytest.mark.parametrize("status", [OK, FAILS, WRONG_INPUT, INCONCLUSIVE, FAILED])
+def test_the_workflow_ends_with_the_status_of_the_run(package, tmp_path, status):
+    lines = (package / ".github" / "workflows" / "judge.yml").read_text().splitlines()
+    start = next(i for i, line in enumerate(lines) if line.strip() == "status=0")
+    end = next(i for i in range(start, len(lines)) if lines[i].strip() == 'exit "$status"')
+    program = tmp_path / "bin" / "fscm-bench"
+    program.parent.mkdir()
+    program.write_text(f"#!/bin/sh\nexit {status}\n")
+    program.chmod(0o755)
+    script = "\n".join(line.strip() for line in lines[start : end + 1])
+    done = subprocess.run(
+        ["sh", "-e", "-c", script], env={"PATH": f"{program.parent}:/usr/bin:/bin"}, capture_output=True, text=True
+    )
+    assert done.returncode == status
+    assert ("::error::inconclusive" in done.stdout) == (status == INCONCLUSIVE)
 
 
 @pytest.mark.parametrize(

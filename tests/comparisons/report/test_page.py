@@ -1,8 +1,10 @@
 """The model of a page: what it says is what is stored, in the right order, and a broken folder is refused."""
 
 import json
+import math
 import re
 import shutil
+from dataclasses import replace
 
 import pandas as pd
 import pytest
@@ -102,6 +104,16 @@ def test_numbers_shown_are_the_stored_ones_to_the_digits_shown(page, stored, tab
 def test_limits_and_uncertainties_are_the_stored_ones(page, stored):
     shown = [cell.value for cell in column(page.tables["verdicts"], "U") if cell.text]
     assert shown == stored.verdicts["uncertainty"].dropna().tolist()
+
+
+def test_limits_have_the_digits_they_were_declared_with(stored):
+    for lower, upper, text in (
+        (-0.651, -0.64951, "-0.651 to -0.64951"),
+        (-math.inf, 1.23456789e-9, "≤ 1.23456789e-09"),
+    ):
+        page = make_page(replace(stored, verdicts=stored.verdicts.assign(lower=lower, upper=upper)))
+        for name in ("matrix", "offenders", "verdicts"):
+            assert {cell.text for cell in column(page.tables[name], "limits of E")} == {text}
 
 
 def test_plots_have_the_stored_points(page, stored):
