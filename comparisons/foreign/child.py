@@ -17,8 +17,12 @@ from typing import IO, Any
 from comparisons.foreign import scratch
 from comparisons.foreign.limits import Limits
 from comparisons.foreign.scratch import Scratch, make_scratch, remove_scratch
+from comparisons.foreign.wording import one_line
 
-__all__ = ["Child"]
+__all__ = ["DIGEST", "Child", "contradiction"]
+
+#: Digits of the digest that are kept in the version of a model.
+DIGEST = 12
 
 #: Questions in a row that may run out of time before the model is not asked any more: a run of hundreds
 #: must end.
@@ -72,12 +76,16 @@ class Child:
         self._scratch: Scratch | None = None
         self._cleaner: subprocess.Popen[bytes] | None = None
         self._answers = -1
+        self._first: dict[str, Any] = {}
+        self._contradiction = ""
         self._overdue = 0
 
     def ask(self, **request: Any) -> dict[str, Any]:
         """Return ``status`` and, for a failure, a ``reason``; nothing a model does raises an exception."""
         if self._overdue >= PATIENCE:
             return _failed(f"not asked: it ran out of time {PATIENCE} times in a row")
+        if self._contradiction:
+            return _failed(self._contradiction)
         if self._process is None:
             opened = self._start()
             if opened["status"] != "ok" or request["ask"] == "open":
@@ -109,9 +117,21 @@ class Child:
         path = [here, *(entry or str(Path.cwd()) for entry in sys.path)]
         self._start_processes(path)
         ready = self._exchange({"ask": "ready", "limits": asdict(self._limits), "path": path}, _START)
-        opened = self._exchange({"ask": "open", "door": self._door}) if ready["status"] == "ok" else ready
+        door = self._door | {"skip": _output_files()}
+        opened = self._exchange({"ask": "open", "door": door}) if ready["status"] == "ok" else ready
         if opened["status"] != "ok":
             self.close()
+            return opened
+        return self._compared(opened)
+
+    def _compared(self, opened: dict[str, Any]) -> dict[str, Any]:
+        """Return what a new process says, or a failure if the first said another name, version or state of files."""
+        self._first = self._first or opened
+        for what in ("name", "version", "digest"):
+            if opened.get(what) != self._first.get(what):
+                self.close()
+                self._contradiction = contradiction(_said(self._first), _said(opened))
+                return _failed(self._contradiction)
         return opened
 
     def _start_processes(self, path: list[str]) -> None:
@@ -206,6 +226,39 @@ class Child:
         if code < 0:
             return _failed(f"its process was killed by {_signal_name(-code)}")
         return _failed(f"it ended its process with exit status {code}, as os._exit does")
+
+
+def contradiction(first: tuple[str, str], later: tuple[str, str]) -> str:
+    """Return why a model is refused that is not in a later process what it was in the first.
+
+    Parameters
+    ----------
+    first, later : tuple of str
+        Its name and version; the version ends in a digest of its files.
+
+    Examples
+    --------
+    >>> contradiction(("mine", "1 (ab)"), ("mine", "1 (cd)"))
+    "the model's files changed after it was opened: it is mine 1 (cd) in a later process, and was mine 1 (ab)"
+    """
+    same = first[0] == later[0] and first[1].rpartition(" (")[0] == later[1].rpartition(" (")[0]
+    what = "the model's files changed after it was opened" if same else "the model contradicts itself"
+    return one_line(f"{what}: it is {' '.join(later)} in a later process, and was {' '.join(first)}")
+
+
+def _said(opened: dict[str, Any]) -> tuple[str, str]:
+    name, version, digest = (one_line(str(opened.get(key)), 60) for key in ("name", "version", "digest"))
+    return name, f"{version} ({digest[:DIGEST]})"
+
+
+def _output_files() -> list[tuple[int, int]]:
+    """Return device and inode of the files that take our output: they grow, and are no files of a model."""
+    found = []
+    for descriptor in (1, 2):
+        with contextlib.suppress(OSError):
+            status = os.fstat(descriptor)
+            found.append((status.st_dev, status.st_ino))
+    return found
 
 
 def _tell(process: subprocess.Popen[bytes], line: bytes) -> None:

@@ -22,8 +22,9 @@ from typing import IO, Any
 
 import numpy as np
 
+from comparisons.foreign.fingerprint import fingerprint
 from comparisons.foreign.limits import LARGEST_COUNT, Limits, cpu_seconds_from_now, limit_resources
-from comparisons.foreign.source import load_file, source_digest
+from comparisons.foreign.source import load_file
 from comparisons.foreign.units import InUnits, PhysicalModel
 from comparisons.foreign.wording import one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
@@ -97,18 +98,29 @@ def _confine(path: list[str], limits: Limits) -> None:
 
 def _open(door: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
     if door["kind"] == "file":
-        made = load_file(Path(door["file"]), door["attribute"])
+        file, installed = Path(door["file"]), []
+        made, module = load_file(file, door["attribute"]), file.stem
     else:
         (found,) = {entry for entry in entry_points(group=door["group"]) if entry.name == door["name"]}
-        made = found.load()
+        made, module = found.load(), found.module
+        files = found.dist.files if found.dist else None
+        installed = [Path(str(path.locate())).resolve() for path in files or ()]
     model = made() if callable(made) else made
+    cls = made if isinstance(made, type) else type(model)
+    state = fingerprint(
+        (module, cls.__module__),
+        getattr(model, "files", ()),
+        installed=installed,
+        skip=[(device, inode) for device, inode in door.get("skip", ())],
+    )
     reply = {
         "status": "ok",
         **{name: str(getattr(model, name)) for name in ("name", "version", "citation", "domain")},
         "limits": [str(limit) for limit in getattr(model, "limits", ())],
         "curve": callable(getattr(model, "curve", None)),
         "physical": isinstance(model, PhysicalModel),
-        "digest": source_digest(made if isinstance(made, type) else type(model)),
+        "digest": state.digest,
+        "hashed": state.hashed,
     }
     if not reply["physical"] and not callable(getattr(model, "evaluate", None)):
         raise TypeError("the model has no method evaluate(problem, quantity)")
