@@ -14,7 +14,7 @@ from itertools import groupby
 from traceback import extract_tb
 
 from comparisons.cases import Case, Grid
-from comparisons.foreign.child import contradiction
+from comparisons.foreign.identity import contradiction
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
 from comparisons.models import Outside, create, knows_poisson
 from comparisons.quantities import QUANTITIES

@@ -15,14 +15,12 @@ from pathlib import Path
 from typing import IO, Any
 
 from comparisons.foreign import scratch
+from comparisons.foreign.identity import contradiction, said
 from comparisons.foreign.limits import Limits
 from comparisons.foreign.scratch import Scratch, make_scratch, remove_scratch
-from comparisons.foreign.wording import one_line
 
-__all__ = ["DIGEST", "Child", "contradiction"]
+__all__ = ["Child"]
 
-#: Digits of the digest that are kept in the version of a model.
-DIGEST = 12
 
 #: Questions in a row that may run out of time before the model is not asked any more: a run of hundreds
 #: must end.
@@ -130,7 +128,7 @@ class Child:
         for what in ("name", "version", "digest"):
             if opened.get(what) != self._first.get(what):
                 self.close()
-                self._contradiction = contradiction(_said(self._first), _said(opened))
+                self._contradiction = contradiction(said(self._first), said(opened))
                 return _failed(self._contradiction)
         return opened
 
@@ -226,29 +224,6 @@ class Child:
         if code < 0:
             return _failed(f"its process was killed by {_signal_name(-code)}")
         return _failed(f"it ended its process with exit status {code}, as os._exit does")
-
-
-def contradiction(first: tuple[str, str], later: tuple[str, str]) -> str:
-    """Return why a model is refused that is not in a later process what it was in the first.
-
-    Parameters
-    ----------
-    first, later : tuple of str
-        Its name and version; the version ends in a digest of its files.
-
-    Examples
-    --------
-    >>> contradiction(("mine", "1 (ab)"), ("mine", "1 (cd)"))
-    "the model's files changed after it was opened: it is mine 1 (cd) in a later process, and was mine 1 (ab)"
-    """
-    same = first[0] == later[0] and first[1].rpartition(" (")[0] == later[1].rpartition(" (")[0]
-    what = "the model's files changed after it was opened" if same else "the model contradicts itself"
-    return one_line(f"{what}: it is {' '.join(later)} in a later process, and was {' '.join(first)}")
-
-
-def _said(opened: dict[str, Any]) -> tuple[str, str]:
-    name, version, digest = (one_line(str(opened.get(key)), 60) for key in ("name", "version", "digest"))
-    return name, f"{version} ({digest[:DIGEST]})"
 
 
 def _output_files() -> list[tuple[int, int]]:

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.foreign.child import DIGEST, Child
+from comparisons.foreign.child import Child
+from comparisons.foreign.identity import DIGEST
 from comparisons.foreign.limits import LARGEST_COUNT, Limits
 from comparisons.foreign.wording import model_name, one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
