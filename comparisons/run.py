@@ -14,6 +14,7 @@ from itertools import groupby
 from traceback import extract_tb
 
 from comparisons.cases import Case, Grid
+from comparisons.foreign.identity import contradiction
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
 from comparisons.models import Outside, create, knows_poisson
 from comparisons.quantities import QUANTITIES
@@ -161,10 +162,20 @@ def answer(task: Task) -> Row:
     model = task.outside or create(task.model, task.case.nu)
     try:
         if isinstance(model, Outside):
-            model = create(model.spec, task.case.nu)
+            return _ask_outside(model, task)
         return ask(model, task.quantity, task.case)
     except ValueError as refusal:
         return _row(model, task.quantity, task.case, started, status="failed", reason=str(refusal))
+
+
+def _ask_outside(first: Outside, task: Task) -> Row:
+    """Ask a model from outside; if it is not what it was when the run opened it, the row says so and is that one's."""
+    started = time.perf_counter()
+    model = create(first.spec, task.case.nu)
+    if (model.name, model.version) != (first.name, first.version):
+        reason = contradiction((first.name, first.version), (model.name, model.version))
+        return _row(first, task.quantity, task.case, started, status="failed", reason=reason)
+    return ask(model, task.quantity, task.case)
 
 
 def _batches(tasks: list[Task]) -> list[list[Task]]:

@@ -9,15 +9,18 @@ import select
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
+from comparisons.foreign import scratch
+from comparisons.foreign.identity import contradiction, said
 from comparisons.foreign.limits import Limits
+from comparisons.foreign.scratch import Scratch, make_scratch, remove_scratch
 
 __all__ = ["Child"]
+
 
 #: Questions in a row that may run out of time before the model is not asked any more: a run of hundreds
 #: must end.
@@ -41,9 +44,14 @@ _ENVIRONMENT = (
 )
 _ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 
+#: Landlock binds the thread that asks for it and those this thread starts later: it comes before NumPy's libraries,
+#: our own thread and the model.
 _PROGRAM = """
 import sys
-sys.path[:] = sys.argv[2:]
+sys.dont_write_bytecode = True
+sys.path[:] = sys.argv[3:]
+from comparisons.foreign.landlock import write_only_in
+write_only_in(sys.argv[2])
 from comparisons.foreign.worker import main
 main(int(sys.argv[1]))
 """
@@ -63,14 +71,19 @@ class Child:
         self._door = door
         self._limits = limits
         self._process: subprocess.Popen[bytes] | None = None
-        self._scratch: tempfile.TemporaryDirectory[str] | None = None
+        self._scratch: Scratch | None = None
+        self._cleaner: subprocess.Popen[bytes] | None = None
         self._answers = -1
+        self._first: dict[str, Any] = {}
+        self._contradiction = ""
         self._overdue = 0
 
     def ask(self, **request: Any) -> dict[str, Any]:
         """Return ``status`` and, for a failure, a ``reason``; nothing a model does raises an exception."""
         if self._overdue >= PATIENCE:
             return _failed(f"not asked: it ran out of time {PATIENCE} times in a row")
+        if self._contradiction:
+            return _failed(self._contradiction)
         if self._process is None:
             opened = self._start()
             if opened["status"] != "ok" or request["ask"] == "open":
@@ -82,56 +95,86 @@ class Child:
         return answer
 
     def close(self) -> None:
-        """End the process, and whatever it started in its process group."""
-        if self._process is None:
-            return
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(self._process.pid, signal.SIGKILL)
-        self._process.wait()
-        if self._process.stdin:
-            with contextlib.suppress(OSError):
-                self._process.stdin.close()
-        os.close(self._answers)
-        if self._scratch:
-            with contextlib.suppress(OSError):
-                self._scratch.cleanup()
-        self._process = self._scratch = None
+        """End the process and whatever it started in its process group, and remove its scratch folder."""
+        if self._process is not None:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(self._process.pid, signal.SIGKILL)
+            self._process.wait()
+            _close(self._process.stdin)
+            os.close(self._answers)
+        if self._scratch is not None:
+            remove_scratch(self._scratch)
+        if self._cleaner is not None:
+            self._cleaner.kill()
+            self._cleaner.wait()
+            _close(self._cleaner.stdin)
+        self._process = self._scratch = self._cleaner = None
 
     def _start(self) -> dict[str, Any]:
         here = str(Path(__file__).resolve().parent.parent.parent)
         path = [here, *(entry or str(Path.cwd()) for entry in sys.path)]
-        self._scratch = tempfile.TemporaryDirectory(prefix="fscm-bench-", ignore_cleanup_errors=True)
-        scratch = self._scratch.name
+        self._start_processes(path)
+        ready = self._exchange({"ask": "ready", "limits": asdict(self._limits), "path": path}, _START)
+        door = self._door | {"skip": _output_files()}
+        opened = self._exchange({"ask": "open", "door": door}) if ready["status"] == "ok" else ready
+        if opened["status"] != "ok":
+            self.close()
+            return opened
+        return self._compared(opened)
+
+    def _compared(self, opened: dict[str, Any]) -> dict[str, Any]:
+        """Return what a new process says, or a failure if the first said another name, version or state of files."""
+        self._first = self._first or opened
+        for what in ("name", "version", "digest"):
+            if opened.get(what) != self._first.get(what):
+                self.close()
+                self._contradiction = contradiction(said(self._first), said(opened))
+                return _failed(self._contradiction)
+        return opened
+
+    def _start_processes(self, path: list[str]) -> None:
+        """Start the process that removes the scratch folder, then the child; or raise OSError and leave nothing."""
         environment = {name: os.environ[name] for name in _ENVIRONMENT if name in os.environ}
-        self._answers, theirs = os.pipe()
+        answers, theirs = os.pipe()
         try:
+            folder = self._scratch = make_scratch()
+            self._cleaner = subprocess.Popen(
+                [sys.executable, "-I", "-S", scratch.__file__, folder.path, str(folder.device), str(folder.inode)],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                cwd="/",
+                env=environment,
+                start_new_session=True,
+            )
             self._process = subprocess.Popen(
-                [sys.executable, "-c", _PROGRAM, str(theirs), *path],
+                [sys.executable, "-c", _PROGRAM, str(theirs), folder.path, *path],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
                 pass_fds=[theirs],
-                cwd=scratch,
-                env=environment | _ONE_THREAD | {"HOME": scratch, "TMPDIR": scratch},
+                cwd=folder.path,
+                env=environment | _ONE_THREAD | {"HOME": folder.path, "TMPDIR": folder.path},
                 start_new_session=True,
             )
+            self._answers = answers
+        except BaseException:
+            os.close(answers)
+            self.close()
+            raise
         finally:
             os.close(theirs)
-        ready = self._exchange({"ask": "ready", "limits": asdict(self._limits), "path": path}, _START)
-        opened = self._exchange({"ask": "open", "door": self._door}) if ready["status"] == "ok" else ready
-        if opened["status"] != "ok":
-            self.close()
-        return opened
+        with contextlib.suppress(OSError):
+            _tell(self._cleaner, f"{self._process.pid}\n".encode())
 
     def _exchange(self, request: dict[str, Any], seconds: float | None = None) -> dict[str, Any]:
         seconds = seconds or self._limits.seconds
         process = self._process
-        if process is None or process.stdin is None:
+        if process is None:
             return _failed("its process has ended")
         started = time.monotonic()
         try:
-            process.stdin.write(json.dumps(request, allow_nan=False).encode() + b"\n")
-            process.stdin.flush()
+            _tell(process, json.dumps(request, allow_nan=False).encode() + b"\n")
         except OSError:
             return self._ended()
         line = self._line(started + seconds)
@@ -181,6 +224,28 @@ class Child:
         if code < 0:
             return _failed(f"its process was killed by {_signal_name(-code)}")
         return _failed(f"it ended its process with exit status {code}, as os._exit does")
+
+
+def _output_files() -> list[tuple[int, int]]:
+    """Return device and inode of the files that take our output: they grow, and are no files of a model."""
+    found = []
+    for descriptor in (1, 2):
+        with contextlib.suppress(OSError):
+            status = os.fstat(descriptor)
+            found.append((status.st_dev, status.st_ino))
+    return found
+
+
+def _tell(process: subprocess.Popen[bytes], line: bytes) -> None:
+    if process.stdin is not None:
+        process.stdin.write(line)
+        process.stdin.flush()
+
+
+def _close(pipe: IO[bytes] | None) -> None:
+    if pipe is not None:
+        with contextlib.suppress(OSError):
+            pipe.close()
 
 
 def _signal_name(number: int) -> str:

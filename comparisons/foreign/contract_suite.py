@@ -173,7 +173,8 @@ def _identity(model: Outside) -> Finding:
     missing = [name for name in ("version", "citation", "domain") if not getattr(model, name).strip()]
     if missing:
         return Finding("says what it is", WRONG, f"{', '.join(missing)} is empty, but readers cite it")
-    return Finding("says what it is", OK, f"{model.name} {model.version}; {model.citation}; {model.domain}")
+    text = f"{model.name} {model.version}; {model.citation}; {model.domain}; hashed: {model.hashed}"
+    return Finding("says what it is", OK, text)
 
 
 def _finite(answers: _Answers) -> Finding:

@@ -58,6 +58,9 @@ _LICENCE = re.compile(r"[A-Za-z0-9.+ ()-]{1,100}")
 _FILE = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,100}\.csv")
 _LARGEST_MANIFEST, _LARGEST_CSV, _MOST_CASES = 1_000_000, 50_000_000, 1_000_000
 
+#: So many cases more than the CSV has lines are still built: the sentence then names the first that is missing.
+_NAMED_MISSING = 1000
+
 
 @dataclass(frozen=True, slots=True)
 class Submission:
@@ -102,6 +105,7 @@ class DataModel:
         self.version = f"{submission.version} ({submission.sha256[:12]})"
         source = "" if submission.doi == "none" else f", doi:{submission.doi}"
         self.citation = f"{submission.author}{source} ({submission.licence})"
+        self.hashed = f"the predictions, a CSV with {len(submission.rows)} rows"
 
     def evaluate(self, problem: Problem, quantity: str, *, scales: int = 0) -> Result:
         """Return the prediction, or raise `NotApplicable` for a case that the submission does not cover."""
@@ -150,8 +154,6 @@ def _submission(folder: Path) -> Submission:
         raise ValueError(
             f'{MANIFEST}: predictions = "{texts["predictions"]}" must be the name of a .csv file beside {MANIFEST}'
         )
-    covered = _covered(manifest["covers"])
-    _check_units(manifest["units"], {key[0] for key in covered})
     content = _bytes(folder, texts["predictions"], _LARGEST_CSV)
     digest = hashlib.sha256(content).hexdigest()
     if digest != texts["sha256"].lower():
@@ -159,6 +161,8 @@ def _submission(folder: Path) -> Submission:
             f"{texts['predictions']} has the SHA-256 {digest}, but {MANIFEST} states {texts['sha256']}: "
             "one of them is not the author's"
         )
+    covered = _covered(manifest["covers"], _lines(content))
+    _check_units(manifest["units"], {key[0] for key in covered})
     rows = _rows(content, texts["predictions"], covered)
     return Submission(
         **{name: texts[name] for name in ("name", "version", "author", "doi", "licence", "domain")},
@@ -179,6 +183,11 @@ def _bytes(folder: Path, name: str, largest: int) -> bytes:
     return path.read_bytes()
 
 
+def _lines(content: bytes) -> int:
+    ends = content.count(b"\n") + content.count(b"\r") - content.count(b"\r\n")
+    return ends + (not content.endswith((b"\n", b"\r")))
+
+
 def _text_of(content: bytes, file: str) -> str:
     try:
         return content.decode()
@@ -195,27 +204,44 @@ def _text(name: str, value: object) -> str:
     return value
 
 
-def _covered(tables: object) -> set[Key]:
+def _covered(tables: object, lines: int) -> set[Key]:
+    """Return the cases that are promised; `lines` is how many the CSV has, and so the most rows it can have."""
     if not (isinstance(tables, list) and tables and all(isinstance(table, dict) for table in tables)):
         raise ValueError(f"{MANIFEST}: covers must be at least one [[covers]] table")
-    keys: set[Key] = set()
     for table in tables:
-        if table.keys() != set(_COVERS) or not all(isinstance(table[name], list) for name in _COVERS):
-            raise ValueError(f"{MANIFEST}: a [[covers]] table has the lists {', '.join(_COVERS)} and no other")
-        for quantity in table["quantities"]:
-            if not isinstance(quantity, str) or quantity not in QUANTITIES:
-                raise ValueError(f"{MANIFEST}: unknown quantity {quantity!r}; known are {', '.join(QUANTITIES)}")
-        for name in ("n", "k", "mu"):
-            if wrong := [entry for entry in table[name] if not is_real(entry)]:
-                raise ValueError(f"{MANIFEST}: {name} in [[covers]] must be a list of numbers; {wrong[0]!r} is none")
-        if math.prod(len(table[name]) for name in _COVERS) > _MOST_CASES:
-            raise ValueError(f"{MANIFEST}: [[covers]] has more than {_MOST_CASES} cases")
-        for quantity, n, k, mu in product(*(table[name] for name in _COVERS)):
+        _check_table(table)
+    # Nothing is built before it is known how many cases there are: a short file can promise very many.
+    lists = [[list(dict.fromkeys(table[name])) for name in _COVERS] for table in tables]
+    sizes = [math.prod(map(len, table)) for table in lists]
+    if sum(sizes) > _MOST_CASES:
+        raise ValueError(
+            f"{MANIFEST}: the [[covers]] tables promise {sum(sizes)} cases, more than {_MOST_CASES}: "
+            "each of them needs a row"
+        )
+    if max(sizes) > lines + _NAMED_MISSING:
+        raise ValueError(
+            f"{MANIFEST}: a [[covers]] table promises {max(sizes)} cases, but the predictions have {lines} lines: "
+            "each case needs a row"
+        )
+    keys: set[Key] = set()
+    for table in lists:
+        for quantity, n, k, mu in product(*table):
             problem = Problem(n, k, mu)
             keys.add((quantity, problem.n, problem.k, problem.mu))
     if not keys:
         raise ValueError(f"{MANIFEST}: [[covers]] has no case")
     return keys
+
+
+def _check_table(table: dict[str, Any]) -> None:
+    if table.keys() != set(_COVERS) or not all(isinstance(table[name], list) for name in _COVERS):
+        raise ValueError(f"{MANIFEST}: a [[covers]] table has the lists {', '.join(_COVERS)} and no other")
+    for quantity in table["quantities"]:
+        if not isinstance(quantity, str) or quantity not in QUANTITIES:
+            raise ValueError(f"{MANIFEST}: unknown quantity {quantity!r}; known are {', '.join(QUANTITIES)}")
+    for name in ("n", "k", "mu"):
+        if wrong := [entry for entry in table[name] if not is_real(entry)]:
+            raise ValueError(f"{MANIFEST}: {name} in [[covers]] must be a list of numbers; {wrong[0]!r} is none")
 
 
 def _check_units(units: object, quantities: set[str]) -> None:

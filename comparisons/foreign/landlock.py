@@ -1,8 +1,8 @@
 """Landlock of Linux: a process gives up, for itself and its children, writing and signalling outside.
 
-Kernel documentation: userspace-api/landlock.  It needs no privileges and holds for a superuser too.
-Rights are numbered
-as in linux/landlock.h; those a kernel does not know yet are left out.
+Kernel documentation: userspace-api/landlock.  It needs no privileges and holds for a superuser too.  It binds
+the calling thread and what that thread starts later, so it must be called before any other thread exists.
+Rights are numbered as in linux/landlock.h; those a kernel does not know yet are left out.
 """
 
 from __future__ import annotations
@@ -35,13 +35,13 @@ class _PathBeneath(ctypes.Structure):
     _fields_ = (("allowed", ctypes.c_uint64), ("descriptor", ctypes.c_int32))
 
 
-def write_only_in(folder: Path) -> bool:
+def write_only_in(folder: Path | str) -> bool:
     """Give up writing anywhere but below `folder` and to /dev/null.
 
     Returns
     -------
     bool
-        Whether the system did it; it holds then for this process and all it starts, for good.
+        Whether the system did it; it holds then for this thread and all it starts, for good.
     """
     if sys.platform != "linux" or platform.machine().startswith("alpha"):
         return False
@@ -58,7 +58,7 @@ def write_only_in(folder: Path) -> bool:
     try:
         return (
             _allow(libc, ruleset, folder, files)
-            and _allow(libc, ruleset, Path(os.devnull), files & (_WRITE_FILE | _TRUNCATE))
+            and _allow(libc, ruleset, os.devnull, files & (_WRITE_FILE | _TRUNCATE))
             and libc.prctl(_NO_NEW_PRIVILEGES, 1, 0, 0, 0) == 0
             and libc.syscall(_RESTRICT_SELF, ruleset, ctypes.c_uint32(0)) == 0
         )
@@ -66,7 +66,7 @@ def write_only_in(folder: Path) -> bool:
         os.close(ruleset)
 
 
-def _allow(libc: ctypes.CDLL, ruleset: int, path: Path, rights: int) -> bool:
+def _allow(libc: ctypes.CDLL, ruleset: int, path: Path | str, rights: int) -> bool:
     descriptor = os.open(path, os.O_PATH | os.O_CLOEXEC)
     try:
         rule = _PathBeneath(rights, descriptor)

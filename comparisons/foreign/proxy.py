@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from comparisons.foreign.child import Child
+from comparisons.foreign.identity import DIGEST
 from comparisons.foreign.limits import LARGEST_COUNT, Limits
 from comparisons.foreign.wording import model_name, one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
@@ -19,9 +20,6 @@ from fscm.surface_law import LennardJones93
 
 __all__ = ["ForeignModel", "ForeignModelWithCurve", "connect"]
 
-#: Digits of the digest that are kept in the version of a model.
-_DIGEST = 12
-
 
 class ForeignModel:
     """A model in a child process.
@@ -29,7 +27,9 @@ class ForeignModel:
     Attributes
     ----------
     name, version, citation, domain : str
-        As in `comparisons.model.Model`; `version` ends in a digest of the code.
+        As in `comparisons.model.Model`; `version` ends in a digest of the model's files.
+    hashed : str
+        Which files these are, in words.
     limits : tuple of str
         Limits the model claims to be right in (see `comparisons.foreign.contract_suite`).
     physical : bool
@@ -40,7 +40,8 @@ class ForeignModel:
         self._child = child
         self._poisson_ratio = poisson_ratio
         self.name = model_name(opened["name"])
-        self.version = one_line(f"{one_line(opened['version'], 60)} ({opened['digest'][:_DIGEST]})")
+        self.version = one_line(f"{one_line(opened['version'], 60)} ({opened['digest'][:DIGEST]})")
+        self.hashed = one_line(opened["hashed"])
         self.citation, self.domain = one_line(opened["citation"]), one_line(opened["domain"])
         self.limits = tuple(one_line(limit, 60) for limit in opened["limits"])
         self.physical = bool(opened["physical"])

@@ -11,7 +11,6 @@ import math
 import numbers
 import os
 import select
-import shutil
 import sys
 import threading
 import time
@@ -23,9 +22,9 @@ from typing import IO, Any
 
 import numpy as np
 
-from comparisons.foreign.landlock import write_only_in
+from comparisons.foreign.fingerprint import fingerprint
 from comparisons.foreign.limits import LARGEST_COUNT, Limits, cpu_seconds_from_now, limit_resources
-from comparisons.foreign.source import load_file, source_digest
+from comparisons.foreign.source import load_file
 from comparisons.foreign.units import InUnits, PhysicalModel
 from comparisons.foreign.wording import one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
@@ -56,11 +55,13 @@ def main(answers: int) -> None:
 
 
 def _end_with_parent(descriptor: int) -> None:
-    """End this process when nobody is left to ask it, also in the middle of a loop of the model."""
+    """End this process when the parent has ended, also in the middle of a loop of the model.
+
+    It removes nothing: a model can change every function that is called here (see `comparisons.foreign.scratch`).
+    """
     poll = select.poll()
     poll.register(descriptor, 0)
     poll.poll()
-    shutil.rmtree(Path.cwd(), ignore_errors=True)
     os._exit(0)
 
 
@@ -90,8 +91,6 @@ def _serve(requests: IO[str], out: IO[str]) -> None:
 
 
 def _confine(path: list[str], limits: Limits) -> None:
-    sys.dont_write_bytecode = True
-    write_only_in(Path.cwd())
     limit_resources(limits)
     cpu_seconds_from_now(limits)
     sys.path[:] = path
@@ -99,18 +98,29 @@ def _confine(path: list[str], limits: Limits) -> None:
 
 def _open(door: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
     if door["kind"] == "file":
-        made = load_file(Path(door["file"]), door["attribute"])
+        file, installed = Path(door["file"]), []
+        made, module = load_file(file, door["attribute"]), file.stem
     else:
         (found,) = {entry for entry in entry_points(group=door["group"]) if entry.name == door["name"]}
-        made = found.load()
+        made, module = found.load(), found.module
+        files = found.dist.files if found.dist else None
+        installed = [Path(str(path.locate())).resolve() for path in files or ()]
     model = made() if callable(made) else made
+    cls = made if isinstance(made, type) else type(model)
+    state = fingerprint(
+        (module, cls.__module__),
+        getattr(model, "files", ()),
+        installed=installed,
+        skip=[(device, inode) for device, inode in door.get("skip", ())],
+    )
     reply = {
         "status": "ok",
         **{name: str(getattr(model, name)) for name in ("name", "version", "citation", "domain")},
         "limits": [str(limit) for limit in getattr(model, "limits", ())],
         "curve": callable(getattr(model, "curve", None)),
         "physical": isinstance(model, PhysicalModel),
-        "digest": source_digest(made if isinstance(made, type) else type(model)),
+        "digest": state.digest,
+        "hashed": state.hashed,
     }
     if not reply["physical"] and not callable(getattr(model, "evaluate", None)):
         raise TypeError("the model has no method evaluate(problem, quantity)")

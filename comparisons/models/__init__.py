@@ -91,6 +91,8 @@ class Outside:
     spec: str
     citation: str
     domain: str
+    #: Which of its files the digest in the version is of, in words.
+    hashed: str = ""
 
 
 def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, Outside]]:
@@ -114,7 +116,8 @@ def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, Outside]]:
             raise ValueError(f"two models are called {model.name}: each needs its own name")
         names.append(model.name)
         if spec not in MODELS:
-            outside[model.name] = Outside(model.name, model.version, spec, model.citation, model.domain)
+            hashed = str(getattr(model, "hashed", ""))
+            outside[model.name] = Outside(model.name, model.version, spec, model.citation, model.domain, hashed)
     return names, outside
 
 

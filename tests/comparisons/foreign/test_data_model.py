@@ -7,6 +7,7 @@ import pytest
 
 from comparisons.cases import Case
 from comparisons.cli import main
+from comparisons.foreign import data_model
 from comparisons.foreign.data_model import read_submission
 from comparisons.model import Model
 from comparisons.models import create
@@ -154,3 +155,36 @@ def test_nothing_in_the_folder_is_executed(write_data, tmp_path):
 def test_a_folder_without_a_manifest_is_no_model(tmp_path, capsys):
     assert main(["run", "--model", str(tmp_path)]) == 2
     assert "model.toml" in capsys.readouterr().err
+
+
+MANY = ", ".join(str(number) for number in range(2, 90))
+TABLE = f"""
+[[covers]]
+quantities = ["pull_off_force"]
+n = [{MANY}]
+k = [0, 0.4]
+mu = [{MANY}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("tables", "says"),
+    [
+        (TABLE.replace("0.4", ", ".join(f"0.{i}" for i in range(1, 90))) * 2, "promise 1270020 cases, more than"),
+        (TABLE, "promises 15488 cases, but the predictions have 5 lines"),
+    ],
+)
+def test_too_many_promised_cases_are_refused_before_any_is_built(write_data, monkeypatch, tables, says):
+    """A file of 1 kB must not cost a minute and 400 MB."""
+    folder = write_data(change={"[[covers]]": f"{tables}\n[[covers]]"})
+    built = []
+    monkeypatch.setattr(data_model, "Problem", lambda *case: built.append(case))
+    with pytest.raises(ValueError, match=says) as refusal:
+        read_submission(folder)
+    assert "\n" not in str(refusal.value)
+    assert not built
+
+
+def test_a_value_that_is_listed_twice_is_one_case(write_data):
+    folder = write_data(change={"mu = [0.1, 1]": f"mu = [0.1{', 1' * 2000}]"})
+    assert len(read_submission(folder).rows) == len(ROWS)

@@ -88,7 +88,7 @@ def test_nonsense_is_a_failed_row_with_a_reason(nonsense, number, says):
 @pytest.mark.parametrize("count", [10**30, -1, 2**63])
 def test_a_process_that_writes_a_count_of_its_own_is_not_believed(count):
     answer = {"status": "ok", "value": 1.5, "u_num": 0.0, "size": count, "iterations": 0, "residual": 0.0}
-    said = {"name": "stranger", "version": "1", "citation": "", "domain": "", "digest": "0" * 64}
+    said = {"name": "stranger", "version": "1", "citation": "", "domain": "", "digest": "0" * 64, "hashed": ""}
     model = ForeignModel(SimpleNamespace(ask=lambda **_: answer), said | {"limits": [], "physical": False})
     assert ask(model, "pull_off_force", CASE).reason == "its process wrote something that is not an answer"
 
