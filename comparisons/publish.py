@@ -20,7 +20,7 @@ import pandas as pd
 
 from comparisons.paper.catalogue import plates
 from comparisons.record import read_record
-from comparisons.store import atomic, csv_text, read_table
+from comparisons.store import atomic, csv_text, plain_text, read_table
 
 __all__ = ["PLATES", "PUBLISHED", "changes", "check", "drift", "publish", "publish_plates", "read_published"]
 
@@ -139,7 +139,8 @@ def _read(path: Path) -> pd.DataFrame:
         name: table[name].map(lambda text: float(text) if text else math.nan).astype(float)
         for name in table.columns.difference(list(_TEXTS))
     }
-    return table.assign(**numbers)
+    texts = {name: table[name].map(plain_text) for name in table.columns.intersection(list(_TEXTS))}
+    return table.assign(**numbers, **texts)
 
 
 def drift(stored: pd.DataFrame, computed: pd.DataFrame) -> pd.DataFrame:
