@@ -73,7 +73,7 @@ FORMULAS = ["=cmd|' /C calc'!A0", "+1+1", "-1+1", "@SUM(A1)", "\t=1", " =1", "\n
 @pytest.mark.parametrize("text", FORMULAS)
 @pytest.mark.parametrize("column", ["model", "model_version", "reason"])
 def test_no_text_is_a_formula_and_each_is_read_back(text, column):
-    cells = list(csv.DictReader(io.StringIO(csv_text(frame([row(**{column: text})])), newline="")))[0]
+    cells = next(csv.DictReader(io.StringIO(csv_text(frame([row(**{column: text})])), newline="")))
     assert cells[column][0] == "'"
     assert plain_text(cells[column]) == text
 
