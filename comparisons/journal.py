@@ -94,7 +94,7 @@ class Journal(Generic[_Entry]):
         found = [_content(line, "entry", self._fingerprint) for line in lines]
         # The checksum of an entry covers the fingerprint: one good entry is enough if the first line is damaged.
         if stored is None and all(content is None for content in found):
-            raise ValueError(f"{self.path} is not a journal, or it is damaged; choose another folder with --out")
+            raise ValueError(f"{self.path} is not a journal of this version, or it is damaged; choose another --out")
         try:
             self.entries = [read(content) for content in found if content is not None]
         except (ValueError, TypeError, KeyError, AttributeError):
