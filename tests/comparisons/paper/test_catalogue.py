@@ -8,7 +8,6 @@ from comparisons.paper.catalogue import NAMES, plates
 from comparisons.paper.plate import Plate
 from comparisons.paper.workshop import Call
 
-
 ATTEMPTS = []
 
 
