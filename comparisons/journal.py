@@ -1,6 +1,7 @@
-"""What has been computed, a line of JSON each, on disk as soon as it exists.
+"""Journal of finished computations: a file with a line of JSON for each, written as soon as it exists.
 
-An interrupted command loses nothing that was finished: given the same folder, it goes on from its journal.
+An interrupted command loses nothing that was finished: given the same folder, it goes on from its journal.  Every line
+has a checksum; a damaged line is dropped and what it held is computed again.
 """
 
 from __future__ import annotations
@@ -9,14 +10,22 @@ import json
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from hashlib import sha256
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 from filelock import FileLock, Timeout
 
+from comparisons.progress import log
+from comparisons.provenance import differences
+from comparisons.store import atomic
+
 __all__ = ["Journal", "alone_in"]
 
 _Entry = TypeVar("_Entry")
+
+#: Hexadecimal digits of the SHA-256 of a line that are kept: 64 bits.
+_DIGITS = 16
 
 
 class Journal(Generic[_Entry]):
@@ -60,35 +69,55 @@ class Journal(Generic[_Entry]):
     ) -> None:
         self.path = path
         self.entries: list[_Entry] = []
+        self._fingerprint = fingerprint
         self._write = write
-        header = self._read(read) if path.exists() else None
-        if header is None:
+        if not (path.exists() and self._read(read)):
             path.unlink(missing_ok=True)
-            self._append({"fingerprint": fingerprint})
-        elif header != {"fingerprint": fingerprint}:
-            raise ValueError(f"{path.parent} holds results of another version of the code; choose another --out")
+            self._append(self._first_line())
 
-    def _read(self, read: Callable[[dict[str, Any]], _Entry]) -> dict[str, Any] | None:
-        """Read the entries and return the first line, or None if it was never finished."""
-        text = self.path.read_text(encoding="utf-8")
-        # A line without its end was being written when the command was stopped: what it says is computed again.
-        whole, end, torn = text.rpartition("\n")
+    def _first_line(self) -> str:
+        return _line("fingerprint", self._fingerprint, "")
+
+    def _read(self, read: Callable[[dict[str, Any]], _Entry]) -> bool:
+        """Read the entries; return False if the first line was never finished."""
+        # A line without its end was being written when the command was stopped: what it holds is computed again.
+        whole, end, torn = self.path.read_bytes().rpartition(b"\n")
         if not end:
-            return None
+            return False
+        first, *lines = whole.split(b"\n")
+        stored = _content(first, "fingerprint", "")
+        if stored not in (None, self._fingerprint):
+            raise ValueError(
+                f"{self.path.parent} holds results of another version of the code, of NumPy or of SciPy "
+                f"({differences(str(stored), self._fingerprint)}); choose another --out"
+            )
+        found = [_content(line, "entry", self._fingerprint) for line in lines]
+        # The checksum of an entry covers the fingerprint: one good entry is enough if the first line is damaged.
+        if stored is None and all(content is None for content in found):
+            raise ValueError(f"{self.path} is not a journal of this version, or it is damaged; choose another --out")
         try:
-            header, *lines = [json.loads(line) for line in whole.splitlines()]
-            if not (isinstance(header, dict) and header.keys() == {"fingerprint"}):
-                raise ValueError("the first line is not that of a journal")
-            self.entries = [read(line) for line in lines]
-        except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+            self.entries = [read(content) for content in found if content is not None]
+        except (ValueError, TypeError, KeyError, AttributeError):
             raise ValueError(f"{self.path} is not a journal; choose another folder with --out") from None
-        if torn:
-            os.truncate(self.path, len(f"{whole}{end}".encode()))
-        return header
+        damaged = [stored, *found].count(None)
+        if damaged:
+            log(f"{self.path} has damaged lines ({damaged}): they are dropped, and what they held is computed again")
+            self._write_again()
+        elif torn:
+            os.truncate(self.path, len(whole + end))
+        return True
 
-    def _append(self, content: dict[str, Any]) -> None:
+    def _write_again(self) -> None:
+        lines = [self._first_line(), *(self._entry_line(entry) for entry in self.entries)]
+        with atomic(self.path) as file:
+            file.write("".join(lines).encode())
+
+    def _entry_line(self, entry: _Entry) -> str:
+        return _line("entry", self._write(entry), self._fingerprint)
+
+    def _append(self, line: str) -> None:
         with self.path.open("a", encoding="utf-8") as file:
-            file.write(json.dumps(content, allow_nan=False) + "\n")
+            file.write(line)
 
     def add(self, entry: _Entry) -> None:
         """Keep an entry.
@@ -98,8 +127,37 @@ class Journal(Generic[_Entry]):
         ValueError
             If JSON cannot hold it, as one with a NaN.
         """
-        self._append(self._write(entry))
+        self._append(self._entry_line(entry))
         self.entries.append(entry)
+
+    def drop(self, unwanted: Callable[[_Entry], bool]) -> int:
+        """Remove entries, also from the file; return how many."""
+        kept = [entry for entry in self.entries if not unwanted(entry)]
+        dropped = len(self.entries) - len(kept)
+        if dropped:
+            self.entries = kept
+            self._write_again()
+        return dropped
+
+
+def _line(name: str, content: Any, fingerprint: str) -> str:
+    return json.dumps({name: content, "sha256": _checksum(content, fingerprint)}, allow_nan=False) + "\n"
+
+
+def _checksum(content: Any, fingerprint: str) -> str:
+    text = json.dumps(content, allow_nan=False)
+    return sha256(f"{fingerprint}\n{text}".encode()).hexdigest()[:_DIGITS]
+
+
+def _content(line: bytes, name: str, fingerprint: str) -> Any | None:
+    """Return what a line holds, or None if it is not as it was written."""
+    try:
+        parsed = json.loads(line)
+        if isinstance(parsed, dict) and parsed.keys() == {name, "sha256"}:
+            return parsed[name] if parsed["sha256"] == _checksum(parsed[name], fingerprint) else None
+    except (ValueError, RecursionError):
+        pass
+    return None
 
 
 @contextmanager

@@ -1,11 +1,13 @@
 """Where numbers come from: versions, commit, machine.
 
 The commit is only stated when the code that runs is, byte for byte, the code in a git work tree: beside the
-packages (an editable install or a clone) or where pip installed them from.
+packages (an editable install or a clone) or where pip installed them from.  If pip installed them from a git address,
+the commit is the one that pip recorded.
 """
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import json
 import os
@@ -13,7 +15,7 @@ import platform
 import re
 import subprocess
 import sys
-from importlib.metadata import PackageNotFoundError, distribution, requires, version
+from importlib.metadata import Distribution, PackageNotFoundError, distribution, requires, version
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
@@ -21,10 +23,12 @@ from urllib.request import url2pathname
 
 from threadpoolctl import threadpool_info
 
-__all__ = ["code_digest", "environment", "package_version"]
+__all__ = ["code_digest", "computing_environment", "differences", "environment", "fingerprint", "package_version"]
 
 DISTRIBUTION = "fscm-bench"
 _PACKAGES = ("fscm", "fem_reference", "comparisons")
+#: Files that numbers depend on.
+_CODE = {".py", ".toml"}
 
 
 def package_version() -> str:
@@ -41,10 +45,52 @@ def code_digest(root: Path | None = None) -> str:
     digest = hashlib.sha256()
     for package in _PACKAGES:
         for path in sorted((root / package).rglob("*")):
-            if path.suffix in {".py", ".toml"}:
+            if path.suffix in _CODE:
                 digest.update(f"{path.relative_to(root).as_posix()}\0".encode())
                 digest.update(path.read_bytes())
     return digest.hexdigest()
+
+
+def fingerprint() -> str:
+    """Return what identifies the code that computes: the packages' files, and the versions of NumPy and SciPy.
+
+    Examples
+    --------
+    >>> [part.split()[0] for part in fingerprint().split(", ")]
+    ['code', 'NumPy', 'SciPy']
+    """
+    return f"code {code_digest()}, NumPy {version('numpy')}, SciPy {version('scipy')}"
+
+
+def differences(stored: str, now: str) -> str:
+    """Return what differs between two fingerprints, in words.
+
+    Examples
+    --------
+    >>> differences("code 123, NumPy 2.2, SciPy 1.16", "code 123, NumPy 2.3, SciPy 1.16")
+    'NumPy 2.2, now NumPy 2.3'
+    """
+    then, today = stored.split(", "), now.split(", ")
+    if len(then) != len(today):
+        return f"{stored}, now {now}"
+    apart = [f"{_short(a)}, now {_short(b)}" for a, b in zip(then, today, strict=True) if a != b]
+    return "; ".join(apart)
+
+
+def _short(text: str) -> str:
+    """Keep what tells two digests apart."""
+    return re.sub(r"\b([0-9a-f]{12})[0-9a-f]{52}\b", r"\1", text)
+
+
+def computing_environment() -> dict[str, str]:
+    """Return what the numbers of a computation may depend on besides its code, ready for JSON."""
+    return {
+        "python": sys.version.split()[0],
+        "numpy": version("numpy"),
+        "scipy": version("scipy"),
+        "system": platform.platform(),
+        "cpu": _cpu(),
+    }
 
 
 def environment() -> dict[str, Any]:
@@ -54,6 +100,7 @@ def environment() -> dict[str, Any]:
             "name": DISTRIBUTION,
             "version": package_version(),
             "code_sha256": code_digest(),
+            "fingerprint": fingerprint(),
             **_commit(),
         },
         "python": sys.version.split()[0],
@@ -82,16 +129,43 @@ def _commit() -> dict[str, Any]:
             commit, status = _git(root, "rev-parse", "HEAD"), _git(root, "status", "--porcelain", *_PACKAGES)
             if commit is not None and status is not None:
                 return {"commit": commit, "dirty": bool(status)}
-    return {"commit": None, "dirty": None}
+    return _installed_commit() or {"commit": None, "dirty": None}
+
+
+def _distribution() -> Distribution | None:
+    try:
+        return distribution(DISTRIBUTION)
+    except PackageNotFoundError:
+        return None
+
+
+def _direct_url() -> dict[str, Any]:
+    """Return what pip recorded of where it installed the packages from; empty for a package index."""
+    installed = _distribution()
+    record = installed.read_text("direct_url.json") if installed else None
+    return dict(json.loads(record)) if record else {}
 
 
 def _installed_from() -> Path | None:
-    try:
-        record = distribution(DISTRIBUTION).read_text("direct_url.json")
-    except PackageNotFoundError:
+    url = urlsplit(_direct_url().get("url", ""))
+    return Path(url2pathname(url.path)) if url.scheme == "file" else None
+
+
+def _installed_commit() -> dict[str, Any] | None:
+    """Return the commit that pip installed from a git address, and whether a file was changed after that."""
+    source = _direct_url().get("vcs_info", {})
+    installed, root = _distribution(), _running_root()
+    if source.get("vcs") != "git" or installed is None or Path(str(installed.locate_file(""))).resolve() != root:
         return None
-    url = urlsplit(json.loads(record)["url"]) if record else None
-    return Path(url2pathname(url.path)) if url and url.scheme == "file" else None
+    recorded = {file.as_posix(): file.hash for file in installed.files or []}
+    running = [path for package in _PACKAGES for path in (root / package).rglob("*") if path.suffix in _CODE]
+    unchanged = all(_is_recorded(path, recorded.get(path.relative_to(root).as_posix())) for path in running)
+    return {"commit": source.get("commit_id"), "dirty": not unchanged}
+
+
+def _is_recorded(path: Path, stored: Any) -> bool:
+    digest = base64.urlsafe_b64encode(hashlib.sha256(path.read_bytes()).digest()).decode().rstrip("=")
+    return stored is not None and stored.mode == "sha256" and bool(stored.value == digest)
 
 
 def _git(root: Path, *arguments: str) -> str | None:

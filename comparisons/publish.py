@@ -19,8 +19,8 @@ import numpy as np
 import pandas as pd
 
 from comparisons.paper.catalogue import plates
-from comparisons.record import read_record
-from comparisons.store import atomic, csv_text, read_table
+from comparisons.record import check_files, read_record
+from comparisons.store import atomic, csv_text, plain_text, read_table
 
 __all__ = ["PLATES", "PUBLISHED", "changes", "check", "drift", "publish", "publish_plates", "read_published"]
 
@@ -52,10 +52,12 @@ def publish(folder: Path, target: Path = PUBLISHED) -> list[Path]:
     Raises
     ------
     ValueError
-        If it is no finished run, lacks a file, or was asked for other models than the standing ones; nothing is
-        changed then.
+        If it is no finished run, lacks a file, was changed, or was asked for other models than the standing ones;
+        nothing is changed then.
     """
-    asked = read_record(folder / "run.json")["arguments"]
+    record = read_record(folder / "run.json")
+    check_files(record, folder)
+    asked = record["arguments"]
     if asked["model"] is not None:
         raise ValueError(f"{folder} has the models {', '.join(asked['model'])} only: publish a run without --model")
     tables = _TABLES if asked["tier"] == "quick" else {}
@@ -139,7 +141,8 @@ def _read(path: Path) -> pd.DataFrame:
         name: table[name].map(lambda text: float(text) if text else math.nan).astype(float)
         for name in table.columns.difference(list(_TEXTS))
     }
-    return table.assign(**numbers)
+    texts = {name: table[name].map(plain_text) for name in table.columns.intersection(list(_TEXTS))}
+    return table.assign(**numbers, **texts)
 
 
 def drift(stored: pd.DataFrame, computed: pd.DataFrame) -> pd.DataFrame:
@@ -167,9 +170,11 @@ def check(folder: Path) -> pd.DataFrame:
     Raises
     ------
     ValueError
-        If it is no finished run of that tier.
+        If it is no finished run of that tier, or a file of it was changed.
     """
-    tier = read_record(folder / "run.json")["arguments"]["tier"]
+    record = read_record(folder / "run.json")
+    check_files(record, folder)
+    tier = record["arguments"]["tier"]
     if tier != "quick":
         raise ValueError(f"{folder} is a run of the {tier} tier; the results that are committed are of the quick one")
     return drift(read_published()[0], read_table(folder / "results.parquet"))

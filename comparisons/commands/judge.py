@@ -15,9 +15,10 @@ from comparisons.commands.options import FAILED, FAILS, INCONCLUSIVE, OK, output
 from comparisons.gates import Gate, gates_text, load_gates, of_tier
 from comparisons.judge import judge, left_out
 from comparisons.outputs.markdown import to_step_summary
-from comparisons.outputs.verdicts import matrix, write_verdicts
+from comparisons.outputs.verdicts import FILES, matrix, write_verdicts
 from comparisons.progress import log
-from comparisons.record import read_record, write_record
+from comparisons.provenance import fingerprint
+from comparisons.record import check_files, read_record, warn_of_other_code, write_record
 from comparisons.store import read_table
 from comparisons.tables import rich_table
 from comparisons.verdict import Verdict, roll_up
@@ -49,6 +50,8 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 def call(args: argparse.Namespace) -> int:
     """Read, judge, write and print; return the exit status."""
     record = read_record(args.folder / "run.json")
+    check_files(record, args.folder, written_again=FILES)
+    other_code = warn_of_other_code(record, args.folder)
     models, tier = record["arguments"]["model"], record["arguments"]["tier"]
     stored = args.folder / GATES
     path = args.gates or (stored if stored.exists() else None)
@@ -69,6 +72,9 @@ def call(args: argparse.Namespace) -> int:
     # The record agrees with the verdicts beside it, and says by which gates they are.
     record["verdicts"] = counted(judged)
     record.pop("judged_again", None)
+    record.pop("judged_by_other_code", None)
+    if other_code:
+        record["judged_by_other_code"] = fingerprint()
     if not own:
         record["judged_again"] = {"gates": name, "gates_sha256": digest}
     write_record(record, args.folder / "run.json")

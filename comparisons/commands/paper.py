@@ -8,7 +8,7 @@ from concurrent.futures import BrokenExecutor
 from contextlib import closing
 from pathlib import Path
 
-from comparisons.commands.computing import add_jobs, checked_jobs
+from comparisons.commands.computing import add_jobs, add_retry_failed, checked_jobs, say_failures_used
 from comparisons.commands.options import FAILED, OK, output
 from comparisons.journal import alone_in
 from comparisons.model import ComputationFailed
@@ -16,7 +16,7 @@ from comparisons.paper.catalogue import NAMES, plates
 from comparisons.paper.plate import write
 from comparisons.paper.workshop import Workshop
 from comparisons.progress import counting, log
-from comparisons.provenance import code_digest
+from comparisons.provenance import fingerprint
 from comparisons.store import prepare_folder
 
 __all__ = ["add", "call"]
@@ -38,6 +38,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         default=Path("results", "runs", "paper"),
         help="folder for the files (default: %(default)s); resumed if it has some answers",
     )
+    add_retry_failed(parser)
     parser.set_defaults(call=call)
 
 
@@ -49,7 +50,12 @@ def call(args: argparse.Namespace) -> int:
     calls = [call for plate in chosen for call in plate.calls()]
     try:
         with alone_in(folder):
-            workshop = Workshop(folder / "calls.jsonl", code_digest())
+            workshop = Workshop(folder / "calls.jsonl", fingerprint())
+            failed = workshop.failed(calls)
+            if args.retry_failed:
+                workshop.forget(failed)
+            else:
+                say_failures_used(Counter(call.function.partition(":")[2] for call in failed))
             waiting = workshop.missing(calls)
             with counting("paper", len(waiting)) as advance, closing(workshop.work(waiting, jobs)) as done:
                 for _ in done:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
 from collections import Counter
 from collections.abc import Mapping
 from datetime import UTC, datetime
@@ -15,7 +14,7 @@ import pandas as pd
 from rich.table import Table
 
 from comparisons.cases import TIERS, VERIFICATION, Grid, asked_of, cases_text, grids
-from comparisons.commands.computing import add_jobs, add_out, checked_jobs, complete, folder_for
+from comparisons.commands.computing import add_jobs, add_out, add_retry_failed, checked_jobs, complete, folder_for
 from comparisons.commands.judge import GATES, STATUS, counted, judge_and_write, own_gates, print_verdicts
 from comparisons.commands.options import FAILED, output
 from comparisons.figures import agreement as agreement_figure
@@ -27,7 +26,7 @@ from comparisons.model import ComputationFailed
 from comparisons.models import Outside, create, identify
 from comparisons.progress import log
 from comparisons.provenance import environment
-from comparisons.record import write_record
+from comparisons.record import FORMAT, write_record
 from comparisons.run import plan
 from comparisons.shapes import SHAPES
 from comparisons.store import (
@@ -71,6 +70,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.add_argument("--gates", metavar="FILE", type=Path, help="judge by these gates instead of the standing ones")
     add_jobs(parser)
     add_out(parser)
+    add_retry_failed(parser)
     parser.set_defaults(call=call)
 
 
@@ -93,13 +93,12 @@ def call(args: argparse.Namespace) -> int:
     if (folder / GATES).exists() and not (folder / "journal.jsonl").exists() and gates_text(folder / GATES) != rules:
         raise ValueError(f"{folder / GATES} is not of a run, which would replace it; choose another folder with --out")
     tasks = plan(chosen, given, outside)
-    clock = time.perf_counter()
     try:
-        rows, resumed = complete(tasks, folder, jobs)
+        completed = complete(tasks, folder, jobs, args.retry_failed)
     except ComputationFailed as failure:
         log(str(failure))
         return FAILED
-    elapsed = time.perf_counter() - clock
+    rows = completed.rows
     table = frame(row for row in rows if row.quantity not in SHAPES)
     curves = curve_frame(row for row in rows if row.quantity in SHAPES)
     kappa = _kappa(table, chosen, given)
@@ -111,7 +110,7 @@ def call(args: argparse.Namespace) -> int:
     verdict = roll_up(judged["verdict"])
     write_record(
         {
-            "format": 2,
+            "format": FORMAT,
             "arguments": {
                 "tier": args.tier,
                 "model": given,
@@ -121,11 +120,13 @@ def call(args: argparse.Namespace) -> int:
                 "out": str(folder),
             },
             "command": [Path(sys.argv[0]).name, *sys.argv[1:]],
-            "started": started.isoformat(timespec="seconds"),
+            "started": completed.parts[0]["started"] if completed.parts else started.isoformat(timespec="seconds"),
             "finished": datetime.now(UTC).isoformat(timespec="seconds"),
-            "seconds": {"run": elapsed, "by_model": _seconds(rows)},
+            "seconds": {"run": sum(part["seconds"] for part in completed.parts), "by_model": _seconds(rows)},
+            "parts": completed.parts,
+            **({"evaluated_again": completed.evaluated_again} if completed.evaluated_again else {}),
             "models": _described({task.model for task in tasks}, outside),
-            "rows": {"all": len(rows), "resumed": resumed, **Counter(row.status for row in rows)},
+            "rows": {"all": len(rows), "resumed": completed.resumed, **Counter(row.status for row in rows)},
             "cases_sha256": sha256(cases_text().encode()).hexdigest(),
             "gates_sha256": sha256(rules.encode()).hexdigest(),
             "verdicts": counted(judged),
@@ -158,10 +159,14 @@ def _kappa(table: pd.DataFrame, chosen: list[Grid], models: list[str] | None) ->
 def _described(names: set[str], outside: Mapping[str, Outside]) -> dict[str, dict[str, str]]:
     """Return what each model says of itself."""
     models = {name: outside.get(name) or create(name) for name in sorted(names)}
-    return {
+    described = {
         name: {"version": model.version, "citation": model.citation, "domain": model.domain}
         for name, model in models.items()
     }
+    for name, model in outside.items():
+        if hashed := getattr(model, "hashed", ""):
+            described[name]["hashed"] = hashed
+    return described
 
 
 def _seconds(rows: list[Row]) -> dict[str, float]:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pandas as pd
 
 from comparisons.cases import TIERS, Grid, load_grids
-from comparisons.commands.computing import add_jobs, add_out, checked_jobs, complete, folder_for
+from comparisons.commands.computing import add_jobs, add_out, add_retry_failed, checked_jobs, complete, folder_for
 from comparisons.commands.options import FAILED, OK, output
 from comparisons.model import ComputationFailed
 from comparisons.models import identify
@@ -33,6 +33,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     )
     add_jobs(parser)
     add_out(parser)
+    add_retry_failed(parser)
     parser.set_defaults(call=call)
 
 
@@ -44,7 +45,7 @@ def call(args: argparse.Namespace) -> int:
     tasks = plan(chosen, names or None, outside)
     folder = folder_for(args.out, datetime.now(UTC))
     try:
-        rows, _ = complete(tasks, folder, jobs)
+        rows = complete(tasks, folder, jobs, args.retry_failed).rows
     except ComputationFailed as failure:
         log(str(failure))
         return FAILED

@@ -53,14 +53,20 @@ class _Outcome:
     call: Call
     answer: Any = None
     failure: str | None = None
+    #: The failure is a refusal (`NotApplicable`), which another attempt does not change.
+    refused: bool = False
 
 
 def _read(line: dict[str, Any]) -> _Outcome:
-    return _Outcome(Call(line["function"], tuple(line["arguments"])), line["answer"], line["failure"])
+    return _Outcome(Call(line["function"], tuple(line["arguments"])), line["answer"], line["failure"], line["refused"])
 
 
 def _written(outcome: _Outcome) -> dict[str, Any]:
-    return asdict(outcome.call) | {"answer": outcome.answer, "failure": outcome.failure}
+    return asdict(outcome.call) | {
+        "answer": outcome.answer,
+        "failure": outcome.failure,
+        "refused": outcome.refused,
+    }
 
 
 def _make(call: Call) -> _Outcome:
@@ -68,7 +74,7 @@ def _make(call: Call) -> _Outcome:
     try:
         return _Outcome(call, answer=getattr(import_module(module), name)(*call.arguments))
     except (ComputationFailed, NotApplicable) as error:
-        return _Outcome(call, failure=str(error))
+        return _Outcome(call, failure=str(error), refused=isinstance(error, NotApplicable))
 
 
 class Answers:
@@ -80,6 +86,17 @@ class Answers:
     def add(self, outcome: _Outcome) -> None:
         """Keep one."""
         self._outcomes[outcome.call] = outcome
+
+    def remove(self, call: Call) -> None:
+        """Remove one."""
+        del self._outcomes[call]
+
+    def failed(self, call: Call) -> bool:
+        """Whether the function raised `ComputationFailed`, or returned a dictionary with the status ``"failed"``."""
+        outcome = self._outcomes[call]
+        if outcome.failure is not None:
+            return not outcome.refused
+        return isinstance(outcome.answer, dict) and outcome.answer.get("status") == "failed"
 
     def __contains__(self, call: Call) -> bool:
         return call in self._outcomes
@@ -119,6 +136,17 @@ class Workshop:
         self.answers = Answers()
         for outcome in self._journal.entries:
             self.answers.add(outcome)
+
+    def failed(self, calls: Iterable[Call]) -> list[Call]:
+        """Return those calls whose stored answer is that they failed, each once, in the order given."""
+        return [call for call in dict.fromkeys(calls) if call in self.answers and self.answers.failed(call)]
+
+    def forget(self, calls: Iterable[Call]) -> None:
+        """Remove stored answers: the calls are made again."""
+        unwanted = set(calls)
+        self._journal.drop(lambda outcome: outcome.call in unwanted)
+        for call in unwanted:
+            self.answers.remove(call)
 
     def missing(self, calls: Iterable[Call]) -> list[Call]:
         """Return those calls that have no answer yet, each once, in the order given."""

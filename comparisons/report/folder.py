@@ -11,7 +11,7 @@ import pandas as pd
 
 from comparisons.judge import Judged
 from comparisons.outputs.verdicts import GATE_COLUMNS
-from comparisons.record import read_record
+from comparisons.record import check_files, read_record, warn_of_other_code
 from comparisons.store import COLUMNS, CURVE_COLUMNS, read_table
 from comparisons.verdict import Verdict
 
@@ -71,9 +71,11 @@ def read_folder(folder: Path) -> Stored:
     Raises
     ------
     ValueError
-        If there is no finished run, or a file of it is broken; one sentence says which and how.
+        If there is no finished run, or a file of it is broken or was changed; one sentence says which and how.
     """
     record = read_record(folder / "run.json")
+    check_files(record, folder)
+    warn_of_other_code(record, folder)
     tables = {name: _table(folder / f"{name}.parquet", columns) for name, columns in _TABLES.items()}
     gates = folder / "gates.parquet"
     unknown = sorted(set(tables["verdicts"]["verdict"]) - {str(verdict) for verdict in Verdict})

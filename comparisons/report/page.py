@@ -166,6 +166,9 @@ def _provenance(stored: Stored) -> list[tuple[str, str]]:
         ("CPU", f"{machine['cpu']}, {machine['cores']} cores"),
         ("BLAS", "; ".join(f"{one['library']} {one['version']}, {one['threads']} threads" for one in record["blas"])),
     ]
+    facts += [(f"part {number} of the computations", _pairs(part)) for number, part in enumerate(record["parts"], 1)]
+    if "judged_by_other_code" in record:
+        facts.append(("judged by other code", record["judged_by_other_code"]))
     if "judged_again" in record:
         again = record["judged_again"]
         facts.append(("judged again", f"by {again['gates']}, SHA-256 {again['gates_sha256']}"))

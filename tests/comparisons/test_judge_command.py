@@ -1,6 +1,7 @@
 """What a run says about its gates, and judging it again: exit statuses and files."""
 
 import json
+import random
 import re
 
 import pandas as pd
@@ -8,7 +9,9 @@ import pytest
 
 from comparisons.cli import main
 from comparisons.outputs.verdicts import FILES
-from comparisons.record import read_record
+from comparisons.provenance import fingerprint
+from comparisons.record import FILES as WITH_CHECKSUM
+from comparisons.record import read_record, write_record
 from comparisons.report.folder import read_folder
 from comparisons.report.page import make_page
 
@@ -19,6 +22,11 @@ def folder(small_grid, tmp_path, capsys):
     assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run")]) == 0
     capsys.readouterr()
     return tmp_path / "run"
+
+
+def seal(folder):
+    """Give the record of a run the checksums of its files as they are now."""
+    write_record(read_record(folder / "run.json"), folder / "run.json")
 
 
 def gates(text, tmp_path, *changes):
@@ -187,9 +195,11 @@ def test_a_gate_for_given_models_is_counted_when_none_is_given(small_grid, tmp_p
 def test_results_spoilt_after_the_run_are_an_error(folder, capsys):
     table = pd.read_parquet(folder / "results.parquet")
     table.drop(columns="u_num").to_parquet(folder / "results.parquet")
+    seal(folder)
     assert main(["judge", str(folder)]) == 4
     assert "no column u_num" in capsys.readouterr().out
     table[table["model"] != "truth"].to_parquet(folder / "results.parquet")
+    seal(folder)
     assert main(["judge", str(folder)]) == 4
     assert "truth has no row" in capsys.readouterr().out
 
@@ -203,6 +213,71 @@ def test_absurd_but_finite_values_are_judged_and_reported(small_grid, tmp_path, 
     assert (out / "report.html").stat().st_size > 0
 
 
+#: Bits that are flipped in each file, one at a time; chosen by this seed.
+FLIPS, SEED = 12, 20262
+
+
+def flipped(content, chosen):
+    damaged = bytearray(content)
+    damaged[chosen.randrange(len(damaged))] ^= 1 << chosen.randrange(8)
+    return bytes(damaged)
+
+
+def test_no_flipped_bit_of_any_stored_file_is_judged_in_silence(folder, capsys):
+    chosen = random.Random(SEED)
+    whole = {path.name: path.read_bytes() for path in folder.iterdir() if path.stat().st_size}
+    assert whole.keys() - {"journal.jsonl", "run.json"} == set(read_record(folder / "run.json")["files"])
+    for name in sorted(whole):
+        for _ in range(FLIPS):
+            (folder / name).write_bytes(flipped(whole[name], chosen))
+            statuses = main(["judge", str(folder)]), main(["report", str(folder)])
+            said = capsys.readouterr().err
+            if name == "journal.jsonl":  # Neither command reads it.
+                assert statuses == (0, 0)
+            elif name in FILES:  # These the judge writes again.
+                assert statuses == (0, 0)
+                assert (folder / name).read_bytes() == whole[name]
+            else:
+                assert statuses == (2, 2), name
+                assert said.count("\n") == 2
+                assert name in said
+            (folder / name).write_bytes(whole[name])
+            (folder / "run.json").write_bytes(whole["run.json"])
+
+
+@pytest.mark.parametrize("name", [name for name in FILES if name in WITH_CHECKSUM])
+def test_verdicts_that_were_changed_are_not_reported(folder, capsys, name):
+    with (folder / name).open("ab") as file:
+        file.write(b" ")
+    assert main(["report", str(folder)]) == 2
+    assert f"{name} was changed after it was written" in capsys.readouterr().err
+
+
+def test_after_a_change_the_run_writes_its_tables_again(folder, capsys):
+    whole = (folder / "results.parquet").read_bytes()
+    (folder / "results.parquet").write_bytes(whole[:-1])
+    assert main(["judge", str(folder)]) == 2
+    assert f"run with --out {folder}" in capsys.readouterr().err
+    assert main(["run", "--jobs", "1", "--out", str(folder)]) == 0
+    assert (folder / "results.parquet").read_bytes() == whole
+    assert main(["judge", str(folder)]) == 0
+
+
+@pytest.mark.parametrize("command", ["judge", "report"])
+def test_results_of_other_code_are_named_as_such(folder, capsys, command):
+    record = read_record(folder / "run.json")
+    other = re.sub("NumPy .*?,", "NumPy 0.1,", record["package"]["fingerprint"])
+    write_record(record | {"package": record["package"] | {"fingerprint": other}}, folder / "run.json")
+    assert main([command, str(folder)]) == 0
+    assert "computed by another version of the code, of NumPy or of SciPy (NumPy 0.1, now" in capsys.readouterr().err
+    if command == "judge":
+        assert read_record(folder / "run.json")["judged_by_other_code"] == fingerprint()
+        assert dict(make_page(read_folder(folder)).provenance)["judged by other code"] == fingerprint()
+        write_record(record, folder / "run.json")
+        assert main(["judge", str(folder)]) == 0
+        assert "judged_by_other_code" not in read_record(folder / "run.json")
+
+
 @pytest.mark.parametrize("lost", ["run.json", "results.parquet", "curves.parquet"])
 def test_a_folder_that_is_no_finished_run_is_wrong_input(folder, lost, capsys):
     (folder / lost).unlink()
@@ -212,6 +287,7 @@ def test_a_folder_that_is_no_finished_run_is_wrong_input(folder, lost, capsys):
 
 def test_a_file_that_is_no_parquet_is_wrong_input(folder, capsys):
     (folder / "results.parquet").write_text("nonsense")
+    seal(folder)
     assert main(["judge", str(folder)]) == 2
     assert "cannot be read as Parquet" in capsys.readouterr().err
 

@@ -1,8 +1,12 @@
 """What a run says of its origin is true."""
 
+import base64
+import hashlib
 import json
 import subprocess
-from importlib.metadata import version
+from importlib.metadata import PathDistribution, version
+
+import pytest
 
 from comparisons import provenance
 
@@ -56,3 +60,58 @@ def test_the_environment_is_json_and_right():
     assert record["machine"]["cores"] >= 1
     for name, stated in record["dependencies"].items():
         assert stated == version(name)
+
+
+def test_the_fingerprint_has_the_versions_that_numbers_depend_on(monkeypatch):
+    before = provenance.fingerprint()
+    assert provenance.code_digest() in before
+    for name in ("numpy", "scipy"):
+        with monkeypatch.context() as patch:
+            patch.setattr(provenance, "version", lambda asked, name=name: "0.0" if asked == name else version(asked))
+            assert provenance.fingerprint() != before
+            assert f"{version(name)}, now " in provenance.differences(before, provenance.fingerprint())
+    assert provenance.differences(before, before) == ""
+
+
+COMMIT = "0123456789abcdef0123456789abcdef01234567"
+URL = "https://example.org/fscm-bench"
+
+
+@pytest.fixture
+def installed(tmp_path, monkeypatch):
+    """An installed distribution as pip makes one, with a function that writes its direct_url.json."""
+    root = tree(tmp_path / "site-packages")
+    folder = root / "fscm_bench-1.dist-info"
+    folder.mkdir()
+    (folder / "METADATA").write_text("Metadata-Version: 2.1\nName: fscm-bench\nVersion: 1\n")
+    code = (root / "fscm" / "a.py").read_bytes()
+    digest = "sha256=" + base64.urlsafe_b64encode(hashlib.sha256(code).digest()).decode().rstrip("=")
+    (folder / "RECORD").write_text("".join(f"{package}/a.py,{digest},6\n" for package in PACKAGES))
+    monkeypatch.setattr(provenance, "_running_root", lambda: root)
+    monkeypatch.setattr(provenance, "distribution", lambda name: PathDistribution(folder))
+
+    def write(**content):
+        (folder / "direct_url.json").write_text(json.dumps(content))
+        return root
+
+    return write
+
+
+def test_the_commit_of_an_install_from_a_git_address_is_the_one_pip_recorded(installed):
+    root = installed(url=URL, vcs_info={"vcs": "git", "commit_id": COMMIT})
+    assert provenance._commit() == {"commit": COMMIT, "dirty": False}
+    (root / "fscm" / "a.py").write_text("x = 2\n")
+    assert provenance._commit() == {"commit": COMMIT, "dirty": True}
+
+
+@pytest.mark.parametrize("source", [{"archive_info": {}}, {"vcs_info": {"vcs": "hg", "commit_id": COMMIT}}])
+def test_no_commit_is_stated_for_other_installs(installed, source):
+    installed(url=URL, **source)
+    assert provenance._commit() == {"commit": None, "dirty": None}
+
+
+def test_no_commit_is_stated_for_code_beside_the_installed(installed, tmp_path, monkeypatch):
+    installed(url=URL, vcs_info={"vcs": "git", "commit_id": COMMIT})
+    other = tree(tmp_path / "other")
+    monkeypatch.setattr(provenance, "_running_root", lambda: other)
+    assert provenance._commit() == {"commit": None, "dirty": None}

@@ -7,9 +7,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from comparisons.provenance import environment
+from comparisons.provenance import computing_environment, environment
 from comparisons.publish import PUBLISHED, main, publish
-from comparisons.record import write_record
+from comparisons.record import read_record, write_record
 from comparisons.store import Row, curve_frame, frame, write_curves, write_results
 
 COMMITTED = Path(__file__).parents[2] / PUBLISHED
@@ -64,7 +64,7 @@ def made_up(folder, tier, model=None):
         (folder / f"{name}.csv").write_text(f"{name} of the {tier} run")
     asked = {"tier": tier, "model": model, "outside": {}, "gates": None, "jobs": 2, "out": str(folder)}
     record = {
-        "format": 2,
+        "format": 3,
         "arguments": asked,
         "command": ["fscm-bench", "run"],
         "started": "2026-01-01T00:00:00+00:00",
@@ -75,6 +75,9 @@ def made_up(folder, tier, model=None):
         "cases_sha256": "0" * 64,
         "gates_sha256": "f" * 64,
         "verdicts": {"all": "PASS", "PASS": 2},
+        "parts": [
+            {"started": "2026-01-01T00:00:00+00:00", "seconds": 9.0, "computations": 2, **computing_environment()}
+        ],
     }
     write_record(environment() | record, folder / "run.json")
     return folder
@@ -125,6 +128,25 @@ def test_a_run_that_lacks_something_changes_nothing(tmp_path, target, tier, lost
     assert renewed(target) == set()
 
 
+@pytest.mark.parametrize("name", ["results.parquet", "fig16b_kappa.png", "largest_kappa.csv"])
+def test_a_file_that_was_changed_after_the_run_changes_nothing(tmp_path, target, name):
+    run = made_up(tmp_path / "run", "quick")
+    with (run / name).open("ab") as file:
+        file.write(b" ")
+    with pytest.raises(ValueError, match=f"{name} was changed"):
+        publish(run, target)
+    assert renewed(target) == set()
+
+
+def test_a_name_that_looks_like_a_formula_has_not_drifted(tmp_path, monkeypatch):
+    run, clone = made_up(tmp_path / "run", "quick"), tmp_path / "clone"
+    write_results(frame([row(model="=1+1", reason="-x", value=1.5, u_num=1e-9)]), run / "results")
+    write_record(read_record(run / "run.json"), run / "run.json")
+    publish(run, clone / PUBLISHED)
+    monkeypatch.chdir(clone)
+    assert main(["--check", str(run)]) == 0
+
+
 def test_a_run_of_given_models_is_refused(tmp_path, target):
     with pytest.raises(ValueError, match="jkr, dmt only"):
         publish(made_up(tmp_path / "run", "quick", ["jkr", "dmt"]), target)
@@ -153,6 +175,9 @@ def test_a_run_is_compared_with_what_is_committed(tmp_path, monkeypatch, capsys)
     monkeypatch.chdir(clone)
     assert main(["--check", str(run)]) == 0
     write_results(frame([row(value=1.5 + 3e-9, u_num=1e-9)]), run / "results")
+    assert main(["--check", str(run)]) == 2
+    assert "results.csv was changed after it was written" in capsys.readouterr().err
+    write_record(read_record(run / "run.json"), run / "run.json")
     assert main(["--check", str(run)]) == 1
     assert "1.500000003" in capsys.readouterr().out
     full = made_up(tmp_path / "full", "full")

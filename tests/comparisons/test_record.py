@@ -4,11 +4,11 @@ import json
 
 import pytest
 
-from comparisons.provenance import environment
+from comparisons.provenance import computing_environment, environment
 from comparisons.record import read_record, write_record
 
 GOOD = {
-    "format": 2,
+    "format": 3,
     "arguments": {"tier": "quick", "model": None, "outside": {}, "gates": None, "jobs": 2, "out": "x"},
     "command": ["fscm-bench", "run"],
     "started": "2026-01-01T00:00:00+00:00",
@@ -18,6 +18,7 @@ GOOD = {
     "cases_sha256": "0" * 64,
     "gates_sha256": "f" * 64,
     "verdicts": {"all": "PASS", "PASS": 2},
+    "parts": [{"started": "2026-01-01T00:00:00+00:00", "seconds": 9.0, "computations": 2, **computing_environment()}],
 }
 
 
@@ -34,13 +35,14 @@ def test_one_nested_without_end_is_refused(tmp_path):
 
 def test_what_is_written_is_read(good, tmp_path):
     write_record(good, tmp_path / "run.json")
-    assert read_record(tmp_path / "run.json") == json.loads(json.dumps(good))
+    assert read_record(tmp_path / "run.json") == json.loads(json.dumps(good)) | {"files": {}}
 
 
 @pytest.mark.parametrize(
     ("change", "says"),
     [
         ({"format": 1}, "format"),
+        ({"parts": [{"started": "2026-01-01T00:00:00+00:00"}]}, "parts"),
         ({"surprise": 1}, "surprise"),
         ({"cases_sha256": "short"}, "cases_sha256"),
         ({"started": "yesterday"}, "started"),
@@ -53,7 +55,7 @@ def test_what_does_not_fit_is_neither_written_nor_read(good, tmp_path, change, s
     with pytest.raises(RuntimeError, match=says):
         write_record(good | change, path)
     assert not path.exists()
-    path.write_text(json.dumps(good | change))
+    path.write_text(json.dumps({"files": {}, "sha256": "0" * 64} | good | change))
     with pytest.raises(ValueError, match=says):
         read_record(path)
 

@@ -1,5 +1,7 @@
 """Stored results: exact, ordered, and never half written."""
 
+import csv
+import io
 import math
 import os
 
@@ -15,6 +17,7 @@ from comparisons.store import (
     atomic,
     csv_text,
     frame,
+    plain_text,
     prepare_folder,
     writable_file,
     write_json,
@@ -62,6 +65,41 @@ def test_values_have_17_digits_and_parameters_do_not():
     cells = csv_text(frame([row(mu=0.1, value=0.1)])).splitlines()[1].split(",")
     assert cells[5] == "0.1"
     assert cells[7] == "0.10000000000000001"
+
+
+FORMULAS = ["=cmd|' /C calc'!A0", "+1+1", "-1+1", "@SUM(A1)", "\t=1", " =1", "\n=1", "'=1", "''-1+1"]
+
+
+@pytest.mark.parametrize("text", FORMULAS)
+@pytest.mark.parametrize("column", ["model", "model_version", "reason"])
+def test_no_text_is_a_formula_and_each_is_read_back(text, column):
+    cells = next(csv.DictReader(io.StringIO(csv_text(frame([row(**{column: text})])), newline="")))
+    assert cells[column][0] == "'"
+    assert plain_text(cells[column]) == text
+
+
+def test_a_carriage_return_does_not_begin_a_row_that_is_a_formula():
+    text = csv_text(frame([row(reason="no\r=1+1")]))
+    assert [cells["reason"] for cells in csv.DictReader(io.StringIO(text, newline=""))] == ["no =1+1"]
+    assert plain_text(next(csv.DictReader(io.StringIO(csv_text(frame([row(reason="\r=1")])))))["reason"]) == " =1"
+
+
+@given(st.text(st.characters(exclude_characters="\r", exclude_categories=["Cs"])))
+def test_every_text_is_read_back(text):
+    written = csv_text(pd.DataFrame({"reason": [text]}))
+    [cells] = list(csv.reader(io.StringIO(written, newline="")))[1:] or [[""]]
+    assert plain_text(cells[0] if cells else "") == text
+
+
+def test_negative_numbers_and_their_texts_are_untouched():
+    table = pd.DataFrame({"n": [2.0], "value": [-0.5], "published_percent": ["-5.2"], "some": [None]})
+    assert csv_text(table) == "n,value,published_percent,some\n2,-0.5,-5.2,\n"
+    mixed = pd.DataFrame({"value": pd.Series([-0.1, None], dtype=object)})
+    assert csv_text(mixed) == 'value\n-0.1\n""\n'
+
+
+def test_a_name_of_a_column_is_no_formula():
+    assert csv_text(pd.DataFrame({"=1+1": [1.0]})) == "'=1+1\n1\n"
 
 
 def test_the_table_does_not_depend_on_the_order_of_completion(tmp_path):

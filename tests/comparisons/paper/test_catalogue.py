@@ -8,8 +8,11 @@ from comparisons.paper.catalogue import NAMES, plates
 from comparisons.paper.plate import Plate
 from comparisons.paper.workshop import Call
 
+ATTEMPTS = []
+
 
 def fail(x):
+    ATTEMPTS.append(x)
     raise ComputationFailed(f"{x} does not converge")
 
 
@@ -52,3 +55,16 @@ def test_a_call_that_fails_costs_its_own_plate(tmp_path, capsys, monkeypatch):
     assert "fig02" in said.out
     assert (tmp_path / "fig02_kernel_functions.csv").exists()
     assert not (tmp_path / "failing.csv").exists()
+
+
+def test_a_stored_failure_is_used_and_said_and_made_again_when_asked_for(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("comparisons.commands.paper.plates", lambda names: [FAILING])
+    arguments = ["paper", "--jobs", "1", "--out", str(tmp_path)]
+    assert main(arguments) == 4
+    assert "stored failures" not in capsys.readouterr().err
+    assert main(arguments) == 4
+    assert "1 stored failures of fail are used; --retry-failed" in capsys.readouterr().err
+    attempts = len(ATTEMPTS)
+    assert main([*arguments, "--retry-failed"]) == 4
+    assert "stored failures" not in capsys.readouterr().err
+    assert len(ATTEMPTS) == attempts + 1

@@ -11,8 +11,8 @@ import pytest
 
 from comparisons.gates import gates_text, load_gates
 from comparisons.outputs.verdicts import write_verdicts
-from comparisons.provenance import environment
-from comparisons.record import write_record
+from comparisons.provenance import computing_environment, environment
+from comparisons.record import read_record, write_record
 from comparisons.store import Row, curve_frame, frame, write_curves, write_results, write_table
 from comparisons.tables import largest, relative_error
 
@@ -120,7 +120,7 @@ def write_run(folder: Path) -> Path:
     write_record(
         environment()
         | {
-            "format": 2,
+            "format": 3,
             "arguments": {
                 "tier": "quick",
                 "model": [IMAGE, SCRIPT],
@@ -138,10 +138,18 @@ def write_run(folder: Path) -> Path:
             "cases_sha256": "0" * 64,
             "gates_sha256": "f" * 64,
             "verdicts": {"all": "PASS", "PASS": 2},
+            "parts": [
+                {"started": "2026-01-01T00:00:00+00:00", "seconds": 9.0, "computations": 2, **computing_environment()}
+            ],
         },
         folder / "run.json",
     )
     return folder
+
+
+def seal(folder):
+    """Give the record of a run the checksums of its files as they are now."""
+    write_record(read_record(folder / "run.json"), folder / "run.json")
 
 
 @pytest.fixture(scope="session")
@@ -152,4 +160,6 @@ def run_folder(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def hostile():
-    return SimpleNamespace(image=IMAGE, script=SCRIPT, line=LINE, spec=SPEC, write_run=write_run, python=sys.executable)
+    return SimpleNamespace(
+        seal=seal, image=IMAGE, script=SCRIPT, line=LINE, spec=SPEC, write_run=write_run, python=sys.executable
+    )

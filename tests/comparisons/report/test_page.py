@@ -169,10 +169,11 @@ def test_ours_look_the_same_on_every_page_and_no_two_alike():
     assert len({(look.colour, look.marker) for look in together.values()}) == len(together)
 
 
-def test_a_run_without_verdicts_errors_or_curves_has_a_page(run_folder, tmp_path):
+def test_a_run_without_verdicts_errors_or_curves_has_a_page(run_folder, tmp_path, hostile):
     folder = shutil.copytree(run_folder, tmp_path / "run")
     for name in ("verdicts", "kappa", "largest_kappa", "curves"):
         pd.read_parquet(folder / f"{name}.parquet").head(0).to_parquet(folder / f"{name}.parquet")
+    hostile.seal(folder)
     page = make_page(read_folder(folder))
     assert page.verdict == "ERROR"
     assert "No gate was evaluated" in page.summary
@@ -219,11 +220,18 @@ def test_a_folder_that_is_no_whole_run_is_wrong_input(run_folder, tmp_path, caps
         (lambda table: table.assign(verdict="FINE"), "unknown verdict 'FINE'"),
     ],
 )
-def test_a_table_that_was_tampered_with_is_wrong_input(run_folder, tmp_path, capsys, change, says):
+def test_a_table_that_was_tampered_with_is_wrong_input(run_folder, tmp_path, capsys, hostile, change, says):
     folder = shutil.copytree(run_folder, tmp_path / "run")
     change(pd.read_parquet(folder / "verdicts.parquet")).to_parquet(folder / "verdicts.parquet")
     assert main(["report", str(folder)]) == 2
+    assert "verdicts.parquet was changed after it was written" in capsys.readouterr().err
+    hostile.seal(folder)
+    assert main(["report", str(folder)]) == 2
     assert says in capsys.readouterr().err
+
+
+def test_the_parts_of_the_computations_are_on_the_page(page, stored):
+    assert f"numpy {stored.record['parts'][0]['numpy']}" in dict(page.provenance)["part 1 of the computations"]
 
 
 def test_a_folder_that_is_not_there(tmp_path, capsys):

@@ -1,0 +1,151 @@
+"""A run that is resumed: stored failures, and the parts of the computations in its record."""
+
+import random
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import replace
+
+import pytest
+
+from comparisons.cases import Case
+from comparisons.cli import main
+from comparisons.commands import computing, reevaluation, row_journal
+from comparisons.model import ComputationFailed
+from comparisons.paper.workshop import Call, Workshop
+from comparisons.record import read_record
+from comparisons.run import Task, answer, compute
+from comparisons.store import read_table
+
+from .test_run import interrupt_after, run
+
+
+def test_stored_failures_are_used_and_this_is_said(small_grid, tmp_path, capsys):
+    assert run(tmp_path, "--model", "ten-percent", "fails") == 4
+    assert "stored failures" not in capsys.readouterr().err
+    assert run(tmp_path, "--model", "ten-percent", "fails") == 4
+    said = capsys.readouterr().err
+    assert "0 computations" in said
+    assert "4 stored failures of fails are used; --retry-failed computes them again" in said
+
+
+def test_stored_failures_are_computed_again_when_it_is_asked_for(small_grid, tmp_path, monkeypatch, capsys):
+    assert run(tmp_path, "--model", "ten-percent", "fails") == 4
+    asked = []
+
+    def counted(tasks, jobs):
+        asked.extend(task.model for task in tasks)
+        return compute(tasks, jobs)
+
+    monkeypatch.setattr(computing, "compute", counted)
+    assert run(tmp_path, "--model", "ten-percent", "fails", "--retry-failed") == 4
+    assert asked == ["fails"] * 4
+    said = capsys.readouterr().err
+    assert "4 computations on 1 processes, 8 are stored" in said
+    assert "stored failures" not in said
+    table = read_table(tmp_path / "results.parquet")
+    assert not table.duplicated(["model", "quantity", "n", "k", "mu"]).any()
+
+
+def test_a_sweep_retries_too(toys, tmp_path, capsys):
+    (tmp_path / "grid.toml").write_text(
+        '[[grid]]\nid = "mine"\ntitle = "Mine"\nreference = "truth"\nmodels = ["fails"]\n'
+        'quantities = ["pull_off_force"]\nn = [2]\nk = [0]\nmu = [1, 2]\n'
+    )
+    arguments = ["sweep", str(tmp_path / "grid.toml"), "--jobs", "1", "--out", str(tmp_path / "out")]
+    assert main(arguments) == 4
+    assert main(arguments) == 4
+    assert "2 stored failures of fails are used" in capsys.readouterr().err
+    assert main([*arguments, "--retry-failed"]) == 4
+    assert "2 computations" in capsys.readouterr().err
+
+
+def fail(x):
+    raise ComputationFailed("not enough iterations")
+
+
+def test_a_workshop_knows_its_failures_and_forgets_them(tmp_path):
+    calls = [Call.of(fail, 1), Call.of(abs, -2)]
+    list(Workshop(tmp_path / "calls", "x").work(calls, 1))
+    stored = Workshop(tmp_path / "calls", "x")
+    assert stored.failed(calls) == calls[:1]
+    stored.forget(calls[:1])
+    assert stored.missing(calls) == Workshop(tmp_path / "calls", "x").missing(calls) == calls[:1]
+
+
+def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path, monkeypatch, capsys):
+    here = row_journal.computing_environment()
+    there = here | {"python": "3.99.0", "cpu": "another"}
+    with monkeypatch.context() as patch:
+        patch.setattr(computing, "compute", interrupt_after(5, BrokenProcessPool))
+        patch.setattr(row_journal, "computing_environment", lambda: there)
+        assert run(tmp_path) == 4
+    assert run(tmp_path) == 0
+    record = read_record(tmp_path / "run.json")
+    first, second = sorted(record["parts"], key=lambda part: part["computations"])
+    assert (first["computations"], second["computations"]) == (5, 7)
+    assert {name: first[name] for name in there} == there
+    assert {name: second[name] for name in here} == here
+    assert record["rows"]["resumed"] == 5
+    assert record["started"] == min(first["started"], second["started"])
+    assert record["seconds"]["run"] == pytest.approx(first["seconds"] + second["seconds"])
+    # A command that computes nothing is not a part, and changes none.
+    assert run(tmp_path) == 0
+    again = read_record(tmp_path / "run.json")
+    for name in ("parts", "started"):
+        assert again[name] == record[name]
+    assert again["seconds"]["run"] == record["seconds"]["run"]
+
+
+def test_a_row_whose_line_is_damaged_is_computed_again(small_grid, tmp_path, capsys):
+    assert run(tmp_path) == 0
+    whole = (tmp_path / "results.csv").read_bytes()
+    journal = tmp_path / "journal.jsonl"
+    lines = journal.read_text().splitlines(keepends=True)
+    chosen = random.Random(1).randrange(1, len(lines))
+    lines[chosen] = lines[chosen].replace('"n": 2', '"n": 3')
+    journal.write_text("".join(lines))
+    capsys.readouterr()
+    assert run(tmp_path) == 0
+    said = capsys.readouterr().err
+    assert "damaged lines (1)" in said
+    assert "1 computations on 1 processes, 11 are stored" in said
+    assert (tmp_path / "results.csv").read_bytes() == whole
+
+
+def test_results_with_another_numpy_are_refused_and_it_is_said_which(small_grid, tmp_path, monkeypatch, capsys):
+    assert run(tmp_path) == 0
+    now = row_journal.fingerprint()
+    monkeypatch.setattr(row_journal, "fingerprint", lambda: now.replace("NumPy ", "NumPy 0."))
+    capsys.readouterr()
+    assert run(tmp_path) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "another version of the code, of NumPy or of SciPy (NumPy " in said
+
+
+@pytest.mark.parametrize(
+    ("change", "agree"),
+    [
+        ({}, True),
+        ({"value": 2.0 + 1.9e-9}, True),
+        ({"value": 2.0 + 2.1e-9}, False),
+        ({"status": "failed", "value": None, "u_num": None}, False),
+    ],
+)
+def test_rows_agree_within_both_uncertainties(toys, change, agree):
+    row = answer(Task("truth", "pull_off_force", Case(2, 0, 1)))
+    assert reevaluation.same(row, replace(row, **change)) == agree
+
+
+@pytest.mark.parametrize(
+    ("points", "agree"),
+    [
+        (([0.0, 2.0], [1.0, 5.0], 1e-3), True),
+        (([0.0, 2.0], [1.0, 5.007], 1e-3), True),
+        (([0.0, 2.0], [1.0, 5.009], 1e-3), False),
+        (([0.0, 1.0, 2.0], [1.0, 3.0, 5.0], 1e-3), False),
+    ],
+)
+def test_curves_agree_point_by_point(toys, points, agree):
+    row = answer(Task("truth", "pull_off_force", Case(2, 0, 1)))
+    stored = replace(row, value=None, u_num=None, points=([0.0, 2.0], [1.0, 5.0], 1e-3))
+    assert reevaluation.same(stored, replace(stored, points=points)) == agree
