@@ -44,13 +44,15 @@ BODY = "return Result(float(Path({data!r}).read_text()), 0.0)"
 
 
 @pytest.fixture
-def once(write_model, tmp_path, monkeypatch, capsys):
-    """Return a function that writes the data the model reads, runs, and returns status and messages."""
+def once(write_model, tmp_path, tmp_path_factory, monkeypatch, capsys):
+    """Return a function that writes the data the model reads, runs, and returns status and messages.
+
+    The data are not in the folder of the model, whose digest would show the change.
+    """
     for command in (run, judge):
         monkeypatch.setattr(command, "grids", lambda tier: load_grids(GRID))
     (tmp_path / "gates.toml").write_text(GATE)
-    data = tmp_path / "elsewhere" / "data.txt"
-    data.parent.mkdir()
+    data = tmp_path_factory.mktemp("elsewhere") / "data.txt"
     options = ["--jobs", "1", "--out", str(tmp_path / "out"), "--gates", str(tmp_path / "gates.toml")]
 
     def go(text, *more, body=BODY):
