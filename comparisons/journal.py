@@ -14,6 +14,8 @@ from typing import Any, Generic, TypeVar
 
 from filelock import FileLock, Timeout
 
+from comparisons.store import writing
+
 __all__ = ["Journal", "alone_in"]
 
 _Entry = TypeVar("_Entry")
@@ -87,8 +89,9 @@ class Journal(Generic[_Entry]):
         return header
 
     def _append(self, content: dict[str, Any]) -> None:
-        with self.path.open("a", encoding="utf-8") as file:
-            file.write(json.dumps(content, allow_nan=False) + "\n")
+        line = json.dumps(content, allow_nan=False) + "\n"
+        with writing(self.path), self.path.open("a", encoding="utf-8") as file:
+            file.write(line)
 
     def add(self, entry: _Entry) -> None:
         """Keep an entry.
@@ -110,11 +113,25 @@ def alone_in(folder: Path) -> Iterator[None]:
     ------
     ValueError
         If another process is.
+    OSError
+        If the folder's file `.lock` cannot be opened, as that of another user; one sentence says why.
     """
+    path = folder / ".lock"
+    # Not `blocking=False`, which filelock 3.13 does not know; one attempt is the same.
+    lock = FileLock(path, timeout=0)
     try:
-        with FileLock(folder / ".lock", blocking=False):
-            yield
+        lock.acquire()
     except Timeout:
         raise ValueError(
             f"another process is computing into {folder}: wait for it, or choose another folder with --out"
         ) from None
+    except (OSError, NotImplementedError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise OSError(
+            f"the file {path}, which keeps two processes from computing into one folder, cannot be locked ({reason}); "
+            "choose another folder with --out"
+        ) from error
+    try:
+        yield
+    finally:
+        lock.release()

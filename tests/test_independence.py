@@ -49,6 +49,7 @@ LAYERS = (
         "comparisons.quantities",
         "comparisons.claims",
         "comparisons.distance",
+        "comparisons.exit_status",
         "comparisons.toml_text",
         "comparisons.shapes",
         "comparisons.uncertainty",

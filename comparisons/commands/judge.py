@@ -48,6 +48,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def call(args: argparse.Namespace) -> int:
     """Read, judge, write and print; return the exit status."""
+    to_step_summary("")
     record = read_record(args.folder / "run.json")
     models, tier = record["arguments"]["model"], record["arguments"]["tier"]
     stored = args.folder / GATES
