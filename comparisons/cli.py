@@ -1,18 +1,18 @@
 """The command line: parses, calls the command, turns what went wrong into one sentence and an exit status.
 
 Results go to stdout, progress and messages to stderr.  Exit status: 0 done and every gate passes, 1 a gate
-fails, 2 wrong input, 3 a gate is inconclusive, 4 a computation failed, a gate is in error, or there was
-nothing to judge (and, as shells have it, 130 after Ctrl-C and 141 when the reader of a pipe went away).
+fails, 2 wrong input, 3 a gate is inconclusive, 4 a computation or an output failed (as on a full disk), a gate is in
+error, or there was nothing to judge (and, as shells have it, 130 after Ctrl-C, 141 when the reader of a pipe went
+away, and 143 after SIGTERM).
 """
 
 from __future__ import annotations
 
 import argparse
 import logging
-import os
 import sys
 from collections.abc import Sequence
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from threadpoolctl import threadpool_limits
 
@@ -30,14 +30,12 @@ from comparisons.commands import (
     solve,
     sweep,
 )
-from comparisons.commands.options import WRONG_INPUT
-from comparisons.progress import log
+from comparisons.exit_status import guarded
 from comparisons.provenance import package_version
 
 __all__ = ["main"]
 
 _COMMANDS = (run, judge, report, paper, sweep, solve, curve, fem, listing, check_model, new_model, bench)
-_INTERRUPTED, _BROKEN_PIPE = 130, 141
 
 
 class _Parser(argparse.ArgumentParser):
@@ -46,13 +44,17 @@ class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         raise ValueError(f"{message}; see {self.prog} --help")
 
+    def _print_message(self, message: str, file: Any = None) -> None:
+        # The help and the version; the method of argparse is silent when they cannot be written.
+        print(message, end="", file=file or sys.stderr)
+
 
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="fscm-bench",
         description="How wrong is a model of adhesive contact of graded materials, and how sure are we?",
         epilog="Exit status: 0 done and every gate passes, 1 a gate fails, 2 wrong input, 3 inconclusive, "
-        "4 a computation failed, a gate is in error, or no gate was evaluated.",
+        "4 a computation or an output failed, a gate is in error, or no gate was evaluated.",
     )
     parser.add_argument("--version", action="version", version=f"fscm-bench {package_version()}")
     parsers = parser.add_subparsers(metavar="COMMAND", required=True)
@@ -99,25 +101,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     int
         The exit status.
     """
-    arguments = sys.argv[1:] if arguments is None else arguments
+    return guarded(lambda: _call(sys.argv[1:] if arguments is None else arguments))
+
+
+def _call(arguments: Sequence[str]) -> int:
     # Embedding a font in a PDF, it remarks on the date in the font's file.
     logging.getLogger("fontTools").setLevel(logging.ERROR)
-    try:
-        args = _parser().parse_args(_keep_negative_numbers(arguments))
-        # One thread for BLAS: processes share the work, and sums come in the same order every time.
-        with threadpool_limits(1):
-            status: int = args.call(args)
-        sys.stdout.flush()
-        return status
-    except SystemExit as end:  # --help and --version
-        return int(end.code or 0)
-    except ValueError as error:
-        log(f"fscm-bench: {error}")
-        return WRONG_INPUT
-    except KeyboardInterrupt:
-        log("fscm-bench: interrupted")
-        return _INTERRUPTED
-    except BrokenPipeError:
-        # Nobody reads any more; point stdout elsewhere so that the last flush does not complain.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return _BROKEN_PIPE
+    args = _parser().parse_args(_keep_negative_numbers(arguments))
+    # One thread for BLAS: processes share the work, and sums come in the same order every time.
+    with threadpool_limits(1):
+        status: int = args.call(args)
+    return status

@@ -16,9 +16,13 @@ from typing import Any, Generic, TypeVar
 
 from filelock import FileLock, Timeout
 
+<<<<<<< HEAD
 from comparisons.progress import log
 from comparisons.provenance import differences
 from comparisons.store import atomic
+=======
+from comparisons.store import writing
+>>>>>>> d-cli
 
 __all__ = ["Journal", "alone_in"]
 
@@ -107,6 +111,7 @@ class Journal(Generic[_Entry]):
             os.truncate(self.path, len(whole + end))
         return True
 
+<<<<<<< HEAD
     def _write_again(self) -> None:
         lines = [self._first_line(), *(self._entry_line(entry) for entry in self.entries)]
         with atomic(self.path) as file:
@@ -117,6 +122,11 @@ class Journal(Generic[_Entry]):
 
     def _append(self, line: str) -> None:
         with self.path.open("a", encoding="utf-8") as file:
+=======
+    def _append(self, content: dict[str, Any]) -> None:
+        line = json.dumps(content, allow_nan=False) + "\n"
+        with writing(self.path), self.path.open("a", encoding="utf-8") as file:
+>>>>>>> d-cli
             file.write(line)
 
     def add(self, entry: _Entry) -> None:
@@ -168,11 +178,25 @@ def alone_in(folder: Path) -> Iterator[None]:
     ------
     ValueError
         If another process is.
+    OSError
+        If the folder's file `.lock` cannot be opened, as that of another user; one sentence says why.
     """
+    path = folder / ".lock"
+    # Not `blocking=False`, which filelock 3.13 does not know; one attempt is the same.
+    lock = FileLock(path, timeout=0)
     try:
-        with FileLock(folder / ".lock", blocking=False):
-            yield
+        lock.acquire()
     except Timeout:
         raise ValueError(
             f"another process is computing into {folder}: wait for it, or choose another folder with --out"
         ) from None
+    except (OSError, NotImplementedError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise OSError(
+            f"the file {path}, which keeps two processes from computing into one folder, cannot be locked ({reason}); "
+            "choose another folder with --out"
+        ) from error
+    try:
+        yield
+    finally:
+        lock.release()

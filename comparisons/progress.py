@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager, nullcontext, suppress
+from typing import NoReturn
 
 from rich.console import Console
 from rich.progress import (
@@ -19,9 +20,15 @@ from rich.progress import (
 __all__ = ["counting", "log", "waiting"]
 
 
+class _Messages(Console):
+    def on_broken_pipe(self) -> NoReturn:
+        raise BrokenPipeError  # rich would end the process with status 1
+
+
 def log(text: str) -> None:
-    """Write a line on stderr."""
-    Console(stderr=True, soft_wrap=True, highlight=False, markup=False).print(text)
+    """Write a line on stderr; a message that cannot be written is lost and stops no computation."""
+    with suppress(OSError):
+        _Messages(stderr=True, soft_wrap=True, highlight=False, markup=False).print(text)
 
 
 @contextmanager

@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from comparisons.exit_status import guarded
 from comparisons.paper.catalogue import plates
 from comparisons.record import check_files, read_record
 from comparisons.store import atomic, csv_text, plain_text, read_table
@@ -129,7 +130,18 @@ def _is_real(column: pd.Series) -> bool:
 
 
 def read_published(target: Path = PUBLISHED) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Return the committed results and curves as tables fit for `comparisons.judge.judge`."""
+    """Return the committed results and curves as tables fit for `comparisons.judge.judge`.
+
+    Raises
+    ------
+    ValueError
+        If they are not there, as where the working folder is not the root of a clone.
+    """
+    if missing := [name for name in _TABLES if not (target / name).is_file()]:
+        raise ValueError(
+            f"there is no file {target / missing[0]}: the committed results are in a clone of the repository only; "
+            "call this in its root folder"
+        )
     rows, curves = (_read(target / name) for name in _TABLES)
     return rows, curves
 
@@ -181,23 +193,30 @@ def check(folder: Path) -> pd.DataFrame:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Publish what the folder that is given holds, or check it; return 1 if it has drifted, 2 if it is none."""
+    """Publish what the folder that is given holds, or check it.
+
+    Returns
+    -------
+    int
+        0 if all is well, 1 if results have drifted, 2 if the folder or the working folder is a wrong one, 4 if
+        something cannot be written.
+    """
+    return guarded(lambda: _call(arguments), "python -m comparisons.publish")
+
+
+def _call(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m comparisons.publish", description=__doc__)
     parser.add_argument("--check", action="store_true", help="change nothing, and list the results that have drifted")
     parser.add_argument("folder", metavar="FOLDER", type=Path, help="of a finished run, or of the paper")
     args = parser.parse_args(arguments)
-    try:
-        if args.check:
-            drifted = check(args.folder)
-            print(f"{args.folder} is what is committed" if drifted.empty else csv_text(drifted))
-            return 0 if drifted.empty else 1
-        if (args.folder / "run.json").exists():
-            gave = ", ".join(map(str, publish(args.folder)))
-        else:
-            gave = f"{len(publish_plates(args.folder))} files of {PLATES}"
-    except ValueError as error:
-        print(error, file=sys.stderr)
-        return 2
+    if args.check:
+        drifted = check(args.folder)
+        print(f"{args.folder} is what is committed" if drifted.empty else csv_text(drifted))
+        return 0 if drifted.empty else 1
+    if (args.folder / "run.json").exists():
+        gave = ", ".join(map(str, publish(args.folder)))
+    else:
+        gave = f"{len(publish_plates(args.folder))} files of {PLATES}"
     print(f"{args.folder} gave {gave}; nothing else was changed.")
     return 0
 

@@ -1,19 +1,19 @@
-"""Where the console script begins: an interruption while everything is still being imported is one sentence too."""
+"""Start of the console script: an exception while everything is still being imported is one sentence too."""
 
 from __future__ import annotations
 
-import sys
+from comparisons.exit_status import guarded
 
 __all__ = ["main"]
 
 
 def main() -> int:
     """Run the command line; return the exit status."""
-    try:
-        # Imported here: it takes seconds, in which somebody may change their mind.
-        from comparisons.cli import main as command
+    return guarded(_command)
 
-        return command()
-    except KeyboardInterrupt:
-        print("fscm-bench: interrupted", file=sys.stderr)
-        return 130
+
+def _command() -> int:
+    # Imported here: it takes seconds, in which somebody may change their mind.
+    from comparisons.cli import main as command
+
+    return command()

@@ -20,6 +20,8 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from comparisons.exit_status import full_disk
+
 __all__ = [
     "COLUMNS",
     "CURVE_COLUMNS",
@@ -36,6 +38,7 @@ __all__ = [
     "write_json",
     "write_results",
     "write_table",
+    "writing",
 ]
 
 
@@ -157,6 +160,8 @@ def prepare_folder(path: Path) -> Path:
         with tempfile.TemporaryFile(dir=path):
             pass
     except OSError as error:
+        if full_disk(error):
+            raise OSError(f"the output folder {path} cannot be written ({error.strerror})") from error
         raise ValueError(
             f"the output folder {path} cannot be written ({error.strerror}); choose another one with --out"
         ) from None
@@ -182,7 +187,24 @@ def _explained(path: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
+        if full_disk(error):
+            raise OSError(f"the file {path} cannot be written ({error.strerror})") from error
         raise ValueError(f"the file {path} cannot be written ({error.strerror}); choose another place") from None
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Name the file in the error of the system when its content cannot be written, as on a full disk.
+
+    Raises
+    ------
+    OSError
+        One sentence with the path and the system's reason.
+    """
+    try:
+        yield
+    except OSError as error:
+        raise OSError(f"the file {path} cannot be written ({error.strerror or error})") from error
 
 
 @contextmanager
@@ -193,17 +215,20 @@ def atomic(path: Path) -> Iterator[IO[bytes]]:
     ------
     ValueError
         If the file cannot be written there; the sentence gives the system's reason.
+    OSError
+        If there is no room for its content; the sentence gives the system's reason.
     """
     with _explained(path):
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     temporary = Path(name)
     try:
-        with os.fdopen(handle, "wb") as file:
-            yield file
-        umask = os.umask(0)
-        os.umask(umask)
-        temporary.chmod(0o666 & ~umask)
-        temporary.replace(path)
+        with writing(path):
+            with os.fdopen(handle, "wb") as file:
+                yield file
+            umask = os.umask(0)
+            os.umask(umask)
+            temporary.chmod(0o666 & ~umask)
+            temporary.replace(path)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise

@@ -9,11 +9,11 @@ import time
 from dataclasses import dataclass
 
 import numpy as np
-import pyamg
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import LinearOperator, cg
 
+from fem_reference.algebraic_multigrid import pyamg
 from fem_reference.assembly import HalfSpace
 from fem_reference.errors import NotConverged
 from fem_reference.preconditioner import ElasticPreconditioner, factorise, unit_scaling

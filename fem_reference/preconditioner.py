@@ -16,11 +16,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import pyamg
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import LinearOperator, SuperLU, splu
 
+from fem_reference.algebraic_multigrid import pyamg
 from fem_reference.assembly import HalfSpace
 from fem_reference.condensation import grid_positions
 from fem_reference.errors import NotConverged

@@ -52,6 +52,7 @@ LAYERS = (
         "comparisons.kappa",
         # How a number is written, also in the messages of the modules before `comparisons.outputs`.
         "comparisons.outputs.digits",
+        "comparisons.exit_status",
         "comparisons.toml_text",
         "comparisons.shapes",
         "comparisons.uncertainty",

@@ -14,7 +14,7 @@ from comparisons.figures.style import picture_path, save
 from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.models.fem_model import FiniteElements
 from comparisons.progress import log, waiting
-from comparisons.store import writable_file
+from comparisons.store import writable_file, writing
 from comparisons.tables import rich_table
 from fem_reference import export
 from fem_reference.ladder import elastic_ladder
@@ -97,7 +97,8 @@ def _fields(args: argparse.Namespace) -> int:
         log(f"failed: {failure}")
         return FAILED
     if args.vtu:
-        export.write_vtu(field, args.vtu)
+        with writing(args.vtu):
+            export.write_vtu(field, args.vtu)
     if args.plot:
         shown = _SHOWN * radius
         inside = (field.points < shown).all(axis=1)

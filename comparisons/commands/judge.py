@@ -49,6 +49,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def call(args: argparse.Namespace) -> int:
     """Read, judge, write and print; return the exit status."""
+    to_step_summary("")
     record = read_record(args.folder / "run.json")
     check_files(record, args.folder, written_again=FILES)
     other_code = warn_of_other_code(record, args.folder)

@@ -1,14 +1,15 @@
-"""What several commands share: exit statuses, the arguments of a case, the output console."""
+"""Parts that several commands share: exit statuses, the arguments of a case, the output console."""
 
 from __future__ import annotations
 
 import argparse
 import sys
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from rich.console import Console
 
 from comparisons.cases import Case
+from comparisons.exit_status import FAILED, FAILS, INCONCLUSIVE, OK, WRONG_INPUT, writing_stdout
 
 __all__ = [
     "FAILED",
@@ -23,9 +24,6 @@ __all__ = [
     "output",
 ]
 
-#: A gate that fails is 1; a computation that failed, a gate in error, or that there was nothing to judge, is 4.
-OK, FAILS, WRONG_INPUT, INCONCLUSIVE, FAILED = 0, 1, 2, 3, 4
-
 #: What a SPEC is, where one is asked for.
 MODEL_SPEC = "a name (fscm-bench list models), FILE.py:CLASS, or a folder with a model.toml"
 
@@ -34,6 +32,10 @@ _WIDTH = 160
 
 
 class _Output(Console):
+    def print(self, *objects: Any, **options: Any) -> None:
+        with writing_stdout():
+            super().print(*objects, **options)
+
     def on_broken_pipe(self) -> NoReturn:
         raise BrokenPipeError
 

@@ -24,6 +24,7 @@ from comparisons.figures.style import save
 from comparisons.gates import gates_text, load_gates, of_tier
 from comparisons.model import ComputationFailed
 from comparisons.models import Outside, create, identify
+from comparisons.outputs.markdown import to_step_summary
 from comparisons.progress import log
 from comparisons.provenance import environment
 from comparisons.record import FORMAT, write_record
@@ -89,6 +90,7 @@ def call(args: argparse.Namespace) -> int:
         else own_gates(rules, args.gates, args.tier, chosen, given)
     )
     started = datetime.now(UTC)
+    to_step_summary("")
     folder = folder_for(args.out, started)
     if (folder / GATES).exists() and not (folder / "journal.jsonl").exists() and gates_text(folder / GATES) != rules:
         raise ValueError(f"{folder / GATES} is not of a run, which would replace it; choose another folder with --out")

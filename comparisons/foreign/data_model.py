@@ -174,7 +174,11 @@ def _submission(folder: Path) -> Submission:
 
 def _bytes(folder: Path, name: str, largest: int) -> bytes:
     path = folder / name
-    if path.resolve().parent != folder.resolve():
+    try:
+        inside = path.resolve().parent == folder.resolve()
+    except RuntimeError:  # Python 3.11 and 3.12; a later one finds no file below
+        raise ValueError(f"{name} is a loop of symbolic links") from None
+    if not inside:
         raise ValueError(f"{name} leads out of the folder")
     if not path.is_file():
         raise ValueError(f"there is no file {name}")

@@ -54,13 +54,14 @@ def door_of(spec: str) -> dict[str, Any]:
     """
     file, colon, attribute = spec.rpartition(":")
     if colon and file.endswith(".py"):
-        path = Path(file).expanduser().resolve()
+        # Not Path.resolve(), which raises RuntimeError at a loop of symbolic links.
+        path = Path(os.path.realpath(os.path.expanduser(file)))
         if not path.is_file():
             raise ValueError(f"there is no file {one_line(file, 200)}")
         if not attribute.isidentifier():
             raise ValueError(f"{one_line(spec, 200)}: what follows the colon must be the name of a class")
         return {"kind": "file", "file": str(path), "attribute": attribute}
-    folder = Path(spec).expanduser()
+    folder = Path(os.path.expanduser(spec))
     if folder.name == MANIFEST:
         folder = folder.parent
     data = (folder / MANIFEST).is_file()

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import keyword
+import os
 import sys
 from importlib.resources import files
 from pathlib import Path
 
+from comparisons.exit_status import full_disk
 from comparisons.foreign.wording import model_name
 from comparisons.models import MODELS
 
@@ -47,8 +49,10 @@ def write_template(folder: Path) -> tuple[list[Path], str]:
     ValueError
         If the folder is not empty, its name cannot be that of a model or is that of one of ours, or nothing can be
         written there.
+    OSError
+        If the disk is full.
     """
-    name = model_name(folder.resolve().name)
+    name = model_name(Path(os.path.realpath(folder)).name)
     module = name.replace("-", "_").replace(".", "_").lower()
     cls = "".join(part.title() for part in module.split("_"))
     if why := _unusable(name, module, cls):
@@ -67,6 +71,8 @@ def write_template(folder: Path) -> tuple[list[Path], str]:
             target.write_text(text, encoding="utf-8")
             written.append(target)
     except OSError as error:
+        if full_disk(error):
+            raise OSError(f"{folder} cannot be written ({error.strerror})") from error
         raise ValueError(f"{folder} cannot be written ({error.strerror})") from None
     return written, f"{folder / module}.py:{words['CLASS']}"
 

@@ -35,8 +35,22 @@ def _escaped(text: str) -> str:
 
 
 def to_step_summary(text: str) -> None:
-    """Append to the summary page if this is a job of GitHub Actions."""
+    """Append to the summary page if this is a job of GitHub Actions.
+
+    An empty text only makes sure, before anything is computed, that the page can be written.
+
+    Raises
+    ------
+    OSError
+        If it cannot; one sentence gives the system's reason.
+    """
     path = os.environ.get("GITHUB_STEP_SUMMARY")
     if path:
-        with Path(path).open("a", encoding="utf-8") as file:
-            file.write(text)
+        try:
+            with Path(path).open("a", encoding="utf-8") as file:
+                file.write(text)
+        except OSError as error:
+            raise OSError(
+                f"the file {path}, which the environment variable GITHUB_STEP_SUMMARY names, cannot be written "
+                f"({error.strerror}); unset the variable or name another file"
+            ) from error

@@ -164,8 +164,16 @@ def test_it_says_in_a_sentence_what_was_taken(tmp_path, target, monkeypatch, cap
     assert said.count("\n") == 1
     assert all(str(PUBLISHED / name) in said for name in FROM_FULL)
     assert not any(name in said for name in FROM_QUICK)
-    with pytest.raises(SystemExit, match="2"):
-        main([str(run), "more"])
+    assert main([str(run), "more"]) == 2
+
+
+def test_without_a_clone_there_is_nothing_to_compare_with(tmp_path, monkeypatch, capsys):
+    run = made_up(tmp_path / "run", "quick")
+    monkeypatch.chdir(tmp_path)
+    assert main(["--check", str(run)]) == 2
+    shown = capsys.readouterr()
+    assert (shown.out, shown.err.count("\n")) == ("", 1)
+    assert "a clone of the repository" in shown.err
 
 
 def test_a_run_is_compared_with_what_is_committed(tmp_path, monkeypatch, capsys):

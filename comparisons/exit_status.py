@@ -1,0 +1,205 @@
+"""Exit statuses, and the one sentence on stderr for each way in which a command can end early.
+
+Only the standard library is imported here, so that the first module of the program can use it.
+"""
+
+from __future__ import annotations
+
+import errno
+import io
+import multiprocessing
+import os
+import signal
+import sys
+import threading
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from typing import TextIO
+
+__all__ = [
+    "FAILED",
+    "FAILS",
+    "INCONCLUSIVE",
+    "OK",
+    "TRACEBACK",
+    "WRONG_INPUT",
+    "Terminated",
+    "full_disk",
+    "guarded",
+    "writing_stdout",
+]
+
+#: A gate that fails is 1; a computation or an output that failed, a gate in error, or that there was nothing to
+#: judge, is 4.
+OK, FAILS, WRONG_INPUT, INCONCLUSIVE, FAILED = 0, 1, 2, 3, 4
+
+#: 128 and the number of the signal, as shells have it.
+_INTERRUPTED, _BROKEN_PIPE, _TERMINATED = 130, 141, 143
+
+#: The environment variable that asks for the traceback of an error.
+TRACEBACK = "FSCM_BENCH_TRACEBACK"
+
+
+class Terminated(KeyboardInterrupt):
+    """SIGTERM; what Ctrl-C cleans up is cleaned up then, too."""
+
+
+def full_disk(error: OSError) -> bool:
+    """Whether the device or the user's quota is full, which no other file name of the same folder repairs.
+
+    Examples
+    --------
+    >>> full_disk(OSError(errno.ENOSPC, "No space left on device"))
+    True
+    >>> full_disk(PermissionError(errno.EACCES, "Permission denied"))
+    False
+    """
+    return error.errno in {errno.ENOSPC, errno.EDQUOT}
+
+
+def guarded(command: Callable[[], int], program: str = "fscm-bench") -> int:
+    """Call a command and return its exit status; an exception becomes one sentence on stderr.
+
+    Parameters
+    ----------
+    command : callable
+        Returns the exit status.
+    program : str
+        Starts the sentence.
+
+    Returns
+    -------
+    int
+        What the command returned; 2 after a `ValueError` (wrong input), 130 after Ctrl-C, 141 when the reader of a
+        pipe has left, 143 after SIGTERM, and 4 after any other exception, as that of a full disk.
+
+    Examples
+    --------
+    >>> guarded(lambda: 3)
+    3
+    """
+    if sys.stderr is None:
+        # Closed by the parent process (2>&-): messages need a place, and no file may get descriptor 2.
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+    status = _status(command, program)
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None and not _flushed(stream):
+            _discard(stream)
+    return status
+
+
+def _status(command: Callable[[], int], program: str) -> int:
+    if sys.stdout is None:
+        _say(program, "the standard output is closed, so results cannot be written; use > /dev/null to drop them")
+        return FAILED
+    try:
+        with _terminable():
+            return _finished(command)
+    except KeyboardInterrupt as error:
+        terminated = isinstance(error, Terminated)
+        _say(program, "terminated" if terminated else "interrupted")
+        return _TERMINATED if terminated else _INTERRUPTED
+    except BrokenPipeError:
+        return _BROKEN_PIPE
+    except Exception as error:
+        status, sentence = _explained(error)
+        if os.environ.get(TRACEBACK):
+            sentence += "\n" + "".join(traceback.format_exception(error)).rstrip("\n")
+        _say(program, sentence)
+        return status
+
+
+def _finished(command: Callable[[], int]) -> int:
+    """Call the command and write what stdout still holds."""
+    try:
+        status = command()
+    except SystemExit as end:  # argparse, after --help and --version
+        status = end.code if isinstance(end.code, int) else OK if end.code is None else FAILED
+    with writing_stdout():
+        sys.stdout.flush()
+    return status
+
+
+@contextmanager
+def writing_stdout() -> Iterator[None]:
+    """Name the standard output in the error of the system when it cannot be written.
+
+    Raises
+    ------
+    OSError
+        One sentence with the system's reason; a pipe without a reader stays a `BrokenPipeError`.
+    """
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise OSError(f"the standard output cannot be written ({error.strerror or error})") from error
+
+
+def _explained(error: Exception) -> tuple[int, str]:
+    """Return the exit status of an exception and its sentence."""
+    if isinstance(error, ValueError):
+        return WRONG_INPUT, str(error)
+    if isinstance(error, OSError):
+        if error.strerror is None:  # a sentence of ours
+            return FAILED, str(error)
+        if error.filename is None:
+            return FAILED, f"the standard output or a file cannot be written ({error.strerror})"
+        return FAILED, f"{os.fsdecode(error.filename)} cannot be read or written ({error.strerror})"
+    text = " ".join(str(error).split())
+    return FAILED, (
+        f"internal error: {type(error).__name__}: {text}; please report it with the command; "
+        f"{TRACEBACK}=1 in the environment shows the traceback"
+    )
+
+
+@contextmanager
+def _terminable() -> Iterator[None]:
+    """Raise `Terminated` at SIGTERM, unless this process was told to ignore it or handles it already."""
+    main = threading.current_thread() is threading.main_thread()
+    if not (main and signal.getsignal(signal.SIGTERM) is signal.SIG_DFL):
+        yield
+        return
+    signal.signal(signal.SIGTERM, _terminate)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
+def _terminate(number: int, frame: object) -> None:
+    # Ctrl-C reaches the worker processes, too; SIGTERM only this one.
+    for child in multiprocessing.active_children():
+        child.terminate()
+    raise Terminated
+
+
+def _say(program: str, sentence: str) -> None:
+    """Write on stderr, without control characters; if that fails too, the exit status alone says it."""
+    safe = "".join(
+        character if character.isprintable() or character == "\n" else ascii(character)[1:-1] for character in sentence
+    )
+    with suppress(OSError):
+        print(f"{program}: {safe}", file=sys.stderr, flush=True)
+
+
+def _flushed(stream: TextIO) -> bool:
+    """Write what a stream still holds; return whether that was possible."""
+    try:
+        stream.flush()
+    except OSError:
+        return False
+    return True
+
+
+def _discard(stream: TextIO) -> None:
+    """Point a stream that cannot be written at nothing: Python's own flush at the end would change the status."""
+    try:
+        descriptor = stream.fileno()
+    except io.UnsupportedOperation:  # a stream in memory
+        return
+    nothing = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nothing, descriptor)
+    os.close(nothing)

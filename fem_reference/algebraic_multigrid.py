@@ -1,0 +1,38 @@
+"""Import of pyamg that also works without docstrings (``python -OO``, ``PYTHONOPTIMIZE=2``).
+
+pyamg appends a list of names to the docstrings of two of its packages while it is imported.  Python without
+docstrings has None there, and the import ends with a `TypeError`.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib.util import find_spec, module_from_spec
+from types import ModuleType
+
+__all__ = ["pyamg"]
+
+#: The packages that append to their docstring, in the order of import.
+_APPENDING = ("pyamg", "pyamg.util")
+
+
+def _import_without_docstrings() -> None:
+    """Execute pyamg with empty docstrings in place of None."""
+    made: list[ModuleType] = []
+    for name in _APPENDING:
+        spec = find_spec(name)
+        if spec is None or spec.loader is None:
+            raise ModuleNotFoundError(f"there is no package {name}", name=name)
+        module = module_from_spec(spec)
+        module.__doc__ = ""
+        sys.modules[name] = module
+        made.append(module)
+    for module in reversed(made):
+        module.__spec__.loader.exec_module(module)  # type: ignore[union-attr]
+    made[0].util = made[1]  # type: ignore[attr-defined]
+
+
+if sys.flags.optimize >= 2 and "pyamg" not in sys.modules:
+    _import_without_docstrings()
+
+import pyamg  # noqa: E402
