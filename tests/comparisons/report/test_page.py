@@ -115,11 +115,12 @@ def test_plots_have_the_stored_points(page, stored):
         assert series.x == mine["mu"].tolist()
         assert series.y == (100 * mine["kappa"]).tolist()
         assert series.high == (100 * mine["kappa"] + 100 * mine["u_kappa"]).tolist()
-    force, pressure = page.plots["curves"]
+    force, pressure, gap = page.plots["curves"]
     assert [len(series.x) for series in force.series] == [41, 41]
     # In the order of the path, which turns back: not sorted.
     assert force.series[0].x != sorted(force.series[0].x)
     assert pressure.series[0].y == [0.1, -1.0, 0.0]
+    assert (gap.table, [series.y for series in gap.series]) == ("pull_off_gap", [[0.2, 1.0, 3.0], [0.25, 1.05, 3.05]])
     assert [plot.id for plot in page.plots["convergence"]] == ["plot-uncertainty", "plot-order"]
 
 
