@@ -3,6 +3,7 @@
 import json
 import re
 import shutil
+from dataclasses import replace
 
 import pandas as pd
 import pytest
@@ -11,7 +12,7 @@ from comparisons.cli import main
 from comparisons.report.folder import read_folder
 from comparisons.report.look import looks
 from comparisons.report.page import make_page
-from comparisons.report.table import Cell, Column, Row, Table, without_empty
+from comparisons.report.table import Cell, Column, Row, Table, table_tex, without_empty
 from comparisons.store import csv_text
 
 
@@ -130,6 +131,21 @@ def test_every_row_of_a_plot_s_table_belongs_to_a_choice(page):
     assert groups == {series.group for series in plot.series}
     for curve in page.plots["curves"]:
         assert {row.group for row in page.tables[curve.table].rows} == {series.group for series in curve.series}
+
+
+def test_every_latex_file_of_the_page_compiles(page, run_folder, typeset):
+    files = {name: text for name, text in page.files.items() if name.endswith(".tex")}
+    assert len(files) == 3
+    for text in (*files.values(), (run_folder / "verdicts.tex").read_text(encoding="utf-8")):
+        typeset(text)
+
+
+def test_every_table_of_the_page_compiles_as_latex(page, typeset):
+    """Also those that are saved as CSV only: their headings and texts are the same kind."""
+    for table in page.tables.values():
+        text = table_tex(replace(table, rows=table.rows[:30]))
+        assert text.isascii()
+        typeset(text)
 
 
 def test_the_files_are_those_of_the_folder(page, run_folder):
