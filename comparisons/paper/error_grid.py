@@ -12,12 +12,10 @@ from typing import Any
 
 import pandas as pd
 
-from comparisons.models.solver import translated
+from comparisons.model import ComputationFailed
 from comparisons.paper.answers import quantity
 from comparisons.paper.workshop import Answers, Call
 from comparisons.tables import relative_uncertainty
-from fscm import NoSuchEvent, NotConverged, solve
-from fscm.problem import Problem
 
 __all__ = [
     "CANDIDATES",
@@ -137,18 +135,15 @@ def jump_onset(n: float, k: float) -> dict[str, Any]:
 
     Raises
     ------
-    comparisons.model.NotApplicable, comparisons.model.ComputationFailed
-        If there is no critical Tabor number, or it was not reached.
+    ComputationFailed
+        If the model has no critical Tabor number, or did not reach it.
     """
-    with translated(NoSuchEvent, NotConverged):
-        critical = solve(Problem(n, k, 1.0), "critical_tabor_number")
-    mu = float(critical.value) * (1.0 + ONSET_EXCESS)
-    return {
-        "critical": float(critical.value),
-        "u_critical": float(critical.u_num),
-        "mu": mu,
-        "found": errors_at(n, k, mu),
-    }
+    # The Tabor number of the case is not used.
+    critical = quantity("fscm", "critical_tabor_number", n, k, 1.0)
+    if critical["status"] != "ok":
+        raise ComputationFailed(critical["reason"])
+    mu = critical["value"] * (1.0 + ONSET_EXCESS)
+    return {"critical": critical["value"], "u_critical": critical["u_num"], "mu": mu, "found": errors_at(n, k, mu)}
 
 
 def onset_calls(cases: Iterable[Case]) -> Sequence[Call]:
