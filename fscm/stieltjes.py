@@ -104,8 +104,8 @@ class StieltjesScheme:
     gap_step : float
         Step of the central gap along the path, > 0; not stated in the paper.
     first_gap, last_gap : float
-        Central gaps where the path begins and ends; "say 10" and "say -0.1" in the paper, which is before the
-        pull-off of a cone on a stiff solid.
+        Central gaps where the path begins and ends.  The paper has "say 10" and "say -0.1"; a path that ends at -0.1
+        does not reach the pull-off of a cone on a stiff solid.
     last_load : float
         The path also ends at the first load above this: compressed much farther, the contact leaves the
         domain.

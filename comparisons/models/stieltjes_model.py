@@ -32,7 +32,7 @@ class PublishedScheme:
     name: ClassVar[str] = "fscm-stieltjes"
     version: ClassVar[str] = "1"
     citation: ClassVar[str] = "Zhu, Zheng, Huang & Yu, Sec. 2.4, Eqs. 34-39"
-    domain: ClassVar[str] = "k < 1, central gaps from 10 to -0.1, cohesive edge wider than the 2500 segments"
+    domain: ClassVar[str] = "k < 1, central gaps from 10 to -0.4, cohesive edge wider than the 2500 segments"
 
     def __init__(self, segments: int = 2500) -> None:
         self._segments = segments
@@ -46,7 +46,7 @@ class PublishedScheme:
             return result_of(stieltjes_solution(problem, quantity, self._segments))
 
     def curve(self, problem: Problem) -> Curve:
-        """Return the path from a central gap of 10 to -0.1."""
+        """Return the path from a central gap of 10 to the first compressive load, at the latest to a gap of -0.4."""
         _check(problem)
         with translated(NoSuchEvent, NotConverged):
             central_gap, displacement, load = StieltjesScheme(problem, self._segments).curve()

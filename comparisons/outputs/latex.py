@@ -4,39 +4,27 @@ from __future__ import annotations
 
 import pandas as pd
 
-__all__ = ["latex"]
+from comparisons.outputs.latex_text import comment, escaped
 
-_SPECIAL = {
-    "\\": r"\textbackslash{}",
-    "{": r"\{",
-    "}": r"\}",
-    "&": r"\&",
-    "%": r"\%",
-    "$": r"\$",
-    "#": r"\#",
-    "_": r"\_",
-    "~": r"\textasciitilde{}",
-    "^": r"\textasciicircum{}",
-    "<": r"\textless{}",
-    ">": r"\textgreater{}",
-    "|": r"\textbar{}",
-}
+__all__ = ["latex"]
 
 
 def latex(table: pd.DataFrame, caption: str) -> str:
     r"""Return a table of texts as a booktabs table; the document needs \usepackage{booktabs}.
+
+    Every character is one that LaTeX can typeset without further packages, whatever the texts hold.
 
     Examples
     --------
     >>> print(latex(pd.DataFrame({"gate": ["A_1"], "$E$": ["1.788482(3)"]}), "Verdicts").splitlines()[4])
     A\_1 & 1.788482(3) \\
     """
-    rows = [" & ".join(map(_escaped, row)) + r" \\" for row in table.astype(str).values.tolist()]
+    rows = [" & ".join(escaped(str(cell)) for cell in row) + r" \\" for row in table.to_numpy(object).tolist()]
     return "\n".join(
         [
-            rf"\begin{{tabular}}{{{'l' * len(table.columns)}}} % {_comment(caption)}",
+            rf"\begin{{tabular}}{{{'l' * len(table.columns)}}} % {comment(caption)}",
             r"\toprule",
-            " & ".join(map(_escaped, table.columns)) + r" \\",
+            " & ".join(map(escaped, table.columns)) + r" \\",
             r"\midrule",
             *([] if rows else [r"\multicolumn{" + str(len(table.columns)) + r"}{l}{none} \\"]),
             *rows,
@@ -45,11 +33,3 @@ def latex(table: pd.DataFrame, caption: str) -> str:
             "",
         ]
     )
-
-
-def _escaped(text: str) -> str:
-    return "".join(_SPECIAL.get(character, character) for character in text.replace("\n", " "))
-
-
-def _comment(text: str) -> str:
-    return text.replace("\n", " ")

@@ -13,6 +13,7 @@ from typing import Any
 import pandas as pd
 
 from comparisons.kappa import relative_difference, relative_uncertainty
+from comparisons.model import ComputationFailed
 from comparisons.paper.answers import quantity
 from comparisons.paper.workshop import Answers, Call
 
@@ -20,12 +21,16 @@ __all__ = [
     "CANDIDATES",
     "GRADIENTS",
     "GRADIENT_SLICES",
+    "ONSET_EXCESS",
     "SHAPES",
     "SHAPE_SLICES",
     "TABOR",
     "calls",
     "errors",
     "errors_at",
+    "jump_onset",
+    "onset_calls",
+    "onset_errors",
 ]
 
 #: What is judged, by quantity.  DMT has Bradley's pull-off force by the choice of its cohesive stress (Eq. 74).
@@ -35,7 +40,7 @@ CANDIDATES = {
     "jump_out_displacement": ("jkr", "md-improved", "md-original"),
 }
 
-#: Tabor numbers, from nearly rigid to nearly JKR; jumps exist from about 0.7 on.
+#: Tabor numbers, from nearly rigid to nearly JKR; jumps begin between 0.64 and 1.32, by shape and gradient.
 TABOR = (0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.6, 0.8, 1.0, 1.4, 2.0, 3.2, 5.0)
 
 #: Maps over the shape index (the attraction of the 9-3 law has no finite sum for n <= 2/3), at these gradients.
@@ -45,6 +50,9 @@ SHAPE_SLICES = (0.0, 0.4)
 #: Maps over the gradient exponent (beyond 0.8 the cohesive edge is too narrow at large mu), at these shapes.
 GRADIENTS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8)
 GRADIENT_SLICES = (1.5, 2.0)
+
+#: The first errors of the jumps are computed this fraction above the critical Tabor number, where the jumps merge.
+ONSET_EXCESS = 1e-3
 
 Case = tuple[float, float, float]
 
@@ -114,3 +122,49 @@ def _error(fscm: dict[str, Any], candidate: dict[str, Any]) -> dict[str, Any]:
     kappa = relative_difference(row["value"], row["fscm"])
     u_kappa = relative_uncertainty(row["value"], row["u_num"], row["fscm"], row["u_fscm"])
     return row | {"kappa": kappa, "u_kappa": u_kappa, "reason": fscm["reason"] or candidate["reason"]}
+
+
+def jump_onset(n: float, k: float) -> dict[str, Any]:
+    """Return the critical Tabor number, where jumps begin, and the errors of the closed forms just above it.
+
+    Returns
+    -------
+    dict
+        ``critical`` and ``u_critical``; ``mu``, larger by the fraction `ONSET_EXCESS`, and ``found``, as of
+        `errors_at` there.
+
+    Raises
+    ------
+    ComputationFailed
+        If the model has no critical Tabor number, or did not reach it.
+    """
+    # The Tabor number of the case is not used.
+    critical = quantity("fscm", "critical_tabor_number", n, k, 1.0)
+    if critical["status"] != "ok":
+        raise ComputationFailed(critical["reason"])
+    mu = critical["value"] * (1.0 + ONSET_EXCESS)
+    return {"critical": critical["value"], "u_critical": critical["u_num"], "mu": mu, "found": errors_at(n, k, mu)}
+
+
+def onset_calls(cases: Iterable[Case]) -> Sequence[Call]:
+    """Return a call of `jump_onset` for each shape index and gradient exponent; sharp shapes take longest."""
+    return [Call.of(jump_onset, n, k) for n, k in sorted({(n, k) for n, k, _ in cases})]
+
+
+def onset_errors(answers: Answers, cases: Iterable[Case], shown: Sequence[tuple[str, str]]) -> pd.DataFrame:
+    """Return one row for each shape index, gradient exponent and (quantity, model) that is shown.
+
+    Returns
+    -------
+    DataFrame
+        The columns of `errors`, ``mu`` just above the critical Tabor number; ``critical`` and ``u_critical``.
+    """
+    rows = []
+    for call in onset_calls(cases):
+        onset = answers[call]
+        for name, model in shown:
+            key = {"n": call.arguments[0], "k": call.arguments[1], "mu": onset["mu"], "quantity": name, "model": model}
+            found = onset["found"][name]
+            more = {"critical": onset["critical"], "u_critical": onset["u_critical"]}
+            rows.append(key | _error(found["fscm"], found[model]) | more)
+    return pd.DataFrame(rows)

@@ -10,19 +10,22 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import BoundaryNorm, ListedColormap
-from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from comparisons.figures.contour_labels import label_lines
 from comparisons.figures.style import lettered, styled
 from comparisons.paper.error_grid import (
     GRADIENT_SLICES,
     GRADIENTS,
     SHAPE_SLICES,
     SHAPES,
+    TABOR,
     calls,
     errors,
     gradient_cases,
+    onset_calls,
+    onset_errors,
     shape_cases,
 )
 from comparisons.paper.plate import Plate, Tables
@@ -38,8 +41,6 @@ _GREYS = ("#ffffff", "#ebebeb", "#d0d0d0", "#adadad", "#868686", "#5c5c5c")
 #: The same for kappa with its sign, so that between two points it passes zero where it does.
 _SIGNED_BANDS = (*(-band for band in _BANDS[:0:-1]), *_BANDS[1:])
 _SIGNED_GREYS = (*_GREYS[:0:-1], *_GREYS)
-#: Distance that labels keep from each other and from the frame, in pixels of the figure.
-_LABEL_ROOM = 28.0
 #: Lines of kappa in per cent: overestimates full, underestimates dashed.
 _LINES = (-20.0, -10.0, -5.0, -2.0, -1.0, 1.0, 2.0, 5.0, 10.0, 20.0)
 
@@ -64,7 +65,8 @@ def _gradient_calls() -> Sequence[Call]:
 
 
 def _jump_calls() -> Sequence[Call]:
-    return calls(dict.fromkeys(shape_cases() + gradient_cases()))
+    cases = dict.fromkeys(shape_cases() + gradient_cases())
+    return [*onset_calls(cases), *calls(cases)]
 
 
 def _shape_tables(answers: Answers) -> Tables:
@@ -76,9 +78,11 @@ def _gradient_tables(answers: Answers) -> Tables:
 
 
 def _jump_tables(answers: Answers) -> Tables:
-    table = errors(answers, dict.fromkeys(shape_cases() + gradient_cases()), _JUMP_NAMES)
+    cases = dict.fromkeys(shape_cases() + gradient_cases())
+    table = errors(answers, cases, _JUMP_NAMES)
     shown = [table[(table["quantity"] == name) & (table["model"] == model)] for name, model, _ in _JUMPS]
-    return {"": pd.concat(shown, ignore_index=True)}
+    onset = onset_errors(answers, cases, [(name, model) for name, model, _ in _JUMPS])
+    return {"": pd.concat(shown, ignore_index=True), "onset": onset}
 
 
 def lattice(table: pd.DataFrame, across: str) -> tuple[Array, Array, Array]:
@@ -94,11 +98,33 @@ def lattice(table: pd.DataFrame, across: str) -> tuple[Array, Array, Array]:
     return square.columns.to_numpy(float), square.index.to_numpy(float), square.to_numpy(float)
 
 
-def _map(axes: Axes, table: pd.DataFrame, across: str) -> None:
+def from_onset(table: pd.DataFrame, onset: pd.DataFrame, across: str) -> tuple[Array, Array, Array, Array]:
+    """Return `lattice` from the first jump on, mu of the same shape as kappa, and the critical Tabor numbers.
+
+    Points below the critical Tabor number lie on it, with the error just above it: the lattice ends at that line.
+    """
     x, mu, kappa = lattice(table, across)
-    # NaN: no jump, or refused.
+    first = onset.set_index(across).loc[x]
+    critical = first["critical"].to_numpy(float)
+    below = mu[:, None] <= critical
+    return (
+        x,
+        np.where(below, critical, mu[:, None]),
+        np.where(below, 100.0 * first["kappa"].to_numpy(float), kappa),
+        critical,
+    )
+
+
+def _map(axes: Axes, table: pd.DataFrame, across: str, onset: pd.DataFrame | None = None) -> None:
+    # What is not computed stays grey.
     axes.set_facecolor("0.95")
-    axes.patch.set(hatch="////", edgecolor="0.75", linewidth=0.0)
+    if onset is None:
+        x, mu, kappa = lattice(table, across)
+    else:
+        x, mu, kappa, critical = from_onset(table, onset, across)
+        axes.fill_between(x, TABOR[0], critical, fc="0.95", hatch="////", ec="0.75", lw=0.0)
+        axes.plot(x, critical, color="black", lw=0.8, ls=":")
+        x = np.broadcast_to(x, kappa.shape)
     axes.contourf(x, mu, kappa, levels=_SIGNED_BANDS, colors=_SIGNED_GREYS)
     axes.set_yscale("log")
     axes.grid(visible=False)
@@ -111,45 +137,6 @@ def _map(axes: Axes, table: pd.DataFrame, across: str) -> None:
     if levels:
         styles = ["--" if level < 0 else "-" for level in levels]
         axes.contour(x, mu, kappa, levels=levels, colors="black", linewidths=0.8, linestyles=styles)
-
-
-def _label(axes: Axes) -> None:
-    """Label the lines where there is room, 1 % first; the grey says the rest.
-
-    After the layout: what is room depends on the size of the axes.
-    """
-    drawn = [part for part in axes.collections if isinstance(part, QuadContourSet) and not part.filled]
-    if not drawn:
-        return
-    lines = drawn[0]
-    frame = axes.get_window_extent()
-    taken: list[Array] = []
-    ranked = sorted(zip(lines.levels, lines.allsegs, strict=True), key=lambda pair: abs(pair[0]))
-    for _, segments in ranked:
-        dense = [_dense(axes.transData.transform(segment)) for segment in segments if len(segment) > 1]
-        if not dense:
-            continue
-        points = np.concatenate(dense)
-        inside = [points[:, 0] - frame.x0, frame.x1 - points[:, 0], points[:, 1] - frame.y0, frame.y1 - points[:, 1]]
-        room = np.minimum(np.min(inside, axis=0), 2.0 * _LABEL_ROOM)
-        for place in taken:
-            room = np.minimum(room, np.hypot(*(points - place).T))
-        best = int(np.argmax(room))
-        if room[best] >= _LABEL_ROOM:
-            taken.append(points[best])
-    if not taken:
-        return
-    places = [(float(x), float(y)) for x, y in axes.transData.inverted().transform(taken)]
-    for label in lines.axes.clabel(
-        lines, fmt=lambda level: f"{level:+g} %".replace("-", "\N{MINUS SIGN}"), fontsize=7, manual=places
-    ):
-        label.set_bbox({"boxstyle": "round,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.85})
-
-
-def _dense(points: Array) -> Array:
-    """Points of a line, in pixels, with others between them."""
-    share = np.linspace(0.0, 1.0, 8)[:, None, None]
-    return ((1.0 - share) * points[:-1] + share * points[1:]).reshape(-1, 2)
 
 
 def _finish(figure: Figure, words: str, more: str = "") -> None:
@@ -167,7 +154,7 @@ def _finish(figure: Figure, words: str, more: str = "") -> None:
     )
     figure.draw_without_rendering()
     for axes in maps:
-        _label(axes)
+        label_lines(axes)
 
 
 def _draw_pull_off(tables: Tables, across: str, held: str, slices: Sequence[float]) -> Figure:
@@ -200,14 +187,15 @@ def _draw_jumps(tables: Tables) -> Figure:
             for axes, (_, model, event) in zip(row, _JUMPS, strict=True):
                 part = table[(table["model"] == model) & (table[held] == value)]
                 part = part[part[across].isin(SHAPES if across == "n" else GRADIENTS)]
-                _map(axes, part, across)
+                onset = tables["onset"]
+                _map(axes, part, across, onset[(onset["model"] == model) & (onset[held] == value)])
                 lettered(axes, next(letters), rf"{_NAMES[model]} {event}, ${held}$ = {value:g}")
                 axes.set_xlabel({"n": r"shape index $n$", "k": r"gradient exponent $k$"}[across])
                 axes.set_ylim(0.5, 5.0)
                 axes.set_yticks([0.5, 1, 2, 5], labels=["0.5", "1", "2", "5"])
                 axes.minorticks_off()
             row[0].set_ylabel(r"Tabor number $\mu$")
-        _finish(figure, "displacement", "\nhatched: no jump")
+        _finish(figure, "displacement", "\nhatched: no jump, up to the critical Tabor number (dotted)")
     return figure
 
 

@@ -98,6 +98,15 @@ _CURVES = {
         "pressure p z₀ / Δγ",
         "The pressure where the load is smallest, out to a gap of 10 z₀; tension is negative.",
     ),
+    "pull_off_gap": (
+        "Gap under the punch at pull-off",
+        "r",
+        "H",
+        "radius r / (Q z₀)^(1/n)",
+        "gap H / z₀",
+        "The gap where the load is smallest, out to 10 z₀. Zero is the equilibrium distance of two flat surfaces, "
+        "where the pressure is zero.",
+    ),
 }
 
 

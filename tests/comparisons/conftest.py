@@ -1,5 +1,8 @@
 """Models made for tests: one of each kind of answer, and a small grid to run them on."""
 
+import os
+import shutil
+import subprocess
 import sys
 from types import ModuleType, SimpleNamespace
 
@@ -106,3 +109,36 @@ def small_grid(toys, monkeypatch):
             f"comparisons.commands.{command}.gates_text", lambda path: gates_text(path) if path else GATES
         )
     return GATES
+
+
+@pytest.fixture
+def typeset(tmp_path):
+    """A function that compiles a table; skips without pdflatex unless FSCM_BENCH_LATEX=required."""
+    program = shutil.which("pdflatex")
+    if program is None:
+        reason = "pdflatex is not installed (Debian: apt-get install texlive-latex-base texlive-latex-recommended)"
+        if os.environ.get("FSCM_BENCH_LATEX") == "required":
+            pytest.fail(reason)
+        pytest.skip(reason)
+
+    def compiled(table):
+        document = "\n".join(
+            [
+                r"\documentclass{article}",
+                r"\usepackage{booktabs}",
+                r"\begin{document}",
+                r"\begin{table}\tiny\noindent",
+                table,
+                r"\end{table}",
+                r"\end{document}",
+            ]
+        )
+        (tmp_path / "table.tex").write_text(document, encoding="utf-8")
+        order = [program, "-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape", "table.tex"]
+        done = subprocess.run(order, cwd=tmp_path, capture_output=True, check=False, stdin=subprocess.DEVNULL)
+        said = done.stdout.decode(errors="replace")
+        assert done.returncode == 0, said[-2000:]
+        assert "Missing character" not in (tmp_path / "table.log").read_text(errors="replace")
+        assert (tmp_path / "table.pdf").stat().st_size > 1000
+
+    return compiled

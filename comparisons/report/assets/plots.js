@@ -2,6 +2,8 @@
 // Plots of stored numbers, drawn by Bokeh: choices, models on and off, views that zoom and move.
 const Plots = (() => {
   const made = {};
+  // One hover tool for each side of the point, so that models which agree are read off side by side.
+  const SIDES = ["left", "right", "above", "below"];
 
   function make(plot) {
     const figure = document.getElementById(plot.id);
@@ -15,7 +17,11 @@ const Plots = (() => {
       output_backend: "svg", sizing_mode: "stretch_both", toolbar_location: null, tools: [],
       background_fill_color: null, border_fill_color: null, outline_line_color: "#d5dae0", min_border_right: 12,
     });
-    drawn.add_tools(box);
+    // All tools are there before the plot is drawn: Bokeh fails when several are added to a plot on the page.
+    const hovers = SIDES.map((attachment) => new Bokeh.HoverTool({
+      renderers: [], attachment, line_policy: "nearest", tooltips: [["model", "@name"], ["", "@says"]],
+    }));
+    drawn.add_tools(box, ...hovers);
     // A finger scrolls the page past the plot; the buttons zoom.
     drawn.toolbar.active_drag = touch ? null : box;
     for (const axis of [...drawn.xaxes, ...drawn.yaxes]) {
@@ -29,7 +35,7 @@ const Plots = (() => {
     if (plot.y_scale === "linear") {
       drawn.add_layout(new Bokeh.Span({ location: 0, dimension: "width", line_color: "#87919c", line_width: 1 }));
     }
-    const one = { plot, figure, drawn, layers: {} };
+    const one = { plot, figure, drawn, hovers, layers: {} };
     made[plot.id] = one;
 
     figure.querySelectorAll("select, .models input").forEach((control) => control.addEventListener("change", () => {
@@ -45,8 +51,6 @@ const Plots = (() => {
     if (group in one.layers) return one.layers[group];
     const { plot, drawn } = one;
     const layers = [];
-    // One hover tool for each side, so that models which agree are read off side by side.
-    const tips = { left: [], right: [], above: [], below: [] };
     for (const series of plot.series.filter((any) => any.group === group)) {
       const [colour, dash, marker] = DATA.looks[series.model];
       const data = {
@@ -70,15 +74,7 @@ const Plots = (() => {
           source: new Bokeh.ColumnDataSource({ data }), marker, size: 8, fill_color: "white", line_color: colour, line_width: 1.3,
         }));
       }
-      // What is pointed at: the nearest of a line's points, or a point itself.
-      tips[Object.keys(tips)[layers.length % 4]].push(renderers.at(-1));
       layers.push({ series, renderers });
-    }
-    for (const [attachment, renderers] of Object.entries(tips)) {
-      if (renderers.length === 0) continue;
-      drawn.add_tools(new Bokeh.HoverTool({
-        renderers, attachment, line_policy: "nearest", tooltips: [["model", "@name"], ["", "@says"]],
-      }));
     }
     return (one.layers[group] = layers);
   }
@@ -98,7 +94,13 @@ const Plots = (() => {
       `${label.firstChild.textContent.trim()}: ${label.querySelector("select").selectedOptions[0]?.textContent ?? ""}`);
     one.figure.querySelector(".choice").textContent = words.join(", ");
     Tables.choose(one.plot.table, group);
-    one.shown = chosen.filter(({ series }) => on.has(series.model)).map(({ series }) => series);
+    const visible = chosen.filter(({ series }) => on.has(series.model));
+    one.shown = visible.map(({ series }) => series);
+    // What is pointed at: the nearest of a line's points, or a point itself.
+    const pointed = visible.map(({ renderers }) => renderers.at(-1));
+    one.hovers.forEach((hover, side) => {
+      hover.renderers = pointed.filter((_, index) => index % SIDES.length === side);
+    });
     if (one.shown.length) look(one, one.plot.views[group] ?? whole(one));
   }
 

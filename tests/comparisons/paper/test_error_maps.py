@@ -1,5 +1,7 @@
 """Errors of the closed forms over their range: the grid, its bands and its rates."""
 
+from pathlib import Path
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -7,9 +9,20 @@ import pytest
 from comparisons.models.bradley import rigid_pull_off
 from comparisons.paper.answers import quantity
 from comparisons.paper.error_bands import bands, coefficients, rates
-from comparisons.paper.error_grid import CANDIDATES, TABOR, all_cases, calls, errors, errors_at
-from comparisons.paper.error_maps import ERROR_MAPS_JUMPS, lattice
+from comparisons.paper.error_grid import (
+    CANDIDATES,
+    TABOR,
+    all_cases,
+    calls,
+    errors,
+    errors_at,
+    onset_calls,
+    onset_errors,
+)
+from comparisons.paper.error_maps import ERROR_MAPS_JUMPS, from_onset, lattice
 from comparisons.paper.workshop import Call, Workshop
+
+PUBLISHED = Path(__file__).parents[3] / "results" / "published" / "paper"
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +62,9 @@ def test_dmt_need_not_be_asked():
 
 def test_the_maps_share_their_calls():
     assert len(set(all_cases())) == len(all_cases())
-    assert {call.arguments for call in ERROR_MAPS_JUMPS.calls()} == set(all_cases())
+    needed = set(ERROR_MAPS_JUMPS.calls())
+    assert {call.arguments for call in needed if call.function.endswith(":errors_at")} == set(all_cases())
+    assert needed >= set(onset_calls(all_cases()))
     assert Call.of(errors_at, 2.0, 0.4, TABOR[0]) in ERROR_MAPS_JUMPS.calls()
 
 
@@ -60,6 +75,48 @@ def test_the_map_is_where_it_is_labelled():
     assert kappa[0, 0] == -3.0
     assert np.isnan(kappa[0, 1])
     assert kappa[1].tolist() == [1.0, 2.0]
+
+
+def test_the_map_of_a_jump_begins_at_the_critical_tabor_number():
+    """At n = 2, k = 0 that is 0.69721461: at 0.72 and 0.75 there are jumps, whatever Tabor numbers are computed."""
+    stored = {
+        name: pd.read_csv(PUBLISHED / f"error_maps_jumps{suffix}.csv")
+        for name, suffix in (("", ""), ("onset", "_onset"))
+    }
+    at = [table[(table["k"] == 0.0) & (table["model"] == "jkr")] for table in stored.values()]
+    n, mu, kappa, critical = from_onset(*at, "n")
+    where = n.tolist().index(2.0)
+    assert critical[where] == pytest.approx(0.69721461, abs=1e-8)
+    assert mu[:, where].tolist() == [*[critical[where]] * 7, *TABOR[7:]]
+    assert np.isfinite(kappa[:, where]).all()
+    figure = ERROR_MAPS_JUMPS.draw(stored)
+    for title in ("semi-rigid jump-in, $k$ = 0", "JKR jump-out, $k$ = 0"):
+        axes = next(axes for axes in figure.axes if axes.get_title(loc="left").endswith(title))
+        (hatched,) = [part for part in axes.collections if part.get_hatch()]
+        (path,) = hatched.get_paths()
+        assert path.contains_point((2.0, 0.69))
+        assert not path.contains_points([(2.0, 0.70), (2.0, 0.72), (2.0, 0.75)]).any()
+
+
+def test_the_stored_jumps_begin_where_the_stored_critical_tabor_number_says():
+    jumps, onset = (pd.read_csv(PUBLISHED / f"error_maps_jumps{end}.csv") for end in ("", "_onset"))
+    both = jumps.merge(onset[["n", "k", "model", "critical"]], on=["n", "k", "model"], validate="many_to_one")
+    assert len(both) == len(jumps)
+    none = both["reason"].str.contains("there is no jump", na=False)
+    assert none.equals(both["mu"] < both["critical"])
+    assert none.equals(both["kappa"].isna())
+
+
+def test_the_onset_is_just_above_the_critical_tabor_number(tmp_path):
+    workshop = Workshop(tmp_path / "calls.jsonl", "test")
+    list(workshop.work(onset_calls([(2.0, 0.0, 1.0), (2.0, 0.0, 5.0)]), 1))
+    shown = [("jump_in_displacement", "semi-rigid"), ("jump_out_displacement", "jkr")]
+    table = onset_errors(workshop.answers, [(2.0, 0.0, 1.0)], shown)
+    assert table["critical"].to_numpy() == pytest.approx(0.69721461, abs=1e-8)
+    assert table["mu"].to_numpy() == pytest.approx(1.001 * 0.69721461, abs=1e-8)
+    # Where the jumps merge the full model has one displacement for both.
+    assert table["fscm"][0] == pytest.approx(table["fscm"][1], abs=1e-4)
+    assert np.isfinite(table["kappa"]).all()
 
 
 def table_of(kappa, mu=(0.1, 1.0, 10.0)):

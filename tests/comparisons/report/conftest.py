@@ -9,12 +9,15 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from comparisons.cli import main
 from comparisons.gates import gates_text, load_gates
 from comparisons.outputs.verdicts import write_verdicts
 from comparisons.provenance import computing_environment, environment
 from comparisons.record import read_record, write_record
 from comparisons.store import Row, curve_frame, frame, write_curves, write_results, write_table
 from comparisons.tables import largest, relative_error
+
+from .browsing import ARGUMENTS, DESKTOP, PATIENCE, package, programs, show
 
 IMAGE = """<img src=x onerror="window.hostile='image'">"""
 SCRIPT = "</script><script>window.hostile='script'</script><!--<script>"
@@ -68,6 +71,9 @@ def curves():
         yield row(model, 1.0, quantity="force_curve", points=(x.tolist(), y.tolist(), 1e-6), u_num=None)
     pressure = ([0.0, 1.0, 2.0], [0.1, -1.0, 0.0], 1e-6)
     yield row("fscm", 1.0, quantity="pull_off_pressure", points=pressure, u_num=None)
+    for model, shift in (("fscm", 0.0), (SCRIPT, 0.05)):
+        gap = ([0.0, 1.0, 2.0], [0.2 + shift, 1.0 + shift, 3.0 + shift], 1e-6)
+        yield row(model, 1.0, quantity="pull_off_gap", points=gap, u_num=None)
     refused = {"status": "not-applicable", "reason": LINE} | REFUSED
     yield row(IMAGE, 1.0, quantity="force_curve", **refused)
 
@@ -163,3 +169,33 @@ def hostile():
     return SimpleNamespace(
         seal=seal, image=IMAGE, script=SCRIPT, line=LINE, spec=SPEC, write_run=write_run, python=sys.executable
     )
+
+
+@pytest.fixture(scope="session")
+def browser(tmp_path_factory):
+    """A fresh browser, started once."""
+    chromium, driver = programs()
+    webdriver = package("selenium.webdriver")
+    options = webdriver.ChromeOptions()
+    options.binary_location = chromium
+    for argument in (*ARGUMENTS, f"--user-data-dir={tmp_path_factory.mktemp('profile')}"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    started = webdriver.Chrome(options=options, service=webdriver.ChromeService(executable_path=driver))
+    started.set_script_timeout(PATIENCE)
+    yield started
+    started.quit()
+
+
+@pytest.fixture(scope="session")
+def page(run_folder, tmp_path_factory):
+    path = tmp_path_factory.mktemp("page") / "report.html"
+    assert main(["report", str(run_folder), "--out", str(path)]) == 0
+    return path
+
+
+@pytest.fixture
+def opened(browser, page):
+    """The page on a desktop."""
+    show(browser, page, *DESKTOP)
+    return browser

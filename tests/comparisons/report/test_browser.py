@@ -4,136 +4,14 @@ Skipped where there is no Chromium with its driver, unless FSCM_BENCH_BROWSER=re
 """
 
 import base64
-import importlib
 import json
-import os
 import re
-import shutil
-import time
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from comparisons.cli import main
-
-_REQUIRED = os.environ.get("FSCM_BENCH_BROWSER") == "required"
-
-PHONE, DESKTOP = (375, 800), (1280, 900)
-_ARGUMENTS = (
-    *("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync"),
-    *("--disable-background-networking", "--disable-component-update", "--disable-dev-shm-usage"),
-)
-#: A page is drawn in about two seconds; a machine that is busy may take far longer.
-_PATIENCE = 60
-
-
-def programs():
-    """The browser and its driver; skips or fails where they are missing."""
-    browser = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-    driver = shutil.which("chromedriver")
-    if browser and driver:
-        return browser, driver
-    reason = "Chromium or chromedriver is not installed (Debian: apt-get install chromium chromium-driver)"
-    if _REQUIRED:
-        pytest.fail(reason)
-    pytest.skip(reason)
-
-
-def package(name):
-    """Import what only the tests need; skips or fails where it is missing."""
-    return importlib.import_module(name) if _REQUIRED else pytest.importorskip(name)
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory):
-    """A fresh browser, started once."""
-    chromium, driver = programs()
-    webdriver = package("selenium.webdriver")
-    options = webdriver.ChromeOptions()
-    options.binary_location = chromium
-    for argument in (*_ARGUMENTS, f"--user-data-dir={tmp_path_factory.mktemp('profile')}"):
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    started = webdriver.Chrome(options=options, service=webdriver.ChromeService(executable_path=driver))
-    started.set_script_timeout(_PATIENCE)
-    yield started
-    started.quit()
-
-
-@pytest.fixture(scope="module")
-def page(run_folder, tmp_path_factory):
-    path = tmp_path_factory.mktemp("page") / "report.html"
-    assert main(["report", str(run_folder), "--out", str(path)]) == 0
-    return path
-
-
-def size(browser, width, height):
-    metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 500}
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
-
-
-def wait(condition):
-    end = time.monotonic() + _PATIENCE
-    while not condition():
-        assert time.monotonic() < end, "the page is not ready"
-        time.sleep(0.05)
-
-
-def drawn(browser):
-    return browser.execute_script("return document.documentElement.dataset.plots === 'drawn'")
-
-
-def show(browser, path, width, height):
-    """Open a page and return what was asked for and what was said meanwhile."""
-    browser.get("about:blank")
-    for kind in ("browser", "performance"):
-        browser.get_log(kind)
-    size(browser, width, height)
-    browser.get(path.as_uri())
-    wait(lambda: drawn(browser))
-
-
-@pytest.fixture
-def opened(browser, page):
-    """The page on a desktop."""
-    show(browser, page, *DESKTOP)
-    return browser
-
-
-def find(browser, selector):
-    return browser.find_element("css selector", selector)
-
-
-def click(browser, element):
-    """Click on what is first brought into view: the boxes of tables scroll too."""
-    browser.execute_script("arguments[0].scrollIntoView({ block: 'center', inline: 'center' })", element)
-    element.click()
-
-
-def cells(browser, table, column):
-    """The exact numbers, or else the texts, of the visible rows of a column."""
-    script = """
-      const rows = Array.from(document.querySelectorAll(`#table-${arguments[0]} tbody tr`)).filter((r) => !r.hidden);
-      const heads = Array.from(document.querySelectorAll(`#table-${arguments[0]} thead th`), (h) => h.innerText.trim());
-      const at = heads.indexOf(arguments[1]);
-      return rows.map((row) => row.cells[at].dataset.v ?? row.cells[at].textContent);
-    """
-    return browser.execute_script(script, table, column)
-
-
-def unfold(browser, table):
-    browser.execute_script("document.querySelector(arguments[0]).closest('details').open = true", f"#table-{table}")
-    wait(lambda: browser.execute_script("return document.querySelector(arguments[0]) !== null", f"#table-{table} td"))
-
-
-def head(browser, table, label):
-    buttons = browser.find_elements("css selector", f"#table-{table} thead button")
-    return next(button for button in buttons if button.text == label)
-
-
-def sorting(browser, table, label):
-    return head(browser, table, label).find_element("xpath", "..").get_attribute("aria-sort")
+from .browsing import DESKTOP, PHONE, cells, click, find, head, package, ranges, show, sorting, tips, unfold, wait
 
 
 def requests(browser):
@@ -250,10 +128,6 @@ def test_numbers_shown_are_numbers_stored(opened, run_folder):
     )
 
 
-def ranges(browser, plot):
-    return browser.execute_script("return Plots.range(arguments[0])", plot)
-
-
 def test_a_plot_zooms_by_buttons(opened):
     before = ranges(opened, "plot-force-curve")
     find(opened, "#plot-force-curve [data-zoom=in]").send_keys("\ue007")
@@ -282,22 +156,16 @@ def test_a_plot_zooms_to_a_box_and_is_read_off(opened, hostile):
     click(opened, find(opened, "#plot-force-curve [data-zoom=reset]"))
     # The smallest load, P = -1.7, is at displacement 0.
     x0, x1, y0, y1 = ranges(opened, "plot-force-curve")
-    tips = """
-      const inside = (node) => [...(node.shadowRoot?.childNodes ?? []), ...node.childNodes];
-      const text = (node) => (node.nodeType === Node.TEXT_NODE ? node.data : "")
-        + (node.localName === "style" ? "" : inside(node).map(text).join(""));
-      return Array.from(document.querySelectorAll(".bk-Tooltip"), text).join(" ");
-    """
     frame = opened.execute_script("return Plots.inner('plot-force-curve')")
     left, top, width, height = frame
     box = canvas.rect
     x = left + width * (0.0 - x0) / (x1 - x0) - box["width"] / 2
     y = top + height * (y1 + 1.7) / (y1 - y0) - box["height"] / 2
     actions(opened).move_to_element_with_offset(canvas, round(x), round(y)).perform()
-    wait(lambda: "δ = 0, P = -1.7" in opened.execute_script(tips))
+    wait(lambda: "δ = 0, P = -1.7" in tips(opened))
     # The other model, 0.01 to the right, is read off beside it, and its name is text.
-    assert "δ = 0.01, P = -1.7" in opened.execute_script(tips)
-    assert hostile.script in opened.execute_script(tips)
+    assert "δ = 0.01, P = -1.7" in tips(opened)
+    assert hostile.script in tips(opened)
 
 
 def test_a_curve_stays_whole_while_it_is_pointed_at(opened):

@@ -13,7 +13,7 @@ from comparisons.cli import main
 from comparisons.report.folder import read_folder
 from comparisons.report.look import looks
 from comparisons.report.page import make_page
-from comparisons.report.table import Cell, Column, Row, Table, without_empty
+from comparisons.report.table import Cell, Column, Row, Table, table_tex, without_empty
 from comparisons.store import csv_text
 
 
@@ -127,11 +127,12 @@ def test_plots_have_the_stored_points(page, stored):
         assert series.x == mine["mu"].tolist()
         assert series.y == (100 * mine["kappa"]).tolist()
         assert series.high == (100 * mine["kappa"] + 100 * mine["u_kappa"]).tolist()
-    force, pressure = page.plots["curves"]
+    force, pressure, gap = page.plots["curves"]
     assert [len(series.x) for series in force.series] == [41, 41]
     # In the order of the path, which turns back: not sorted.
     assert force.series[0].x != sorted(force.series[0].x)
     assert pressure.series[0].y == [0.1, -1.0, 0.0]
+    assert (gap.table, [series.y for series in gap.series]) == ("pull_off_gap", [[0.2, 1.0, 3.0], [0.25, 1.05, 3.05]])
     assert [plot.id for plot in page.plots["convergence"]] == ["plot-uncertainty", "plot-order"]
 
 
@@ -141,6 +142,21 @@ def test_every_row_of_a_plot_s_table_belongs_to_a_choice(page):
     assert groups == {series.group for series in plot.series}
     for curve in page.plots["curves"]:
         assert {row.group for row in page.tables[curve.table].rows} == {series.group for series in curve.series}
+
+
+def test_every_latex_file_of_the_page_compiles(page, run_folder, typeset):
+    files = {name: text for name, text in page.files.items() if name.endswith(".tex")}
+    assert len(files) == 3
+    for text in (*files.values(), (run_folder / "verdicts.tex").read_text(encoding="utf-8")):
+        typeset(text)
+
+
+def test_every_table_of_the_page_compiles_as_latex(page, typeset):
+    """Also those that are saved as CSV only: their headings and texts are the same kind."""
+    for table in page.tables.values():
+        text = table_tex(replace(table, rows=table.rows[:30]))
+        assert text.isascii()
+        typeset(text)
 
 
 def test_the_files_are_those_of_the_folder(page, run_folder):

@@ -1,0 +1,110 @@
+"""Steps on a page in a real browser: headless Chromium with everything it would ask the network for recorded."""
+
+import importlib
+import os
+import shutil
+import time
+
+import pytest
+
+_REQUIRED = os.environ.get("FSCM_BENCH_BROWSER") == "required"
+
+PHONE, DESKTOP = (375, 800), (1280, 900)
+ARGUMENTS = (
+    *("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync"),
+    *("--disable-background-networking", "--disable-component-update", "--disable-dev-shm-usage"),
+)
+#: A page is drawn in about two seconds; a machine that is busy may take far longer.
+PATIENCE = 60
+
+
+def programs():
+    """The browser and its driver; skips or fails where they are missing."""
+    browser = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    driver = shutil.which("chromedriver")
+    if browser and driver:
+        return browser, driver
+    reason = "Chromium or chromedriver is not installed (Debian: apt-get install chromium chromium-driver)"
+    if _REQUIRED:
+        pytest.fail(reason)
+    pytest.skip(reason)
+
+
+def package(name):
+    """Import what only the tests need; skips or fails where it is missing."""
+    return importlib.import_module(name) if _REQUIRED else pytest.importorskip(name)
+
+
+def size(browser, width, height):
+    metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 500}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+
+
+def wait(condition):
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        assert time.monotonic() < end, "the page is not ready"
+        time.sleep(0.05)
+
+
+def drawn(browser):
+    return browser.execute_script("return document.documentElement.dataset.plots === 'drawn'")
+
+
+def show(browser, path, width, height):
+    """Open a page and return what was asked for and what was said meanwhile."""
+    browser.get("about:blank")
+    for kind in ("browser", "performance"):
+        browser.get_log(kind)
+    size(browser, width, height)
+    browser.get(path.as_uri())
+    wait(lambda: drawn(browser))
+
+
+def find(browser, selector):
+    return browser.find_element("css selector", selector)
+
+
+def click(browser, element):
+    """Click on what is first brought into view: the boxes of tables scroll too."""
+    browser.execute_script("arguments[0].scrollIntoView({ block: 'center', inline: 'center' })", element)
+    element.click()
+
+
+def cells(browser, table, column):
+    """The exact numbers, or else the texts, of the visible rows of a column."""
+    script = """
+      const rows = Array.from(document.querySelectorAll(`#table-${arguments[0]} tbody tr`)).filter((r) => !r.hidden);
+      const heads = Array.from(document.querySelectorAll(`#table-${arguments[0]} thead th`), (h) => h.innerText.trim());
+      const at = heads.indexOf(arguments[1]);
+      return rows.map((row) => row.cells[at].dataset.v ?? row.cells[at].textContent);
+    """
+    return browser.execute_script(script, table, column)
+
+
+def unfold(browser, table):
+    browser.execute_script("document.querySelector(arguments[0]).closest('details').open = true", f"#table-{table}")
+    wait(lambda: browser.execute_script("return document.querySelector(arguments[0]) !== null", f"#table-{table} td"))
+
+
+def head(browser, table, label):
+    buttons = browser.find_elements("css selector", f"#table-{table} thead button")
+    return next(button for button in buttons if button.text == label)
+
+
+def sorting(browser, table, label):
+    return head(browser, table, label).find_element("xpath", "..").get_attribute("aria-sort")
+
+
+def ranges(browser, plot):
+    return browser.execute_script("return Plots.range(arguments[0])", plot)
+
+
+def tips(browser):
+    """The text of all hover values that are shown."""
+    return browser.execute_script("""
+      const inside = (node) => [...(node.shadowRoot?.childNodes ?? []), ...node.childNodes];
+      const text = (node) => (node.nodeType === Node.TEXT_NODE ? node.data : "")
+        + (node.localName === "style" ? "" : inside(node).map(text).join(""));
+      return Array.from(document.querySelectorAll(".bk-Tooltip"), text).join(" ");
+    """)
