@@ -16,13 +16,9 @@ from typing import Any, Generic, TypeVar
 
 from filelock import FileLock, Timeout
 
-<<<<<<< HEAD
 from comparisons.progress import log
 from comparisons.provenance import differences
-from comparisons.store import atomic
-=======
-from comparisons.store import writing
->>>>>>> d-cli
+from comparisons.store import atomic, writing
 
 __all__ = ["Journal", "alone_in"]
 
@@ -111,7 +107,6 @@ class Journal(Generic[_Entry]):
             os.truncate(self.path, len(whole + end))
         return True
 
-<<<<<<< HEAD
     def _write_again(self) -> None:
         lines = [self._first_line(), *(self._entry_line(entry) for entry in self.entries)]
         with atomic(self.path) as file:
@@ -121,12 +116,7 @@ class Journal(Generic[_Entry]):
         return _line("entry", self._write(entry), self._fingerprint)
 
     def _append(self, line: str) -> None:
-        with self.path.open("a", encoding="utf-8") as file:
-=======
-    def _append(self, content: dict[str, Any]) -> None:
-        line = json.dumps(content, allow_nan=False) + "\n"
         with writing(self.path), self.path.open("a", encoding="utf-8") as file:
->>>>>>> d-cli
             file.write(line)
 
     def add(self, entry: _Entry) -> None:
