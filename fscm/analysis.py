@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from fscm import events
+from fscm._threads import one_thread
 from fscm.continuation import Point, equilibrium_path
 from fscm.equilibrium import State
 from fscm.errors import NoSuchEvent, NotConverged
@@ -127,6 +128,7 @@ class Analysis:
         self._pairs: dict[str, EventPair] = {}
 
     @cached_property
+    @one_thread()
     def points(self) -> list[Point]:
         """The coarse path from far separation to a compressive load."""
         points = []
@@ -167,6 +169,7 @@ class Analysis:
             return self._folds[1], events.displacement_fold
         raise ValueError(f"unknown event {name!r}; known are pull_off, zero_load, jump_in, jump_out")
 
+    @one_thread()
     def event(self, name: str) -> EventPair:
         """One of "pull_off", "jump_in", "jump_out", "zero_load", on two meshes.
 
@@ -198,6 +201,7 @@ class Analysis:
             self._pairs[name] = EventPair(check, events.sharpen(check, condition, *VALUE_MESH))
         return self._pairs[name]
 
+    @one_thread()
     def landing(self, event: str) -> EventPair:
         """Where a jump of displacement control lands: on the other branch, at the fold's displacement."""
         fold = self.event(event)
@@ -211,6 +215,7 @@ class Analysis:
         check = events.sharpen(coarse, at(fold.check.displacement), *CHECK_MESH)
         return EventPair(check, events.sharpen(check, at(fold.value.displacement), *VALUE_MESH))
 
+    @one_thread()
     def solution(self, quantity: str) -> Solution:
         """A quantity at one of the events, with its uncertainty.
 
@@ -226,6 +231,9 @@ class Analysis:
         start = time.perf_counter()
         if quantity == "hysteresis_energy":
             return self._hysteresis(start)
+        if quantity not in EVENT_QUANTITIES:
+            known = ", ".join([*EVENT_QUANTITIES, "hysteresis_energy"])
+            raise ValueError(f"unknown quantity {quantity!r}; known are {known}")
         event, functional = EVENT_QUANTITIES[quantity]
         pair = self.event(event)
         # Load and displacement share their error (that of the work of adhesion), so the larger stands for

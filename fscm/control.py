@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from fscm import events
+from fscm._threads import one_thread
 from fscm.analysis import (
     CHECK_MESH,
     COARSE_ORDER,
@@ -50,6 +51,7 @@ class EquilibriumState:
     profiles: SurfaceProfiles
 
 
+@one_thread()
 def equilibria(problem: Problem, control: str, value: float) -> list[EquilibriumState]:
     """All states of the equilibrium path at a value of one control, from separation into contact.
 

@@ -12,6 +12,7 @@ from dataclasses import replace
 
 from scipy.optimize import brentq
 
+from fscm._threads import one_thread
 from fscm.analysis import CHECK_MESH, FLOOR, SAFETY, VALUE_MESH, Analysis, Solution
 from fscm.continuation import lead_control, lead_of, moved, rates_of
 from fscm.equilibrium import Discretisation, State
@@ -101,6 +102,7 @@ def _on_mesh(state: State) -> tuple[float, State]:
     raise NotConverged("the secant method for the critical Tabor number did not settle")
 
 
+@one_thread()
 def critical_tabor_number(problem: Problem) -> Solution:
     """The Tabor number above which approach under displacement control jumps; `problem.mu` is not used.
 

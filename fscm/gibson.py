@@ -30,6 +30,7 @@ from functools import cached_property
 import numpy as np
 from scipy.integrate import quad
 
+from fscm._threads import one_thread
 from fscm.analysis import Solution
 from fscm.errors import NoSuchEvent, NotConverged
 from fscm.gibson_surface import Front, LocalEquilibrium, root
@@ -191,6 +192,7 @@ class GibsonSolid:
                 return found
         raise NotConverged(f"no compressive load up to delta = {here:g} for {self.problem}")
 
+    @one_thread()
     def solution(self, quantity: str) -> Solution:
         """Compute one quantity with its numerical uncertainty.
 

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from fscm import events
+from fscm._threads import one_thread
 from fscm.analysis import SAFETY, Analysis
 from fscm.continuation import Point, equilibrium_path, lead_of
 from fscm.equilibrium import State
@@ -82,6 +83,7 @@ class SurfaceProfiles:
     load: float
 
 
+@one_thread()
 def trace(
     problem: Problem,
     max_load: float | None = None,
@@ -166,6 +168,7 @@ def profiles_of(state: State) -> SurfaceProfiles:
     return SurfaceProfiles(state.radius, state.gap, state.pressure, state.deformation, state.displacement, state.load)
 
 
+@one_thread()
 def profiles(problem: Problem, event: str = "pull_off") -> SurfaceProfiles:
     """The surface at an event: "pull_off", "jump_in", "jump_out" or "zero_load".
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fscm._threads import one_thread
 from fscm.analysis import EVENT_QUANTITIES, Analysis, Solution
 from fscm.critical import critical_tabor_number
 from fscm.gibson import GibsonSolid
@@ -12,6 +13,7 @@ __all__ = ["QUANTITIES", "solve"]
 QUANTITIES = (*EVENT_QUANTITIES, "hysteresis_energy", "critical_tabor_number")
 
 
+@one_thread()
 def solve(problem: Problem, quantity: str) -> Solution:
     """Compute one quantity with its numerical uncertainty; k = 1 is solved as the Gibson solid.
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 from scipy.optimize import brentq
 
+from fscm._threads import one_thread
 from fscm.errors import NotConverged
 from fscm.kernel import Psi
 from fscm.problem import Problem
@@ -175,6 +176,7 @@ class StieltjesScheme:
             high *= 2.0
         return float(brentq(excess, 0.0, high, xtol=1e-300, rtol=1e-15))
 
+    @one_thread()
     def solve(self, central_gap: float, start: Array | None = None) -> StieltjesState:
         """Newton's method at a central gap (Eqs. 34-37).
 
@@ -226,6 +228,7 @@ class StieltjesScheme:
         weighted.flat[:: self.segments + 1] += 1.0
         return law.traction(middle), weighted
 
+    @one_thread()
     def rates(self, state: StieltjesState) -> CentralGapRates:
         """Derivatives by the central gap, from one solve with the Jacobi matrix of the state."""
         slope = self.problem.law.slope(self._middle(state.central_gap, state.gap))
@@ -237,6 +240,7 @@ class StieltjesScheme:
         return CentralGapRates(float(self._w @ dp) - 1.0, float(self._area @ dp))
 
     @cached_property
+    @one_thread()
     def path(self) -> list[StieltjesState]:
         """States from the first gap to the last gap or load, by `gap_step`, halved where Newton fails.
 

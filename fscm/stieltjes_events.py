@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from fscm._threads import one_thread
 from fscm.analysis import Solution
 from fscm.errors import NoSuchEvent, NotConverged
 from fscm.problem import Problem
@@ -33,6 +34,7 @@ _SAFETY = 2.0
 _SIMPLE_FOLDS = (0, 2)
 
 
+@one_thread()
 def find_event(scheme: StieltjesScheme, name: str) -> StieltjesState:
     """State of an event, refined from the samples of the path to a root of the exact derivative.
 
@@ -165,6 +167,7 @@ def _quantity(quantity: str) -> tuple[str, Callable[[StieltjesState], float]]:
     return STIELTJES_QUANTITIES[quantity]
 
 
+@one_thread()
 def stieltjes_solution(problem: Problem, quantity: str, segments: int = 2500, **settings: float) -> Solution:
     """One quantity from the published scheme, with its numerical uncertainty.
 
@@ -239,6 +242,7 @@ class ConvergenceRow:
     seconds: float
 
 
+@one_thread()
 def convergence(
     problem: Problem, quantity: str, exact: float, sizes: Sequence[int], **settings: float
 ) -> list[ConvergenceRow]:

@@ -143,6 +143,8 @@ def test_no_hysteresis_quantities_for_a_stiff_solid() -> None:
 def test_unknown_quantity_is_refused() -> None:
     with pytest.raises(ValueError, match="pull_off_force"):
         solve(Problem(2, 0, 1), "pulloff")
+    with pytest.raises(ValueError, match=r"unknown quantity 'nonsense'; known are pull_off_force, .*hysteresis_energy"):
+        Analysis(Problem(2, 0, 1)).solution("nonsense")
 
 
 def test_edge_of_an_extreme_problem_is_resolved() -> None:
