@@ -8,9 +8,8 @@ from threadpoolctl import ThreadpoolController
 import fscm
 from fscm._threads import one_thread
 from fscm.gibson import GibsonSolid
-from fscm.stieltjes import StieltjesScheme
-from fscm.stieltjes_events import stieltjes_solution
-from fscm.surface_law import LennardJones93
+from fscm.laws import LennardJones93
+from fscm.stieltjes import StieltjesScheme, stieltjes_solution
 
 PROBLEM = fscm.Problem(2, 0.4, 1.0)
 
@@ -40,7 +39,7 @@ def two_threads():
         lambda problem: fscm.Analysis(problem).landing("jump_in"),
         lambda problem: fscm.Analysis(problem).solution("hysteresis_energy"),
         fscm.trace,
-        fscm.profiles,
+        fscm.profile,
         lambda problem: fscm.equilibria(problem, "displacement", 0.0),
         lambda problem: StieltjesScheme(problem, 20).solve(10.0),
         lambda problem: stieltjes_solution(problem, "pull_off_force", 20, last_gap=5.0),
