@@ -1,32 +1,59 @@
 """The full self-consistent model of adhesive contact of power-law graded materials.
 
-The short way in: describe the problem, ask for a quantity.
-
 >>> from fscm import Problem, solve
->>> answer = solve(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
->>> round(answer.value, 8)
+>>> solution = solve(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
+>>> round(solution.value, 8)
 1.78848171
 """
 
-from fscm.analysis import Analysis, Solution
-from fscm.control import EquilibriumState, equilibria
+from fscm._kernel import Phi, Psi, ring_response
+from fscm._meshes import ACCURACIES
+from fscm.analysis import Analysis
+from fscm.custom_punch import CustomPunch
 from fscm.errors import NoSuchEvent, NotConverged
-from fscm.path import EquilibriumPath, SurfaceProfiles, profiles, trace
+from fscm.experiment import Cycle, displacement_cycle, load_controlled_retreat
+from fscm.laws import LennardJones93, Mie, SurfaceLaw
+from fscm.path import EquilibriumPath, trace
+from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
-from fscm.solve import QUANTITIES, solve
+from fscm.punch import PowerPunch, PowerSum, PunchShape, RoundedCone
+from fscm.quantities import EVENTS
+from fscm.solution import Solution
+from fscm.solve import QUANTITIES, solve, solve_together
+from fscm.states import EquilibriumState, RadialField, equilibria, profile
+from fscm.tabulated_law import TabulatedLaw
 
 __all__ = [
+    "ACCURACIES",
+    "EVENTS",
     "QUANTITIES",
     "Analysis",
+    "CustomPunch",
+    "Cycle",
     "EquilibriumPath",
     "EquilibriumState",
+    "LennardJones93",
+    "Mie",
     "NoSuchEvent",
     "NotConverged",
+    "Phi",
+    "PhysicalProblem",
+    "PowerPunch",
+    "PowerSum",
     "Problem",
+    "Psi",
+    "PunchShape",
+    "RadialField",
+    "RoundedCone",
     "Solution",
-    "SurfaceProfiles",
+    "SurfaceLaw",
+    "TabulatedLaw",
+    "displacement_cycle",
     "equilibria",
-    "profiles",
+    "load_controlled_retreat",
+    "profile",
+    "ring_response",
     "solve",
+    "solve_together",
     "trace",
 ]

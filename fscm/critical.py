@@ -1,6 +1,6 @@
-"""The critical Tabor number: where the two folds of the displacement merge and hysteresis begins.
+"""Critical Tabor number, at which the two folds of the displacement merge and hysteresis begins.
 
-At given n and k the smallest rate of displacement along the path, d(delta)/d(lead), falls with the Tabor
+At given n and k the smallest rate of displacement along the path, d(delta)/d(parameter), falls with the Tabor
 number; it is zero at the critical one.  The rate is exact, so the root is as sharp as the path itself.
 """
 
@@ -12,13 +12,15 @@ from dataclasses import replace
 
 from scipy.optimize import brentq
 
-from fscm.analysis import CHECK_MESH, FLOOR, SAFETY, VALUE_MESH, Analysis, Solution
-from fscm.continuation import lead_control, lead_of, moved, rates_of
-from fscm.equilibrium import Discretisation, State
+from fscm._continuation import bracketing_path, moved, parameter_control, parameter_of, rates_of
+from fscm._equilibrium import Discretisation, State
+from fscm._events import refined, slowest
+from fscm._meshes import Accuracy, Meshes
+from fscm._newton import newton
+from fscm._threads import one_thread
 from fscm.errors import NoSuchEvent, NotConverged
-from fscm.events import refined, slowest
-from fscm.newton import newton
 from fscm.problem import Problem
+from fscm.solution import FLOOR, SAFETY, Solution
 
 __all__ = ["critical_tabor_number"]
 
@@ -27,7 +29,7 @@ _FIRST_GUESS, _WIDEN, _WIDEST = 0.75, 1.25, 30.0
 # Tolerance of log mu on the coarse mesh, where the root only picks the mesh.
 _COARSE_ROOT_TOLERANCE = 1e-3
 _FIRST_SECANT_STEP, _SECANT_STEPS, _TOLERANCE = 1e-4, 15, 1e-9
-# Spacing of the three rates in the leading variable; measured: halving it moves mu by at most 4e-11
+# Spacing of the three rates in the continuation parameter; measured: halving it moves mu by at most 4e-11
 # (n = 1, k = 0).
 _SPACING = 2e-4
 _VERTEX_TOLERANCE = 1e-4
@@ -35,12 +37,12 @@ _VERTEX_TOLERANCE = 1e-4
 _AMPLIFICATION = 1e3
 
 
-def _coarse_root(problem: Problem) -> State:
+def _coarse_root(problem: Problem, meshes: Meshes) -> State:
     """State where the displacement is slowest, at about the critical Tabor number."""
     states: dict[float, State] = {}
 
     def rate(log_mu: float) -> float:
-        _, point, _, value = slowest(Analysis(replace(problem, mu=math.exp(log_mu))).points)
+        _, point, _, value = slowest(bracketing_path(replace(problem, mu=math.exp(log_mu)), meshes))
         states[log_mu] = point.state
         return value
 
@@ -58,10 +60,10 @@ def _coarse_root(problem: Problem) -> State:
 
 
 def _at_tabor_number(state: State, mu: float) -> State:
-    """The state at the same leading variable and mesh for another Tabor number."""
+    """The state at the same continuation parameter and mesh for another Tabor number."""
     problem = replace(state.disc.problem, mu=mu)
     disc = Discretisation(problem, state.disc.mesh, state.disc)
-    return newton(replace(state, disc=disc), lead_control(state, lead_of(state)))
+    return newton(replace(state, disc=disc), parameter_control(state, parameter_of(state)))
 
 
 def _least_rate(state: State) -> tuple[State, float, float]:
@@ -74,10 +76,10 @@ def _least_rate(state: State) -> tuple[State, float, float]:
     rate : float
         Value at the vertex.
     step : float
-        How far the vertex was, in the leading variable.
+        How far the vertex was, in the continuation parameter.
     """
     rates = rates_of(state)
-    x = lead_of(state)
+    x = parameter_of(state)
     before, after = (rates_of(moved(state, rates, x + h)).displacement for h in (-_SPACING, _SPACING))
     slope = (after - before) / (2.0 * _SPACING)
     curvature = (after - 2.0 * rates.displacement + before) / _SPACING**2
@@ -95,18 +97,21 @@ def _on_mesh(state: State) -> tuple[float, State]:
         state, new, off = _least_rate(_at_tabor_number(state, mu))
         if abs(step) < _TOLERANCE * mu and abs(off) < _VERTEX_TOLERANCE:
             return mu, state
-        # Once mu has settled, further rounds only bring the vertex home.
+        # Once mu has settled, further rounds only improve the vertex.
         step = step * -new / (new - rate) if abs(step) > 0.1 * _TOLERANCE * mu else step
         rate = new
     raise NotConverged("the secant method for the critical Tabor number did not settle")
 
 
-def critical_tabor_number(problem: Problem) -> Solution:
+@one_thread()
+def critical_tabor_number(problem: Problem, accuracy: Accuracy = "default") -> Solution:
     """The Tabor number above which approach under displacement control jumps; `problem.mu` is not used.
 
     Parameters
     ----------
     problem : Problem
+    accuracy : float or str
+        As for `fscm.solve`.
 
     Returns
     -------
@@ -125,8 +130,9 @@ def critical_tabor_number(problem: Problem) -> Solution:
     0.7
     """
     start = time.perf_counter()
-    coarse = _coarse_root(problem)
-    (check, _), (value, state) = (_on_mesh(refined(coarse, *mesh)) for mesh in (CHECK_MESH, VALUE_MESH))
+    meshes = Meshes.of(accuracy)
+    coarse = _coarse_root(problem, meshes)
+    (check, _), (value, state) = (_on_mesh(refined(coarse, *mesh)) for mesh in (meshes.check, meshes.value))
     return Solution(
         value,
         SAFETY * abs(value - check) + FLOOR * _AMPLIFICATION,

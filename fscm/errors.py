@@ -1,4 +1,4 @@
-"""How a computation says that it has no number to give."""
+"""Exceptions raised by the solvers."""
 
 from __future__ import annotations
 
@@ -10,11 +10,10 @@ class NotConverged(RuntimeError):
 
     Examples
     --------
-    >>> try:
-    ...     raise NotConverged("Newton diverged; take a smaller step")
-    ... except RuntimeError as error:
-    ...     print(error)
-    Newton diverged; take a smaller step
+    >>> from fscm import Problem, solve
+    >>> solve(Problem(n=300, k=0, mu=1), "pull_off_force")
+    Traceback (most recent call last):
+    fscm.errors.NotConverged: Newton did not converge ...
     """
 
 

@@ -1,4 +1,4 @@
-"""What a testing machine sees: loading and unloading with jumps (Fig. 3b).
+"""Loading and unloading with jumps, as a testing machine records them (Fig. 3b).
 
 Under displacement control an approaching punch follows the path to the jump-in fold, lands on the contact
 branch at the same displacement and goes on; on retreat it leaves at the jump-out fold and lands on the far
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from fscm.panels import Array
+from fscm._typing import Array
 from fscm.path import EquilibriumPath
 
 __all__ = ["Cycle", "displacement_cycle", "load_controlled_retreat"]

@@ -1,4 +1,4 @@
-"""The force-displacement curve as arrays, and surface profiles at a state: what a user looks at."""
+"""Force-displacement curve of the equilibrium path as arrays."""
 
 from __future__ import annotations
 
@@ -7,22 +7,22 @@ from itertools import pairwise
 
 import numpy as np
 
-from fscm import events
-from fscm.analysis import SAFETY, Analysis
-from fscm.continuation import Point, equilibrium_path, lead_of
-from fscm.equilibrium import State
-from fscm.errors import NotConverged
-from fscm.events import refined
-from fscm.panels import Array
+from fscm import _events as events
+from fscm._continuation import Point, parameter_of, path_until
+from fscm._equilibrium import State
+from fscm._events import refined
+from fscm._meshes import Accuracy, Meshes
+from fscm._threads import one_thread
+from fscm._typing import Array
 from fscm.problem import Problem
+from fscm.solution import SAFETY
 
-__all__ = ["EquilibriumPath", "SurfaceProfiles", "profiles", "profiles_of", "trace"]
+__all__ = ["EquilibriumPath", "trace"]
 
-# Mesh and longest step of the curves: they are drawn and integrated, so they carry more digits than the
-# coarse path that brackets events.
-_ORDER, _TOLERANCE, _LONGEST_STEP = 10, 1e-6, 0.15
-# Every so many points the state is solved again on this finer mesh, for the uncertainty.
-_CHECK_EVERY, _CHECK_MESH = 12, (14, 1e-8)
+# Curves are drawn and integrated: their points are closer than those of the path that brackets events.
+_LONGEST_STEP = 0.15
+# Every so many points the state is solved again on a finer mesh, for the uncertainty.
+_CHECK_EVERY = 12
 _MAX_POINTS = 5000
 
 
@@ -60,30 +60,11 @@ class EquilibriumPath:
     u_load: float
 
 
-@dataclass(frozen=True)
-class SurfaceProfiles:
-    """Gap, pressure and deformation over the radius at one state; arrays of shape (m,), dimensionless.
-
-    Examples
-    --------
-    Eq. 4, H = -delta + f + w, at the nodes:
-
-    >>> at_zero_load = profiles(Problem(n=2, k=0.4, mu=1.0), "zero_load")
-    >>> undeformed = at_zero_load.radius**2 / 2 - at_zero_load.displacement
-    >>> bool(np.allclose(at_zero_load.gap, undeformed + at_zero_load.deformation))
-    True
-    """
-
-    radius: Array
-    gap: Array
-    pressure: Array
-    deformation: Array
-    displacement: float
-    load: float
-
-
+@one_thread()
 def trace(
     problem: Problem,
+    accuracy: Accuracy = "default",
+    *,
     max_load: float | None = None,
     start_gap: float | None = None,
     longest_step: float = _LONGEST_STEP,
@@ -94,6 +75,9 @@ def trace(
     ----------
     problem : Problem
         With 0 <= k < 1.
+    accuracy : float or str
+        Relative error that is requested, or its name (see `solve`); `u_displacement` and `u_load` bound the error
+        that was reached.
     max_load : float, optional
         The path ends in contact at this load; by default where the compression equals the largest tension.
     start_gap : float, optional
@@ -113,18 +97,18 @@ def trace(
     >>> bool(abs(path.load.min() + 1.788) < 1e-2)
     True
     """
-    points: list[Point] = []
-    deepest = 0.0
+    meshes = Meshes.of(accuracy)
     start = 10.0 + 5.0 * problem.mu if start_gap is None else start_gap
-    for point in equilibrium_path(problem, _ORDER, _TOLERANCE, longest_step, start):
-        points.append(point)
-        deepest = min(deepest, point.state.load)
-        if point.state.follows_edge and point.state.load > (-deepest if max_load is None else max_load):
-            break
-        if len(points) > _MAX_POINTS:
-            raise NotConverged(f"the path of {problem} has not reached its end in {_MAX_POINTS} steps")
+    lowest = 0.0
+
+    def ended(state: State) -> bool:
+        nonlocal lowest
+        lowest = min(lowest, state.load)
+        return state.follows_edge and state.load > (-lowest if max_load is None else max_load)
+
+    points = path_until(problem, *meshes.curve, ended, "its end", _MAX_POINTS, longest_step, start, meshes.end_height)
     states = _with_events(points)
-    checks = [(state, refined(state, *_CHECK_MESH)) for state in states[::_CHECK_EVERY]]
+    checks = [(state, refined(state, *meshes.curve_check)) for state in states[::_CHECK_EVERY]]
     return EquilibriumPath(
         np.array([s.central_gap for s in states]),
         np.array([s.displacement for s in states]),
@@ -149,34 +133,6 @@ def _with_events(points: list[Point]) -> list[State]:
             if condition(a.state, a.rates) * condition(b.state, b.rates) < 0.0
         ]
         direction = 1.0 if a.state.follows_edge else -1.0
-        states += sorted(between, key=lambda state: direction * lead_of(state))
+        states += sorted(between, key=lambda state: direction * parameter_of(state))
         states.append(b.state)
     return states
-
-
-def profiles_of(state: State) -> SurfaceProfiles:
-    """The surface at a state, at the nodes of its mesh.
-
-    Examples
-    --------
-    >>> state = Analysis(Problem(n=2, k=0.4, mu=1.0)).event("zero_load").value
-    >>> abs(profiles_of(state).load) < 1e-9
-    True
-    """
-    return SurfaceProfiles(state.radius, state.gap, state.pressure, state.deformation, state.displacement, state.load)
-
-
-def profiles(problem: Problem, event: str = "pull_off") -> SurfaceProfiles:
-    """The surface at an event: "pull_off", "jump_in", "jump_out" or "zero_load".
-
-    Raises
-    ------
-    NoSuchEvent, NotConverged, ValueError
-
-    Examples
-    --------
-    >>> at_pull_off = profiles(Problem(n=2, k=0.4, mu=1.0))
-    >>> bool(abs(at_pull_off.pressure.min() + 1.0264) < 1e-3)      # the theoretical strength, at the edge
-    True
-    """
-    return profiles_of(Analysis(problem).event(event).value)

@@ -1,4 +1,4 @@
-"""The problem in physical units, and the way to the dimensionless one and back (Eqs. 3, 7, 24-31).
+"""Problem in physical units, and its conversion to the dimensionless one and back (Eqs. 3, 7, 24-31).
 
 Any consistent units do: lengths in one unit, moduli and tractions in another, loads in traction * length^2,
 the work of adhesion in traction * length, Q in length^(n-1).
@@ -11,18 +11,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import overload
 
-import numpy as np
-from numpy.typing import NDArray
-
+from fscm._response_factor import response_factor, response_factor_per_rest
+from fscm._typing import Array
+from fscm._validation import real_number
+from fscm.laws import SurfaceLaw
 from fscm.problem import Problem
-from fscm.profile import Profile
-from fscm.response_factor import response_factor, response_factor_per_rest
-from fscm.surface_law import SurfaceLaw
-from fscm.validation import real_number
+from fscm.punch import PunchShape
 
 __all__ = ["PhysicalProblem"]
-
-Array = NDArray[np.float64]
 
 # Natural logarithm of 1e304: within the range of floating-point numbers.
 _LOG_RANGE = 700.0
@@ -124,7 +120,7 @@ class PhysicalProblem:
         Parameters
         ----------
         problem : Problem
-            Its n, k and mu are used; profile and law stay dimensionless.
+            Its n, k and mu are used; punch and law stay dimensionless.
         c0, nu, Q, work_of_adhesion, z0 : float
             As for the class.
 
@@ -145,12 +141,12 @@ class PhysicalProblem:
             )
         return cls(math.exp(log_E0), c0, unit.k, nu, Q, unit.n, work_of_adhesion, z0)
 
-    def problem(self, profile: Profile | None = None, law: SurfaceLaw | None = None) -> Problem:
+    def problem(self, punch: PunchShape | None = None, law: SurfaceLaw | None = None) -> Problem:
         """Return the dimensionless problem, with the punch r^n / n and the 9-3 law unless others are given.
 
         Parameters
         ----------
-        profile : Profile, optional
+        punch : PunchShape, optional
             Punch in units of `z0` (heights) and `length_r` (radii).
         law : SurfaceLaw, optional
             Surface law in units of `z0` and `work_of_adhesion / z0`.
@@ -159,9 +155,9 @@ class PhysicalProblem:
         --------
         >>> sphere = PhysicalProblem(E0=1.0, c0=1.0, k=0, nu=0, Q=1.0, n=2, work_of_adhesion=1.0, z0=1.0)
         >>> sphere.problem()
-        Problem(n=2.0, k=0.0, mu=1.0, profile=PowerLaw(n=2.0), law=LennardJones93())
+        Problem(n=2.0, k=0.0, mu=1.0, punch=PowerPunch(n=2.0), law=LennardJones93())
         """
-        return Problem(self.n, self.k, self.tabor_number, profile, law)
+        return Problem(self.n, self.k, self.tabor_number, punch, law)
 
     @property
     def contact_modulus(self) -> float:

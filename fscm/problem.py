@@ -1,4 +1,4 @@
-"""The problem as pure data: what is pressed on what, dimensionless (Eqs. 24-31).
+"""Dimensionless problem: punch, graded half-space and surface law (Eqs. 24-31).
 
 Lengths normal to the surface are in z0, radii in (Q z0)^(1/n), tractions in dgamma / z0.  Tension is
 negative.
@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from fscm.profile import PowerLaw, Profile
-from fscm.surface_law import LennardJones93, SurfaceLaw
-from fscm.validation import real_number
+from fscm._validation import real_number
+from fscm.laws import LennardJones93, SurfaceLaw
+from fscm.punch import PowerPunch, PunchShape
 
 __all__ = ["Problem"]
 
@@ -30,7 +30,7 @@ _LEAST_M, _LARGEST_M = 1e-30, 1e15
 class Problem:
     """Adhesive contact of a rigid punch with a power-law graded half-space, dimensionless.
 
-    Immutable, hashable, and picklable when its profile and law are.
+    Immutable, hashable, and picklable when its punch and law are.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class Problem:
         Gradient exponent of E = E0 (z/c0)^k, 0 <= k <= 1 (k = 1, the Gibson solid, is `fscm.gibson`).
     mu : float
         Generalised Tabor number (Eq. 29), > 0 and such that 1e-30 <= M <= 1e15 (see `compliance`).
-    profile : Profile, optional
+    punch : PunchShape, optional
         Punch shape; the power law r^n / n by default.
     law : SurfaceLaw, optional
         Surface law; Lennard-Jones 9-3 by default.
@@ -60,11 +60,11 @@ class Problem:
     n: float
     k: float
     mu: float
-    profile: Profile
+    punch: PunchShape
     law: SurfaceLaw
 
     def __init__(
-        self, n: float, k: float, mu: float, profile: Profile | None = None, law: SurfaceLaw | None = None
+        self, n: float, k: float, mu: float, punch: PunchShape | None = None, law: SurfaceLaw | None = None
     ) -> None:
         inf = math.inf
         n = real_number("shape index n", n, low=0.0, high=inf, reason="f = r^n / n must grow with r")
@@ -94,28 +94,28 @@ class Problem:
                 f"Tabor number mu = {mu:g} gives M = 2 mu^((2n+k-1)/n) = 10^{log_M / math.log(10.0):.0f}, outside "
                 f"[{_LEAST_M:g}, {_LARGEST_M:g}]: the solid is rigid, or its cohesive edge a point, to all digits"
             )
-        profile = PowerLaw(n) if profile is None else profile
+        punch = PowerPunch(n) if punch is None else punch
         law = LennardJones93() if law is None else law
-        if not isinstance(profile, Profile):
-            raise ValueError(f"profile = {profile!r} is not a punch shape: it needs growth, height(r) and slope(r)")
+        if not isinstance(punch, PunchShape):
+            raise ValueError(f"punch = {punch!r} is not a punch shape: it needs growth, height(r) and slope(r)")
         if not isinstance(law, SurfaceLaw):
             raise ValueError(
                 f"law = {law!r} is not a surface law: it needs traction, slope, curvature and energy "
                 "of the gap and singular_gap, peak_gap and decay"
             )
-        if isinstance(profile, PowerLaw) and profile.n != n:
+        if isinstance(punch, PowerPunch) and punch.n != n:
             raise ValueError(
-                f"profile = {profile!r} does not fit n = {n:g}: a power-law punch has one shape index, "
+                f"punch = {punch!r} does not fit n = {n:g}: a power-law punch has one shape index, "
                 "the one in the scale (Q z0)^(1/n) of its radii"
             )
         C, m = law.decay
-        if C != 0.0 and not m * profile.growth > _LOAD_INTEGRAL:
+        if C != 0.0 and not m * punch.growth > _LOAD_INTEGRAL:
             raise ValueError(
-                f"growth f ~ r^{profile.growth:g} of the punch is outside ({_LOAD_INTEGRAL / m:g}, inf): "
+                f"growth f ~ r^{punch.growth:g} of the punch is outside ({_LOAD_INTEGRAL / m:g}, inf): "
                 f"with p ~ H^-{m:g} far away, the load integral of p r dr diverges at infinity"
             )
         # The generated __setattr__ of a frozen class refuses; writing through object is its own idiom.
-        for name, value in (("n", n), ("k", k), ("mu", mu), ("profile", profile), ("law", law)):
+        for name, value in (("n", n), ("k", k), ("mu", mu), ("punch", punch), ("law", law)):
             object.__setattr__(self, name, value)
 
     @property

@@ -1,18 +1,28 @@
-"""One question, one answer: a quantity of a problem by name."""
+"""Quantities of a problem by name."""
 
 from __future__ import annotations
 
-from fscm.analysis import EVENT_QUANTITIES, Analysis, Solution
-from fscm.critical import critical_tabor_number
+from collections.abc import Iterable
+
+from fscm._meshes import Accuracy, Meshes
+from fscm._threads import one_thread
+from fscm.analysis import Analysis
+from fscm.errors import NoSuchEvent
 from fscm.gibson import GibsonSolid
 from fscm.problem import Problem
+from fscm.quantities import QUANTITIES, quantity_named
+from fscm.solution import Solution
 
-__all__ = ["QUANTITIES", "solve"]
-
-QUANTITIES = (*EVENT_QUANTITIES, "hysteresis_energy", "critical_tabor_number")
+__all__ = ["QUANTITIES", "solve", "solve_together"]
 
 
-def solve(problem: Problem, quantity: str) -> Solution:
+def _model(problem: Problem, accuracy: Accuracy) -> Analysis | GibsonSolid:
+    meshes = Meshes.of(accuracy)
+    return GibsonSolid(problem) if problem.k == 1.0 else Analysis(problem, meshes)
+
+
+@one_thread()
+def solve(problem: Problem, quantity: str, accuracy: Accuracy = "default") -> Solution:
     """Compute one quantity with its numerical uncertainty; k = 1 is solved as the Gibson solid.
 
     Parameters
@@ -20,6 +30,9 @@ def solve(problem: Problem, quantity: str) -> Solution:
     problem : Problem
     quantity : str
         One of `QUANTITIES`.
+    accuracy : float or str
+        Relative error that is requested, between 1e-11 and 1e-4, or its name in `ACCURACIES`.  It chooses the meshes;
+        `u_num` of the solution bounds the error that was reached.  The Gibson solid is always solved to rounding.
 
     Returns
     -------
@@ -30,7 +43,7 @@ def solve(problem: Problem, quantity: str) -> Solution:
     Raises
     ------
     ValueError
-        For an unknown quantity.
+        For an unknown quantity or accuracy.
     NoSuchEvent
         When the path has no such event, e.g. no jump below the critical Tabor number.
     NotConverged
@@ -39,11 +52,51 @@ def solve(problem: Problem, quantity: str) -> Solution:
     --------
     >>> round(solve(Problem(n=2, k=0, mu=1.0), "pull_off_force").value, 8)
     1.67066478
+    >>> round(solve(Problem(n=2, k=0, mu=1.0), "pull_off_force", accuracy=1e-5).value, 5)
+    1.67066
     """
-    if quantity not in QUANTITIES:
-        raise ValueError(f"unknown quantity {quantity!r}; known are {', '.join(QUANTITIES)}")
-    if problem.k == 1.0:
-        return GibsonSolid(problem).solution(quantity)
-    if quantity == "critical_tabor_number":
-        return critical_tabor_number(problem)
-    return Analysis(problem).solution(quantity)
+    quantity_named(quantity)
+    return _model(problem, accuracy).solution(quantity)
+
+
+@one_thread()
+def solve_together(
+    problem: Problem, quantities: Iterable[str] = QUANTITIES, accuracy: Accuracy = "default"
+) -> dict[str, Solution | NoSuchEvent]:
+    """Compute several quantities; those of one path share it.
+
+    Parameters
+    ----------
+    problem, accuracy
+        As for `solve`.
+    quantities : iterable of str
+        Of `QUANTITIES`; all of them by default.
+
+    Returns
+    -------
+    dict
+        Quantity -> `Solution`, or, for a quantity that the problem does not have, the `NoSuchEvent` that `solve`
+        would raise; in the order of `quantities`.
+
+    Raises
+    ------
+    ValueError, NotConverged
+        As for `solve`.
+
+    Examples
+    --------
+    >>> found = solve_together(Problem(n=2, k=0, mu=0.5), ["pull_off_force", "jump_in_gap"])
+    >>> round(found["pull_off_force"].value, 8), type(found["jump_in_gap"]).__name__
+    (1.78748293, 'NoSuchEvent')
+    """
+    names = list(quantities)
+    for name in names:
+        quantity_named(name)
+    model = _model(problem, accuracy)
+    found: dict[str, Solution | NoSuchEvent] = {}
+    for name in names:
+        try:
+            found[name] = model.solution(name)
+        except NoSuchEvent as missing:
+            found[name] = missing
+    return found

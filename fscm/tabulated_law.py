@@ -1,4 +1,4 @@
-"""A surface law from data, as molecular dynamics or an experiment gives it: points of traction against gap.
+"""Surface law through data points of traction against gap, from molecular dynamics or an experiment.
 
 Between the points a quintic interpolating spline (four continuous derivatives); beyond the last one a
 power-law tail p = -C (H - t)^-m; below the first one a wall p = c + A (H - s)^-9.  Both join with value,
@@ -13,14 +13,12 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import PPoly, make_interp_spline
 
-from fscm.validation import real_number
+from fscm._typing import Array
+from fscm._validation import real_number
 
 __all__ = ["TabulatedLaw"]
-
-Array = NDArray[np.float64]
 
 # A quintic spline needs six points; four more so that wall, well and tail each have some.
 _FEWEST_POINTS = 10

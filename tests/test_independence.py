@@ -13,11 +13,11 @@ ALLOWED = {
     "fscm": (),
     "fem_reference": (),
     # The pure data of a problem is what all of comparisons speaks of.
-    "comparisons": ("fscm.problem", "fscm.profile", "fscm.surface_law"),
+    "comparisons": ("fscm.problem", "fscm.punch", "fscm.laws"),
     # A model from outside may work in physical units.
-    "comparisons.foreign": ("fscm.physical", "fscm.problem", "fscm.profile", "fscm.surface_law"),
+    "comparisons.foreign": ("fscm.physical", "fscm.problem", "fscm.punch", "fscm.laws"),
     # Shows what is inside the finite elements: fields, ladder, solver table.
-    "comparisons.commands.fem": ("fem_reference", "fscm.problem", "fscm.profile", "fscm.surface_law"),
+    "comparisons.commands.fem": ("fem_reference", "fscm.problem", "fscm.punch", "fscm.laws"),
     # Shows the functions inside the FSCM.
     "comparisons.paper.kernel_functions": ("fscm",),
     # Asks the finite elements about a solid that is no power law, which no dimensionless problem describes.
@@ -36,8 +36,8 @@ ALLOWED = {
     "comparisons.models.fem_model": (
         "fscm.physical",
         "fscm.problem",
-        "fscm.profile",
-        "fscm.surface_law",
+        "fscm.punch",
+        "fscm.laws",
         "fem_reference",
     ),
 }

@@ -40,9 +40,9 @@ from comparisons.foreign.wording import model_name, one_line
 from comparisons.model import NotApplicable, Result
 from comparisons.quantities import QUANTITIES
 from comparisons.toml_text import is_real, parse
+from fscm.laws import LennardJones93
 from fscm.problem import Problem
-from fscm.profile import PowerLaw
-from fscm.surface_law import LennardJones93
+from fscm.punch import PowerPunch
 
 __all__ = ["MANIFEST", "DataModel", "Submission", "read_submission"]
 
@@ -110,7 +110,7 @@ class DataModel:
     def evaluate(self, problem: Problem, quantity: str, *, scales: int = 0) -> Result:
         """Return the prediction, or raise `NotApplicable` for a case that the submission does not cover."""
         key = (quantity, problem.n, problem.k, problem.mu)
-        default = problem.profile == PowerLaw(problem.n) and type(problem.law) is LennardJones93
+        default = problem.punch == PowerPunch(problem.n) and type(problem.law) is LennardJones93
         if not default or key not in self.submission.rows:
             raise NotApplicable("the submission does not cover this case")
         value, u_num = self.submission.rows[key]

@@ -14,9 +14,9 @@ from comparisons.foreign.limits import LARGEST_COUNT, Limits
 from comparisons.foreign.wording import model_name, one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from comparisons.quantities import QUANTITIES
+from fscm.laws import LennardJones93
 from fscm.problem import Problem
-from fscm.profile import PowerLaw
-from fscm.surface_law import LennardJones93
+from fscm.punch import PowerPunch
 
 __all__ = ["ForeignModel", "ForeignModelWithCurve", "connect"]
 
@@ -68,7 +68,7 @@ class ForeignModel:
         self._child.close()
 
     def _ask(self, what: str, problem: Problem, **more: Any) -> dict[str, Any]:
-        if problem.profile != PowerLaw(problem.n) or type(problem.law) is not LennardJones93:
+        if problem.punch != PowerPunch(problem.n) or type(problem.law) is not LennardJones93:
             raise NotApplicable("models from outside are asked for the power-law punch and the 9-3 law alone")
         answer = self._child.ask(
             ask=what,

@@ -12,9 +12,9 @@ from typing import ClassVar, NamedTuple
 
 from comparisons.model import Curve, NotApplicable, Result
 from comparisons.quantities import QUANTITIES
+from fscm.laws import LennardJones93
 from fscm.problem import Problem
-from fscm.profile import PowerLaw
-from fscm.surface_law import LennardJones93
+from fscm.punch import PowerPunch
 
 __all__ = ["ClosedForm", "Estimate", "monomial"]
 
@@ -117,7 +117,7 @@ class ClosedForm(ABC):
 
     def check(self, problem: Problem) -> None:
         """Raise `NotApplicable` unless the punch is the power law of `problem.n` and the law is 9-3."""
-        if problem.profile != PowerLaw(float(problem.n)):
+        if problem.punch != PowerPunch(float(problem.n)):
             raise NotApplicable(f"{self.name} is derived for the profile r^n / n of Eq. 26 and for no other")
         if type(problem.law) is not LennardJones93:
             raise NotApplicable(f"{self.name} is derived for the 9-3 law of Eq. 27 and for no other")

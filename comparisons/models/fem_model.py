@@ -19,10 +19,10 @@ from comparisons.quantities import QUANTITIES
 from comparisons.shapes import near
 from comparisons.uncertainty import declared_order, three_grids
 from fem_reference import export
+from fscm.laws import LennardJones93
 from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
-from fscm.profile import PowerLaw
-from fscm.surface_law import LennardJones93
+from fscm.punch import PowerPunch
 
 __all__ = ["FiniteElements"]
 
@@ -141,7 +141,7 @@ class FiniteElements:
                 f"the finite elements need k <= {LARGEST_K:g}, not k = {problem.k:g}: towards the Gibson solid the "
                 "contact has an edge too narrow for their mesh"
             )
-        if problem.profile != PowerLaw(problem.n) or not isinstance(problem.law, LennardJones93):
+        if problem.punch != PowerPunch(problem.n) or not isinstance(problem.law, LennardJones93):
             raise NotApplicable("the finite elements are asked here for the power-law punch and the 9-3 law alone")
         physical = PhysicalProblem.from_problem(problem, nu=self._poisson_ratio, **_SCALES)
         return (

@@ -12,8 +12,8 @@ from comparisons.model import Curve, Profile, Result
 from comparisons.models.gibson_limit import gibson_curve, gibson_profile
 from comparisons.models.solver import result_of, translated
 from comparisons.shapes import near
-from fscm.path import profiles_of
 from fscm.problem import Problem
+from fscm.states import radial_field
 
 __all__ = ["FullSelfConsistent"]
 
@@ -58,7 +58,7 @@ class FullSelfConsistent:
             if problem.k == 1.0:
                 return gibson_profile(problem)
             event = fscm.Analysis(problem).event("pull_off")
-        check, value = profiles_of(event.check), profiles_of(event.value)
+        check, value = radial_field(event.check), radial_field(event.value)
         return Profile(
             value.radius,
             value.pressure,

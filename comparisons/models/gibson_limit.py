@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from comparisons.model import Curve, Profile
-from fscm.gibson import GibsonSolid
-from fscm.gibson_surface import LocalEquilibrium, root
+from fscm.gibson import GibsonSolid, LocalEquilibrium, root
 from fscm.problem import Problem
 
 __all__ = ["gibson_curve", "gibson_profile"]

@@ -8,8 +8,7 @@ from comparisons.model import Curve, NotApplicable, Result
 from comparisons.models.solver import result_of, translated
 from fscm.errors import NoSuchEvent, NotConverged
 from fscm.problem import Problem
-from fscm.stieltjes import StieltjesScheme
-from fscm.stieltjes_events import STIELTJES_QUANTITIES, stieltjes_solution
+from fscm.stieltjes import STIELTJES_QUANTITIES, StieltjesScheme, stieltjes_solution
 
 __all__ = ["CoarsePublishedScheme", "PublishedScheme"]
 

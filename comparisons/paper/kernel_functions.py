@@ -8,10 +8,10 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+import fscm
 from comparisons.figures.style import COLOURS, LINES, lettered, styled
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
-from fscm import kernel
 
 __all__ = ["KERNEL_FUNCTIONS", "values"]
 
@@ -39,11 +39,11 @@ def values(k: float) -> dict[str, list[float | None]]:
         slope = np.where(_RATIOS == 1.0, np.inf, 0.0)
         psi = np.where(_RATIOS > 0.0, phi - 1.0, 0.0)
     else:
-        phi, psi = kernel.Phi(k, _RATIOS), kernel.Psi(k, _RATIOS)
+        phi, psi = fscm.Phi(k, _RATIOS), fscm.Psi(k, _RATIOS)
         away = _RATIOS != 1.0
         slope = np.full(_RATIOS.shape, np.inf)
         # Eq. 19 is (1-k) times the ring response at unit radius.
-        slope[away] = (1.0 - k) * kernel.ring_response(k, np.ones(away.sum()), _RATIOS[away])
+        slope[away] = (1.0 - k) * fscm.ring_response(k, np.ones(away.sum()), _RATIOS[away])
     return {
         "phi": phi.tolist(),
         "slope": [float(value) if np.isfinite(value) else None for value in slope],

@@ -23,7 +23,7 @@ from comparisons.paper.number_causes import Repeated, calls, frame, repeated
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
 from comparisons.tables import rich_table
-from fscm.surface_law import LennardJones93
+from fscm.laws import LennardJones93
 
 __all__ = ["PUBLISHED_NUMBERS", "cause", "judged"]
 

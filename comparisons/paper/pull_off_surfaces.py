@@ -17,9 +17,8 @@ from comparisons.models.solver import translated
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
 from fscm import Analysis, NoSuchEvent, NotConverged, solve
-from fscm.analysis import FLOOR, SAFETY
-from fscm.equilibrium import State
 from fscm.problem import Problem
+from fscm.solution import FLOOR, SAFETY, State
 
 __all__ = ["OVER_GRADIENTS", "OVER_TABOR_NUMBERS", "surface"]
 

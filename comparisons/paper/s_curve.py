@@ -15,9 +15,8 @@ from comparisons.paper import answers
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
 from fscm import Analysis, NoSuchEvent, NotConverged
-from fscm.analysis import FLOOR, SAFETY, EventPair
-from fscm.equilibrium import State
 from fscm.problem import Problem
+from fscm.solution import FLOOR, SAFETY, EventPair, State
 
 __all__ = ["S_CURVE", "named_points"]
 
@@ -75,7 +74,7 @@ def _coordinates(pair: EventPair) -> dict[str, float]:
     for name, of in _COORDINATES.items():
         value = float(of(pair.value))
         found[name] = value
-        found[f"u_{name}"] = float(SAFETY * pair.spread(of) + FLOOR * (1.0 + abs(value)))
+        found[f"u_{name}"] = float(SAFETY * pair.difference(of) + FLOOR * (1.0 + abs(value)))
     return found
 
 

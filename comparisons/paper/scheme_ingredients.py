@@ -14,7 +14,7 @@ from scipy.optimize import newton
 
 import fscm
 from comparisons.model import ComputationFailed
-from fscm.equilibrium import State
+from fscm.solution import State
 from fscm.stieltjes import StieltjesScheme, StieltjesState
 
 __all__ = ["GAP_STEPS", "HEIGHTS", "LAST_GAP", "SEGMENTS", "exact_force", "sampled_force", "scheme_force"]

@@ -13,7 +13,7 @@ from comparisons.figures.style import COLOURS, MODEL_LINES, lettered, styled
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.paper.plate import Plate, Tables
 from comparisons.paper.workshop import Answers, Call
-from fscm.surface_law import LennardJones93
+from fscm.laws import LennardJones93
 
 __all__ = ["SURFACE_LAWS"]
 

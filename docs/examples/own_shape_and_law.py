@@ -6,15 +6,15 @@ python docs/examples/own_shape_and_law.py
 import numpy as np
 
 import fscm
-from fscm.callable_profile import CallableProfile
-from fscm.profile import PowerLaw
-from fscm.surface_law import LennardJones93, Mie
+from fscm.custom_punch import CustomPunch
+from fscm.laws import LennardJones93, Mie
+from fscm.punch import PowerPunch
 
 # Heights in z0, radii in (Q z0)^(1/n) of the paraboloid it is near its tip: r^2/2 there, a cone far out.
-rounded_cone = CallableProfile(lambda r: np.sqrt(1.0 + r**2) - 1.0, growth=1.0)
+rounded_cone = CustomPunch(lambda r: np.sqrt(1.0 + r**2) - 1.0, growth=1.0)
 
-for shape, profile in (("paraboloid", PowerLaw(2)), ("rounded cone", rounded_cone)):
+for shape, profile in (("paraboloid", PowerPunch(2)), ("rounded cone", rounded_cone)):
     for law_name, law in (("9-3", LennardJones93()), ("10-4", Mie(10, 4))):
-        problem = fscm.Problem(n=2, k=0.4, mu=1.0, profile=profile, law=law)
+        problem = fscm.Problem(n=2, k=0.4, mu=1.0, punch=profile, law=law)
         force = fscm.solve(problem, "pull_off_force")
         print(f"{shape:12}  {law_name:4}  pull-off force {force.value:.8f}  u_num {force.u_num:.0e}")

@@ -11,8 +11,8 @@ from comparisons.models.fem_model import FiniteElements
 from comparisons.models.stieltjes_model import PublishedScheme
 from comparisons.quantities import QUANTITIES
 from comparisons.run import ask
+from fscm.laws import Mie
 from fscm.physical import PhysicalProblem
-from fscm.surface_law import Mie
 
 
 def test_a_jump_below_the_critical_tabor_number_is_not_applicable():

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.special import ellipe, gamma, hyp1f1
 
-from fscm.deformation import axis_row, response_matrix
-from fscm.kernel import Kernel
-from fscm.panels import PanelMesh
+from fscm._deformation import axis_row, response_matrix
+from fscm._kernel import Kernel
+from fscm._panels import PanelMesh
 
 # Relative to the largest displacement; measured worst 7.0e-13 (k = 0.8).
 CLOSED_FORM = 5e-12

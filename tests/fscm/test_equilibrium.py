@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from fscm import NotConverged, Problem, solve
-from fscm.continuation import equilibrium_path, lead_control, lead_of
-from fscm.equilibrium import Control, State
-from fscm.newton import newton
+from fscm._continuation import equilibrium_path, parameter_control, parameter_of
+from fscm._equilibrium import Control, State
+from fscm._newton import newton
 
 PROBLEMS = [(2.0, 0.4, 1.0), (1.0, 0.0, 0.3), (5.0, 0.7, 1.5)]
 
@@ -33,11 +33,11 @@ def state(request: pytest.FixtureRequest, in_contact: bool) -> State:
 
 
 def test_rates_are_the_derivatives_of_solved_states(state: State) -> None:
-    """Central differences of fully solved neighbours, in the leading variable."""
+    """Central differences of fully solved neighbours, in the continuation parameter."""
     h = 1e-4
     rates = state.rates("log_scale" if state.follows_edge else "gap")
-    x = lead_of(state)
-    plus, minus = (newton(state, lead_control(state, x + s * h)) for s in (1, -1))
+    x = parameter_of(state)
+    plus, minus = (newton(state, parameter_control(state, x + s * h)) for s in (1, -1))
     for name in ("displacement", "load", "central_gap"):
         difference = (getattr(plus, name) - getattr(minus, name)) / (2 * h)
         assert getattr(rates, name) == pytest.approx(difference, rel=2e-5, abs=2e-6)
@@ -48,7 +48,7 @@ def test_rates_are_the_derivatives_of_solved_states(state: State) -> None:
 
 def test_newton_converges_quadratically(state: State) -> None:
     moved = replace(state, gap=state.gap * (1 + 1e-3), displacement=state.displacement + 1e-3)
-    solved = newton(moved, lead_control(state, lead_of(state)))
+    solved = newton(moved, parameter_control(state, parameter_of(state)))
     assert solved.iterations <= 5
     assert solved.load == pytest.approx(state.load, rel=1e-9)
 
@@ -66,7 +66,7 @@ def test_controls_agree(state: State, control: str) -> None:
 def test_state_satisfies_the_equations(state: State) -> None:
     """Eq. 4 at every node, and Eq. 32 on the axis, from the converged gaps."""
     p = state.disc.problem
-    lhs = state.gap + state.displacement - p.profile.height(state.radius)
+    lhs = state.gap + state.displacement - p.punch.height(state.radius)
     np.testing.assert_allclose(lhs, state.deformation, rtol=1e-8, atol=1e-9 * (1 + np.abs(state.gap)).max())
     assert state.follows_edge == (not math.isclose(state.scale, 1.0))
 

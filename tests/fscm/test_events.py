@@ -8,38 +8,28 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fscm import Analysis, NoSuchEvent, Problem, solve
-from fscm.continuation import equilibrium_path
+from fscm._continuation import equilibrium_path
+from fscm._events import brackets, displacement_fold
 from fscm.critical import critical_tabor_number
-from fscm.events import brackets, displacement_fold
-
-# Pull-off force for n = 2 from an independent high-order panel code; every digit shown.
-INDEPENDENT = [
-    (0.0, 0.1, 1.96895638),
-    (0.0, 0.5, 1.78748293),
-    (0.0, 1.0, 1.67066478),
-    (0.0, 2.0, 1.58359530),
-    (0.4, 0.5, 1.86628026),
-    (0.4, 1.0, 1.78848171),
-    (0.4, 1.4, 1.75861391),
-]
+from tests.reference_values import REFERENCE_VALUES, ReferenceValue
 
 
-@pytest.mark.parametrize(("k", "mu", "expected"), INDEPENDENT)
-def test_pull_off_force_to_every_digit(k: float, mu: float, expected: float) -> None:
-    answer = solve(Problem(2, k, mu), "pull_off_force")
-    assert abs(answer.value - expected) <= 0.5e-8 + answer.u_num
-    assert answer.u_num < 1e-9
+@pytest.mark.parametrize("known", REFERENCE_VALUES, ids=str)
+def test_reference_values_to_every_digit(known: ReferenceValue) -> None:
+    solution = solve(Problem(known.n, known.k, known.mu), known.quantity)
+    assert abs(solution.value - known.value) <= 0.5 * known.last_digit + solution.u_num
+    assert solution.u_num < 0.1 * known.last_digit
 
 
 @pytest.mark.parametrize(("k", "published"), [(0.0, 0.70), (0.2, 0.75), (0.4, 0.78), (0.6, 0.78)])
 def test_critical_tabor_numbers(k: float, published: float) -> None:
     """Sec. 3.3; and hysteresis exists just above and not just below."""
-    answer = solve(Problem(2, k, 1.0), "critical_tabor_number")
-    assert round(answer.value, 2) == published
-    assert answer.u_num < 1e-7
+    solution = solve(Problem(2, k, 1.0), "critical_tabor_number")
+    assert round(solution.value, 2) == published
+    assert solution.u_num < 1e-7
     with pytest.raises(NoSuchEvent, match="critical Tabor number"):
-        solve(Problem(2, k, answer.value * (1 - 2e-3)), "jump_in_displacement")
-    assert solve(Problem(2, k, answer.value * (1 + 2e-3)), "hysteresis_energy").value > 0
+        solve(Problem(2, k, solution.value * (1 - 2e-3)), "jump_in_displacement")
+    assert solve(Problem(2, k, solution.value * (1 + 2e-3)), "hysteresis_energy").value > 0
 
 
 def test_folds_vanish_as_the_critical_number_is_approached() -> None:
@@ -143,6 +133,8 @@ def test_no_hysteresis_quantities_for_a_stiff_solid() -> None:
 def test_unknown_quantity_is_refused() -> None:
     with pytest.raises(ValueError, match="pull_off_force"):
         solve(Problem(2, 0, 1), "pulloff")
+    with pytest.raises(ValueError, match=r"unknown quantity 'nonsense'; known are pull_off_force, .*hysteresis_energy"):
+        Analysis(Problem(2, 0, 1)).solution("nonsense")
 
 
 def test_edge_of_an_extreme_problem_is_resolved() -> None:
@@ -151,17 +143,6 @@ def test_edge_of_an_extreme_problem_is_resolved() -> None:
     nodes = np.sort(np.abs(state.disc.mesh.nodes - 1.0))
     assert nodes[20] < 5e-6 / state.scale
     assert state.pressure.min() == pytest.approx(-16 * math.sqrt(3) / 27, rel=1e-3)
-
-
-@pytest.mark.parametrize(
-    ("n", "k", "mu", "displacement", "gap"),
-    [(2.0, 0.6, 3.0, -3.32872, 1.83784), (5.0, 0.4, 3.0, -3.51597, 2.07692)],
-)
-def test_first_of_several_shallow_folds(n: float, k: float, mu: float, displacement: float, gap: float) -> None:
-    """The path runs flat through more folds after jump-in; values confirmed by the finite elements."""
-    model = Analysis(Problem(n, k, mu))
-    assert model.solution("jump_in_displacement").value == pytest.approx(displacement, abs=1e-5)
-    assert model.solution("jump_in_gap").value == pytest.approx(gap, abs=1e-5)
 
 
 def test_jump_in_is_the_first_fold_of_a_finely_stepped_path() -> None:

@@ -11,9 +11,9 @@ from scipy.optimize import brentq
 from fscm.analysis import Analysis
 from fscm.errors import NoSuchEvent
 from fscm.gibson import GibsonSolid
+from fscm.laws import LennardJones93, Mie
 from fscm.problem import Problem
-from fscm.profile import RoundedCone
-from fscm.surface_law import LennardJones93, Mie
+from fscm.punch import RoundedCone
 from fscm.tabulated_law import TabulatedLaw
 
 LAW = LennardJones93()
@@ -219,6 +219,6 @@ def test_bad_input():
     with pytest.raises(ValueError, match="gradient exponent"):
         GibsonSolid(Problem(2, 0.99, 1.0))
     with pytest.raises(ValueError, match="power law"):
-        GibsonSolid(Problem(1, 1, 1.0, profile=RoundedCone(1.0)))
+        GibsonSolid(Problem(1, 1, 1.0, punch=RoundedCone(1.0)))
     with pytest.raises(ValueError, match="unknown quantity"):
         solid(2, 1.0).solution("weight")

@@ -1,6 +1,6 @@
-"""The stated uncertainty against a separate, much finer truth, on a random sample of the whole box.
+"""The stated uncertainty against a separate, much finer reference, on a random sample of the whole box.
 
-The truth uses other panels (order 18, tolerance 1e-9 against order 12, 1e-7), another coarse path (so that
+The reference uses other panels (order 18, tolerance 1e-9 against order 12, 1e-7), another coarse path (so that
 the meshes are split in other places) and a domain that ends ten times farther out.
 """
 
@@ -9,14 +9,15 @@ import math
 import numpy as np
 import pytest
 
-import fscm.adaptivity
-import fscm.analysis
-from fscm import Analysis, Problem
+from fscm import ACCURACIES, Analysis, Problem, solve_together
+from fscm._meshes import Mesh, Meshes
+from fscm.quantities import TABLE
 
 SAMPLE = 64
+REFERENCE_MESHES = Meshes(path=Mesh(10, 2e-5), check=Mesh(8, 1e-3), value=Mesh(18, 1e-9), end_height=1e7)
 NARROWEST_EDGE = 1e-6
-# The truth is sure to this, relative: the scatter between orders 16 to 24, tolerances 1e-8 to 1e-12.
-TRUTH = 1e-14
+# The error of the reference, relative: the scatter between orders 16 to 24, tolerances 1e-8 to 1e-12.
+REFERENCE_ERROR = 1e-14
 
 
 def _sample() -> list[Problem]:
@@ -33,31 +34,23 @@ def _sample() -> list[Problem]:
     return problems
 
 
-@pytest.fixture
-def truth(monkeypatch: pytest.MonkeyPatch):
-    def compute(problem: Problem, quantities: tuple[str, ...]) -> list[float]:
-        with monkeypatch.context() as patch:
-            patch.setattr(fscm.analysis, "COARSE_TOLERANCE", 2e-5)
-            patch.setattr(fscm.analysis, "CHECK_MESH", (8, 1e-3))
-            patch.setattr(fscm.analysis, "VALUE_MESH", (18, 1e-9))
-            patch.setattr(fscm.adaptivity, "END_HEIGHT", 1e7)
-            model = Analysis(problem)
-            return [model.solution(q).value for q in quantities]
-
-    return compute
+def reference(problem: Problem, *quantities: str) -> list[float]:
+    """Values on the reference meshes; their check mesh is not used."""
+    model = Analysis(problem, REFERENCE_MESHES)
+    return [model.solution(q).value for q in quantities]
 
 
 @pytest.mark.parametrize("part", range(8))
-def test_pull_off_force_is_accurate_and_honest(part: int, truth) -> None:
+def test_pull_off_force_is_accurate_and_honest(part: int) -> None:
     rows, ratios = [], []
     for problem in _sample()[part::8]:
-        answer = Analysis(problem).solution("pull_off_force")
-        (exact,) = truth(problem, ("pull_off_force",))
-        error = abs(answer.value - exact)
+        solution = Analysis(problem).solution("pull_off_force")
+        (exact,) = reference(problem, "pull_off_force")
+        error = abs(solution.value - exact)
         allowed = (1e-8 if problem.mu <= 2 else 1e-6) * exact
-        ratios.append(answer.u_num / max(error, TRUTH * exact))
-        if not (error <= answer.u_num and error <= allowed):
-            rows.append((problem, exact, error, answer.u_num))
+        ratios.append(solution.u_num / max(error, REFERENCE_ERROR * exact))
+        if not (error <= solution.u_num and error <= allowed):
+            rows.append((problem, exact, error, solution.u_num))
     assert not rows
     assert np.median(ratios) < 1000  # measured 110 to 160 over 40 problems and all quantities
 
@@ -73,14 +66,50 @@ def test_pull_off_force_is_accurate_and_honest(part: int, truth) -> None:
         pytest.param(2.0, 0.9, 1.0, marks=pytest.mark.heavy),
     ],
 )
-def test_every_event_is_honest(n: float, k: float, mu: float, truth) -> None:
+def test_every_event_is_honest(n: float, k: float, mu: float) -> None:
     problem = Problem(n, k, mu)
     model = Analysis(problem)
-    names = (*fscm.analysis.EVENT_QUANTITIES, "hysteresis_energy")
+    names = [name for name, row in TABLE.items() if row.needs]
     rows = []
-    for name, exact in zip(names, truth(problem, names), strict=True):
-        answer = model.solution(name)
-        error = abs(answer.value - exact)
-        if not (error <= answer.u_num and error < 1e-7):
-            rows.append((name, exact, error, answer.u_num))
+    for name, exact in zip(names, reference(problem, *names), strict=True):
+        solution = model.solution(name)
+        error = abs(solution.value - exact)
+        if not (error <= solution.u_num and error < 1e-7):
+            rows.append((name, exact, error, solution.u_num))
     assert not rows
+
+
+# Problems of the sample on which an accuracy is measured, and the share of results that reach it: it is a request.
+# Measured on 22 problems and 6 quantities: every result is honest, and of those below 90 % reach 1e-6 and 98 % 1e-8;
+# the gap at the jump-out of a soft solid is ten times as uncertain.
+EVERY = 5
+REACHED = 0.85
+
+
+@pytest.mark.parametrize("accuracy", [1e-5, *ACCURACIES])
+def test_an_accuracy_is_reached_and_honest(accuracy: float | str) -> None:
+    """The error against the reference is below u_num, and u_num mostly below the requested error."""
+    requested = ACCURACIES[accuracy] if isinstance(accuracy, str) else accuracy
+    dishonest, reached = [], []
+    for problem in _sample()[::EVERY]:
+        found = solve_together(problem, ["pull_off_force", "pull_off_displacement", "zero_load_displacement"], accuracy)
+        for (name, solution), exact in zip(found.items(), reference(problem, *found), strict=True):
+            error = abs(solution.value - exact)
+            reached.append(solution.u_num <= requested * abs(exact))
+            if error > solution.u_num:
+                dishonest.append((problem, name, exact, error, solution.u_num))
+    assert not dishonest
+    assert np.mean(reached) >= REACHED
+
+
+def test_a_smaller_number_is_a_finer_mesh() -> None:
+    problem = Problem(2, 0.4, 1.0)
+    sizes = [Analysis(problem, x).solution("pull_off_force").size for x in (1e-4, "quick", "default", 1e-9, "fine")]
+    assert sizes == sorted(set(sizes))
+    assert Meshes.of("default") == Meshes.of(1e-8) == Meshes()
+
+
+@pytest.mark.parametrize("accuracy", [0.0, 1e-12, 1e-3, 1, math.nan, "best", None, True])
+def test_a_bad_accuracy_is_refused(accuracy: object) -> None:
+    with pytest.raises(ValueError, match=r"accuracy"):
+        Analysis(Problem(2, 0.4, 1.0), accuracy)

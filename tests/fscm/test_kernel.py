@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scipy.special import ellipe, ellipk
 
-from fscm.kernel import Kernel, Phi, Psi, ring_response
+from fscm._kernel import Kernel, Phi, Psi, ring_response
 
 EXPONENTS = [0.0, 1e-12, 1e-8, 1e-3, 0.05, 0.2, 0.4, 0.6, 0.8, 0.95]
 DISTANCES = [1e-300, 1e-100, 1e-30, 1e-12, 1e-5, 0.01, 0.1, 0.3, 0.5, 0.7, 0.8, 0.83, 0.9, 0.99, 1 - 1e-6]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fscm.panels import PanelMesh, gauss_rule
+from fscm._panels import PanelMesh, gauss_rule
 
 
 def test_polynomials_are_exact() -> None:

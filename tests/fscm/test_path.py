@@ -5,8 +5,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from fscm import NoSuchEvent, Problem, equilibria, profiles, solve, trace
-from fscm.continuation import equilibrium_path, lead_of, moved, rates_of
+from fscm import NoSuchEvent, Problem, equilibria, profile, solve, trace
+from fscm._continuation import equilibrium_path, moved, parameter_of, rates_of
 from fscm.experiment import displacement_cycle, load_controlled_retreat
 
 
@@ -16,7 +16,7 @@ from fscm.experiment import displacement_cycle, load_controlled_retreat
 def test_work_equals_change_of_energy(n: float, k: float, mu: float) -> None:
     """Elastic plus surface energy changes by the work of the load between all neighbours on the path.
 
-    The work is the Gauss integral over the leading variable of P d(delta), at states solved there.
+    The work is the Gauss integral over the continuation parameter of P d(delta), at states solved there.
     """
     points = []
     for point in equilibrium_path(Problem(n, k, mu), 10, 1e-6, longest_step=0.2):
@@ -28,7 +28,7 @@ def test_work_equals_change_of_energy(n: float, k: float, mu: float) -> None:
     for a, b in pairwise(points):
         if a.state.follows_edge != b.state.follows_edge:
             continue
-        x = [lead_of(p.state) for p in (a, b)]
+        x = [parameter_of(p.state) for p in (a, b)]
         work = 0.0
         for node, weight in zip(nodes, weights, strict=True):
             state = moved(a.state, rates_of(a.state), x[0] + 0.5 * (1 + node) * (x[1] - x[0]))
@@ -122,7 +122,7 @@ def test_load_controlled_retreat_ends_at_pull_off() -> None:
 
 def test_profiles_at_pull_off() -> None:
     """Eq. 4 closes on the profiles; the contact is flat and the edge carries the strength (Fig. 5)."""
-    surface = profiles(Problem(2, 0.4, 1.0))
+    surface = profile(Problem(2, 0.4, 1.0))
     closure = surface.gap + surface.displacement - surface.radius**2 / 2 - surface.deformation
     assert np.max(np.abs(closure) / (1 + surface.gap)) < 1e-10
     assert surface.pressure.min() == pytest.approx(-1.0264, abs=1e-3)
@@ -131,4 +131,4 @@ def test_profiles_at_pull_off() -> None:
 
 def test_profiles_need_the_event() -> None:
     with pytest.raises(NoSuchEvent):
-        profiles(Problem(2, 0.4, 0.1), "jump_in")
+        profile(Problem(2, 0.4, 0.1), "jump_in")

@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fscm._response_factor import response_factor, response_factor_per_rest
+from fscm.laws import Mie
 from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
-from fscm.profile import RoundedCone
-from fscm.response_factor import response_factor, response_factor_per_rest
-from fscm.surface_law import Mie
+from fscm.punch import RoundedCone
 
 EPS = np.finfo(float).eps
 # Logarithms of SI sizes reach 100, divided by 2n + k - 1 >= 0.4: their rounding is worth 100 eps / 0.4 in mu.
@@ -164,7 +164,7 @@ def test_a_problem_and_scales_make_a_physical_problem_and_back(n, k, mu, nu, c0,
     physical = PhysicalProblem.from_problem(problem, c0=c0, nu=nu, Q=Q, work_of_adhesion=w, z0=z0)
     assert physical.tabor_number == pytest.approx(mu, rel=1e-12)
     back = physical.problem()
-    assert (back.n, back.k, back.profile, back.law) == (n, k, problem.profile, problem.law)
+    assert (back.n, back.k, back.punch, back.law) == (n, k, problem.punch, problem.law)
 
 
 def test_gibson_solid_round_trip():
@@ -178,7 +178,7 @@ def test_gibson_solid_round_trip():
 def test_profile_and_law_travel_along():
     physical = PhysicalProblem(**{**SPHERE, "n": 1.0})
     problem = physical.problem(RoundedCone(0.3), Mie(12, 6))
-    assert (problem.profile, problem.law) == (RoundedCone(0.3), Mie(12, 6))
+    assert (problem.punch, problem.law) == (RoundedCone(0.3), Mie(12, 6))
 
 
 BAD = [math.nan, math.inf, -1.0, "1", True, 1j, None]

@@ -10,14 +10,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fscm.laws import LennardJones93, Mie
 from fscm.problem import Problem
-from fscm.profile import PowerLaw, RoundedCone
-from fscm.surface_law import LennardJones93, Mie
+from fscm.punch import PowerPunch, RoundedCone
 
 
 def test_defaults_are_the_power_law_punch_and_the_nine_three_law():
     problem = Problem(n=2, k=0.4, mu=1)
-    assert problem.profile == PowerLaw(2.0)
+    assert problem.punch == PowerPunch(2.0)
     assert problem.law == LennardJones93()
 
 
@@ -107,7 +107,7 @@ def test_the_tabor_number_of_a_punch_too_sharp_is_undefined():
 
 def test_what_is_not_a_profile_or_a_law_is_refused():
     with pytest.raises(ValueError, match="punch shape"):
-        Problem(2, 0, 1, profile=lambda r: r)
+        Problem(2, 0, 1, punch=lambda r: r)
     with pytest.raises(ValueError, match="surface law"):
         Problem(2, 0, 1, law=np.sin)
     with pytest.raises(ValueError, match="one shape index"):
@@ -115,7 +115,7 @@ def test_what_is_not_a_profile_or_a_law_is_refused():
 
 
 def test_a_problem_is_a_value():
-    problem = Problem(1, 0.4, 1.0, profile=RoundedCone(0.5), law=Mie(12, 6))
+    problem = Problem(1, 0.4, 1.0, punch=RoundedCone(0.5), law=Mie(12, 6))
     assert replace(problem, mu=2.0) == Problem(1, 0.4, 2.0, RoundedCone(0.5), Mie(12, 6))
     assert pickle.loads(pickle.dumps(problem)) == problem
     assert len({problem, pickle.loads(pickle.dumps(problem))}) == 1

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from fscm.laws import LennardJones93, Mie, SurfaceLaw
 from fscm.problem import Problem
-from fscm.surface_law import LennardJones93, Mie, SurfaceLaw
 from fscm.tabulated_law import TabulatedLaw
 
 LJ = LennardJones93()

@@ -8,8 +8,8 @@ from scipy.integrate import quad
 from scipy.optimize import brentq, minimize_scalar
 
 from comparisons.models.bradley import Bradley, rigid_load
+from fscm.laws import LennardJones93
 from fscm.problem import Problem
-from fscm.surface_law import LennardJones93
 
 SHAPES = [0.8, 1.0, 1.5, 2.0, 5.0, 10.0]
 

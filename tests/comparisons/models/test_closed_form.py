@@ -15,8 +15,8 @@ from comparisons.models.jkr import JKR
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
 from comparisons.models.semi_rigid import SemiRigid
 from comparisons.quantities import QUANTITIES
+from fscm.laws import LennardJones93
 from fscm.problem import Problem
-from fscm.surface_law import LennardJones93
 
 MODELS = {
     "jkr": JKR,
@@ -75,7 +75,7 @@ class OtherLaw(LennardJones93):
 @pytest.mark.parametrize(
     "problem",
     [
-        Problem(2, 0, 1, profile=Sinusoid()),
+        Problem(2, 0, 1, punch=Sinusoid()),
         Problem(2, 0, 1, law=OtherLaw()),
     ],
     ids=["profile", "law"],

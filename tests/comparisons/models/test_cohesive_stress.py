@@ -10,7 +10,7 @@ import pytest
 
 from comparisons.model import NotApplicable
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
-from fscm.surface_law import LennardJones93
+from fscm.laws import LennardJones93
 
 
 def printed_eta(n: float) -> mp.mpf:

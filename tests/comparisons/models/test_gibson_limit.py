@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from comparisons.models.gibson_limit import gibson_curve, gibson_profile
-from fscm.gibson import GibsonSolid
-from fscm.gibson_surface import LocalEquilibrium
+from fscm.gibson import GibsonSolid, LocalEquilibrium
 from fscm.problem import Problem
 
 

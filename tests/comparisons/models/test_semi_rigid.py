@@ -9,8 +9,8 @@ from scipy.optimize import minimize_scalar
 
 from comparisons.model import NotApplicable
 from comparisons.models.semi_rigid import SemiRigid, jump_in_coefficient
+from fscm.laws import LennardJones93
 from fscm.problem import Problem
-from fscm.surface_law import LennardJones93
 
 CASES = [
     (1.0, 0.0, 2.0),

@@ -1,6 +1,6 @@
-"""Points of the equilibrium path that have names, found as roots of exact derivatives.
+"""Events of the equilibrium path, found as roots of exact derivatives.
 
-The coarse path brackets an event; inside the bracket the leading variable is solved for on the coarse mesh
+The coarse path brackets an event; inside the bracket the continuation parameter is solved for on the coarse mesh
 and then, from that root, on finer meshes.
 """
 
@@ -12,12 +12,12 @@ from itertools import pairwise
 
 from scipy.optimize import brentq, minimize_scalar
 
-from fscm.adaptivity import fit, on_mesh
-from fscm.continuation import Point, lead_control, lead_of, moved, rates_of
-from fscm.equilibrium import Rates, State
+from fscm._adaptivity import fit, on_mesh
+from fscm._continuation import Point, moved, parameter_control, parameter_of, rates_of
+from fscm._equilibrium import Rates, State
+from fscm._newton import newton
+from fscm._panels import PanelMesh
 from fscm.errors import NotConverged
-from fscm.newton import newton
-from fscm.panels import PanelMesh
 
 __all__ = [
     "Condition",
@@ -33,13 +33,13 @@ __all__ = [
 Condition = Callable[[State, Rates], float]
 Bracket = tuple[Point, Point]
 
-# The secant method ends one step after a step of the leading variable below this.  Without the last one the
+# The secant method ends one step after a step of the continuation parameter below this.  Without the last one the
 # displacement at zero load was wrong by 1.5e-11 (n = 3.2, k = 0.06, mu = 6.6), unseen by u_num.
-_LEAD_TOLERANCE = 1e-9
+_PARAMETER_TOLERANCE = 1e-9
 _SECANT_STEPS = 15
 # First step of the secant method: large against rounding of the derivative, small against its curvature.
 _FIRST_SECANT_STEP = 1e-4
-_COARSE_LEAD_TOLERANCE = 1e-6
+_COARSE_PARAMETER_TOLERANCE = 1e-6
 
 
 def load_fold(state: State, rates: Rates) -> float:
@@ -58,17 +58,7 @@ def zero_load(state: State, rates: Rates) -> float:
 
 
 def brackets(points: Sequence[Point], condition: Condition, rising: bool) -> list[Bracket]:
-    """Neighbouring points between which the condition turns positive (`rising`) or negative.
-
-    Examples
-    --------
-    >>> from fscm.analysis import Analysis
-    >>> from fscm.problem import Problem
-    >>> points = Analysis(Problem(n=2, k=0.4, mu=1.0)).points
-    >>> before, after = brackets(points, load_fold, rising=True)[-1]
-    >>> load_fold(before.state, before.rates) < 0.0 <= load_fold(after.state, after.rates)
-    True
-    """
+    """Neighbouring points between which the condition turns positive (`rising`) or negative."""
     found = []
     for a, b in pairwise(points):
         if a.state.follows_edge != b.state.follows_edge:
@@ -80,40 +70,32 @@ def brackets(points: Sequence[Point], condition: Condition, rising: bool) -> lis
 
 
 class _Between:
-    """States between two points of the path, as a function of the leading variable."""
+    """States between two points of the path, as a function of the continuation parameter."""
 
     def __init__(self, a: Point, b: Point) -> None:
-        self._known = {lead_of(p.state): (p.state, rates_of(p.state)) for p in (a, b)}
+        self._known = {parameter_of(p.state): (p.state, rates_of(p.state)) for p in (a, b)}
         self.low, self.high = sorted(self._known)
 
-    def __call__(self, lead: float) -> tuple[State, Rates]:
-        if lead not in self._known:
-            nearest = sorted(self._known, key=lambda x: abs(x - lead))
+    def __call__(self, parameter: float) -> tuple[State, Rates]:
+        if parameter not in self._known:
+            nearest = sorted(self._known, key=lambda x: abs(x - parameter))
             for i, start in enumerate(nearest):
                 try:
-                    state = moved(*self._known[start], lead, _COARSE_LEAD_TOLERANCE)
+                    state = moved(*self._known[start], parameter, _COARSE_PARAMETER_TOLERANCE)
                     break
                 except NotConverged:
                     if i == len(nearest) - 1:
                         raise
-            self._known[lead] = (state, rates_of(state))
-        return self._known[lead]
+            self._known[parameter] = (state, rates_of(state))
+        return self._known[parameter]
 
 
 def locate(a: Point, b: Point, condition: Condition) -> State:
-    """Root of the condition between two neighbouring points, on their coarse mesh.
-
-    Examples
-    --------
-    >>> from fscm.analysis import Analysis
-    >>> from fscm.problem import Problem
-    >>> points = Analysis(Problem(n=2, k=0.4, mu=1.0)).points
-    >>> state = locate(*brackets(points, zero_load, rising=True)[-1], zero_load)
-    >>> abs(state.load) < 1e-5, round(state.displacement, 3)
-    (True, 2.086)
-    """
+    """Root of the condition between two neighbouring points, on their coarse mesh."""
     between = _Between(a, b)
-    root = brentq(lambda x: condition(*between(x)), between.low, between.high, xtol=_COARSE_LEAD_TOLERANCE, rtol=1e-12)
+    root = brentq(
+        lambda x: condition(*between(x)), between.low, between.high, xtol=_COARSE_PARAMETER_TOLERANCE, rtol=1e-12
+    )
     return between(root)[0]
 
 
@@ -125,16 +107,7 @@ def slowest(points: Sequence[Point]) -> tuple[Point, Point, Point, float]:
     before, at, after : Point
         The place and its neighbours on the same stretch.
     rate : float
-        Rate of the displacement there, per unit of the leading variable, oriented into contact.
-
-    Examples
-    --------
-    >>> from fscm.analysis import Analysis
-    >>> from fscm.problem import Problem
-    >>> points = Analysis(Problem(n=2, k=0.4, mu=1.0)).points
-    >>> *_, rate = slowest(points)
-    >>> rate < 0.0  # the displacement turns back: there are jumps
-    True
+        Rate of the displacement there, per unit of the continuation parameter, oriented into contact.
     """
     i = min(range(1, len(points) - 1), key=lambda j: points[j].rates.displacement)
     # Two steps to either side, on each stretch of its own when the mesh changes among them.
@@ -158,18 +131,8 @@ def _least_rate(a: Point, b: Point) -> tuple[Point, Point, Point, float]:
 
 
 def refined(state: State, order: int, tolerance: float) -> State:
-    """The state at the same leading variable, on a mesh of the given order refined to the tolerance.
-
-    Examples
-    --------
-    >>> from fscm.analysis import Analysis
-    >>> from fscm.problem import Problem
-    >>> points = Analysis(Problem(n=2, k=0.4, mu=1.0)).points
-    >>> fine = refined(points[0].state, order=12, tolerance=1e-8)
-    >>> abs(fine.central_gap - points[0].state.central_gap) < 1e-9
-    True
-    """
-    control = lead_control(state, lead_of(state))
+    """The state at the same continuation parameter, on a mesh of the given order refined to the tolerance."""
+    control = parameter_control(state, parameter_of(state))
     mesh = PanelMesh(state.disc.mesh.breaks, order)
     return fit(newton(on_mesh(state, mesh), control), control, tolerance, coarsen=True)
 
@@ -181,15 +144,6 @@ def sharpen(state: State, condition: Condition, order: int, tolerance: float) ->
     ------
     NotConverged
         When the secant method does not settle.
-
-    Examples
-    --------
-    >>> from fscm.analysis import Analysis
-    >>> from fscm.problem import Problem
-    >>> points = Analysis(Problem(n=2, k=0.4, mu=1.0)).points
-    >>> coarse = locate(*brackets(points, zero_load, rising=True)[-1], zero_load)
-    >>> abs(sharpen(coarse, zero_load, order=12, tolerance=1e-7).load) < 1e-12
-    True
     """
     state = refined(state, order, tolerance)
     iterations = state.iterations
@@ -197,13 +151,13 @@ def sharpen(state: State, condition: Condition, order: int, tolerance: float) ->
     value = condition(state, rates)
     step, settled = _FIRST_SECANT_STEP, False
     for _ in range(_SECANT_STEPS):
-        new = moved(state, rates, lead_of(state) + step)
+        new = moved(state, rates, parameter_of(state) + step)
         new_rates = rates_of(new)
         new_value = condition(new, new_rates)
         change = new_value - value
         state, rates, value = new, new_rates, new_value
         iterations += state.iterations
-        small = abs(step) < _LEAD_TOLERANCE
+        small = abs(step) < _PARAMETER_TOLERANCE
         if settled or value == 0.0 or (small and change == 0.0):
             return replace(state, iterations=iterations)
         if change == 0.0:

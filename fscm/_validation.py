@@ -1,4 +1,4 @@
-"""The front door: what a number has to be before anything is computed with it."""
+"""Check of the numbers that a user passes."""
 
 from __future__ import annotations
 
@@ -37,13 +37,6 @@ def real_number(
     ------
     ValueError
         With the value, the admissible interval and the reason.
-
-    Examples
-    --------
-    >>> real_number("k", 2, low=0.0, high=1.0, reason="no finite response")
-    Traceback (most recent call last):
-    ...
-    ValueError: k = 2 is outside (0, 1): no finite response
     """
     interval = f"{'[' if closed_low else '('}{low:g}, {high:g}{']' if closed_high else ')'}"
     # bool is an int for Python, but never a length or an exponent.

@@ -1,6 +1,6 @@
-"""What radii beyond the mesh add to the load, the displacement and the energy, in closed form.
+"""Contributions of the radii beyond the mesh to load, displacement and energy, in closed form.
 
-Beyond the last node, at the radius T, the profile f is so large that p = -C f^-m (1 - m e/f), with
+Beyond the last node, at the radius T, the height f is so large that p = -C f^-m (1 - m e/f), with
 e = w - delta - singular gap.  There f grows as F (t/T)^g, and every integral is one of a power.
 """
 
@@ -44,21 +44,12 @@ def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
         End of the mesh, in (Q z0)^(1/n).
     displacement : float
         delta, in z0; w is neglected there beside it.
-
-    Examples
-    --------
-    A stiff cone under the 9-3 law, p = -(8/3) (r + 1)^-3 up to the ninth power, whose integral is known:
-
-    >>> T = 1000.0
-    >>> exact = -16.0 / 3.0 * (1.0 / (T + 1.0) - 0.5 / (T + 1.0) ** 2)
-    >>> abs(tail_of(Problem(n=1, k=0.0, mu=1.0), T, 0.0).load / exact - 1.0) < 1e-5
-    True
     """
     C, m = problem.law.decay
     if C == 0.0:
         return Tail(0.0, 0.0, 0.0, 0.0)
     F = _height(problem, T)
-    g, k = problem.profile.growth, problem.k
+    g, k = problem.punch.growth, problem.k
     e = (-displacement - problem.law.singular_gap) / F
     strength = C * F**-m
 
@@ -79,14 +70,6 @@ def tail_uncertainty(problem: Problem, T: float, displacement: float, load: floa
         As for `tail_of`.
     load : float
         Its load.
-
-    Examples
-    --------
-    >>> problem, T = Problem(n=1, k=0.0, mu=1.0), 1000.0
-    >>> load = tail_of(problem, T, 0.0).load
-    >>> exact = -16.0 / 3.0 * (1.0 / (T + 1.0) - 0.5 / (T + 1.0) ** 2)
-    >>> abs(load - exact) <= tail_uncertainty(problem, T, 0.0, load) < 1e-5 * abs(load)
-    True
     """
     C, m = problem.law.decay
     if C == 0.0:
@@ -104,20 +87,12 @@ def tail_energy(problem: Problem, T: float, displacement: float) -> float:
     ----------
     problem, T, displacement
         As for `tail_of`.
-
-    Examples
-    --------
-    A stiff paraboloid under the 9-3 law, -(4/3) (f + 1)^-2 with 2 r dr = 2 df:
-
-    >>> T = 1000.0
-    >>> abs(tail_energy(Problem(n=2, k=0.0, mu=1.0), T, 0.0) * (T**2 / 2 + 1.0) / (-8.0 / 3.0) - 1.0) < 1e-10
-    True
     """
     C, m = problem.law.decay
     if C == 0.0:
         return 0.0
     F = _height(problem, T)
-    g = problem.profile.growth
+    g = problem.punch.growth
     excess = (m - 1.0) * g - 2.0
     leading = -math.log(T) if excess == 0.0 else 1.0 / excess
     shift = (-displacement - problem.law.singular_gap) / F
@@ -125,4 +100,4 @@ def tail_energy(problem: Problem, T: float, displacement: float) -> float:
 
 
 def _height(problem: Problem, T: float) -> float:
-    return float(problem.profile.height(np.array([T]))[0])
+    return float(problem.punch.height(np.array([T]))[0])

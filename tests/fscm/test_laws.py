@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fscm.surface_law import LennardJones93, Mie, SurfaceLaw
+from fscm.laws import LennardJones93, Mie, SurfaceLaw
 
 GAPS = np.array([-0.6, -0.3, -1e-3, 0.0, 1e-9, 0.05, 0.2, 0.6, 1.0, 7.0, 50.0, 1e4])
 EXPONENTS = [(9.0, 3.0), (12.0, 6.0), (7.0, 2.5), (9.0, 8.999), (3.0 + 1e-9, 3.0), (15.0, 1.1)]

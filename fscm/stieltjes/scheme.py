@@ -1,6 +1,6 @@
-"""The published scheme (Sec. 2.4, Eqs. 34-39): uniform segments, Riemann-Stieltjes sums, central gap control.
+"""The Stieltjes scheme (Sec. 2.4, Eqs. 34-39): uniform segments, Riemann-Stieltjes sums, central gap control.
 
-Kept as published, as a second discretisation and as the baseline of comparisons: N uniform segments up to
+Kept as in the paper, as a second discretisation and as the baseline of comparisons: N uniform segments up to
 f(r_max) = 50 with nothing beyond, tractions at the mean of neighbouring gaps, Newton's method from the
 previous solution.  Only what the paper leaves open is added: the step of the central gap is halved where
 Newton's method fails, and where that does not help either there is an error, not a number.
@@ -13,22 +13,21 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 from scipy.optimize import brentq
 
+from fscm._kernel import Psi
+from fscm._threads import one_thread
+from fscm._typing import Array
+from fscm._validation import real_number
 from fscm.errors import NotConverged
-from fscm.kernel import Psi
 from fscm.problem import Problem
-from fscm.validation import real_number
 
 __all__ = ["CentralGapRates", "StieltjesScheme", "StieltjesState"]
 
-Array = NDArray[np.float64]
-
-# Stopping rule as published: max |H_new / H_old - 1| < 1e-6.
-_PUBLISHED_TOLERANCE = 1e-6
-# The published rule divides by gaps that cross zero.  A change below this is accepted whatever it is divided
+# Stopping rule of the paper: max |H_new / H_old - 1| < 1e-6.
+_TOLERANCE = 1e-6
+# The rule of the paper divides by gaps that cross zero.  A change below this is accepted whatever it is divided
 # by; it is the rounding of M p for M up to 100 at |dp/dH| = 16.
 _SMALLEST_CHANGE = 1e-12
 # Newton converges quadratically from a neighbouring solution: 3 to 6 iterations were seen.
@@ -91,7 +90,7 @@ class CentralGapRates:
 
 
 class StieltjesScheme:
-    """The published discretisation of one problem.
+    """The discretisation of one problem.
 
     Parameters
     ----------
@@ -158,7 +157,7 @@ class StieltjesScheme:
         )
         radius = np.linspace(0.0, self._farthest_radius(), segments + 1)
         self.radius: Array = radius[1:]
-        self._height = problem.profile.height(self.radius)
+        self._height = problem.punch.height(self.radius)
         self._w = problem.compliance * np.diff(radius ** (1.0 - problem.k))
         self._area = np.diff(radius**2)
         # M r_i^(1-k) [Psi differences] = M h^(1-k) i^(1-k) [...]
@@ -168,13 +167,14 @@ class StieltjesScheme:
         """Radius at which the punch reaches the farthest height."""
 
         def excess(r: float) -> float:
-            return float(self.problem.profile.height(np.array([r]))[0]) - self.farthest_height
+            return float(self.problem.punch.height(np.array([r]))[0]) - self.farthest_height
 
         high = 1.0
         while excess(high) < 0.0:
             high *= 2.0
         return float(brentq(excess, 0.0, high, xtol=1e-300, rtol=1e-15))
 
+    @one_thread()
     def solve(self, central_gap: float, start: Array | None = None) -> StieltjesState:
         """Newton's method at a central gap (Eqs. 34-37).
 
@@ -188,7 +188,7 @@ class StieltjesScheme:
         Raises
         ------
         NotConverged
-            When the published rule is not met, or an iterate leaves the domain of the law.
+            When the stopping rule is not met, or an iterate leaves the domain of the law.
         """
         H = central_gap + self._height if start is None else start
         for iteration in range(1, _ITERATIONS + 1):
@@ -199,7 +199,7 @@ class StieltjesScheme:
             if not (np.all(np.isfinite(new)) and new.min() > self.problem.law.singular_gap):
                 break
             change = np.abs(new - H)
-            converged = np.all((change < _PUBLISHED_TOLERANCE * np.abs(H)) | (change < _SMALLEST_CHANGE))
+            converged = np.all((change < _TOLERANCE * np.abs(H)) | (change < _SMALLEST_CHANGE))
             H = new
             if converged:
                 p = self.problem.law.traction(self._middle(central_gap, H))
@@ -226,6 +226,7 @@ class StieltjesScheme:
         weighted.flat[:: self.segments + 1] += 1.0
         return law.traction(middle), weighted
 
+    @one_thread()
     def rates(self, state: StieltjesState) -> CentralGapRates:
         """Derivatives by the central gap, from one solve with the Jacobi matrix of the state."""
         slope = self.problem.law.slope(self._middle(state.central_gap, state.gap))
@@ -237,6 +238,7 @@ class StieltjesScheme:
         return CentralGapRates(float(self._w @ dp) - 1.0, float(self._area @ dp))
 
     @cached_property
+    @one_thread()
     def path(self) -> list[StieltjesState]:
         """States from the first gap to the last gap or load, by `gap_step`, halved where Newton fails.
 

@@ -1,7 +1,7 @@
-"""One point of a solid that yields only where it is pressed: the gap at a level, its folds and its fronts.
+"""Gaps in equilibrium at one point of the Gibson solid: at a level, at the folds and at a front.
 
-With the level u = f(r) - delta and the compliance M, the gap obeys F(H) = H - M p(H) = u and costs the energy
-e(u) = M p^2 / 2 + U(H) per area, de/du = -p.
+The Gibson solid moves only where it is pressed.  With the level u = f(r) - delta and the compliance M, the gap obeys
+F(H) = H - M p(H) = u and costs the energy e(u) = M p^2 / 2 + U(H) per area, de/du = -p.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from scipy.optimize import brentq
 
-from fscm.surface_law import SurfaceLaw
+from fscm.laws import SurfaceLaw
 
 __all__ = ["Front", "LocalEquilibrium", "root"]
 
@@ -41,7 +41,7 @@ class Front:
 
     Examples
     --------
-    >>> from fscm.surface_law import LennardJones93
+    >>> from fscm.laws import LennardJones93
     >>> point = LocalEquilibrium(LennardJones93(), 8.0)
     >>> front = point.front
     >>> abs(point.energy(front.near) - point.energy(front.far)) < 1e-12  # Maxwell's rule
@@ -69,7 +69,7 @@ class LocalEquilibrium:
 
     Examples
     --------
-    >>> from fscm.surface_law import LennardJones93
+    >>> from fscm.laws import LennardJones93
     >>> point = LocalEquilibrium(LennardJones93(), 8.0)
     >>> near, far = point.near(3.0), point.far(3.0)      # two gaps at one level
     >>> near < far, abs(point.level(near) - point.level(far)) < 1e-13

@@ -12,22 +12,20 @@ from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
-from numpy.typing import NDArray
 
-from fscm.validation import real_number
+from fscm._typing import Array
+from fscm._validation import real_number
 
-__all__ = ["PowerLaw", "PowerSum", "Profile", "RoundedCone"]
-
-Array = NDArray[np.float64]
+__all__ = ["PowerPunch", "PowerSum", "PunchShape", "RoundedCone"]
 
 
 @runtime_checkable
-class Profile(Protocol):
+class PunchShape(Protocol):
     """An axisymmetric punch shape; `growth` is the exponent g of f ~ r^g at infinity.
 
     Examples
     --------
-    >>> isinstance(PowerLaw(2.0), Profile)
+    >>> isinstance(PowerPunch(2.0), PunchShape)
     True
     """
 
@@ -46,7 +44,7 @@ class Profile(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class PowerLaw:
+class PowerPunch:
     """f(r) = r^n / n (Eq. 26); n = 1 is a cone, n = 2 a paraboloid, n -> infinity a flat punch.
 
     Parameters
@@ -61,7 +59,7 @@ class PowerLaw:
 
     Examples
     --------
-    >>> PowerLaw(2.0).height(np.array([0.0, 2.0]))
+    >>> PowerPunch(2.0).height(np.array([0.0, 2.0]))
     array([0., 2.])
     """
 

@@ -30,11 +30,10 @@ from functools import lru_cache
 import mpmath
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
+
+from fscm._typing import Array
 
 __all__ = ["Kernel", "Phi", "Psi", "box_cox", "kernel_of", "ring_response"]
-
-Array = NDArray[np.float64]
 
 # The near form is expanded on 0 <= y <= 1/2; its nearest singularity is y = 1, so Chebyshev coefficients
 # fall like (3 + sqrt 8)^-m and 24 of them reach 1e-18.
@@ -64,11 +63,6 @@ def box_cox(log_y: Array, c: float) -> Array:
     Returns
     -------
     ndarray, shape of `log_y`
-
-    Examples
-    --------
-    >>> box_cox(np.log(np.array([0.25, 0.0625])), 0.5)
-    array([2., 6.])
     """
     return -log_y if c == 0.0 else np.expm1(-c * log_y) / c
 
@@ -115,13 +109,6 @@ class Kernel:
     ------
     ValueError
         When k is outside [0, 1).
-
-    Examples
-    --------
-    >>> kernel = Kernel(0.0)
-    >>> r, t = np.array([1.0]), np.array([2.0])
-    >>> float(kernel.response(r, t, np.abs(r - t))[0])   # (2/pi) (2/3) K(8/9)
-    1.0731820...
     """
 
     def __init__(self, k: float) -> None:
@@ -147,14 +134,6 @@ class Kernel:
         """Factors (S, C) of G = S + C L_k(distance / (r + t)), smooth in t across t = r.
 
         Valid where distance / (r + t) <= sqrt(1/2); all arguments are arrays of one shape.
-
-        Examples
-        --------
-        >>> kernel, r, t, distance = Kernel(0.4), np.array([1.0]), np.array([1.5]), np.array([0.5])
-        >>> S, C = kernel.near_parts(r, t, distance)
-        >>> whole = S + C * box_cox(np.log(distance / (r + t)), 0.4)
-        >>> bool(np.isclose(whole[0], kernel.response(r, t, distance)[0], rtol=1e-14))
-        True
         """
         total = r + t
         ratio = distance / total
@@ -169,12 +148,6 @@ class Kernel:
         """G_k(r, t), dimension radius^-k; `distance` is abs(r - t), > 0, to full relative accuracy.
 
         All arguments are arrays of one shape; r may be 0.
-
-        Examples
-        --------
-        >>> r, t = np.array([0.0]), np.array([4.0])
-        >>> Kernel(0.5).response(r, t, t - r)  # t^-k on the axis
-        array([0.5])
         """
         out = np.empty(np.shape(distance))
         near = distance <= math.sqrt(_NEAR_LIMIT) * (r + t)
@@ -267,13 +240,7 @@ class _Primitive:
 
 @lru_cache(maxsize=64)
 def kernel_of(k: float) -> Kernel:
-    """The kernel of an exponent, made once.
-
-    Examples
-    --------
-    >>> kernel_of(0.4) is kernel_of(0.4)
-    True
-    """
+    """The kernel of an exponent, made once."""
     return Kernel(k)
 
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from fscm.equilibrium import Control, Linearisation, State
+from fscm._equilibrium import Control, Linearisation, State
 from fscm.errors import NotConverged
 
 __all__ = ["STEP_TOLERANCE", "newton"]
@@ -21,7 +21,7 @@ _SHRINK = 0.4
 _LOWEST = 0.25
 # Largest change of the logarithm of the scale in one iteration: a factor of two.
 _LARGEST_GROWTH = 0.7
-# Below this fraction of a step the iterations allowed lead nowhere.
+# Below this fraction of a step the iterations allowed parameter nowhere.
 _SMALLEST_DAMPING = 1e-3
 # A step that changes a gap by this factor is no correction any more, and the next ones would overflow.
 _DIVERGED = 1e6
@@ -47,20 +47,6 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) ->
     ------
     NotConverged
         After too many iterations, or when a gap is driven towards the singular gap.
-
-    Examples
-    --------
-    A guess without deformation, 20 z0 apart:
-
-    >>> from fscm.adaptivity import initial_mesh
-    >>> from fscm.equilibrium import Discretisation
-    >>> from fscm.problem import Problem
-    >>> problem = Problem(n=2, k=0.4, mu=1.0)
-    >>> disc = Discretisation(problem, initial_mesh(problem, order=10))
-    >>> guess = State(disc, 1.0, disc.mesh.nodes**2 / 2 + 20.0, displacement=-20.0, follows_edge=False)
-    >>> state = newton(guess, Control(20.0, gap=1.0))
-    >>> round(state.central_gap, 9), state.iterations < 5
-    (20.0, True)
     """
     law = guess.disc.problem.law
     floor = law.singular_gap

@@ -20,25 +20,20 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg.lapack import dgesv
 
-from fscm.deformation import axis_row, response_matrix
+from fscm._deformation import axis_row, response_matrix
+from fscm._kernel import kernel_of
+from fscm._panels import PanelMesh
+from fscm._tail import Tail, tail_energy, tail_of, tail_uncertainty
+from fscm._typing import Array
 from fscm.errors import NotConverged
-from fscm.kernel import kernel_of
-from fscm.panels import Array, PanelMesh
 from fscm.problem import Problem
-from fscm.tail import Tail, tail_energy, tail_of, tail_uncertainty
 
 __all__ = ["Control", "Discretisation", "Linearisation", "Rates", "State"]
 
 
 @dataclass(frozen=True)
 class Control:
-    """A linear condition gap * H_0 + displacement * delta + load * P + log_scale * log c = value.
-
-    Examples
-    --------
-    >>> Control(-1.5, load=1.0)  # P = -1.5
-    Control(value=-1.5, gap=0.0, displacement=0.0, load=1.0, log_scale=0.0)
-    """
+    """A linear condition gap * H_0 + displacement * delta + load * P + log_scale * log c = value."""
 
     value: float
     gap: float = 0.0
@@ -57,16 +52,6 @@ class Discretisation:
         In the scaled radius s; must have a break at s = 1.
     previous : Discretisation, optional
         Blocks of its response matrix are reused.
-
-    Examples
-    --------
-    >>> from fscm.adaptivity import initial_mesh
-    >>> problem = Problem(n=2, k=0.4, mu=1.0)
-    >>> disc = Discretisation(problem, initial_mesh(problem, order=10))
-    >>> disc.matrix.shape == (disc.mesh.size, disc.mesh.size)
-    True
-    >>> disc.stiffness_scale(1.0)  # M (1 - k)
-    1.2
     """
 
     def __init__(self, problem: Problem, mesh: PanelMesh, previous: Discretisation | None = None) -> None:
@@ -101,15 +86,6 @@ class State:
         Of the Newton solve that produced it.
     follows_edge : bool
         The anchor: H(s=1) is the edge gap (True) or the scale is fixed (False).
-
-    Examples
-    --------
-    >>> from fscm.adaptivity import initial_mesh
-    >>> problem = Problem(n=2, k=0.4, mu=1.0)
-    >>> disc = Discretisation(problem, initial_mesh(problem, order=10))
-    >>> apart = State(disc, 1.0, disc.mesh.nodes**2 / 2 + 20.0, displacement=-20.0, follows_edge=False)
-    >>> round(apart.load, 4)  # of a rigid sphere 20 z0 away: -(8/3) (H_0 + 1)^-2
-    -0.006
     """
 
     disc: Discretisation
@@ -189,18 +165,7 @@ class State:
 
 @dataclass(frozen=True)
 class Rates:
-    """Derivatives along the equilibrium path.
-
-    Examples
-    --------
-    >>> from fscm.adaptivity import initial_mesh
-    >>> problem = Problem(n=2, k=0.4, mu=1.0)
-    >>> disc = Discretisation(problem, initial_mesh(problem, order=10))
-    >>> apart = State(disc, 1.0, disc.mesh.nodes**2 / 2 + 20.0, displacement=-20.0, follows_edge=False)
-    >>> rates = apart.rates("gap")
-    >>> round(rates.central_gap, 12), round(rates.scaled(-2.0).central_gap, 12)
-    (1.0, -2.0)
-    """
+    """Derivatives along the equilibrium path."""
 
     gap: Array
     displacement: float
@@ -220,17 +185,7 @@ class Rates:
 
 
 class Linearisation:
-    """Residual, tangent and functionals at a state (which need not be in equilibrium).
-
-    Examples
-    --------
-    >>> from fscm.adaptivity import initial_mesh
-    >>> problem = Problem(n=2, k=0.4, mu=1.0)
-    >>> disc = Discretisation(problem, initial_mesh(problem, order=10))
-    >>> apart = State(disc, 1.0, disc.mesh.nodes**2 / 2 + 20.0, displacement=-20.0, follows_edge=False)
-    >>> bool(abs(Linearisation(apart).residual).max() < 1e-2)  # what the missing deformation leaves
-    True
-    """
+    """Residual, tangent and functionals at a state (which need not be in equilibrium)."""
 
     def __init__(self, state: State) -> None:
         self.state = s = state
@@ -239,13 +194,11 @@ class Linearisation:
         slope = problem.law.slope(s.gap)
         mesh = d.mesh
         k = problem.k
-        height = problem.profile.height(s.radius)
+        height = problem.punch.height(s.radius)
         self.residual = s.gap + s.displacement - height - s.deformation
         # dR / d log c
         elastic = s.deformation - s.tail.displacement
-        self.scale_column = -(
-            s.radius * problem.profile.slope(s.radius) + (1.0 - k) * elastic + s.tail.displacement_rate
-        )
+        self.scale_column = -(s.radius * problem.punch.slope(s.radius) + (1.0 - k) * elastic + s.tail.displacement_rate)
         N = mesh.size
         self.matrix = np.empty((N + 2, N + 2), order="F")
         J = self.matrix[:N, :N]

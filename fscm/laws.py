@@ -11,13 +11,11 @@ from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
-from numpy.typing import NDArray
 
-from fscm.validation import real_number
+from fscm._typing import Array
+from fscm._validation import real_number
 
 __all__ = ["LennardJones93", "Mie", "SurfaceLaw"]
-
-Array = NDArray[np.float64]
 
 
 @runtime_checkable

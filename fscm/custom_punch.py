@@ -1,4 +1,4 @@
-"""Any axisymmetric punch, given as a function: what it promises is checked when it is built."""
+"""Axisymmetric punch given as a function, which is checked when the punch is built."""
 
 from __future__ import annotations
 
@@ -7,13 +7,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from fscm.validation import real_number
+from fscm._typing import Array
+from fscm._validation import real_number
 
-__all__ = ["CallableProfile"]
-
-Array = NDArray[np.float64]
+__all__ = ["CustomPunch"]
 
 # The tail beyond a height of 1e8 carries less than 1e-8 of any load integral that the surface law lets
 # converge well (m g - 2 >= 1), so the stated growth has to have set in there.
@@ -45,7 +43,7 @@ _TIP_RADIUS = 1e-7
 
 
 @dataclass(frozen=True, slots=True)
-class CallableProfile:
+class CustomPunch:
     """Any axisymmetric punch f(r), given as a function of an array of radii.
 
     The function is tried at construction: it has to accept arrays, vanish at r = 0, stay finite, and grow
@@ -69,7 +67,7 @@ class CallableProfile:
 
     Examples
     --------
-    >>> bumpy = CallableProfile(lambda r: r**2 / 2 + 0.1 * (1 - np.cos(3 * r)), growth=2)
+    >>> bumpy = CustomPunch(lambda r: r**2 / 2 + 0.1 * (1 - np.cos(3 * r)), growth=2)
     >>> bool(abs(bumpy.slope(np.array([1.0]))[0] - (1 + 0.3 * np.sin(3))) < 1e-10)
     True
     """

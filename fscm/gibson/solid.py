@@ -1,4 +1,4 @@
-"""The Gibson solid, k = 1 and nu = 1/2: the self-consistent model becomes algebra, solved exactly.
+"""Self-consistent model of the Gibson solid, k = 1 and nu = 1/2, where it is algebra and solved exactly.
 
 For k -> 1 the primitive Phi_k is a step, and the surface moves only where it is pressed, w = M p with
 M = 2 mu^2.  With u = f(r) - delta, Eq. 28 reads
@@ -30,11 +30,12 @@ from functools import cached_property
 import numpy as np
 from scipy.integrate import quad
 
-from fscm.analysis import Solution
+from fscm._threads import one_thread
 from fscm.errors import NoSuchEvent, NotConverged
-from fscm.gibson_surface import Front, LocalEquilibrium, root
+from fscm.gibson.local_equilibrium import Front, LocalEquilibrium, root
 from fscm.problem import Problem
-from fscm.profile import PowerLaw
+from fscm.punch import PowerPunch
+from fscm.solution import Solution
 
 __all__ = ["GibsonSolid"]
 
@@ -57,12 +58,12 @@ class GibsonSolid:
     Parameters
     ----------
     problem : Problem
-        With k = 1 and the profile r^n / n; any surface law whose F folds at most twice.
+        With k = 1 and the punch r^n / n; any surface law whose F folds at most twice.
 
     Raises
     ------
     ValueError
-        For another k or profile, or a law with more than one unstable range.
+        For another k or punch, or a law with more than one unstable range.
 
     Examples
     --------
@@ -74,8 +75,8 @@ class GibsonSolid:
     def __init__(self, problem: Problem) -> None:
         if problem.k != 1.0:
             raise ValueError(f"gradient exponent k = {problem.k:g} is outside [1, 1]: this is the Gibson limit")
-        if not isinstance(problem.profile, PowerLaw):
-            raise ValueError(f"profile = {problem.profile!r} is not a power law, the only punch of the Gibson limit")
+        if not isinstance(problem.punch, PowerPunch):
+            raise ValueError(f"punch = {problem.punch!r} is not a power law, the only punch of the Gibson limit")
         self.problem = problem
         self._local = LocalEquilibrium(problem.law, problem.compliance)
 
@@ -191,6 +192,7 @@ class GibsonSolid:
                 return found
         raise NotConverged(f"no compressive load up to delta = {here:g} for {self.problem}")
 
+    @one_thread()
     def solution(self, quantity: str) -> Solution:
         """Compute one quantity with its numerical uncertainty.
 

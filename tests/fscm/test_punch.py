@@ -6,8 +6,8 @@ import pickle
 import numpy as np
 import pytest
 
-from fscm.callable_profile import CallableProfile
-from fscm.profile import PowerLaw, PowerSum, Profile, RoundedCone
+from fscm.custom_punch import CustomPunch
+from fscm.punch import PowerPunch, PowerSum, PunchShape, RoundedCone
 
 RADII = np.array([1e-3, 0.1, 0.5, 1.0, 2.0, 30.0, 1e3])
 
@@ -17,16 +17,16 @@ def paraboloid(r):
 
 
 SHAPES = [
-    PowerLaw(1.0),
-    PowerLaw(1.5),
-    PowerLaw(2),
-    PowerLaw(5.0),
-    PowerLaw(0.7),
+    PowerPunch(1.0),
+    PowerPunch(1.5),
+    PowerPunch(2),
+    PowerPunch(5.0),
+    PowerPunch(0.7),
     RoundedCone(0.3),
     RoundedCone(2.0, 0.25),
     PowerSum([0.5, 0.125], [2, 4]),
     PowerSum([1.0, -0.2, 0.5], [1.0, 1.5, 2.0]),
-    CallableProfile(paraboloid, 2.0),
+    CustomPunch(paraboloid, 2.0),
 ]
 
 
@@ -41,7 +41,7 @@ def test_slope_is_the_derivative_of_the_height(shape):
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_growth_is_the_exponent_at_infinity_and_the_tip_is_at_zero(shape):
-    assert isinstance(shape, Profile)
+    assert isinstance(shape, PunchShape)
     far = np.array([1e9, 2e9])
     low, high = shape.height(far)
     # PowerSum([1, -0.2, 0.5], [1, 1.5, 2]) is the slowest to settle: 0.2 / 0.5 r^-1/2.
@@ -58,11 +58,11 @@ def test_rounded_cone_is_a_paraboloid_at_the_tip_and_a_cone_far_away():
 
 def test_slope_at_the_tip():
     tip = np.zeros(1)
-    assert PowerLaw(1).slope(tip)[0] == 1.0
-    assert PowerLaw(2).slope(tip)[0] == 0.0
-    assert PowerLaw(0.8).slope(tip)[0] == math.inf
+    assert PowerPunch(1).slope(tip)[0] == 1.0
+    assert PowerPunch(2).slope(tip)[0] == 0.0
+    assert PowerPunch(0.8).slope(tip)[0] == math.inf
     assert RoundedCone(1.0).slope(tip)[0] == 0.0
-    assert CallableProfile(paraboloid, 2).slope(tip)[0] == pytest.approx(0.0, abs=1e-7)
+    assert CustomPunch(paraboloid, 2).slope(tip)[0] == pytest.approx(0.0, abs=1e-7)
 
 
 @pytest.mark.parametrize(
@@ -77,11 +77,11 @@ def test_slope_at_the_tip():
 )
 def test_numerical_slope(f, df, growth):
     r = np.array([1e-2, 0.3, 1.0, 2.7, 4.0, 31.9, 32.0])
-    punch = CallableProfile(f, growth)
+    punch = CustomPunch(f, growth)
     # Measured worst 3e-11, on the punch with 100 waves.
     np.testing.assert_allclose(punch.slope(r), df(r), rtol=1e-9)
     assert punch.slope(r.reshape(7, 1)).shape == (7, 1)
-    np.testing.assert_array_equal(CallableProfile(f, growth, df).slope(r), df(r))
+    np.testing.assert_array_equal(CustomPunch(f, growth, df).slope(r), df(r))
 
 
 @pytest.mark.parametrize(
@@ -104,25 +104,25 @@ def test_numerical_slope(f, df, growth):
 )
 def test_functions_that_break_a_promise_are_refused(f, growth, reason):
     with pytest.raises(ValueError, match=reason) as caught:
-        CallableProfile(f, growth)
+        CustomPunch(f, growth)
     assert "\n" not in str(caught.value)
 
 
 def test_a_wrong_derivative_is_refused():
     with pytest.raises(ValueError, match="not the slope"):
-        CallableProfile(paraboloid, 2.0, lambda r: 1.01 * r)
+        CustomPunch(paraboloid, 2.0, lambda r: 1.01 * r)
 
 
 @pytest.mark.parametrize(
     "build",
     [
-        lambda: PowerLaw(0),
-        lambda: PowerLaw(-1.0),
-        lambda: PowerLaw(math.inf),
-        lambda: PowerLaw(math.nan),
-        lambda: PowerLaw(True),
-        lambda: PowerLaw("2"),
-        lambda: PowerLaw(1j),
+        lambda: PowerPunch(0),
+        lambda: PowerPunch(-1.0),
+        lambda: PowerPunch(math.inf),
+        lambda: PowerPunch(math.nan),
+        lambda: PowerPunch(True),
+        lambda: PowerPunch("2"),
+        lambda: PowerPunch(1j),
         lambda: RoundedCone(0.0),
         lambda: RoundedCone(1.0, -1.0),
         lambda: PowerSum([], []),
@@ -142,4 +142,4 @@ def test_profiles_are_values():
     for shape in SHAPES:
         assert pickle.loads(pickle.dumps(shape)) == shape
         assert hash(pickle.loads(pickle.dumps(shape))) == hash(shape)
-    assert PowerLaw(2) == PowerLaw(np.float64(2.0))
+    assert PowerPunch(2) == PowerPunch(np.float64(2.0))

@@ -1,0 +1,91 @@
+"""Meshes of a computation, chosen by the relative error that is requested."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple, TypeAlias
+
+from fscm._validation import real_number
+
+__all__ = ["ACCURACIES", "Accuracy", "Mesh", "Meshes"]
+
+#: Names of relative errors.
+ACCURACIES = {"quick": 1e-6, "default": 1e-8, "fine": 1e-10}
+# Coarser meshes do not bracket the events of a soft solid; on finer ones rounding stops the refinement.
+_FINEST, _COARSEST = 1e-11, 1e-4
+
+
+class Mesh(NamedTuple):
+    """Nodes a panel and tolerance of the indicator (`fscm._adaptivity`)."""
+
+    order: int
+    tolerance: float
+
+
+# Meshes of the accuracy "default".
+_PATH, _CHECK, _VALUE = Mesh(10, 1e-4), Mesh(10, 3e-7), Mesh(12, 1e-7)
+_CURVE, _CURVE_CHECK = Mesh(10, 1e-6), Mesh(14, 1e-8)
+
+
+@dataclass(frozen=True)
+class Meshes:
+    """Meshes of the two values that are compared, and of the paths.
+
+    Attributes
+    ----------
+    path : Mesh
+        Of the path that brackets the events: its digits are not used.
+    check, value : Mesh
+        Of a value and of its check; close enough to each other that their difference is not much larger than the error
+        of the better one.
+    curve, curve_check : Mesh
+        Of a path that is drawn and integrated, and of its check.
+    end_height : float
+        The mesh ends where the undeformed gap is this large.  The closed tail behind it is wrong by (1/F)^2 relative.
+    """
+
+    path: Mesh = _PATH
+    check: Mesh = _CHECK
+    value: Mesh = _VALUE
+    curve: Mesh = _CURVE
+    curve_check: Mesh = _CURVE_CHECK
+    end_height: float = 1e6
+
+    @classmethod
+    def of(cls, accuracy: Accuracy) -> Meshes:
+        """Meshes for a relative error: tolerances in proportion to it, one node a panel more for each digit more.
+
+        Raises
+        ------
+        ValueError
+            For an unknown name, or a number outside [1e-11, 1e-4].
+        """
+        if isinstance(accuracy, Meshes):
+            return accuracy
+        if isinstance(accuracy, str):
+            if accuracy not in ACCURACIES:
+                raise ValueError(
+                    f"unknown accuracy {accuracy!r}; it is a relative error or one of {', '.join(ACCURACIES)}"
+                )
+            accuracy = ACCURACIES[accuracy]
+        reason = "coarser meshes miss events, finer ones meet the rounding of the numbers"
+        accuracy = real_number(
+            "accuracy", accuracy, low=_FINEST, high=_COARSEST, reason=reason, closed_low=True, closed_high=True
+        )
+        factor = accuracy / ACCURACIES["default"]
+        more = max(0, round(-math.log10(factor)))
+
+        def scaled(mesh: Mesh) -> Mesh:
+            return Mesh(mesh.order + more, mesh.tolerance * factor)
+
+        return cls(
+            check=scaled(_CHECK),
+            value=scaled(_VALUE),
+            curve=scaled(_CURVE),
+            curve_check=scaled(_CURVE_CHECK),
+        )
+
+
+#: A relative error, its name, or the meshes themselves.
+Accuracy: TypeAlias = "float | str | Meshes"

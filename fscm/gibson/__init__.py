@@ -1,0 +1,6 @@
+"""The Gibson solid, k = 1 and nu = 1/2, where the model is algebra."""
+
+from fscm.gibson.local_equilibrium import Front, LocalEquilibrium, root
+from fscm.gibson.solid import GibsonSolid
+
+__all__ = ["Front", "GibsonSolid", "LocalEquilibrium", "root"]
