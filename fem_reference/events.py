@@ -94,6 +94,8 @@ def locate(points: Sequence[Point], quantity: str) -> tuple[float, Point]:
 
     Raises
     ------
+    ValueError
+        For an unknown quantity.
     NoSuchEvent
         If the path has no such point.
 
@@ -109,6 +111,8 @@ def locate(points: Sequence[Point], quantity: str) -> tuple[float, Point]:
     >>> 6.2 < locate(points, "pull_off_force")[0] < 6.3  # 2 pi for a rigid solid
     True
     """
+    if quantity not in QUANTITIES + LOSSES:
+        raise ValueError(f"quantity {quantity!r} is unknown; choose one of {', '.join(QUANTITIES + LOSSES)}")
     if quantity in ("pull_off_force", "pull_off_displacement"):
         point = pull_off(points)
         return (-point.state.load if quantity == "pull_off_force" else point.state.displacement), point

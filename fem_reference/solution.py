@@ -10,6 +10,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from fem_reference._threads import one_thread
 from fem_reference.events import locate
 from fem_reference.mesh_choice import chosen
 from fem_reference.punch import Punch
@@ -134,30 +135,31 @@ def solve_together(
     >>> found["pull_off_force"].u_num < 1e-4
     True
     """
-    begin = time.perf_counter()
-    choice, spec, size = chosen(solid, punch, law, quantities, accuracy)
-    level = choice.level
-    walks = [choice.walked(replace(spec, density=density), size) for density in level.densities]
-    found = {quantity: [locate(points, quantity) for points in walks] for quantity in quantities}
-    ratio = math.sqrt(level.densities[0] / level.densities[2])
-    solutions = {}
-    for quantity, events in found.items():
-        coarse, medium, fine = (value for value, _ in events)
-        order = GAP_ORDER if quantity == "jump_out_gap" else level.order
-        outcome = three_meshes((coarse, medium, fine), ratio, order, _scale(quantity, fine, law.z0))
-        point = events[-1][1]
-        solutions[quantity] = Solution(
-            outcome.value,
-            outcome.u_num,
-            point.leg.contact.compliance.unknowns,
-            sum(p.state.iterations for p in walks[-1]),
-            point.state.residual,
-            time.perf_counter() - begin,
-            outcome.observed_order,
-            level.densities,
-            (coarse, medium, fine),
-        )
-    return solutions
+    with one_thread:
+        begin = time.perf_counter()
+        choice, spec, size = chosen(solid, punch, law, quantities, accuracy)
+        level = choice.level
+        walks = [choice.walked(replace(spec, density=density), size) for density in level.densities]
+        found = {quantity: [locate(points, quantity) for points in walks] for quantity in quantities}
+        ratio = math.sqrt(level.densities[0] / level.densities[2])
+        solutions = {}
+        for quantity, events in found.items():
+            coarse, medium, fine = (value for value, _ in events)
+            order = GAP_ORDER if quantity == "jump_out_gap" else level.order
+            outcome = three_meshes((coarse, medium, fine), ratio, order, _scale(quantity, fine, law.z0))
+            point = events[-1][1]
+            solutions[quantity] = Solution(
+                outcome.value,
+                outcome.u_num,
+                point.leg.contact.compliance.unknowns,
+                sum(p.state.iterations for p in walks[-1]),
+                point.state.residual,
+                time.perf_counter() - begin,
+                outcome.observed_order,
+                level.densities,
+                (coarse, medium, fine),
+            )
+        return solutions
 
 
 def _scale(quantity: str, value: float, z0: float) -> float:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from fem_reference._threads import one_thread
 from fem_reference.events import locate
 from fem_reference.mesh_choice import MeshChoice, chosen
 from fem_reference.path import Point
@@ -68,14 +69,15 @@ def trace(solid: Solid | CustomSolid, punch: Punch, law: LennardJones, accuracy:
     >>> bool(path.load[0] < 0 < path.load[-1]), round(float(path.load.min()), 2)
     (True, -6.22)
     """
-    choice, spec, size = _finest(solid, punch, law, "zero_load_displacement", accuracy)
-    points = choice.walked(spec, size)
-    return Path(
-        np.array([p.state.displacement for p in points]),
-        np.array([p.state.load for p in points]),
-        np.array([p.state.central_gap for p in points]),
-        np.array([p.contact_radius for p in points]),
-    )
+    with one_thread:
+        choice, spec, size = _finest(solid, punch, law, "zero_load_displacement", accuracy)
+        points = choice.walked(spec, size)
+        return Path(
+            np.array([p.state.displacement for p in points]),
+            np.array([p.state.load for p in points]),
+            np.array([p.state.central_gap for p in points]),
+            np.array([p.contact_radius for p in points]),
+        )
 
 
 def event_state(
@@ -116,8 +118,9 @@ def event_state(
     >>> round(point.state.load, 3), spec.order
     (-6.226, 6)
     """
-    choice, spec, size = _finest(solid, punch, law, quantity, accuracy)
-    return spec, locate(choice.walked(spec, size), quantity)[1]
+    with one_thread:
+        choice, spec, size = _finest(solid, punch, law, quantity, accuracy)
+        return spec, locate(choice.walked(spec, size), quantity)[1]
 
 
 def profile(
@@ -156,15 +159,18 @@ def profile(
     >>> bool(abs(surface.gap[1] - surface.gap[0] - 9 / 2) < 0.05)  # the sphere has risen 9/2, the solid hardly moved
     True
     """
-    _, point = event_state(solid, punch, law, quantity, accuracy)
-    mesh = point.leg.contact.compliance.trace
-    y = point.state.y
-    s = mesh.s if radii is None else np.asarray(radii, float) / y[-1]
-    if s.min() < 0 or s.max() > mesh.extent:
-        raise ValueError(f"radii up to {s.max() * y[-1]:.4g} leave the mesh, which ends at {mesh.extent * y[-1]:.4g}")
-    w = mesh.evaluate(s) @ y[:-2]
-    gap = -y[-2] + punch.height(s * y[-1]) + w
-    return Profile(s * y[-1], gap, law.traction(gap), w)
+    with one_thread:
+        _, point = event_state(solid, punch, law, quantity, accuracy)
+        mesh = point.leg.contact.compliance.trace
+        y = point.state.y
+        s = mesh.s if radii is None else np.asarray(radii, float) / y[-1]
+        if s.min() < 0 or s.max() > mesh.extent:
+            raise ValueError(
+                f"radii up to {s.max() * y[-1]:.4g} leave the mesh, which ends at {mesh.extent * y[-1]:.4g}"
+            )
+        w = mesh.evaluate(s) @ y[:-2]
+        gap = -y[-2] + punch.height(s * y[-1]) + w
+        return Profile(s * y[-1], gap, law.traction(gap), w)
 
 
 def _finest(

@@ -135,6 +135,12 @@ def test_hysteresis_is_the_area_between_the_branches():
     assert energy == pytest.approx(np.trapezoid(loads[0] - loads[1], delta), rel=0.03)
 
 
+def test_an_unknown_quantity_is_refused(points):
+    """It is not taken for the displacement of the jump out of contact."""
+    with pytest.raises(ValueError, match=r"'nonsense' is unknown; choose one of pull_off_force"):
+        locate(points, "nonsense")
+
+
 def test_stiff_solid_has_no_jumps():
     contact = _contact(E0=50.0)
     with pytest.raises(NoSuchEvent, match="too stiff"):
