@@ -6,14 +6,14 @@ stiffness of the infinite exterior, condensed to its surface, and brought into e
 law.
 """
 
+from fem_reference._contact.events import QUANTITIES
 from fem_reference.errors import NoSuchEvent, NotConverged
-from fem_reference.events import QUANTITIES
+from fem_reference.laws import LennardJones
 from fem_reference.modulus import CustomModulus, OffsetPowerLaw, PowerLaw
 from fem_reference.punch import CustomPunch, PowerPunch
 from fem_reference.solid import CustomSolid, Solid
 from fem_reference.solution import Solution, solve, solve_together
 from fem_reference.states import Path, Profile, event_state, profile, trace
-from fem_reference.traction import LennardJones
 
 __all__ = [
     "QUANTITIES",

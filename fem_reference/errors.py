@@ -23,7 +23,7 @@ class NoSuchEvent(RuntimeError):
 
     Examples
     --------
-    >>> from fem_reference.events import folds
+    >>> from fem_reference._contact.events import folds
     >>> folds([])
     Traceback (most recent call last):
     fem_reference.errors.NoSuchEvent: the displacement rises all along the path: this solid is too stiff for jumps

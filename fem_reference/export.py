@@ -15,19 +15,19 @@ import meshio
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
-from numpy.typing import NDArray
 from skfem import Basis, ElementQuadP
 
+from fem_reference._contact.path import Point
+from fem_reference._elastic.assembly import assemble_half_space
+from fem_reference._elastic.compliance import scaled_modulus
+from fem_reference._elastic.mapping import ChartMapping
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._linear.linear_solver import solve_direct
 from fem_reference._threads import one_thread
-from fem_reference.assembly import assemble_half_space
-from fem_reference.linear_solver import solve_direct
-from fem_reference.mapping import ChartMapping
-from fem_reference.path import Point
-from fem_reference.surface import MeshSpec, scaled_modulus
+from fem_reference._typing import Array, Index
 
 __all__ = ["Field", "contact_field", "draw", "write_vtu"]
 
-Array = NDArray[np.float64]
 
 SAMPLES = 4
 """Sample points an element side; stresses are those of the order-6 element, the picture is linear between."""
@@ -56,7 +56,7 @@ class Field:
     """
 
     points: Array
-    quads: NDArray[np.intp]
+    quads: Index
     displacement: Array
     stress: Array
     modulus: Array
@@ -138,7 +138,7 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
         )
 
 
-def _cells(elements: int) -> NDArray[np.intp]:
+def _cells(elements: int) -> Index:
     corner = np.arange(SAMPLES * SAMPLES).reshape(SAMPLES, SAMPLES)
     one = np.stack([corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]], axis=-1).reshape(-1, 4)
     return (one[None] + (SAMPLES * SAMPLES * np.arange(elements))[:, None, None]).reshape(-1, 4)

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
-from numpy.typing import NDArray
+
+from fem_reference._typing import Array
 
 __all__ = ["CustomPunch", "PowerPunch", "Punch", "radius_at_height"]
-
-Array = NDArray[np.float64]
 
 
 @runtime_checkable

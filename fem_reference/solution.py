@@ -10,13 +10,13 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from fem_reference._contact.events import locate
+from fem_reference._contact.mesh_choice import chosen
+from fem_reference._contact.uncertainty import three_meshes
 from fem_reference._threads import one_thread
-from fem_reference.events import locate
-from fem_reference.mesh_choice import chosen
+from fem_reference.laws import LennardJones
 from fem_reference.punch import Punch
 from fem_reference.solid import CustomSolid, Solid
-from fem_reference.traction import LennardJones
-from fem_reference.uncertainty import three_meshes
 
 __all__ = ["Solution", "solve", "solve_together"]
 

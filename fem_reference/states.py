@@ -5,20 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fem_reference._contact.events import locate
+from fem_reference._contact.mesh_choice import MeshChoice, chosen
+from fem_reference._contact.path import Point
+from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._threads import one_thread
-from fem_reference.events import locate
-from fem_reference.mesh_choice import MeshChoice, chosen
-from fem_reference.path import Point
+from fem_reference._typing import Array
+from fem_reference.laws import LennardJones
 from fem_reference.punch import Punch
 from fem_reference.solid import CustomSolid, Solid
-from fem_reference.surface import MeshSpec
-from fem_reference.traction import LennardJones
 
 __all__ = ["Path", "Profile", "event_state", "profile", "trace"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

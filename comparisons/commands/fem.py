@@ -17,8 +17,8 @@ from comparisons.progress import log, waiting
 from comparisons.store import writable_file
 from comparisons.tables import rich_table
 from fem_reference import export
-from fem_reference.ladder import elastic_ladder
-from fem_reference.solver_study import FULL_STUDY, QUICK_STUDY, solver_table
+from fem_reference.verification.checks import elastic_ladder
+from fem_reference.verification.solver_study import FULL_STUDY, QUICK_STUDY, solver_table
 
 __all__ = ["add", "call"]
 

@@ -3,16 +3,17 @@
 import numpy as np
 import pytest
 
-from fem_reference.contact import Contact
-from fem_reference.controls import ArcLength, CentralGap, Displacement, EdgeGap, EdgeRadius, ProfileRise, Size
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.controls import ArcLength, CentralGap, Displacement, EdgeGap, EdgeRadius, ProfileRise, Size
+from fem_reference._contact.events import folds, locate, walk
+from fem_reference._contact.newton import newton
+from fem_reference._contact.path import Leg, march
+from fem_reference._elastic.compliance import compliance_for
+from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.errors import NoSuchEvent, NotConverged
-from fem_reference.events import folds, locate, walk
+from fem_reference.laws import LennardJones
 from fem_reference.modulus import PowerLaw
-from fem_reference.newton import newton
-from fem_reference.path import Leg, march
 from fem_reference.punch import CustomPunch, PowerPunch, radius_at_height
-from fem_reference.surface import MeshSpec, compliance_for
-from fem_reference.traction import LennardJones
 
 SPEC = MeshSpec(0.125, 2.5e-3, 256.0, 0.9, 6, 0.05)
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from skfem import Basis, BilinearForm, ElementQuadP
 
-from fem_reference.elasticity import Body, gauss_product, stiffness
-from fem_reference.manufactured import BIAXIAL, SMOOTH, column, manufactured_error
-from fem_reference.mapping import InteriorChart
-from fem_reference.mesh import graded_grid, uniform_grid
+from fem_reference._elastic.elasticity import Body, gauss_product, stiffness
+from fem_reference._elastic.mapping import InteriorChart
+from fem_reference._elastic.mesh import graded_grid, uniform_grid
 from fem_reference.modulus import OffsetPowerLaw, PowerLaw
+from fem_reference.verification.manufactured import BIAXIAL, SMOOTH, column, manufactured_error
 
 FORM_TOLERANCE = 1e-12
 """Same Gauss points, other order of summation: measured 5e-15."""

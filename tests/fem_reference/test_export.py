@@ -4,13 +4,14 @@ import meshio
 import numpy as np
 import pytest
 
-from fem_reference.contact import Contact
-from fem_reference.events import locate, walk
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.events import locate, walk
+from fem_reference._elastic.compliance import compliance_for
+from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.export import contact_field, draw, write_vtu
+from fem_reference.laws import LennardJones
 from fem_reference.punch import PowerPunch
 from fem_reference.solid import Solid
-from fem_reference.surface import MeshSpec, compliance_for
-from fem_reference.traction import LennardJones
 
 SPEC = MeshSpec(0.125, 2.5e-3, 64.0, 0.9, 6)
 

@@ -5,9 +5,10 @@ import numpy as np
 import pytest
 from scipy import integrate, special
 
-from fem_reference import manufactured
-from fem_reference.identities import identity_rungs, manufactured_rungs
-from fem_reference.ladder import (
+from fem_reference._elastic.mesh import graded_grid
+from fem_reference.modulus import PowerLaw
+from fem_reference.verification import manufactured
+from fem_reference.verification.checks import (
     DEFAULT,
     EXPONENTS,
     FINE,
@@ -20,9 +21,8 @@ from fem_reference.ladder import (
     limit_rungs,
     ring_rungs,
 )
-from fem_reference.mesh import graded_grid
-from fem_reference.modulus import PowerLaw
-from fem_reference.reference_solutions import (
+from fem_reference.verification.element_checks import identity_rungs, manufactured_rungs
+from fem_reference.verification.reference_solutions import (
     gaussian_displacement,
     power_displacement,
     ring_displacement,

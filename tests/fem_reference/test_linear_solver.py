@@ -9,15 +9,15 @@ import numpy as np
 import pyamg
 import pytest
 
-from fem_reference import preconditioner
-from fem_reference.assembly import assemble_half_space
-from fem_reference.condensation import surface_stiffness
+from fem_reference._elastic.assembly import assemble_half_space
+from fem_reference._elastic.condensation import surface_stiffness
+from fem_reference._elastic.mesh import Grid, graded_grid
+from fem_reference._linear import preconditioner
+from fem_reference._linear.linear_solver import solve_cg, solve_direct
+from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference.errors import NotConverged
-from fem_reference.linear_solver import solve_cg, solve_direct
-from fem_reference.mesh import Grid, graded_grid
 from fem_reference.modulus import PowerLaw
-from fem_reference.preconditioner import ElasticPreconditioner
-from fem_reference.solver_study import FULL_STUDY, QUICK_STUDY, solver_table
+from fem_reference.verification.solver_study import FULL_STUDY, QUICK_STUDY, solver_table
 
 ITERATIONS = 25
 """Measured 6 to 12 at 1e4 unknowns and 20 at 3e5; the promise is 40."""

@@ -19,9 +19,9 @@ from fem_reference import (
     solve_together,
     trace,
 )
-from fem_reference.mesh_choice import ACCURACIES, MeshChoice, chosen
-from fem_reference.reference_solutions import surface_constant
-from fem_reference.uncertainty import three_meshes
+from fem_reference._contact.mesh_choice import ACCURACIES, MeshChoice, chosen
+from fem_reference._contact.uncertainty import three_meshes
+from fem_reference.verification.reference_solutions import surface_constant
 
 PULL_OFF = {
     (0.0, 0.1): 1.96895638,

@@ -7,9 +7,9 @@ import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
 from fem_reference import CustomPunch, LennardJones, NotConverged, Solid, profile, solve, trace
+from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._threads import one_thread
-from fem_reference.solver_study import SolverCase, solver_table
-from fem_reference.surface import MeshSpec
+from fem_reference.verification.solver_study import SolverCase, solver_table
 
 SOLID, LAW = Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), LennardJones(1.0, 1.0)
 

@@ -3,16 +3,17 @@
 import numpy as np
 import pytest
 
-from fem_reference.contact import Contact
-from fem_reference.events import locate, walk
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.events import locate, walk
+from fem_reference._elastic.compliance import compliance_for
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference.laws import LennardJones
 from fem_reference.modulus import PowerLaw
 from fem_reference.punch import PowerPunch
-from fem_reference.reference_solutions import surface_constant
 from fem_reference.solid import Solid
 from fem_reference.states import event_state
-from fem_reference.surface import MeshSpec, compliance_for
-from fem_reference.traction import LennardJones
-from fem_reference.uncondensed import FullContact
+from fem_reference.verification.reference_solutions import surface_constant
+from fem_reference.verification.uncondensed import FullContact
 
 AGREEMENT = 1e-8
 """Newton tolerance 1e-10 and linear tolerance 1e-4 of the last step: measured 1e-11."""

@@ -6,16 +6,15 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import linalg
 
-from fem_reference.contact import Contact
-from fem_reference.controls import Control, EdgeRadius
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.controls import Control, EdgeRadius
+from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
 
 __all__ = ["State", "newton"]
 
-Array = NDArray[np.float64]
 
 NEWTON_TOLERANCE = 1e-12
 """Largest residual, in units of z0 plus the largest displacement: ten times the rounding of X F."""
@@ -101,22 +100,6 @@ def newton(contact: Contact, y: Array, first: Control, second: Control) -> State
     ------
     NotConverged
         If the residual does not fall to the tolerance; take a closer starting point.
-
-    Examples
-    --------
-    >>> from fem_reference.modulus import PowerLaw
-    >>> from fem_reference.punch import PowerPunch
-    >>> from fem_reference.surface import MeshSpec, compliance_for
-    >>> from fem_reference.traction import LennardJones
-    >>> spec = MeshSpec(edge_width=0.25, surface_depth=0.08, extent=64.0, density=1.4, order=4)
-    >>> stiff = compliance_for(PowerLaw(50.0, 1.0, 0.0), 0.3, spec, size=1.0)
-    >>> from fem_reference.controls import CentralGap, Size
-    >>> contact = Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), stiff)
-    >>> apart = np.zeros(contact.unknowns + 2)
-    >>> apart[-2:] = -10.0, 1.0
-    >>> state = newton(contact, apart, Size(1.0), CentralGap(9.0))
-    >>> round(state.central_gap, 9), state.residual < 1e-12
-    (9.0, True)
     """
     law = contact.law
     m = contact.unknowns

@@ -14,15 +14,16 @@ from functools import lru_cache
 
 import numpy as np
 
-from fem_reference.contact import Contact
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.events import LOSSES, QUANTITIES, locate, walk
+from fem_reference._contact.path import EDGE_RISE, Point, edge_width
+from fem_reference._elastic.compliance import compliance_for
+from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.errors import NotConverged
-from fem_reference.events import LOSSES, QUANTITIES, locate, walk
+from fem_reference.laws import LennardJones
 from fem_reference.modulus import PowerLaw
-from fem_reference.path import EDGE_RISE, Point, edge_width
 from fem_reference.punch import Punch, radius_at_height
 from fem_reference.solid import CustomSolid, Solid
-from fem_reference.surface import MeshSpec, compliance_for
-from fem_reference.traction import LennardJones
 
 __all__ = ["ACCURACIES", "Accuracy", "MeshChoice", "chosen"]
 
@@ -90,16 +91,6 @@ class MeshChoice:
         The problem, in consistent units.
     level : Accuracy
         Order and densities of the meshes.
-
-    Examples
-    --------
-    >>> from fem_reference.punch import PowerPunch
-    >>> solid = Solid(E0=1.0, c0=1.0, k=0.0, nu=0.0)
-    >>> choice = MeshChoice(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), ACCURACIES["quick"])
-    >>> round(choice.first_width(radius=2.0), 4)  # half of the depth E z0^2 / (2 w) = 0.5, over the radius
-    0.125
-    >>> choice.spec(0.1, size=2.0, smallest=1.0).edge_width  # a power of 2: similar problems share a mesh
-    0.0625
     """
 
     solid: Solid | CustomSolid
@@ -226,14 +217,6 @@ def chosen(
         For no quantity, an unknown one, or an unknown accuracy.
     NotConverged
         If the path cannot be walked on the finest meshes either.
-
-    Examples
-    --------
-    >>> from fem_reference.punch import PowerPunch
-    >>> stiff = Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3)
-    >>> choice, spec, size = chosen(stiff, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), ["pull_off_force"], "quick")
-    >>> choice.level.densities, spec.density
-    ((1.4, 1.15, 0.95), 1.4)
     """
     if not quantities:
         raise ValueError(f"no quantity is asked for; choose at least one of {', '.join(QUANTITIES + LOSSES)}")

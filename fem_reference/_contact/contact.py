@@ -6,8 +6,8 @@ paper), the load vector F = integral of p(H) phi s ds, and the m equations are
 
     w - factor(c) X F(w, delta, c) = 0.
 
-Two controls (`fem_reference.controls`) close the system.  Loads beyond the mesh, where w has died out, enter P in
-closed quadrature.
+Two controls (`fem_reference._contact.controls`) close the system.  Loads beyond the mesh, where w is negligible,
+enter P by a quadrature to infinity.
 """
 
 from __future__ import annotations
@@ -16,15 +16,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fem_reference._elastic.compliance import Compliance
+from fem_reference._typing import Array
+from fem_reference.laws import LennardJones
 from fem_reference.punch import Punch
-from fem_reference.surface import Compliance
-from fem_reference.traction import LennardJones
 
 __all__ = ["Contact"]
 
-Array = NDArray[np.float64]
 
 TAIL_POINTS = 24
 """Gauss points for the load beyond the mesh in x = R/r: the integrand is close to a power of x."""
@@ -42,19 +41,6 @@ class Contact:
         p(H).
     compliance : Compliance
         Of the solid, on its surface mesh.
-
-    Examples
-    --------
-    >>> from fem_reference.modulus import PowerLaw
-    >>> from fem_reference.punch import PowerPunch
-    >>> from fem_reference.surface import MeshSpec, compliance_for
-    >>> spec = MeshSpec(edge_width=0.25, surface_depth=0.08, extent=64.0, density=1.4, order=4)
-    >>> stiff = compliance_for(PowerLaw(50.0, 1.0, 0.0), 0.3, spec, size=1.0)
-    >>> contact = Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), stiff)
-    >>> apart = np.zeros(contact.unknowns + 2)
-    >>> apart[-2:] = -10.0, 1.0  # rigid, 10 z0 away, on a mesh of the size 1
-    >>> round(contact.load(apart), 4), round(-8 / 3 * math.pi / 11**2, 4)  # Bradley at a distance
-    (-0.0692, -0.0692)
     """
 
     punch: Punch

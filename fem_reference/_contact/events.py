@@ -12,9 +12,9 @@ from itertools import pairwise
 
 from scipy.optimize import brentq
 
-from fem_reference.contact import Contact
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.path import Point, march, path
 from fem_reference.errors import NoSuchEvent
-from fem_reference.path import Point, march, path
 
 __all__ = ["LOSSES", "QUANTITIES", "locate", "walk"]
 
@@ -47,19 +47,6 @@ def walk(contact: Contact) -> list[Point]:
     ----------
     contact : Contact
         The problem.
-
-    Examples
-    --------
-    >>> from fem_reference.modulus import PowerLaw
-    >>> from fem_reference.punch import PowerPunch
-    >>> from fem_reference.surface import MeshSpec, compliance_for
-    >>> from fem_reference.traction import LennardJones
-    >>> spec = MeshSpec(edge_width=0.25, surface_depth=0.08, extent=64.0, density=1.4, order=4)
-    >>> stiff = compliance_for(PowerLaw(50.0, 1.0, 0.0), 0.3, spec, size=1.0)
-    >>> contact = Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), stiff)
-    >>> points = walk(contact)
-    >>> points[0].state.load < 0 < points[-1].state.load
-    True
     """
     points: list[Point] = []
     summit = -float("inf")
@@ -98,18 +85,6 @@ def locate(points: Sequence[Point], quantity: str) -> tuple[float, Point]:
         For an unknown quantity.
     NoSuchEvent
         If the path has no such point.
-
-    Examples
-    --------
-    >>> from fem_reference.modulus import PowerLaw
-    >>> from fem_reference.punch import PowerPunch
-    >>> from fem_reference.surface import MeshSpec, compliance_for
-    >>> from fem_reference.traction import LennardJones
-    >>> spec = MeshSpec(edge_width=0.25, surface_depth=0.08, extent=64.0, density=1.4, order=4)
-    >>> stiff = compliance_for(PowerLaw(50.0, 1.0, 0.0), 0.3, spec, size=1.0)
-    >>> points = walk(Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), stiff))
-    >>> 6.2 < locate(points, "pull_off_force")[0] < 6.3  # 2 pi for a rigid solid
-    True
     """
     if quantity not in QUANTITIES + LOSSES:
         raise ValueError(f"quantity {quantity!r} is unknown; choose one of {', '.join(QUANTITIES + LOSSES)}")

@@ -14,24 +14,23 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import LinearOperator
 from skfem import BilinearForm, FacetBasis, LinearForm
 
-from fem_reference.assembly import HalfSpace, assemble_half_space
-from fem_reference.chains import line_unknowns
+from fem_reference._elastic.assembly import HalfSpace, assemble_half_space
+from fem_reference._elastic.dof_ordering import line_unknowns
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._linear.linear_solver import solve_bordered, solve_cg
+from fem_reference._linear.preconditioner import ElasticPreconditioner
+from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
-from fem_reference.linear_solver import solve_bordered, solve_cg
+from fem_reference.laws import LennardJones
 from fem_reference.modulus import PowerLaw
-from fem_reference.preconditioner import ElasticPreconditioner
 from fem_reference.punch import Punch
-from fem_reference.surface import MeshSpec
-from fem_reference.traction import LennardJones
 
 __all__ = ["FullContact", "FullState"]
 
-Array = NDArray[np.float64]
 
 NEWTON_TOLERANCE = 1e-10
 """Largest Newton step, in units of z0 plus the largest displacement."""

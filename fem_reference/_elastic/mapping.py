@@ -11,13 +11,12 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 from skfem import MeshQuad
 from skfem.mapping import Mapping, MappingIsoparametric
 
-__all__ = ["Chart", "ChartMapping", "InteriorChart", "ShellChart", "graded_depth"]
+from fem_reference._typing import Array
 
-Array = NDArray[np.float64]
+__all__ = ["Chart", "ChartMapping", "InteriorChart", "ShellChart", "graded_depth"]
 
 
 class Chart(Protocol):

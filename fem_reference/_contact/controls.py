@@ -1,7 +1,7 @@
-"""Controls: single equations that pick a point of the equilibrium path, with their derivatives.
+"""Controls: single equations that select a point of the equilibrium path, with their derivatives.
 
-Two of them close the equations of `fem_reference.contact`: one keeps the mesh where it should be, the other is what a
-machine or the walk along the path prescribes.
+Two of them close the equations of `fem_reference._contact.contact`: one sets the size of the mesh, the other is the
+parameter of the path.
 """
 
 from __future__ import annotations
@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-from fem_reference.contact import Contact
+from fem_reference._contact.contact import Contact
+from fem_reference._typing import Array
 
 __all__ = [
     "ArcLength",
@@ -24,8 +24,6 @@ __all__ = [
     "ProfileRise",
     "Size",
 ]
-
-Array = NDArray[np.float64]
 
 
 class Control(Protocol):

@@ -1,7 +1,7 @@
-"""The verification ladder: what the elastic half-space must reproduce, one row a rung.
+"""Checks of the elastic half-space against exact solutions.
 
-Each function measures one kind of error and returns rows; a row passes when the error is below its limit.
-`elastic_ladder` collects them, with those of `fem_reference.identities` at the foot.  Errors of surface
+Each function measures one kind of error and returns checks; a check passes when the error is at most its limit.
+`elastic_checks` collects them, with those of `fem_reference.verification.element_checks`.  Errors of surface
 displacements are relative to the central displacement.
 """
 
@@ -11,15 +11,17 @@ from collections.abc import Callable, Iterable
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fem_reference._elastic.compliance import compliance_for
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._elastic.trace import Trace
 from fem_reference._threads import one_thread
-from fem_reference.identities import identity_rungs, manufactured_rungs
-from fem_reference.load_vectors import disc_load, ring_load, smooth_load
+from fem_reference._typing import Array
 from fem_reference.modulus import Modulus, OffsetPowerLaw, PowerLaw
-from fem_reference.reference_solutions import gaussian_displacement, power_displacement, ring_displacement
-from fem_reference.rung import Rung
-from fem_reference.surface import MeshSpec, Trace, compliance_for
+from fem_reference.verification.check import Rung
+from fem_reference.verification.element_checks import identity_rungs, manufactured_rungs
+from fem_reference.verification.load_vectors import disc_load, ring_load, smooth_load
+from fem_reference.verification.reference_solutions import gaussian_displacement, power_displacement, ring_displacement
 
 __all__ = [
     "DEFAULT",
@@ -37,7 +39,6 @@ __all__ = [
     "surface_displacement",
 ]
 
-Array = NDArray[np.float64]
 
 EXPONENTS = (0.0, 0.1, 0.2, 0.4, 0.6, 0.8)
 POISSON = (0.0, 0.25, 0.45)
@@ -88,7 +89,7 @@ def surface_displacement(
     spec : MeshSpec
         Mesh in absolute units.
     load : callable
-        The load vector on a surface mesh, as `fem_reference.load_vectors` makes them.
+        The load vector on a surface mesh, as `fem_reference.verification.load_vectors` makes them.
 
     Returns
     -------

@@ -16,19 +16,18 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from fem_reference.contact import Contact
-from fem_reference.controls import CentralGap, Control, EdgeGap, EdgeRadius, ProfileRise, Size
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.controls import CentralGap, Control, EdgeGap, EdgeRadius, ProfileRise, Size
+from fem_reference._contact.newton import State, newton
+from fem_reference._elastic.compliance import FixedCompliance
+from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
-from fem_reference.newton import State, newton
 from fem_reference.punch import radius_at_height
-from fem_reference.surface import FixedCompliance
 
 __all__ = ["EDGE_RISE", "Leg", "Point", "approach", "edge_radius", "edge_width", "march", "path", "spread"]
 
-Array = NDArray[np.float64]
 
 FARTHEST_GAP = 12.0
 """Central gap where a path begins, in z0: the tension there is 1e-3 of its peak, Newton starts from no
@@ -110,20 +109,6 @@ def march(point: Point, step: float, stop: float) -> Iterator[Point]:
     ------
     NotConverged
         When the step has been cut below sense.
-
-    Examples
-    --------
-    >>> from fem_reference.modulus import PowerLaw
-    >>> from fem_reference.punch import PowerPunch
-    >>> from fem_reference.surface import MeshSpec, compliance_for
-    >>> from fem_reference.traction import LennardJones
-    >>> spec = MeshSpec(edge_width=0.25, surface_depth=0.08, extent=64.0, density=1.4, order=4)
-    >>> stiff = compliance_for(PowerLaw(50.0, 1.0, 0.0), 0.3, spec, size=1.0)
-    >>> contact = Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), stiff)
-    >>> first = next(approach(contact))
-    >>> *_, last = march(first, step=-0.5, stop=10.0)
-    >>> round(last.state.central_gap, 9)
-    10.0
     """
     direction = 1.0 if step > 0 else -1.0
     while (stop - point.parameter) * direction > 0:
@@ -146,20 +131,7 @@ def march(point: Point, step: float, stop: float) -> Iterator[Point]:
 
 
 def approach(contact: Contact) -> Iterator[Point]:
-    """Walk the leg of the central gap from far away to the birth of the contact edge.
-
-    Examples
-    --------
-    >>> from fem_reference.modulus import PowerLaw
-    >>> from fem_reference.punch import PowerPunch
-    >>> from fem_reference.surface import MeshSpec, compliance_for
-    >>> from fem_reference.traction import LennardJones
-    >>> spec = MeshSpec(edge_width=0.25, surface_depth=0.08, extent=64.0, density=1.4, order=4)
-    >>> stiff = compliance_for(PowerLaw(50.0, 1.0, 0.0), 0.3, spec, size=1.0)
-    >>> contact = Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), stiff)
-    >>> round(next(approach(contact)).state.central_gap, 9)  # in units of z0 = 1
-    12.0
-    """
+    """Walk the leg of the central gap from far away to the birth of the contact edge."""
     z0 = contact.law.z0
     start = FARTHEST_GAP * z0
     y = np.zeros(contact.unknowns + 2)
@@ -178,21 +150,7 @@ def approach(contact: Contact) -> Iterator[Point]:
 
 
 def spread(born: Point, largest: float) -> Iterator[Point]:
-    """Walk the leg of the contact edge from its birth out to the radius `largest`.
-
-    Examples
-    --------
-    >>> from fem_reference.modulus import PowerLaw
-    >>> from fem_reference.punch import PowerPunch
-    >>> from fem_reference.surface import MeshSpec, compliance_for
-    >>> from fem_reference.traction import LennardJones
-    >>> spec = MeshSpec(edge_width=0.25, surface_depth=0.08, extent=64.0, density=1.4, order=4)
-    >>> stiff = compliance_for(PowerLaw(50.0, 1.0, 0.0), 0.3, spec, size=1.0)
-    >>> contact = Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), stiff)
-    >>> *_, born = approach(contact)
-    >>> round(next(spread(born, largest=2.0)).contact_radius / born.state.size, 9)
-    1.0
-    """
+    """Walk the leg of the contact edge from its birth out to the radius `largest`."""
     contact = born.leg.contact
     peak = contact.law.peak_gap
     if isinstance(contact.compliance, FixedCompliance):
@@ -238,22 +196,7 @@ def edge_width(point: Point) -> float:
 
 
 def path(contact: Contact) -> Iterator[Point]:
-    """Walk the whole equilibrium path from far away into contact, until the consumer stops.
-
-    Examples
-    --------
-    >>> from fem_reference.modulus import PowerLaw
-    >>> from fem_reference.punch import PowerPunch
-    >>> from fem_reference.surface import MeshSpec, compliance_for
-    >>> from fem_reference.traction import LennardJones
-    >>> spec = MeshSpec(edge_width=0.25, surface_depth=0.08, extent=64.0, density=1.4, order=4)
-    >>> stiff = compliance_for(PowerLaw(50.0, 1.0, 0.0), 0.3, spec, size=1.0)
-    >>> contact = Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), stiff)
-    >>> walked = path(contact)
-    >>> a, b = next(walked), next(walked)
-    >>> a.state.central_gap > b.state.central_gap and a.state.load > b.state.load
-    True
-    """
+    """Walk the whole equilibrium path from far away into contact, until the consumer stops."""
     point: Point | None = None
     for point in approach(contact):
         yield point

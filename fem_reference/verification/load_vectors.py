@@ -9,13 +9,12 @@ from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-from fem_reference.surface import Trace
+from fem_reference._elastic.trace import Trace
+from fem_reference._typing import Array
 
 __all__ = ["disc_load", "ring_load", "smooth_load"]
 
-Array = NDArray[np.float64]
 Load = Callable[[Trace], Array]
 
 DISC_POINTS = 30
@@ -50,18 +49,7 @@ def disc_load(pressure: Callable[[Array], Array]) -> Load:
 
 
 def ring_load(trace: Trace) -> Array:
-    """Return the load of a ring of unit force a length at r = 1, which is a node.
-
-    Examples
-    --------
-    >>> from fem_reference.surface import MeshSpec, trace_of
-    >>> spec = MeshSpec(edge_width=0.25, surface_depth=0.08, extent=16.0, density=1.0, order=4)
-    >>> trace = trace_of(spec.grid(), spec.order)
-    >>> ring, field = ring_load(trace), np.zeros(trace.phi.shape[1])
-    >>> field[: trace.nodes.size] = trace.nodes**0  # u_z = 1 at every node
-    >>> float(ring @ field)  # work per radian: force 1 on a length 1
-    1.0
-    """
+    """Return the load of a ring of unit force a length at r = 1, which is a node."""
     load = np.zeros(trace.phi.shape[1])
     load[trace.edge] = 1.0
     return load

@@ -6,11 +6,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+
+from fem_reference._typing import Array
 
 __all__ = ["LennardJones"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 
-from fem_reference.assembly import assemble_half_space
-from fem_reference.condensation import surface_stiffness
-from fem_reference.linear_solver import solve_cg
-from fem_reference.manufactured import BIAXIAL, SMOOTH, column, manufactured_error
-from fem_reference.mesh import Grid, graded_grid, uniform_grid
+from fem_reference._elastic.assembly import assemble_half_space
+from fem_reference._elastic.condensation import surface_stiffness
+from fem_reference._elastic.mesh import Grid, graded_grid, uniform_grid
+from fem_reference._linear.linear_solver import solve_cg
 from fem_reference.modulus import OffsetPowerLaw, PowerLaw
-from fem_reference.rung import Rung
+from fem_reference.verification.check import Rung
+from fem_reference.verification.manufactured import BIAXIAL, SMOOTH, column, manufactured_error
 
 __all__ = ["identity_rungs", "manufactured_rungs"]
 

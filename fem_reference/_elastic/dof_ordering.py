@@ -6,13 +6,11 @@ The order is: the vertices along the line, then the p - 1 edge functions of each
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from skfem import Basis
 
-__all__ = ["both_components", "line_unknowns", "reversal_signs"]
+from fem_reference._typing import Array, Index
 
-Array = NDArray[np.float64]
-Index = NDArray[np.intp]
+__all__ = ["both_components", "line_unknowns", "reversal_signs"]
 
 
 def line_unknowns(basis: Basis, axis: int, value: float, reverse: bool = False) -> Index:

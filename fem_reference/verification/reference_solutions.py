@@ -10,12 +10,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import special
 
-__all__ = ["gaussian_displacement", "power_displacement", "ring_displacement", "surface_constant"]
+from fem_reference._typing import Array
 
-Array = NDArray[np.float64]
+__all__ = ["gaussian_displacement", "power_displacement", "ring_displacement", "surface_constant"]
 
 
 def surface_constant(k: float, nu: float) -> float:

@@ -7,17 +7,15 @@ sparse factorisation is the Schur complement of the surface.  No linear system i
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import linalg
 from scipy.sparse.linalg import splu
 
-from fem_reference.assembly import HalfSpace
+from fem_reference._elastic.assembly import HalfSpace
+from fem_reference._typing import Array, Index
 from fem_reference.errors import NotConverged
 
 __all__ = ["dissection_order", "grid_positions", "surface_stiffness"]
 
-Array = NDArray[np.float64]
-Index = NDArray[np.intp]
 
 SYMMETRY_TOLERANCE = 1e-7
 """Relative asymmetry of the Schur complement that signals pivoting or a singular matrix (measured: 1e-12)."""
@@ -29,16 +27,6 @@ def grid_positions(half_space: HalfSpace) -> tuple[Index, Index]:
     Returns
     -------
     column, row : ndarray of int, shape (N,)
-
-    Examples
-    --------
-    >>> from fem_reference.assembly import assemble_half_space
-    >>> from fem_reference.mesh import uniform_grid
-    >>> from fem_reference.modulus import PowerLaw
-    >>> half_space = assemble_half_space(uniform_grid(2.0, 1), PowerLaw(1.0, 1.0, 0.0), nu=0.3, order=3)
-    >>> column, row = grid_positions(half_space)
-    >>> column[:8].tolist(), row[:8].tolist()  # four vertices, then two functions on each edge
-    ([0, 0, 2, 2, 0, 0, 1, 1], [0, 2, 0, 2, 1, 1, 0, 0])
     """
     basis, grid = half_space.basis, half_space.grid
     mesh = basis.mesh
@@ -83,16 +71,6 @@ def dissection_order(half_space: HalfSpace) -> Index:
     -------
     ndarray of int, shape (free,)
         Rows of the stiffness matrix.
-
-    Examples
-    --------
-    >>> from fem_reference.assembly import assemble_half_space
-    >>> from fem_reference.mesh import uniform_grid
-    >>> from fem_reference.modulus import PowerLaw
-    >>> half_space = assemble_half_space(uniform_grid(2.0, 4), PowerLaw(1.0, 1.0, 0.0), nu=0.3, order=3)
-    >>> last = dissection_order(half_space)[-half_space.surface.size :]
-    >>> bool(np.all(last == half_space.surface))
-    True
     """
     grid = half_space.grid
     ni, nj = 2 * (grid.r.size - 1), 2 * (grid.z.size - 1)
@@ -127,19 +105,6 @@ def surface_stiffness(half_space: HalfSpace) -> Array:
     ------
     NotConverged
         When the matrix is singular or not positive definite.
-
-    Examples
-    --------
-    The pressure exp(-r^2) on a uniform solid of E = 1 and nu = 0 displaces r = 0 by sqrt(pi):
-
-    >>> from fem_reference.assembly import assemble_half_space
-    >>> from fem_reference.modulus import PowerLaw
-    >>> from fem_reference.surface import MeshSpec
-    >>> spec = MeshSpec(edge_width=0.1, surface_depth=0.05, extent=16.0, density=1.0, order=4)
-    >>> S = surface_stiffness(assemble_half_space(spec.grid(), PowerLaw(1.0, 1.0, 0.0), nu=0.0, order=4))
-    >>> w = np.linalg.solve(S, spec.load_vector(lambda s: np.exp(-(s**2))))
-    >>> bool(abs(w[0] / np.sqrt(np.pi) - 1.0) < 1e-4)
-    True
     """
     order = dissection_order(half_space)
     m = half_space.surface.size

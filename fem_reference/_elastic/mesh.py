@@ -11,12 +11,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from skfem import MeshQuad
 
-__all__ = ["Grid", "graded_grid", "uniform_grid"]
+from fem_reference._typing import Array
 
-Array = NDArray[np.float64]
+__all__ = ["Grid", "MeshSpec", "graded_grid", "uniform_grid"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -34,12 +33,6 @@ class Grid:
     ------
     ValueError
         If the nodes do not rise strictly from 0, or the two sides differ.
-
-    Examples
-    --------
-    >>> grid = Grid(np.array([0.0, 1.0, 2.0]), np.array([0.0, 2.0]))
-    >>> grid.extent, grid.quads().nelements
-    (2.0, 2)
     """
 
     r: Array
@@ -104,12 +97,6 @@ def graded_grid(
     ------
     ValueError
         If a length is not positive or the edge is not inside the extent.
-
-    Examples
-    --------
-    >>> grid = graded_grid(edge=1.0, edge_width=0.1, extent=10.0)
-    >>> bool(1.0 in grid.r), grid.extent
-    (True, 10.0)
     """
     for name, value in (("edge_width", edge_width), ("surface_depth", surface_depth), ("density", density)):
         if not (math.isfinite(value) and value > 0):
@@ -137,3 +124,29 @@ def uniform_grid(extent: float, count: int) -> Grid:
     """
     nodes = np.linspace(0.0, extent, count + 1)
     return Grid(nodes, nodes.copy())
+
+
+@dataclass(frozen=True, slots=True)
+class MeshSpec:
+    """What a mesh in units of the edge radius is made of (see `graded_grid`), hashable.
+
+    Attributes
+    ----------
+    edge_width, surface_depth, extent, apex_width : float
+        Lengths in units of the edge radius.
+    density : float
+        Growth of element size with distance.
+    order : int
+        Degree of the elements.
+    """
+
+    edge_width: float
+    surface_depth: float
+    extent: float
+    density: float
+    order: int
+    apex_width: float | None = None
+
+    def grid(self) -> Grid:
+        """Return the grid with its edge at s = 1."""
+        return graded_grid(1.0, self.edge_width, self.surface_depth, self.extent, self.density, self.apex_width)

@@ -1,0 +1,1 @@
+"""Verification of the finite elements: checks against exact solutions, and the study of the linear solver."""
