@@ -98,7 +98,7 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
         If the stiffness is singular.
     """
     with one_thread:
-        contact, y = point.leg.contact, point.state.y
+        contact, y = point.branch.contact, point.state.y
         c = float(y[-1])
         scaled = scaled_modulus(solid.modulus, c)
         half_space = assemble_half_space(spec.grid(), scaled, solid.nu, spec.order)

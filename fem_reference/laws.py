@@ -1,15 +1,64 @@
-"""The surface law: traction p(H) between two faces at gap H, in physical units; compression is positive."""
+"""Surface laws: traction p(H) between two faces at gap H, in physical units; compression is positive."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
 from fem_reference._typing import Array
 
-__all__ = ["LennardJones"]
+__all__ = ["LennardJones", "SurfaceLaw"]
+
+
+@runtime_checkable
+class SurfaceLaw(Protocol):
+    """A surface law with its scales and limits; frozen, so that it is hashable.
+
+    Examples
+    --------
+    >>> isinstance(LennardJones(work_of_adhesion=1.0, z0=1.0), SurfaceLaw)
+    True
+    """
+
+    @property
+    def work_of_adhesion(self) -> float:
+        """Energy per area to separate the faces from the gap without traction to infinity."""
+        ...
+
+    @property
+    def length(self) -> float:
+        """Range of the law: gaps are resolved and steps are chosen relative to it."""
+        ...
+
+    @property
+    def peak_gap(self) -> float:
+        """Gap of the largest tension, which marks the contact edge."""
+        ...
+
+    @property
+    def singular_gap(self) -> float:
+        """Gap at which the repulsion diverges (-infinity if it does not); every H stays above it."""
+        ...
+
+    @property
+    def decay(self) -> tuple[float, float]:
+        """(C, m) of the tail: p H^m -> -C as H -> infinity; C = 0 for a law of finite range."""
+        ...
+
+    def traction(self, H: Array) -> Array:
+        """p(H), shape of `H`."""
+        ...
+
+    def slope(self, H: Array) -> Array:
+        """dp/dH, shape of `H`."""
+        ...
+
+    def energy(self, H: Array) -> Array:
+        """Integral of p from H to infinity, the energy per area of the faces at gap H."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,14 +90,24 @@ class LennardJones:
                 raise ValueError(f"{name} = {value} is outside (0, infinity)")
 
     @property
+    def length(self) -> float:
+        """The range z0."""
+        return self.z0
+
+    @property
     def peak_gap(self) -> float:
         """Gap of the largest tension, (3^(1/6) - 1) z0."""
         return (3.0 ** (1.0 / 6.0) - 1.0) * self.z0
 
     @property
-    def floor(self) -> float:
-        """Gap below which Newton must not step: the law is singular at -z0."""
-        return -0.6 * self.z0
+    def singular_gap(self) -> float:
+        """The repulsion diverges at H = -z0."""
+        return -self.z0
+
+    @property
+    def decay(self) -> tuple[float, float]:
+        """Tension (8 w z0^2 / 3) H^-3 at large gaps."""
+        return 8.0 / 3.0 * self.work_of_adhesion * self.z0**2, 3.0
 
     def traction(self, H: Array) -> Array:
         """p(H), shape of `H`."""

@@ -1,4 +1,4 @@
-"""Rigid punch shapes f(r): heights above the apex at r = 0."""
+"""Shapes of rigid punches: heights f(r) above the apex at r = 0."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Equilibrium of punch, surface law and condensed solid: residual, exact tangent, load and energy.
+"""Equilibrium equations of punch, surface law and condensed solid: residual, tangent, load and energy.
 
-Unknowns y = (w, delta, c): surface displacement w (chain order, positive into the solid), approach delta,
+Unknowns y = (w, delta, c): surface displacement w (surface order, positive into the solid), approach delta,
 size c of the mesh (its node s = 1 is at the radius c).  The gap is H = -delta + f(c s) + w (Eq. 4 of the
 paper), the load vector F = integral of p(H) phi s ds, and the m equations are
 
@@ -19,7 +19,7 @@ import numpy as np
 
 from fem_reference._elastic.compliance import Compliance
 from fem_reference._typing import Array
-from fem_reference.laws import LennardJones
+from fem_reference.laws import SurfaceLaw
 from fem_reference.punch import Punch
 
 __all__ = ["Contact"]
@@ -37,14 +37,14 @@ class Contact:
     ----------
     punch : Punch
         f(r).
-    law : LennardJones
+    law : SurfaceLaw
         p(H).
     compliance : Compliance
         Of the solid, on its surface mesh.
     """
 
     punch: Punch
-    law: LennardJones
+    law: SurfaceLaw
     compliance: Compliance
 
     @property

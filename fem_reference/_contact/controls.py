@@ -15,13 +15,11 @@ from fem_reference._contact.contact import Contact
 from fem_reference._typing import Array
 
 __all__ = [
-    "ArcLength",
     "CentralGap",
     "Control",
-    "Displacement",
     "EdgeGap",
     "EdgeRadius",
-    "ProfileRise",
+    "GapRise",
     "Size",
 ]
 
@@ -57,27 +55,6 @@ class Size:
     def gradient(self, contact: Contact, y: Array) -> Array:
         """Return a unit vector."""
         return _unit(y.size, -1)
-
-
-@dataclass(frozen=True, slots=True)
-class Displacement:
-    """The approach is delta.
-
-    Examples
-    --------
-    >>> Displacement(-9.0).value(None, np.array([0.0, -10.0, 2.0]))
-    -1.0
-    """
-
-    delta: float
-
-    def value(self, contact: Contact, y: Array) -> float:
-        """Return delta(y) - delta."""
-        return float(y[-2] - self.delta)
-
-    def gradient(self, contact: Contact, y: Array) -> Array:
-        """Return a unit vector."""
-        return _unit(y.size, -2)
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,7 +117,7 @@ class EdgeRadius:
         """Row of d H(radius) on a mesh of fixed size."""
         return np.concatenate([self._row(contact, y), [-1.0, 0.0]])
 
-    def pace(self, contact: Contact, y: Array) -> float:
+    def parameter_rate(self, contact: Contact, y: Array) -> float:
         """Change of the right-hand side per unit radius, -dH/dr, by central differences of the trace."""
         h = 1e-5 * self.radius
         rise = float((self._row(contact, y, h) - self._row(contact, y, -h)) @ y[:-2]) / (2.0 * h)
@@ -148,8 +125,8 @@ class EdgeRadius:
 
 
 @dataclass(frozen=True, slots=True)
-class ProfileRise:
-    """The gap at the mesh node s = 1 exceeds the central gap by `rise`: the mesh follows the profile."""
+class GapRise:
+    """The gap at the mesh node s = 1 exceeds the central gap by `rise`: the mesh follows the bottom of the gap."""
 
     rise: float
 
@@ -163,30 +140,6 @@ class ProfileRise:
         row = _unit(y.size, contact.compliance.trace.edge) - _unit(y.size, 0)
         row[-1] = float(contact.punch.slope(y[-1]))
         return row
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class ArcLength:
-    """The point lies in the plane through `centre` normal to `direction` (both in y), `step` ahead.
-
-    Examples
-    --------
-    >>> plane = ArcLength(np.zeros(2), np.array([0.6, 0.8]), step=1.0)
-    >>> round(plane.value(None, np.array([3.0, 4.0])), 12)
-    4.0
-    """
-
-    centre: Array
-    direction: Array
-    step: float
-
-    def value(self, contact: Contact, y: Array) -> float:
-        """Return direction . (y - centre) - step."""
-        return float(self.direction @ (y - self.centre)) - self.step
-
-    def gradient(self, contact: Contact, y: Array) -> Array:
-        """Return the direction."""
-        return self.direction
 
 
 def _unit(size: int, index: int) -> Array:

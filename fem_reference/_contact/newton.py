@@ -17,7 +17,7 @@ __all__ = ["State", "newton"]
 
 
 NEWTON_TOLERANCE = 1e-12
-"""Largest residual, in units of z0 plus the largest displacement: ten times the rounding of X F."""
+"""Largest residual, in lengths of the law plus the largest displacement: ten times the rounding of X F."""
 
 NEWTON_STEPS = 30
 """Damped steps before a point of the path is given up and the path step halved."""
@@ -27,6 +27,9 @@ LARGEST_GROWTH = 0.3
 
 SMALLEST_DAMPING = 1e-3
 """Fraction of a step below which none is sought: an iteration that needs it runs out of steps."""
+
+FLOOR_SHARE = 0.6
+"""Share of the singular gap below which steps are damped, unless the start lies below it."""
 
 STEP_SHARE = 1e3
 """Largest last step, in units of the largest residual: what the conditioning of the tangent leaves of it."""
@@ -49,7 +52,7 @@ class State:
     iterations : int
         Newton steps taken.
     residual : float
-        Largest residual in units of z0.
+        Largest residual in lengths of the law.
     """
 
     y: Array
@@ -113,26 +116,27 @@ def newton(contact: Contact, y: Array, first: Control, second: Control) -> State
         K[:m] = contact.tangent(y)
         K[m], K[m + 1] = first.gradient(contact, y), second.gradient(contact, y)
         factors = linalg.lu_factor(K, check_finite=False)
-        size = float(np.abs(G[:m]).max()) / law.z0
-        limit = NEWTON_TOLERANCE * (1.0 + float(np.abs(y[:m]).max()) / law.z0)
+        size = float(np.abs(G[:m]).max()) / law.length
+        limit = NEWTON_TOLERANCE * (1.0 + float(np.abs(y[:m]).max()) / law.length)
         step = linalg.lu_solve(factors, G, check_finite=False)
-        if size <= limit and np.abs(step[: m + 1]).max() <= STEP_SHARE * limit * law.z0:
-            pace = second.pace(contact, y) if isinstance(second, EdgeRadius) else 1.0
-            rate = pace * linalg.lu_solve(factors, np.eye(m + 2)[-1], check_finite=False)
+        if size <= limit and np.abs(step[: m + 1]).max() <= STEP_SHARE * limit * law.length:
+            parameter_rate = second.parameter_rate(contact, y) if isinstance(second, EdgeRadius) else 1.0
+            rate = parameter_rate * linalg.lu_solve(factors, np.eye(m + 2)[-1], check_finite=False)
             slope = float(contact.load_gradient(y) @ rate)
             return State(y, contact.load(y), slope, rate, iteration, size)
         if not np.all(np.isfinite(step)):
             break
         y = y - _damping(contact, y, step) * step
-    raise NotConverged(f"Newton stopped at a residual of {size:.1e} z0; start closer to the solution")
+    raise NotConverged(f"Newton stopped at a residual of {size:.1e} lengths of the law; start closer to the solution")
 
 
 def _damping(contact: Contact, y: Array, step: Array) -> float:
-    """Largest factor that keeps every gap above the law's floor and the size within reach."""
+    """Largest factor that keeps every gap off the singular gap of the law and the size within reach."""
     factor = 1.0
     if abs(step[-1]) > LARGEST_GROWTH * y[-1]:
         factor = LARGEST_GROWTH * y[-1] / abs(step[-1])
-    lowest = min(contact.law.floor, 0.5 * (contact.gap(y).min() - contact.law.z0))
+    singular = contact.law.singular_gap
+    lowest = min(FLOOR_SHARE * singular, 0.5 * (contact.gap(y).min() + singular))
     while factor > SMALLEST_DAMPING and contact.gap(y - factor * step).min() < lowest:
         factor *= 0.5
     return factor

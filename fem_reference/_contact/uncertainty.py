@@ -1,4 +1,4 @@
-"""Numerical uncertainty of one number from three meshes: observed order, Richardson estimate, safety factor.
+"""Numerical uncertainty from three meshes: observed order, Richardson estimate, safety factor.
 
 Every element of a mesh is `density` times a length that belongs to the problem, so three densities in
 constant ratio are a family of similar meshes and the error behaves like density^p.

@@ -1,4 +1,4 @@
-"""The whole half-space as one matrix: interior elements plus the exact exterior, axis condition removed."""
+"""Assembled stiffness of the half-space: interior elements and the exact exterior."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class HalfSpace:
     free : ndarray of int
         Rows that are not fixed by u_r = 0 on the axis.
     surface : ndarray of int
-        Rows of u_z along the surface, in chain order.
+        Rows of u_z along the surface, in surface order.
     boundary : ndarray of int
         Rows on the square's side and bottom, coupled by the exterior.
     """
@@ -76,12 +76,12 @@ def assemble_half_space(grid: Grid, modulus: Modulus, nu: float, order: int = 4)
     side = line_unknowns(basis, 0, grid.extent)
     bottom = line_unknowns(basis, 1, grid.extent, reverse=True)
     nz, nr, edges = grid.z.size - 1, grid.r.size - 1, order - 1
-    chain = np.concatenate([side[: nz + 1], bottom[1 : nr + 1], side[nz + 1 :], bottom[nr + 1 :]])
-    signs = np.ones(chain.size)
-    signs[chain.size - nr * edges :] = reversal_signs(nr, order)[nr + 1 :]
+    square = np.concatenate([side[: nz + 1], bottom[1 : nr + 1], side[nz + 1 :], bottom[nr + 1 :]])
+    signs = np.ones(square.size)
+    signs[square.size - nr * edges :] = reversal_signs(nr, order)[nr + 1 :]
     weight = np.repeat(signs, 2)
     outer = weight[:, None] * exterior_stiffness(grid, modulus, nu, order) * weight
-    boundary = both_components(chain)
+    boundary = both_components(square)
     rows, cols = np.repeat(boundary, boundary.size), np.tile(boundary, boundary.size)
     matrix = (matrix + sparse.coo_array((outer.ravel(), (rows, cols)), shape=matrix.shape)).tocsr()
     axis = 2 * line_unknowns(basis, 0, 0.0)

@@ -20,7 +20,7 @@ from fem_reference._elastic.condensation import surface_stiffness
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.trace import Trace, trace_of
 from fem_reference._typing import Array
-from fem_reference.modulus import Modulus, PowerLaw
+from fem_reference.modulus import Modulus, PowerLawModulus
 
 __all__ = [
     "Compliance",
@@ -64,7 +64,7 @@ class ScalingCompliance:
 
     trace: Trace
     matrix: Array
-    modulus: PowerLaw
+    modulus: PowerLawModulus
     unknowns: int
 
     def factor(self, c: float) -> float:
@@ -106,7 +106,7 @@ class FixedCompliance:
 @lru_cache(maxsize=24)
 def _unit_compliance(k: float, nu: float, spec: MeshSpec) -> tuple[Trace, Array, int]:
     grid = spec.grid()
-    half_space = assemble_half_space(grid, PowerLaw(1.0, 1.0, k), nu, spec.order)
+    half_space = assemble_half_space(grid, PowerLawModulus(1.0, 1.0, k), nu, spec.order)
     matrix = _inverse(surface_stiffness(half_space))
     return trace_of(grid, spec.order), matrix, int(half_space.free.size)
 
@@ -162,7 +162,7 @@ def compliance_for(modulus: Modulus, nu: float, spec: MeshSpec, size: float) -> 
     NotConverged
         If the stiffness of the mesh is not positive definite.
     """
-    if isinstance(modulus, PowerLaw):
+    if isinstance(modulus, PowerLawModulus):
         trace, matrix, unknowns = _unit_compliance(modulus.k, nu, spec)
         return ScalingCompliance(trace, matrix, modulus, unknowns)
     grid = spec.grid()
@@ -176,9 +176,9 @@ def scaled_modulus(modulus: Modulus, size: float) -> Modulus:
 
     Examples
     --------
-    >>> float(scaled_modulus(PowerLaw(1.0, 1.0, 0.5), 4.0)(np.array(1.0)))
+    >>> float(scaled_modulus(PowerLawModulus(1.0, 1.0, 0.5), 4.0)(np.array(1.0)))
     2.0
     """
-    if isinstance(modulus, PowerLaw):
-        return PowerLaw(modulus.E0, modulus.c0 / size, modulus.k)
+    if isinstance(modulus, PowerLawModulus):
+        return PowerLawModulus(modulus.E0, modulus.c0 / size, modulus.k)
     return _Scaled(modulus, size)

@@ -1,4 +1,4 @@
-"""The half-space condensed to its surface: normal displacement under unit normal loads.
+"""Condensation of the half-space to its surface.
 
 Unknowns are eliminated by nested dissection of the grid with the surface last, so the trailing block of one
 sparse factorisation is the Schur complement of the surface.  No linear system is solved column by column.
@@ -99,7 +99,7 @@ def surface_stiffness(half_space: HalfSpace) -> Array:
     Returns
     -------
     ndarray, shape (m, m)
-        Symmetric positive definite, per radian, in chain order.
+        Symmetric positive definite, per radian, in surface order.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Unknowns along a grid line, in one order shared by interior, exterior and surface.
+"""Order of the unknowns along a grid line, shared by interior, exterior and surface.
 
 The order is: the vertices along the line, then the p - 1 edge functions of each element in turn.
 """
@@ -25,7 +25,7 @@ def line_unknowns(basis: Basis, axis: int, value: float, reverse: bool = False) 
     value : float
         Its value; must be a grid line.
     reverse : bool
-        Walk against the other coordinate.
+        Order them against the other coordinate.
 
     Returns
     -------
@@ -54,7 +54,7 @@ def line_unknowns(basis: Basis, axis: int, value: float, reverse: bool = False) 
 
 
 def reversal_signs(elements: int, order: int) -> Array:
-    """Signs of the chain's functions when it is walked backwards: edge functions of odd degree flip.
+    """Signs of the functions of a line in reverse order: those of edge functions of odd degree change.
 
     Examples
     --------

@@ -1,4 +1,6 @@
-"""Weak form of axisymmetric linear elasticity, per radian: integral of sigma(u) : eps(v) r dr dz.
+"""Weak form of axisymmetric linear elasticity.
+
+Per radian it is the integral of sigma(u) : eps(v) r dr dz.
 
 The four strains are u_r,r; u_r / r (hoop); u_z,z and u_r,z + u_z,r.  The displacement components share one
 scalar space of order p (scikit-fem `ElementQuadP`); component c of scalar unknown i is unknown 2 i + c.

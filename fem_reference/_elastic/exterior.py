@@ -1,4 +1,6 @@
-"""The infinite remainder of the half-space as a stiffness of the square boundary: no truncation radius.
+"""Stiffness of the infinite exterior of the meshed square on its boundary.
+
+There is no truncation radius.
 
 With E ~ z^k, scaling lengths by tau multiplies stiffness by tau^(1+k).  Shells between the square [0, a]^2
 and its copies scaled by s, s^2, ... are therefore one shell up to a factor.  If [[A, B], [B', D]] is its
@@ -20,7 +22,7 @@ from fem_reference._elastic.mapping import ShellChart
 from fem_reference._elastic.mesh import Grid
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
-from fem_reference.modulus import Modulus, PowerLaw
+from fem_reference.modulus import Modulus, PowerLawModulus
 
 __all__ = ["exterior_stiffness"]
 
@@ -53,7 +55,7 @@ def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float, order: int) -> A
     Returns
     -------
     ndarray, shape (2 m, 2 m)
-        Symmetric; unknowns are the two interleaved components along the chain that runs from the surface
+        Symmetric; unknowns are the two interleaved components in an order that runs from the surface
         down the side and along the bottom to the axis.  No condition on the axis has been applied: the
         last vertex keeps its radial row, which the caller removes.
 
@@ -65,7 +67,7 @@ def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float, order: int) -> A
     a = grid.extent
     k = modulus.depth_exponent
     value = float(modulus(np.array(a)))
-    law = modulus if isinstance(modulus, PowerLaw) else PowerLaw(value, a, k)
+    law = modulus if isinstance(modulus, PowerLawModulus) else PowerLawModulus(value, a, k)
     t = np.concatenate([grid.z, a + (a - grid.r[::-1][1:])])
     mesh = MeshQuad.init_tensor(t, np.array([1.0, SHELL_RATIO]))
     first = float(grid.z[1])

@@ -1,4 +1,4 @@
-"""Reference element -> solid: a chart on top of the straight quadrilaterals of a mesh.
+"""Mappings of the reference element to the solid: a chart after that of the straight quadrilaterals.
 
 Near the surface of a solid with E ~ z^k the displacement behaves like w + c z^(1-k).  The chart of the first
 layer, z = h (y/h)^(1/(1-k)), puts z^(1-k) into the polynomial space exactly, so the singular layer needs no

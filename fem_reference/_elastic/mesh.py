@@ -1,4 +1,4 @@
-"""Tensor-product quadrilaterals of the half-space, graded to a contact edge and to the surface.
+"""Tensor-product meshes of the half-space, graded to a contact edge and to the surface.
 
 Radii r >= 0 run along the surface, depth z >= 0 into the solid.  Radial nodes sit at s_e + d sinh(x) and
 depth nodes at d_z sinh(x) with x equally spaced: an element is about `density` times its distance from the

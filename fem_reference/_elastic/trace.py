@@ -14,7 +14,7 @@ __all__ = ["Trace", "trace_of"]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Trace:
-    """Surface functions in chain order (vertices, then edge functions) at Gauss points.
+    """Surface functions in surface order (vertices, then edge functions) at Gauss points.
 
     Attributes
     ----------
@@ -45,21 +45,14 @@ class Trace:
         return float(self.nodes[-1])
 
     def evaluate(self, s: Array) -> Array:
-        """Return function values at any radii inside the mesh, shape (len(s), m).
-
-        Examples
-        --------
-        >>> trace = trace_of(graded_grid(extent=10.0), order=4)
-        >>> bool(np.allclose(trace.evaluate(trace.s), trace.phi)), trace.extent
-        (True, 10.0)
-        """
+        """Return function values at any radii inside the mesh, shape (len(s), m)."""
         return _line_functions(self.nodes, self.order, np.asarray(s, float))
 
 
 def _line_functions(nodes: Array, order: int, s: Array) -> Array:
-    """Functions of scikit-fem's `ElementLinePp` in chain order, at radii `s`.
+    """Functions of scikit-fem's `ElementLinePp` in surface order, at radii `s`.
 
-    Written out, because that class makes its polynomials anew in every call, and the path asks for one radius
+    Written out, because that class makes its polynomials again in every call, and the path evaluates one radius
     at a time.
     """
     element = np.clip(np.searchsorted(nodes, s, side="right") - 1, 0, nodes.size - 2)
@@ -77,14 +70,7 @@ def _line_functions(nodes: Array, order: int, s: Array) -> Array:
 
 
 def trace_of(grid: Grid, order: int) -> Trace:
-    """Return the trace space of a grid on its surface, with a Gauss rule that resolves the surface law.
-
-    Examples
-    --------
-    >>> trace = trace_of(graded_grid(extent=10.0), order=4)
-    >>> round(float(trace.weight.sum()), 12), float(trace.nodes[trace.edge])
-    (10.0, 1.0)
-    """
+    """Return the trace space of a grid on its surface, with a Gauss rule that resolves the surface law."""
     nodes = grid.r
     x, w = np.polynomial.legendre.leggauss(2 * order + 2)
     h = np.diff(nodes)

@@ -1,4 +1,4 @@
-"""Linear systems of the half-space: conjugate gradients, a direct solve, and GMRES for a bordered tangent.
+"""Linear solvers of the half-space: conjugate gradients, a direct solve, and GMRES for a bordered tangent.
 
 Each returns a solution whose residual was recomputed at the end, or raises.
 """
@@ -46,7 +46,7 @@ class LinearResult:
     seconds : float
         Time of the solve; without the set-up of the preconditioner, with the factorisation of a direct solve.
     storage : int
-        Bytes of the factors (0 for conjugate gradients, whose preconditioner knows its own).
+        Bytes of the factors (0 for conjugate gradients, whose preconditioner has its own).
     """
 
     solution: Array
@@ -85,36 +85,36 @@ def solve_cg(
     Raises
     ------
     NotConverged
-        If the residual asked for is not reached.
+        If the residual does not fall to the tolerance.
     """
-    cycle = ElasticPreconditioner(half_space) if preconditioner is None else preconditioner
+    preconditioner = ElasticPreconditioner(half_space) if preconditioner is None else preconditioner
     begin = time.perf_counter()
-    b = cycle.scale * load[half_space.free]
+    b = preconditioner.scale * load[half_space.free]
     count = 0
 
     def counted(_: Array) -> None:
         nonlocal count
         count += 1
 
-    # The recursive residual drifts from the true one by rounding: ask for a little more than is promised.
+    # The recursive residual differs from the true one by rounding, so half the tolerance is required of it.
     x, _ = cg(
-        cycle.matrix,
+        preconditioner.matrix,
         b,
         rtol=0.5 * tolerance,
         atol=0.0,
-        M=cycle.operator(),
+        M=preconditioner.operator(),
         maxiter=iterations,
         callback=counted,
     )
     seconds = time.perf_counter() - begin
     norm = float(np.linalg.norm(b))
-    residual = float(np.linalg.norm(b - cycle.matrix @ x)) / norm if norm > 0 else 0.0
+    residual = float(np.linalg.norm(b - preconditioner.matrix @ x)) / norm if norm > 0 else 0.0
     if not residual <= tolerance:
         raise NotConverged(
             f"conjugate gradients reached a residual of {residual:.1e} in {count} iterations, not "
             f"{tolerance:.1e}; allow more iterations, or use the direct solver"
         )
-    return LinearResult(_expand(half_space, cycle.scale * x), count, residual, seconds)
+    return LinearResult(_expand(half_space, preconditioner.scale * x), count, residual, seconds)
 
 
 def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
@@ -163,11 +163,11 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
 def solve_bordered(
     matrix: LinearOperator,
     b: Array,
-    cycle: ElasticPreconditioner,
+    preconditioner: ElasticPreconditioner,
     factor: float,
     tolerance: float = TOLERANCE,
 ) -> tuple[Array, int]:
-    """Solve an indefinite bordered system by GMRES with the elastic cycle on its leading block.
+    """Solve an indefinite bordered system by GMRES with the elastic preconditioner on its leading block.
 
     Parameters
     ----------
@@ -175,7 +175,7 @@ def solve_bordered(
         Tangent on the scaled free rows, bordered by one control.
     b : ndarray, shape (f + 1,)
         Right-hand side.
-    cycle : ElasticPreconditioner
+    preconditioner : ElasticPreconditioner
         Approximate inverse of the elastic part.
     factor : float
         The elastic part of the leading block is the scaled stiffness divided by this factor.
@@ -194,7 +194,7 @@ def solve_bordered(
     """
 
     def apply(v: Array) -> Array:
-        return np.append(factor * cycle(v[:-1]), v[-1])
+        return np.append(factor * preconditioner(v[:-1]), v[-1])
 
     history: list[float] = []
     operator = LinearOperator(matrix.shape, apply, dtype=float)

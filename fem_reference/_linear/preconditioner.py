@@ -1,10 +1,10 @@
-"""A symmetric two-level cycle on pyamg: the approximate inverse of the half-space's stiffness.
+"""Symmetric two-level preconditioner of the stiffness of the half-space, with pyamg on the coarse level.
 
 The meshes are tensor products with elements of every aspect ratio, thin columns under a contact edge and thin
 rows under the surface.  The smoother therefore solves whole strips: all unknowns strictly between two grid
 lines two elements apart (overlapping line Schwarz).  Every other strip is independent of the next, so a
 direction takes two sparse factorisations ("zebra"), and a sweep is columns, then rows; the reverse sweep
-closes the symmetric cycle.  In between, the vertex functions of the hierarchical element, which are exactly
+closes the symmetric preconditioner.  In between, the vertex functions of the hierarchical element, which are exactly
 the bilinear space, carry the smooth error to pyamg's smoothed aggregation.
 
 Measured: conjugate gradients take 6 to 20 iterations to 1e-10 from 4e3 to 3e5 unknowns, k = 0 ... 0.8,
@@ -160,7 +160,7 @@ class ElasticPreconditioner:
         return vertices, hierarchy
 
     def __call__(self, b: Array) -> Array:
-        """Apply the cycle to a right-hand side of the scaled system, shape (free,)."""
+        """Apply the preconditioner to a right-hand side of the scaled system, shape (free,)."""
         b = np.asarray(b, float).ravel()
         x = np.zeros_like(b)
         first, factors, _ = self._strips[0]
@@ -183,7 +183,7 @@ class ElasticPreconditioner:
         return _sparse_bytes(self.matrix) + strips + self._vertices.nbytes + hierarchy_bytes(self._coarse)
 
     def operator(self) -> LinearOperator:
-        """Return the cycle as a scipy operator."""
+        """Return the preconditioner as a scipy operator."""
         return LinearOperator(self.matrix.shape, self.__call__, dtype=float)
 
 

@@ -1,20 +1,20 @@
-"""One row of the verification ladder."""
+"""Result of one check of the finite elements."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["Rung"]
+__all__ = ["Check"]
 
 
 @dataclass(frozen=True, slots=True)
-class Rung:
-    """One row of the ladder.
+class Check:
+    """The measured error of one check, with its limit.
 
     Attributes
     ----------
-    rung, case : str
-        What is tested, and on what.
+    name, case : str
+        The property that is checked, and the mesh and material.
     error, limit : float
         Measured relative error and the largest allowed.
     unknowns : int
@@ -22,11 +22,11 @@ class Rung:
 
     Examples
     --------
-    >>> Rung("symmetry", "k = 0.4", error=1e-15, limit=1e-12, unknowns=100).passed
+    >>> Check("symmetry", "k = 0.4", error=1e-15, limit=1e-12, unknowns=100).passed
     True
     """
 
-    rung: str
+    name: str
     case: str
     error: float
     limit: float

@@ -1,4 +1,4 @@
-"""Load vectors of given surface loads, for the verification ladder: what an axisymmetric load does on the basis.
+"""Load vectors of given axisymmetric surface loads.
 
 Each function takes the surface mesh and returns the integrals of load times basis function times r dr, shape (m,).
 """

@@ -1,4 +1,4 @@
-"""Manufactured solutions: known displacement fields, and how near the elements come to them.
+"""Manufactured solutions: known displacement fields, and the error of the elements.
 
 An exact field u stresses the solid by sigma(u); the load vector integral of sigma(u) : eps(v) r dr dz then has u
 itself as its solution, whatever body forces and tractions belong to it.  What the elements give instead is their

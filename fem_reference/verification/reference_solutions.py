@@ -1,4 +1,4 @@
-"""Exact surface displacements of the power-law half-space, for the verification ladder only.
+"""Exact surface displacements of the power-law half-space.
 
 A normal point load displaces the surface as 1/distance^(1+k), so an axisymmetric pressure p gives
 w(r) = (2 b c0^k / E*) times the integral of p(t) t (r+t)^-(1+k) 2F1((k+1)/2, 1/2; 1; 4 r t / (r+t)^2) dt

@@ -1,4 +1,4 @@
-"""The linear solver over sizes and materials: iterations, set-up, solve, memory, beside the direct solve."""
+"""Study of the linear solver over sizes and materials, beside a direct solve."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from fem_reference._elastic.trace import trace_of
 from fem_reference._linear.linear_solver import solve_cg, solve_direct
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._threads import one_thread
-from fem_reference.modulus import PowerLaw
+from fem_reference.modulus import PowerLawModulus
 from fem_reference.verification.load_vectors import smooth_load
 
 __all__ = ["FULL_STUDY", "QUICK_STUDY", "SolverCase", "SolverRow", "solver_table"]
@@ -101,13 +101,13 @@ def solver_table(cases: Iterable[SolverCase] = QUICK_STUDY) -> list[SolverRow]:
 
 def _row(case: SolverCase) -> SolverRow:
     grid = case.spec.grid()
-    half_space = assemble_half_space(grid, PowerLaw(1.0, 1.0, case.k), case.nu, case.spec.order)
+    half_space = assemble_half_space(grid, PowerLawModulus(1.0, 1.0, case.k), case.nu, case.spec.order)
     load = np.zeros(half_space.matrix.shape[0])
     load[half_space.surface] = _LOAD(trace_of(grid, case.spec.order))
     begin = time.perf_counter()
-    cycle = ElasticPreconditioner(half_space)
+    preconditioner = ElasticPreconditioner(half_space)
     setup = time.perf_counter() - begin
-    iterative = solve_cg(half_space, load, cycle)
+    iterative = solve_cg(half_space, load, preconditioner)
     direct = solve_direct(half_space, load)
     return SolverRow(
         int(half_space.free.size),
@@ -118,7 +118,7 @@ def _row(case: SolverCase) -> SolverRow:
         iterative.residual,
         setup,
         iterative.seconds,
-        cycle.storage / 1e6,
+        preconditioner.storage / 1e6,
         direct.seconds,
         direct.storage / 1e6,
         float(np.abs(iterative.solution - direct.solution).max() / np.abs(direct.solution).max()),

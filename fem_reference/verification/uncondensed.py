@@ -1,9 +1,9 @@
-"""The contact problem with every displacement kept: the check of the condensed path.
+"""Uncondensed contact model, which keeps every displacement: a check of the condensed path.
 
 On the mesh in units of the edge radius c the equations are K u / factor(c) = F(u, delta, c), with K the
 stiffness of E = z^k and the load vector and its tangent assembled by scikit-fem on the surface facets at the
 deformed gap H = -delta + f(c s) + u_z.  Newton with the exact tangent is bordered by the edge control; its
-linear systems are solved by GMRES with the elastic cycle.  The model shares mesh, elements and exterior with
+linear systems are solved by GMRES with the elastic preconditioner.  The model shares mesh, elements and exterior with
 the condensed path, but neither its factorisation nor its quadrature matrices.
 """
 
@@ -25,15 +25,15 @@ from fem_reference._linear.linear_solver import solve_bordered, solve_cg
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
-from fem_reference.laws import LennardJones
-from fem_reference.modulus import PowerLaw
+from fem_reference.laws import SurfaceLaw
+from fem_reference.modulus import PowerLawModulus
 from fem_reference.punch import Punch
 
 __all__ = ["FullContact", "FullState"]
 
 
 NEWTON_TOLERANCE = 1e-10
-"""Largest Newton step, in units of z0 plus the largest displacement."""
+"""Largest Newton step, in lengths of the law plus the largest displacement."""
 
 NEWTON_STEPS = 25
 """Steps before giving up."""
@@ -44,6 +44,9 @@ solution."""
 
 SMALLEST_DAMPING = 1e-3
 """Fraction of a step below which none is sought."""
+
+FLOOR_SHARE = 0.6
+"""Share of the singular gap below which steps are damped, unless the start lies below it."""
 
 RATE_TOLERANCE = 1e-7
 """Relative residual of the sensitivity solve, whose zero is the pull-off."""
@@ -98,22 +101,24 @@ class FullContact:
 
     Parameters
     ----------
-    modulus : PowerLaw
+    modulus : PowerLawModulus
         E(z); only a power law scales with the size.
     nu : float
         Poisson ratio.
     punch : Punch
         Shape.
-    law : LennardJones
+    law : SurfaceLaw
         Surface law.
     spec : MeshSpec
         Mesh in units of the edge radius.
     """
 
-    def __init__(self, modulus: PowerLaw, nu: float, punch: Punch, law: LennardJones, spec: MeshSpec) -> None:
+    def __init__(self, modulus: PowerLawModulus, nu: float, punch: Punch, law: SurfaceLaw, spec: MeshSpec) -> None:
         self.modulus, self.punch, self.law = modulus, punch, law
-        self.half_space: HalfSpace = assemble_half_space(spec.grid(), PowerLaw(1.0, 1.0, modulus.k), nu, spec.order)
-        self.cycle = ElasticPreconditioner(self.half_space)
+        self.half_space: HalfSpace = assemble_half_space(
+            spec.grid(), PowerLawModulus(1.0, 1.0, modulus.k), nu, spec.order
+        )
+        self.preconditioner = ElasticPreconditioner(self.half_space)
         basis = self.half_space.basis
         mesh = basis.mesh
         x, w = np.polynomial.legendre.leggauss(2 * spec.order + 2)
@@ -145,19 +150,19 @@ class FullContact:
         tangent = _pressure_change.assemble(self.facets, change=change).tocoo()
         size = u.size
         full = sparse.coo_array((tangent.data, (2 * tangent.row + 1, 2 * tangent.col + 1)), shape=(size, size)).tocsr()
-        free, D = self.half_space.free, sparse.diags_array(self.cycle.scale)
+        free, D = self.half_space.free, sparse.diags_array(self.preconditioner.scale)
         reduced = []
         for vector in vectors:
             spread = np.zeros(size)
             spread[1::2] = vector
-            reduced.append(self.cycle.scale * spread[free])
+            reduced.append(self.preconditioner.scale * spread[free])
         return reduced[0], (D @ full[free][:, free] @ D).tocsr(), reduced[1], reduced[2]
 
     def under_pressure(self, pressure: Array, c: float) -> Array:
         """Return the displacement under a pressure at the facet Gauss points, to start Newton from."""
         load = np.zeros(self.half_space.matrix.shape[0])
         load[1::2] = np.asarray(_pressure.assemble(self.facets, pressure=pressure))
-        return self.factor(c) * solve_cg(self.half_space, load, self.cycle).solution
+        return self.factor(c) * solve_cg(self.half_space, load, self.preconditioner).solution
 
     def load(self, u: Array, delta: float, c: float) -> float:
         """P on the mesh (compression positive)."""
@@ -172,9 +177,9 @@ class FullContact:
         NotConverged
             If Newton or a linear solve misses its tolerance.
         """
-        free, scale = self.half_space.free, self.cycle.scale
+        free, scale = self.half_space.free, self.preconditioner.scale
         u = np.array(u, float)
-        A = self.cycle.matrix
+        A = self.preconditioner.matrix
         edge_row = np.zeros(u.size)
         edge_row[self.edge] = 1.0
         edge_row = scale * edge_row[free]
@@ -187,20 +192,20 @@ class FullContact:
             control = u[self.edge] - delta + float(self.punch.height(np.array(c))) - self.law.peak_gap
             operator = self._bordered(A * stiff - T, F_delta, edge_row)
             step, count = solve_bordered(
-                operator, np.append(residual, control), self.cycle, self.factor(c), LINEAR_TOLERANCE
+                operator, np.append(residual, control), self.preconditioner, self.factor(c), LINEAR_TOLERANCE
             )
             krylov += count
             change = scale * step[:-1]
             damping = self._damping(u, delta, c, change, float(step[-1]))
             u[free] -= damping * change
             delta -= damping * float(step[-1])
-            if np.abs(step[:-1] * scale).max() <= NEWTON_TOLERANCE * (self.law.z0 + np.abs(u).max()):
+            if np.abs(step[:-1] * scale).max() <= NEWTON_TOLERANCE * (self.law.length + np.abs(u).max()):
                 # Exact sensitivity: d/dc of K u / factor - F = 0 and of the control.
                 k = self.modulus.k
                 right = (1.0 - k) / c * stiff * (A @ (u[free] / scale)) + F_c
                 slope = float(self.punch.slope(np.array(c)))
                 rate, count = solve_bordered(
-                    operator, np.append(right, -slope), self.cycle, self.factor(c), RATE_TOLERANCE
+                    operator, np.append(right, -slope), self.preconditioner, self.factor(c), RATE_TOLERANCE
                 )
                 load_rate = self._load_rate(u, delta, c, scale * rate[:-1], float(rate[-1]))
                 P = self.load(u, delta, c)
@@ -257,7 +262,8 @@ class FullContact:
         full = np.zeros(u.size)
         full[self.half_space.free] = du
         damping = 1.0
-        lowest = min(self.law.floor, 0.5 * (float(self.gap(u, delta, c).min()) - self.law.z0))
+        singular = self.law.singular_gap
+        lowest = min(FLOOR_SHARE * singular, 0.5 * (float(self.gap(u, delta, c).min()) + singular))
         while damping > SMALLEST_DAMPING and self.gap(u - damping * full, delta - damping * ddelta, c).min() < lowest:
             damping *= 0.5
         return damping

@@ -7,7 +7,7 @@ from skfem import Basis, BilinearForm, ElementQuadP
 from fem_reference._elastic.elasticity import Body, gauss_product, stiffness
 from fem_reference._elastic.mapping import InteriorChart
 from fem_reference._elastic.mesh import graded_grid, uniform_grid
-from fem_reference.modulus import OffsetPowerLaw, PowerLaw
+from fem_reference.modulus import OffsetPowerLawModulus, PowerLawModulus
 from fem_reference.verification.manufactured import BIAXIAL, SMOOTH, column, manufactured_error
 
 FORM_TOLERANCE = 1e-12
@@ -38,7 +38,7 @@ def _interior(grid, modulus, nu, order):
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.49])
 def test_batched_contraction_equals_bilinear_forms(nu):
     grid = uniform_grid(1.0, 2)
-    modulus = OffsetPowerLaw(1.0, 1.0, 0.4, 0.5)
+    modulus = OffsetPowerLawModulus(1.0, 1.0, 0.4, 0.5)
     body, matrix = _interior(grid, modulus, nu, 3)
 
     def moduli(w):
@@ -78,7 +78,7 @@ def test_batched_contraction_equals_bilinear_forms(nu):
 
 
 def test_rigid_translation_costs_nothing_and_matrix_is_symmetric():
-    _, matrix = _interior(graded_grid(extent=4.0), PowerLaw(1.0, 1.0, 0.4), 0.3, 4)
+    _, matrix = _interior(graded_grid(extent=4.0), PowerLawModulus(1.0, 1.0, 0.4), 0.3, 4)
     assert abs(matrix - matrix.T).max() <= 1e-13 * abs(matrix).max()
     translation = np.zeros(matrix.shape[0])
     # Vertex functions sum to 1.
@@ -89,7 +89,7 @@ def test_rigid_translation_costs_nothing_and_matrix_is_symmetric():
 
 @pytest.mark.parametrize(("order", "counts"), [(2, (4, 8)), (3, (4, 8)), (4, (6, 12)), (6, (5, 8))])
 def test_manufactured_solution_has_the_order_of_the_element(order, counts):
-    modulus = OffsetPowerLaw(1.0, 1.0, 0.4, 0.5)
+    modulus = OffsetPowerLawModulus(1.0, 1.0, 0.4, 0.5)
     errors = [manufactured_error(uniform_grid(1.5, n), modulus, 0.3, order, SMOOTH) for n in counts]
     observed = np.log(errors[0] / errors[1]) / np.log(counts[1] / counts[0])
     assert ORDER_RANGE[0] <= observed - (order + 1) <= ORDER_RANGE[1], (errors, observed)
@@ -100,20 +100,20 @@ def test_patch_graded_column_is_exact(k):
     """Uniform pressure on E = z^k, confined sideways: u_z ~ -z^(1-k), in the space of the graded first layer
     and of no other element; a grid of one graded layer carries it exactly."""
     grid = uniform_grid(1.0, 1)
-    assert manufactured_error(grid, PowerLaw(1.0, 1.0, k), 0.3, 2, column(k)) <= PATCH_TOLERANCE
+    assert manufactured_error(grid, PowerLawModulus(1.0, 1.0, k), 0.3, 2, column(k)) <= PATCH_TOLERANCE
 
 
 def test_patch_homogeneous_biaxial_strain_is_exact():
     grid = graded_grid(edge=1.0, extent=3.0, density=1.0)
-    assert manufactured_error(grid, PowerLaw(1.0, 1.0, 0.0), 0.3, 2, BIAXIAL) <= PATCH_TOLERANCE
+    assert manufactured_error(grid, PowerLawModulus(1.0, 1.0, 0.0), 0.3, 2, BIAXIAL) <= PATCH_TOLERANCE
 
 
 def test_nu_one_half_and_low_order_are_refused():
     grid = uniform_grid(1.0, 1)
     with pytest.raises(ValueError, match=r"0\.5 is outside"):
-        Body(grid.quads(), InteriorChart(1.0, 0.0), PowerLaw(1.0, 1.0, 0.0), 0.5)
+        Body(grid.quads(), InteriorChart(1.0, 0.0), PowerLawModulus(1.0, 1.0, 0.0), 0.5)
     with pytest.raises(ValueError, match="order 1"):
-        Body(grid.quads(), InteriorChart(1.0, 0.0), PowerLaw(1.0, 1.0, 0.0), 0.3, order=1)
+        Body(grid.quads(), InteriorChart(1.0, 0.0), PowerLawModulus(1.0, 1.0, 0.0), 0.3, order=1)
 
 
 def test_modulus_that_vanishes_is_refused():

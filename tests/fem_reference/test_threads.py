@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from fem_reference import CustomPunch, LennardJones, NotConverged, Solid, profile, solve, trace
+from fem_reference import CustomPunch, LennardJones, NotConverged, Problem, Solid, profile, solve, trace
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._threads import one_thread
 from fem_reference.verification.solver_study import SolverCase, solver_table
@@ -28,9 +28,9 @@ def two_threads():
 @pytest.mark.parametrize(
     "compute",
     [
-        lambda punch: solve(SOLID, punch, LAW, "pull_off_force", "quick"),
-        lambda punch: trace(SOLID, punch, LAW, "quick"),
-        lambda punch: profile(SOLID, punch, LAW, accuracy="quick"),
+        lambda problem: solve(problem, "pull_off_force", "quick"),
+        lambda problem: trace(problem, "quick"),
+        lambda problem: profile(problem, accuracy="quick"),
     ],
     ids=["solve", "trace", "profile"],
 )
@@ -41,10 +41,10 @@ def test_a_computation_has_one_thread(compute):
         seen.update(blas_threads())
         return r**2 / 2
 
-    punch = CustomPunch(height, lambda r: r)
+    problem = Problem(SOLID, CustomPunch(height, lambda r: r), LAW)
     seen.clear()
     assert blas_threads() == {2}
-    compute(punch)
+    compute(problem)
     assert seen == {1}
     assert blas_threads() == {2}
 
@@ -64,7 +64,7 @@ def test_an_exception_restores_the_threads():
         return r**2 / 2
 
     with pytest.raises(NotConverged, match="inside the computation"):
-        solve(SOLID, CustomPunch(height, lambda r: r), LAW, "pull_off_force", "quick")
+        solve(Problem(SOLID, CustomPunch(height, lambda r: r), LAW), "pull_off_force", "quick")
     assert blas_threads() == {2}
 
 

@@ -1,12 +1,11 @@
-"""The verification ladder: each rung within its limit, and the exact solutions against Eq. 6 by
-quadrature."""
+"""Verification: each check within its limit, and the exact solutions against Eq. 6 by quadrature."""
 
 import numpy as np
 import pytest
 from scipy import integrate, special
 
 from fem_reference._elastic.mesh import graded_grid
-from fem_reference.modulus import PowerLaw
+from fem_reference.modulus import PowerLawModulus
 from fem_reference.verification import manufactured
 from fem_reference.verification.checks import (
     DEFAULT,
@@ -15,13 +14,13 @@ from fem_reference.verification.checks import (
     FINE_RING,
     POISSON,
     RING,
-    disc_rungs,
-    far_field_rungs,
-    gaussian_rungs,
-    limit_rungs,
-    ring_rungs,
+    disc_checks,
+    far_field_checks,
+    gaussian_checks,
+    limit_checks,
+    ring_checks,
 )
-from fem_reference.verification.element_checks import identity_rungs, manufactured_rungs
+from fem_reference.verification.element_checks import element_checks, manufactured_checks
 from fem_reference.verification.reference_solutions import (
     gaussian_displacement,
     power_displacement,
@@ -34,8 +33,8 @@ QUADRATURE_TOLERANCE = 1e-8
 1e-10."""
 
 
-def _assert_all_pass(rungs):
-    failed = [f"{r.rung} ({r.case}): {r.error:.2e} > {r.limit:.1e}" for r in rungs if not r.passed]
+def _assert_all_pass(checks):
+    failed = [f"{r.name} ({r.case}): {r.error:.2e} > {r.limit:.1e}" for r in checks if not r.passed]
     assert not failed, "\n".join(failed)
 
 
@@ -90,37 +89,37 @@ def test_homogeneous_textbook_values():
 
 
 def test_order_patch_tests_and_identities():
-    _assert_all_pass(manufactured_rungs() + identity_rungs())
+    _assert_all_pass(manufactured_checks() + element_checks())
 
 
-def test_the_foot_of_the_ladder_can_break(monkeypatch):
+def test_the_checks_of_the_elements_can_fail(monkeypatch):
     """A stress of another Poisson ratio than the stiffness has is solved by another field."""
     exact = manufactured._load
     monkeypatch.setattr(manufactured, "_load", lambda basis, E, nu, field: exact(basis, E, nu + 0.01, field))
-    rungs = manufactured_rungs() + identity_rungs()
-    broken = {rung.rung for rung in rungs if not rung.passed}
+    checks = manufactured_checks() + element_checks()
+    broken = {check.name for check in checks if not check.passed}
     assert broken == {"manufactured solution, graded", "patch test"}
 
 
 def test_gaussian_rungs_on_the_default_mesh():
-    _assert_all_pass(gaussian_rungs(DEFAULT, "default", (0.0, 0.1, 0.4, 0.8), (0.25,)))
+    _assert_all_pass(gaussian_checks(DEFAULT, "default", (0.0, 0.1, 0.4, 0.8), (0.25,)))
 
 
 def test_nearly_incompressible_solid():
-    _assert_all_pass(gaussian_rungs(DEFAULT, "default", (0.4,), (0.49,)))
+    _assert_all_pass(gaussian_checks(DEFAULT, "default", (0.4,), (0.49,)))
 
 
 def test_far_field_and_limits():
-    _assert_all_pass(far_field_rungs())
-    _assert_all_pass(limit_rungs())
+    _assert_all_pass(far_field_checks())
+    _assert_all_pass(limit_checks())
 
 
 def test_disc_hertz_and_flat_punch():
-    _assert_all_pass(disc_rungs((0.0, 0.4)))
+    _assert_all_pass(disc_checks((0.0, 0.4)))
 
 
 def test_ring_load():
-    _assert_all_pass(ring_rungs(RING, "ring", (0.0, 0.4), (0.25,)))
+    _assert_all_pass(ring_checks(RING, "ring", (0.0, 0.4), (0.25,)))
 
 
 @pytest.mark.parametrize("k", [0.0, 0.4])
@@ -134,29 +133,29 @@ def test_closed_form_of_the_ring_is_that_of_many_rings(k):
 
 
 def test_a_wrong_exact_solution_fails_the_rung():
-    """The rung can fail: b(k, nu) of another Poisson ratio is off by per cents."""
-    rung = gaussian_rungs(DEFAULT, "default", (0.4,), (0.25,))[0]
+    """The check can fail: b(k, nu) of another Poisson ratio is off by per cents."""
+    check = gaussian_checks(DEFAULT, "default", (0.4,), (0.25,))[0]
     w0 = gaussian_displacement(np.array(0.0), 0.4, 0.25)
     wrong = abs(gaussian_displacement(np.array(0.0), 0.4, 0.30) / w0 - 1)
-    assert wrong > 1e3 * rung.limit
+    assert wrong > 1e3 * check.limit
 
 
 @pytest.mark.heavy
 def test_every_material_on_default_and_fine_meshes():
-    _assert_all_pass(gaussian_rungs(DEFAULT, "default", EXPONENTS, POISSON))
-    _assert_all_pass(gaussian_rungs(FINE, "fine", EXPONENTS, POISSON))
-    _assert_all_pass(gaussian_rungs(FINE, "fine", (0.0, 0.4), (0.49,)))
+    _assert_all_pass(gaussian_checks(DEFAULT, "default", EXPONENTS, POISSON))
+    _assert_all_pass(gaussian_checks(FINE, "fine", EXPONENTS, POISSON))
+    _assert_all_pass(gaussian_checks(FINE, "fine", (0.0, 0.4), (0.49,)))
 
 
 @pytest.mark.heavy
 def test_every_ring():
-    _assert_all_pass(ring_rungs(RING, "ring", EXPONENTS, POISSON))
-    _assert_all_pass(ring_rungs(FINE_RING, "fine ring", EXPONENTS, POISSON))
+    _assert_all_pass(ring_checks(RING, "ring", EXPONENTS, POISSON))
+    _assert_all_pass(ring_checks(FINE_RING, "fine ring", EXPONENTS, POISSON))
 
 
 @pytest.mark.heavy
 def test_every_disc():
-    _assert_all_pass(disc_rungs(EXPONENTS))
+    _assert_all_pass(disc_checks(EXPONENTS))
 
 
 @pytest.mark.parametrize(
@@ -175,4 +174,4 @@ def test_impossible_grids_are_refused(kwargs, message):
 @pytest.mark.parametrize("k", [-0.1, 1.0, float("nan")])
 def test_exponents_without_a_surface_response_are_refused(k):
     with pytest.raises(ValueError, match="exponent"):
-        PowerLaw(1.0, 1.0, k)
+        PowerLawModulus(1.0, 1.0, k)
