@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from fem_reference._contact.events import PathEvents
@@ -14,7 +14,7 @@ from fem_reference._threads import one_thread
 from fem_reference.accuracy import Level
 from fem_reference.errors import NoSuchEvent
 from fem_reference.problem import Problem
-from fem_reference.quantities import TABLE, Quantity, quantity_named
+from fem_reference.quantities import QUANTITIES, TABLE, Quantity, quantity_named
 
 __all__ = ["Solution", "solve", "solve_together"]
 
@@ -94,7 +94,7 @@ def solve(problem: Problem, quantity: str, accuracy: float | str = "default") ->
 
 
 def solve_together(
-    problem: Problem, quantities: Sequence[str], accuracy: float | str = "default"
+    problem: Problem, quantities: Iterable[str] = QUANTITIES, accuracy: float | str = "default"
 ) -> dict[str, Solution | NoSuchEvent]:
     """Compute several quantities on the same meshes, tracing each path once.
 
@@ -102,9 +102,9 @@ def solve_together(
     ----------
     problem, accuracy
         As for `solve`.
-    quantities : sequence of str
-        Of `QUANTITIES` and `LOSSES`.  The mesh suits the first of them that exists: in a solid that is no power law,
-        others whose contact edge is elsewhere have a larger `u_num`.
+    quantities : iterable of str
+        Of `QUANTITIES` and `LOSSES`; all of `QUANTITIES` by default.  The mesh suits the first of them that exists: in
+        a solid that is no power law, others whose contact edge is elsewhere have a larger `u_num`.
 
     Returns
     -------
@@ -127,9 +127,9 @@ def solve_together(
     >>> found["jump_in_gap"]
     NoSuchEvent('the displacement rises all along the path: this solid is too stiff for jumps')
     """
-    if not quantities:
-        raise ValueError(f"no quantity is named; choose at least one of {', '.join(TABLE)}")
     rows = {name: quantity_named(name) for name in quantities}
+    if not rows:
+        raise ValueError(f"no quantity is named; choose at least one of {', '.join(TABLE)}")
     found: dict[str, Solution | NoSuchEvent] = {}
     with one_thread:
         begin = time.perf_counter()

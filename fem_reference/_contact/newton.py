@@ -20,7 +20,7 @@ NEWTON_TOLERANCE = 1e-12
 """Largest residual, in lengths of the law plus the largest displacement: ten times the rounding of X F."""
 
 NEWTON_STEPS = 30
-"""Damped steps before a point of the path is given up and the path step halved."""
+"""Largest number of damped steps."""
 
 LARGEST_GROWTH = 0.3
 """Largest relative change of the size in a step: it stays positive, and the edge on its fine elements."""

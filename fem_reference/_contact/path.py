@@ -54,7 +54,7 @@ SIZE_STEP = 0.1
 """Largest relative step of the edge radius: P and delta change by a few per cent of their range."""
 
 SMALLEST_STEP = 1e-6
-"""Step, relative to the largest, below which the path is given up."""
+"""Step, relative to the largest, below which the path ends with NotConverged."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -222,7 +222,7 @@ def traced(contact: Contact) -> list[Point]:
         points.append(point)
         if point.branch.touching:
             settled = point.state.load > 0 and point.displacement_rate > 0 and point.load_rate > 0
-            # After a jump-in, the contact branch at the displacement of the jump belongs to the cycle.
+            # After a jump-in, the contact branch at the displacement of the jump belongs to the hysteresis cycle.
             if settled and point.state.displacement >= greatest:
                 break
         elif point.displacement_rate > 0:

@@ -6,15 +6,19 @@ import pytest
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import CentralGap, EdgeGap, EdgeRadius, GapRise, Size
 from fem_reference._contact.events import PathEvents
+from fem_reference._contact.mesh_choice import MeshChoice
 from fem_reference._contact.newton import newton
 from fem_reference._contact.path import Branch, continuation, traced
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
+from fem_reference.accuracy import level_for
 from fem_reference.errors import NoSuchEvent, NotConverged
 from fem_reference.laws import LennardJones
 from fem_reference.modulus import PowerLawModulus
+from fem_reference.problem import Problem
 from fem_reference.punch import CustomPunch, PowerPunch, radius_at_height
 from fem_reference.quantities import quantity_named
+from fem_reference.solid import Solid
 
 SPEC = MeshSpec(0.125, 2.5e-3, 256.0, 0.9, 6, 0.05)
 
@@ -130,7 +134,7 @@ def test_hysteresis_is_the_area_between_the_branches():
 
 
 def test_unknown_names_are_refused(points):
-    """No name stands for the jump out of contact but its own."""
+    """An unknown name does not stand for the jump out of contact."""
     with pytest.raises(ValueError, match=r"event 'nonsense' is unknown; choose one of pull_off, jump_in"):
         PathEvents(points).at("nonsense")
     with pytest.raises(ValueError, match=r"quantity 'nonsense' is unknown; choose one of pull_off_force"):
@@ -167,3 +171,21 @@ def test_punch_shapes():
         radius_at_height(CustomPunch(np.tanh, lambda r: 1 / np.cosh(r) ** 2), 2.0)
     with pytest.raises(ValueError, match="shape index"):
         PowerPunch(0.5, 1.0)
+
+
+def test_a_distant_rigid_punch_has_the_load_of_bradley():
+    """Ten lengths away, the load of the 9-3 tail beyond the mesh included."""
+    contact = _contact(E0=50.0)
+    apart = np.zeros(contact.unknowns + 2)
+    apart[-2:] = -10.0, 1.0
+    assert contact.load(apart) == pytest.approx(-8 / 3 * np.pi / 11**2, rel=1e-5)
+
+
+def test_the_first_width_balances_traction_and_stiffness():
+    solid = Solid(E0=1.0, c0=1.0, k=0.0, nu=0.0)
+    problem = Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    choice = MeshChoice(problem, level_for("quick"))
+    # Half of the depth E z0^2 / (2 w) = 0.5, over the radius.
+    assert choice.first_width(radius=2.0) == pytest.approx(0.125)
+    # A power of 2: similar problems share a mesh.
+    assert choice.spec(0.1, size=2.0, smallest=1.0).edge_width == 0.0625

@@ -1,13 +1,17 @@
-"""Weak form: against scikit-fem bilinear forms, patch tests, manufactured solutions with measured order."""
+"""Elastic half-space: weak form against scikit-fem, patch tests, measured order, exterior, compliance."""
 
 import numpy as np
 import pytest
 from skfem import Basis, BilinearForm, ElementQuadP
 
+from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.elasticity import Body, gauss_product, stiffness
+from fem_reference._elastic.exterior import exterior_stiffness
 from fem_reference._elastic.mapping import InteriorChart
-from fem_reference._elastic.mesh import graded_grid, uniform_grid
+from fem_reference._elastic.mesh import Grid, MeshSpec, graded_grid, uniform_grid
+from fem_reference._elastic.trace import trace_of
 from fem_reference.modulus import OffsetPowerLawModulus, PowerLawModulus
+from fem_reference.verification.load_vectors import smooth_load
 from fem_reference.verification.manufactured import BIAXIAL, SMOOTH, column, manufactured_error
 
 FORM_TOLERANCE = 1e-12
@@ -126,3 +130,28 @@ def test_modulus_that_vanishes_is_refused():
 
     with pytest.raises(ValueError, match="not positive"):
         _interior(uniform_grid(1.0, 2), Soft(), 0.3, 2)
+
+
+def test_the_exterior_resists_every_displacement_of_its_boundary():
+    """But the radial row on the axis, which is fixed later."""
+    grid = Grid(np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0, 2.0]))
+    S = exterior_stiffness(grid, PowerLawModulus(1.0, 1.0, 0.4), nu=0.3, order=3)
+    assert S.shape == (26, 26)
+    assert np.sum(np.linalg.eigvalsh(S) > 1e-6) == 25
+
+
+def test_one_compliance_serves_every_size_of_a_power_law():
+    spec = MeshSpec(edge_width=0.1, surface_depth=0.05, extent=16.0, density=1.0, order=4)
+    load = smooth_load(lambda s: np.exp(-(s**2)))(trace_of(spec.grid(), spec.order))
+    uniform = compliance_for(PowerLawModulus(4.0, 1.0, 0.0), 0.0, spec, size=1.0)
+    assert 4.0 * uniform.factor(1.0) * (uniform.matrix @ load)[0] == pytest.approx(np.sqrt(np.pi), rel=1e-4)
+    graded = compliance_for(PowerLawModulus(E0=2.0, c0=1.0, k=0.5), 0.3, spec, size=1.0)
+    assert (graded.factor(4.0), graded.factor_slope(4.0)) == (1.0, 0.125)
+
+
+def test_the_compliance_of_a_solid_that_does_not_scale_has_one_size():
+    spec = MeshSpec(edge_width=0.2, surface_depth=0.1, extent=8.0, density=1.2, order=3)
+    skin = compliance_for(OffsetPowerLawModulus(E0=2.0, c0=1.0, k=0.5, z_s=1.0), 0.3, spec, size=2.0)
+    assert (skin.factor(2.0), skin.factor_slope(2.0)) == (2.0, 0.0)
+    with pytest.raises(ValueError, match="holds at the size"):
+        skin.factor(3.0)

@@ -20,7 +20,7 @@ from fem_reference.modulus import PowerLawModulus
 from fem_reference.verification.solver_study import FULL_STUDY, QUICK_STUDY, solver_table
 
 ITERATIONS = 25
-"""Measured 6 to 12 at 1e4 unknowns and 20 at 3e5; the promise is 40."""
+"""Measured 6 to 12 at 1e4 unknowns and 20 at 3e5."""
 
 AGREEMENT = 1e-8
 """Residual 1e-10 times the condition number left by the preconditioner: measured 7e-12."""

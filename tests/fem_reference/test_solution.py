@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from reference_values import OTHER_LAWS, REFERENCE_VALUES
 
 import fem_reference
 from fem_reference import (
@@ -27,6 +26,7 @@ from fem_reference._contact.mesh_choice import MeshChoice, chosen
 from fem_reference._contact.uncertainty import three_meshes
 from fem_reference.accuracy import ACCURACIES, level_for
 from fem_reference.verification.reference_solutions import surface_constant
+from tests.reference_values import OTHER_LAWS, REFERENCE_VALUES
 
 PULL_OFF = {(v.k, v.mu): v.value for v in REFERENCE_VALUES if (v.quantity, v.n) == ("pull_off_force", 2.0)}
 """-P_c / (pi Q w) of paraboloids by (k, mu)."""
@@ -71,11 +71,11 @@ DIGITS = 5e-9
 """Half a unit of the last digit of the table, relative."""
 
 DEFAULT_ERROR = 1e-7
-"""Promise 1e-5; measured 8e-9 at most, which is the rounding of the table."""
+"""Relative error of the default accuracy: measured 8e-9 at most, which is the rounding of the table."""
 
 
 def _solid(k, mu, nu, n=2.0):
-    """Solid of a given ratio mu of deformation to range, for Q = c0 = z0 = w = 1 (Eq. 29 of the paper)."""
+    """Solid of a ratio mu of deformation to range, for Q = c0 = z0 = w = 1 (Eq. 29 of the paper)."""
     E_star = surface_constant(k, nu) / (1 - k) / mu ** ((2 * n + k - 1) / n)
     return Solid(E_star * (1 - nu**2), 1.0, k, nu)
 
@@ -142,7 +142,7 @@ def test_finer_meshes_are_taken_where_a_path_cannot_be_traced(monkeypatch, trace
             chosen(problem, ("pull_off",), "default")
 
 
-def test_quick_answer_is_within_its_uncertainty():
+def test_quick_value_is_within_its_uncertainty():
     result = _pull_off(0.0, 2.0, accuracy="quick")
     exact = math.pi * PULL_OFF[0.0, 2.0]
     assert abs(result.value - exact) <= result.u_num + DIGITS * exact
@@ -239,7 +239,7 @@ def test_another_surface_law(exponents, reference):
     problem = Problem(_solid(reference.k, reference.mu, 0.3), PowerPunch(reference.n, 1.0), MieLaw(*exponents))
     result = solve(problem, reference.quantity, "quick")
     exact = math.pi * reference.value
-    assert abs(result.value - exact) <= result.u_num + 10.0**-reference.digits * math.pi
+    assert abs(result.value - exact) <= result.u_num + reference.last_digit * math.pi
     assert result.u_num <= 1e-5 * exact
 
 

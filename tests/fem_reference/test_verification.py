@@ -101,7 +101,7 @@ def test_the_checks_of_the_elements_can_fail(monkeypatch):
     assert broken == {"manufactured solution, graded", "patch test"}
 
 
-def test_gaussian_rungs_on_the_default_mesh():
+def test_gaussian_checks_on_the_default_mesh():
     _assert_all_pass(gaussian_checks(DEFAULT, "default", (0.0, 0.1, 0.4, 0.8), (0.25,)))
 
 
@@ -132,7 +132,7 @@ def test_closed_form_of_the_ring_is_that_of_many_rings(k):
         assert ring_displacement(np.array(r), k, 0.3) == pytest.approx(expected, rel=1e-13)
 
 
-def test_a_wrong_exact_solution_fails_the_rung():
+def test_a_wrong_exact_solution_fails_the_check():
     """The check can fail: b(k, nu) of another Poisson ratio is off by per cents."""
     check = gaussian_checks(DEFAULT, "default", (0.4,), (0.25,))[0]
     w0 = gaussian_displacement(np.array(0.0), 0.4, 0.25)
