@@ -6,30 +6,39 @@ stiffness of the infinite exterior, condensed to its surface, and brought into e
 law.
 """
 
+from fem_reference.accuracy import ACCURACIES
 from fem_reference.errors import NoSuchEvent, NotConverged
-from fem_reference.events import QUANTITIES
-from fem_reference.modulus import CustomModulus, OffsetPowerLaw, PowerLaw
-from fem_reference.punch import CustomPunch, PowerPunch
+from fem_reference.laws import LennardJones, SurfaceLaw
+from fem_reference.modulus import CustomModulus, Modulus, OffsetPowerLawModulus, PowerLawModulus
+from fem_reference.problem import Problem
+from fem_reference.punch import CustomPunch, PowerPunch, Punch
+from fem_reference.quantities import LOSSES, QUANTITIES
 from fem_reference.solid import CustomSolid, Solid
 from fem_reference.solution import Solution, solve, solve_together
-from fem_reference.states import Path, Profile, event_state, profile, trace
-from fem_reference.traction import LennardJones
+from fem_reference.states import EVENTS, EquilibriumPath, RadialField, event_state, profile, trace
 
 __all__ = [
+    "ACCURACIES",
+    "EVENTS",
+    "LOSSES",
     "QUANTITIES",
     "CustomModulus",
     "CustomPunch",
     "CustomSolid",
+    "EquilibriumPath",
     "LennardJones",
+    "Modulus",
     "NoSuchEvent",
     "NotConverged",
-    "OffsetPowerLaw",
-    "Path",
-    "PowerLaw",
+    "OffsetPowerLawModulus",
+    "PowerLawModulus",
     "PowerPunch",
-    "Profile",
+    "Problem",
+    "Punch",
+    "RadialField",
     "Solid",
     "Solution",
+    "SurfaceLaw",
     "event_state",
     "profile",
     "solve",

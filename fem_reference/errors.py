@@ -1,4 +1,4 @@
-"""What can go wrong, as types: no unconverged number leaves a solver."""
+"""Exceptions raised by the solver."""
 
 from __future__ import annotations
 
@@ -18,13 +18,14 @@ class NotConverged(RuntimeError):
     """
 
 
-class NoSuchEvent(RuntimeError):
-    """The equilibrium path has no such point (no fold, say, for a stiff solid); the message says why.
+class NoSuchEvent(LookupError):
+    """The equilibrium path has no such event (no fold, say, for a stiff solid); the message says why.
 
     Examples
     --------
-    >>> from fem_reference.events import folds
-    >>> folds([])
-    Traceback (most recent call last):
-    fem_reference.errors.NoSuchEvent: the displacement rises all along the path: this solid is too stiff for jumps
+    >>> try:
+    ...     raise NoSuchEvent("the displacement rises all along the path: this solid is too stiff for jumps")
+    ... except LookupError as error:
+    ...     print(error)
+    the displacement rises all along the path: this solid is too stiff for jumps
     """

@@ -15,18 +15,19 @@ import meshio
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
-from numpy.typing import NDArray
 from skfem import Basis, ElementQuadP
 
-from fem_reference.assembly import assemble_half_space
-from fem_reference.linear_solver import solve_direct
-from fem_reference.mapping import ChartMapping
-from fem_reference.path import Point
-from fem_reference.surface import MeshSpec, scaled_modulus
+from fem_reference._contact.path import Point
+from fem_reference._elastic.assembly import assemble_half_space
+from fem_reference._elastic.compliance import scaled_modulus
+from fem_reference._elastic.mapping import ChartMapping
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._linear.linear_solver import solve_direct
+from fem_reference._threads import one_thread
+from fem_reference._typing import Array, Index
 
 __all__ = ["Field", "contact_field", "draw", "write_vtu"]
 
-Array = NDArray[np.float64]
 
 SAMPLES = 4
 """Sample points an element side; stresses are those of the order-6 element, the picture is linear between."""
@@ -55,7 +56,7 @@ class Field:
     """
 
     points: Array
-    quads: NDArray[np.intp]
+    quads: Index
     displacement: Array
     stress: Array
     modulus: Array
@@ -96,47 +97,48 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
     NotConverged
         If the stiffness is singular.
     """
-    contact, y = point.leg.contact, point.state.y
-    c = float(y[-1])
-    scaled = scaled_modulus(solid.modulus, c)
-    half_space = assemble_half_space(spec.grid(), scaled, solid.nu, spec.order)
-    trace = contact.compliance.trace
-    pressure = contact.law.traction(contact.gap(y))
-    load = np.zeros(half_space.matrix.shape[0])
-    load[half_space.surface] = trace.phi.T @ (trace.weight * trace.s * pressure)
-    # Lengths scale by c: stiffness by c, load by c^2.
-    u = c * solve_direct(half_space, load).solution
-    body = half_space.body
-    side = np.linspace(SURFACE_OFFSET, 1.0 - SURFACE_OFFSET, SAMPLES)
-    X = np.array([np.tile(side, SAMPLES), np.repeat(side, SAMPLES)])
-    mapping = ChartMapping(body.mesh, body.chart)
-    basis = Basis(
-        body.mesh,
-        ElementQuadP(body.order),
-        mapping,
-        quadrature=(X, np.ones(X.shape[1])),
-        disable_doflocs=True,
-    )
-    s, zeta = np.asarray(basis.global_coordinates())
-    radial, axial = basis.interpolate(u[0::2]), basis.interpolate(u[1::2])
-    ur, uz = np.asarray(radial), np.asarray(axial)
-    strain = [radial.grad[0] / c, ur / (c * s), axial.grad[1] / c]
-    shear = (radial.grad[1] + axial.grad[0]) / c
-    E = scaled(zeta)
-    lame = E * body.nu / ((1.0 + body.nu) * (1.0 - 2.0 * body.nu))
-    twice = E / (1.0 + body.nu)
-    volume = lame * (strain[0] + strain[1] + strain[2])
-    stress = [volume + twice * e for e in strain] + [0.5 * twice * shear]
-    return Field(
-        c * np.stack([s.ravel(), zeta.ravel()], axis=1),
-        _cells(body.mesh.nelements),
-        np.stack([ur.ravel(), uz.ravel()], axis=1),
-        np.stack([part.ravel() for part in stress], axis=1),
-        E.ravel(),
-    )
+    with one_thread:
+        contact, y = point.branch.contact, point.state.y
+        c = float(y[-1])
+        scaled = scaled_modulus(solid.modulus, c)
+        half_space = assemble_half_space(spec.grid(), scaled, solid.nu, spec.order)
+        trace = contact.compliance.trace
+        pressure = contact.law.traction(contact.gap(y))
+        load = np.zeros(half_space.matrix.shape[0])
+        load[half_space.surface] = trace.phi.T @ (trace.weight * trace.s * pressure)
+        # Lengths scale by c: stiffness by c, load by c^2.
+        u = c * solve_direct(half_space, load).solution
+        body = half_space.body
+        side = np.linspace(SURFACE_OFFSET, 1.0 - SURFACE_OFFSET, SAMPLES)
+        X = np.array([np.tile(side, SAMPLES), np.repeat(side, SAMPLES)])
+        mapping = ChartMapping(body.mesh, body.chart)
+        basis = Basis(
+            body.mesh,
+            ElementQuadP(body.order),
+            mapping,
+            quadrature=(X, np.ones(X.shape[1])),
+            disable_doflocs=True,
+        )
+        s, zeta = np.asarray(basis.global_coordinates())
+        radial, axial = basis.interpolate(u[0::2]), basis.interpolate(u[1::2])
+        ur, uz = np.asarray(radial), np.asarray(axial)
+        strain = [radial.grad[0] / c, ur / (c * s), axial.grad[1] / c]
+        shear = (radial.grad[1] + axial.grad[0]) / c
+        E = scaled(zeta)
+        lame = E * body.nu / ((1.0 + body.nu) * (1.0 - 2.0 * body.nu))
+        twice = E / (1.0 + body.nu)
+        volume = lame * (strain[0] + strain[1] + strain[2])
+        stress = [volume + twice * e for e in strain] + [0.5 * twice * shear]
+        return Field(
+            c * np.stack([s.ravel(), zeta.ravel()], axis=1),
+            _cells(body.mesh.nelements),
+            np.stack([ur.ravel(), uz.ravel()], axis=1),
+            np.stack([part.ravel() for part in stress], axis=1),
+            E.ravel(),
+        )
 
 
-def _cells(elements: int) -> NDArray[np.intp]:
+def _cells(elements: int) -> Index:
     corner = np.arange(SAMPLES * SAMPLES).reshape(SAMPLES, SAMPLES)
     one = np.stack([corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]], axis=-1).reshape(-1, 4)
     return (one[None] + (SAMPLES * SAMPLES * np.arange(elements))[:, None, None]).reshape(-1, 4)

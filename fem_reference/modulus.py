@@ -1,7 +1,7 @@
-"""Young's modulus as a function of depth: the material is graded, its Poisson ratio is constant.
+"""Young's modulus as a function of depth.
 
-Any consistent units; depth z is positive into the solid.  A modulus knows the exponents of its power laws
-at the surface and at great depth, because the mesh resolves the first and the exterior closes the second.
+The Poisson ratio is constant.  Any consistent units; depth z is positive into the solid.  A modulus has the exponents
+of its power laws at the surface and at great depth: the mesh resolves the first, the exterior takes the second.
 """
 
 from __future__ import annotations
@@ -12,11 +12,10 @@ from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
-from numpy.typing import NDArray
 
-__all__ = ["CustomModulus", "Modulus", "OffsetPowerLaw", "PowerLaw"]
+from fem_reference._typing import Array
 
-Array = NDArray[np.float64]
+__all__ = ["CustomModulus", "Modulus", "OffsetPowerLawModulus", "PowerLawModulus"]
 
 
 @runtime_checkable
@@ -25,7 +24,7 @@ class Modulus(Protocol):
 
     Examples
     --------
-    >>> isinstance(PowerLaw(1.0, 1.0, 0.4), Modulus)
+    >>> isinstance(PowerLawModulus(1.0, 1.0, 0.4), Modulus)
     True
     """
 
@@ -60,12 +59,12 @@ def _check_positive(name: str, value: float) -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class PowerLaw:
+class PowerLawModulus:
     """E = E0 (z / c0)^k (Eq. 3 of the paper).
 
     Examples
     --------
-    >>> float(PowerLaw(E0=2.0, c0=1.0, k=0.5)(np.array(4.0)))
+    >>> float(PowerLawModulus(E0=2.0, c0=1.0, k=0.5)(np.array(4.0)))
     4.0
     """
 
@@ -99,12 +98,12 @@ class PowerLaw:
 
 
 @dataclass(frozen=True, slots=True)
-class OffsetPowerLaw:
+class OffsetPowerLawModulus:
     """E = E0 ((z + z_s) / c0)^k: a graded solid whose surface modulus does not vanish.
 
     Examples
     --------
-    >>> float(OffsetPowerLaw(E0=2.0, c0=1.0, k=0.5, z_s=4.0)(np.array(0.0)))
+    >>> float(OffsetPowerLawModulus(E0=2.0, c0=1.0, k=0.5, z_s=4.0)(np.array(0.0)))
     4.0
     """
 

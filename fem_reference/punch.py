@@ -1,4 +1,4 @@
-"""Rigid punch shapes f(r): heights above the apex at r = 0."""
+"""Shapes of rigid punches: heights f(r) above the apex at r = 0."""
 
 from __future__ import annotations
 
@@ -8,11 +8,10 @@ from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
-from numpy.typing import NDArray
+
+from fem_reference._typing import Array
 
 __all__ = ["CustomPunch", "PowerPunch", "Punch", "radius_at_height"]
-
-Array = NDArray[np.float64]
 
 
 @runtime_checkable

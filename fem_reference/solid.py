@@ -1,10 +1,10 @@
-"""The solid as data: a half-space with a modulus E(z) and one Poisson ratio."""
+"""Solids as data: a half-space with a modulus E(z) and one Poisson ratio."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fem_reference.modulus import Modulus, OffsetPowerLaw, PowerLaw
+from fem_reference.modulus import Modulus, OffsetPowerLawModulus, PowerLawModulus
 
 __all__ = ["CustomSolid", "Solid"]
 
@@ -42,8 +42,8 @@ class Solid:
         4.0
         """
         if self.z_s > 0:
-            return OffsetPowerLaw(self.E0, self.c0, self.k, self.z_s)
-        return PowerLaw(self.E0, self.c0, self.k)
+            return OffsetPowerLawModulus(self.E0, self.c0, self.k, self.z_s)
+        return PowerLawModulus(self.E0, self.c0, self.k)
 
 
 @dataclass(frozen=True, slots=True)

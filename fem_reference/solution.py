@@ -1,27 +1,22 @@
-"""The front door: one number of one contact problem, with its uncertainty from three meshes.
-
-Physical quantities in any consistent units go in and come out.
-"""
+"""Solutions: quantities of a contact problem, with their uncertainty from three meshes."""
 
 from __future__ import annotations
 
 import math
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from fem_reference.events import locate
-from fem_reference.mesh_choice import chosen
-from fem_reference.punch import Punch
-from fem_reference.solid import CustomSolid, Solid
-from fem_reference.traction import LennardJones
-from fem_reference.uncertainty import three_meshes
+from fem_reference._contact.events import PathEvents
+from fem_reference._contact.mesh_choice import chosen
+from fem_reference._contact.uncertainty import three_meshes
+from fem_reference._threads import one_thread
+from fem_reference.accuracy import Level
+from fem_reference.errors import NoSuchEvent
+from fem_reference.problem import Problem
+from fem_reference.quantities import QUANTITIES, TABLE, Quantity, quantity_named
 
 __all__ = ["Solution", "solve", "solve_together"]
-
-GAP_ORDER = 2.0
-"""Declared order of the central gap at jump-out, in contact: the stress under the tip of a cone is singular, which
-decides it, not the element (measured worst error / u_num with the element's order: 1.15 at n = 1, k = 0.6, mu = 3)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +32,7 @@ class Solution:
     iterations : int
         Newton steps along the path on the finest mesh.
     residual : float
-        Residual of the equilibrium at the event, in units of z0.
+        Residual of the equilibrium at the event, in lengths of the surface law.
     seconds : float
         Wall-clock time of everything.
     observed_order : float
@@ -57,19 +52,18 @@ class Solution:
     values: tuple[float, float, float]
 
 
-def solve(
-    solid: Solid | CustomSolid, punch: Punch, law: LennardJones, quantity: str, accuracy: str = "default"
-) -> Solution:
+def solve(problem: Problem, quantity: str, accuracy: float | str = "default") -> Solution:
     """Compute one quantity with its numerical uncertainty from three meshes.
 
     Parameters
     ----------
-    solid, punch, law
-        The problem, in consistent units.
+    problem : Problem
+        In consistent units.
     quantity : str
         One of `QUANTITIES` or `LOSSES`.
-    accuracy : {"default", "fine", "quick"}
-        Mesh densities; finer ones are taken where a path cannot be walked on these.
+    accuracy : float or str
+        Relative error asked for, in [1e-8, 1), or one of `ACCURACIES`.  It selects the meshes; `u_num` is what they
+        give.  Finer ones are taken where a path cannot be traced on these.
 
     Returns
     -------
@@ -86,80 +80,94 @@ def solve(
 
     Examples
     --------
-    >>> from fem_reference import LennardJones, PowerPunch, Solid, solve
+    >>> from fem_reference import LennardJones, PowerPunch, Problem, Solid, solve
     >>> sphere, law = PowerPunch(n=2.0, Q=1.0), LennardJones(work_of_adhesion=1.0, z0=1.0)
     >>> solid = Solid(E0=1.0, c0=1.0, k=0.0, nu=0.0)  # Tabor's ratio (Q w^2 / E*^2 z0^3)^(1/3) is 1
-    >>> answer = solve(solid, sphere, law, "pull_off_force", accuracy="quick")
-    >>> abs(answer.value / (3.141592653589793 * 1.67066478) - 1.0) < 1e-5
+    >>> solution = solve(Problem(solid, sphere, law), "pull_off_force", accuracy=1e-6)
+    >>> abs(solution.value / (3.141592653589793 * 1.67066478) - 1.0) < 1e-5
     True
     """
-    return solve_together(solid, punch, law, (quantity,), accuracy)[quantity]
+    found = solve_together(problem, (quantity,), accuracy)[quantity]
+    if isinstance(found, NoSuchEvent):
+        raise found
+    return found
 
 
 def solve_together(
-    solid: Solid | CustomSolid,
-    punch: Punch,
-    law: LennardJones,
-    quantities: Sequence[str],
-    accuracy: str = "default",
-) -> dict[str, Solution]:
-    """Compute several quantities on the meshes that suit the first of them, walking each path once.
+    problem: Problem, quantities: Iterable[str] = QUANTITIES, accuracy: float | str = "default"
+) -> dict[str, Solution | NoSuchEvent]:
+    """Compute several quantities on the same meshes, tracing each path once.
 
     Parameters
     ----------
-    solid, punch, law, accuracy
+    problem, accuracy
         As for `solve`.
-    quantities : sequence of str
-        Of `QUANTITIES` and `LOSSES`.  The mesh of a solid that is no power law is finest at the edge of the first:
-        others whose edge is elsewhere are less certain, and say so.
+    quantities : iterable of str
+        Of `QUANTITIES` and `LOSSES`; all of `QUANTITIES` by default.  The mesh suits the first of them that exists: in
+        a solid that is no power law, others whose contact edge is elsewhere have a larger `u_num`.
 
     Returns
     -------
-    dict of str to Solution
+    dict of str to Solution or NoSuchEvent
+        In the order of `quantities`; the exception, not raised, stands for a quantity that the path does not have.
         `seconds` are those of all together.
 
     Raises
     ------
-    ValueError, NoSuchEvent, NotConverged
+    ValueError, NotConverged
         As `solve`, if one of them fails.
 
     Examples
     --------
-    >>> from fem_reference import LennardJones, PowerPunch, Solid
-    >>> stiff = Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3)
-    >>> wanted = ("pull_off_force", "pull_off_displacement")
-    >>> found = solve_together(stiff, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), wanted, accuracy="quick")
+    >>> from fem_reference import LennardJones, PowerPunch, Problem, Solid
+    >>> stiff = Problem(Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    >>> found = solve_together(stiff, ("pull_off_force", "jump_in_gap"), accuracy="quick")
     >>> round(found["pull_off_force"].value, 3)  # Bradley's 2 pi for a rigid solid
     6.226
-    >>> found["pull_off_force"].u_num < 1e-4
-    True
+    >>> found["jump_in_gap"]
+    NoSuchEvent('the displacement rises all along the path: this solid is too stiff for jumps')
     """
-    begin = time.perf_counter()
-    choice, spec, size = chosen(solid, punch, law, quantities, accuracy)
-    level = choice.level
-    walks = [choice.walked(replace(spec, density=density), size) for density in level.densities]
-    found = {quantity: [locate(points, quantity) for points in walks] for quantity in quantities}
+    rows = {name: quantity_named(name) for name in quantities}
+    if not rows:
+        raise ValueError(f"no quantity is named; choose at least one of {', '.join(TABLE)}")
+    found: dict[str, Solution | NoSuchEvent] = {}
+    with one_thread:
+        begin = time.perf_counter()
+        for name, row in rows.items():
+            try:
+                choice, spec, size = chosen(problem, row.events, accuracy)
+            except NoSuchEvent as reason:
+                found[name] = reason.with_traceback(None)
+            else:
+                break
+        else:
+            return found
+        densities = choice.level.densities
+        paths = [choice.traced(replace(spec, density=density), size) for density in densities]
+        for name, row in rows.items():
+            if name not in found:
+                try:
+                    found[name] = _solution(row, paths, choice.level, problem.law.length, begin)
+                except NoSuchEvent as reason:
+                    found[name] = reason.with_traceback(None)
+    return {name: found[name] for name in rows}
+
+
+def _solution(row: Quantity, paths: list[PathEvents], level: Level, length: float, begin: float) -> Solution:
+    """Evaluate a quantity on three paths; `length` measures a length near zero."""
+    coarse, medium, fine = (row.functional(path) for path in paths)
     ratio = math.sqrt(level.densities[0] / level.densities[2])
-    solutions = {}
-    for quantity, events in found.items():
-        coarse, medium, fine = (value for value, _ in events)
-        order = GAP_ORDER if quantity == "jump_out_gap" else level.order
-        outcome = three_meshes((coarse, medium, fine), ratio, order, _scale(quantity, fine, law.z0))
-        point = events[-1][1]
-        solutions[quantity] = Solution(
-            outcome.value,
-            outcome.u_num,
-            point.leg.contact.compliance.unknowns,
-            sum(p.state.iterations for p in walks[-1]),
-            point.state.residual,
-            time.perf_counter() - begin,
-            outcome.observed_order,
-            level.densities,
-            (coarse, medium, fine),
-        )
-    return solutions
-
-
-def _scale(quantity: str, value: float, z0: float) -> float:
-    """Size of a quantity, for the floor of its uncertainty: a length near zero is measured by z0."""
-    return abs(value) if "force" in quantity or "energy" in quantity else max(abs(value), z0)
+    scale = max(abs(fine), length) if row.kind == "length" else abs(fine)
+    outcome = three_meshes((coarse, medium, fine), ratio, row.order or level.order, scale)
+    point = paths[-1].at(row.events[0])
+    return Solution(
+        outcome.value,
+        outcome.u_num,
+        point.branch.contact.compliance.unknowns,
+        sum(p.state.iterations for p in paths[-1].points),
+        point.state.residual,
+        time.perf_counter() - begin,
+        outcome.observed_order,
+        level.densities,
+        (coarse, medium, fine),
+    )

@@ -1,56 +1,77 @@
-"""What lies behind a number: the equilibrium path, the state at an event, and its profile, on the finest mesh."""
+"""States of a contact problem on the finest mesh: the equilibrium path, one event, and the surface there."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from fem_reference.events import locate
-from fem_reference.mesh_choice import MeshChoice, chosen
-from fem_reference.path import Point
-from fem_reference.punch import Punch
-from fem_reference.solid import CustomSolid, Solid
-from fem_reference.surface import MeshSpec
-from fem_reference.traction import LennardJones
+from fem_reference._contact.events import EVENTS, PathEvents
+from fem_reference._contact.mesh_choice import chosen
+from fem_reference._contact.path import Point
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._threads import one_thread
+from fem_reference._typing import Array
+from fem_reference.problem import Problem
 
-__all__ = ["Path", "Profile", "event_state", "profile", "trace"]
-
-Array = NDArray[np.float64]
+__all__ = ["EVENTS", "EquilibriumPath", "RadialField", "event_state", "profile", "trace"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Path:
-    """The equilibrium path: arrays of approach, load (tension negative), gap at r = 0, edge radius."""
+class EquilibriumPath:
+    """The equilibrium path, one entry a point.
+
+    Attributes
+    ----------
+    displacement : ndarray
+        Approach delta.
+    load : ndarray
+        P, tension negative.
+    central_gap : ndarray
+        Gap at r = 0.
+    edge_radius : ndarray
+        Radius of the largest tension; 0 before a contact edge exists.
+    """
 
     displacement: Array
     load: Array
     central_gap: Array
-    contact_radius: Array
+    edge_radius: Array
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Profile:
-    """Surface state at a point of the path: radius, gap, pressure (compression positive), displacement."""
+class RadialField:
+    """The surface at a point of the path.
 
-    r: Array
+    Attributes
+    ----------
+    radius : ndarray
+        Radii.
+    gap, pressure, deformation : ndarray
+        Gap, pressure (compression positive) and displacement of the solid at those radii.
+    displacement, load : float
+        Approach delta and load P (tension negative) of the point.
+    """
+
+    radius: Array
     gap: Array
     pressure: Array
-    displacement: Array
+    deformation: Array
+    displacement: float
+    load: float
 
 
-def trace(solid: Solid | CustomSolid, punch: Punch, law: LennardJones, accuracy: str = "default") -> Path:
-    """Walk the equilibrium path from far away until the load is compressive, on the finest mesh.
+def trace(problem: Problem, accuracy: float | str = "default") -> EquilibriumPath:
+    """Trace the equilibrium path from far away until the load is compressive, on the finest mesh.
 
     Parameters
     ----------
-    solid, punch, law, accuracy
-        As for `fem_reference.solution.solve`.
+    problem, accuracy
+        As for `fem_reference.solve`.
 
     Returns
     -------
-    Path
+    EquilibriumPath
         In the units of the input.
 
     Raises
@@ -62,35 +83,31 @@ def trace(solid: Solid | CustomSolid, punch: Punch, law: LennardJones, accuracy:
 
     Examples
     --------
-    >>> from fem_reference import LennardJones, PowerPunch, Solid
-    >>> stiff, sphere, law = Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
-    >>> path = trace(stiff, sphere, law, "quick")
+    >>> from fem_reference import LennardJones, PowerPunch, Problem, Solid
+    >>> stiff = Problem(Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    >>> path = trace(stiff, "quick")
     >>> bool(path.load[0] < 0 < path.load[-1]), round(float(path.load.min()), 2)
     (True, -6.22)
     """
-    choice, spec, size = _finest(solid, punch, law, "zero_load_displacement", accuracy)
-    points = choice.walked(spec, size)
-    return Path(
-        np.array([p.state.displacement for p in points]),
-        np.array([p.state.load for p in points]),
-        np.array([p.state.central_gap for p in points]),
-        np.array([p.contact_radius for p in points]),
-    )
+    with one_thread:
+        points = _finest(problem, "zero_load", accuracy)[1].points
+        return EquilibriumPath(
+            np.array([p.state.displacement for p in points]),
+            np.array([p.state.load for p in points]),
+            np.array([p.state.central_gap for p in points]),
+            np.array([p.edge_radius for p in points]),
+        )
 
 
-def event_state(
-    solid: Solid | CustomSolid,
-    punch: Punch,
-    law: LennardJones,
-    quantity: str = "pull_off_force",
-    accuracy: str = "default",
-) -> tuple[MeshSpec, Point]:
-    """Equilibrium at an event on the finest mesh, with the mesh: what fields and cross-checks start from.
+def event_state(problem: Problem, event: str = "pull_off", accuracy: float | str = "default") -> tuple[MeshSpec, Point]:
+    """Return the equilibrium at an event on the finest mesh, with the mesh.
 
     Parameters
     ----------
-    solid, punch, law, quantity, accuracy
-        As for `fem_reference.solution.solve`.
+    problem, accuracy
+        As for `fem_reference.solve`.
+    event : str
+        One of `EVENTS`.
 
     Returns
     -------
@@ -102,7 +119,7 @@ def event_state(
     Raises
     ------
     ValueError
-        For an unknown quantity or accuracy.
+        For an unknown event or accuracy.
     NoSuchEvent
         If the path has no such point.
     NotConverged
@@ -110,66 +127,72 @@ def event_state(
 
     Examples
     --------
-    >>> from fem_reference import LennardJones, PowerPunch, Solid
-    >>> stiff, sphere, law = Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
-    >>> spec, point = event_state(stiff, sphere, law, "pull_off_force", "quick")
+    >>> from fem_reference import LennardJones, PowerPunch, Problem, Solid
+    >>> stiff = Problem(Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    >>> spec, point = event_state(stiff, "pull_off", "quick")
     >>> round(point.state.load, 3), spec.order
     (-6.226, 6)
     """
-    choice, spec, size = _finest(solid, punch, law, quantity, accuracy)
-    return spec, locate(choice.walked(spec, size), quantity)[1]
+    if event not in EVENTS:
+        raise ValueError(f"event {event!r} is unknown; choose one of {', '.join(EVENTS)}")
+    with one_thread:
+        spec, path = _finest(problem, event, accuracy)
+        return spec, path.at(event)
 
 
 def profile(
-    solid: Solid | CustomSolid,
-    punch: Punch,
-    law: LennardJones,
-    quantity: str = "pull_off_force",
-    accuracy: str = "default",
-    radii: Array | None = None,
-) -> Profile:
-    """Surface gap, pressure and displacement at an event, at the Gauss points or at the wanted radii.
+    problem: Problem, event: str = "pull_off", accuracy: float | str = "default", radii: Array | None = None
+) -> RadialField:
+    """Return gap, pressure and deformation of the surface at an event.
 
     Parameters
     ----------
-    solid, punch, law, quantity, accuracy
-        As for `fem_reference.solution.solve`.
+    problem, accuracy
+        As for `fem_reference.solve`.
+    event : str
+        One of `EVENTS`.
     radii : ndarray, shape (q,), optional
         Where, in the length unit of the input; the Gauss points of the surface mesh by default.
 
     Returns
     -------
-    Profile
+    RadialField
 
     Raises
     ------
     ValueError
-        For an unknown quantity or accuracy, or radii beyond the mesh.
+        For an unknown event or accuracy, or radii beyond the mesh.
+    NoSuchEvent
+        If the path has no such point.
     NotConverged
         If the path cannot be followed.
 
     Examples
     --------
-    >>> from fem_reference import LennardJones, PowerPunch, Solid
-    >>> stiff, sphere, law = Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
-    >>> surface = profile(stiff, sphere, law, "pull_off_force", "quick", radii=np.array([0.0, 3.0]))
-    >>> bool(abs(surface.gap[1] - surface.gap[0] - 9 / 2) < 0.05)  # the sphere has risen 9/2, the solid hardly moved
+    >>> from fem_reference import LennardJones, PowerPunch, Problem, Solid
+    >>> stiff = Problem(Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    >>> surface = profile(stiff, "pull_off", "quick", radii=np.array([0.0, 3.0]))
+    >>> bool(abs(surface.gap[1] - surface.gap[0] - 9 / 2) < 0.05)  # the sphere rises 9/2, the solid deforms little
     True
     """
-    _, point = event_state(solid, punch, law, quantity, accuracy)
-    mesh = point.leg.contact.compliance.trace
-    y = point.state.y
-    s = mesh.s if radii is None else np.asarray(radii, float) / y[-1]
-    if s.min() < 0 or s.max() > mesh.extent:
-        raise ValueError(f"radii up to {s.max() * y[-1]:.4g} leave the mesh, which ends at {mesh.extent * y[-1]:.4g}")
-    w = mesh.evaluate(s) @ y[:-2]
-    gap = -y[-2] + punch.height(s * y[-1]) + w
-    return Profile(s * y[-1], gap, law.traction(gap), w)
+    with one_thread:
+        _, point = event_state(problem, event, accuracy)
+        mesh = point.branch.contact.compliance.trace
+        y = point.state.y
+        s = mesh.s if radii is None else np.asarray(radii, float) / y[-1]
+        if not (s.min() >= 0 and s.max() <= mesh.extent):
+            raise ValueError(
+                f"radii from {s.min() * y[-1]:.4g} to {s.max() * y[-1]:.4g} are not all on the mesh, which extends "
+                f"from 0 to {mesh.extent * y[-1]:.4g}"
+            )
+        w = mesh.evaluate(s) @ y[:-2]
+        gap = -y[-2] + problem.punch.height(s * y[-1]) + w
+        pressure = problem.law.traction(gap)
+        return RadialField(s * y[-1], gap, pressure, w, point.state.displacement, point.state.load)
 
 
-def _finest(
-    solid: Solid | CustomSolid, punch: Punch, law: LennardJones, quantity: str, accuracy: str
-) -> tuple[MeshChoice, MeshSpec, float]:
-    """Choose the finest mesh for a quantity, and its size."""
-    choice, spec, size = chosen(solid, punch, law, (quantity,), accuracy)
-    return choice, replace(spec, density=choice.level.densities[-1]), size
+def _finest(problem: Problem, event: str, accuracy: float | str) -> tuple[MeshSpec, PathEvents]:
+    """Return the finest mesh for an event, and the path on it."""
+    choice, spec, size = chosen(problem, (event,), accuracy)
+    spec = replace(spec, density=choice.level.densities[-1])
+    return spec, choice.traced(spec, size)

@@ -16,7 +16,7 @@ ALLOWED = {
     "comparisons": ("fscm.problem", "fscm.punch", "fscm.laws"),
     # A model from outside may work in physical units.
     "comparisons.foreign": ("fscm.physical", "fscm.problem", "fscm.punch", "fscm.laws"),
-    # Shows what is inside the finite elements: fields, ladder, solver table.
+    # Shows what is inside the finite elements: fields, checks, solver table.
     "comparisons.commands.fem": ("fem_reference", "fscm.problem", "fscm.punch", "fscm.laws"),
     # Shows the functions inside the FSCM.
     "comparisons.paper.kernel_functions": ("fscm",),

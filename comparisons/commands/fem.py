@@ -17,8 +17,7 @@ from comparisons.progress import log, waiting
 from comparisons.store import writable_file, writing
 from comparisons.tables import rich_table
 from fem_reference import export
-from fem_reference.ladder import elastic_ladder
-from fem_reference.solver_study import FULL_STUDY, QUICK_STUDY, solver_table
+from fem_reference.verification import FULL_STUDY, QUICK_STUDY, elastic_checks, solver_table
 
 __all__ = ["add", "call"]
 
@@ -36,36 +35,36 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the arguments."""
     parser = parsers.add_parser(
         "fem",
-        help="fields of the finite elements (vtu, picture), their verification ladder and solver table",
+        help="fields of the finite elements (vtu, picture), their verification and solver table",
         description=__doc__,
     )
     add_case(parser, required=False)
     parser.add_argument("--nu", type=number, default=0.3, help="Poisson's ratio, in [0, 0.5)")
     parser.add_argument(
         "--event",
-        default="pull_off_force",
-        choices=[q for q in fem_reference.QUANTITIES if q != "hysteresis_energy"],
-        help="the state to show: that of a quantity",
+        default="pull_off",
+        choices=fem_reference.EVENTS,
+        help="the event whose state is shown",
     )
     parser.add_argument("--vtu", metavar="FILE", type=Path, help="write mesh, displacement and stresses here")
     parser.add_argument("--plot", metavar="FILE", type=Path, help="draw the deformed body here")
-    parser.add_argument("--ladder", action="store_true", help="print the verification ladder")
+    parser.add_argument("--verify", action="store_true", help="print the checks against exact solutions")
     parser.add_argument("--solver", action="store_true", help="print the table of the linear solvers")
-    parser.add_argument("--full", action="store_true", help="all rungs and sizes (long)")
+    parser.add_argument("--full", action="store_true", help="all checks and sizes (long)")
     parser.set_defaults(call=call)
 
 
 def call(args: argparse.Namespace) -> int:
     """Compute what is asked; return the exit status."""
-    if not (args.vtu or args.plot or args.ladder or args.solver):
-        raise ValueError("nothing to do: give --vtu FILE, --plot FILE, --ladder or --solver")
+    if not (args.vtu or args.plot or args.verify or args.solver):
+        raise ValueError("nothing to do: give --vtu FILE, --plot FILE, --verify or --solver")
     status = _fields(args) if args.vtu or args.plot else OK
-    if args.ladder:
-        with waiting("verification ladder"):
-            rungs = elastic_ladder(args.full)
-        rows = [asdict(rung) | {"passed": rung.passed} for rung in rungs]
-        output().print(rich_table(pd.DataFrame(rows), "verification ladder of the finite elements", _ERRORS))
-        if not all(rung.passed for rung in rungs):
+    if args.verify:
+        with waiting("verification"):
+            checks = elastic_checks(args.full)
+        rows = [asdict(check) | {"passed": check.passed} for check in checks]
+        output().print(rich_table(pd.DataFrame(rows), "verification of the finite elements", _ERRORS))
+        if not all(check.passed for check in checks):
             status = FAILED
     if args.solver:
         with waiting("linear solvers"):
@@ -107,7 +106,7 @@ def _fields(args: argparse.Namespace) -> int:
         axes = figure.axes[0]
         axes.set_xlabel(r"radius $r / (Q z_0)^{1/n}$, deformation magnified")
         axes.set_ylabel(r"depth $z / (Q z_0)^{1/n}$")
-        event = args.event.rsplit("_", 1)[0].replace("_", "-")
+        event = args.event.replace("_", "-")
         axes.set_title(rf"{event} at $n$ = {case.n:g}, $k$ = {case.k:g}, $\mu$ = {case.mu:g}, $\nu$ = {args.nu:g}")
         figure.axes[1].set_ylabel(r"axial stress $\sigma_{zz} z_0 / \Delta\gamma$, tension positive")
         save(figure, args.plot)

@@ -63,27 +63,27 @@ class FiniteElements:
         """Return the quantity, or raise as `comparisons.model.Model` says."""
         if quantity not in fem_reference.QUANTITIES:
             raise NotApplicable(f"the finite elements do not compute {quantity}")
-        physical, solid, punch, law = self._physical(problem)
+        physical, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-            solution = fem_reference.solve(solid, punch, law, quantity)
+            solution = fem_reference.solve(body, quantity)
         return result_of(_audited(solution, quantity), unit=physical.scales[QUANTITIES[quantity].kind])
 
     def curve(self, problem: Problem) -> Curve:
         """Return the equilibrium path from far away into compression."""
-        physical, solid, punch, law = self._physical(problem)
+        physical, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-            coarse, path = (fem_reference.trace(solid, punch, law, level) for level in _LEVELS)
+            coarse, path = (fem_reference.trace(body, level) for level in _LEVELS)
         return Curve(
             displacement=physical.to_dimensionless("displacement", path.displacement),
             load=physical.to_dimensionless("load", path.load),
             columns={
                 "central_gap": physical.to_dimensionless("gap", path.central_gap),
-                "edge_radius": physical.to_dimensionless("radius", path.contact_radius),
+                "edge_radius": physical.to_dimensionless("radius", path.edge_radius),
             },
             u_distance=spread(coarse.displacement, coarse.load, path.displacement, path.load),
         )
 
-    def field(self, problem: Problem, quantity: str) -> tuple[export.Field, float]:
+    def field(self, problem: Problem, event: str) -> tuple[export.Field, float]:
         """Return displacement and stresses in the whole solid at an event, in units of the problem.
 
         Returns
@@ -94,10 +94,10 @@ class FiniteElements:
         radius : float
             Where the tension at the surface is largest, in the transverse length.
         """
-        physical, solid, punch, law = self._physical(problem)
+        physical, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-            spec, point = fem_reference.event_state(solid, punch, law, quantity)
-            raw = export.contact_field(solid, spec, point)
+            spec, point = fem_reference.event_state(body, event)
+            raw = export.contact_field(body.solid, spec, point)
         scales = physical.scales
         field = export.Field(
             raw.points / scales["radius"],
@@ -106,19 +106,19 @@ class FiniteElements:
             raw.stress / scales["traction"],
             raw.modulus / scales["traction"],
         )
-        return field, point.contact_radius / scales["radius"]
+        return field, point.edge_radius / scales["radius"]
 
     def pull_off_profile(self, problem: Problem) -> Profile:
         """Return the surface where P is smallest, and as its uncertainty the distance of two meshes."""
         return _surface_at_pull_off(self._poisson_ratio, problem)
 
     def _surface_at_pull_off(self, problem: Problem) -> Profile:
-        physical, solid, punch, law = self._physical(problem)
+        physical, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-            found = [fem_reference.profile(solid, punch, law, accuracy=level) for level in _LEVELS]
+            found = [fem_reference.profile(body, accuracy=level) for level in _LEVELS]
         (radius, pressure, gap), fine = (
             (
-                physical.to_dimensionless("radius", profile.r),
+                physical.to_dimensionless("radius", profile.radius),
                 physical.to_dimensionless("traction", profile.pressure),
                 physical.to_dimensionless("gap", profile.gap),
             )
@@ -131,9 +131,7 @@ class FiniteElements:
             spread(*near(gap, radius, gap), *near(fine_gap, fine_radius, fine_gap)),
         )
 
-    def _physical(
-        self, problem: Problem
-    ) -> tuple[PhysicalProblem, fem_reference.Solid, fem_reference.PowerPunch, fem_reference.LennardJones]:
+    def _physical(self, problem: Problem) -> tuple[PhysicalProblem, fem_reference.Problem]:
         if problem.n < 1.0:
             raise NotApplicable(f"the finite elements need n >= 1, not n = {problem.n:g}: a cusp has no finite slope")
         if problem.k > LARGEST_K:
@@ -146,9 +144,11 @@ class FiniteElements:
         physical = PhysicalProblem.from_problem(problem, nu=self._poisson_ratio, **_SCALES)
         return (
             physical,
-            fem_reference.Solid(E0=physical.E0, c0=physical.c0, k=physical.k, nu=physical.nu),
-            fem_reference.PowerPunch(n=physical.n, Q=physical.Q),
-            fem_reference.LennardJones(work_of_adhesion=physical.work_of_adhesion, z0=physical.z0),
+            fem_reference.Problem(
+                fem_reference.Solid(E0=physical.E0, c0=physical.c0, k=physical.k, nu=physical.nu),
+                fem_reference.PowerPunch(n=physical.n, Q=physical.Q),
+                fem_reference.LennardJones(work_of_adhesion=physical.work_of_adhesion, z0=physical.z0),
+            ),
         )
 
 

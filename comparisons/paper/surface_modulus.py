@@ -115,18 +115,20 @@ def with_skin(event: str, k: float, mu: float, depth: float) -> dict[str, Any]:
     graded = _graded(k, mu)
     try:
         found = fem_reference.solve_together(
-            fem_reference.Solid(graded.E0, graded.c0, k, _POISSON, z_s=depth * graded.length_r),
-            fem_reference.PowerPunch(n=_N, Q=graded.Q),
-            fem_reference.LennardJones(work_of_adhesion=graded.work_of_adhesion, z0=graded.z0),
+            fem_reference.Problem(
+                fem_reference.Solid(graded.E0, graded.c0, k, _POISSON, z_s=depth * graded.length_r),
+                fem_reference.PowerPunch(n=_N, Q=graded.Q),
+                fem_reference.LennardJones(work_of_adhesion=graded.work_of_adhesion, z0=graded.z0),
+            ),
             _EVENTS[event],
             "quick",
         )
-    except fem_reference.NoSuchEvent as reason:
-        return {"reason": str(reason)}
     except fem_reference.NotConverged as failure:
         raise ComputationFailed(str(failure)) from failure
     answer: dict[str, Any] = {"reason": ""}
     for name, solution in found.items():
+        if isinstance(solution, fem_reference.NoSuchEvent):
+            return {"reason": str(solution)}
         unit = graded.scales[_kind(name)]
         answer[name] = [solution.value / unit, solution.u_num / unit]
     return answer

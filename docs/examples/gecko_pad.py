@@ -36,13 +36,12 @@ for name in ("jkr", "md-improved", "md-original"):
     print(f"  {name:12} {model.value * unit:.3f} nN, {100 * (model.value / truth.value - 1):+.2f} %")
 
 # The same body in the finite elements, which know neither the Tabor number nor the integral equation.
-second = fem_reference.solve(
+body = fem_reference.Problem(
     fem_reference.Solid(E0=pad.E0, c0=pad.c0, k=pad.k, nu=pad.nu),
     fem_reference.PowerPunch(n=pad.n, Q=pad.Q),
     fem_reference.LennardJones(work_of_adhesion=pad.work_of_adhesion, z0=pad.z0),
-    "pull_off_force",
-    accuracy="quick",
 )
+second = fem_reference.solve(body, "pull_off_force", accuracy="quick")
 print(f"  finite elements {second.value * 1e9:.6f} nN, numerical uncertainty {second.u_num * 1e9:.0e} nN")
 
 # What a testing machine records when it moves the pad down and up again.

@@ -21,5 +21,5 @@ for name, solid in (
     ("E0 ((z + 5 nm)/c0)^k", fe.Solid(E0, c0, k, nu, z_s=5e-9)),
     ("1 GPa under a skin of 2 GPa", fe.CustomSolid(skin, nu)),
 ):
-    force = fe.solve(solid, sphere, law, "pull_off_force", accuracy="quick")
+    force = fe.solve(fe.Problem(solid, sphere, law), "pull_off_force", accuracy="quick")
     print(f"{name:28} pull-off force {force.value * 1e9:.5f} nN, u_num {force.u_num * 1e9:.0e} nN")

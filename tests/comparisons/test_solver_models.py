@@ -53,7 +53,8 @@ def test_a_solver_that_does_not_converge_has_failed(monkeypatch, solver):
 def test_the_finite_elements_are_asked_for_the_same_tabor_number_and_answer_in_the_same_unit(monkeypatch, quantity):
     seen = {}
 
-    def one_unit(solid, punch, law, asked):
+    def one_unit(body, asked):
+        solid, punch, law = body.solid, body.punch, body.law
         physical = PhysicalProblem(
             solid.E0, solid.c0, solid.k, solid.nu, punch.Q, punch.n, law.work_of_adhesion, law.z0
         )

@@ -1,31 +1,37 @@
-"""Contact equilibrium: exact tangent, controls, energy, and the published digits of the pull-off force."""
+"""Contact equilibrium: exact tangent, controls, energy, and events."""
 
 import numpy as np
 import pytest
 
-from fem_reference.contact import Contact
-from fem_reference.controls import ArcLength, CentralGap, Displacement, EdgeGap, EdgeRadius, ProfileRise, Size
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.controls import CentralGap, EdgeGap, EdgeRadius, GapRise, Size
+from fem_reference._contact.events import PathEvents
+from fem_reference._contact.mesh_choice import MeshChoice
+from fem_reference._contact.newton import newton
+from fem_reference._contact.path import Branch, continuation, traced
+from fem_reference._elastic.compliance import compliance_for
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference.accuracy import level_for
 from fem_reference.errors import NoSuchEvent, NotConverged
-from fem_reference.events import folds, locate, walk
-from fem_reference.modulus import PowerLaw
-from fem_reference.newton import newton
-from fem_reference.path import Leg, march
+from fem_reference.laws import LennardJones
+from fem_reference.modulus import PowerLawModulus
+from fem_reference.problem import Problem
 from fem_reference.punch import CustomPunch, PowerPunch, radius_at_height
-from fem_reference.surface import MeshSpec, compliance_for
-from fem_reference.traction import LennardJones
+from fem_reference.quantities import quantity_named
+from fem_reference.solid import Solid
 
 SPEC = MeshSpec(0.125, 2.5e-3, 256.0, 0.9, 6, 0.05)
 
 
 def _contact(E0=1.0, k=0.0, nu=0.0, law=None, punch=None):
-    compliance = compliance_for(PowerLaw(E0, 1.0, k), nu, SPEC, 1.0)
+    compliance = compliance_for(PowerLawModulus(E0, 1.0, k), nu, SPEC, 1.0)
     return Contact(punch or PowerPunch(2.0, 1.0), law or LennardJones(1.0, 1.0), compliance)
 
 
 @pytest.fixture(scope="module")
 def points():
     """Unit Tabor ratio: E* = Q = w = z0 = 1."""
-    return walk(_contact())
+    return traced(_contact())
 
 
 def test_traction_is_the_derivative_of_the_energy_and_slope_of_the_traction():
@@ -52,7 +58,7 @@ def test_tangent_and_load_gradient_by_central_differences(punch):
 
 @pytest.mark.parametrize(
     "control",
-    [Size(1.2), Displacement(0.1), CentralGap(0.2), EdgeGap(0.2), ProfileRise(0.05)],
+    [Size(1.2), CentralGap(0.2), EdgeGap(0.2), GapRise(0.05)],
     ids=lambda c: type(c).__name__,
 )
 def test_control_gradients(control):
@@ -67,19 +73,11 @@ def test_control_gradients(control):
 
 def test_every_control_finds_the_same_state(points):
     point = points[-4]
-    contact, y = point.leg.contact, point.state.y
+    contact, y = point.branch.contact, point.state.y
     size = Size(point.state.size)
     start = y.copy()
     start[:-2] *= 1.001
-    direction = points[-3].state.y - y
-    direction[-1] = 0.0
-    direction /= np.linalg.norm(direction)
-    for control in (
-        Displacement(point.state.displacement),
-        CentralGap(point.state.central_gap),
-        EdgeRadius(contact.law.peak_gap, point.state.size),
-        ArcLength(y, direction, 0.0),
-    ):
+    for control in (CentralGap(point.state.central_gap), EdgeRadius(contact.law.peak_gap, point.state.size)):
         found = newton(contact, start, size, control)
         assert np.abs(found.y - y).max() <= 1e-8, type(control).__name__
 
@@ -87,7 +85,7 @@ def test_every_control_finds_the_same_state(points):
 def test_rates_are_derivatives_along_the_path(points):
     for point in (points[5], points[-5]):
         h = 1e-4 * point.parameter
-        ahead, behind = (point.leg.solve(point.parameter + d, point.predict(point.parameter + d)) for d in (h, -h))
+        ahead, behind = (point.branch.solve(point.parameter + d, point.predict(point.parameter + d)) for d in (h, -h))
         load = (ahead.state.load - behind.state.load) / (2 * h)
         assert point.state.load_rate == pytest.approx(load, rel=1e-6)
         delta = (ahead.state.displacement - behind.state.displacement) / (2 * h)
@@ -97,8 +95,8 @@ def test_rates_are_derivatives_along_the_path(points):
 def test_energy_derivative_is_the_load(points):
     for point in (points[8], points[-3]):
         h = 1e-3 * point.parameter
-        ahead, behind = (point.leg.solve(point.parameter + d, point.predict(point.parameter + d)) for d in (h, -h))
-        contact = point.leg.contact
+        ahead, behind = (point.branch.solve(point.parameter + d, point.predict(point.parameter + d)) for d in (h, -h))
+        contact = point.branch.contact
         energy = contact.energy(ahead.state.y) - contact.energy(behind.state.y)
         delta = ahead.state.displacement - behind.state.displacement
         assert energy / delta == pytest.approx(point.state.load, rel=2e-5)
@@ -107,12 +105,12 @@ def test_energy_derivative_is_the_load(points):
 def test_edge_radius_control_agrees_with_the_moving_mesh(points):
     """On a mesh that stands still the edge a little off the refined node gives the same load."""
     point = min(points, key=lambda p: p.state.load)
-    contact = point.leg.contact
-    leg = Leg(contact, Size(point.state.size), lambda r: EdgeRadius(contact.law.peak_gap, r), touching=True)
-    start = leg.solve(point.state.size, point.state.y)
+    contact = point.branch.contact
+    branch = Branch(contact, Size(point.state.size), lambda r: EdgeRadius(contact.law.peak_gap, r), touching=True)
+    start = branch.solve(point.state.size, point.state.y)
     target = 1.03 * point.state.size
-    *_, still = march(start, 0.01 * target, target)
-    *_, moving = march(point, 0.01 * target, target)
+    *_, still = continuation(start, 0.01 * target, target)
+    *_, moving = continuation(point, 0.01 * target, target)
     # Discretisation error of this coarse mesh off the refined node: measured 4e-6 of a pull-off force of 5.2.
     assert still.state.load == pytest.approx(moving.state.load, abs=2e-5)
     # The rate nearly vanishes at the deepest point of the path; its scale is the load.
@@ -121,11 +119,11 @@ def test_edge_radius_control_agrees_with_the_moving_mesh(points):
 
 def test_hysteresis_is_the_area_between_the_branches():
     """Energy differences at the jumps against the area between the branches, by the trapezoidal rule."""
-    points = walk(_contact(E0=0.35))
-    energy = locate(points, "hysteresis_energy")[0]
-    jump_in, jump_out = folds(points)
-    approach = [p for p in points if not p.leg.touching and p.parameter > jump_in.parameter] + [jump_in]
-    retreat = [jump_out] + [p for p in points if p.contact_radius > jump_out.contact_radius]
+    events = PathEvents(traced(_contact(E0=0.35)))
+    points, jump_in, jump_out = events.points, events.jump_in, events.jump_out
+    energy = events.jump_in_loss + events.jump_out_loss
+    approach = [p for p in points if not p.branch.touching and p.parameter > jump_in.parameter] + [jump_in]
+    retreat = [jump_out] + [p for p in points if p.edge_radius > jump_out.edge_radius]
     delta = np.linspace(jump_out.state.displacement, jump_in.state.displacement, 400)
     loads = [
         np.interp(delta, [p.state.displacement for p in branch], [p.state.load for p in branch])
@@ -135,15 +133,24 @@ def test_hysteresis_is_the_area_between_the_branches():
     assert energy == pytest.approx(np.trapezoid(loads[0] - loads[1], delta), rel=0.03)
 
 
+def test_unknown_names_are_refused(points):
+    """An unknown name does not stand for the jump out of contact."""
+    with pytest.raises(ValueError, match=r"event 'nonsense' is unknown; choose one of pull_off, jump_in"):
+        PathEvents(points).at("nonsense")
+    with pytest.raises(ValueError, match=r"quantity 'nonsense' is unknown; choose one of pull_off_force"):
+        quantity_named("nonsense")
+
+
 def test_stiff_solid_has_no_jumps():
     contact = _contact(E0=50.0)
     with pytest.raises(NoSuchEvent, match="too stiff"):
-        locate(walk(contact), "jump_in_displacement")
+        PathEvents(traced(contact)).at("jump_in")
 
 
 def test_rigid_limit_is_the_bradley_force():
     """A rigid paraboloid pulls off at 2 pi w Q; the correction falls with the compliance."""
-    errors = [locate(walk(_contact(E0=E0)), "pull_off_force")[0] / (2 * np.pi) - 1 for E0 in (1e3, 1e5)]
+    loads = [PathEvents(traced(_contact(E0=E0))).pull_off.state.load for E0 in (1e3, 1e5)]
+    errors = [-load / (2 * np.pi) - 1 for load in loads]
     assert abs(errors[1]) < 1e-4
     assert errors[0] / errors[1] == pytest.approx(100.0, rel=0.02)
 
@@ -151,8 +158,8 @@ def test_rigid_limit_is_the_bradley_force():
 def test_newton_refuses_a_hopeless_start():
     contact = _contact(E0=1e-6)
     y = np.append(np.zeros(contact.unknowns), [50.0, 1.0])
-    with pytest.raises(NotConverged):
-        newton(contact, y, Size(1.0), Displacement(50.0))
+    with pytest.raises(NotConverged, match="start closer"):
+        newton(contact, y, Size(1.0), CentralGap(-50.0))
 
 
 def test_punch_shapes():
@@ -164,3 +171,21 @@ def test_punch_shapes():
         radius_at_height(CustomPunch(np.tanh, lambda r: 1 / np.cosh(r) ** 2), 2.0)
     with pytest.raises(ValueError, match="shape index"):
         PowerPunch(0.5, 1.0)
+
+
+def test_a_distant_rigid_punch_has_the_load_of_bradley():
+    """Ten lengths away, the load of the 9-3 tail beyond the mesh included."""
+    contact = _contact(E0=50.0)
+    apart = np.zeros(contact.unknowns + 2)
+    apart[-2:] = -10.0, 1.0
+    assert contact.load(apart) == pytest.approx(-8 / 3 * np.pi / 11**2, rel=1e-5)
+
+
+def test_the_first_width_balances_traction_and_stiffness():
+    solid = Solid(E0=1.0, c0=1.0, k=0.0, nu=0.0)
+    problem = Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    choice = MeshChoice(problem, level_for("quick"))
+    # Half of the depth E z0^2 / (2 w) = 0.5, over the radius.
+    assert choice.first_width(radius=2.0) == pytest.approx(0.125)
+    # A power of 2: similar problems share a mesh.
+    assert choice.spec(0.1, size=2.0, smallest=1.0).edge_width == 0.0625

@@ -1,14 +1,18 @@
-"""Weak form: against scikit-fem bilinear forms, patch tests, manufactured solutions with measured order."""
+"""Elastic half-space: weak form against scikit-fem, patch tests, measured order, exterior, compliance."""
 
 import numpy as np
 import pytest
 from skfem import Basis, BilinearForm, ElementQuadP
 
-from fem_reference.elasticity import Body, gauss_product, stiffness
-from fem_reference.manufactured import BIAXIAL, SMOOTH, column, manufactured_error
-from fem_reference.mapping import InteriorChart
-from fem_reference.mesh import graded_grid, uniform_grid
-from fem_reference.modulus import OffsetPowerLaw, PowerLaw
+from fem_reference._elastic.compliance import compliance_for
+from fem_reference._elastic.elasticity import Body, gauss_product, stiffness
+from fem_reference._elastic.exterior import exterior_stiffness
+from fem_reference._elastic.mapping import InteriorChart
+from fem_reference._elastic.mesh import Grid, MeshSpec, graded_grid, uniform_grid
+from fem_reference._elastic.trace import trace_of
+from fem_reference.modulus import OffsetPowerLawModulus, PowerLawModulus
+from fem_reference.verification.load_vectors import smooth_load
+from fem_reference.verification.manufactured import BIAXIAL, SMOOTH, column, manufactured_error
 
 FORM_TOLERANCE = 1e-12
 """Same Gauss points, other order of summation: measured 5e-15."""
@@ -38,7 +42,7 @@ def _interior(grid, modulus, nu, order):
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.49])
 def test_batched_contraction_equals_bilinear_forms(nu):
     grid = uniform_grid(1.0, 2)
-    modulus = OffsetPowerLaw(1.0, 1.0, 0.4, 0.5)
+    modulus = OffsetPowerLawModulus(1.0, 1.0, 0.4, 0.5)
     body, matrix = _interior(grid, modulus, nu, 3)
 
     def moduli(w):
@@ -78,7 +82,7 @@ def test_batched_contraction_equals_bilinear_forms(nu):
 
 
 def test_rigid_translation_costs_nothing_and_matrix_is_symmetric():
-    _, matrix = _interior(graded_grid(extent=4.0), PowerLaw(1.0, 1.0, 0.4), 0.3, 4)
+    _, matrix = _interior(graded_grid(extent=4.0), PowerLawModulus(1.0, 1.0, 0.4), 0.3, 4)
     assert abs(matrix - matrix.T).max() <= 1e-13 * abs(matrix).max()
     translation = np.zeros(matrix.shape[0])
     # Vertex functions sum to 1.
@@ -89,7 +93,7 @@ def test_rigid_translation_costs_nothing_and_matrix_is_symmetric():
 
 @pytest.mark.parametrize(("order", "counts"), [(2, (4, 8)), (3, (4, 8)), (4, (6, 12)), (6, (5, 8))])
 def test_manufactured_solution_has_the_order_of_the_element(order, counts):
-    modulus = OffsetPowerLaw(1.0, 1.0, 0.4, 0.5)
+    modulus = OffsetPowerLawModulus(1.0, 1.0, 0.4, 0.5)
     errors = [manufactured_error(uniform_grid(1.5, n), modulus, 0.3, order, SMOOTH) for n in counts]
     observed = np.log(errors[0] / errors[1]) / np.log(counts[1] / counts[0])
     assert ORDER_RANGE[0] <= observed - (order + 1) <= ORDER_RANGE[1], (errors, observed)
@@ -100,20 +104,20 @@ def test_patch_graded_column_is_exact(k):
     """Uniform pressure on E = z^k, confined sideways: u_z ~ -z^(1-k), in the space of the graded first layer
     and of no other element; a grid of one graded layer carries it exactly."""
     grid = uniform_grid(1.0, 1)
-    assert manufactured_error(grid, PowerLaw(1.0, 1.0, k), 0.3, 2, column(k)) <= PATCH_TOLERANCE
+    assert manufactured_error(grid, PowerLawModulus(1.0, 1.0, k), 0.3, 2, column(k)) <= PATCH_TOLERANCE
 
 
 def test_patch_homogeneous_biaxial_strain_is_exact():
     grid = graded_grid(edge=1.0, extent=3.0, density=1.0)
-    assert manufactured_error(grid, PowerLaw(1.0, 1.0, 0.0), 0.3, 2, BIAXIAL) <= PATCH_TOLERANCE
+    assert manufactured_error(grid, PowerLawModulus(1.0, 1.0, 0.0), 0.3, 2, BIAXIAL) <= PATCH_TOLERANCE
 
 
 def test_nu_one_half_and_low_order_are_refused():
     grid = uniform_grid(1.0, 1)
     with pytest.raises(ValueError, match=r"0\.5 is outside"):
-        Body(grid.quads(), InteriorChart(1.0, 0.0), PowerLaw(1.0, 1.0, 0.0), 0.5)
+        Body(grid.quads(), InteriorChart(1.0, 0.0), PowerLawModulus(1.0, 1.0, 0.0), 0.5)
     with pytest.raises(ValueError, match="order 1"):
-        Body(grid.quads(), InteriorChart(1.0, 0.0), PowerLaw(1.0, 1.0, 0.0), 0.3, order=1)
+        Body(grid.quads(), InteriorChart(1.0, 0.0), PowerLawModulus(1.0, 1.0, 0.0), 0.3, order=1)
 
 
 def test_modulus_that_vanishes_is_refused():
@@ -126,3 +130,28 @@ def test_modulus_that_vanishes_is_refused():
 
     with pytest.raises(ValueError, match="not positive"):
         _interior(uniform_grid(1.0, 2), Soft(), 0.3, 2)
+
+
+def test_the_exterior_resists_every_displacement_of_its_boundary():
+    """But the radial row on the axis, which is fixed later."""
+    grid = Grid(np.array([0.0, 1.0, 2.0]), np.array([0.0, 1.0, 2.0]))
+    S = exterior_stiffness(grid, PowerLawModulus(1.0, 1.0, 0.4), nu=0.3, order=3)
+    assert S.shape == (26, 26)
+    assert np.sum(np.linalg.eigvalsh(S) > 1e-6) == 25
+
+
+def test_one_compliance_serves_every_size_of_a_power_law():
+    spec = MeshSpec(edge_width=0.1, surface_depth=0.05, extent=16.0, density=1.0, order=4)
+    load = smooth_load(lambda s: np.exp(-(s**2)))(trace_of(spec.grid(), spec.order))
+    uniform = compliance_for(PowerLawModulus(4.0, 1.0, 0.0), 0.0, spec, size=1.0)
+    assert 4.0 * uniform.factor(1.0) * (uniform.matrix @ load)[0] == pytest.approx(np.sqrt(np.pi), rel=1e-4)
+    graded = compliance_for(PowerLawModulus(E0=2.0, c0=1.0, k=0.5), 0.3, spec, size=1.0)
+    assert (graded.factor(4.0), graded.factor_slope(4.0)) == (1.0, 0.125)
+
+
+def test_the_compliance_of_a_solid_that_does_not_scale_has_one_size():
+    spec = MeshSpec(edge_width=0.2, surface_depth=0.1, extent=8.0, density=1.2, order=3)
+    skin = compliance_for(OffsetPowerLawModulus(E0=2.0, c0=1.0, k=0.5, z_s=1.0), 0.3, spec, size=2.0)
+    assert (skin.factor(2.0), skin.factor_slope(2.0)) == (2.0, 0.0)
+    with pytest.raises(ValueError, match="holds at the size"):
+        skin.factor(3.0)

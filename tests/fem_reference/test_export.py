@@ -4,13 +4,15 @@ import meshio
 import numpy as np
 import pytest
 
-from fem_reference.contact import Contact
-from fem_reference.events import locate, walk
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.events import PathEvents
+from fem_reference._contact.path import traced
+from fem_reference._elastic.compliance import compliance_for
+from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.export import contact_field, draw, write_vtu
+from fem_reference.laws import LennardJones
 from fem_reference.punch import PowerPunch
 from fem_reference.solid import Solid
-from fem_reference.surface import MeshSpec, compliance_for
-from fem_reference.traction import LennardJones
 
 SPEC = MeshSpec(0.125, 2.5e-3, 64.0, 0.9, 6)
 
@@ -19,13 +21,13 @@ SPEC = MeshSpec(0.125, 2.5e-3, 64.0, 0.9, 6)
 def state():
     solid = Solid(1.0, 1.0, 0.4, 0.3)
     contact = Contact(PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), compliance_for(solid.modulus, 0.3, SPEC, 1.0))
-    point = locate(walk(contact), "pull_off_force")[1]
+    point = PathEvents(traced(contact)).pull_off
     return point, contact_field(solid, SPEC, point)
 
 
 def test_stress_at_the_surface_is_the_traction(state):
     point, field = state
-    contact, y = point.leg.contact, point.state.y
+    contact, y = point.branch.contact, point.state.y
     near = np.flatnonzero((field.points[:, 1] < 1e-9) & (field.points[:, 0] < 5 * y[-1]))
     r = field.points[near, 0]
     trace = contact.compliance.trace

@@ -1,6 +1,7 @@
-"""The front door: published digits, honest uncertainty, unit scaling, nu-collapse, other solids, refusals."""
+"""Solutions: reference digits, uncertainty, unit scaling, nu-collapse, other solids and laws, refusals."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -13,62 +14,98 @@ from fem_reference import (
     NoSuchEvent,
     NotConverged,
     PowerPunch,
+    Problem,
     Solid,
+    event_state,
     profile,
     solve,
     solve_together,
     trace,
 )
-from fem_reference.mesh_choice import ACCURACIES, MeshChoice, chosen
-from fem_reference.reference_solutions import surface_constant
-from fem_reference.uncertainty import three_meshes
+from fem_reference._contact.mesh_choice import MeshChoice, chosen
+from fem_reference._contact.uncertainty import three_meshes
+from fem_reference.accuracy import ACCURACIES, level_for
+from fem_reference.verification.reference_solutions import surface_constant
+from tests.reference_values import OTHER_LAWS, REFERENCE_VALUES
 
-PULL_OFF = {
-    (0.0, 0.1): 1.96895638,
-    (0.0, 0.5): 1.78748293,
-    (0.0, 1.0): 1.67066478,
-    (0.0, 2.0): 1.58359530,
-    (0.4, 0.5): 1.86628026,
-    (0.4, 1.0): 1.78848171,
-    (0.4, 1.4): 1.75861391,
-}
-"""-P_c / (pi Q w) of paraboloids by (k, mu), from the integral equation; all digits shown."""
+PULL_OFF = {(v.k, v.mu): v.value for v in REFERENCE_VALUES if (v.quantity, v.n) == ("pull_off_force", 2.0)}
+"""-P_c / (pi Q w) of paraboloids by (k, mu)."""
+
+
+@dataclass(frozen=True)
+class MieLaw:
+    """The m-n law of range 1 and work of adhesion 1: the 9-3 law is MieLaw(9, 3)."""
+
+    repulsion: float
+    attraction: float
+    work_of_adhesion: float = 1.0
+    length: float = 1.0
+    singular_gap: float = -1.0
+
+    @property
+    def amplitude(self):
+        m, n = self.repulsion, self.attraction
+        return (m - 1) * (n - 1) / (m - n)
+
+    @property
+    def peak_gap(self):
+        return (self.repulsion / self.attraction) ** (1 / (self.repulsion - self.attraction)) - 1
+
+    @property
+    def decay(self):
+        return self.amplitude, self.attraction
+
+    def traction(self, H):
+        return self.amplitude * ((1 + H) ** -self.repulsion - (1 + H) ** -self.attraction)
+
+    def slope(self, H):
+        m, n = self.repulsion, self.attraction
+        return self.amplitude * (n * (1 + H) ** (-n - 1) - m * (1 + H) ** (-m - 1))
+
+    def energy(self, H):
+        m, n = self.repulsion, self.attraction
+        return self.amplitude * ((1 + H) ** (1 - m) / (m - 1) - (1 + H) ** (1 - n) / (n - 1))
+
 
 DIGITS = 5e-9
 """Half a unit of the last digit of the table, relative."""
 
 DEFAULT_ERROR = 1e-7
-"""Promise 1e-5; measured 8e-9 at most, which is the rounding of the table."""
+"""Relative error of the default accuracy: measured 8e-9 at most, which is the rounding of the table."""
 
 
 def _solid(k, mu, nu, n=2.0):
-    """Solid of a given ratio mu of deformation to range, for Q = c0 = z0 = w = 1 (Eq. 29 of the paper)."""
+    """Solid of a ratio mu of deformation to range, for Q = c0 = z0 = w = 1 (Eq. 29 of the paper)."""
     E_star = surface_constant(k, nu) / (1 - k) / mu ** ((2 * n + k - 1) / n)
     return Solid(E_star * (1 - nu**2), 1.0, k, nu)
 
 
+def _problem(k, mu, nu=0.25, n=2.0):
+    return Problem(_solid(k, mu, nu, n), PowerPunch(n, 1.0), LennardJones(1.0, 1.0))
+
+
 def _pull_off(k, mu, nu=0.25, accuracy="default", n=2.0, quantity="pull_off_force"):
-    return solve(_solid(k, mu, nu, n), PowerPunch(n, 1.0), LennardJones(1.0, 1.0), quantity, accuracy)
+    return solve(_problem(k, mu, nu, n), quantity, accuracy)
 
 
 @pytest.mark.parametrize(("k", "mu"), [(0.0, 1.0), (0.4, 1.0)])
 def test_pull_off_force_default(k, mu):
-    answer = _pull_off(k, mu)
+    result = _pull_off(k, mu)
     exact = math.pi * PULL_OFF[k, mu]
-    assert abs(answer.value - exact) <= DEFAULT_ERROR * exact
-    assert abs(answer.value - exact) <= answer.u_num + DIGITS * exact
-    assert answer.u_num <= 1e-6 * exact
-    assert answer.residual < 1e-9
+    assert abs(result.value - exact) <= DEFAULT_ERROR * exact
+    assert abs(result.value - exact) <= result.u_num + DIGITS * exact
+    assert result.u_num <= 1e-6 * exact
+    assert result.residual < 1e-9
 
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("accuracy", ["quick", "default", "fine"])
 @pytest.mark.parametrize(("k", "mu"), sorted(PULL_OFF))
 def test_pull_off_force_table(k, mu, accuracy):
-    answer = _pull_off(k, mu, accuracy=accuracy)
+    result = _pull_off(k, mu, accuracy=accuracy)
     exact = math.pi * PULL_OFF[k, mu]
-    assert abs(answer.value - exact) <= (1e-6 if accuracy == "quick" else DEFAULT_ERROR) * exact
-    assert abs(answer.value - exact) <= answer.u_num + DIGITS * exact
+    assert abs(result.value - exact) <= (1e-6 if accuracy == "quick" else DEFAULT_ERROR) * exact
+    assert abs(result.value - exact) <= result.u_num + DIGITS * exact
 
 
 @pytest.mark.heavy
@@ -80,35 +117,35 @@ def test_accuracies_agree_within_their_uncertainties(n, k, mu):
     assert fine.u_num <= 1e-5 * fine.value
 
 
-@pytest.mark.parametrize("walkable", ["quick", "default", "fine", None])
-def test_finer_meshes_are_taken_where_a_path_cannot_be_walked(monkeypatch, walkable):
+@pytest.mark.parametrize("traceable", ["quick", "default", "fine", None])
+def test_finer_meshes_are_taken_where_a_path_cannot_be_traced(monkeypatch, traceable):
     """As that of n = 5, k = 0.6, mu = 3, whose contact begins on a spot a 500th of the rim."""
     tried = []
 
-    def adapted(choice, quantity):
+    def adapted(choice, events):
         tried.append(choice.level)
-        if walkable is None or choice.level != ACCURACIES[walkable]:
+        if traceable is None or choice.level != level_for(traceable):
             raise NotConverged("the path stops")
         return "the mesh", 1.0
 
     monkeypatch.setattr(MeshChoice, "adapted", adapted)
-    problem = _solid(0.0, 1.0, 0.25), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
-    if walkable is None:
+    problem = _problem(0.0, 1.0)
+    if traceable is None:
         with pytest.raises(NotConverged, match="the path stops"):
-            chosen(*problem, ["pull_off_force"], "quick")
-        assert tried == list(ACCURACIES.values())
+            chosen(problem, ("pull_off",), "quick")
+        assert tried == [level_for(name) for name in ACCURACIES]
     else:
-        choice, *mesh = chosen(*problem, ["pull_off_force"], "quick")
-        assert (choice.level, mesh) == (ACCURACIES[walkable], ["the mesh", 1.0])
-    if walkable == "quick":
+        choice, *mesh = chosen(problem, ("pull_off",), "quick")
+        assert (choice.level, mesh) == (level_for(traceable), ["the mesh", 1.0])
+    if traceable == "quick":
         with pytest.raises(NotConverged):
-            chosen(*problem, ["pull_off_force"], "default")
+            chosen(problem, ("pull_off",), "default")
 
 
-def test_quick_answer_is_within_its_uncertainty():
-    answer = _pull_off(0.0, 2.0, accuracy="quick")
+def test_quick_value_is_within_its_uncertainty():
+    result = _pull_off(0.0, 2.0, accuracy="quick")
     exact = math.pi * PULL_OFF[0.0, 2.0]
-    assert abs(answer.value - exact) <= answer.u_num + DIGITS * exact
+    assert abs(result.value - exact) <= result.u_num + DIGITS * exact
 
 
 def test_poisson_ratio_collapses():
@@ -123,61 +160,66 @@ def test_unit_scaling():
     length, force = 1e3, 1e3
     solid = _solid(0.4, 1.0, 0.25)
     scaled = Solid(solid.E0 * force / length**2, length, 0.4, 0.25)
-    answer = solve(scaled, PowerPunch(2.0, length), LennardJones(force / length, length), "pull_off_force", "quick")
-    assert answer.value == pytest.approx(base.value * force, rel=1e-9)
-    assert answer.u_num == pytest.approx(base.u_num * force, rel=1e-2)
+    body = Problem(scaled, PowerPunch(2.0, length), LennardJones(force / length, length))
+    result = solve(body, "pull_off_force", "quick")
+    assert result.value == pytest.approx(base.value * force, rel=1e-9)
+    assert result.u_num == pytest.approx(base.u_num * force, rel=1e-2)
 
 
 def test_events_lie_on_the_traced_path():
-    solid, punch, law = _solid(0.4, 1.5, 0.25), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
-    path = trace(solid, punch, law, "quick")
-    answers = {q: solve(solid, punch, law, q, "quick").value for q in fem_reference.QUANTITIES}
-    assert -path.load.min() == pytest.approx(answers["pull_off_force"], rel=3e-3)
-    assert answers["pull_off_force"] >= -path.load.min() - 1e-6
-    assert answers["jump_out_displacement"] < answers["jump_in_displacement"] < answers["zero_load_displacement"]
-    assert answers["jump_out_gap"] < answers["jump_in_gap"]
-    assert answers["hysteresis_energy"] > 0
+    problem = _problem(0.4, 1.5)
+    path = trace(problem, "quick")
+    results = {q: solve(problem, q, "quick").value for q in fem_reference.QUANTITIES}
+    assert -path.load.min() == pytest.approx(results["pull_off_force"], rel=3e-3)
+    assert results["pull_off_force"] >= -path.load.min() - 1e-6
+    assert results["jump_out_displacement"] < results["jump_in_displacement"] < results["zero_load_displacement"]
+    assert results["jump_out_gap"] < results["jump_in_gap"]
+    assert results["hysteresis_energy"] > 0
     index = int(np.flatnonzero(path.load[:-1] < 0)[-1])
-    assert path.displacement[index] < answers["zero_load_displacement"] < path.displacement[index + 1]
-    assert np.all(np.diff(path.central_gap[path.contact_radius == 0]) < 0)
-    assert np.all(np.diff(path.contact_radius[path.contact_radius > 0]) > 0)
+    assert path.displacement[index] < results["zero_load_displacement"] < path.displacement[index + 1]
+    assert np.all(np.diff(path.central_gap[path.edge_radius == 0]) < 0)
+    assert np.all(np.diff(path.edge_radius[path.edge_radius > 0]) > 0)
 
 
-def test_contact_born_on_a_small_spot():
-    """Under a flat punch on a nearly linear gradient contact is born at 1e-3 of the radius it then has.
+def test_contact_that_begins_on_a_small_spot():
+    """Under a flat punch on a nearly linear gradient contact begins at 1e-3 of the radius it then has.
 
     The attraction of the rest of the punch holds the displacement back; the turning point is that of the
     integral equation.
     """
-    path = trace(_solid(0.6, 3.0, 0.3, n=5.0), PowerPunch(5.0, 1.0), LennardJones(1.0, 1.0), "quick")
-    young = (path.contact_radius > 0.007) & (path.contact_radius < 0.015)
+    path = trace(_problem(0.6, 3.0, 0.3, n=5.0), "quick")
+    young = (path.edge_radius > 0.007) & (path.edge_radius < 0.015)
     turn = int(np.flatnonzero(young)[path.displacement[young].argmax()])
     # The parabola through the steps beside the turning point, 10 % of the radius apart.
-    a, b, c = np.polyfit(np.log(path.contact_radius[turn - 1 : turn + 2]), path.displacement[turn - 1 : turn + 2], 2)
+    a, b, c = np.polyfit(np.log(path.edge_radius[turn - 1 : turn + 2]), path.displacement[turn - 1 : turn + 2], 2)
     assert c - b**2 / (4 * a) == pytest.approx(-3.53337, abs=2e-4)
 
 
 def test_profile_is_consistent():
-    solid, punch, law = _solid(0.0, 1.0, 0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
+    problem = _problem(0.0, 1.0, 0.3)
     r = np.linspace(0.0, 6.0, 50)
-    surface = profile(solid, punch, law, "pull_off_force", "quick", radii=r)
-    delta = solve(solid, punch, law, "pull_off_displacement", "quick").value
-    assert surface.gap == pytest.approx(-delta + r**2 / 2 + surface.displacement, abs=1e-5)
-    assert surface.pressure == pytest.approx(law.traction(surface.gap))
+    surface = profile(problem, "pull_off", "quick", radii=r)
+    together = solve_together(problem, ("pull_off_displacement", "pull_off_force"), "quick")
+    assert surface.displacement == together["pull_off_displacement"].value
+    assert surface.load == -together["pull_off_force"].value
+    assert surface.radius == pytest.approx(r)
+    assert surface.gap == pytest.approx(-surface.displacement + r**2 / 2 + surface.deformation, abs=1e-12)
+    assert surface.pressure == pytest.approx(problem.law.traction(surface.gap))
     assert surface.pressure[0] > 0 > surface.pressure[25]
-    with pytest.raises(ValueError, match="leave the mesh"):
-        profile(solid, punch, law, "pull_off_force", "quick", radii=np.array([1e9]))
+    for radii in (np.array([1e9]), np.array([-1.0]), np.array([np.nan])):
+        with pytest.raises(ValueError, match="not all on the mesh"):
+            profile(problem, "pull_off", "quick", radii=radii)
 
 
 @pytest.mark.heavy
 def test_surface_offset_tends_to_the_power_law():
     base = _solid(0.4, 0.7, 0.25)
     punch, law = PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
-    exact = solve(base, punch, law, "pull_off_force", "quick").value
+    exact = solve(Problem(base, punch, law), "pull_off_force", "quick").value
     change = []
     for z_s in (0.04, 0.01):
         solid = Solid(base.E0, 1.0, 0.4, 0.25, z_s=z_s)
-        change.append(abs(solve(solid, punch, law, "pull_off_force", "quick").value / exact - 1))
+        change.append(abs(solve(Problem(solid, punch, law), "pull_off_force", "quick").value / exact - 1))
     # The stiffer skin changes the compliance by a share of z_s^(1-k); 4^0.6 = 2.3.
     assert 1.9 < change[0] / change[1] < 3.2
 
@@ -187,10 +229,46 @@ def test_solid_that_does_not_scale_agrees_with_the_power_law_it_is():
     solid = _solid(0.4, 0.7, 0.25)
     disguised = CustomSolid(CustomModulus(solid.modulus, 0.4, 0.4, surface_depth=1e9), 0.25)
     punch, law = PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
-    exact = solve(solid, punch, law, "pull_off_force", "quick")
-    answer = solve(disguised, punch, law, "pull_off_force", "quick")
-    assert abs(answer.value - exact.value) <= answer.u_num + exact.u_num
-    assert answer.u_num <= 1e-5 * exact.value
+    exact, result = (solve(Problem(s, punch, law), "pull_off_force", "quick") for s in (solid, disguised))
+    assert abs(result.value - exact.value) <= result.u_num + exact.u_num
+    assert result.u_num <= 1e-5 * exact.value
+
+
+@pytest.mark.parametrize(("exponents", "reference"), OTHER_LAWS.items())
+def test_another_surface_law(exponents, reference):
+    problem = Problem(_solid(reference.k, reference.mu, 0.3), PowerPunch(reference.n, 1.0), MieLaw(*exponents))
+    result = solve(problem, reference.quantity, "quick")
+    exact = math.pi * reference.value
+    assert abs(result.value - exact) <= result.u_num + reference.last_digit * math.pi
+    assert result.u_num <= 1e-5 * exact
+
+
+def test_a_quantity_that_does_not_exist_does_not_hide_the_others():
+    """Also where it is the first, in a solid whose mesh is placed at its contact edge."""
+    solid = CustomSolid(CustomModulus(lambda z: 50.0 + 0.0 * z, 0.0, 0.0, surface_depth=1.0), 0.3)
+    problem = Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    found = solve_together(problem, ("jump_in_gap", "pull_off_force"), "quick")
+    assert list(found) == ["jump_in_gap", "pull_off_force"]
+    assert isinstance(found["jump_in_gap"], NoSuchEvent)
+    assert found["pull_off_force"].value == pytest.approx(2 * math.pi, rel=0.02)
+    none = solve_together(problem, ("jump_in_gap", "jump_out_gap"), "quick")
+    assert {type(reason) for reason in none.values()} == {NoSuchEvent}
+
+
+def test_accuracy_is_a_number():
+    """The names are those of numbers, and the densities fall with the number between them."""
+    for name, number in ACCURACIES.items():
+        assert level_for(name) == level_for(number)
+    numbers = (1e-3, 1e-6, 5e-7, 2e-7, 1e-7, 5e-8, 1e-8)
+    finest = [level_for(number).densities[-1] for number in numbers]
+    assert finest == sorted(finest, reverse=True)
+    assert finest[0] == finest[1]
+    assert len(set(finest)) == len(numbers) - 1
+    values = [_pull_off(0.4, 1.0, accuracy=number) for number in (1e-6, 5e-7)]
+    exact = math.pi * PULL_OFF[0.4, 1.0]
+    for result, number in zip(values, (1e-6, 5e-7), strict=True):
+        assert abs(result.value - exact) <= min(number * exact, result.u_num) + DIGITS * exact
+    assert values[1].u_num < values[0].u_num
 
 
 def test_stiff_solid_has_no_jump():
@@ -208,7 +286,17 @@ def test_stiff_solid_has_no_jump():
         (lambda: LennardJones(0.0, 1.0), "work of adhesion"),
         (lambda: _pull_off(0.0, 1.0, quantity="adhesion"), "choose one of"),
         (lambda: _pull_off(0.0, 1.0, accuracy="best"), "choose one of"),
-        (lambda: solve_together(_solid(0.4, 1.0, 0.3), PowerPunch(2.0, 1.0), LennardJones(1, 1), ()), "at least one"),
+        (lambda: _pull_off(0.0, 1.0, accuracy=1e-9), r"accuracy 1e-09 is outside \[1e-08, 1\)"),
+        (lambda: _pull_off(0.0, 1.0, accuracy=1.0), "outside"),
+        (lambda: _pull_off(0.0, 1.0, accuracy=math.nan), "outside"),
+        (lambda: _pull_off(0.0, 1.0, accuracy=True), "outside"),
+        (lambda: profile(_problem(0.0, 1.0), "pull_off_force"), "choose one of pull_off, jump_in"),
+        (lambda: event_state(_problem(0.0, 1.0), "landing"), "choose one of pull_off, jump_in"),
+        (lambda: solve_together(_problem(0.4, 1.0), ()), "at least one"),
+        (lambda: Problem(1.0, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)), "not a Solid"),
+        (lambda: Problem(Solid(1.0, 1.0, 0.4, 0.3), 2.0, LennardJones(1.0, 1.0)), "not a punch shape"),
+        (lambda: Problem(Solid(1.0, 1.0, 0.4, 0.3), PowerPunch(2.0, 1.0), np.exp), "not a surface law"),
+        (lambda: Problem(Solid(1.0, 1.0, 0.4, 0.3), PowerPunch(1.0, 1.0), MieLaw(4, 2)), "load integral"),
     ],
 )
 def test_impossible_input_is_refused(make, message):

@@ -3,16 +3,19 @@
 import numpy as np
 import pytest
 
-from fem_reference.contact import Contact
-from fem_reference.events import locate, walk
-from fem_reference.modulus import PowerLaw
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.events import PathEvents
+from fem_reference._contact.path import traced
+from fem_reference._elastic.compliance import compliance_for
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference.laws import LennardJones
+from fem_reference.modulus import PowerLawModulus
+from fem_reference.problem import Problem
 from fem_reference.punch import PowerPunch
-from fem_reference.reference_solutions import surface_constant
 from fem_reference.solid import Solid
 from fem_reference.states import event_state
-from fem_reference.surface import MeshSpec, compliance_for
-from fem_reference.traction import LennardJones
-from fem_reference.uncondensed import FullContact
+from fem_reference.verification.reference_solutions import surface_constant
+from fem_reference.verification.uncondensed import FullContact
 
 AGREEMENT = 1e-8
 """Newton tolerance 1e-10 and linear tolerance 1e-4 of the last step: measured 1e-11."""
@@ -35,10 +38,10 @@ def _start(full, contact, state):
 
 @pytest.mark.parametrize(("n", "k"), [(2.0, 0.4), (1.0, 0.0)])
 def test_equilibrium_and_pull_off_agree_with_the_condensed_path(n, k):
-    modulus, nu = PowerLaw(0.8, 1.3, k), 0.3
+    modulus, nu = PowerLawModulus(0.8, 1.3, k), 0.3
     punch, law = PowerPunch(n, 1.1), LennardJones(1.2, 0.9)
     contact = Contact(punch, law, compliance_for(modulus, nu, SPEC, 1.0))
-    point = locate(walk(contact), "pull_off_force")[1]
+    point = PathEvents(traced(contact)).pull_off
     full = FullContact(modulus, nu, punch, law, SPEC)
     state = full.equilibrium(_start(full, contact, point.state), point.state.displacement, point.state.size)
     tail = _beyond(contact, point.state)
@@ -59,8 +62,8 @@ def test_the_pull_off_of_the_default_mesh_without_condensation():
     nu, k = 0.3, 0.4
     solid = Solid(surface_constant(k, nu) / (1 - k) * (1 - nu**2), 1.0, k, nu)
     punch, law = PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
-    spec, point = event_state(solid, punch, law, "pull_off_force")
-    contact = point.leg.contact
+    spec, point = event_state(Problem(solid, punch, law), "pull_off")
+    contact = point.branch.contact
     full = FullContact(solid.modulus, nu, punch, law, spec)
     start = _start(full, contact, point.state)
     found = full.pull_off(start, point.state.displacement, 1.03 * point.state.size)

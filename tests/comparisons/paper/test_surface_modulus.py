@@ -7,12 +7,13 @@ import pytest
 from scipy.special import beta
 from skfem import ElementLinePp
 
-import fem_reference.mesh_choice
+import fem_reference._contact.mesh_choice
 from comparisons.paper.answers import quantity
 from comparisons.paper.surface_modulus import homogeneous_tabor_number, with_skin
 from comparisons.paper.surface_modulus_tables import Sample, limits, samples, thresholds
-from fem_reference import LennardJones, PowerPunch, Solid, solve_together
-from fem_reference.surface import MeshSpec, trace_of
+from fem_reference import LennardJones, PowerPunch, Problem, Solid, solve_together
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._elastic.trace import trace_of
 
 
 def response_factor(k: float, nu: float) -> float:
@@ -56,7 +57,7 @@ def test_no_jumps_are_said_to_be_none():
 def test_the_answer_does_not_depend_on_where_the_exterior_begins(monkeypatch):
     found = {}
     for reach in (0.5, 64.0, 256.0):
-        monkeypatch.setattr(fem_reference.mesh_choice, "HOMOGENEOUS_DEPTH", reach)
+        monkeypatch.setattr(fem_reference._contact.mesh_choice, "HOMOGENEOUS_DEPTH", reach)
         found[reach] = with_skin("pull-off", 0.4, 1.0, 100.0)["pull_off_displacement"]
     (value, u_num), (farther, _), (too_near, _) = found[64.0], found[256.0], found[0.5]
     assert abs(value - farther) < 0.2 * u_num
@@ -67,7 +68,7 @@ def test_the_answer_does_not_depend_on_where_the_exterior_begins(monkeypatch):
 def test_the_losses_of_both_jumps_are_the_hysteresis():
     solid = Solid(E0=0.6, c0=1.0, k=0.4, nu=0.3)
     names = ("jump_in_energy", "jump_out_energy", "hysteresis_energy", "jump_in_displacement")
-    found = solve_together(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0), names, "quick")
+    found = solve_together(Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)), names, "quick")
     losses = [found[name].value for name in names[:2]]
     assert min(losses) > 0
     assert sum(losses) == pytest.approx(found["hysteresis_energy"].value, rel=1e-12)

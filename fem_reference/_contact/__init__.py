@@ -1,0 +1,1 @@
+"""Contact equilibrium: equations, continuation, events, choice of meshes, uncertainty."""

@@ -1,0 +1,148 @@
+"""Controls: single equations that select a point of the equilibrium path, with their derivatives.
+
+Two of them close the equations of `fem_reference._contact.contact`: one sets the size of the mesh, the other is the
+parameter of the path.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from fem_reference._contact.contact import Contact
+from fem_reference._typing import Array
+
+__all__ = [
+    "CentralGap",
+    "Control",
+    "EdgeGap",
+    "EdgeRadius",
+    "GapRise",
+    "Size",
+]
+
+
+class Control(Protocol):
+    """One equation that picks a point of the equilibrium path."""
+
+    def value(self, contact: Contact, y: Array) -> float:
+        """Left-hand side, zero at the point."""
+        ...
+
+    def gradient(self, contact: Contact, y: Array) -> Array:
+        """Its derivative with respect to y."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Size:
+    """The mesh has the size c.
+
+    Examples
+    --------
+    >>> Size(1.5).value(None, np.array([0.0, -10.0, 2.0]))  # w, delta and c; the problem does not matter
+    0.5
+    """
+
+    c: float
+
+    def value(self, contact: Contact, y: Array) -> float:
+        """Return c(y) - c."""
+        return float(y[-1] - self.c)
+
+    def gradient(self, contact: Contact, y: Array) -> Array:
+        """Return a unit vector."""
+        return _unit(y.size, -1)
+
+
+@dataclass(frozen=True, slots=True)
+class CentralGap:
+    """The gap at r = 0 is H0.
+
+    Examples
+    --------
+    >>> CentralGap(9.0).value(None, np.array([0.5, -10.0, 2.0]))  # H(0) = w(0) - delta = 10.5
+    1.5
+    """
+
+    H0: float
+
+    def value(self, contact: Contact, y: Array) -> float:
+        """Return H(0) - H0."""
+        return float(y[0] - y[-2] - self.H0)
+
+    def gradient(self, contact: Contact, y: Array) -> Array:
+        """Row of d H(0)."""
+        return _unit(y.size, 0) - _unit(y.size, -2)
+
+
+@dataclass(frozen=True, slots=True)
+class EdgeGap:
+    """The gap at the mesh node s = 1 is H1: the mesh follows the contact edge."""
+
+    H1: float
+
+    def value(self, contact: Contact, y: Array) -> float:
+        """Return H(s = 1) - H1."""
+        edge = contact.compliance.trace.edge
+        return float(y[edge] - y[-2] + contact.punch.height(y[-1]) - self.H1)
+
+    def gradient(self, contact: Contact, y: Array) -> Array:
+        """Row of d H(1)."""
+        edge = contact.compliance.trace.edge
+        row = _unit(y.size, edge) - _unit(y.size, -2)
+        row[-1] = float(contact.punch.slope(y[-1]))
+        return row
+
+
+@dataclass(frozen=True, slots=True)
+class EdgeRadius:
+    """The gap at the radius `radius`, anywhere on the mesh, is H1: the edge moves over a fixed mesh."""
+
+    H1: float
+    radius: float
+
+    def _row(self, contact: Contact, y: Array, shift: float = 0.0) -> Array:
+        s = (self.radius + shift) / float(y[-1])
+        return contact.compliance.trace.evaluate(np.array([s]))[0]
+
+    def value(self, contact: Contact, y: Array) -> float:
+        """Return H(radius) - H1."""
+        height = float(contact.punch.height(np.array(self.radius)))
+        return float(self._row(contact, y) @ y[:-2]) - float(y[-2]) + height - self.H1
+
+    def gradient(self, contact: Contact, y: Array) -> Array:
+        """Row of d H(radius) on a mesh of fixed size."""
+        return np.concatenate([self._row(contact, y), [-1.0, 0.0]])
+
+    def parameter_rate(self, contact: Contact, y: Array) -> float:
+        """Change of the right-hand side per unit radius, -dH/dr, by central differences of the trace."""
+        h = 1e-5 * self.radius
+        rise = float((self._row(contact, y, h) - self._row(contact, y, -h)) @ y[:-2]) / (2.0 * h)
+        return -rise - float(contact.punch.slope(np.array(self.radius)))
+
+
+@dataclass(frozen=True, slots=True)
+class GapRise:
+    """The gap at the mesh node s = 1 exceeds the central gap by `rise`: the mesh follows the bottom of the gap."""
+
+    rise: float
+
+    def value(self, contact: Contact, y: Array) -> float:
+        """Return H(s = 1) - H(0) - rise."""
+        edge = contact.compliance.trace.edge
+        return float(y[edge] - y[0] + contact.punch.height(y[-1]) - self.rise)
+
+    def gradient(self, contact: Contact, y: Array) -> Array:
+        """Row of d (H(1) - H(0))."""
+        row = _unit(y.size, contact.compliance.trace.edge) - _unit(y.size, 0)
+        row[-1] = float(contact.punch.slope(y[-1]))
+        return row
+
+
+def _unit(size: int, index: int) -> Array:
+    row = np.zeros(size)
+    row[index] = 1.0
+    return row

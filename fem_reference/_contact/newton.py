@@ -1,0 +1,142 @@
+"""Newton's method for the equilibrium equations under two controls, and the rates along the path."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import linalg
+
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.controls import Control, EdgeRadius
+from fem_reference._typing import Array
+from fem_reference.errors import NotConverged
+
+__all__ = ["State", "newton"]
+
+
+NEWTON_TOLERANCE = 1e-12
+"""Largest residual, in lengths of the law plus the largest displacement: ten times the rounding of X F."""
+
+NEWTON_STEPS = 30
+"""Largest number of damped steps."""
+
+LARGEST_GROWTH = 0.3
+"""Largest relative change of the size in a step: it stays positive, and the edge on its fine elements."""
+
+SMALLEST_DAMPING = 1e-3
+"""Fraction of a step below which none is sought: an iteration that needs it runs out of steps."""
+
+FLOOR_SHARE = 0.6
+"""Share of the singular gap below which steps are damped, unless the start lies below it."""
+
+STEP_SHARE = 1e3
+"""Largest last step, in units of the largest residual: what the conditioning of the tangent leaves of it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """A converged point of the equilibrium path.
+
+    Attributes
+    ----------
+    y : ndarray, shape (m + 2,)
+        Displacement, approach and size.
+    load : float
+        P, compression positive.
+    load_rate : float
+        Derivative of P with respect to the parameter of the second control.
+    rate : ndarray, shape (m + 2,)
+        Derivative of y with respect to it.
+    iterations : int
+        Newton steps taken.
+    residual : float
+        Largest residual in lengths of the law.
+    """
+
+    y: Array
+    load: float
+    load_rate: float
+    rate: Array
+    iterations: int
+    residual: float
+
+    @property
+    def displacement(self) -> float:
+        """Approach delta."""
+        return float(self.y[-2])
+
+    @property
+    def displacement_rate(self) -> float:
+        """Derivative of delta with respect to the control."""
+        return float(self.rate[-2])
+
+    @property
+    def size(self) -> float:
+        """Size c of the mesh."""
+        return float(self.y[-1])
+
+    @property
+    def central_gap(self) -> float:
+        """Gap at r = 0."""
+        return float(self.y[0] - self.y[-2])
+
+
+def newton(contact: Contact, y: Array, first: Control, second: Control) -> State:
+    """Solve the equilibrium equations under two controls.
+
+    Parameters
+    ----------
+    contact : Contact
+        The problem.
+    y : ndarray, shape (m + 2,)
+        Starting point.
+    first, second : Control
+        Closing equations; the rates of the returned state are with respect to the second.
+
+    Returns
+    -------
+    State
+
+    Raises
+    ------
+    NotConverged
+        If the residual does not fall to the tolerance; take a closer starting point.
+    """
+    law = contact.law
+    m = contact.unknowns
+    y = np.array(y, float)
+    K = np.empty((m + 2, m + 2))
+    G = np.empty(m + 2)
+    size = math.inf
+    for iteration in range(NEWTON_STEPS + 1):
+        G[:m] = contact.residual(y)
+        G[m:] = first.value(contact, y), second.value(contact, y)
+        K[:m] = contact.tangent(y)
+        K[m], K[m + 1] = first.gradient(contact, y), second.gradient(contact, y)
+        factors = linalg.lu_factor(K, check_finite=False)
+        size = float(np.abs(G[:m]).max()) / law.length
+        limit = NEWTON_TOLERANCE * (1.0 + float(np.abs(y[:m]).max()) / law.length)
+        step = linalg.lu_solve(factors, G, check_finite=False)
+        if size <= limit and np.abs(step[: m + 1]).max() <= STEP_SHARE * limit * law.length:
+            parameter_rate = second.parameter_rate(contact, y) if isinstance(second, EdgeRadius) else 1.0
+            rate = parameter_rate * linalg.lu_solve(factors, np.eye(m + 2)[-1], check_finite=False)
+            slope = float(contact.load_gradient(y) @ rate)
+            return State(y, contact.load(y), slope, rate, iteration, size)
+        if not np.all(np.isfinite(step)):
+            break
+        y = y - _damping(contact, y, step) * step
+    raise NotConverged(f"Newton stopped at a residual of {size:.1e} lengths of the law; start closer to the solution")
+
+
+def _damping(contact: Contact, y: Array, step: Array) -> float:
+    """Largest factor that keeps every gap off the singular gap of the law and the size within reach."""
+    factor = 1.0
+    if abs(step[-1]) > LARGEST_GROWTH * y[-1]:
+        factor = LARGEST_GROWTH * y[-1] / abs(step[-1])
+    singular = contact.law.singular_gap
+    lowest = min(FLOOR_SHARE * singular, 0.5 * (contact.gap(y).min() + singular))
+    while factor > SMALLEST_DAMPING and contact.gap(y - factor * step).min() < lowest:
+        factor *= 0.5
+    return factor

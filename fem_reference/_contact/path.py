@@ -1,0 +1,230 @@
+"""Continuation of the equilibrium path in one parameter, which changes in one sense only.
+
+Before contact the central gap H0 falls, and the mesh is scaled so that the gap at its node s = 1 is a little
+larger than H0: it follows the bottom of the gap even where contact nucleates on a spot much smaller than the
+punch.  When the gap at s = 1 has fallen to the gap of the largest tension, a contact edge has formed at
+that node, and the path continues in the radius c of the edge.  P and delta are smooth functions of H0 and then
+of c, through both folds.
+
+A solid whose modulus is no power law has a compliance for one size only.  There the mesh is fixed, and
+the edge moves over it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq
+
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.controls import CentralGap, Control, EdgeGap, EdgeRadius, GapRise, Size
+from fem_reference._contact.newton import State, newton
+from fem_reference._elastic.compliance import FixedCompliance
+from fem_reference._typing import Array
+from fem_reference.errors import NotConverged
+from fem_reference.punch import radius_at_height
+
+__all__ = [
+    "EDGE_RISE",
+    "Branch",
+    "Point",
+    "approach_branch",
+    "contact_branch",
+    "continuation",
+    "edge_width",
+    "equilibrium_points",
+    "first_edge_radius",
+]
+
+
+FARTHEST_GAP = 12.0
+"""Central gap where a path begins, in lengths of the law: the tension there is 1e-3 of its peak, Newton starts from no
+load."""
+
+EDGE_RISE = 0.05
+"""Gap at the node s = 1 above the central gap before contact, in lengths of the law: small, so that the edge is the
+parameter before any pull-off (a flat punch, n = 5 and more, pulls off 0.1 z0 below the gap of peak tension)."""
+
+GAP_STEP = 0.2
+"""Largest step of the central gap, relative to the length of the law plus H0."""
+
+SIZE_STEP = 0.1
+"""Largest relative step of the edge radius: P and delta change by a few per cent of their range."""
+
+SMALLEST_STEP = 1e-6
+"""Step, relative to the largest, below which the path ends with NotConverged."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Branch:
+    """A part of the path under one pair of controls: `fixed`, and `family` of the parameter."""
+
+    contact: Contact
+    fixed: Control
+    family: Callable[[float], Control]
+    touching: bool
+
+    def solve(self, parameter: float, y: Array) -> Point:
+        """Solve at a parameter from a starting vector."""
+        return Point(self, parameter, newton(self.contact, y, self.fixed, self.family(parameter)))
+
+    def largest_step(self, parameter: float) -> float:
+        """Largest sensible step of the parameter."""
+        if self.touching:
+            return SIZE_STEP * parameter
+        return GAP_STEP * (self.contact.law.length + max(parameter, 0.0))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Point:
+    """A state with the branch and the parameter it belongs to."""
+
+    branch: Branch
+    parameter: float
+    state: State
+
+    def predict(self, parameter: float) -> Array:
+        """Extrapolate the state along its tangent; the size at most halves or doubles."""
+        y = self.state.y + (parameter - self.parameter) * self.state.rate
+        y[-1] = np.clip(y[-1], 0.5 * self.state.size, 2.0 * self.state.size)
+        return y
+
+    @property
+    def edge_radius(self) -> float:
+        """Radius of the largest tension; 0 before a contact edge exists."""
+        return self.parameter if self.branch.touching else 0.0
+
+    @property
+    def sense(self) -> float:
+        """Sign of the parameter's change along the path."""
+        return 1.0 if self.branch.touching else -1.0
+
+    @property
+    def load_rate(self) -> float:
+        """Change of P along the path, per unit of the parameter's change."""
+        return self.sense * self.state.load_rate
+
+    @property
+    def displacement_rate(self) -> float:
+        """Change of delta along the path, per unit of the parameter's change."""
+        return self.sense * self.state.displacement_rate
+
+
+def continuation(point: Point, step: float, stop: float) -> Iterator[Point]:
+    """Continue a branch from a point towards `stop`, yielding every converged point after the first.
+
+    Raises
+    ------
+    NotConverged
+        When the step size has been reduced to `SMALLEST_STEP`.
+    """
+    direction = 1.0 if step > 0 else -1.0
+    while (stop - point.parameter) * direction > 0:
+        largest = point.branch.largest_step(point.parameter)
+        step = direction * min(abs(step), largest, abs(stop - point.parameter))
+        target = stop if abs(stop - point.parameter - step) <= 1e-12 * abs(stop) else point.parameter + step
+        try:
+            new = point.branch.solve(target, point.predict(target))
+        except NotConverged as error:
+            step *= 0.4
+            if abs(step) < SMALLEST_STEP * largest:
+                raise NotConverged(
+                    f"the path stops at H0 = {point.state.central_gap:.6g}, delta = "
+                    f"{point.state.displacement:.6g}: {error}; refine the mesh at the edge"
+                ) from error
+            continue
+        step *= 1.6 if new.state.iterations <= 4 else (0.7 if new.state.iterations > 7 else 1.0)
+        point = new
+        yield point
+
+
+def approach_branch(contact: Contact) -> Iterator[Point]:
+    """Trace the branch of the central gap from far away to the first contact edge."""
+    length = contact.law.length
+    start = FARTHEST_GAP * length
+    y = np.zeros(contact.unknowns + 2)
+    fixed: Control
+    if isinstance(contact.compliance, FixedCompliance):
+        size = contact.compliance.size
+        fixed = Size(size)
+    else:
+        size = radius_at_height(contact.punch, EDGE_RISE * length)
+        fixed = GapRise(EDGE_RISE * length)
+    y[-2:] = -start, size
+    branch = Branch(contact, fixed, CentralGap, touching=False)
+    point = branch.solve(start, y)
+    yield point
+    yield from continuation(point, -0.5 * length, contact.law.peak_gap - EDGE_RISE * length)
+
+
+def contact_branch(last: Point, largest: float) -> Iterator[Point]:
+    """Trace the branch of the contact edge from the last point before contact out to the radius `largest`."""
+    contact = last.branch.contact
+    peak = contact.law.peak_gap
+    if isinstance(contact.compliance, FixedCompliance):
+        size = contact.compliance.size
+        branch = Branch(contact, Size(size), lambda radius: EdgeRadius(peak, radius), touching=True)
+        largest = min(largest, 0.5 * contact.compliance.trace.extent * size)
+        radius = first_edge_radius(last)
+    else:
+        branch = Branch(contact, EdgeGap(peak), Size, touching=True)
+        radius = last.state.size
+    point = branch.solve(radius, last.state.y)
+    yield point
+    yield from continuation(point, 0.05 * point.parameter, largest)
+
+
+def first_edge_radius(point: Point) -> float:
+    """Innermost radius where the gap rises through the gap of peak tension.
+
+    Raises
+    ------
+    NotConverged
+        If the central gap is above it, or the edge is inside the innermost Gauss point.
+    """
+    contact, y = point.branch.contact, point.state.y
+    trace, peak = contact.compliance.trace, contact.law.peak_gap
+    above = np.flatnonzero(contact.gap(y) > peak)
+    if above.size == 0 or above[0] == 0:
+        raise NotConverged("contact begins on a spot smaller than the mesh resolves; take a smaller mesh size")
+
+    def excess(s: float) -> float:
+        w = float(trace.evaluate(np.array([s]))[0] @ y[:-2])
+        return -float(y[-2]) + float(contact.punch.height(np.array(y[-1] * s))) + w - peak
+
+    return float(y[-1]) * float(brentq(excess, trace.s[above[0] - 1], trace.s[above[0]], xtol=1e-14))
+
+
+def edge_width(point: Point) -> float:
+    """Radial length over which the gap rises by the length of the law at the edge, relative to the edge radius."""
+    contact, y = point.branch.contact, point.state.y
+    radius = point.edge_radius
+    slope = -EdgeRadius(contact.law.peak_gap, radius).parameter_rate(contact, y)
+    return contact.law.length / (slope * radius)
+
+
+def equilibrium_points(contact: Contact) -> Iterator[Point]:
+    """Trace the whole equilibrium path from far away into contact, until the consumer stops."""
+    point: Point | None = None
+    for point in approach_branch(contact):
+        yield point
+    if point is not None:
+        yield from contact_branch(point, 1e3 * radius_at_height(contact.punch, contact.law.length))
+
+
+def traced(contact: Contact) -> list[Point]:
+    """Trace the path until the load is compressive again and every fold lies behind."""
+    points: list[Point] = []
+    greatest = -float("inf")
+    for point in equilibrium_points(contact):
+        points.append(point)
+        if point.branch.touching:
+            settled = point.state.load > 0 and point.displacement_rate > 0 and point.load_rate > 0
+            # After a jump-in, the contact branch at the displacement of the jump belongs to the hysteresis cycle.
+            if settled and point.state.displacement >= greatest:
+                break
+        elif point.displacement_rate > 0:
+            greatest = max(greatest, point.state.displacement)
+    return points

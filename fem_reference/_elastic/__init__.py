@@ -1,0 +1,1 @@
+"""The elastic half-space: mesh, stiffness, exterior, and the compliance of its surface."""

@@ -1,0 +1,184 @@
+"""Compliance of the surface at every size of the contact.
+
+Radii on the surface mesh are s = r / c, with the contact edge kept at s = 1.  Scaling lengths by c turns a
+solid E(z) into E(c s): the displacement under the load vector F = integral of p phi s ds is c X(c) F, with
+X(c) the compliance of E(c s) on the fixed mesh.  For E = E0 (z/c0)^k this is c^(1-k) c0^k / E0 times one
+matrix that depends on k, nu and the mesh only, and serves every size.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Protocol
+
+import numpy as np
+from scipy import linalg
+
+from fem_reference._elastic.assembly import assemble_half_space
+from fem_reference._elastic.condensation import surface_stiffness
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._elastic.trace import Trace, trace_of
+from fem_reference._typing import Array
+from fem_reference.modulus import Modulus, PowerLawModulus
+
+__all__ = [
+    "Compliance",
+    "FixedCompliance",
+    "ScalingCompliance",
+    "compliance_for",
+    "scaled_modulus",
+]
+
+
+class Compliance(Protocol):
+    """Surface compliance as a function of the size c of the mesh."""
+
+    @property
+    def trace(self) -> Trace:
+        """The surface functions."""
+        ...
+
+    @property
+    def unknowns(self) -> int:
+        """Unknowns of the finite-element mesh behind it."""
+        ...
+
+    def factor(self, c: float) -> float:
+        """Factor of `matrix` at size c."""
+        ...
+
+    def factor_slope(self, c: float) -> float:
+        """Return the derivative of `factor` with respect to c."""
+        ...
+
+    @property
+    def matrix(self) -> Array:
+        """Normal displacement per load vector, shape (m, m), per unit factor."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ScalingCompliance:
+    """Compliance of E = E0 (z/c0)^k: one matrix for every size."""
+
+    trace: Trace
+    matrix: Array
+    modulus: PowerLawModulus
+    unknowns: int
+
+    def factor(self, c: float) -> float:
+        """c^(1-k) c0^k / E0."""
+        law = self.modulus
+        return c ** (1.0 - law.k) * law.c0**law.k / law.E0
+
+    def factor_slope(self, c: float) -> float:
+        """(1 - k) factor / c."""
+        return (1.0 - self.modulus.k) * self.factor(c) / c
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FixedCompliance:
+    """Compliance of a solid that does not scale, on a mesh of one size.
+
+    Raises
+    ------
+    ValueError
+        From `factor`, at any size but that of the mesh.
+    """
+
+    trace: Trace
+    matrix: Array
+    size: float
+    unknowns: int
+
+    def factor(self, c: float) -> float:
+        """c, which must be the size of the mesh."""
+        if abs(c / self.size - 1.0) > 1e-12:
+            raise ValueError(f"this compliance holds at the size {self.size}, not {c}: the modulus is no power law")
+        return self.size
+
+    def factor_slope(self, c: float) -> float:
+        """Zero: the size cannot change."""
+        return 0.0
+
+
+@lru_cache(maxsize=24)
+def _unit_compliance(k: float, nu: float, spec: MeshSpec) -> tuple[Trace, Array, int]:
+    grid = spec.grid()
+    half_space = assemble_half_space(grid, PowerLawModulus(1.0, 1.0, k), nu, spec.order)
+    matrix = _inverse(surface_stiffness(half_space))
+    return trace_of(grid, spec.order), matrix, int(half_space.free.size)
+
+
+def _inverse(S: Array) -> Array:
+    X = linalg.cho_solve(linalg.cho_factor(S), np.eye(S.shape[0]))
+    return 0.5 * (X + X.T)
+
+
+@dataclass(frozen=True, slots=True)
+class _Scaled:
+    """E(c s) of a modulus E(z)."""
+
+    base: Modulus
+    c: float
+
+    @property
+    def surface_exponent(self) -> float:
+        return self.base.surface_exponent
+
+    @property
+    def depth_exponent(self) -> float:
+        return self.base.depth_exponent
+
+    @property
+    def surface_depth(self) -> float:
+        return self.base.surface_depth / self.c
+
+    def __call__(self, z: Array) -> Array:
+        return self.base(np.asarray(z, float) * self.c)
+
+
+def compliance_for(modulus: Modulus, nu: float, spec: MeshSpec, size: float) -> Compliance:
+    """Return the surface compliance of a solid on a mesh whose edge is at the radius `size`.
+
+    Parameters
+    ----------
+    modulus : Modulus
+        E(z).
+    nu : float
+        Poisson ratio.
+    spec : MeshSpec
+        Mesh in units of `size`.
+    size : float
+        Edge radius; immaterial for a power law, whose compliance serves every size.
+
+    Returns
+    -------
+    Compliance
+
+    Raises
+    ------
+    NotConverged
+        If the stiffness of the mesh is not positive definite.
+    """
+    if isinstance(modulus, PowerLawModulus):
+        trace, matrix, unknowns = _unit_compliance(modulus.k, nu, spec)
+        return ScalingCompliance(trace, matrix, modulus, unknowns)
+    grid = spec.grid()
+    half_space = assemble_half_space(grid, scaled_modulus(modulus, size), nu, spec.order)
+    matrix = _inverse(surface_stiffness(half_space))
+    return FixedCompliance(trace_of(grid, spec.order), matrix, size, int(half_space.free.size))
+
+
+def scaled_modulus(modulus: Modulus, size: float) -> Modulus:
+    """Return the modulus in lengths of `size`: E(size s) as a function of s.
+
+    Examples
+    --------
+    >>> float(scaled_modulus(PowerLawModulus(1.0, 1.0, 0.5), 4.0)(np.array(1.0)))
+    2.0
+    """
+    if isinstance(modulus, PowerLawModulus):
+        return PowerLawModulus(modulus.E0, modulus.c0 / size, modulus.k)
+    return _Scaled(modulus, size)

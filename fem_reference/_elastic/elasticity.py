@@ -1,0 +1,186 @@
+"""Weak form of axisymmetric linear elasticity.
+
+Per radian it is the integral of sigma(u) : eps(v) r dr dz.
+
+The four strains are u_r,r; u_r / r (hoop); u_z,z and u_r,z + u_z,r.  The displacement components share one
+scalar space of order p (scikit-fem `ElementQuadP`); component c of scalar unknown i is unknown 2 i + c.
+Gauss points never touch the axis, and u_r = 0 there keeps the hoop strain bounded.
+
+Basis, quadrature and mapping are those of scikit-fem; the contraction over Gauss points is batched over
+elements, because a Python loop over the 49 x 49 pairs of functions of an order-6 element takes ten times
+longer.  The tests compare it with scikit-fem bilinear forms.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from scipy import sparse
+from skfem import Basis, ElementQuadP, MeshQuad
+
+from fem_reference._elastic.dof_ordering import both_components
+from fem_reference._elastic.mapping import Chart, ChartMapping
+from fem_reference._typing import Array, Index
+from fem_reference.modulus import Modulus
+
+__all__ = ["Body", "gauss_product", "stiffness"]
+
+
+EXTRA_POINTS = 2
+"""Gauss points a direction beyond the order p: r and E(z) are no polynomials of low degree."""
+
+CHUNK = 256
+"""Elements contracted at once: keeps the working set near 100 MB at order 6."""
+
+FIRST_LAYER_POINTS = 14
+"""Gauss points through the first layer, in the cube root of y: integrands like y^(k/(1-k)) reach 1e-10."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Body:
+    """A meshed piece of solid: mesh, chart to the (r, z) plane, modulus, Poisson ratio and element order.
+
+    Attributes
+    ----------
+    mesh : MeshQuad
+        Quadrilaterals in the coordinates of the chart.
+    chart : Chart
+        From those to (r, z).
+    modulus : Modulus
+        E(z).
+    nu : float
+        Poisson ratio in [0, 0.5).
+    order : int
+        Degree of the elements, at least 2.
+
+    Raises
+    ------
+    ValueError
+        If the Poisson ratio or the order is outside its range.
+    """
+
+    mesh: MeshQuad
+    chart: Chart
+    modulus: Modulus
+    nu: float
+    order: int = 4
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.nu < 0.5:
+            raise ValueError(
+                f"Poisson ratio nu = {self.nu} is outside [0, 0.5): displacement elements cannot keep the "
+                "volume; take nu = 0.499 or less"
+            )
+        if self.order < 2:
+            raise ValueError(f"element order {self.order} is below 2: the hierarchical element starts there")
+
+
+@lru_cache(maxsize=8)
+def _gauss(count: int) -> tuple[Array, Array]:
+    x, w = np.polynomial.legendre.leggauss(count)
+    return 0.5 * (x + 1.0), 0.5 * w
+
+
+def gauss_product(first: int, second: int, power: int = 1) -> tuple[Array, Array]:
+    """Gauss rule on the unit square; the second coordinate is y = u^power with Gauss points in u.
+
+    Returns
+    -------
+    X : ndarray, shape (2, first * second)
+        Points.
+    W : ndarray, shape (first * second,)
+        Weights, summing to 1.
+
+    Examples
+    --------
+    >>> X, W = gauss_product(2, 3)
+    >>> X.shape, round(float(W @ X[1] ** 4), 12)
+    ((2, 6), 0.2)
+    """
+    x, wx = _gauss(first)
+    u, wu = _gauss(second)
+    y, wy = u**power, wu * power * u ** (power - 1)
+    return np.array([np.tile(x, second), np.repeat(y, first)]), np.outer(wy, wx).ravel()
+
+
+def _element_matrices(body: Body, basis: Basis, chunk: slice) -> Array:
+    """Stiffness of some elements, shape (elements, 2 n, 2 n) with n functions and interleaved components."""
+    r, z = np.asarray(basis.global_coordinates())[:, chunk]
+    E = body.modulus(z)
+    if not np.all(E > 0):
+        raise ValueError("the modulus is not positive everywhere: a soft layer of zero stiffness has no solution")
+    nu = body.nu
+    measure = (r * basis.dx[chunk])[..., None]
+    lame = (E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)))[..., None] * measure
+    shear = (E / (2.0 * (1.0 + nu)))[..., None] * measure
+    # A radial function strains by `radial` (rr), `hoop` and `axial` (rz); an axial one by `axial` (zz)
+    # and `radial` (rz).
+    radial = np.stack([f[0].grad[0][chunk] for f in basis.basis], axis=-1)
+    axial = np.stack([f[0].grad[1][chunk] for f in basis.basis], axis=-1)
+    hoop = np.stack([np.asarray(f[0])[chunk] for f in basis.basis], axis=-1) / r[..., None]
+    stiff = lame + 2.0 * shear
+    n = radial.shape[-1]
+    K = np.empty((r.shape[0], 2 * n, 2 * n))
+    radial_t, axial_t, hoop_t = (np.swapaxes(f, 1, 2) for f in (radial, axial, hoop))
+    K[:, 0::2, 0::2] = (
+        radial_t @ (stiff * radial + lame * hoop) + hoop_t @ (stiff * hoop + lame * radial) + axial_t @ (shear * axial)
+    )
+    K[:, 0::2, 1::2] = (radial_t + hoop_t) @ (lame * axial) + axial_t @ (shear * radial)
+    K[:, 1::2, 0::2] = np.swapaxes(K[:, 0::2, 1::2], 1, 2)
+    K[:, 1::2, 1::2] = axial_t @ (stiff * axial) + radial_t @ (shear * radial)
+    return K
+
+
+def stiffness(body: Body, first_layer: Index, depth_axis: int = 1) -> tuple[sparse.csr_array, Basis]:
+    """Assemble the stiffness matrix of a body.
+
+    Parameters
+    ----------
+    body : Body
+        What to assemble.
+    first_layer : ndarray of int
+        Elements touching the surface; they get the quadrature of the graded chart.
+    depth_axis : int
+        Mesh coordinate that points into the solid in those elements.
+
+    Returns
+    -------
+    matrix : csr_array, shape (2 N, 2 N)
+        Symmetric; no boundary condition applied.
+    basis : skfem.Basis
+        The scalar space with N unknowns (on all elements).
+
+    Raises
+    ------
+    ValueError
+        If the modulus is not positive.
+    """
+    element = ElementQuadP(body.order)
+    mapping = ChartMapping(body.mesh, body.chart)
+    count = body.order + EXTRA_POINTS
+    others = np.setdiff1d(np.arange(body.mesh.nelements), first_layer)
+    rules = []
+    if others.size:
+        rules.append((others, gauss_product(count, count)))
+    if first_layer.size:
+        X, W = gauss_product(count, FIRST_LAYER_POINTS, 3)
+        corners = body.mesh.p[depth_axis, body.mesh.t[:, first_layer[0]]]
+        # scikit-fem numbers the corners of a tensor mesh down the columns: its first reference axis is z.
+        rules.append((first_layer, (X[::-1] if corners[0] != corners[1] else X, W)))
+    parts = []
+    for elements, rule in rules:
+        basis = Basis(body.mesh, element, mapping, quadrature=rule, elements=elements, disable_doflocs=True)
+        dofs = both_components(np.asarray(basis.element_dofs))
+        for start in range(0, elements.size, CHUNK):
+            chunk = slice(start, start + CHUNK)
+            K = _element_matrices(body, basis, chunk)
+            local = dofs[:, chunk].T
+            rows = np.broadcast_to(local[:, :, None], K.shape)
+            cols = np.broadcast_to(local[:, None, :], K.shape)
+            parts.append((K.ravel(), rows.ravel(), cols.ravel()))
+    data, rows, cols = (np.concatenate(part) for part in zip(*parts, strict=True))
+    size = 2 * basis.N
+    matrix = sparse.coo_array((data, (rows.astype(np.int32), cols.astype(np.int32))), shape=(size, size)).tocsr()
+    return matrix, basis

@@ -1,0 +1,152 @@
+"""Tensor-product meshes of the half-space, graded to a contact edge and to the surface.
+
+Radii r >= 0 run along the surface, depth z >= 0 into the solid.  Radial nodes sit at s_e + d sinh(x) and
+depth nodes at d_z sinh(x) with x equally spaced: an element is about `density` times its distance from the
+edge (or the surface), and never smaller than `density` times the width d that has to be resolved.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from skfem import MeshQuad
+
+from fem_reference._typing import Array
+
+__all__ = ["Grid", "MeshSpec", "graded_grid", "uniform_grid"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Grid:
+    """Nodes of a tensor-product mesh of [0, a] x [0, a].
+
+    Attributes
+    ----------
+    r : ndarray, shape (nr + 1,)
+        Radial nodes, from 0 to a.
+    z : ndarray, shape (nz + 1,)
+        Depth nodes, from 0 to a.
+
+    Raises
+    ------
+    ValueError
+        If the nodes do not rise strictly from 0, or the two sides differ.
+    """
+
+    r: Array
+    z: Array
+
+    def __post_init__(self) -> None:
+        for name, nodes in (("radial", self.r), ("depth", self.z)):
+            if nodes[0] != 0 or np.any(np.diff(nodes) <= 0):
+                raise ValueError(f"{name} nodes must rise strictly from 0: the mesh would be folded over")
+        if not math.isclose(self.r[-1], self.z[-1], rel_tol=1e-12):
+            raise ValueError(f"the mesh ends at r = {self.r[-1]} and z = {self.z[-1]}; the exterior needs a square")
+
+    @property
+    def extent(self) -> float:
+        """Side a of the meshed square."""
+        return float(self.r[-1])
+
+    def quads(self) -> MeshQuad:
+        """Return the scikit-fem mesh (columns of quadrilaterals in r, rows in z)."""
+        return MeshQuad.init_tensor(self.r, self.z)
+
+
+def _sinh_nodes(width: float, length: float, density: float) -> Array:
+    """0 ... length, spaced like width * sinh(x) with x steps of at most `density`."""
+    reach = math.asinh(length / width)
+    count = max(2, math.ceil(reach / density))
+    nodes = width * np.sinh(np.linspace(0.0, reach, count + 1))
+    nodes[-1] = length
+    return nodes
+
+
+def graded_grid(
+    edge: float = 1.0,
+    edge_width: float = 0.1,
+    surface_depth: float = 0.05,
+    extent: float = 100.0,
+    density: float = 0.5,
+    apex_width: float | None = None,
+) -> Grid:
+    """Return a grid refined around the radius `edge` and towards the surface.
+
+    Parameters
+    ----------
+    edge : float
+        Radius at which the radial elements are smallest; a node sits there.
+    edge_width : float
+        Radial length to resolve at the edge; elements there have the size `density * edge_width`.
+    surface_depth : float
+        Depth to resolve under the surface; the first layer has the thickness `density * surface_depth`.
+    extent : float
+        Side of the meshed square.
+    density : float
+        Growth of element size with distance; halving it halves every element.
+    apex_width : float, optional
+        Radial length to resolve at r = 0 as well (a cone has a singular stress there).
+
+    Returns
+    -------
+    Grid
+
+    Raises
+    ------
+    ValueError
+        If a length is not positive or the edge is not inside the extent.
+    """
+    for name, value in (("edge_width", edge_width), ("surface_depth", surface_depth), ("density", density)):
+        if not (math.isfinite(value) and value > 0):
+            raise ValueError(f"{name} = {value} is outside (0, infinity): it is a length to resolve")
+    if not 0 < edge < extent:
+        raise ValueError(f"edge = {edge} is outside (0, extent = {extent}): the refined radius must lie in the mesh")
+    if apex_width is None:
+        inside = edge - _sinh_nodes(edge_width, edge, density)[::-1]
+    else:
+        half = 0.5 * edge
+        inside = edge - _sinh_nodes(edge_width, half, density)[::-1]
+        inside = np.concatenate([_sinh_nodes(apex_width, half, density), inside[1:]])
+    outside = edge + _sinh_nodes(edge_width, extent - edge, density)
+    inside[0], outside[-1] = 0.0, extent
+    return Grid(np.concatenate([inside, outside[1:]]), _sinh_nodes(surface_depth, extent, density))
+
+
+def uniform_grid(extent: float, count: int) -> Grid:
+    """Return `count` x `count` equal squares on [0, extent]^2 (for manufactured solutions).
+
+    Examples
+    --------
+    >>> uniform_grid(1.0, 2).r
+    array([0. , 0.5, 1. ])
+    """
+    nodes = np.linspace(0.0, extent, count + 1)
+    return Grid(nodes, nodes.copy())
+
+
+@dataclass(frozen=True, slots=True)
+class MeshSpec:
+    """What a mesh in units of the edge radius is made of (see `graded_grid`), hashable.
+
+    Attributes
+    ----------
+    edge_width, surface_depth, extent, apex_width : float
+        Lengths in units of the edge radius.
+    density : float
+        Growth of element size with distance.
+    order : int
+        Degree of the elements.
+    """
+
+    edge_width: float
+    surface_depth: float
+    extent: float
+    density: float
+    order: int
+    apex_width: float | None = None
+
+    def grid(self) -> Grid:
+        """Return the grid with its edge at s = 1."""
+        return graded_grid(1.0, self.edge_width, self.surface_depth, self.extent, self.density, self.apex_width)

@@ -1,0 +1,98 @@
+"""Accuracies and the mesh densities that they select."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+__all__ = ["ACCURACIES", "Level", "finer_levels", "level_for"]
+
+ACCURACIES = {"quick": 1e-6, "default": 1e-7, "fine": 1e-8}
+"""Names of accuracies.  Measured for n = 2 and the 9-3 law: the pull-off force has these relative errors."""
+
+LARGEST = 1.0
+"""Accuracies are below it: a relative error of one leaves no digit."""
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """Element order and the three mesh densities, coarse to fine.
+
+    Examples
+    --------
+    >>> level_for("quick").densities
+    (1.4, 1.15, 0.95)
+    """
+
+    order: int
+    densities: tuple[float, float, float]
+
+
+ORDER = 6
+
+_LEVELS = {
+    ACCURACIES["quick"]: Level(ORDER, (1.4, 1.15, 0.95)),
+    ACCURACIES["default"]: Level(ORDER, (1.05, 0.85, 0.69)),
+    ACCURACIES["fine"]: Level(ORDER, (0.75, 0.61, 0.5)),
+}
+
+
+def _number(accuracy: float | str) -> float:
+    """Check an accuracy and return the number it stands for."""
+    finest = min(_LEVELS)
+    known = ", ".join(f"{name!r} ({number:g})" for name, number in ACCURACIES.items())
+    if isinstance(accuracy, str):
+        if accuracy not in ACCURACIES:
+            raise ValueError(f"accuracy {accuracy!r} is unknown; choose one of {known}, or a number")
+        return ACCURACIES[accuracy]
+    if isinstance(accuracy, bool) or not isinstance(accuracy, (int, float)) or not finest <= accuracy < LARGEST:
+        raise ValueError(
+            f"accuracy {accuracy!r} is outside [{finest:g}, {LARGEST:g}): it is the relative error asked for, and "
+            f"finer meshes have not been verified; choose such a number, or one of {known}"
+        )
+    return float(accuracy)
+
+
+def level_for(accuracy: float | str) -> Level:
+    """Return the meshes of an accuracy.
+
+    Between the named accuracies the logarithm of each density is linear in that of the accuracy.  Above the largest of
+    them the meshes are those of "quick": a path cannot be traced reliably on coarser ones.
+
+    Parameters
+    ----------
+    accuracy : float or str
+        Relative error asked for, in [1e-8, 1), or one of `ACCURACIES`.
+
+    Raises
+    ------
+    ValueError
+        For an unknown name or a number outside the range.
+
+    Examples
+    --------
+    >>> level_for(1e-7) == level_for("default")
+    True
+    >>> [round(density, 3) for density in level_for(3e-7).densities]
+    [1.204, 0.982, 0.804]
+    """
+    number = min(_number(accuracy), max(_LEVELS))
+    if number in _LEVELS:
+        return _LEVELS[number]
+    coarse, fine = min(n for n in _LEVELS if n > number), max(n for n in _LEVELS if n < number)
+    share = math.log(coarse / number) / math.log(coarse / fine)
+    pairs = zip(_LEVELS[coarse].densities, _LEVELS[fine].densities, strict=True)
+    first, second, third = (a * (b / a) ** share for a, b in pairs)
+    return Level(ORDER, (first, second, third))
+
+
+def finer_levels(accuracy: float | str) -> list[Level]:
+    """Return the meshes of an accuracy, then those of the finer named accuracies.
+
+    Examples
+    --------
+    >>> finer_levels("default") == [level_for("default"), level_for("fine")]
+    True
+    """
+    number = min(_number(accuracy), max(_LEVELS))
+    return [level_for(number), *(_LEVELS[n] for n in sorted(_LEVELS, reverse=True) if n < number)]
