@@ -15,20 +15,20 @@ ALLOWED = {
     # The pure data of a problem is what all of comparisons speaks of.
     "comparisons": ("fscm.problem", "fscm.punch", "fscm.laws"),
     # A model from outside may work in physical units.
-    "comparisons.foreign": ("fscm.physical", "fscm.problem", "fscm.punch", "fscm.laws"),
+    "comparisons.external": ("fscm.physical", "fscm.problem", "fscm.punch", "fscm.laws"),
     # Shows what is inside the finite elements: fields, checks, solver table.
-    "comparisons.commands.fem": ("fem_reference", "fscm.problem", "fscm.punch", "fscm.laws"),
+    "comparisons.cli.commands.fem": ("fem_reference", "fscm.problem", "fscm.punch", "fscm.laws"),
     # Shows the functions inside the FSCM.
-    "comparisons.paper.kernel_functions": ("fscm",),
+    "comparisons.paper.figures.kernel_functions": ("fscm",),
     # Asks the finite elements about a solid that is no power law, which no dimensionless problem describes.
-    "comparisons.paper.surface_modulus": ("fscm.physical", "fscm.problem", "fem_reference"),
+    "comparisons.paper.studies.surface_modulus": ("fscm.physical", "fscm.problem", "fem_reference"),
     # Shows where a jump lands and what the surface is at pull-off, which no quantity of a model says.
-    "comparisons.paper.s_curve": ("fscm",),
-    "comparisons.paper.pull_off_surfaces": ("fscm",),
+    "comparisons.paper.figures.s_curve": ("fscm",),
+    "comparisons.paper.figures.pull_off_surfaces": ("fscm",),
     # Both jumps of one path, at every Tabor number, in half the time of asking for each.
-    "comparisons.paper.jumps": ("fscm",),
+    "comparisons.paper.figures.jumps": ("fscm",),
     # Takes the published scheme apart: what is left out, the mesh, the steps, one at a time.
-    "comparisons.paper.scheme_ingredients": ("fscm",),
+    "comparisons.paper.values.scheme_ingredients": ("fscm",),
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
     "comparisons.models.gibson_limit": ("fscm",),
@@ -47,38 +47,38 @@ LAYERS = (
     (
         "comparisons.model",
         "comparisons.quantities",
-        "comparisons.claims",
-        "comparisons.distance",
-        "comparisons.kappa",
-        # How a number is written, also in the messages of the modules before `comparisons.outputs`.
-        "comparisons.outputs.digits",
-        "comparisons.exit_status",
-        "comparisons.toml_text",
-        "comparisons.shapes",
-        "comparisons.uncertainty",
-        "comparisons.verdict",
-        "comparisons.store",
-        "comparisons.journal",
-        "comparisons.workers",
-        "comparisons.record",
-        "comparisons.progress",
-        "comparisons.provenance",
+        "comparisons.data.paper_values",
+        "comparisons.numerics.curve_distance",
+        "comparisons.numerics.kappa",
+        # How a number is written, also in the messages of the modules before `comparisons.output`.
+        "comparisons.numerics.number_text",
+        "comparisons.console.exit_status",
+        "comparisons.data.toml_text",
+        "comparisons.curve_quantities",
+        "comparisons.numerics.grid_convergence",
+        "comparisons.judging.decision",
+        "comparisons.runs.tables",
+        "comparisons.runs.journal",
+        "comparisons.runs.workers",
+        "comparisons.runs.record",
+        "comparisons.console.progress",
+        "comparisons.runs.environment",
     ),
     # Whoever asks a model need not know whether it is ours.
-    ("comparisons.models", "comparisons.foreign"),
-    ("comparisons.cases",),
-    ("comparisons.run", "comparisons.gates", "comparisons.gate_checks"),
-    ("comparisons.judge",),
+    ("comparisons.models", "comparisons.external"),
+    ("comparisons.runs.cases",),
+    ("comparisons.runs.tasks", "comparisons.judging.gates", "comparisons.judging.gate_checks"),
+    ("comparisons.judging.judge",),
     (
-        "comparisons.tables",
-        "comparisons.figures",
-        "comparisons.outputs",
-        "comparisons.bench",
+        "comparisons.output.tables",
+        "comparisons.output.figures",
+        "comparisons.output",
+        "comparisons.output.scheme_benchmark",
     ),
-    ("comparisons.paper", "comparisons.report", "comparisons.publish"),
-    ("comparisons.commands",),
-    ("comparisons.cli",),
-    ("comparisons.start",),
+    ("comparisons.paper", "comparisons.output.report", "comparisons.baseline"),
+    ("comparisons.cli.commands",),
+    ("comparisons.cli.main",),
+    ("comparisons.__main__",),
 )
 
 

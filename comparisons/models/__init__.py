@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib import import_module
 
-from comparisons.foreign.loading import door_of, open_model
+from comparisons.external.model_source import door_of, open_model
 from comparisons.model import Model
 
 __all__ = ["MODELS", "Outside", "create", "identify", "knows_poisson"]
@@ -52,7 +52,7 @@ def create(name: str, poisson_ratio: float | None = None) -> Model:
     Parameters
     ----------
     name : str
-        A key of `MODELS`, or the SPEC of a model from outside (see `comparisons.foreign.loading`).
+        A key of `MODELS`, or the SPEC of a model from outside (see `comparisons.external.model_source`).
     poisson_ratio : float, optional
         Poisson's ratio of the solid, for models that need one; by default the model's own choice.
 

@@ -12,12 +12,12 @@ from functools import lru_cache
 from typing import ClassVar
 
 import fem_reference
-from comparisons.distance import spread
+from comparisons.numerics.curve_distance import spread
 from comparisons.model import Curve, NotApplicable, Profile, Result
 from comparisons.models.solver import result_of, translated
 from comparisons.quantities import QUANTITIES
-from comparisons.shapes import near
-from comparisons.uncertainty import declared_order, three_grids
+from comparisons.curve_quantities import near
+from comparisons.numerics.grid_convergence import declared_order, three_grids
 from fem_reference import export
 from fscm.laws import LennardJones93
 from fscm.physical import PhysicalProblem

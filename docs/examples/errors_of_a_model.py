@@ -5,11 +5,11 @@ python docs/examples/errors_of_a_model.py
 
 import pandas as pd
 
-from comparisons.cases import Case
+from comparisons.runs.cases import Case
 from comparisons.models import create
-from comparisons.run import ask
-from comparisons.store import frame
-from comparisons.tables import relative_error
+from comparisons.runs.tasks import ask
+from comparisons.runs.tables import frame
+from comparisons.output.tables import relative_error
 
 models = [create("fscm"), create("jkr"), create("md-improved")]
 cases = [Case(n=2, k=0.4, mu=mu) for mu in (0.1, 0.3, 1.0, 3.0)]

@@ -9,8 +9,8 @@ from types import ModuleType, SimpleNamespace
 import numpy as np
 import pytest
 
-from comparisons.cases import load_grids
-from comparisons.gates import gates_text
+from comparisons.runs.cases import load_grids
+from comparisons.judging.gates import gates_text
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from comparisons.models import MODELS
 
@@ -104,9 +104,9 @@ tier = "quick"
 def small_grid(toys, monkeypatch):
     """Make `fscm-bench run` compute four cases of toy models and judge them by one gate, given here."""
     for command in ("run", "judge"):
-        monkeypatch.setattr(f"comparisons.commands.{command}.grids", lambda tier: load_grids(GRID))
+        monkeypatch.setattr(f"comparisons.cli.commands.{command}.grids", lambda tier: load_grids(GRID))
         monkeypatch.setattr(
-            f"comparisons.commands.{command}.gates_text", lambda path: gates_text(path) if path else GATES
+            f"comparisons.cli.commands.{command}.gates_text", lambda path: gates_text(path) if path else GATES
         )
     return GATES
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from comparisons.outputs.latex import latex
-from comparisons.outputs.latex_text import comment, escaped
+from comparisons.output.latex import latex
+from comparisons.output.latex_text import comment, escaped
 
 PUBLISHED = Path(__file__).parents[2] / "results" / "published" / "paper" / "published_numbers.tex"
 #: What our texts hold, what LaTeX takes as commands, and what others may write.

@@ -2,10 +2,10 @@
 
 import pytest
 
-from comparisons.cases import Case
+from comparisons.runs.cases import Case
 from comparisons.model import Model, TracesCurve
 from comparisons.models import MODELS, create
-from comparisons.run import ask
+from comparisons.runs.tasks import ask
 
 #: Models that take more than a second an answer; their own tests ask them.
 SLOW = {"fscm-stieltjes", "fscm-stieltjes-400", "fem"}

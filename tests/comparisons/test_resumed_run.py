@@ -6,14 +6,16 @@ from dataclasses import replace
 
 import pytest
 
-from comparisons.cases import Case
-from comparisons.cli import main
-from comparisons.commands import computing, reevaluation, row_journal
+from comparisons.runs.cases import Case
+from comparisons.cli.main import main
+from comparisons.runs import reevaluation
+from comparisons.runs import row_journal
+from comparisons.runs import computation as computing
 from comparisons.model import ComputationFailed
-from comparisons.paper.workshop import Call, Workshop
-from comparisons.record import read_record
-from comparisons.run import Task, answer, compute
-from comparisons.store import read_table
+from comparisons.paper.cache import Call, Workshop
+from comparisons.runs.record import read_record
+from comparisons.runs.tasks import Task, answer, compute
+from comparisons.runs.tables import read_table
 
 from .test_run import interrupt_after, run
 

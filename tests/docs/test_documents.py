@@ -11,13 +11,13 @@ import mpmath
 import pytest
 
 import fscm
-from comparisons import cli
-from comparisons.cases import asked_of, grids, load_grids
-from comparisons.gates import Gate, load_gates
-from comparisons.judge import by_gate, judge, left_out
-from comparisons.publish import read_published
+from comparisons.cli import main as cli
+from comparisons.runs.cases import asked_of, grids, load_grids
+from comparisons.judging.gates import Gate, load_gates
+from comparisons.judging.judge import by_gate, judge, left_out
+from comparisons.baseline import read_published
 from comparisons.quantities import QUANTITIES
-from comparisons.run import plan
+from comparisons.runs.tasks import plan
 from fscm.physical import PhysicalProblem
 
 ROOT = Path(__file__).resolve().parents[2]

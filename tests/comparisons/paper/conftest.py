@@ -2,7 +2,7 @@
 
 import pytest
 
-from comparisons.paper.workshop import Workshop
+from comparisons.paper.cache import Workshop
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,44 @@
+"""``fscm-bench check-model``: does a model from outside keep the contract, and if not, what is wrong."""
+
+from __future__ import annotations
+
+import argparse
+
+from comparisons.cli.options import FAILED, FAILS, OK
+from comparisons.external import contract_checks as contract_suite
+from comparisons.external.model_source import open_model
+from comparisons.models import MODELS
+from comparisons.console.progress import waiting
+
+__all__ = ["add", "call"]
+
+
+def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the arguments."""
+    parser = parsers.add_parser(
+        "check-model", help="check that a model from outside keeps the contract", description=__doc__
+    )
+    parser.add_argument(
+        "spec",
+        metavar="SPEC",
+        help="name of an installed model, FILE.py:CLASS, or a folder with a model.toml",
+    )
+    parser.set_defaults(call=call)
+
+
+def call(args: argparse.Namespace) -> int:
+    """Examine and print; return 4 if a computation failed, 1 if something is wrong, else 0."""
+    if args.spec in MODELS:
+        raise ValueError(f"{args.spec} is one of our own models; its tests are in tests/comparisons/models")
+    model = open_model(args.spec)
+    if model.name in MODELS:
+        raise ValueError(f"the model calls itself {model.name}, which is one of ours: it needs its own name")
+    with waiting(f"checking {model.name}"):
+        findings = contract_suite.examine(model)
+    width = max(len(finding.status) for finding in findings)
+    for finding in findings:
+        print(f"{finding.status:{width}}  {finding.check}: {finding.text}")
+    found = {finding.status for finding in findings}
+    if "failed" in found:
+        return FAILED
+    return FAILS if "wrong" in found else OK

@@ -1,0 +1,108 @@
+"""``fscm-bench curve``: a force-displacement curve, or a surface at pull-off, by one model or several."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from comparisons.runs.cases import Case
+from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case, case_of, number
+from comparisons.output.figures import force_curve
+from comparisons.output.figures import profiles
+from comparisons.output.style import picture_path, save
+from comparisons.model import ComputationFailed, Model, NotApplicable
+from comparisons.models import create, identify
+from comparisons.console.progress import log, waiting
+from comparisons.curve_quantities import SHAPES, traced
+from comparisons.runs.tables import atomic, csv_text, writable_file
+from fscm.problem import Problem
+
+__all__ = ["add", "call"]
+
+_Answer = TypeVar("_Answer")
+
+
+def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the arguments."""
+    parser = parsers.add_parser("curve", help="force-displacement curves as CSV and as a plot", description=__doc__)
+    parser.add_argument(
+        "--model",
+        metavar="SPEC",
+        nargs="+",
+        action="extend",
+        required=True,
+        help=MODEL_SPEC,
+    )
+    parser.add_argument("--quantity", choices=SHAPES, default="force_curve", help="what to draw (default: force_curve)")
+    add_case(parser)
+    parser.add_argument("--nu", type=number, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one")
+    parser.add_argument("--csv", metavar="FILE", type=Path, help="write the points here; by default to stdout")
+    parser.add_argument("--plot", metavar="FILE", type=Path, help="draw the curves here (.png, .pdf or .svg)")
+    parser.set_defaults(call=call)
+
+
+def call(args: argparse.Namespace) -> int:
+    """Trace, write, draw; return the exit status."""
+    case = case_of(args)
+    # All that can be wrong with the request is found out before anything is computed.
+    names, outside = identify(args.model)
+    models = {name: create(outside[name].spec if name in outside else name, case.nu) for name in names}
+    if args.csv:
+        writable_file(args.csv)
+    if args.plot:
+        writable_file(picture_path(args.plot))
+    points, draw, status = _asked(models, args.quantity, case)
+    if args.csv:
+        with atomic(args.csv) as file:
+            file.write(csv_text(points).encode())
+    if args.plot:
+        save(draw(), args.plot)
+    if not args.csv and not args.plot:
+        print(csv_text(points), end="")
+    return status
+
+
+def _asked(models: dict[str, Model], quantity: str, case: Case) -> tuple[pd.DataFrame, Callable[[], Figure], int]:
+    """Ask every model; return one row a point, what draws them, and the exit status."""
+    if quantity == "force_curve":
+        # Not through the registry of shapes, which has no room for what else a model knows on its path.
+        curves, status = _answers(models, case, traced)
+        tables = {
+            name: {"displacement": curve.displacement, "load": curve.load, **curve.columns}
+            for name, curve in curves.items()
+        }
+        axes = ["displacement", "load"]
+        return _points(tables, axes), lambda: force_curve.draw(curves, case.label), status
+    shape = SHAPES[quantity]
+    found, status = _answers(models, case, shape.ask)
+    surfaces = {name: {shape.x: points.x, shape.y: points.y} for name, points in found.items()}
+    return _points(surfaces, [shape.x, shape.y]), lambda: profiles.draw(found, quantity, case.label), status
+
+
+def _answers(
+    models: dict[str, Model], case: Case, ask: Callable[[Model, Problem], _Answer]
+) -> tuple[dict[str, _Answer], int]:
+    """Return what the models that can answer do, and the exit status; the others are told of on stderr."""
+    answers: dict[str, _Answer] = {}
+    status = OK
+    for name, model in models.items():
+        try:
+            with waiting(f"{name}, {case.label}"):
+                answers[name] = ask(model, case.problem())
+        except NotApplicable as refusal:
+            log(f"{name}: not-applicable: {refusal}")
+        except ComputationFailed as failure:
+            log(f"{name}: failed: {failure}")
+            status = FAILED
+    return answers, status
+
+
+def _points(tables: Mapping[str, Mapping[str, Any]], axes: list[str]) -> pd.DataFrame:
+    """One row a point, in the order of each path; a column that a model does not know is empty."""
+    frames = [pd.DataFrame({"model": name, **table}) for name, table in tables.items()]
+    return pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=["model", *axes])

@@ -1,0 +1,28 @@
+"""``fscm-bench new-model``: write a package with a model that works, a test and a workflow that gates it."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from comparisons.cli.options import OK
+from comparisons.external.template import write_template
+from comparisons.console.progress import log
+
+__all__ = ["add", "call"]
+
+
+def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the arguments."""
+    parser = parsers.add_parser("new-model", help="write a template for a model of your own", description=__doc__)
+    parser.add_argument("folder", metavar="DIR", type=Path, help="new folder; the model gets its name, e.g. my-model")
+    parser.set_defaults(call=call)
+
+
+def call(args: argparse.Namespace) -> int:
+    """Write the files and name them; return the exit status."""
+    written, spec = write_template(args.folder)
+    for path in written:
+        print(path)
+    log(f"change what the model computes; then: fscm-bench check-model {spec}")
+    return OK

@@ -1,0 +1,34 @@
+"""``fscm-bench report``: write the folder of a run as one HTML page that needs nothing from outside."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from comparisons.cli.options import OK
+from comparisons.console.progress import log
+from comparisons.output.report.stored_run import read_folder
+from comparisons.output.report.page import make_page
+from comparisons.output.report.render import render
+from comparisons.runs.tables import atomic, writable_file
+
+__all__ = ["add", "call"]
+
+
+def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the arguments."""
+    parser = parsers.add_parser("report", help="write a run as one HTML page", description=__doc__)
+    parser.add_argument("folder", metavar="DIR", type=Path, help="folder of a finished run")
+    parser.add_argument("--out", metavar="FILE", type=Path, help="the page (default: DIR/report.html)")
+    parser.set_defaults(call=call)
+
+
+def call(args: argparse.Namespace) -> int:
+    """Read, lay out and write; return the exit status."""
+    stored = read_folder(args.folder)
+    path = writable_file(args.out or args.folder / "report.html")
+    text = render(make_page(stored))
+    with atomic(path) as file:
+        file.write(text.encode())
+    log(f"the report is {path}")
+    return OK

@@ -1,0 +1,94 @@
+"""``fscm-bench solve``: one quantity of one problem by one model."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+
+from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case, case_of, number
+from comparisons.models import create
+from comparisons.console.progress import waiting
+from comparisons.quantities import QUANTITIES
+from comparisons.runs.tasks import ask
+from comparisons.runs.tables import Row, csv_text, frame
+
+__all__ = ["add", "call"]
+
+
+def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the arguments."""
+    parser = parsers.add_parser("solve", help="one quantity of one problem by one model", description=__doc__)
+    parser.add_argument("--model", metavar="SPEC", required=True, help=MODEL_SPEC)
+    parser.add_argument("--quantity", metavar="NAME", required=True, help="see: fscm-bench list quantities")
+    add_case(parser)
+    parser.add_argument("--nu", type=number, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one")
+    parser.add_argument("--format", choices=_FORMATS, default="text")
+    parser.set_defaults(call=call)
+
+
+def call(args: argparse.Namespace) -> int:
+    """Compute and print; return the exit status."""
+    if args.quantity not in QUANTITIES:
+        raise ValueError(f"unknown quantity {args.quantity!r}; the quantities are {', '.join(QUANTITIES)}")
+    case = case_of(args)
+    model = create(args.model, case.nu)
+    with waiting(f"{args.model}, {case.label}"):
+        row = ask(model, args.quantity, case)
+    print(_FORMATS[args.format](row), end="")
+    return FAILED if row.status == "failed" else OK
+
+
+def _case(row: Row) -> dict[str, float]:
+    given = {"n": row.n, "k": row.k, "mu": row.mu}
+    return given if row.nu is None else {**given, "nu": row.nu}
+
+
+def _json(row: Row) -> str:
+    content = {
+        "model": row.model,
+        "quantity": row.quantity,
+        "case": _case(row),
+        "value": row.value,
+        "u_num": row.u_num,
+        "status": row.status,
+        "unit": row.unit,
+        "seconds": row.seconds,
+    }
+    if row.reason:
+        content["reason"] = row.reason
+    return json.dumps(content, allow_nan=False) + "\n"
+
+
+def _csv(row: Row) -> str:
+    return csv_text(frame([row]))
+
+
+def _text(row: Row) -> str:
+    quantity = QUANTITIES[row.quantity]
+    lines = [
+        f"{row.model}: {row.quantity} at " + ", ".join(f"{name} = {value:g}" for name, value in _case(row).items())
+    ]
+    if row.value is None or row.u_num is None:
+        lines.append(f"  {row.status}: {row.reason}")
+    else:
+        unit = "" if quantity.unit == "1" else f" {quantity.unit}"
+        lines.append(f"  {quantity.symbol} = {with_uncertainty(row.value, row.u_num)}{unit}  ({row.seconds:.2g} s)")
+    return "\n".join(lines) + "\n"
+
+
+def with_uncertainty(value: float, uncertainty: float) -> str:
+    """Return a value with the digits its uncertainty leaves it.
+
+    Examples
+    --------
+    >>> with_uncertainty(1.788481712345, 3e-9)
+    '1.7884817123 +- 3.0e-09'
+    """
+    if uncertainty == 0:
+        return f"{value!r}"
+    decimals = max(0, 1 - math.floor(math.log10(uncertainty)))
+    return f"{value:.{min(decimals, 17)}f} +- {uncertainty:.1e}"
+
+
+_FORMATS = {"text": _text, "json": _json, "csv": _csv}

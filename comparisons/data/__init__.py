@@ -1,0 +1,1 @@
+"""Cases, gates and paper values as data, and their schemas."""

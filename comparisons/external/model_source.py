@@ -1,0 +1,120 @@
+"""The three doors: which kind of model a SPEC names, and opening it.
+
+NAME                 an entry point of the group `fscm_bench.models` of an installed package
+FILE.py:CLASS        a local file
+FOLDER               predictions as data: a folder with a `model.toml`
+
+A name that is both an entry point and a folder with a `model.toml` is refused; with a separator (./NAME) it is
+the folder.
+"""
+
+from __future__ import annotations
+
+import atexit
+import os
+from importlib.metadata import entry_points
+from pathlib import Path
+from typing import Any
+
+from comparisons.external.data_model import MANIFEST, DataModel, read_submission
+from comparisons.external.process_model import ForeignModel, connect
+from comparisons.external.text_rules import one_line
+
+__all__ = ["GROUP", "close_models", "door_of", "installed", "open_model"]
+
+GROUP = "fscm_bench.models"
+
+_open: dict[tuple[str, float | None], ForeignModel | DataModel] = {}
+
+
+def installed() -> list[tuple[str, str, str]]:
+    """Return name, package and version of the installed models, sorted; none of their code is run."""
+    found = {(entry.name, entry.dist) for entry in entry_points(group=GROUP)}
+    return sorted(
+        (one_line(name, 60), one_line(package.name, 60), one_line(package.version, 60))
+        for name, package in found
+        if package is not None
+    )
+
+
+def door_of(spec: str) -> dict[str, Any]:
+    """Return how a worker finds the model, or for a data folder where it is.
+
+    Raises
+    ------
+    ValueError
+        If nothing is there, or more than one; the sentence says what a SPEC can be.
+
+    Examples
+    --------
+    >>> door_of("nothing-of-this-name")
+    Traceback (most recent call last):
+    ...
+    ValueError: no installed package has a model 'nothing-of-this-name' ...
+    """
+    file, colon, attribute = spec.rpartition(":")
+    if colon and file.endswith(".py"):
+        # Not Path.resolve(), which raises RuntimeError at a loop of symbolic links.
+        path = Path(os.path.realpath(os.path.expanduser(file)))
+        if not path.is_file():
+            raise ValueError(f"there is no file {one_line(file, 200)}")
+        if not attribute.isidentifier():
+            raise ValueError(f"{one_line(spec, 200)}: what follows the colon must be the name of a class")
+        return {"kind": "file", "file": str(path), "attribute": attribute}
+    folder = Path(os.path.expanduser(spec))
+    if folder.name == MANIFEST:
+        folder = folder.parent
+    data = (folder / MANIFEST).is_file()
+    count = 0 if os.sep in spec else len({entry for entry in entry_points(group=GROUP) if entry.name == spec})
+    if data and count:
+        raise ValueError(
+            f"{spec!r} is both a folder with a {MANIFEST} and a model of an installed package: "
+            f"name the folder .{os.sep}{spec}, or ask for the other from elsewhere"
+        )
+    if data:
+        return {"kind": "data", "folder": str(folder.resolve())}
+    if count > 1:
+        raise ValueError(f"{count} installed packages have a model {spec!r}; name it FILE.py:CLASS instead")
+    # A folder without predictions hides no entry point: a package is often installed from a folder of its name.
+    if count == 0 and (os.sep in spec or folder.is_dir()):
+        raise ValueError(f"{one_line(spec, 200)} is neither FILE.py:CLASS nor a folder with a {MANIFEST}")
+    if count == 0:
+        raise ValueError(
+            f"no installed package has a model {one_line(spec, 60)!r} (entry points of group {GROUP}), and it is "
+            f"neither FILE.py:CLASS nor a folder with a {MANIFEST}"
+        )
+    return {"kind": "entry point", "group": GROUP, "name": spec}
+
+
+def open_model(spec: str, poisson_ratio: float | None = None) -> ForeignModel | DataModel:
+    """Return the model a SPEC names; opened once in a process and kept.
+
+    Parameters
+    ----------
+    spec : str
+        See the module's text.
+    poisson_ratio : float, optional
+        For a model in physical units; the others do not depend on it.
+
+    Raises
+    ------
+    ValueError
+        If there is none, or it does not load; one sentence says why.
+    """
+    door = door_of(spec)
+    key = (repr(door), poisson_ratio)
+    if key not in _open:
+        _open[key] = (
+            DataModel(read_submission(Path(door["folder"])))
+            if door["kind"] == "data"
+            else connect(door, spec, poisson_ratio)
+        )
+    return _open[key]
+
+
+@atexit.register
+def close_models() -> None:
+    """End the child processes of all models that are open."""
+    for model in _open.values():
+        model.close()
+    _open.clear()

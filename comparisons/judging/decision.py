@@ -1,0 +1,123 @@
+"""Verdicts after ASME V&V 20: an error is judged together with its uncertainty.
+
+With the error E of a candidate and U = k sqrt(u_cand^2 + u_ref^2), the true error is taken to be in [E - U, E
++ U]. A gate passes if all of that interval is inside its limits, fails if none of it is, and is inconclusive
+between.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from enum import StrEnum
+
+from comparisons.numerics.number_text import exact
+
+__all__ = ["COVERAGE", "Verdict", "combined", "crossing", "decide", "expecting_failure", "roll_up"]
+
+#: k of U: two, as V&V 20 takes for 95 % of a normal distribution.  Here each u is already a bound, with a
+#: safety factor of its own, so that U errs on the side of "inconclusive".
+COVERAGE = 2.0
+
+
+class Verdict(StrEnum):
+    """Outcome of a gate in one case, or rolled up over its cases; the first is the worst.
+
+    ``NOT_APPLICABLE`` is a case that a gate leaves out by its own declaration; it counts for nothing.
+    """
+
+    ERROR = "ERROR"
+    FAIL = "FAIL"
+    XPASS = "XPASS"
+    INCONCLUSIVE = "INCONCLUSIVE"
+    XFAIL = "XFAIL"
+    PASS = "PASS"
+    NOT_APPLICABLE = "NOT-APPLICABLE"
+
+    @property
+    def rank(self) -> int:
+        """0 for the worst."""
+        return list(Verdict).index(self)
+
+
+def combined(*uncertainties: float) -> float:
+    """Return U = k sqrt(sum of squares), in the unit of the arguments.
+
+    Examples
+    --------
+    >>> combined(3e-9, 4e-9)
+    1e-08
+    """
+    return COVERAGE * math.hypot(*uncertainties)
+
+
+def decide(error: float, uncertainty: float, lower: float, upper: float) -> Verdict:
+    """Judge one error; anything that is not a finite number is an ERROR.
+
+    Parameters
+    ----------
+    error, uncertainty : float
+        E and U, in the unit of the limits.
+    lower, upper : float
+        Signed limits, lower <= upper; infinite for none.
+
+    Examples
+    --------
+    >>> [str(decide(error, 0.1, -1.0, 1.0)) for error in (0.85, 0.95, 1.05, 1.15, math.nan)]
+    ['PASS', 'INCONCLUSIVE', 'INCONCLUSIVE', 'FAIL', 'ERROR']
+    """
+    if not (math.isfinite(error) and math.isfinite(uncertainty) and uncertainty >= 0.0):
+        return Verdict.ERROR
+    low, high = error - uncertainty, error + uncertainty
+    if lower <= low and high <= upper:
+        return Verdict.PASS
+    if high < lower or low > upper:
+        return Verdict.FAIL
+    return Verdict.INCONCLUSIVE
+
+
+def crossing(error: float, uncertainty: float, lower: float, upper: float, shares: Mapping[str, float]) -> str:
+    """Return why an error is inconclusive: the limits that its interval reaches across, and whose uncertainty it is.
+
+    Parameters
+    ----------
+    error, uncertainty, lower, upper : float
+        As of `decide`, which finds them inconclusive.
+    shares : mapping of str to float
+        The part of u of each model, in the unit of the limits, by words such as "the candidate jkr".
+
+    Examples
+    --------
+    >>> crossing(0.95, 0.1, -1.0, 1.0, {"the reference fscm": 1e-9, "the candidate jkr": 0.05})
+    'E = 0.95 +- 0.1 reaches across the limit 1, mostly by u of the candidate jkr: 0.05 (the reference fscm: 1e-09)'
+    """
+    limits = [limit for limit in (lower, upper) if error - uncertainty <= limit <= error + uncertainty]
+    (largest, share), *others = sorted(shares.items(), key=lambda item: -item[1])
+    rest = f" ({', '.join(f'{name}: {u:.2g}' for name, u in others)})" if others else ""
+    return (
+        f"E = {error:.4g} +- {uncertainty:.2g} reaches across the limit{'s' * (len(limits) > 1)} "
+        f"{' and '.join(map(exact, limits))}, mostly by u of {largest}: {share:.2g}{rest}"
+    )
+
+
+def expecting_failure(verdict: Verdict) -> Verdict:
+    """Translate the verdict of a gate that is declared to fail: a pass is then as bad as news can be.
+
+    Examples
+    --------
+    >>> [str(expecting_failure(verdict)) for verdict in (Verdict.FAIL, Verdict.PASS, Verdict.ERROR)]
+    ['XFAIL', 'XPASS', 'ERROR']
+    """
+    return {Verdict.FAIL: Verdict.XFAIL, Verdict.PASS: Verdict.XPASS}.get(verdict, verdict)
+
+
+def roll_up(verdicts: Iterable[str]) -> Verdict:
+    """Return the worst of verdicts, or their names; ERROR if nothing was evaluated.
+
+    Examples
+    --------
+    >>> str(roll_up([Verdict.PASS, Verdict.FAIL, Verdict.XPASS])), str(roll_up([]))
+    ('FAIL', 'ERROR')
+    """
+    evaluated = {Verdict(verdict) for verdict in verdicts} - {Verdict.NOT_APPLICABLE}
+    return min(evaluated, key=lambda verdict: verdict.rank, default=Verdict.ERROR)

@@ -1,0 +1,186 @@
+"""Rules for the entries of a gate that its types do not express: texts, limits, what is compared with what."""
+
+from __future__ import annotations
+
+import math
+import re
+import unicodedata
+from typing import TYPE_CHECKING, Any
+
+from comparisons.numerics.number_text import exact
+from comparisons.data.toml_text import is_real
+
+if TYPE_CHECKING:
+    from comparisons.judging.gates import Gate
+
+__all__ = ["PARAMETERS", "check_compared", "check_numbers", "label", "plain_text"]
+
+PARAMETERS = ("n", "k", "mu", "nu")
+
+_ID = re.compile(r"[A-Z0-9]+(-[A-Z0-9.]+)*")
+
+#: Unicode categories of characters that a terminal or a browser acts on and does not show: control and format
+#: characters (among them those that reverse the direction of writing), and separators of lines and paragraphs.
+_HIDDEN = ("Cc", "Cf", "Zl", "Zp")
+
+#: The largest finite limit in size.  A model that is a thousand times the reference is wrong by any measure, so that a
+#: limit beyond can only let such a model pass; values themselves, which "abs" limits, are below 100 in every standing
+#: case, and a million leaves room for extreme ones.
+_LARGEST_LIMIT = {"rel": 1e3, "abs": 1e6, "range-relative": 1e3, "en": 1e3, "curve": 1e3}
+
+
+def label(table: dict[str, Any], number: int) -> str:
+    """Return how a message names a gate: by its id where that is one, otherwise by its place in the file.
+
+    Examples
+    --------
+    >>> label({"id": "JKR-LIMIT"}, 3), label({"id": "a gate"}, 3), label({}, 3)
+    ('gate JKR-LIMIT', "gate 3 (id = 'a gate')", 'gate 3')
+    """
+    id = table.get("id")
+    if isinstance(id, str) and _ID.fullmatch(id):
+        return f"gate {id}"
+    return f"gate {number}" + (f" (id = {id!a})" if "id" in table else "")
+
+
+def plain_text(key: str, text: str, where: str) -> str:
+    r"""Return a text of a gate on one line, its line ends and tabs replaced by a space.
+
+    Raises
+    ------
+    ValueError
+        If nothing is in it, or a character that would act on a terminal; the message shows it escaped.
+
+    Examples
+    --------
+    >>> plain_text("grounds", "Eq. 51,\n  for k = 0\n", "gate A")
+    'Eq. 51, for k = 0'
+    """
+    for character in text:
+        if character not in "\t\r\n" and unicodedata.category(character) in _HIDDEN:
+            raise ValueError(
+                f"{where}: {key} holds the character {character!a}, which a terminal may obey instead of showing; "
+                "use printable characters"
+            )
+    if not text.strip():
+        raise ValueError(f"{where}: {key} = {text!r} is empty; one sentence is needed, so that a reader can check it")
+    return re.sub(r"\s*[\t\r\n]\s*", " ", text.strip())
+
+
+def check_compared(gate: Gate, where: str) -> None:
+    """Refuse a gate that compares something with itself or by a metric without rival, or whose id cannot be cited.
+
+    Raises
+    ------
+    ValueError
+        One sentence, which begins with `where`.
+    """
+    if not _ID.fullmatch(gate.id):
+        raise ValueError(f"{where}: the id must be capitals, digits and dashes, to be cited and searched for")
+    if gate.rival and gate.metric in ("en", "curve"):
+        raise ValueError(f"{where}: the metric {gate.metric} compares with no rival; state rel, abs or range-relative")
+    elsewhere = any(gate.cases.get(name) != [value, value] for name, value in gate.reference_at.items())
+    if gate.candidate == gate.reference and not elsewhere:
+        raise ValueError(
+            f"{where}: candidate and reference are both {gate.candidate!r} in the same cases, so that the error is "
+            "always 0 and the gate cannot fail; name another reference, or other parameters in reference_at"
+        )
+    if gate.candidate == gate.rival:
+        raise ValueError(
+            f"{where}: candidate and rival are both {gate.candidate!r}, so that the gate compares nothing; "
+            "name another rival"
+        )
+
+
+def check_numbers(gate: Gate, where: str) -> None:
+    """Refuse limits, uncertainties and counts with which a gate could not fail, or never pass.
+
+    Raises
+    ------
+    ValueError
+        One sentence, which begins with `where`.
+    """
+    _check_limits(gate, where)
+    _check_uncertainties(gate, where)
+    _check_worst_measured(gate, where)
+    if gate.min_cases < 1:
+        raise ValueError(f"{where}: min_cases = {gate.min_cases} is below 1: a gate without cases shows nothing")
+    if not set(gate.cases) <= {*PARAMETERS, "tags"} or not set(gate.reference_at) <= set(PARAMETERS):
+        raise ValueError(f"{where}: cases may restrict {', '.join(PARAMETERS)} and tags; reference_at all but tags")
+    for name, limits in gate.cases.items():
+        if not isinstance(limits, list) or not (_are_names(limits) if name == "tags" else _are_ends(limits)):
+            raise ValueError(
+                f"{where}: cases.{name} = {limits!r} must be " + ("names" if name == "tags" else "[low, high]")
+            )
+    for name, value in gate.reference_at.items():
+        if not (is_real(value) and math.isfinite(value)):
+            raise ValueError(f"{where}: reference_at.{name} = {value!r} must be a number")
+
+
+def _check_limits(gate: Gate, where: str) -> None:
+    if not gate.lower <= gate.upper or (math.isinf(gate.lower) and math.isinf(gate.upper)):
+        raise ValueError(
+            f"{where}: the limits {exact(gate.lower)} to {exact(gate.upper)} admit nothing or everything; "
+            "one must be finite"
+        )
+    if gate.metric == "curve" and gate.lower != -math.inf:
+        raise ValueError(f"{where}: a distance has no lower limit; state lower = -inf")
+    largest = _LARGEST_LIMIT[gate.metric]
+    for name, limit in (("lower", gate.lower), ("upper", gate.upper)):
+        if math.isfinite(limit) and abs(limit) > largest:
+            raise ValueError(
+                f"{where}: {name} = {exact(limit)} is beyond {largest:g} in size, the largest limit of the metric "
+                f"{gate.metric}: no model would fail; state a smaller limit, or {name} = {'-' * (name == 'lower')}inf "
+                "for none"
+            )
+
+
+def _check_uncertainties(gate: Gate, where: str) -> None:
+    if gate.metric == "en" and gate.max_candidate_uncertainty is None:
+        raise ValueError(
+            f"{where}: the metric en needs max_candidate_uncertainty, relative to the reference: a candidate that "
+            "states a large uncertainty would pass with any value"
+        )
+    for key in ("max_reference_uncertainty", "max_candidate_uncertainty"):
+        u = getattr(gate, key)
+        if u is None:
+            continue
+        if not 0.0 < u < math.inf:
+            raise ValueError(f"{where}: {key} = {exact(u)} must be positive and finite")
+        if gate.metric == "en" and u >= 1.0:
+            raise ValueError(
+                f"{where}: {key} = {exact(u)} must be below 1 with the metric en: an uncertainty as large as the "
+                "reference lets any value pass"
+            )
+
+
+def _check_worst_measured(gate: Gate, where: str) -> None:
+    worst = gate.worst_measured
+    if (gate.basis == "measured") != (worst is not None):
+        raise ValueError(f"{where}: a measured basis, and no other, states its worst_measured")
+    if worst is None:
+        return
+    limits = f"the limits {exact(gate.lower)} to {exact(gate.upper)}"
+    if not math.isfinite(worst):
+        raise ValueError(
+            f"{where}: worst_measured = {exact(worst)} must be a finite number: it is an error that was seen"
+        )
+    inside = gate.lower <= worst <= gate.upper
+    if not inside and gate.expected_failure is None:
+        raise ValueError(
+            f"{where}: worst_measured = {exact(worst)} is not within {limits}: the gate would fail what it was set by; "
+            "correct one of them, or state expected_failure"
+        )
+    if inside and gate.expected_failure is not None:
+        raise ValueError(
+            f"{where}: worst_measured = {exact(worst)} is within {limits}, and yet expected_failure says that every "
+            "case fails; correct one of them"
+        )
+
+
+def _are_names(entries: list[Any]) -> bool:
+    return bool(entries) and all(isinstance(entry, str) for entry in entries)
+
+
+def _are_ends(entries: list[Any]) -> bool:
+    return len(entries) == 2 and all(map(is_real, entries)) and entries[0] <= entries[1]

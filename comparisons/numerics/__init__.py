@@ -1,0 +1,1 @@
+"""Grid convergence and distances of curves."""

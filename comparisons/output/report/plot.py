@@ -1,0 +1,83 @@
+"""A plot as the page draws it: axes, choices, and series of stored numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import asdict, dataclass, field
+from typing import Any, cast
+
+import pandas as pd
+
+from comparisons.output.verdicts import parameter_text
+
+__all__ = ["Control", "Plot", "Series", "grouped", "key", "options"]
+
+
+@dataclass(frozen=True, slots=True)
+class Control:
+    """A choice: its label, its options as (key, text), and the one that is shown first (else the first)."""
+
+    label: str
+    options: tuple[tuple[str, str], ...]
+    first: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """The points of one model under one choice; `low` and `high` bound a band, `says` is read off a point."""
+
+    group: str
+    model: str
+    label: str
+    x: list[float]
+    y: list[float]
+    says: list[str]
+    low: list[float] | None = None
+    high: list[float] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Plot:
+    """One plot: axes, choices, series; `views` holds the first view [x0, x1, y0, y1] of a group if not all of it.
+
+    `mark` is "both" for a line with markers, "line" or "points"; `table` the id of the table with the numbers.
+    """
+
+    id: str
+    title: str
+    x_label: str
+    y_label: str
+    x_scale: str
+    y_scale: str
+    mark: str
+    controls: tuple[Control, ...]
+    series: list[Series]
+    table: str
+    caption: str
+    views: dict[str, list[float]] = field(default_factory=dict)
+
+    @property
+    def models(self) -> list[str]:
+        """Names of what can be switched on and off, in the order of the series."""
+        return list(dict.fromkeys(series.model for series in self.series))
+
+    def data(self) -> dict[str, Any]:
+        """Return what the page's script draws, ready for JSON."""
+        wanted = ("id", "x_label", "y_label", "x_scale", "y_scale", "mark", "table", "views")
+        return {name: getattr(self, name) for name in wanted} | {"series": [asdict(series) for series in self.series]}
+
+
+def key(*parts: str | float) -> str:
+    """Return the choice that several options make: what the script of the page looks for."""
+    return "|".join(part if isinstance(part, str) else parameter_text(part) for part in parts)
+
+
+def options(values: Iterable[float]) -> tuple[tuple[str, str], ...]:
+    """Return numbers as options of a control, each once, sorted."""
+    return tuple((parameter_text(value), parameter_text(value)) for value in sorted(set(values)))
+
+
+def grouped(table: pd.DataFrame, names: list[str]) -> Iterator[tuple[tuple[Any, ...], pd.DataFrame]]:
+    """Return the rows of each combination, sorted; without Poisson's ratio, that is one of its own."""
+    for combination, rows in table.groupby(names, dropna=False):
+        yield cast(tuple[Any, ...], combination), rows

@@ -1,0 +1,183 @@
+"""A table as the page shows it: texts, the stored numbers behind them, and what can be downloaded."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import pandas as pd
+
+from comparisons.output.latex import latex
+from comparisons.output.verdicts import parameter_text, value_text
+
+__all__ = [
+    "CASE",
+    "CASE_COLUMNS",
+    "Cell",
+    "Column",
+    "Row",
+    "Table",
+    "case_cells",
+    "kappa_cell",
+    "number",
+    "parameter",
+    "table_tex",
+    "value",
+    "without_empty",
+    "words",
+]
+
+#: Tables with more rows are handed over as data and laid out when they are opened: a page of a hundred
+#: thousand cells is slow on a phone.
+_LONG = 250
+
+#: kappa is shown to this digit in percent, or to the digit its uncertainty leaves it.
+_LEAST_PERCENT = 5e-5
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """What is read, and the stored number it stands for (None for words).
+
+    `marks` draws small squares above the text: one (verdict, label) each.  `more` is said in small print below.
+    """
+
+    text: str
+    value: float | None = None
+    marks: tuple[tuple[str, str], ...] = ()
+    more: str = ""
+
+    @property
+    def exact(self) -> str:
+        """The stored number with all its digits, for sorting and checking."""
+        return "" if self.value is None else repr(float(self.value))
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """Heading of a column; `kind` is "words", "number", "verdict", "code", "head" (of the row) or "marks"."""
+
+    label: str
+    kind: str = "words"
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """Cells in the order of the columns; `group` is the choice of a plot's controls that the row belongs to."""
+
+    cells: Sequence[Cell]
+    group: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A table with its caption, and the names of the files that hold it."""
+
+    id: str
+    caption: str
+    columns: tuple[Column, ...]
+    rows: list[Row]
+    files: tuple[str, ...] = ()
+    note: str = ""
+
+    @property
+    def long(self) -> bool:
+        """Whether the rows are laid out only when they are wanted."""
+        return len(self.rows) > _LONG
+
+    def data(self) -> dict[str, Any]:
+        """Return the rows ready for JSON: [group, cells], a cell being its text or [text, number, small print]."""
+        return {
+            "kinds": [column.kind for column in self.columns],
+            "rows": [[row.group, [_datum(cell) for cell in row.cells]] for row in self.rows],
+        }
+
+
+def _datum(cell: Cell) -> str | list[str]:
+    if cell.more:
+        return [cell.text, cell.exact, cell.more]
+    return cell.text if cell.value is None else [cell.text, cell.exact]
+
+
+def without_empty(table: Table) -> Table:
+    """Return a table without the columns in which no row has anything."""
+    kept = [i for i in range(len(table.columns)) if not table.rows or any(row.cells[i].text for row in table.rows)]
+    columns = tuple(table.columns[i] for i in kept)
+    return replace(
+        table, columns=columns, rows=[replace(row, cells=[row.cells[i] for i in kept]) for row in table.rows]
+    )
+
+
+def words(quantity: str) -> str:
+    """Return the name of a quantity as it is written in a sentence.
+
+    Examples
+    --------
+    >>> words("pull_off_force"), words("hysteresis_energy")
+    ('pull-off force', 'hysteresis energy')
+    """
+    name = quantity.replace("_", " ")
+    for pair in ("pull off", "jump in", "jump out", "zero load", "force curve"):
+        name = name.replace(pair, pair.replace(" ", "-"))
+    return name.replace("force-curve", "force-displacement curve")
+
+
+#: The parameters of a case.
+CASE = ("n", "k", "mu", "nu")
+CASE_COLUMNS = tuple(Column(label, "number") for label in ("n", "k", "μ", "ν"))
+
+
+def case_cells(row: pd.Series) -> tuple[Cell, ...]:
+    """The parameters of the case of a stored row, in the order of `CASE_COLUMNS`."""
+    return tuple(parameter(row[name]) for name in CASE)
+
+
+def parameter(number: float) -> Cell:
+    """A parameter of a case, exact and short; empty where there is none.
+
+    Examples
+    --------
+    >>> parameter(0.4).text, parameter(float("nan")).text
+    ('0.4', '')
+    """
+    return Cell("") if pd.isna(number) else Cell(parameter_text(number), float(number))
+
+
+def value(number: float, u: float) -> Cell:
+    """A value to the digit that its uncertainty leaves it.
+
+    Examples
+    --------
+    >>> value(1.7884817, 2.6e-6)
+    Cell(text='1.788482(3)', value=1.7884817, marks=(), more='')
+    """
+    return Cell("") if pd.isna(number) else Cell(value_text(number, u), float(number))
+
+
+def number(stored: float, form: str) -> Cell:
+    """A number in a given format, e.g. an uncertainty as ".1e"; empty where there is none."""
+    return Cell("") if pd.isna(stored) else Cell(_infinite(stored) or format(float(stored), form), float(stored))
+
+
+def _infinite(stored: float) -> str:
+    return "" if math.isfinite(stored) else ("∞" if stored > 0 else "−∞")
+
+
+def kappa_cell(kappa: float, u_kappa: float) -> Cell:
+    """A relative error, read in percent; the number behind it is the stored fraction.
+
+    Examples
+    --------
+    >>> kappa_cell(0.066931234, 1e-9)
+    Cell(text='6.69312(5)', value=0.066931234, marks=(), more='')
+    """
+    return Cell(value_text(100 * kappa, max(100 * u_kappa, _LEAST_PERCENT)), float(kappa))
+
+
+def table_tex(table: Table) -> str:
+    """Return a table as LaTeX with booktabs."""
+    columns = [column.label for column in table.columns]
+    rows = [[cell.text for cell in row.cells] for row in table.rows]
+    return latex(pd.DataFrame(rows, columns=columns, dtype=object), table.caption)

@@ -1,0 +1,248 @@
+"""Tables made from stored results: relative errors, and the largest of them beside the published.
+
+kappa = (model - reference) / abs(reference) (Sec. 4.3.2 of the paper for the pull-off force, which is positive), here
+for any quantity.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+from rich.table import Table
+from rich.text import Text
+
+from comparisons.data.paper_values import published
+from comparisons.numerics.kappa import relative_difference, relative_uncertainty
+from comparisons.quantities import QUANTITIES
+
+__all__ = [
+    "agreement",
+    "beside_published",
+    "by_case",
+    "largest",
+    "largest_by_gradient",
+    "relative_error",
+    "rich_table",
+    "statuses",
+]
+
+_CASE = ["quantity", "n", "k", "mu", "nu"]
+#: Kinds of quantities whose error is stated as a fraction of them; displacements and gaps may pass through zero.
+_RELATIVE = ("load", "energy")
+_SERIES = ["quantity", "model", "n", "k"]
+
+
+def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
+    """Return kappa of every candidate in every case where it and the reference have a value.
+
+    Parameters
+    ----------
+    rows : DataFrame
+        Stored results (`comparisons.runs.tables.COLUMNS`).
+    reference : str
+        Name of the model the others are compared with.
+
+    Returns
+    -------
+    DataFrame
+        Columns quantity, model, n, k, mu, nu, value, u_num, reference (its name), reference_value,
+        u_reference, kappa, u_kappa (`comparisons.numerics.kappa`), sorted.
+
+    Examples
+    --------
+    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "mu": 1.0, "nu": np.nan, "status": "ok"}
+    >>> rows = pd.DataFrame([case | {"model": "a", "value": 1.1, "u_num": 0.0},
+    ...                      case | {"model": "b", "value": 1.0, "u_num": 0.01}])
+    >>> relative_error(rows, "b")[["model", "kappa", "u_kappa"]].round(3).values.tolist()
+    [['a', 0.1, 0.011]]
+    """
+    usable = rows.loc[rows["status"] == "ok", [*_CASE, "model", "value", "u_num"]]
+    is_reference = usable["model"] == reference
+    truth = (
+        usable[is_reference].drop(columns="model").rename(columns={"value": "reference_value", "u_num": "u_reference"})
+    )
+    table = usable[~is_reference].merge(truth, on=_CASE, validate="many_to_one")
+    table["reference"] = reference
+    table["kappa"] = relative_difference(table["value"], table["reference_value"])
+    table["u_kappa"] = relative_uncertainty(
+        table["value"], table["u_num"], table["reference_value"], table["u_reference"]
+    )
+    table = table.sort_values(["quantity", "model", "n", "k", "mu", "nu"], ignore_index=True)
+    return table[
+        [
+            "quantity",
+            "model",
+            *_CASE[1:],
+            "value",
+            "u_num",
+            "reference",
+            "reference_value",
+            "u_reference",
+            "kappa",
+            "u_kappa",
+        ]
+    ]
+
+
+def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
+    """Return how far a model is from a reference in every case both answer, beside what both claim.
+
+    Parameters
+    ----------
+    rows : DataFrame
+        Stored results (`comparisons.runs.tables.COLUMNS`).
+    model, reference : str
+        Names of the two.
+
+    Returns
+    -------
+    DataFrame
+        Columns quantity, model, n, k, mu, nu, value, u_num, reference, reference_value, u_reference,
+        difference, claimed, en.  Difference and claimed = sqrt(u_num^2 + u_reference^2) are relative for forces
+        and energies, else in the unit of the quantity; en = difference / claimed is within -1 and 1 where the
+        claims are right.
+
+    Examples
+    --------
+    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "mu": 1.0, "nu": np.nan, "status": "ok"}
+    >>> rows = pd.DataFrame([case | {"model": "a", "value": 4.004, "u_num": 0.008},
+    ...                      case | {"model": "b", "value": 4.0, "u_num": 0.0}])
+    >>> agreement(rows, "a", "b")[["difference", "claimed", "en"]].round(9).values.tolist()
+    [[0.001, 0.002, 0.5]]
+    """
+    # Poisson's ratio makes no difference to one of the two, which then has none.
+    of_reference = rows[rows["model"] == reference].drop(columns="nu")
+    cases = rows.loc[rows["model"] == model, [*_CASE]].merge(of_reference, on=[name for name in _CASE if name != "nu"])
+    table = relative_error(pd.concat([rows[rows["model"] == model], cases]), reference)
+    relative = table["quantity"].map(lambda name: QUANTITIES[name].kind in _RELATIVE)
+    scale = table["reference_value"].abs().where(relative, 1.0)
+    table["difference"] = (table["value"] - table["reference_value"]) / scale
+    table["claimed"] = np.hypot(table["u_num"], table["u_reference"]) / scale
+    table["en"] = table["difference"] / table["claimed"]
+    return table.drop(columns=["kappa", "u_kappa"])
+
+
+def largest(kappa: pd.DataFrame) -> pd.DataFrame:
+    """Return the largest abs(kappa) for each quantity, model, n and k, beside the published number.
+
+    Returns
+    -------
+    DataFrame
+        Columns quantity, model, n, k, cases, mu (where the largest is), at_end (whether that is an end of
+        the range of mu, so that a wider one may give more), kappa, u_kappa, published_percent, verdict.
+
+    Examples
+    --------
+    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": np.nan, "status": "ok", "u_num": 1e-9}
+    >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
+    >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
+    >>> largest(relative_error(rows, "fscm"))[["mu", "at_end", "published_percent", "verdict"]].values.tolist()
+    [[2.0, True, '0.73', 'differs']]
+    """
+    known = {("pull_off_force", p.model, p.n, p.k): p for p in published("largest_relative_error")}
+    worst = kappa.loc[kappa["kappa"].abs().groupby([kappa[name] for name in _SERIES]).idxmax()]
+    table = worst[[*_SERIES, "mu", "kappa", "u_kappa"]].sort_values(_SERIES, ignore_index=True)
+    ends = kappa.groupby(_SERIES)["mu"].agg(["size", "min", "max"]).reset_index(drop=True)
+    table.insert(4, "cases", ends["size"])
+    table.insert(6, "at_end", (table["mu"] == ends["min"]) | (table["mu"] == ends["max"]))
+    papers = [known.get(key) for key in table[_SERIES].itertuples(index=False, name=None)]
+    table["published_percent"] = [paper.text if paper else "" for paper in papers]
+    table["verdict"] = [
+        paper.verdict(100.0 * abs(value), 100.0 * bound) if paper else ""
+        for paper, value, bound in zip(papers, table["kappa"], table["u_kappa"], strict=True)
+    ]
+    return table
+
+
+def by_case(kappa: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
+    """Return one row a case: the reference with its uncertainty, and kappa of each model in percent.
+
+    The second value holds the formats of its columns, for `rich_table`.
+
+    Examples
+    --------
+    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": np.nan, "status": "ok", "u_num": 1e-9}
+    >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
+    >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
+    >>> by_case(relative_error(rows, "fscm"))[0]["md-improved"].round(3).tolist()
+    [-0.556, -1.143]
+    """
+    wide = kappa.pivot(index=["n", "k", "mu", "reference_value", "u_reference"], columns="model", values="kappa")
+    shown = (100 * wide).reset_index().rename_axis(columns=None)
+    return shown, {"reference_value": ".9f", "u_reference": ".0e"} | dict.fromkeys(wide.columns, "+.3f")
+
+
+def largest_by_gradient(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
+    """Return the largest abs(kappa) in percent, signed: one row a model and n, one column a k.
+
+    The second value holds the formats of its columns, for `rich_table`.
+
+    Examples
+    --------
+    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": np.nan, "status": "ok", "u_num": 1e-9}
+    >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
+    >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
+    >>> largest_by_gradient(largest(relative_error(rows, "fscm")))[0]["k = 0.4"].round(3).tolist()
+    [-1.143]
+    """
+    wide = maxima.pivot(index=["quantity", "model", "n"], columns="k", values="kappa")
+    wide.columns = pd.Index([f"k = {k:g}" for k in wide.columns])
+    return (100 * wide).reset_index(), dict.fromkeys(wide.columns, "+.2f")
+
+
+def beside_published(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
+    """Return the maxima a paper states, in percent, with the verdict; and the formats of the columns.
+
+    Examples
+    --------
+    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": np.nan, "status": "ok", "u_num": 1e-9}
+    >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
+    >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
+    >>> beside_published(largest(relative_error(rows, "fscm")))[0]["kappa"].round(3).tolist()
+    [-1.143]
+    """
+    stated = maxima[maxima["published_percent"] != ""].drop(columns=["quantity", "cases"])
+    shown = stated.assign(kappa=100 * stated["kappa"], u_kappa=100 * stated["u_kappa"])
+    return shown, {"kappa": "+.4f", "u_kappa": ".0e"}
+
+
+def statuses(rows: pd.DataFrame) -> pd.DataFrame:
+    """Return how many rows of each model ended with each status.
+
+    Examples
+    --------
+    >>> statuses(pd.DataFrame({"model": ["jkr", "jkr"], "status": ["ok", "failed"]})).values.tolist()
+    [['jkr', 1, 1]]
+    """
+    return rows.groupby(["model", "status"]).size().unstack(fill_value=0).reset_index()
+
+
+def rich_table(table: pd.DataFrame, title: str, formats: dict[str, str] | None = None) -> Table:
+    """Return a pandas table for the terminal: numbers to the right, blank where missing.
+
+    Examples
+    --------
+    >>> rich_table(pd.DataFrame({"model": ["jkr"], "kappa": [0.5]}), "errors", {"kappa": "+.2f"}).row_count
+    1
+    """
+    shown = Table(title=title, title_justify="left", title_style="bold")
+    for name in table:
+        shown.add_column(str(name), justify="right" if pd.api.types.is_numeric_dtype(table[name]) else "left")
+    for record in table.itertuples(index=False):
+        shown.add_row(
+            *(_cell(value, (formats or {}).get(str(name), "")) for name, value in zip(table, record, strict=True))
+        )
+    return shown
+
+
+def _cell(value: object, form: str) -> Text:
+    # As `Text`: a bracket in a message is not markup.
+    return Text(_words(value, form))
+
+
+def _words(value: object, form: str) -> str:
+    if isinstance(value, bool | np.bool_):
+        return "yes" if value else ""
+    if isinstance(value, float | np.floating):
+        return "" if np.isnan(value) else format(value, form or "g")
+    return str(value)

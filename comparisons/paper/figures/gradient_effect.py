@@ -1,0 +1,140 @@
+"""Fig. 11: how much the gradient changes the JKR pull-off force at a given Tabor number (Eq. 58)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from scipy.optimize import brentq, minimize_scalar
+
+from comparisons.runs.cases import Case
+from comparisons.output.style import COLOURS, LINES, lettered, styled
+from comparisons.models.jkr import JKR
+from comparisons.paper.paper_figure import Plate, Tables
+from comparisons.paper.cache import Answers, Call
+
+__all__ = ["GRADIENT_EFFECT", "chi", "insensitive_regions", "largest_chi"]
+
+_SHAPES = (1.0, 1.5, 2.0, 5.0)
+_GRADIENTS = np.linspace(0.0, 1.0, 101)
+_SHAPE_INDICES = np.unique(np.concatenate([np.linspace(0.9, 2.0, 111), np.linspace(2.0, 8.0, 121)]))
+#: Eq. 58 limited to this makes the two regions of Fig. 11(b).
+_LIMIT = 0.1
+#: Brackets of the four ends of the regions; chi_max - 0.1 changes its sign once in each.
+_BRACKETS = ((0.9, 1.0), (1.0, 1.2), (3.0, 4.0), (5.0, 8.0))
+#: Where the largest is searched: chi(k) has one maximum at most between neighbours.
+_SEARCHED = np.linspace(0.0, 1.0, 21)
+#: Of the gradient exponent where chi is largest; chi is stationary there, or it is an end.
+_PLACE_TOLERANCE = 1e-9
+
+
+def chi(n: float, k: float) -> float:
+    """Relative deviation of the JKR pull-off force from that of the homogeneous solid (Eq. 58).
+
+    Parameters
+    ----------
+    n, k : float
+        Shape index and gradient exponent, 0 <= k <= 1; the Tabor number cancels.
+
+    Examples
+    --------
+    >>> round(chi(2, 1.0), 12)
+    0.333333333333
+    """
+    graded, homogeneous = (JKR().evaluate(Case(n, x, 1.0).problem(), "pull_off_force").value for x in (k, 0.0))
+    return abs(graded / homogeneous - 1.0)
+
+
+def largest_chi(n: float, up_to: float = 1.0) -> tuple[float, float]:
+    """Return the largest chi over 0 <= k <= `up_to`, and the k it is at.
+
+    Examples
+    --------
+    >>> [round(100 * largest_chi(n)[0], 1) for n in (1, 1.5, 2, 5)]
+    [4.4, 40.9, 33.3, 4.2]
+    """
+    gradients = up_to * _SEARCHED
+    values = [chi(n, float(k)) for k in gradients]
+    at = int(np.argmax(values))
+    low, high = gradients[max(at - 1, 0)], gradients[min(at + 1, len(gradients) - 1)]
+    inside = minimize_scalar(
+        lambda k: -chi(n, float(k)), bounds=(low, high), method="bounded", options={"xatol": _PLACE_TOLERANCE}
+    )
+    return max((values[at], float(gradients[at])), (-float(inside.fun), float(inside.x)))
+
+
+def insensitive_regions(up_to: float = 1.0) -> list[float]:
+    """Return the four shape indices between which, two and two, the largest chi over k is at most 10 %.
+
+    Examples
+    --------
+    >>> [round(n, 2) for n in insensitive_regions()]
+    [0.97, 1.06, 3.34, 6.22]
+    """
+    return [float(brentq(lambda n: largest_chi(n, up_to)[0] - _LIMIT, *bracket, xtol=1e-10)) for bracket in _BRACKETS]
+
+
+def over_gradients(n: float) -> list[float]:
+    """Return chi at `_GRADIENTS`."""
+    return [chi(n, float(k)) for k in _GRADIENTS]
+
+
+def over_shapes() -> list[tuple[float, float]]:
+    """Return the largest chi, and its k, at `_SHAPE_INDICES`."""
+    return [largest_chi(float(n)) for n in _SHAPE_INDICES]
+
+
+def _calls() -> Sequence[Call]:
+    return [Call.of(over_shapes), Call.of(insensitive_regions), *(Call.of(over_gradients, n) for n in _SHAPES)]
+
+
+def _tables(answers: Answers) -> Tables:
+    parts = [pd.DataFrame({"n": n, "k": _GRADIENTS, "chi": answers[Call.of(over_gradients, n)]}) for n in _SHAPES]
+    largest = pd.DataFrame(answers[Call.of(over_shapes)], columns=["chi_max", "k_of_chi_max"])
+    largest.insert(0, "n", _SHAPE_INDICES)
+    ends = answers[Call.of(insensitive_regions)]
+    regions = pd.DataFrame({"limit": _LIMIT, "n_from": ends[::2], "n_to": ends[1::2]})
+    return {"": pd.concat(parts, ignore_index=True), "largest": largest, "regions": regions}
+
+
+def _draw(tables: Tables) -> Figure:
+    with styled():
+        figure = Figure(figsize=(7.2, 3.4), layout="constrained")
+        left, right = figure.subplots(1, 2)
+        for index, (n, part) in enumerate(tables[""].groupby("n")):
+            left.plot(part["k"], 100 * part["chi"], color=COLOURS[index], ls=LINES[index], label=f"$n$ = {n:g}")
+        left.set(xlabel=r"gradient exponent $k$", ylabel=r"deviation $\chi$ (%)", xlim=(0, 1), ylim=(0, None))
+        lettered(left, "a")
+        left.legend()
+        largest = tables["largest"]
+        right.plot(largest["n"], 100 * largest["chi_max"], color=COLOURS[0])
+        right.axhline(100 * _LIMIT, color="0.4", lw=0.8, ls="--")
+        ends = tables["regions"][["n_from", "n_to"]].to_numpy()
+        # The first region is too narrow for its words; they stand beside it.
+        for (low, high), place, align, then in zip(
+            ends, ((1.3, 2.0), (4.8, 17.0)), ("left", "center"), ("\n", " "), strict=True
+        ):
+            right.axvspan(low, high, color=COLOURS[1], alpha=0.2, lw=0)
+            right.annotate(
+                f"{low:.3f} ≤ $n${then}≤ {high:.3f}",
+                (0.5 * (low + high), 100 * _LIMIT),
+                place,
+                ha=align,
+                fontsize=8,
+                arrowprops={"arrowstyle": "-", "lw": 0.6, "color": "0.3"},
+            )
+        right.set(xlabel=r"shape index $n$", ylabel=r"largest deviation $\chi_{\max}$ (%)", ylim=(0, 50), xlim=(0.9, 8))
+        lettered(right, "b")
+    return figure
+
+
+GRADIENT_EFFECT = Plate(
+    name="11",
+    stem="fig11_gradient_effect",
+    title="Deviation chi of the JKR pull-off force from the homogeneous solid's, and its largest over k",
+    calls=_calls,
+    tables=_tables,
+    draw=_draw,
+)

@@ -1,0 +1,193 @@
+"""Fig. 3: the S-shaped force-displacement curve at a large Tabor number, its named points and its hysteresis."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from comparisons.output.style import COLOURS, MODEL_NAMES, lettered, styled
+from comparisons.models.solver import translated
+from comparisons.paper import tasks as answers
+from comparisons.paper.paper_figure import Plate, Tables
+from comparisons.paper.cache import Answers, Call
+from fscm import Analysis, NoSuchEvent, NotConverged
+from fscm.problem import Problem
+from fscm.solution import FLOOR, SAFETY, EventPair, State
+
+__all__ = ["S_CURVE", "named_points"]
+
+_CASE = (2.0, 0.4, 3.0)
+_CURVE, _JKR = Call.of(answers.curve, "fscm", *_CASE), Call.of(answers.curve, "jkr", *_CASE)
+_ENERGY = Call.of(answers.quantity, "fscm", "hysteresis_energy", *_CASE)
+
+_COORDINATES: dict[str, Callable[[State], float]] = {
+    "central_gap": lambda state: state.central_gap,
+    "displacement": lambda state: state.displacement,
+    "load": lambda state: state.load,
+}
+#: The points, and where their names stand beside them in (b), in points of the page.
+_BESIDE = {"B'": (-3, 6), "A": (4, 5), "B": (-11, -9), "A'": (7, -3), "C": (-3, -12), "D": (-12, 3)}
+#: Shown of central gap and displacement: the approach goes on to the left of (b) and to the right of (a).
+_GAPS, _DISPLACEMENTS, _LOADS = (-0.35, 6.0), (-7.2, 7.6), (-2.05, 0.55)
+#: In contact the central gap hardly moves; an inset shows it.
+_NEAR_GAPS, _NEAR_DISPLACEMENTS = (-0.024, 0.034), (-7.2, 9.0)
+
+
+def named_points(n: float, k: float, mu: float) -> dict[str, dict[str, float]]:
+    """Return central gap, displacement and load of B', A, B, A', C and D (Fig. 3b), each with its uncertainty.
+
+    A and B are the jump-in and the jump-out, A' and B' where these land under displacement control, C is the
+    pull-off and D the zero of the load.
+
+    Raises
+    ------
+    comparisons.model.NotApplicable
+        Below the critical Tabor number, where nothing jumps.
+    comparisons.model.ComputationFailed
+        If a point was not reached.
+
+    Examples
+    --------
+    >>> points = named_points(2, 0.4, 1)
+    >>> round(points["A"]["displacement"] - points["A'"]["displacement"], 9), round(points["C"]["load"], 8)
+    (0.0, -1.78848171)
+    """
+    analysis = Analysis(Problem(n, k, mu))
+    with translated(NoSuchEvent, NotConverged):
+        pairs = {
+            "B'": analysis.landing("jump_out"),
+            "A": analysis.event("jump_in"),
+            "B": analysis.event("jump_out"),
+            "A'": analysis.landing("jump_in"),
+            "C": analysis.event("pull_off"),
+            "D": analysis.event("zero_load"),
+        }
+    return {name: _coordinates(pair) for name, pair in pairs.items()}
+
+
+def _coordinates(pair: EventPair) -> dict[str, float]:
+    found = {}
+    for name, of in _COORDINATES.items():
+        value = float(of(pair.value))
+        found[name] = value
+        found[f"u_{name}"] = float(SAFETY * pair.difference(of) + FLOOR * (1.0 + abs(value)))
+    return found
+
+
+def _calls() -> Sequence[Call]:
+    return [_CURVE, Call.of(named_points, *_CASE), _ENERGY, _JKR]
+
+
+def _tables(answered: Answers) -> Tables:
+    parts = []
+    for model, call in (("fscm", _CURVE), ("jkr", _JKR)):
+        found = answered[call]
+        columns = {name: found[name] for name in ("displacement", "u_displacement", "load", "u_load")}
+        # The coordinate along the path, at which displacement and load are uncertain; JKR has none.
+        gaps = {"central_gap": found["columns"].get("central_gap", np.nan)}
+        parts.append(pd.DataFrame({"model": model} | gaps | columns))
+    points = pd.DataFrame.from_dict(answered[Call.of(named_points, *_CASE)], orient="index").rename_axis("name")
+    return {
+        "curves": pd.concat(parts, ignore_index=True),
+        "points": points.reset_index(),
+        "hysteresis": pd.DataFrame([{"quantity": "hysteresis_energy"} | answered[_ENERGY]]),
+    }
+
+
+def _draw(tables: Tables) -> Figure:
+    curves, points = tables["curves"], tables["points"].set_index("name")
+    path, jkr = (curves[curves["model"] == model] for model in ("fscm", "jkr"))
+    with styled():
+        figure = Figure(figsize=(7.2, 4.8), layout="constrained")
+        grid = figure.add_gridspec(2, 2, width_ratios=(1.0, 1.35))
+        above = figure.add_subplot(grid[0, 0])
+        below = figure.add_subplot(grid[1, 0], sharex=above)
+        _against_gap(above, path, points, "displacement", (0.38, 0.5, 0.59, 0.46))
+        _against_gap(below, path, points, "load", (0.38, 0.17, 0.59, 0.50))
+        above.set(xlim=_GAPS, ylim=_DISPLACEMENTS, ylabel=r"displacement $\delta/z_0$")
+        above.tick_params(labelbottom=False)
+        below.set(ylim=_LOADS, ylabel=r"load $\bar P$", xlabel=r"central gap $H_0/z_0$")
+        lettered(above, "a")
+        _plane(figure.add_subplot(grid[:, 1]), path, jkr, points, tables["hysteresis"].iloc[0])
+    return figure
+
+
+def _against_gap(
+    axes: Axes, path: pd.DataFrame, points: pd.DataFrame, name: str, place: tuple[float, float, float, float]
+) -> None:
+    inset = axes.inset_axes(place)
+    for shown in (axes, inset):
+        shown.plot(path["central_gap"], path[name], color=COLOURS[0])
+        shown.axhline(0.0, color="0.4", lw=0.8)
+    near = (points["central_gap"] > _NEAR_GAPS[0]) & (points["central_gap"] < _NEAR_GAPS[1])
+    # Names stand on the convex side of the curve.
+    inside = (3, 4) if name == "displacement" else (6, -7)
+    for shown, some, beside in ((axes, points[~near], (3, 4)), (inset, points[near], inside)):
+        shown.plot(some["central_gap"], some[name], ls="none", marker="o", ms=3.5, color=COLOURS[2])
+        for label, point in some.iterrows():
+            where = point["central_gap"], point[name]
+            shown.annotate(str(label), where, beside, textcoords="offset points", fontsize=8)
+    inset.set(xlim=_NEAR_GAPS, ylim=_NEAR_DISPLACEMENTS if name == "displacement" else _LOADS)
+    inset.tick_params(labelsize=7, pad=2)
+
+
+def _plane(axes: Axes, path: pd.DataFrame, jkr: pd.DataFrame, points: pd.DataFrame, energy: pd.Series) -> None:
+    outline = _loop(path, points)
+    axes.fill(*outline, color=COLOURS[6], alpha=0.35, lw=0)
+    axes.plot(path["displacement"], path["load"], color=COLOURS[0], label=MODEL_NAMES["fscm"])
+    axes.plot(jkr["displacement"], jkr["load"], color=COLOURS[2], ls="--", label=MODEL_NAMES["jkr"])
+    axes.axhline(0.0, color="0.4", lw=0.8)
+    places = _places(points)
+    for start, end in (("A", "A'"), ("B", "B'")):
+        arrow = {"arrowstyle": "-|>", "color": COLOURS[1], "lw": 1.2, "ls": ":"}
+        axes.annotate("", places[end], places[start], arrowprops=arrow)
+    axes.plot(points["displacement"], points["load"], ls="none", marker="o", ms=4, color=COLOURS[2])
+    for name, offset in _BESIDE.items():
+        axes.annotate(name, places[name], offset, textcoords="offset points")
+    axes.annotate(
+        f"hysteresis loss\n$\\oint\\,\\bar P\\,d\\delta/z_0$ = {energy['value']:.4f}",
+        (0.5 * (places["A"][0] + places["B"][0]), -0.75),
+        (-0.9, -0.62),
+        arrowprops={"arrowstyle": "-", "color": "0.4", "lw": 0.7},
+    )
+    axes.set(xlim=_DISPLACEMENTS, ylim=_LOADS, xlabel=r"displacement $\delta/z_0$", ylabel=r"load $\bar P$")
+    lettered(axes, "b", r"$n$ = {:g}, $k$ = {:g}, $\mu$ = {:g}".format(*_CASE))
+    axes.legend(loc="lower right")
+
+
+def _places(points: pd.DataFrame) -> dict[str, tuple[float, float]]:
+    """Displacement and load of each point, by name."""
+    return dict(zip(points.index, zip(points["displacement"], points["load"], strict=True), strict=True))
+
+
+def _loop(path: pd.DataFrame, points: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
+    """Outline B'-A-A'-B-B' of what a cycle of displacement control loses."""
+    displacement, load = path["displacement"].to_numpy(), path["load"].to_numpy()
+    falling = np.diff(displacement) < 0.0
+    top, bottom = int(np.argmax(falling)), int(np.flatnonzero(falling)[-1]) + 1
+    places = _places(points)
+    far = slice(int(np.searchsorted(displacement[:top], places["B'"][0])), top + 1)
+    near = slice(bottom, bottom + int(np.searchsorted(displacement[bottom:], places["A'"][0])))
+    outline = np.vstack(
+        [
+            places["B'"],
+            np.column_stack([displacement[far], load[far]]),
+            places["A'"],
+            np.column_stack([displacement[near], load[near]])[::-1],
+        ]
+    )
+    return outline[:, 0], outline[:, 1]
+
+
+S_CURVE = Plate(
+    name="3",
+    stem="fig03_s_curve",
+    title="The S-shaped curve at n = 2, k = 0.4, mu = 3",
+    calls=_calls,
+    tables=_tables,
+    draw=_draw,
+)

@@ -1,0 +1,98 @@
+"""Fig. 12: the cohesive stress eta(n), and the surface laws of the three models."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from comparisons.output.style import COLOURS, MODEL_LINES, lettered, styled
+from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
+from comparisons.paper.paper_figure import Plate, Tables
+from comparisons.paper.cache import Answers, Call
+from fscm.laws import LennardJones93
+
+__all__ = ["SURFACE_LAWS"]
+
+_MARKED = (1.0, 1.5, 2.0, 5.0)
+_SHAPES = np.unique(np.concatenate([np.geomspace(0.7, 100.0, 200), _MARKED]))
+_GAPS = np.linspace(-0.08, 4.0, 409)
+#: The punch whose improved law is drawn.
+_DRAWN = 2.0
+
+
+def stresses() -> list[float]:
+    """Return eta (Eq. 77) at `_SHAPES`."""
+    return [eta(float(n)) for n in _SHAPES]
+
+
+def _calls() -> Sequence[Call]:
+    return [Call.of(stresses)]
+
+
+def dugdale(stress: float) -> pd.DataFrame:
+    """Return the corners of Dugdale's law: -stress up to the gap 1 / stress, so that its area is dgamma.
+
+    Examples
+    --------
+    >>> dugdale(0.5).values.tolist()
+    [[0.0, 0.0], [0.0, -0.5], [2.0, -0.5], [2.0, 0.0], [4.0, 0.0]]
+    """
+    ends = [0.0, 0.0, 1.0 / stress, 1.0 / stress, float(_GAPS[-1])]
+    return pd.DataFrame({"gap": ends, "pressure": [0.0, -stress, -stress, 0.0, 0.0]})
+
+
+def _tables(answers: Answers) -> Tables:
+    limits = pd.DataFrame({"n": [math.inf], "eta": [eta(math.inf)]})
+    stress = pd.DataFrame({"n": _SHAPES, "eta": answers[Call.of(stresses)]})
+    exact = pd.DataFrame({"gap": _GAPS, "pressure": LennardJones93().traction(_GAPS)})
+    laws = {"fscm": exact, "md-original": dugdale(THEORETICAL_STRENGTH), "md-improved": dugdale(eta(_DRAWN))}
+    parts = [law.assign(model=model)[["model", "gap", "pressure"]] for model, law in laws.items()]
+    return {"": pd.concat([stress, limits], ignore_index=True), "laws": pd.concat(parts, ignore_index=True)}
+
+
+def _draw(tables: Tables) -> Figure:
+    with styled():
+        figure = Figure(figsize=(7.2, 3.4), layout="constrained")
+        left, right = figure.subplots(1, 2)
+        stress = tables[""][np.isfinite(tables[""]["n"])]
+        left.plot(stress["n"], stress["eta"], color=COLOURS[0], label=r"$\eta(n)$")
+        left.axhline(
+            THEORETICAL_STRENGTH, color=COLOURS[2], ls=":", label=r"theoretical strength $\sigma_{\mathrm{th}}$"
+        )
+        for n in _MARKED:
+            left.plot(n, eta(n), "o", color=COLOURS[0], ms=4)
+            left.annotate(f"({n:g}, {eta(n):.3f})", (n, eta(n)), (6, -9), textcoords="offset points", fontsize=8)
+        left.annotate(f"{THEORETICAL_STRENGTH:.3f}", (1.0, THEORETICAL_STRENGTH), (0, 3), textcoords="offset points")
+        left.set(xlabel=r"shape index $n$", ylabel=r"cohesive stress $\sigma_0 z_0/\Delta\gamma$", xscale="log")
+        left.set(xlim=(0.7, 100), ylim=(0, 1.15), xticks=[1, 2, 5, 10, 20, 50, 100])
+        left.set_xticklabels(["1", "2", "5", "10", "20", "50", "100"])
+        left.minorticks_off()
+        lettered(left, "a")
+        left.legend(loc="lower right")
+        names = {
+            "fscm": "FSCM (9-3 law)",
+            "md-original": rf"original M-D: $\sigma_0$ = {THEORETICAL_STRENGTH:.3f}",
+            "md-improved": rf"improved M-D, $n$ = {_DRAWN:g}: $\sigma_0$ = {eta(_DRAWN):.3f}",
+        }
+        for model, name in names.items():
+            law = tables["laws"][tables["laws"]["model"] == model]
+            right.plot(law["gap"], law["pressure"], label=name, **MODEL_LINES[model])
+        right.axhline(0, color="0.4", lw=0.8)
+        right.set(xlabel=r"gap $H/z_0$", ylabel=r"pressure $p_s z_0/\Delta\gamma$", xlim=(-0.1, 4), ylim=(-1.15, 0.9))
+        lettered(right, "b")
+        right.legend(loc="upper right")
+    return figure
+
+
+SURFACE_LAWS = Plate(
+    name="12",
+    stem="fig12_surface_laws",
+    title="The cohesive stress eta(n), and the surface laws of the FSCM and both Maugis-Dugdale models",
+    calls=_calls,
+    tables=_tables,
+    draw=_draw,
+)

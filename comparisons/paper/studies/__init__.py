@@ -1,0 +1,1 @@
+"""Studies beyond the paper: error maps, error bands, surface modulus."""

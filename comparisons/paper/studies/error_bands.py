@@ -1,0 +1,221 @@
+"""Ranges of the Tabor number in which a closed form is good to 1, 2, 5 %, and the rates at which jumps converge."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from comparisons.output.style import COLOURS, LINES, MARKERS, lettered, styled
+from comparisons.models.semi_rigid import jump_in_coefficient
+from comparisons.paper.studies.error_grid import CANDIDATES, all_cases, calls, errors
+from comparisons.paper.paper_figure import Plate, Tables
+from comparisons.paper.cache import Answers, Call
+
+__all__ = ["ERROR_BANDS", "bands", "coefficients", "rates"]
+
+#: Errors that are asked for.
+LIMITS = (0.01, 0.02, 0.05)
+
+#: Beyond the maps, for the rates: (n, k, mu).
+_SOFT = [(2.0, k, mu) for k in (0.0, 0.4) for mu in (10.0, 20.0)]
+
+#: Shapes of the picture, at k = 0 and 0.4.
+_SHOWN = (1.0, 1.5, 2.0, 5.0)
+
+
+def _round(value: float) -> float:
+    """Two digits: linear interpolation between the computed Tabor numbers deserves no more."""
+    return float(f"{value:.2g}")
+
+
+def _crossing(a: tuple[float, float], b: tuple[float, float], limit: float) -> float:
+    """Tabor number where |kappa| passes the limit between two points (mu, kappa), linear in log mu and kappa."""
+    (mu_a, low), (mu_b, high) = a, b
+    target = math.copysign(limit, high if abs(high) > limit else low)
+    return float(mu_a * (mu_b / mu_a) ** ((target - low) / (high - low)))
+
+
+def bands(table: pd.DataFrame) -> pd.DataFrame:
+    """Return for each model, quantity, n, k and limit the ranges of mu in which abs(kappa) stays within it.
+
+    Parameters
+    ----------
+    table : DataFrame
+        As of `comparisons.paper.studies.error_grid.errors`.
+
+    Returns
+    -------
+    DataFrame
+        One row a range.  ``mu_from`` and ``mu_to`` are its ends with two digits, interpolated between the computed
+        Tabor numbers ``from_below``, ``from_above`` and ``to_below``, ``to_above``.  Where the range begins or ends
+        with the computed ones both are equal: it may go on.  A row without numbers says that there is no range.
+        ``largest_kappa`` and ``at_mu`` belong to all computed Tabor numbers of the row's n and k.
+
+    Examples
+    --------
+    >>> table = pd.DataFrame({"quantity": "q", "model": "m", "n": 2.0, "k": 0.0, "mu": [0.1, 1.0, 10.0]})
+    >>> found = bands(table.assign(kappa=[0.0, 0.02, 0.001]))
+    >>> found[found["limit"] == 0.01][["mu_from", "mu_to"]].values.tolist()
+    [[0.1, 0.32], [3.4, 10.0]]
+    """
+    rows = []
+    for key, part in table.groupby(["quantity", "model", "n", "k"], sort=False):
+        known = part[part["kappa"].notna()].sort_values("mu")
+        points = [(mu, kappa) for mu, kappa in known[["mu", "kappa"]].to_numpy(float).tolist()]
+        if not points:
+            continue
+        worst = max(points, key=lambda point: abs(point[1]))
+        for limit in LIMITS:
+            row = dict(zip(("quantity", "model", "n", "k", "limit"), (*key, limit), strict=True))
+            row |= {"largest_kappa": worst[1], "at_mu": worst[0]}
+            rows += [row | span for span in _spans(points, limit) or [{}]]
+    columns = ["mu_from", "mu_to", "from_below", "from_above", "to_below", "to_above"]
+    return pd.DataFrame(rows).reindex(
+        columns=["quantity", "model", "n", "k", "limit", *columns, "largest_kappa", "at_mu"]
+    )
+
+
+def _spans(points: list[tuple[float, float]], limit: float) -> list[dict[str, float]]:
+    """Ranges of mu within the limit; a sign change between two points outside is not taken for one."""
+    spans: list[dict[str, float]] = []
+    first = points[0]
+    start = {"mu_from": first[0], "from_below": first[0], "from_above": first[0]} if abs(first[1]) <= limit else None
+    for a, b in pairwise(points):
+        if abs(a[1]) > limit >= abs(b[1]):
+            start = {"mu_from": _round(_crossing(a, b, limit)), "from_below": a[0], "from_above": b[0]}
+        elif abs(a[1]) <= limit < abs(b[1]) and start is not None:
+            spans.append(start | {"mu_to": _round(_crossing(a, b, limit)), "to_below": a[0], "to_above": b[0]})
+            start = None
+    if start is not None:
+        last = points[-1][0]
+        spans.append(start | {"mu_to": last, "to_below": last, "to_above": last})
+    return spans
+
+
+def rates(table: pd.DataFrame) -> pd.DataFrame:
+    """Return the exponent r of abs(kappa) ~ mu^-r of the jumps between neighbouring large Tabor numbers.
+
+    Parameters
+    ----------
+    table : DataFrame
+        As of `comparisons.paper.studies.error_grid.errors`, with jumps.
+
+    Returns
+    -------
+    DataFrame
+        For each model, n and k the last two pairs of Tabor numbers: ``mu_from``, ``mu_to``, ``kappa`` and ``u_kappa``
+        at the second, and ``rate``; NaN where kappa changes its sign between them.
+
+    Notes
+    -----
+    JKR's jump-out should become exact as mu^-2 for all n and k.  In the units in which JKR is one curve (Eqs. 63-65)
+    the range of the forces is z0~ = 1/mu.  Outside the contact they are ~ z0~^2 / H^3, inside the surfaces overlap by
+    p / 16 in units of z0 and dgamma / z0, which is ~ z0~^2: both are corrections of the order mu^-2, the first with a
+    logarithm of mu at k = 0, so that the rate comes to 2 from below and slowly.  The cohesive edge, of width
+    mu^(-2/(1-k)), is no larger a correction; it is the only one of the Maugis-Dugdale models.
+    """
+    rows = []
+    for key, part in table.groupby(["quantity", "model", "n", "k"], sort=False):
+        known = part[part["kappa"].notna() & (part["mu"] >= 1.0)].sort_values("mu")
+        points = known[["mu", "kappa", "u_kappa"]].to_numpy(float).tolist()
+        for (mu_a, kappa_a, _), (mu_b, kappa_b, u_kappa) in list(pairwise(points))[-2:]:
+            same = kappa_a * kappa_b > 0.0
+            rate = -math.log(kappa_b / kappa_a) / math.log(mu_b / mu_a) if same else math.nan
+            row = dict(zip(("quantity", "model", "n", "k"), key, strict=True))
+            rows.append(row | {"mu_from": mu_a, "mu_to": mu_b, "kappa": kappa_b, "u_kappa": u_kappa, "rate": rate})
+    return pd.DataFrame(rows)
+
+
+def coefficients(table: pd.DataFrame) -> pd.DataFrame:
+    """Return C_in of Eq. 48 beside (1 - delta_in) / mu^((2n+k-1)/(4n+k-1)) of the FSCM, which it is to be.
+
+    Parameters
+    ----------
+    table : DataFrame
+        As of `comparisons.paper.studies.error_grid.errors`, with the jump-in.
+
+    Returns
+    -------
+    DataFrame
+        For each n and k at the two largest Tabor numbers: ``semi_rigid``, ``fscm``, ``u_fscm`` and ``excess``, the
+        relative error of Eq. 48.
+
+    Notes
+    -----
+    Without the repulsion, negligible at a jump-in from far, one gap H + 1 measured in mu^((2n+k-1)/(4n+k-1)) obeys one
+    equation for all mu.  The power of Eq. 47 is therefore exact, and the excess of its coefficient does not go to zero
+    as mu grows: at the fold the deformation is a fixed share of the gap, however soft the solid.
+    """
+    rows = []
+    found = table[(table["model"] == "semi-rigid") & table["fscm"].notna()]
+    for n, k in found[["n", "k"]].drop_duplicates().to_numpy(float).tolist():
+        part = found[(found["n"] == n) & (found["k"] == k)]
+        exponent = (2.0 * n + k - 1.0) / (4.0 * n + k - 1.0)
+        semi_rigid = jump_in_coefficient(n, k)
+        for mu, fscm, u_fscm in part.sort_values("mu")[["mu", "fscm", "u_fscm"]].to_numpy(float)[-2:].tolist():
+            exact = (1.0 - fscm) / mu**exponent
+            row = {"n": n, "k": k, "mu": mu, "semi_rigid": semi_rigid, "fscm": exact, "u_fscm": u_fscm / mu**exponent}
+            rows.append(row | {"excess": semi_rigid / exact - 1.0})
+    return pd.DataFrame(rows)
+
+
+def _calls() -> Sequence[Call]:
+    return calls(all_cases() + _SOFT)
+
+
+def _tables(answers: Answers) -> Tables:
+    jumps = errors(answers, all_cases() + _SOFT, [name for name in CANDIDATES if name != "pull_off_force"])
+    return {
+        "": bands(errors(answers, all_cases(), CANDIDATES)),
+        "rates": rates(jumps),
+        "jump_in_coefficients": coefficients(jumps),
+        "jumps": jumps,
+    }
+
+
+def _draw(tables: Tables) -> Figure:
+    table = tables["jumps"]
+    with styled():
+        figure = Figure(figsize=(7.2, 3.8), layout="constrained")
+        left, right = figure.subplots(1, 2)
+        _curves(left, table[table["model"] == "semi-rigid"], "a", "jump-in, semi-rigid")
+        jkr = table[(table["model"] == "jkr") & (table["quantity"] == "jump_out_displacement")]
+        _curves(right, jkr, "b", "jump-out, JKR")
+        guide = np.array([5.0, 20.0])
+        right.plot(guide, 0.05 * (guide / 20.0) ** -2.0, color="0.4", lw=2.5, alpha=0.5, label=r"$\mu^{-2}$")
+        handles, labels = right.get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncol=5)
+    return figure
+
+
+def _curves(axes: Axes, table: pd.DataFrame, letter: str, words: str) -> None:
+    for index, n in enumerate(_SHOWN):
+        for k, line in ((0.0, LINES[0]), (0.4, LINES[1])):
+            part = table[(table["n"] == n) & (table["k"] == k) & table["kappa"].notna()]
+            style = {"color": COLOURS[index], "ls": line, "marker": MARKERS[index], "ms": 3.5, "lw": 1.0}
+            axes.plot(part["mu"], 100.0 * part["kappa"].abs(), label=f"$n$ = {n:g}, $k$ = {k:g}", **style)
+    lettered(axes, letter, words)
+    axes.set(xscale="log", yscale="log", xlabel=r"Tabor number $\mu$")
+    axes.set_ylabel(r"relative error of the displacement $|\kappa|$ (%)")
+    axes.set_xticks([1, 2, 5, 10, 20], labels=["1", "2", "5", "10", "20"])
+    for limit in LIMITS:
+        axes.axhline(100.0 * limit, color="0.5", lw=0.6, ls=":")
+    ticks = [tick for tick in (0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20) if tick >= 0.9 * axes.get_ylim()[0]]
+    axes.set_yticks(ticks, labels=[f"{tick:g}" for tick in ticks])
+    axes.minorticks_off()
+
+
+ERROR_BANDS = Plate(
+    name="error-bands",
+    stem="error_bands",
+    title="Where each closed form is good to 1, 2 and 5 %, and how fast the jumps approach their asymptotes",
+    calls=_calls,
+    tables=_tables,
+    draw=_draw,
+)

@@ -1,0 +1,170 @@
+"""Errors of the closed forms against the full self-consistent model over (n, mu) and (k, mu).
+
+The error is relative, kappa = (model - FSCM) / |FSCM|, also for the jumps: wherever a jump exists its displacement is
+beyond -z0, so nothing is divided by something small, and a share of what an experiment measures is what one asks for.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import pandas as pd
+
+from comparisons.numerics.kappa import relative_difference, relative_uncertainty
+from comparisons.model import ComputationFailed
+from comparisons.paper.tasks import quantity
+from comparisons.paper.cache import Answers, Call
+
+__all__ = [
+    "CANDIDATES",
+    "GRADIENTS",
+    "GRADIENT_SLICES",
+    "ONSET_EXCESS",
+    "SHAPES",
+    "SHAPE_SLICES",
+    "TABOR",
+    "calls",
+    "errors",
+    "errors_at",
+    "jump_onset",
+    "onset_calls",
+    "onset_errors",
+]
+
+#: What is judged, by quantity.  DMT has Bradley's pull-off force by the choice of its cohesive stress (Eq. 74).
+CANDIDATES = {
+    "pull_off_force": ("md-improved", "md-original", "jkr", "bradley"),
+    "jump_in_displacement": ("semi-rigid",),
+    "jump_out_displacement": ("jkr", "md-improved", "md-original"),
+}
+
+#: Tabor numbers, from nearly rigid to nearly JKR; jumps begin between 0.64 and 1.32, by shape and gradient.
+TABOR = (0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.6, 0.8, 1.0, 1.4, 2.0, 3.2, 5.0)
+
+#: Maps over the shape index (the attraction of the 9-3 law has no finite sum for n <= 2/3), at these gradients.
+SHAPES = (0.8, 1.0, 1.2, 1.5, 2.0, 2.5, 3.5, 5.0, 8.0)
+SHAPE_SLICES = (0.0, 0.4)
+
+#: Maps over the gradient exponent (beyond 0.8 the cohesive edge is too narrow at large mu), at these shapes.
+GRADIENTS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8)
+GRADIENT_SLICES = (1.5, 2.0)
+
+#: The first errors of the jumps are computed this fraction above the critical Tabor number, where the jumps merge.
+ONSET_EXCESS = 1e-3
+
+Case = tuple[float, float, float]
+
+
+def shape_cases() -> list[Case]:
+    """Return (n, k, mu) of the maps over the shape index."""
+    return [(n, k, mu) for k in SHAPE_SLICES for n in SHAPES for mu in TABOR]
+
+
+def gradient_cases() -> list[Case]:
+    """Return (n, k, mu) of the maps over the gradient exponent."""
+    return [(n, k, mu) for n in GRADIENT_SLICES for k in GRADIENTS for mu in TABOR]
+
+
+def all_cases() -> list[Case]:
+    """Return every (n, k, mu), each once."""
+    return list(dict.fromkeys(shape_cases() + gradient_cases()))
+
+
+def errors_at(n: float, k: float, mu: float) -> dict[str, dict[str, Any]]:
+    """Return by quantity what the FSCM and the closed forms answer, as `comparisons.paper.tasks.quantity` does.
+
+    Examples
+    --------
+    >>> found = errors_at(2.0, 0.4, 0.1)
+    >>> round(found["pull_off_force"]["fscm"]["value"], 6), found["jump_in_displacement"]["fscm"]["status"]
+    (1.983795, 'not-applicable')
+    """
+    return {
+        name: {model: quantity(model, name, n, k, mu) for model in ("fscm", *models)}
+        for name, models in CANDIDATES.items()
+    }
+
+
+def calls(cases: Iterable[Case]) -> Sequence[Call]:
+    """Return the calls of these cases; soft, sharp and steep ones take longest."""
+    return [Call.of(errors_at, *case) for case in sorted(cases, key=lambda case: (-case[2], case[0], -case[1]))]
+
+
+def errors(answers: Answers, cases: Iterable[Case], quantities: Iterable[str]) -> pd.DataFrame:
+    """Return one row a case, quantity and model.
+
+    Returns
+    -------
+    DataFrame
+        ``n``, ``k``, ``mu``, ``quantity``, ``model``; ``value``, ``u_num``, ``fscm``, ``u_fscm`` and ``kappa``,
+        ``u_kappa`` (its numerical uncertainty), NaN where one of the two has no answer; ``reason`` then says why.
+    """
+    rows = []
+    for case in cases:
+        found = answers[Call.of(errors_at, *case)]
+        for name in quantities:
+            for model in CANDIDATES[name]:
+                key = {"n": case[0], "k": case[1], "mu": case[2], "quantity": name, "model": model}
+                rows.append(key | _error(found[name]["fscm"], found[name][model]))
+    return pd.DataFrame(rows)
+
+
+def _error(fscm: dict[str, Any], candidate: dict[str, Any]) -> dict[str, Any]:
+    missing = math.nan
+    row: dict[str, Any] = {
+        "value": candidate["value"] if candidate["value"] is not None else missing,
+        "u_num": candidate["u_num"] if candidate["u_num"] is not None else missing,
+        "fscm": fscm["value"] if fscm["value"] is not None else missing,
+        "u_fscm": fscm["u_num"] if fscm["u_num"] is not None else missing,
+    }
+    kappa = relative_difference(row["value"], row["fscm"])
+    u_kappa = relative_uncertainty(row["value"], row["u_num"], row["fscm"], row["u_fscm"])
+    return row | {"kappa": kappa, "u_kappa": u_kappa, "reason": fscm["reason"] or candidate["reason"]}
+
+
+def jump_onset(n: float, k: float) -> dict[str, Any]:
+    """Return the critical Tabor number, where jumps begin, and the errors of the closed forms just above it.
+
+    Returns
+    -------
+    dict
+        ``critical`` and ``u_critical``; ``mu``, larger by the fraction `ONSET_EXCESS`, and ``found``, as of
+        `errors_at` there.
+
+    Raises
+    ------
+    ComputationFailed
+        If the model has no critical Tabor number, or did not reach it.
+    """
+    # The Tabor number of the case is not used.
+    critical = quantity("fscm", "critical_tabor_number", n, k, 1.0)
+    if critical["status"] != "ok":
+        raise ComputationFailed(critical["reason"])
+    mu = critical["value"] * (1.0 + ONSET_EXCESS)
+    return {"critical": critical["value"], "u_critical": critical["u_num"], "mu": mu, "found": errors_at(n, k, mu)}
+
+
+def onset_calls(cases: Iterable[Case]) -> Sequence[Call]:
+    """Return a call of `jump_onset` for each shape index and gradient exponent; sharp shapes take longest."""
+    return [Call.of(jump_onset, n, k) for n, k in sorted({(n, k) for n, k, _ in cases})]
+
+
+def onset_errors(answers: Answers, cases: Iterable[Case], shown: Sequence[tuple[str, str]]) -> pd.DataFrame:
+    """Return one row for each shape index, gradient exponent and (quantity, model) that is shown.
+
+    Returns
+    -------
+    DataFrame
+        The columns of `errors`, ``mu`` just above the critical Tabor number; ``critical`` and ``u_critical``.
+    """
+    rows = []
+    for call in onset_calls(cases):
+        onset = answers[call]
+        for name, model in shown:
+            key = {"n": call.arguments[0], "k": call.arguments[1], "mu": onset["mu"], "quantity": name, "model": model}
+            found = onset["found"][name]
+            more = {"critical": onset["critical"], "u_critical": onset["u_critical"]}
+            rows.append(key | _error(found["fscm"], found[model]) | more)
+    return pd.DataFrame(rows)

@@ -1,0 +1,237 @@
+"""Why a published number is not the converged one: each computed again with one ingredient changed at a time.
+
+The largest relative errors kappa (Fig. 16(b)) are repeated with what the paper states of its computation (Sec. 2.4)
+and with what it leaves open; the regions of Fig. 11(b) with a gradient exponent that stops short of 1.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pandas as pd
+
+from comparisons.data.paper_values import Published, published
+from comparisons.models.cohesive_contact import CohesiveContact
+from comparisons.models.cohesive_events import CohesiveEvents
+from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
+from comparisons.models.graded_punch import GradedPunch
+from comparisons.paper.values import scheme_ingredients as scheme
+from comparisons.paper.figures.gradient_effect import insensitive_regions, largest_chi
+from comparisons.paper.studies.tabor_curve import RANGE, Extreme, TaborCurve, crossing, largest_error, tabor_numbers
+from comparisons.paper.cache import Answers, Call
+
+__all__ = ["CONVERGED", "Repeated", "calls", "cohesive_forces", "frame", "repeated"]
+
+CONVERGED = "converged: mu from 0.01 to 10, tail carried, sigma_0 exact"
+CONVERGED_CHI = "k up to 1, the Gibson limit"
+#: Rounding of chi in percent, and of the ends of its regions, which are roots to 1e-10.
+CHI_ROUNDING, REGION_ROUNDING = 1e-11, 1e-9
+
+_K = 0.4
+#: Degrees of the series in log(mu); the closed forms cost little.
+_EXACT_DEGREE, _COHESIVE_DEGREE = 40, 96
+#: (model, n) -> the Tabor number of the largest kappa, to three digits: kappa is stationary there or it is the end
+#: of the range.
+_PLACES = {
+    ("md-original", 1.0): 0.01,
+    ("md-original", 1.5): 0.01,
+    ("md-original", 2.0): 0.668,
+    ("md-original", 5.0): 0.246,
+    ("md-improved", 1.0): 0.236,
+    ("md-improved", 1.5): 1.56,
+    ("md-improved", 2.0): 2.14,
+    ("md-improved", 5.0): 0.836,
+}
+_CONE = 1.0
+#: Jin et al. (2021) left out the decimals of 1.026, as Sec. 4.2 tells.
+_JIN_STRESS = 1.0
+#: Gradient exponents near 1, where a computation that cannot take the limit k = 1 might stop.
+_SHORT_OF_GIBSON = (0.9995, 0.999)
+_SPARSE = np.array([step * 10.0**power for power in (-2, -1, 0) for step in (1, 2, 5)] + [10.0])
+
+
+def cohesive_forces(n: float, k: float, stress: float) -> list[float]:
+    """Return the Maugis-Dugdale pull-off force for a cohesive stress, at `tabor_numbers` of the closed forms.
+
+    Examples
+    --------
+    >>> forces = cohesive_forces(2, 0.4, 1.0)
+    >>> bool(forces[0] > forces[-1] > 1.7)
+    True
+    """
+    punch = GradedPunch(n, k)
+    return [
+        -CohesiveEvents.scan(CohesiveContact(punch, stress * mu)).pull_off().load * punch.scales(mu).load
+        for mu in tabor_numbers(_COHESIVE_DEGREE)
+    ]
+
+
+def _exact_stress(claim: Published) -> float:
+    return THEORETICAL_STRENGTH if claim.model == "md-original" else eta(claim.n)
+
+
+def _printed_stress(claim: Published) -> float:
+    if claim.model == "md-original":
+        return published("theoretical_strength")[0].value
+    return next(number.value for number in published("eta") if number.n == claim.n)
+
+
+def _forces(claim: Published, stress: float) -> Call:
+    return Call.of(cohesive_forces, claim.n, _K, stress)
+
+
+def _at_places() -> Iterator[tuple[float, float, float]]:
+    for (_, n), mu in _PLACES.items():
+        yield n, _K, mu
+
+
+def calls() -> Sequence[Call]:
+    """Return the calls that `repeated` needs, the longest first."""
+    claims = published("largest_relative_error")
+    found = [Call.of(scheme.scheme_force, *place) for place in _at_places()]
+    found += [Call.of(scheme.sampled_force, *place) for place in _at_places()]
+    found += [Call.of(insensitive_regions, up_to) for up_to in (1.0, *_SHORT_OF_GIBSON)]
+    for n in sorted({claim.n for claim in claims}):
+        found += [Call.of(scheme.exact_force, n, _K, mu) for mu in tabor_numbers(_EXACT_DEGREE)]
+    found += [Call.of(scheme.exact_force, *place) for place in _at_places()]
+    found += [_forces(claim, stress(claim)) for claim in claims for stress in (_exact_stress, _printed_stress)]
+    found += [_forces(claim, _JIN_STRESS) for claim in claims if claim.model == "md-original"]
+    return list(dict.fromkeys(found))
+
+
+@dataclass(frozen=True)
+class Repeated:
+    """A published number computed again.
+
+    Attributes
+    ----------
+    claim : Published
+    ingredient : str
+        What was changed.
+    value, u : float
+        The number, signed, and its bound, in the unit of the claim.
+    mu : float
+        Where it is, NaN if it has no Tabor number.
+    stated : bool
+        Whether the ingredient is in the paper, or was fitted here.
+    """
+
+    claim: Published
+    ingredient: str
+    value: float
+    u: float
+    mu: float = math.nan
+    stated: bool = True
+
+    @property
+    def verdict(self) -> str:
+        """Whether it has the published digits."""
+        return self.claim.verdict(abs(self.value), self.u)
+
+
+def repeated(answers: Answers) -> list[Repeated]:
+    """Return every repetition, those of one number together and the converged one first."""
+    rows = [row for claim in published("largest_relative_error") for row in _errors(claim, answers)]
+    ranges = {1.0: CONVERGED_CHI} | {up_to: f"k up to {up_to:g}" for up_to in _SHORT_OF_GIBSON}
+    for claim in published("largest_chi"):
+        for up_to, words in ranges.items():
+            largest = 100.0 * largest_chi(claim.n, up_to)[0]
+            rows.append(Repeated(claim, words, largest, CHI_ROUNDING, stated=up_to == 1.0))
+    for claim in published("insensitive_region"):
+        for up_to, words in ranges.items():
+            end = answers[Call.of(insensitive_regions, up_to)][claim.index]
+            rows.append(Repeated(claim, words, end, REGION_ROUNDING, stated=up_to == 1.0))
+    return rows
+
+
+def _errors(claim: Published, answers: Answers) -> Iterator[Repeated]:
+    """Repeat a largest relative error with every ingredient."""
+
+    def row(ingredient: str, found: Extreme, stated: bool = True) -> Repeated:
+        return Repeated(claim, ingredient, 100.0 * found.kappa, 100.0 * found.u, found.mu, stated)
+
+    exact, cut = _exact_curves(claim.n, answers)
+    model = TaborCurve.through(np.array(answers[_forces(claim, _exact_stress(claim))]))
+    printed = TaborCurve.through(np.array(answers[_forces(claim, _printed_stress(claim))]))
+    nothing_beyond = f"f(r_max) = {scheme.HEIGHTS[0]:g}, nothing beyond"
+    rounded = f"sigma_0 = {_printed_stress(claim):g} as printed"
+
+    yield row(CONVERGED, largest_error(model, exact))
+    yield row(nothing_beyond, largest_error(model, cut[0]))
+    if claim.n == _CONE:
+        for height, curve in zip(scheme.HEIGHTS[1:], cut[1:], strict=True):
+            yield row(f"f(r_max) = {height:g}, nothing beyond", largest_error(model, curve), stated=False)
+    yield row(rounded, largest_error(printed, exact))
+    yield row(f"{nothing_beyond}; {rounded}", largest_error(printed, cut[0]))
+
+    # One Tabor number is enough for what follows: kappa is stationary there or at the end of the range.
+    mu = _PLACES[claim.model, claim.n]
+    place = claim.n, _K, mu
+    full, coarse = answers[Call.of(scheme.exact_force, *place)], answers[Call.of(scheme.scheme_force, *place)]
+    steps = answers[Call.of(scheme.sampled_force, *place)]
+    mesh = coarse["force"] - (full["force"] - full["beyond"][0])
+    yield row(f"N = {scheme.SEGMENTS} segments", _single(model, full["force"] + mesh, coarse["u_num"], mu))
+    yield row(f"{nothing_beyond}; N = {scheme.SEGMENTS} segments", _single(model, coarse["force"], coarse["u_num"], mu))
+    yield row(
+        f"{nothing_beyond}; N = {scheme.SEGMENTS} segments; {rounded}",
+        _single(printed, coarse["force"], coarse["u_num"], mu),
+    )
+    yield row(f"central gap not below {scheme.LAST_GAP:g}", _single(model, steps["at_last_gap"], steps["u_num"], mu))
+    for step, force in zip(scheme.GAP_STEPS, steps["sampled"], strict=True):
+        yield row(
+            f"largest load among central gaps {step:g} apart", _single(model, force, steps["u_num"], mu), stated=False
+        )
+
+    if claim.model == "md-original":
+        jin = TaborCurve.through(np.array(answers[_forces(claim, _JIN_STRESS)]))
+        yield row("sigma_0 = 1, without its decimals", largest_error(jin, exact), stated=False)
+    yield row("mu from 0.02 to 10", largest_error(model, exact, low=0.02), stated=False)
+    yield row("mu from 0.01 to 2", largest_error(model, exact, high=2.0), stated=False)
+    yield row("mu = 1, 2, 5, 10, ... of 0.01 to 10 only", largest_error(model, exact, sampled=_SPARSE), stated=False)
+    start = crossing(lambda mu: 100.0 * abs(printed(mu) / exact(mu) - 1.0), claim.value)
+    if mu == RANGE[0] and start is not None:
+        fitted = largest_error(printed, exact, low=start)
+        yield row(f"{rounded}; mu from {start:.4f}, fitted", replace(fitted, mu=start), stated=False)
+
+
+def _single(model: TaborCurve, force: float, u: float, mu: float) -> Extreme:
+    kappa = float(model(np.array([mu]))[0]) / force - 1.0
+    return Extreme(kappa, (1.0 + abs(kappa)) * (model.error + u / force), mu)
+
+
+def _exact_curves(n: float, answers: Answers) -> tuple[TaborCurve, list[TaborCurve]]:
+    """Return the converged force over mu, and those without what is beyond each height."""
+    found = [answers[Call.of(scheme.exact_force, n, _K, mu)] for mu in tabor_numbers(_EXACT_DEGREE)]
+    force = np.array([answer["force"] for answer in found])
+    beyond = np.array([answer["beyond"] for answer in found])
+    numerical = max(answer["u_num"] / answer["force"] for answer in found)
+    curves = [TaborCurve.through(force - lost) for lost in (np.zeros_like(force), *beyond.T)]
+    exact, *cut = [replace(curve, error=curve.error + numerical) for curve in curves]
+    return exact, cut
+
+
+def frame(rows: Sequence[Repeated]) -> pd.DataFrame:
+    """Return one row a repetition; ``shift`` is what the ingredient changes, in the unit of the number."""
+    table = pd.DataFrame(
+        {
+            "quantity": row.claim.quantity,
+            "model": row.claim.model,
+            "n": row.claim.n,
+            "k": row.claim.k,
+            "unit": row.claim.unit,
+            "published": row.claim.text,
+            "ingredient": row.ingredient,
+            "stated_in_paper": row.stated,
+            "mu": row.mu,
+            "computed": row.value,
+            "u": row.u,
+            "verdict": row.verdict,
+        }
+        for row in rows
+    )
+    first = table.groupby(["quantity", "model", "n"], dropna=False)["computed"].transform("first")
+    table.insert(11, "shift", table["computed"] - first)
+    return table

@@ -1,0 +1,1 @@
+"""Runs: cases, tasks, their computation, and the folder that stores them."""

@@ -1,0 +1,252 @@
+"""Cases as data: which problems a run computes, read from a TOML file.
+
+A case is one dimensionless problem; a grid is the product of lists of n, k, mu and nu with an id, a tier and
+the quantities (or shapes) and models asked.  Unknown keys are refused, so that a misspelt one cannot pass
+unnoticed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from importlib.resources import files
+from itertools import product
+from typing import Any
+
+from comparisons.models import MODELS
+from comparisons.quantities import QUANTITIES
+from comparisons.curve_quantities import SHAPES
+from comparisons.data.toml_text import is_real, names, parse
+from fscm.problem import Problem
+
+__all__ = ["TIERS", "VERIFICATION", "Case", "Grid", "asked_of", "cases_text", "grids", "load_grids"]
+
+#: A tier holds its own grids and those of every tier before it.
+TIERS = ("quick", "full")
+
+#: Grids with this tag are questions about the references themselves.  They are not asked of models that are
+#: given to a run, and are not in its tables of errors.
+VERIFICATION = "verification"
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Case:
+    """One dimensionless problem with the default punch and surface law.
+
+    Parameters
+    ----------
+    n, k, mu : float
+        Shape index, gradient exponent and Tabor number (see `fscm.problem.Problem`).
+    nu : float, optional
+        Poisson's ratio in [0, 0.5), for models that solve the physical problem; None leaves it to them.
+
+    Raises
+    ------
+    ValueError
+        With the value, the admissible range and the reason.
+
+    Examples
+    --------
+    >>> Case(2, 0.4, 1.0).label
+    'n = 2, k = 0.4, mu = 1'
+    """
+
+    n: float
+    k: float
+    mu: float
+    nu: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("n", "k", "mu"):
+            object.__setattr__(self, name, float(getattr(self, name)))
+        if self.nu is not None and not 0 <= self.nu < 0.5:
+            raise ValueError(
+                f"Poisson's ratio nu = {self.nu:g} is outside [0, 0.5): "
+                "at 0.5 the solid is incompressible and displacements alone do not give the stress"
+            )
+        self.problem()
+
+    def problem(self) -> Problem:
+        """Return the problem as the models take it."""
+        return Problem(n=self.n, k=self.k, mu=self.mu)
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The parameters that were given, by name."""
+        given = {"n": self.n, "k": self.k, "mu": self.mu}
+        return given if self.nu is None else {**given, "nu": self.nu}
+
+    @property
+    def label(self) -> str:
+        """The parameters in one line for people."""
+        return ", ".join(f"{name} = {value:g}" for name, value in self.parameters.items())
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """A named set of cases: the product of its parameter lists.
+
+    Attributes
+    ----------
+    id : str
+        Stable name, to be cited.
+    title : str
+        What the grid is for, one line.
+    tier : str
+        The first of `TIERS` that computes it.
+    reference : str
+        The model the others are compared with.
+    models : tuple of str
+        The candidates.
+    quantities : tuple of str
+        What is asked of every model.
+    cases : tuple of Case
+        Sorted, without duplicates.
+    tags : tuple of str
+        Names that gates select several grids by.
+
+    Examples
+    --------
+    >>> grid = grids("quick")[0]
+    >>> grid.reference, grid.cases[0].label
+    ('fscm', 'n = 1, k = 0, mu = 0.01')
+    """
+
+    id: str
+    title: str
+    tier: str
+    reference: str
+    models: tuple[str, ...]
+    quantities: tuple[str, ...]
+    cases: tuple[Case, ...]
+    tags: tuple[str, ...] = ()
+
+
+_LISTS = ("models", "quantities", "n", "k", "mu")
+_PARAMETERS = ("n", "k", "mu", "nu")
+_OPTIONAL = ("nu", "tags")
+_TEXTS = ("id", "title", "tier", "reference")
+
+
+def _known(what: str, names: list[str], register: Mapping[str, object] | Sequence[str], where: str) -> None:
+    for name in names:
+        if name not in register:
+            raise ValueError(f"{where}: unknown {what} {name!r}; known are {', '.join(register)}")
+
+
+def _is_text(entry: object) -> bool:
+    return isinstance(entry, str)
+
+
+def _grid(table: dict[str, Any], where: str, tier: str | None) -> Grid:
+    expected = {*_LISTS, *_TEXTS} - ({"tier"} if tier else set())
+    if wrong := sorted((expected - table.keys()) | (table.keys() - expected - {*_OPTIONAL})):
+        raise ValueError(
+            f"{where}: {', '.join(wrong)} missing or unknown; a grid has {', '.join(sorted(expected))} "
+            f"and may have {', '.join(_OPTIONAL)}"
+        )
+    for key in (*_LISTS, *(key for key in _OPTIONAL if key in table)):
+        if not (isinstance(table[key], list) and table[key]):
+            raise ValueError(f"{where}: {key} must be a list with at least one entry")
+        fits, kind = (is_real, "numbers") if key in _PARAMETERS else (_is_text, "names")
+        if wrong := [entry for entry in table[key] if not fits(entry)]:
+            raise ValueError(f"{where}: {key} must be a list of {kind}; {wrong[0]!r} is none")
+    for key in sorted(expected & {*_TEXTS}):
+        if not _is_text(table[key]):
+            raise ValueError(f"{where}: {key} = {table[key]!r} must be a text")
+    _known("tier", [tier or table["tier"]], TIERS, where)
+    _known("model", [table["reference"], *table["models"]], MODELS, where)
+    _known("quantity", table["quantities"], (*QUANTITIES, *SHAPES), where)
+    parameters = product(table["n"], table["k"], table["mu"], table.get("nu", [None]))
+    cases = {Case(*values) for values in parameters}
+    return Grid(
+        id=table["id"],
+        title=table["title"],
+        tier=tier or table["tier"],
+        reference=table["reference"],
+        models=tuple(table["models"]),
+        quantities=tuple(table["quantities"]),
+        cases=tuple(sorted(cases, key=lambda case: (case.n, case.k, case.mu, case.nu or 0.0))),
+        tags=tuple(table.get("tags", ())),
+    )
+
+
+def load_grids(text: str, tier: str | None = None, source: str = "the case file") -> list[Grid]:
+    """Read grids from TOML text.
+
+    Parameters
+    ----------
+    text : str
+        ``[[grid]]`` tables and nothing else.
+    tier : str, optional
+        The tier of all of them, which then state none.
+    source : str
+        What the text is of, for the sentence that refuses it.
+
+    Raises
+    ------
+    ValueError
+        If the text is not TOML, or a grid has a missing, unknown or inadmissible entry; the message names it.
+
+    Examples
+    --------
+    >>> text = '''
+    ... [[grid]]
+    ... id = "mine"
+    ... title = "A sphere"
+    ... tier = "quick"
+    ... reference = "fscm"
+    ... models = ["jkr"]
+    ... quantities = ["pull_off_force"]
+    ... n = [2]
+    ... k = [0, 0.4]
+    ... mu = [0.1, 1]
+    ... '''
+    >>> [case.label for case in load_grids(text)[0].cases][:2]
+    ['n = 2, k = 0, mu = 0.1', 'n = 2, k = 0, mu = 1']
+    """
+    tables = parse(text, source)
+    if tables.keys() != {"grid"}:
+        raise ValueError(f"{source}: a case file holds [[grid]] tables and nothing else, not {names(tables)}")
+    if not isinstance(tables["grid"], list) or not all(isinstance(table, dict) for table in tables["grid"]):
+        raise ValueError(f"{source}: a case file holds [[grid]] tables and nothing else; its grid is something else")
+    read = [
+        _grid(table, f"grid {table.get('id', number)}", tier) for number, table in enumerate(tables["grid"], start=1)
+    ]
+    ids = [grid.id for grid in read]
+    if len(set(ids)) < len(ids):
+        raise ValueError(f"the id of a grid must be its own; found {', '.join(sorted(ids))}")
+    return read
+
+
+def cases_text() -> str:
+    """Return the text of the standing cases.
+
+    Examples
+    --------
+    >>> load_grids(cases_text()) == grids("full")
+    True
+    """
+    return files("comparisons.data").joinpath("cases.toml").read_text(encoding="utf-8")
+
+
+def asked_of(chosen: Iterable[Grid], models: Sequence[str] | None) -> list[Grid]:
+    """Return the grids that a run computes: without those of verification if models are given to it.
+
+    Examples
+    --------
+    >>> all(VERIFICATION not in grid.tags for grid in asked_of(grids("quick"), ["jkr"]))
+    True
+    """
+    return [grid for grid in chosen if models is None or VERIFICATION not in grid.tags]
+
+
+def grids(tier: str) -> list[Grid]:
+    """Return the standing grids of a tier and of the tiers before it.
+
+    Examples
+    --------
+    >>> [grid.id for grid in grids("quick")][0]
+    'transition'
+    """
+    return [grid for grid in load_grids(cases_text()) if TIERS.index(grid.tier) <= TIERS.index(tier)]

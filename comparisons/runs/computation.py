@@ -1,0 +1,171 @@
+"""Computations of a command: what is stored is not computed again, and an interruption loses nothing."""
+
+from __future__ import annotations
+
+import argparse
+from collections import Counter
+from collections.abc import Mapping
+from concurrent.futures import BrokenExecutor
+from contextlib import closing
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from random import SystemRandom
+from typing import Any
+
+from comparisons.runs.reevaluation import evaluate_again
+from comparisons.runs.row_journal import RowJournal
+from comparisons.runs.journal import alone_in
+from comparisons.model import ComputationFailed
+from comparisons.console.progress import counting, log
+from comparisons.runs.tasks import Task, compute
+from comparisons.runs.tables import Row, prepare_folder
+from comparisons.runs.workers import usable_cores
+
+__all__ = [
+    "Completed",
+    "add_jobs",
+    "add_out",
+    "add_retry_failed",
+    "checked_jobs",
+    "complete",
+    "folder_for",
+    "say_failures_used",
+]
+
+
+def add_jobs(parser: argparse.ArgumentParser) -> None:
+    """Declare the number of processes."""
+    parser.add_argument("--jobs", metavar="N", type=int, default=usable_cores(), help="processes (default: one a core)")
+
+
+def add_out(parser: argparse.ArgumentParser) -> None:
+    """Declare the folder for the results."""
+    parser.add_argument(
+        "--out",
+        metavar="DIR",
+        type=Path,
+        help="folder for the results (default: results/runs/TIME); resumed if it has some",
+    )
+
+
+def add_retry_failed(parser: argparse.ArgumentParser) -> None:
+    """Declare the option that computes stored failures again."""
+    parser.add_argument(
+        "--retry-failed",
+        action="store_true",
+        help="compute stored failures again (those of external models always are)",
+    )
+
+
+def checked_jobs(jobs: int) -> int:
+    """Return the number of processes; `ValueError` if there are none."""
+    if jobs < 1:
+        raise ValueError(f"--jobs {jobs} is outside 1, 2, ...: the computations need at least one process")
+    return jobs
+
+
+def folder_for(out: Path | None, started: datetime) -> Path:
+    """Return the folder for the results, made and found writable: `out`, or one named by the time."""
+    return prepare_folder(out or Path("results", "runs", started.astimezone().strftime("%Y-%m-%dT%H-%M-%S")))
+
+
+@dataclass(frozen=True, slots=True)
+class Completed:
+    """Rows of all tasks of a command, and where they come from.
+
+    Attributes
+    ----------
+    rows : list of Row
+    resumed : int
+        How many of them were stored.
+    parts : list of dict
+        The commands that computed them, as ``run.json`` holds them.
+    evaluated_again : dict or None
+        What was evaluated again before stored rows of external models were used, as ``run.json`` holds it.
+    """
+
+    rows: list[Row]
+    resumed: int
+    parts: list[dict[str, Any]]
+    evaluated_again: dict[str, Any] | None
+
+
+def complete(tasks: list[Task], folder: Path, jobs: int, retry_failed: bool = False) -> Completed:
+    """Compute the tasks that the journal of a folder does not have.
+
+    A stored row of another version of an external model does not count, nor does one that failed.  A few of the others
+    are evaluated again; if one differs, all rows of its model are computed again.
+
+    Parameters
+    ----------
+    tasks : list of Task
+        All that is needed.
+    folder : Path
+        Of the results.
+    jobs : int
+        Number of processes.
+    retry_failed : bool
+        Whether stored failures of our own models do not count either.
+
+    Raises
+    ------
+    ValueError
+        If the folder holds results of other code, or another process computes into it.
+    comparisons.model.ComputationFailed
+        If a worker process dies.
+    """
+    wanted = {task.key: task for task in tasks}
+    versions = {task.model: task.outside.version for task in tasks if task.outside}
+
+    def usable(row: Row) -> bool:
+        return row.key in wanted and versions.get(row.model, row.model_version) == row.model_version
+
+    with alone_in(folder):
+        journal = RowJournal(folder)
+        journal.drop(lambda row: usable(row) and row.status == "failed" and (retry_failed or row.model in versions))
+        try:
+            external = {wanted[row.key]: row for row in journal.rows if usable(row) and row.model in versions}
+            evaluated_again = _checked(external, journal, jobs) if external else None
+            stored = [row for row in journal.rows if usable(row)]
+            say_failures_used(Counter(row.model for row in stored if row.status == "failed"))
+            known = {row.key for row in stored}
+            missing = [task for task in tasks if task.key not in known]
+            log(f"{len(missing)} computations on {jobs} processes" + (f", {len(known)} are stored" if known else ""))
+            with counting("computing", len(missing)) as count, closing(compute(missing, jobs)) as computed:
+                for row in computed:
+                    journal.add(row)
+                    count()
+        except KeyboardInterrupt:
+            log(_safe(journal, folder))
+            raise
+        except BrokenExecutor:
+            raise ComputationFailed(f"a worker process died (out of memory?); {_safe(journal, folder)}") from None
+        rows = [row for row in journal.rows if usable(row)]
+        return Completed(rows, len(stored), journal.parts(rows), evaluated_again)
+
+
+def _checked(stored: dict[Task, Row], journal: RowJournal, jobs: int) -> dict[str, Any]:
+    """Evaluate a few stored tasks again, and drop the rows of each model that gives something else now."""
+    seed = SystemRandom().randrange(2**32)
+    found = evaluate_again(stored, seed, jobs)
+    for model, again in found.items():
+        if again.difference:
+            dropped = journal.drop_model(
+                model, next(row.model_version for row in stored.values() if row.model == model)
+            )
+            log(f"{model} has changed ({again.difference}): its stored results ({dropped}) are all computed again")
+    return {"seed": seed, "models": {model: again.as_json() for model, again in found.items()}}
+
+
+def say_failures_used(failures: Mapping[str, int]) -> None:
+    """Say in one sentence how many stored failures are used, by the name of what failed."""
+    if failures:
+        log(
+            f"{sum(failures.values())} stored failures of {', '.join(sorted(failures))} are used; "
+            "--retry-failed computes them again"
+        )
+
+
+def _safe(journal: RowJournal, folder: Path) -> str:
+    return f"{len(journal.rows)} finished computations are safe; go on with --out {folder}"

@@ -1,0 +1,141 @@
+"""Record of a run (``run.json``): where its numbers come from, and the checksums of its files.
+
+Written and read through the same JSON Schema (``run.schema.json``), so that what is missing is found when the
+record is written and not years later.  The record has a checksum of its own.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Collection
+from functools import lru_cache
+from hashlib import sha256
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from jsonschema import Draft202012Validator
+from jsonschema.exceptions import best_match
+
+from comparisons.console.progress import log
+from comparisons.runs.environment import differences, fingerprint
+from comparisons.runs.tables import write_json
+
+__all__ = ["FILES", "FORMAT", "check_files", "read_record", "warn_of_other_code", "write_record"]
+
+#: Version of the schema.
+FORMAT = 3
+
+#: Files of a run that have a checksum in its record, as far as they exist.
+FILES = (
+    *(
+        f"{table}.{suffix}"
+        for table in ("results", "curves", "kappa", "largest_kappa", "agreement", "verdicts", "gates")
+        for suffix in ("csv", "parquet")
+    ),
+    *(f"{figure}.{suffix}" for figure in ("fig16b_kappa", "agreement", "references") for suffix in ("png", "pdf")),
+    *("gates.toml", "verdicts.md", "verdicts.tex", "junit.xml"),
+)
+
+
+@lru_cache(maxsize=1)
+def _validator() -> Draft202012Validator:
+    schema = json.loads(files("comparisons.data").joinpath("run.schema.json").read_text(encoding="utf-8"))
+    Draft202012Validator.check_schema(schema)
+    return Draft202012Validator(schema)
+
+
+def _problem(content: object) -> str | None:
+    error = best_match(_validator().iter_errors(content))
+    return None if error is None else f"{error.json_path}: {error.message}"
+
+
+def write_record(content: dict[str, Any], path: Path) -> None:
+    """Write a record with the checksums of the files beside it (`FILES`), atomically.
+
+    Raises
+    ------
+    RuntimeError
+        If it is not of the form that the schema asks for: a defect of the code that made it.
+    """
+    sums = {name: _sum_of(path.parent / name) for name in FILES if (path.parent / name).is_file()}
+    content = content | {"files": sums}
+    content["sha256"] = _own_sum(content)
+    if problem := _problem(content):
+        raise RuntimeError(f"the record of this run does not fit its schema: {problem}")
+    write_json(content, path)
+
+
+def read_record(path: Path) -> dict[str, Any]:
+    """Read a record.
+
+    Raises
+    ------
+    ValueError
+        If there is none, it is not of the form that the schema asks for, or its own checksum is not that of its
+        content; one sentence says which.
+    """
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ValueError(
+            f"{path} cannot be read ({error.strerror}): {path.parent} is not the folder of a finished run"
+        ) from None
+    except ValueError:
+        raise ValueError(f"{path} is not JSON text") from None
+    except RecursionError:
+        raise ValueError(f"{path} is not the record of a run: its brackets are nested too deeply") from None
+    if isinstance(content, dict) and content.get("format") in range(1, FORMAT):
+        raise ValueError(
+            f"{path} has format {content['format']}, of an earlier version of fscm-bench, and not {FORMAT}: "
+            "run again with another --out"
+        )
+    if problem := _problem(content):
+        raise ValueError(f"{path} is not the record of a run: {problem}")
+    stated = content.pop("sha256")
+    if stated != _own_sum(content):
+        raise ValueError(_changed(path, f"run again with --out {path.parent}"))
+    return dict(content)
+
+
+def check_files(record: dict[str, Any], folder: Path, written_again: Collection[str] = ()) -> None:
+    """Check the files of a run against the checksums in its record; a file that is missing is left to its reader.
+
+    Parameters
+    ----------
+    record : dict
+        As `read_record` returns it.
+    folder : Path
+        Of the run.
+    written_again : collection of str
+        Files that the caller replaces without reading them.
+
+    Raises
+    ------
+    ValueError
+        If a file is not the one that was written; the sentence gives its name and the remedy.
+    """
+    for name, stated in record["files"].items():
+        path = folder / name
+        if name not in written_again and path.is_file() and _sum_of(path) != stated:
+            raise ValueError(_changed(path, f"write it again by fscm-bench run with --out {folder}"))
+
+
+def warn_of_other_code(record: dict[str, Any], folder: Path) -> bool:
+    """Say in one sentence if the results of a folder were computed by other code; return whether they were."""
+    changed = differences(record["package"]["fingerprint"], fingerprint())
+    if changed:
+        log(f"the results in {folder} were computed by another version of the code, of NumPy or of SciPy ({changed})")
+    return bool(changed)
+
+
+def _changed(path: Path, remedy: str) -> str:
+    return f"{path} was changed after it was written (its SHA-256 is not the one in run.json): {remedy}"
+
+
+def _sum_of(path: Path) -> str:
+    return sha256(path.read_bytes()).hexdigest()
+
+
+def _own_sum(content: dict[str, Any]) -> str:
+    return sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()

@@ -1,0 +1,303 @@
+"""What a run says about its gates, and judging it again: exit statuses and files."""
+
+import json
+import random
+import re
+
+import pandas as pd
+import pytest
+
+from comparisons.cli.main import main
+from comparisons.output.verdicts import FILES
+from comparisons.runs.environment import fingerprint
+from comparisons.runs.record import FILES as WITH_CHECKSUM
+from comparisons.runs.record import read_record, write_record
+from comparisons.output.report.stored_run import read_folder
+from comparisons.output.report.page import make_page
+
+
+@pytest.fixture
+def folder(small_grid, tmp_path, capsys):
+    """A finished run."""
+    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run")]) == 0
+    capsys.readouterr()
+    return tmp_path / "run"
+
+
+def seal(folder):
+    """Give the record of a run the checksums of its files as they are now."""
+    write_record(read_record(folder / "run.json"), folder / "run.json")
+
+
+def gates(text, tmp_path, *changes):
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    (tmp_path / "gates.toml").write_text(text)
+    return ["--gates", str(tmp_path / "gates.toml")]
+
+
+def test_judging_again_gives_the_same_and_computes_nothing(folder, monkeypatch, capsys):
+    before = {name: (folder / name).read_bytes() for name in FILES}
+    monkeypatch.setattr("comparisons.models.create", None)
+    monkeypatch.setattr("comparisons.runs.tasks.answer", None)
+    shown = []
+    for _ in range(2):
+        assert main(["judge", str(folder)]) == 0
+        shown.append(capsys.readouterr().out)
+        assert {name: (folder / name).read_bytes() for name in FILES} == before
+    assert shown[0] == shown[1]
+    assert "TEN-PERCENT" in shown[0]
+    assert "fscm-bench solve --model ten-percent --quantity pull_off_force --n 2 --k 0" in shown[0]
+    assert shown[0].rstrip().endswith("PASS: 1 gates, 4 cases PASS")
+
+
+@pytest.mark.parametrize(
+    ("changes", "status", "verdict"),
+    [
+        ([], 0, "PASS"),
+        ([("upper = 0.11", "upper = 0.095")], 1, "FAIL"),
+        ([("upper = 0.11", "upper = 0.1")], 3, "INCONCLUSIVE"),
+        ([("1e-6", "1e-12")], 3, "INCONCLUSIVE"),
+        ([("min_cases = 4", "min_cases = 5")], 4, "ERROR"),
+        ([("mu = [0.1, 1]", "mu = [2, 3]")], 4, "ERROR"),
+        ([('tier = "quick"', 'tier = "full"')], 4, "ERROR"),
+        (
+            [("upper = 0.11", "upper = 0.095"), ("min_cases", 'expected_failure = "known"\nmin_cases')],
+            0,
+            "XFAIL",
+        ),
+        ([("min_cases", 'expected_failure = "known"\nmin_cases')], 1, "XPASS"),
+        ([('"ten-percent"', '"refuses"')], 4, "ERROR"),
+    ],
+)
+@pytest.mark.parametrize("command", ["run", "judge"])
+def test_the_exit_status_is_the_verdict(small_grid, tmp_path, capsys, changes, status, verdict, command):
+    if command == "judge":
+        assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run")]) == 0
+        arguments = ["judge", str(tmp_path / "run")]
+    else:
+        arguments = ["run", "--jobs", "1", "--out", str(tmp_path / "run")]
+    assert main([*arguments, *gates(small_grid, tmp_path, *changes)]) == status
+    shown = capsys.readouterr()
+    assert verdict in shown.out or "no gate was evaluated" in shown.err
+    # Status 4 is explained where the program says what went wrong.
+    assert ("a gate is in error: TEN-PERCENT of " in shown.err) == (verdict == "ERROR" and "no gate" not in shown.err)
+    if command == "run":
+        assert json.loads((tmp_path / "run" / "run.json").read_text())["verdicts"]["all"] == verdict
+
+
+def test_other_gates_than_those_of_the_run_are_named_and_the_record_agrees(folder, small_grid, tmp_path, capsys):
+    finished = read_record(folder / "run.json")
+    assert main(["judge", str(folder), *gates(small_grid, tmp_path, ("upper = 0.11", "upper = 0.095"))]) == 1
+    assert re.search("judged by .*gates.toml, not by the gates .* was run with", capsys.readouterr().err)
+    record = read_record(folder / "run.json")
+    assert record["verdicts"] == {"all": "FAIL", "FAIL": 4}
+    assert record["judged_again"]["gates"] == str(tmp_path / "gates.toml")
+    assert set(pd.read_csv(folder / "verdicts.csv")["verdict"]) == {"FAIL"}
+    page = dict(make_page(read_folder(folder)).provenance)
+    assert page["judged again"].startswith(f"by {tmp_path / 'gates.toml'}, SHA-256")
+    # Without --gates the run's own are back, and nothing of the others is left.
+    assert main(["judge", str(folder)]) == 0
+    assert read_record(folder / "run.json") == finished
+
+
+@pytest.mark.parametrize("models", [[], ["--model", "ten-percent"]])
+def test_a_run_is_judged_again_by_the_gates_it_was_made_with(small_grid, tmp_path, capsys, models):
+    other = small_grid.replace("TEN-PERCENT", "OTHER").replace('"ten-percent"', '"refuses"')
+    rules = gates(small_grid + other * bool(models), tmp_path, ("upper = 0.11", "upper = 0.095"))
+    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), *models, *rules]) == 1
+    before = {name: (tmp_path / "run" / name).read_bytes() for name in (*FILES, "run.json", "gates.toml")}
+    (tmp_path / "gates.toml").unlink()
+    capsys.readouterr()
+    assert main(["judge", str(tmp_path / "run")]) == 1
+    assert "run/gates.toml, the gates of the run" in capsys.readouterr().err
+    assert {name: (tmp_path / "run" / name).read_bytes() for name in before} == before
+
+
+def test_standing_gates_of_models_that_were_not_given_do_not_matter(small_grid, tmp_path, capsys, monkeypatch):
+    rival = small_grid.replace("TEN-PERCENT", "OTHER") + 'rival = "twelve-percent"\n'
+    for command in ("run", "judge"):
+        monkeypatch.setattr(
+            f"comparisons.cli.commands.{command}.gates_text", lambda path: path.read_text() if path else small_grid + rival
+        )
+    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), "--model", "ten-percent"]) == 0
+    assert main(["judge", str(tmp_path / "run")]) == 0
+    assert "left out" not in capsys.readouterr().err
+
+
+def test_a_gates_file_of_somebodys_own_is_not_replaced(small_grid, tmp_path, capsys):
+    rules = gates(small_grid, tmp_path, ("upper = 0.11", "upper = 0.12"))
+    text = (tmp_path / "gates.toml").read_text()
+    out = ["run", "--jobs", "1", "--out", str(tmp_path)]
+    assert main(out) == 2
+    assert "gates.toml is not of a run" in capsys.readouterr().err
+    assert main([*out, *rules]) == 0
+    assert (tmp_path / "gates.toml").read_text() == text
+    assert main(out) == 0
+
+
+def test_a_run_that_kept_no_gates_is_judged_by_the_standing_ones(folder, capsys):
+    (folder / "gates.toml").unlink()
+    assert main(["judge", str(folder)]) == 0
+    assert "judged by the standing gates" in capsys.readouterr().err
+
+
+RIVAL = ('"rel"', '"rel"\nrival = "twelve-percent"'), ("lower = 0.09", "lower = -inf"), ("upper = 0.11", "upper = 0.0")
+
+
+@pytest.mark.parametrize("candidate", ["ten-percent", "given"])
+@pytest.mark.parametrize("command", ["run", "judge"])
+def test_a_gate_whose_rival_is_not_computed_is_refused_and_adding_it_helps(
+    small_grid, tmp_path, capsys, candidate, command
+):
+    out = ["--jobs", "1", "--out", str(tmp_path / "run"), "--model", "ten-percent"]
+    rules = gates(small_grid, tmp_path, *RIVAL, ('candidate = "ten-percent"', f'candidate = "{candidate}"'))
+    if command == "judge":
+        assert main(["run", *out]) == 0
+        capsys.readouterr()
+    assert main(["run", *out, *rules] if command == "run" else ["judge", str(tmp_path / "run"), *rules]) == 2
+    shown = capsys.readouterr()
+    assert shown.err == (
+        "fscm-bench: gate TEN-PERCENT needs twelve-percent, which this run does not compute: "
+        "add --model twelve-percent\n"
+    )
+    assert shown.out == ""
+    out[-1:] = ["ten-percent", "twelve-percent"]
+    out[out.index("--out") + 1] = str(tmp_path / "both")
+    assert main(["run", *out, *rules]) == 0
+    # The rival is not asked by how much it exceeds itself.
+    assert "PASS: 1 gates, 4 cases PASS" in capsys.readouterr().out
+    assert main(["judge", str(tmp_path / "both"), *rules]) == 0
+
+
+@pytest.mark.parametrize("command", ["run", "judge"])
+def test_gates_that_are_left_out_are_counted(small_grid, tmp_path, capsys, command):
+    other = small_grid.replace("TEN-PERCENT", "OTHER").replace('"ten-percent"', '"refuses"')
+    later = small_grid.replace("TEN-PERCENT", "LATER").replace('"quick"', '"full"')
+    rules = gates(small_grid + other + later, tmp_path)
+    arguments = ["run", "--jobs", "1", "--out", str(tmp_path / "run"), "--model", "ten-percent"]
+    assert main([*arguments, *rules]) == 0
+    if command == "judge":
+        capsys.readouterr()
+        assert main(["judge", str(tmp_path / "run"), *rules]) == 0
+    told = capsys.readouterr().err
+    assert re.search("1 of 3 gates of .*gates.toml are left out: their candidate is not given", told)
+    assert re.search("1 of 3 gates of .*gates.toml are left out: they are of the tier full", told)
+
+
+def test_a_gate_for_given_models_is_counted_when_none_is_given(small_grid, tmp_path, capsys):
+    rules = gates(small_grid + small_grid.replace("TEN", "ANY").replace('"ten-percent"', '"given"'), tmp_path)
+    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), *rules]) == 0
+    assert "1 of 2 gates" in capsys.readouterr().err
+
+
+def test_results_spoilt_after_the_run_are_an_error(folder, capsys):
+    table = pd.read_parquet(folder / "results.parquet")
+    table.drop(columns="u_num").to_parquet(folder / "results.parquet")
+    seal(folder)
+    assert main(["judge", str(folder)]) == 4
+    assert "no column u_num" in capsys.readouterr().out
+    table[table["model"] != "truth"].to_parquet(folder / "results.parquet")
+    seal(folder)
+    assert main(["judge", str(folder)]) == 4
+    assert "truth has no row" in capsys.readouterr().out
+
+
+def test_absurd_but_finite_values_are_judged_and_reported(small_grid, tmp_path, capsys):
+    rules = gates(small_grid, tmp_path, ('"ten-percent"', '"absurd"'))
+    out = tmp_path / "run"
+    assert main(["run", "--jobs", "1", "--out", str(out), "--model", "absurd", *rules]) == 1
+    assert "FAIL: 1 gates, 4 cases FAIL" in capsys.readouterr().out
+    assert main(["report", str(out)]) == 0
+    assert (out / "report.html").stat().st_size > 0
+
+
+#: Bits that are flipped in each file, one at a time; chosen by this seed.
+FLIPS, SEED = 12, 20262
+
+
+def flipped(content, chosen):
+    damaged = bytearray(content)
+    damaged[chosen.randrange(len(damaged))] ^= 1 << chosen.randrange(8)
+    return bytes(damaged)
+
+
+def test_no_flipped_bit_of_any_stored_file_is_judged_in_silence(folder, capsys):
+    chosen = random.Random(SEED)
+    whole = {path.name: path.read_bytes() for path in folder.iterdir() if path.stat().st_size}
+    assert whole.keys() - {"journal.jsonl", "run.json"} == set(read_record(folder / "run.json")["files"])
+    for name in sorted(whole):
+        for _ in range(FLIPS):
+            (folder / name).write_bytes(flipped(whole[name], chosen))
+            statuses = main(["judge", str(folder)]), main(["report", str(folder)])
+            said = capsys.readouterr().err
+            if name == "journal.jsonl":  # Neither command reads it.
+                assert statuses == (0, 0)
+            elif name in FILES:  # These the judge writes again.
+                assert statuses == (0, 0)
+                assert (folder / name).read_bytes() == whole[name]
+            else:
+                assert statuses == (2, 2), name
+                assert said.count("\n") == 2
+                assert name in said
+            (folder / name).write_bytes(whole[name])
+            (folder / "run.json").write_bytes(whole["run.json"])
+
+
+@pytest.mark.parametrize("name", [name for name in FILES if name in WITH_CHECKSUM])
+def test_verdicts_that_were_changed_are_not_reported(folder, capsys, name):
+    with (folder / name).open("ab") as file:
+        file.write(b" ")
+    assert main(["report", str(folder)]) == 2
+    assert f"{name} was changed after it was written" in capsys.readouterr().err
+
+
+def test_after_a_change_the_run_writes_its_tables_again(folder, capsys):
+    whole = (folder / "results.parquet").read_bytes()
+    (folder / "results.parquet").write_bytes(whole[:-1])
+    assert main(["judge", str(folder)]) == 2
+    assert f"run with --out {folder}" in capsys.readouterr().err
+    assert main(["run", "--jobs", "1", "--out", str(folder)]) == 0
+    assert (folder / "results.parquet").read_bytes() == whole
+    assert main(["judge", str(folder)]) == 0
+
+
+@pytest.mark.parametrize("command", ["judge", "report"])
+def test_results_of_other_code_are_named_as_such(folder, capsys, command):
+    record = read_record(folder / "run.json")
+    other = re.sub("NumPy .*?,", "NumPy 0.1,", record["package"]["fingerprint"])
+    write_record(record | {"package": record["package"] | {"fingerprint": other}}, folder / "run.json")
+    assert main([command, str(folder)]) == 0
+    assert "computed by another version of the code, of NumPy or of SciPy (NumPy 0.1, now" in capsys.readouterr().err
+    if command == "judge":
+        assert read_record(folder / "run.json")["judged_by_other_code"] == fingerprint()
+        assert dict(make_page(read_folder(folder)).provenance)["judged by other code"] == fingerprint()
+        write_record(record, folder / "run.json")
+        assert main(["judge", str(folder)]) == 0
+        assert "judged_by_other_code" not in read_record(folder / "run.json")
+
+
+@pytest.mark.parametrize("lost", ["run.json", "results.parquet", "curves.parquet"])
+def test_a_folder_that_is_no_finished_run_is_wrong_input(folder, lost, capsys):
+    (folder / lost).unlink()
+    assert main(["judge", str(folder)]) == 2
+    assert re.search(r"not the folder of a finished run", capsys.readouterr().err)
+
+
+def test_a_file_that_is_no_parquet_is_wrong_input(folder, capsys):
+    (folder / "results.parquet").write_text("nonsense")
+    seal(folder)
+    assert main(["judge", str(folder)]) == 2
+    assert "cannot be read as Parquet" in capsys.readouterr().err
+
+
+def test_the_summary_of_a_ci_job(small_grid, tmp_path, monkeypatch):
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(tmp_path / "summary.md"))
+    main(["run", "--jobs", "1", "--out", str(tmp_path / "run")])
+    assert "| PASS | TEN-PERCENT |" in (tmp_path / "summary.md").read_text()
+
+
+def test_gates_are_listed(capsys):
+    assert main(["list", "gates"]) == 0
+    assert "JKR-LIMIT-PULL-OFF" in capsys.readouterr().out

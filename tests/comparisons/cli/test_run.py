@@ -1,0 +1,188 @@
+"""A run: complete, repeatable, and not lost when it is interrupted."""
+
+import json
+from concurrent.futures.process import BrokenProcessPool
+
+import pandas as pd
+import pytest
+
+from comparisons.runs.cases import Case, load_grids
+from comparisons.cli.main import main
+from comparisons.runs import computation as computing
+from comparisons.runs.journal import Journal
+from comparisons.output.verdicts import FILES as VERDICTS
+from comparisons.runs.tasks import Task, answer, compute, plan
+
+FILES = {
+    "journal.jsonl",
+    "results.csv",
+    "results.parquet",
+    "kappa.csv",
+    "kappa.parquet",
+    "largest_kappa.csv",
+    "largest_kappa.parquet",
+    "run.json",
+    "gates.toml",
+    "curves.csv",
+    "curves.parquet",
+    *VERDICTS,
+}
+
+STANDING = """
+[[grid]]
+id = "standing"
+title = "Closed forms"
+tier = "quick"
+reference = "bradley"
+models = ["jkr"]
+quantities = ["pull_off_force"]
+n = [1.5, 2]
+k = [0, 0.4]
+mu = [0.5, 1]
+"""
+
+
+def run(folder, *more):
+    return main(["run", "--jobs", "1", "--out", str(folder), *more])
+
+
+def read(folder, name="results.csv"):
+    return (folder / name).read_bytes()
+
+
+def test_a_run_leaves_its_tables_and_record(small_grid, tmp_path, capsys):
+    assert run(tmp_path / "out") == 0
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {*FILES, ".lock"}
+    shown = capsys.readouterr()
+    assert "ten-percent" in shown.out
+    assert "+10.000" in shown.out
+    assert "results are in" in shown.err
+    # Of models that the paper does not know there is nothing to show beside its numbers.
+    assert "beside the published" not in shown.out
+    table = pd.read_parquet(tmp_path / "out" / "results.parquet")
+    assert table.groupby("status").size().to_dict() == {"not-applicable": 4, "ok": 8}
+    kappa = pd.read_csv(tmp_path / "out" / "kappa.csv")
+    assert kappa["kappa"].tolist() == pytest.approx([0.1] * 4)
+    assert kappa["u_kappa"].tolist() == pytest.approx([(1e-9 + 1.1e-9) / 2] * 4)
+
+
+def test_the_record_says_where_the_numbers_come_from(small_grid, tmp_path):
+    run(tmp_path, "--tier", "full")
+    record = json.loads(read(tmp_path, "run.json"))
+    assert record["arguments"] == {
+        "tier": "full",
+        "model": None,
+        "outside": {},
+        "gates": None,
+        "jobs": 1,
+        "out": str(tmp_path),
+    }
+    assert record["rows"] == {"all": 12, "resumed": 0, "ok": 8, "not-applicable": 4}
+    assert {"commit", "dirty", "version", "code_sha256"} <= record["package"].keys()
+    assert {"cpu", "cores", "system"} <= record["machine"].keys()
+    assert all(library["threads"] == 1 for library in record["blas"])
+    assert record["started"] <= record["finished"]
+    assert set(record["seconds"]["by_model"]) == {"truth", "ten-percent", "refuses"}
+
+
+def test_the_figure_and_numbers_of_the_paper_are_shown_where_there_are_some(tmp_path, monkeypatch, capsys):
+    grid = STANDING.replace('"jkr"', '"md-improved"').replace("1.5, 2", "2")
+    monkeypatch.setattr("comparisons.cli.commands.run.grids", lambda tier: load_grids(grid))
+    run(tmp_path)
+    assert (tmp_path / "fig16b_kappa.png").exists()
+    assert "beside the published" in capsys.readouterr().out
+
+
+def test_two_runs_give_the_same_bytes(small_grid, tmp_path):
+    run(tmp_path / "a")
+    run(tmp_path / "b")
+    for name in FILES - {"run.json", "journal.jsonl", "results.parquet"}:
+        assert read(tmp_path / "a", name) == read(tmp_path / "b", name), name
+
+
+def interrupt_after(count, error=KeyboardInterrupt):
+    def interrupted(tasks, jobs):
+        for number, row in enumerate(compute(tasks, jobs)):
+            if number == count:
+                raise error
+            yield row
+
+    return interrupted
+
+
+def test_an_interrupted_run_goes_on_where_it_was(small_grid, tmp_path, monkeypatch, capsys):
+    run(tmp_path / "whole")
+    with monkeypatch.context() as patch:
+        patch.setattr(computing, "compute", interrupt_after(5))
+        assert run(tmp_path / "cut") == 130
+    assert "5 finished computations are safe" in capsys.readouterr().err
+    assert run(tmp_path / "cut") == 0
+    assert "7 computations on 1 processes, 5 are stored" in capsys.readouterr().err
+    assert read(tmp_path / "cut") == read(tmp_path / "whole")
+    assert json.loads(read(tmp_path / "cut", "run.json"))["rows"]["resumed"] == 5
+
+
+def test_a_worker_that_dies_loses_nothing_that_was_finished(small_grid, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(computing, "compute", interrupt_after(3, BrokenProcessPool))
+    assert run(tmp_path) == 4
+    assert "3 finished computations are safe" in capsys.readouterr().err
+
+
+def test_a_failed_computation_costs_its_own_rows_and_the_exit_status(small_grid, tmp_path, capsys):
+    assert run(tmp_path, "--model", "ten-percent", "fails", "--model", "broken", "picky", "nonsense") == 4
+    table = pd.read_csv(tmp_path / "results.csv").set_index("model")
+    assert set(table.loc["ten-percent", "status"]) == {"ok"}
+    for name, why in {
+        "fails": "100 iterations",
+        "broken": "ZeroDivisionError",
+        "picky": "outside",
+        "nonsense": "nan",
+    }.items():
+        assert set(table.loc[name, "status"]) == {"failed"}
+        assert table.loc[name, "reason"].str.contains(why).all()
+        assert table.loc[name, "value"].isna().all()
+    assert "failed computations" in capsys.readouterr().out
+
+
+def test_results_of_other_code_in_the_folder_are_refused(small_grid, tmp_path, capsys):
+    Journal(tmp_path / "journal.jsonl", "other code", dict, dict)
+    assert run(tmp_path) == 2
+    assert "another version of the code" in capsys.readouterr().err
+
+
+def test_without_a_gate_nothing_is_shown_and_that_is_an_error(small_grid, tmp_path, capsys):
+    assert run(tmp_path, "--model", "refuses") == 4
+    assert "no gate was evaluated" in capsys.readouterr().err
+    assert pd.read_csv(tmp_path / "kappa.csv").empty
+
+
+def test_every_question_is_planned_once_and_the_longest_first():
+    grid = load_grids(STANDING)
+    tasks = plan(grid + grid)
+    assert len(tasks) == len(set(tasks)) == 2 * 8
+    assert [task.case.mu for task in tasks] == [1.0] * 8 + [0.5] * 8
+
+
+def test_candidates_can_be_chosen_and_the_reference_stays():
+    assert {task.model for task in plan(load_grids(STANDING), ["dmt"])} == {"bradley", "dmt"}
+
+
+def test_processes_give_the_rows_of_one_process():
+    tasks = plan(load_grids(STANDING))
+
+    def values(rows):
+        return sorted((row.key, row.value, row.u_num) for row in rows)
+
+    assert values(compute(tasks, 2)) == values(compute(tasks, 1))
+
+
+def test_a_row_names_the_case_and_the_work(toys):
+    row = answer(Task("truth", "pull_off_force", Case(2, 0.4, 1, 0.25)))
+    assert (row.n, row.k, row.mu, row.nu) == (2, 0.4, 1, 0.25)
+    assert (row.value, row.u_num, row.size, row.iterations, row.residual) == (2.0, 1e-9, 3, 2, 1e-12)
+    assert (row.model_version, row.unit, row.status, row.reason) == (
+        "7",
+        "pi Q^(2/n) dgamma z0^(2/n-1)",
+        "ok",
+        "",
+    )

@@ -1,0 +1,78 @@
+"""A sweep computes grids of one's own: the numbers, the errors, what is refused."""
+
+import pytest
+
+from comparisons.cli.main import main
+from comparisons.runs.tables import read_table
+
+GRID = """
+[[grid]]
+id = "mine"
+title = "Mine"
+reference = "md-improved"
+models = ["jkr", "bradley"]
+quantities = ["pull_off_force", "jump_in_displacement"]
+n = [2]
+k = [0, 0.4]
+mu = [0.5, 2]
+"""
+
+
+def sweep(tmp_path, text=GRID, *options):
+    (tmp_path / "grid.toml").write_text(text)
+    return main(["sweep", str(tmp_path / "grid.toml"), "--jobs", "1", "--out", str(tmp_path / "out"), *options])
+
+
+def test_the_errors_of_every_model(tmp_path, capsys):
+    assert sweep(tmp_path) == 0
+    kappa = read_table(tmp_path / "out" / "kappa.parquet")
+    assert len(kappa) == 2 * 4
+    assert (kappa["reference"] == "md-improved").all()
+    # A JKR pull-off force does not know mu: (3 + k) / 2 for a paraboloid.
+    jkr = kappa[kappa["model"] == "jkr"]
+    assert jkr["value"].tolist() == pytest.approx([1.5, 1.5, 1.7, 1.7])
+    rows = read_table(tmp_path / "out" / "results.parquet")
+    assert (rows.loc[rows["quantity"] == "jump_in_displacement", "status"] == "not-applicable").all()
+    assert "kappa of each model" in capsys.readouterr().out
+
+
+def test_it_goes_on_where_it_stopped(tmp_path, capsys):
+    sweep(tmp_path)
+    capsys.readouterr()
+    assert sweep(tmp_path) == 0
+    assert "0 computations" in capsys.readouterr().err
+
+
+def test_other_models_may_be_asked(tmp_path):
+    assert sweep(tmp_path, GRID, "--model", "dmt") == 0
+    assert set(read_table(tmp_path / "out" / "kappa.parquet")["model"]) == {"dmt"}
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        (GRID + 'tier = "quick"', "tier missing or unknown"),
+        (GRID.replace("jkr", "jrk"), "unknown model 'jrk'"),
+        ("grid = 3", "[[grid]] tables"),
+        ("", "[[grid]] tables"),
+        ("", "grid.toml: a case file holds [[grid]] tables and nothing else, not nothing"),
+        ("[[grid", "grid.toml is not TOML"),
+        ("grid = [1]", "[[grid]] tables"),
+        ("x = " + "[" * 5000 + "]" * 5000, "nested too deeply"),
+        (GRID.replace("mu = [0.5, 2]", 'mu = [0.5, "2"]'), "mu must be a list of numbers; '2' is none"),
+        (GRID.replace("mu = [0.5, 2]", "mu = [1" + "0" * 400 + "]"), "mu must be a list of numbers"),
+        (GRID + 'nu = ["a"]', "nu must be a list of numbers"),
+        (GRID + "tags = [[]]", "tags must be a list of names"),
+        (GRID.replace('["jkr", "bradley"]', "[{}]"), "models must be a list of names"),
+        (GRID.replace('reference = "md-improved"', 'reference = ["md-improved"]'), "must be a text"),
+        (GRID.replace('id = "mine"', "id = 1"), "id = 1 must be a text"),
+    ],
+)
+def test_what_is_refused(tmp_path, capsys, text, why):
+    assert sweep(tmp_path, text) == 2
+    assert why in capsys.readouterr().err
+
+
+def test_a_file_that_is_not_there(tmp_path, capsys):
+    assert main(["sweep", str(tmp_path / "none.toml")]) == 2
+    assert "cannot be read" in capsys.readouterr().err

@@ -1,0 +1,60 @@
+"""What the paper prints as numbers: all of it is there, and formulas are judged as formulas."""
+
+from collections import Counter
+
+import pytest
+
+from comparisons.data.paper_values import Published, published
+
+
+def test_every_published_number_is_there():
+    assert Counter(number.name for number in published()) == {
+        "theoretical_strength": 1,
+        "bradley_pull_off": 4,
+        "eta": 5,
+        "critical_tabor_number": 4,
+        "jump_in_limit": 1,
+        "jump_out_limit": 1,
+        "jump_in_prefactor": 1,
+        "jump_in_exponent": 1,
+        "largest_chi": 4,
+        "insensitive_region": 4,
+        "largest_relative_error": 8,
+    }
+    assert len(set(published())) == len(published())
+
+
+@pytest.mark.parametrize(
+    ("computed", "u", "verdict"),
+    [(8 / 3, 0.0, "agrees"), (2.6666667, 0.0, "differs"), (2.6666667, 1e-7, "agrees"), (2.67, 1e-7, "differs")],
+)
+def test_a_formula_has_no_last_digit_to_be_generous_with(computed, u, verdict):
+    assert Published("", "", "", "8/3", exact=8 / 3).verdict(computed, u) == verdict
+
+
+@pytest.mark.parametrize(("computed", "verdict"), [(2.8796, "agrees"), (2.8809, "cut off"), (2.8794, "differs")])
+def test_a_last_zero_counts_as_a_digit(computed, verdict):
+    assert Published("", "", "", "2.880").verdict(computed, 1e-12) == verdict
+
+
+@pytest.mark.parametrize(
+    ("text", "computed"), [("40.8", 40.8855), ("1.056", 1.05661), ("3.5", 3.562), ("15.9", 15.9506), ("4.4", 4.499)]
+)
+def test_digits_that_are_cut_off_rather_than_rounded_are_told_apart(text, computed):
+    claim = Published("", "", "", text)
+    step = 10.0 ** -len(text.partition(".")[2])
+    assert claim.verdict(computed, 1e-9) == "cut off"
+    assert claim.verdict(claim.value + 0.49 * step, 1e-9) == "agrees"
+    assert claim.verdict(claim.value - 0.49 * step, 1e-9) == "agrees"
+    # Numbers are not cut off upwards.
+    assert claim.verdict(claim.value - 0.51 * step, 1e-9) == "differs"
+    assert claim.verdict(claim.value + 1.01 * step, 1e-9) == "differs"
+
+
+@pytest.mark.parametrize("place", [-0.5, 0.5, 1.0])
+def test_across_a_border_nothing_is_decided(place):
+    assert Published("", "", "", "3.5").verdict(3.5 + 0.1 * place, 1e-6) == "undecided"
+
+
+def test_a_bound_wider_than_every_digit_decides_nothing():
+    assert Published("", "", "", "3.5").verdict(9.0, 100.0) == "undecided"

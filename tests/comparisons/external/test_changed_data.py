@@ -1,0 +1,139 @@
+"""An external model whose numbers have changed, though its version has not, is computed again."""
+
+import pytest
+
+from comparisons.runs.cases import load_grids
+from comparisons.cli.main import main
+from comparisons.cli.commands import judge
+from comparisons.cli.commands import run
+from comparisons.external.model_source import close_models
+from comparisons.models import identify
+from comparisons.runs.record import read_record
+from comparisons.runs.tables import read_table
+
+GRID = """
+[[grid]]
+id = "changed data"
+title = "Data that a model reads"
+tier = "quick"
+reference = "bradley"
+models = ["dmt"]
+quantities = ["pull_off_force", "pull_off_displacement"]
+n = [2]
+k = [0, 0.4]
+mu = [0.1, 1]
+"""
+GATE = """
+[[gate]]
+id = "CLOSE"
+requirement = "The force is that of Bradley."
+quantity = "pull_off_force"
+candidate = "given"
+reference = "bradley"
+cases = { mu = [0.1, 1] }
+metric = "rel"
+lower = -0.01
+upper = 0.01
+max_reference_uncertainty = 1e-6
+basis = "derived"
+grounds = "a gate of this test"
+min_cases = 4
+tier = "quick"
+"""
+TASKS = 8
+BODY = "return Result(float(Path({data!r}).read_text()), 0.0)"
+
+
+@pytest.fixture
+def once(write_model, tmp_path, tmp_path_factory, monkeypatch, capsys):
+    """Return a function that writes the data the model reads, runs, and returns status and messages.
+
+    The data are not in the folder of the model, whose digest would show the change.
+    """
+    for command in (run, judge):
+        monkeypatch.setattr(command, "grids", lambda tier: load_grids(GRID))
+    (tmp_path / "gates.toml").write_text(GATE)
+    data = tmp_path_factory.mktemp("elsewhere") / "data.txt"
+    options = ["--jobs", "1", "--out", str(tmp_path / "out"), "--gates", str(tmp_path / "gates.toml")]
+
+    def go(text, *more, body=BODY):
+        data.write_text(text)
+        close_models()
+        spec = write_model(body.format(data=str(data)))
+        capsys.readouterr()
+        status = main(["run", *options, "--model", spec, *more])
+        return status, capsys.readouterr().err
+
+    return go
+
+
+def values(folder):
+    table = read_table(folder / "results.parquet")
+    return table.loc[table["model"] == "stranger", "value"].tolist()
+
+
+def test_an_old_pass_does_not_stand_when_the_data_have_changed(once, tmp_path):
+    assert once("2.0")[0] == 0
+    status, said = once("2.5")
+    assert status == 1
+    assert "stranger has changed (pull_off_" in said
+    assert f"was 2 and is 2.5): its stored results ({TASKS}) are all computed again" in said
+    assert f"{TASKS} computations" in said
+    assert values(tmp_path / "out") == [2.5] * TASKS
+    again = read_record(tmp_path / "out" / "run.json")["evaluated_again"]["models"]["stranger"]
+    assert not again["same"]
+    # The rows that were not trusted are gone for good.
+    status, said = once("2.5")
+    assert status == 1
+    assert "0 computations" in said
+
+
+def test_unchanged_results_are_used_and_the_record_has_what_was_evaluated_again(once, tmp_path):
+    once("2.0")
+    assert "evaluated_again" not in read_record(tmp_path / "out" / "run.json")
+    status, said = once("2.0")
+    assert status == 0
+    assert "0 computations" in said
+    again = read_record(tmp_path / "out" / "run.json")["evaluated_again"]
+    assert again["seed"] >= 0
+    assert again["models"]["stranger"]["same"]
+    tasks = again["models"]["stranger"]["tasks"]
+    assert len(tasks) == 3
+    assert {task["quantity"] for task in tasks} == {"pull_off_force", "pull_off_displacement"}
+
+
+def test_a_model_that_fails_now_is_not_passed_for_what_it_was(once, tmp_path):
+    once("2.0")
+    status, said = once("two")
+    assert status == 4
+    assert "was 2 and is failed" in said
+    assert all(value != 2.0 for value in values(tmp_path / "out"))
+
+
+def test_failures_of_an_external_model_are_always_computed_again(once, tmp_path):
+    assert once("two")[0] == 4
+    status, said = once("2.0")
+    assert status == 0
+    assert f"{TASKS} computations" in said
+    assert values(tmp_path / "out") == [2.0] * TASKS
+
+
+class Hashed:
+    """An external model that states what its version covers."""
+
+    hashed = "its folder, 3 files"
+
+    def __init__(self, model):
+        self.version, self.citation, self.domain = model.version, model.citation, model.domain
+
+
+def test_what_was_hashed_is_in_the_record(write_model):
+    names, models = identify([write_model("return Result(2.0, 0.0)")])
+    assert run._described(set(names), {name: Hashed(model) for name, model in models.items()}) == {
+        "stranger": {
+            "version": models["stranger"].version,
+            "citation": "nobody",
+            "domain": "tests",
+            "hashed": "its folder, 3 files",
+        }
+    }

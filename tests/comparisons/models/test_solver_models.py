@@ -1,0 +1,100 @@
+"""The adapters to the two references: their answers, their units, their refusals."""
+
+import pytest
+
+import fem_reference
+import fscm
+from comparisons.runs.cases import Case
+from comparisons.model import ComputationFailed, NotApplicable
+from comparisons.models import create
+from comparisons.models.fem_model import FiniteElements
+from comparisons.models.stieltjes_model import PublishedScheme
+from comparisons.quantities import QUANTITIES
+from comparisons.runs.tasks import ask
+from fscm.laws import Mie
+from fscm.physical import PhysicalProblem
+
+
+def test_a_jump_below_the_critical_tabor_number_is_not_applicable():
+    row = ask(create("fscm"), "jump_in_gap", Case(2, 0, 0.3))
+    assert row.status == "not-applicable"
+    assert "critical Tabor number" in row.reason
+
+
+@pytest.mark.parametrize(("name", "segments"), [("fscm-stieltjes", 2500), ("fscm-stieltjes-400", 400)])
+def test_the_published_scheme_states_its_own_segments(name, segments):
+    model = create(name)
+    assert model._segments == segments
+    assert f"wider than the {segments} segments" in model.domain
+
+
+def test_the_curve_of_the_reference_holds_its_own_pull_off():
+    curve = create("fscm").curve(Case(2, 0.4, 1).problem())
+    assert -curve.load.min() == pytest.approx(1.78848171, rel=1e-3)
+    assert len(curve.load) == len(curve.displacement) == len(curve.columns["central_gap"])
+
+
+@pytest.mark.parametrize("solver", ["fscm", "fem"])
+def test_a_solver_that_does_not_converge_has_failed(monkeypatch, solver):
+    package = {"fscm": fscm, "fem": fem_reference}[solver]
+
+    def stuck(*_, **__):
+        raise package.NotConverged("50 iterations were not enough")
+
+    monkeypatch.setattr(package, "solve", stuck)
+    monkeypatch.setattr(package, "trace", stuck)
+    with pytest.raises(ComputationFailed, match="50 iterations"):
+        create(solver).evaluate(Case(2, 0, 1).problem(), "pull_off_force")
+    with pytest.raises(ComputationFailed, match="50 iterations"):
+        create(solver).curve(Case(2, 0, 1).problem())
+
+
+@pytest.mark.parametrize("quantity", fem_reference.QUANTITIES)
+def test_the_finite_elements_are_asked_for_the_same_tabor_number_and_answer_in_the_same_unit(monkeypatch, quantity):
+    seen = {}
+
+    def one_unit(body, asked):
+        solid, punch, law = body.solid, body.punch, body.law
+        physical = PhysicalProblem(
+            solid.E0, solid.c0, solid.k, solid.nu, punch.Q, punch.n, law.work_of_adhesion, law.z0
+        )
+        seen.update(mu=physical.tabor_number, nu=solid.nu, quantity=asked)
+        unit = physical.scales[QUANTITIES[asked].kind]
+        return fem_reference.Solution(
+            2.5 * unit, 0.5 * unit, 9, 8, 7e-16, 0.6, 5.0, (1.05, 0.85, 0.69), (2.5 * unit,) * 3
+        )
+
+    monkeypatch.setattr(fem_reference, "solve", one_unit)
+    result = FiniteElements(0.2).evaluate(Case(1.5, 0.4, 0.8).problem(), quantity)
+    assert seen == {"mu": pytest.approx(0.8, rel=1e-13), "nu": 0.2, "quantity": quantity}
+    assert (result.value, result.u_num) == (pytest.approx(2.5), pytest.approx(0.5))
+    assert (result.size, result.iterations, result.residual) == (9, 8, 7e-16)
+
+
+@pytest.mark.parametrize(
+    ("problem", "quantity", "reason"),
+    [
+        (fscm.Problem(0.9, 0, 1), "pull_off_force", "n >= 1"),
+        (fscm.Problem(2, 1, 1), "pull_off_force", "k <= 0.9, not k = 1"),
+        (fscm.Problem(2, 0.95, 1), "pull_off_force", "k <= 0.9, not k = 0.95"),
+        (fscm.Problem(2, 0, 1, law=Mie(12, 6)), "pull_off_force", "9-3 law"),
+        (fscm.Problem(2, 0, 1), "critical_tabor_number", "do not compute"),
+    ],
+)
+def test_what_the_finite_elements_do_not_do(problem, quantity, reason):
+    with pytest.raises(NotApplicable, match=reason):
+        FiniteElements().evaluate(problem, quantity)
+
+
+def test_the_published_scheme_is_off_by_no_more_than_it_says():
+    row = ask(PublishedScheme(segments=200), "pull_off_force", Case(2, 0.4, 0.5))
+    assert abs(row.value - 1.86628026) < row.u_num < 1e-2
+    assert ask(PublishedScheme(segments=200), "hysteresis_energy", Case(2, 0.4, 0.5)).status == "not-applicable"
+    assert ask(PublishedScheme(segments=200), "pull_off_force", Case(2, 1, 0.5)).status == "not-applicable"
+
+
+def test_the_two_references_agree_within_their_uncertainties():
+    case = Case(1.5, 0.4, 0.6)
+    first, second = (ask(create(name, 0.2), "pull_off_force", case) for name in ("fscm", "fem"))
+    assert abs(first.value - second.value) <= first.u_num + second.u_num
+    assert second.u_num < 1e-6

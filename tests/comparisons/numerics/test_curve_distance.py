@@ -1,0 +1,82 @@
+"""The distance of curves: closed forms, invariance under sampling and units, folds, and what is refused."""
+
+import numpy as np
+import pytest
+
+from comparisons.numerics.curve_distance import curve_distance, spread
+
+
+def s_curve(m, shift=0.0):
+    """An S-shaped curve: x is not monotone along it."""
+    t = np.linspace(-1.6, 1.6, m)
+    return t**3 - t, t + shift
+
+
+def test_a_curve_is_at_no_distance_from_itself_however_it_is_sampled():
+    found = curve_distance(*s_curve(37), *s_curve(301))
+    assert found.value < 1e-7
+    assert found.value <= 3 * found.u_interpolation
+
+
+def test_the_interpolation_error_is_bounded_and_of_fourth_order():
+    found = [curve_distance(*s_curve(97), *s_curve(m)) for m in (21, 41, 81)]
+    assert all(one.value <= one.u_interpolation for one in found)
+    assert found[0].u_interpolation / found[1].u_interpolation > 8
+    assert found[1].u_interpolation / found[2].u_interpolation > 8
+
+
+def test_a_shifted_line_is_at_its_perpendicular_distance():
+    x = np.linspace(0.0, 2.0, 30)
+    longer = np.linspace(-1.0, 3.0, 81)
+    found = curve_distance(x, 3.0 * x + 0.6, longer, 3.0 * longer)
+    # Scaled by the ranges 2 and 6 the lines have slope 1 and are 0.1 apart, seen from the vertical.
+    assert found.value == pytest.approx(0.1 / np.sqrt(2), rel=1e-9)
+
+
+def test_units_of_the_axes_do_not_matter():
+    a, b = s_curve(40, 0.05), s_curve(200)
+    plain = curve_distance(*a, *b)
+    scaled = curve_distance(1e6 * a[0], 1e-9 * a[1], 1e6 * b[0], 1e-9 * b[1])
+    assert scaled.value == pytest.approx(plain.value, rel=1e-9)
+    reversed_ = curve_distance(a[0][::-1], a[1][::-1], *b)
+    assert reversed_.value == pytest.approx(plain.value, rel=1e-12)
+
+
+def test_only_the_common_range_counts():
+    x, longer = np.linspace(0, 1, 30), np.linspace(-5, 5, 301)
+    assert curve_distance(longer, longer**2, x, x**2).value < 1e-6
+
+
+def test_a_branch_that_is_left_out_is_far_off():
+    t = np.linspace(-1.1, 1.1, 60)
+    stable = t[abs(t) > 0.7]
+    assert curve_distance(stable**3 - stable, stable, t**3 - t, t).value > 0.3
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "why"),
+    [
+        ([0, 1], [0, 1], "fewer than 8"),
+        (np.linspace(5, 6, 20), np.linspace(0, 1, 20), "fewer than 8"),
+        (np.linspace(0, 1, 20), np.full(20, np.nan), "not a finite number"),
+    ],
+)
+def test_what_is_no_curve_is_refused(x, y, why):
+    t = np.linspace(0, 1, 20)
+    with pytest.raises(ValueError, match=why):
+        curve_distance(x, y, t, t**2)
+
+
+def test_a_reference_without_range_is_refused():
+    t = np.linspace(0, 1, 20)
+    with pytest.raises(ValueError, match="no range"):
+        curve_distance(t, t, t, np.ones(20))
+
+
+def test_the_spread_of_two_computations_bounds_the_better_one():
+    def computed(error):
+        x, y = s_curve(50)
+        return x, y + error * np.cos(x)
+
+    exact = curve_distance(*computed(1e-4), *s_curve(400), interpolated=False).value
+    assert spread(*computed(4e-4), *computed(1e-4)) > exact

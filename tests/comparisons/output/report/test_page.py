@@ -1,0 +1,263 @@
+"""The model of a page: what it says is what is stored, in the right order, and a broken folder is refused."""
+
+import json
+import math
+import re
+import shutil
+from dataclasses import replace
+
+import pandas as pd
+import pytest
+
+from comparisons.cli.main import main
+from comparisons.output.report.stored_run import read_folder
+from comparisons.output.report.model_style import looks
+from comparisons.output.report.page import make_page
+from comparisons.output.report.table import Cell, Column, Row, Table, table_tex, without_empty
+from comparisons.runs.tables import csv_text
+
+
+@pytest.fixture(scope="module")
+def stored(run_folder):
+    return read_folder(run_folder)
+
+
+@pytest.fixture(scope="module")
+def page(stored):
+    return make_page(stored)
+
+
+def column(table, label):
+    index = [one.label for one in table.columns].index(label)
+    return [row.cells[index] for row in table.rows]
+
+
+def texts(table, label):
+    return [cell.text for cell in column(table, label)]
+
+
+def test_the_headline_is_the_roll_up_of_the_stored_verdicts(page):
+    assert page.verdict == "ERROR"
+    assert page.counts == [("ERROR", 1), ("FAIL", 2), ("INCONCLUSIVE", 1), ("PASS", 3), ("NOT-APPLICABLE", 1)]
+    assert "3 gates were judged in 8 cases" in page.summary
+
+
+def test_that_the_run_ended_with_other_verdicts_is_said(page):
+    assert "judged again" in dict(page.provenance)
+
+
+def test_the_matrix_is_worst_first_with_a_mark_for_each_case(page, hostile):
+    table = page.tables["matrix"]
+    assert texts(table, "verdict") == ["ERROR", "FAIL", "INCONCLUSIVE"]
+    marks = column(table, "cases")
+    assert [len(cell.marks) for cell in marks] == [1, 5, 2]
+    assert marks[1].text == "2 FAIL, 3 PASS"
+    assert texts(table, "limits of E") == ["≥ -0.1", "-0.1 to 0.1", "-0.1 to 0.1"]
+    # What the gates required is stored beside the verdicts.
+    assert column(table, "gate")[1].more.startswith("At mu = 5 the pull-off force is that of JKR")
+
+
+def test_the_worst_cases_come_first_with_commands_that_find_the_model(page, hostile):
+    table = page.tables["offenders"]
+    assert texts(table, "verdict") == ["ERROR", "FAIL", "FAIL", "INCONCLUSIVE", "PASS", "PASS", "PASS"]
+    assert [cell.value for cell in column(table, "E")][1:3] == [0.2, 0.123456789]
+    commands = texts(table, "computed again by")
+    assert commands[1] == "fscm-bench solve --model plain.py:Model --quantity pull_off_force --n 2 --k 0.4 --mu 3"
+    assert """--model 'my models/it'"'"'s.py:Model' --quantity""" in commands[3]
+    assert not any(hostile.image in command or hostile.script in command for command in commands)
+
+
+def test_the_files_the_run_writes_have_the_spec_too(run_folder, hostile):
+    for name in ("verdicts.md", "junit.xml"):
+        text = (run_folder / name).read_text()
+        assert "--model plain.py:Model" in text
+        assert f"--model {hostile.script}" not in text
+
+
+def read_shown(text):
+    """The number and its uncertainty that a text like 1.23(4) or 12(3)e2 states."""
+    digits, bracket, power = re.fullmatch(r"(-?[\d.]+)\((\d+)\)(?:e(\d+))?", text).groups()
+    decimals = len(digits.partition(".")[2])
+    scale = 10 ** int(power or 0)
+    return float(digits) * scale, int(bracket) * 10**-decimals * scale
+
+
+@pytest.mark.parametrize(
+    ("table", "label", "stored_as", "factor"),
+    [
+        ("kappa", "κ (%)", "kappa", 100),
+        ("kappa", "value", "value", 1),
+        ("kappa", "reference's value", "reference_value", 1),
+        ("convergence", "value", "value", 1),
+    ],
+)
+def test_numbers_shown_are_the_stored_ones_to_the_digits_shown(page, stored, table, label, stored_as, factor):
+    cells = column(page.tables[table], label)
+    source = {"kappa": stored.kappa, "convergence": stored.results[stored.results["size"] > 0]}[table]
+    assert [cell.value for cell in cells] == source[stored_as].tolist()
+    for cell in cells:
+        shown, u = read_shown(cell.text)
+        assert abs(shown - factor * cell.value) <= 0.5001 * u + 1e-12
+        assert float(cell.exact) == cell.value
+
+
+def test_limits_and_uncertainties_are_the_stored_ones(page, stored):
+    shown = [cell.value for cell in column(page.tables["verdicts"], "U") if cell.text]
+    assert shown == stored.verdicts["uncertainty"].dropna().tolist()
+
+
+def test_limits_have_the_digits_they_were_declared_with(stored):
+    for lower, upper, text in (
+        (-0.651, -0.64951, "-0.651 to -0.64951"),
+        (-math.inf, 1.23456789e-9, "≤ 1.23456789e-09"),
+    ):
+        page = make_page(replace(stored, verdicts=stored.verdicts.assign(lower=lower, upper=upper)))
+        for name in ("matrix", "offenders", "verdicts"):
+            assert {cell.text for cell in column(page.tables[name], "limits of E")} == {text}
+
+
+def test_plots_have_the_stored_points(page, stored):
+    (plot,) = page.plots["kappa"]
+    for series in plot.series:
+        quantity, reference, n, k = series.group.split("|")
+        mine = stored.kappa[
+            (stored.kappa["model"] == series.model) & (stored.kappa["n"] == float(n)) & (stored.kappa["k"] == float(k))
+        ].sort_values("mu")
+        assert (quantity, reference) == ("pull_off_force", "fscm")
+        assert series.x == mine["mu"].tolist()
+        assert series.y == (100 * mine["kappa"]).tolist()
+        assert series.high == (100 * mine["kappa"] + 100 * mine["u_kappa"]).tolist()
+    force, pressure, gap = page.plots["curves"]
+    assert [len(series.x) for series in force.series] == [41, 41]
+    # In the order of the path, which turns back: not sorted.
+    assert force.series[0].x != sorted(force.series[0].x)
+    assert pressure.series[0].y == [0.1, -1.0, 0.0]
+    assert (gap.table, [series.y for series in gap.series]) == ("pull_off_gap", [[0.2, 1.0, 3.0], [0.25, 1.05, 3.05]])
+    assert [plot.id for plot in page.plots["convergence"]] == ["plot-uncertainty", "plot-order"]
+
+
+def test_every_row_of_a_plot_s_table_belongs_to_a_choice(page):
+    (plot,) = page.plots["kappa"]
+    groups = {row.group for row in page.tables["kappa"].rows}
+    assert groups == {series.group for series in plot.series}
+    for curve in page.plots["curves"]:
+        assert {row.group for row in page.tables[curve.table].rows} == {series.group for series in curve.series}
+
+
+def test_every_latex_file_of_the_page_compiles(page, run_folder, typeset):
+    files = {name: text for name, text in page.files.items() if name.endswith(".tex")}
+    assert len(files) == 3
+    for text in (*files.values(), (run_folder / "verdicts.tex").read_text(encoding="utf-8")):
+        typeset(text)
+
+
+def test_every_table_of_the_page_compiles_as_latex(page, typeset):
+    """Also those that are saved as CSV only: their headings and texts are the same kind."""
+    for table in page.tables.values():
+        text = table_tex(replace(table, rows=table.rows[:30]))
+        assert text.isascii()
+        typeset(text)
+
+
+def test_the_files_are_those_of_the_folder(page, run_folder):
+    for name in ("verdicts.csv", "kappa.csv", "largest_kappa.csv", "curves.csv", "results.csv", "verdicts.tex"):
+        assert page.files[name] == (run_folder / name).read_text(encoding="utf-8")
+    assert all(file in page.files for table in page.tables.values() for file in table.files)
+
+
+def test_computations_without_a_value_are_listed_with_their_reason(page, hostile):
+    reasons = texts(page.tables["results"], "reason")
+    assert sum(reason == f"{hostile.script} {hostile.line}" for reason in reasons) == 88
+    table = page.tables["models"]
+    assert dict(zip(texts(table, "model"), texts(table, "failed"), strict=True))["jkr"] == "88"
+
+
+def test_a_column_without_anything_is_left_out():
+    columns = (Column("a"), Column("b"))
+    table = Table("t", "c", columns, [Row((Cell("x"), Cell(""))), Row((Cell(""), Cell("")))])
+    assert [column.label for column in without_empty(table).columns] == ["a"]
+    assert without_empty(Table("t", "c", columns, [])).columns == columns
+
+
+def test_ours_look_the_same_on_every_page_and_no_two_alike():
+    alone, together = looks(["jkr"]), looks(["jkr", "fscm", "fem", "mine", "theirs", "dmt"])
+    assert alone["jkr"] == together["jkr"]
+    assert len({(look.colour, look.marker) for look in together.values()}) == len(together)
+
+
+def test_a_run_without_verdicts_errors_or_curves_has_a_page(run_folder, tmp_path, hostile):
+    folder = shutil.copytree(run_folder, tmp_path / "run")
+    for name in ("verdicts", "kappa", "largest_kappa", "curves"):
+        pd.read_parquet(folder / f"{name}.parquet").head(0).to_parquet(folder / f"{name}.parquet")
+    hostile.seal(folder)
+    page = make_page(read_folder(folder))
+    assert page.verdict == "ERROR"
+    assert "No gate was evaluated" in page.summary
+    assert main(["report", str(folder)]) == 0
+
+
+def test_a_folder_judged_before_gates_were_stored_has_a_page(run_folder, tmp_path):
+    folder = shutil.copytree(run_folder, tmp_path / "run")
+    (folder / "gates.parquet").unlink()
+    assert not any(cell.more for cell in column(make_page(read_folder(folder)).tables["matrix"], "gate"))
+
+
+def test_the_command_writes_the_page_where_it_is_asked_to(run_folder, tmp_path, capsys):
+    folder = shutil.copytree(run_folder, tmp_path / "run")
+    assert main(["report", str(folder)]) == 0
+    assert main(["report", str(folder), "--out", str(tmp_path / "other.html")]) == 0
+    assert (folder / "report.html").read_bytes() == (tmp_path / "other.html").read_bytes()
+    assert "report.html" in capsys.readouterr().err
+    assert main(["report", str(folder), "--out", str(tmp_path / "none" / "x.html")]) == 2
+    assert "cannot be written" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "lost", ["run.json", *(f"{n}.parquet" for n in ("results", "curves", "verdicts", "kappa", "largest_kappa"))]
+)
+@pytest.mark.parametrize("how", ["missing", "broken"])
+def test_a_folder_that_is_no_whole_run_is_wrong_input(run_folder, tmp_path, capsys, lost, how):
+    folder = shutil.copytree(run_folder, tmp_path / "run")
+    (folder / lost).unlink()
+    if how == "broken":
+        (folder / lost).write_text("nonsense")
+    assert main(["report", str(folder)]) == 2
+    message = capsys.readouterr().err
+    assert lost in message
+    assert len(message.splitlines()) == 1
+    assert not (folder / "report.html").exists()
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (lambda table: table.drop(columns="upper"), "has no column upper"),
+        (lambda table: table.assign(error="much"), "column error that is no number"),
+        (lambda table: table.assign(verdict="FINE"), "unknown verdict 'FINE'"),
+    ],
+)
+def test_a_table_that_was_tampered_with_is_wrong_input(run_folder, tmp_path, capsys, hostile, change, says):
+    folder = shutil.copytree(run_folder, tmp_path / "run")
+    change(pd.read_parquet(folder / "verdicts.parquet")).to_parquet(folder / "verdicts.parquet")
+    assert main(["report", str(folder)]) == 2
+    assert "verdicts.parquet was changed after it was written" in capsys.readouterr().err
+    hostile.seal(folder)
+    assert main(["report", str(folder)]) == 2
+    assert says in capsys.readouterr().err
+
+
+def test_the_parts_of_the_computations_are_on_the_page(page, stored):
+    assert f"numpy {stored.record['parts'][0]['numpy']}" in dict(page.provenance)["part 1 of the computations"]
+
+
+def test_a_folder_that_is_not_there(tmp_path, capsys):
+    assert main(["report", str(tmp_path / "none")]) == 2
+    assert "not the folder of a finished run" in capsys.readouterr().err
+
+
+def test_the_models_of_a_run_are_described_in_its_record(small_grid, tmp_path):
+    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run")]) == 0
+    record = json.loads((tmp_path / "run" / "run.json").read_text())
+    assert record["models"]["truth"] == {"version": "7", "citation": "none", "domain": "tests"}
+    assert main(["report", str(tmp_path / "run")]) == 0
+    assert csv_text(pd.read_parquet(tmp_path / "run" / "verdicts.parquet")).count("TEN-PERCENT") == 4

@@ -1,0 +1,72 @@
+"""Figures show the data they were given, and the same data give the same file."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from comparisons.output.figures import force_curve
+from comparisons.output.figures import kappa
+from comparisons.output.style import FORMATS, save
+from comparisons.model import Curve
+
+
+def errors():
+    grid = [
+        (m, n, k, mu)
+        for m in ("md-original", "md-improved")
+        for n in (1.0, 2.0)
+        for k in (0.0, 0.4)
+        for mu in (0.1, 1, 2)
+    ]
+    table = pd.DataFrame(grid, columns=["model", "n", "k", "mu"])
+    return table.assign(quantity="pull_off_force", kappa=0.01 * table["mu"] * table["n"], u_kappa=1e-4)
+
+
+def test_fig_16b_shows_both_models_for_every_shape_at_one_k():
+    figure = kappa.draw(errors(), k=0.4)
+    axes = figure.axes[0]
+    assert axes.get_xscale() == "log"
+    lines = {line.get_label(): line for line in axes.get_lines() if not line.get_label().startswith("_")}
+    assert set(lines) == {f"$n$ = {n}, {model} M-D-$n$-$k$" for n in (1, 2) for model in ("original", "improved")}
+    improved = "$n$ = 2, improved M-D-$n$-$k$"
+    np.testing.assert_allclose(lines[improved].get_xdata(), [0.1, 1, 2])
+    np.testing.assert_allclose(lines[improved].get_ydata(), [0.2, 2, 4])
+    assert lines[improved].get_linestyle() != lines["$n$ = 2, original M-D-$n$-$k$"].get_linestyle()
+
+
+def test_fig_16b_has_no_legend_for_a_shape_without_a_maugis_dugdale_model():
+    others = errors().query("n == 2").assign(n=3.0, model="jkr")
+    figure = kappa.draw(pd.concat([errors(), others]))
+    names = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert names == ["$n$ = 1", "$n$ = 2", "original M-D-$n$-$k$", "improved M-D-$n$-$k$"]
+
+
+def test_fig_16b_of_nothing_is_empty():
+    assert len(kappa.draw(errors().iloc[:0]).axes) == 2
+
+
+def test_force_curves_are_named():
+    x = np.linspace(-1, 1, 5)
+    figure = force_curve.draw({"a": Curve(x, x**2), "b": Curve(x, x)}, "n = 2")
+    assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == ["a", "b"]
+
+
+def test_force_curves_are_shown_where_the_surfaces_pull():
+    x = np.linspace(-50, 50, 1001)
+    axes = force_curve.draw({"a": Curve(x, np.where(x > 0, x**2, 0) - 2 * np.exp(-(x**2)))}, "").axes[0]
+    assert axes.get_ylim() == (-2.3, 2.0)
+    left, right = axes.get_xlim()
+    assert -5 < left < -1.5
+    assert 1 < right < 3
+
+
+@pytest.mark.parametrize("suffix", FORMATS)
+def test_the_same_data_give_the_same_bytes(tmp_path, suffix):
+    for name in "ab":
+        save(kappa.draw(errors()), tmp_path / f"{name}{suffix}")
+    assert (tmp_path / f"a{suffix}").read_bytes() == (tmp_path / f"b{suffix}").read_bytes()
+
+
+def test_an_unknown_format_is_refused(tmp_path):
+    with pytest.raises(ValueError, match=r"\.png, \.pdf, \.svg"):
+        save(kappa.draw(errors()), tmp_path / "a.gif")

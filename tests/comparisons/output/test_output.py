@@ -1,0 +1,187 @@
+"""What people paste: digits, Markdown, LaTeX, JUnit XML, files."""
+
+import math
+from functools import partial
+from xml.etree import ElementTree
+
+import pandas as pd
+import pytest
+
+from comparisons.numerics.number_text import exact, limits_text, short
+from comparisons.output.junit import junit
+from comparisons.output.latex import latex
+from comparisons.output.markdown import markdown, to_step_summary
+from comparisons.output.verdicts import FILES, command, matrix, write_verdicts
+
+ROW = {
+    "gate": "ONE",
+    "quantity": "pull_off_force",
+    "candidate": "jkr",
+    "reference": "fscm",
+    "n": 2.0,
+    "k": 0.4,
+    "mu": 1.0,
+    "nu": math.nan,
+    "value": 1.7,
+    "u_num": 1e-16,
+    "reference_value": 1.78848171,
+    "u_reference": 3e-9,
+    "error": -0.0494,
+    "uncertainty": 3e-9,
+    "lower": -0.1,
+    "upper": 0.1,
+    "verdict": "PASS",
+    "reason": "",
+}
+JUDGED = pd.DataFrame(
+    [
+        ROW,
+        ROW | {"mu": 5.0, "verdict": "FAIL", "error": 0.2},
+        ROW | {"gate": "TWO", "verdict": "XFAIL", "reason": "known & <published>"},
+        ROW
+        | {
+            "gate": "TWO",
+            "verdict": "NOT-APPLICABLE",
+            "reason": "jkr: no \x00 such | thing",
+            "error": math.nan,
+        },
+        ROW
+        | {
+            "gate": "THREE",
+            "n": None,
+            "k": None,
+            "mu": None,
+            "verdict": "ERROR",
+            "reason": "0 cases",
+            "error": None,
+        },
+        ROW | {"gate": "FOUR", "verdict": "INCONCLUSIVE", "nu": 0.25},
+    ]
+)
+
+
+@pytest.mark.parametrize(
+    ("value", "u", "text"),
+    [
+        (1.7884817, 2.6e-6, "1.788482(3)"),
+        (1.7884817, 3e-6, "1.788482(3)"),
+        (1.7884817, 1.4e-6, "1.7884817(14)"),
+        (1.7884817, 1.96e-6, "1.7884817(20)"),
+        (1.7884817, 9.6e-6, "1.788482(10)"),
+        (-1.7884817, 0.02, "-1.79(2)"),
+        (0.0, 0.003, "0.000(3)"),
+        (12.3, 5.0, "12(5)"),
+        (1234.0, 40.0, "123(4)e1"),
+        (1234.0, 400.0, "12(4)e2"),
+        (2.0, 0.0, "2"),
+        (0.1, 0.0, "0.1"),
+        (2.25, 0.5, "2.2(5)"),
+        (1.5, None, "1.5"),
+        (1.5, math.nan, "1.5"),
+        (math.nan, 0.1, "nan"),
+        (1.5, math.inf, "1.5(inf)"),
+        (1e-9, 2e-11, "0.00000000100(2)"),
+        (1e20, 1e-12, "1e+20(10e-13)"),
+        (-1e308, 5e-324, "-1e+308(5e-324)"),
+        (1e308, 3e307, "10(3)e307"),
+        (0.0, 3e-300, "0.0(3e-300)"),
+    ],
+)
+def test_digits(value, u, text):
+    assert short(value, u) == text
+
+
+def test_the_digits_never_promise_more_than_there_is():
+    for u in (1e-3, 1.01e-3, 1.999e-3, 2e-3, 9.99e-3, 3.0000001e-3):
+        text = short(1.23456789, u)
+        digits, brackets = text.rstrip(")").split("(")
+        decimals = len(digits.partition(".")[2])
+        assert int(brackets) * 10**-decimals >= u * (1 - 1e-12)
+
+
+DECLARED = [(-0.651, -0.6495), (-0.0074, -0.00725), (0.0, 1.23456789e-9), (-math.inf, 0.1 + 0.2), (-1000.0, math.inf)]
+
+
+@pytest.mark.parametrize(("lower", "upper"), DECLARED)
+def test_limits_are_shown_with_the_digits_they_were_declared_with(lower, upper):
+    low, high = limits_text(lower, upper).split(" to ")
+    assert (float(low), float(high)) == (lower, upper)
+    judged = JUDGED.assign(lower=lower, upper=upper)
+    assert set(matrix(judged, {})["limits"]) == {f"{exact(lower)} to {exact(upper)}"}
+    assert f"| {low} to {high} |" in markdown(matrix(judged, {}), "Verdicts")
+    assert f"{low} to {high} \\\\" in latex(matrix(judged, {})[["gate", "limits"]], "Verdicts")
+    root = ElementTree.fromstring(junit(judged, partial(command, specs={})))
+    texts = [case[0].text for case in root.findall(".//testcase")]
+    assert all(f"limits {low} to {high}" in text for text in texts)
+
+
+def test_markdown_is_safe_in_a_table_and_in_html():
+    page = markdown(pd.DataFrame({"a|b": ["<script>&|\nx"]}), "T")
+    assert page == "## T\n\n| a\\|b |\n| --- |\n| &lt;script&gt;&amp;\\| x |\n"
+
+
+def test_the_step_summary_is_appended_where_there_is_one(tmp_path, monkeypatch):
+    monkeypatch.delenv("GITHUB_STEP_SUMMARY", raising=False)
+    to_step_summary("lost")
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(tmp_path / "summary.md"))
+    to_step_summary("one\n")
+    to_step_summary("two\n")
+    assert (tmp_path / "summary.md").read_text() == "one\ntwo\n"
+
+
+def test_latex_is_booktabs_and_escapes_what_is_special():
+    text = latex(pd.DataFrame({"x_1": ["50 % & {more}", "a\\b"]}), "A table")
+    assert text.splitlines() == [
+        r"\begin{tabular}{l} % A table",
+        r"\toprule",
+        r"x\_1 \\",
+        r"\midrule",
+        r"50 \% \& \{more\} \\",
+        r"a\textbackslash{}b \\",
+        r"\bottomrule",
+        r"\end{tabular}",
+    ]
+    assert r"{l}{none}" in latex(pd.DataFrame({"x": []}), "Empty")
+
+
+def test_junit_has_one_test_case_a_gate_and_case():
+    root = ElementTree.fromstring(junit(JUDGED, partial(command, specs={})))
+    assert root.attrib == {"name": "fscm-bench", "tests": "6", "errors": "1", "failures": "2", "skipped": "2"}
+    assert [suite.get("name") for suite in root] == ["ONE", "TWO", "THREE", "FOUR"]
+    cases = root.findall(".//testcase")
+    assert len(cases) == len(JUDGED)
+    assert len({(case.get("classname"), case.get("name")) for case in cases}) >= 5
+    assert [[child.tag for child in case] for case in cases] == [
+        ["system-out"],
+        ["failure"],
+        ["skipped"],
+        ["skipped"],
+        ["error"],
+        ["failure"],
+    ]
+    failure = root.find(".//failure")
+    assert "fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0.4 --mu 5" in failure.text
+
+
+def test_the_command_of_a_row():
+    assert command(pd.Series(ROW | {"nu": 0.25}), {}) == (
+        "fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0.4 --mu 1 --nu 0.25"
+    )
+    assert command(pd.Series(ROW | {"quantity": "pull_off_gap", "nu": 0.25}), {}) == (
+        "fscm-bench curve --model jkr --quantity pull_off_gap --n 2 --k 0.4 --mu 1 --nu 0.25"
+    )
+    elsewhere = command(pd.Series(ROW), {"jkr": "my models/jkr.py:JKR"})
+    assert elsewhere == "fscm-bench solve --model 'my models/jkr.py:JKR' --quantity pull_off_force --n 2 --k 0.4 --mu 1"
+
+
+def test_the_matrix_is_worst_first():
+    shown = matrix(JUDGED, {})
+    assert shown["verdict"].tolist() == ["ERROR", "FAIL", "INCONCLUSIVE", "XFAIL"]
+    assert shown["cases"].tolist() == ["0", "2", "1", "1 (1 n/a)"]
+
+
+def test_the_files(tmp_path):
+    write_verdicts(tmp_path, JUDGED, [], {})
+    assert {path.name for path in tmp_path.iterdir()} == set(FILES)
+    again = pd.read_parquet(tmp_path / "verdicts.parquet")
+    assert again["verdict"].tolist() == JUDGED["verdict"].tolist()

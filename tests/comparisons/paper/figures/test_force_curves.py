@@ -1,0 +1,56 @@
+"""Figs. 4 and 6: the families fold above the critical Tabor number, and order themselves as the paper says."""
+
+import numpy as np
+import pytest
+
+from comparisons.paper.figures import force_curves
+from comparisons.paper.paper_figure import Plate
+
+
+@pytest.fixture(scope="module")
+def family(tables_of):
+    def of(*cases):
+        plate = Plate(
+            "x",
+            "x",
+            "x",
+            lambda: force_curves._calls(cases),
+            lambda answers: force_curves._tables(cases, answers),
+            None,
+        )
+        return tables_of(plate)[""]
+
+    return of
+
+
+def test_over_tabor_numbers(family):
+    table = family((2.0, 0.4, 0.3), (2.0, 0.4, 1.0), (5.0, 0.4, 0.3))
+    rigid, soft = (table[(table["n"] == 2) & (table["mu"] == mu)] for mu in (0.3, 1.0))
+    # The critical Tabor number is 0.78.
+    assert (np.diff(rigid["displacement"]) > 0).all()
+    assert (np.diff(soft["displacement"]) < 0).any()
+    # Sec. 3.2.1: for n = 2 the pull-off force falls with mu, and so does the displacement there.
+    lowest = [part.loc[part["load"].idxmin()] for part in (rigid, soft)]
+    assert lowest[0]["load"] < lowest[1]["load"]
+    assert lowest[0]["displacement"] > lowest[1]["displacement"]
+    assert (table[["u_displacement", "u_load"]] > 0).all(axis=None)
+    assert (table[["u_displacement", "u_load"]] < 1e-5).all(axis=None)
+
+
+def test_over_gradients(family):
+    table = family(*((2.0, k, 0.5) for k in (0.0, 0.6, 1.0)))
+    # Sec. 3.2.2: the pull-off force grows with k, to 2 in the Gibson limit of a paraboloid.
+    forces = -table.groupby("k")["load"].min()
+    assert forces.is_monotonic_increasing
+    assert forces[1.0] == pytest.approx(2, rel=1e-4)
+
+
+def test_a_curve_that_is_refused_is_named(family):
+    table = family((2.0, 1.0, 0.5), (0.6, 0.4, 1.0))
+    assert list(table[table["n"] == 0.6]["status"]) == ["failed"]
+    assert table[table["n"] == 0.6]["load"].isna().all()
+
+
+def test_the_plates_ask_for_every_curve():
+    assert len(force_curves.OVER_TABOR_NUMBERS.calls()) == 28
+    assert len(force_curves.OVER_GRADIENTS.calls()) == 10

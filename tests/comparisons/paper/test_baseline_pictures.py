@@ -1,0 +1,31 @@
+"""The published tables give pictures with nothing cut off, their panels lettered in order."""
+
+from pathlib import Path
+from string import ascii_lowercase
+
+import pandas as pd
+import pytest
+
+from comparisons.paper.registry import plates
+
+PUBLISHED = Path(__file__).parents[3] / "results" / "published" / "paper"
+DRAWN = {plate.name: plate for plate in plates() if plate.draw}
+#: Of the page, in inches: rounding to pixels.
+EDGE = 0.01
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_a_picture_is_whole(name):
+    plate = DRAWN[name]
+    files = sorted(PUBLISHED.glob(f"{plate.stem}*.csv"))
+    figure = plate.draw({path.stem[len(plate.stem) :].removeprefix("_"): pd.read_csv(path) for path in files})
+    figure.draw_without_rendering()
+    shown = figure.get_tightbbox()
+    width, height = figure.get_size_inches()
+    assert min(shown.x0, shown.y0) > -EDGE
+    assert shown.x1 < width + EDGE
+    assert shown.y1 < height + EDGE
+    titles = [axes.get_title(loc="left") for axes in figure.axes]
+    # Twice where a panel is shown again, enlarged.
+    letters = "".join(dict.fromkeys(title[1] for title in titles if title))
+    assert letters == ascii_lowercase[: len(letters)]

@@ -1,0 +1,99 @@
+"""The workshop makes each call once, keeps the answers, and goes on where it was stopped."""
+
+import json
+import math
+
+import pytest
+
+from comparisons.model import ComputationFailed, NotApplicable
+from comparisons.paper.cache import Call, Workshop
+
+MADE = []
+
+
+def double(x):
+    MADE.append(x)
+    return {"value": 2 * x, "name": "double"}
+
+
+def refuse(x):
+    raise NotApplicable(f"{x} is refused")
+
+
+def fail(x):
+    raise ComputationFailed(f"{x} does not converge")
+
+
+def not_a_number(x):
+    return math.nan
+
+
+def work(path, calls, fingerprint="a", jobs=1):
+    workshop = Workshop(path, fingerprint)
+    made = list(workshop.work(calls, jobs))
+    return workshop.answers, made
+
+
+@pytest.fixture(autouse=True)
+def nothing_made():
+    MADE.clear()
+
+
+def test_each_call_is_made_once(tmp_path):
+    calls = [Call.of(double, 1), Call.of(double, 2.5), Call.of(double, 1)]
+    answers, made = work(tmp_path / "j", calls)
+    assert made == calls[:2]
+    assert MADE == [1, 2.5]
+    assert answers[Call.of(double, 2.5)] == {"value": 5.0, "name": "double"}
+
+
+def test_answers_are_read_again(tmp_path):
+    work(tmp_path / "j", [Call.of(double, 1), Call.of(fail, 3)])
+    answers, made = work(tmp_path / "j", [Call.of(double, 1), Call.of(double, 2), Call.of(fail, 3)])
+    assert made == [Call.of(double, 2)]
+    assert answers[Call.of(double, 1)] == {"value": 2, "name": "double"}
+    with pytest.raises(ComputationFailed, match="3 does not converge"):
+        answers[Call.of(fail, 3)]
+
+
+def test_a_torn_line_is_computed_again(tmp_path):
+    path = tmp_path / "j"
+    work(path, [Call.of(double, 1), Call.of(double, 2)])
+    text = path.read_text()
+    path.write_text(text[:-7])
+    _, made = work(path, [Call.of(double, 1), Call.of(double, 2)])
+    assert made == [Call.of(double, 2)]
+    assert path.read_text() == text
+
+
+@pytest.mark.parametrize("function", [refuse, fail])
+def test_a_failure_is_an_answer_that_raises(tmp_path, function):
+    answers, _ = work(tmp_path / "j", [Call.of(function, 3), Call.of(double, 1)])
+    assert answers[Call.of(double, 1)]["value"] == 2
+    with pytest.raises(ComputationFailed, match=rf"{function.__name__}\(3\): 3 "):
+        answers[Call.of(function, 3)]
+
+
+def test_nan_is_refused(tmp_path):
+    with pytest.raises(ValueError, match="JSON"):
+        work(tmp_path / "j", [Call.of(not_a_number, 1)])
+
+
+@pytest.mark.parametrize("text", ["no json\n", "[1]\n", json.dumps({"fingerprint": "a"}) + "\n{}\n"])
+def test_what_is_no_journal_is_refused(tmp_path, text):
+    (tmp_path / "j").write_text(text)
+    with pytest.raises(ValueError, match="not a journal"):
+        Workshop(tmp_path / "j", "a")
+
+
+def test_answers_of_other_code_are_refused(tmp_path):
+    work(tmp_path / "j", [])
+    with pytest.raises(ValueError, match="another version"):
+        Workshop(tmp_path / "j", "b")
+
+
+def test_calls_on_two_processes(tmp_path):
+    calls = [Call("math:hypot", (3.0 * i, 4.0 * i)) for i in range(1, 5)]
+    answers, made = work(tmp_path / "j", calls, jobs=2)
+    assert set(made) == set(calls)
+    assert [answers[call] for call in calls] == [5.0, 10.0, 15.0, 20.0]

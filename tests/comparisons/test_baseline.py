@@ -1,0 +1,212 @@
+"""What a run puts in place of the committed results: by tier, all of it or nothing."""
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from comparisons.runs.environment import computing_environment, environment
+from comparisons.baseline import PUBLISHED, main, publish
+from comparisons.runs.record import read_record, write_record
+from comparisons.runs.tables import Row, curve_frame, frame, write_curves, write_results
+
+COMMITTED = Path(__file__).parents[2] / PUBLISHED
+FROM_QUICK = {
+    *("quick.csv", "curves.csv", "largest_kappa.csv"),
+    *("fig16b_kappa.png", "fig16b_kappa.pdf", "references.png"),
+}
+FROM_FULL = {"references_agreement.csv", "references_agreement.png"}
+EVENTS = (
+    "pull_off_force",
+    "pull_off_displacement",
+    "jump_in_displacement",
+    "jump_in_gap",
+    "jump_out_displacement",
+    "jump_out_gap",
+    "zero_load_displacement",
+    "hysteresis_energy",
+)
+
+
+def row(**more):
+    common = {
+        "model": "fscm",
+        "model_version": "1",
+        "quantity": "pull_off_force",
+        "n": 2.0,
+        "k": 0.4,
+        "mu": 1.0,
+        "nu": None,
+        "value": None,
+        "u_num": None,
+        "unit": "",
+        "status": "ok",
+        "reason": "",
+        "size": 1,
+        "iterations": 1,
+        "residual": 0.0,
+        "seconds": 7.0,
+    }
+    return Row(**{**common, **more})
+
+
+def made_up(folder, tier, model=None):
+    """The folder of a run: every file a run of any tier makes, and little in them."""
+    folder.mkdir()
+    write_results(frame([row(value=1.5, u_num=1e-9)]), folder / "results")
+    write_curves(curve_frame([row(quantity="force_curve", points=([0.0, 1.0], [2.0, 3.0], 1e-9))]), folder / "curves")
+    for name in ("fig16b_kappa", "references", "agreement"):
+        for suffix in ("png", "pdf"):
+            (folder / f"{name}.{suffix}").write_text(f"{name} of the {tier} run")
+    for name in ("largest_kappa", "agreement"):
+        (folder / f"{name}.csv").write_text(f"{name} of the {tier} run")
+    asked = {"tier": tier, "model": model, "outside": {}, "gates": None, "jobs": 2, "out": str(folder)}
+    record = {
+        "format": 3,
+        "arguments": asked,
+        "command": ["fscm-bench", "run"],
+        "started": "2026-01-01T00:00:00+00:00",
+        "finished": "2026-01-01T00:00:09+00:00",
+        "seconds": {"run": 9.0, "by_model": {"fscm": 8.5}},
+        "models": {},
+        "rows": {"all": 2, "resumed": 0, "ok": 2},
+        "cases_sha256": "0" * 64,
+        "gates_sha256": "f" * 64,
+        "verdicts": {"all": "PASS", "PASS": 2},
+        "parts": [
+            {"started": "2026-01-01T00:00:00+00:00", "seconds": 9.0, "computations": 2, **computing_environment()}
+        ],
+    }
+    write_record(environment() | record, folder / "run.json")
+    return folder
+
+
+@pytest.fixture
+def target(tmp_path):
+    """A clone's committed results, all of them stale."""
+    folder = tmp_path / "published"
+    folder.mkdir()
+    for name in FROM_QUICK | FROM_FULL | {"fem_pull_off.png"}:
+        (folder / name).write_text("stale")
+    return folder
+
+
+def renewed(target):
+    return {path.name for path in target.iterdir() if path.read_bytes() != b"stale"}
+
+
+@pytest.mark.parametrize(("tier", "names"), [("quick", FROM_QUICK), ("full", FROM_FULL)])
+def test_each_tier_renews_its_own(tmp_path, target, tier, names):
+    written = publish(made_up(tmp_path / "run", tier), target)
+    assert {path.name for path in written} == names == renewed(target)
+
+
+def test_what_is_written_is_what_the_run_holds(tmp_path, target):
+    publish(made_up(tmp_path / "quick", "quick"), target)
+    publish(made_up(tmp_path / "full", "full"), target)
+    assert (target / "quick.csv").read_text().splitlines() == [
+        "model,quantity,n,k,mu,nu,value,u_num,status,reason",
+        "fscm,pull_off_force,2,0.4,1,,1.5,1.0000000000000001e-09,ok,",
+    ]
+    assert pd.read_csv(target / "curves.csv")["y"].tolist() == [2.0, 3.0]
+    assert (target / "largest_kappa.csv").read_text() == "largest_kappa of the quick run"
+    assert (target / "references.png").read_text() == "references of the quick run"
+    for suffix in ("csv", "png"):
+        assert (target / f"references_agreement.{suffix}").read_text() == "agreement of the full run"
+
+
+@pytest.mark.parametrize(
+    ("tier", "lost"), [("quick", "results.parquet"), ("quick", "references.png"), ("full", "agreement.csv")]
+)
+def test_a_run_that_lacks_something_changes_nothing(tmp_path, target, tier, lost):
+    run = made_up(tmp_path / "run", tier)
+    (run / lost).unlink()
+    with pytest.raises(ValueError, match=lost.replace(".", r"\.")):
+        publish(run, target)
+    assert renewed(target) == set()
+
+
+@pytest.mark.parametrize("name", ["results.parquet", "fig16b_kappa.png", "largest_kappa.csv"])
+def test_a_file_that_was_changed_after_the_run_changes_nothing(tmp_path, target, name):
+    run = made_up(tmp_path / "run", "quick")
+    with (run / name).open("ab") as file:
+        file.write(b" ")
+    with pytest.raises(ValueError, match=f"{name} was changed"):
+        publish(run, target)
+    assert renewed(target) == set()
+
+
+def test_a_name_that_looks_like_a_formula_has_not_drifted(tmp_path, monkeypatch):
+    run, clone = made_up(tmp_path / "run", "quick"), tmp_path / "clone"
+    write_results(frame([row(model="=1+1", reason="-x", value=1.5, u_num=1e-9)]), run / "results")
+    write_record(read_record(run / "run.json"), run / "run.json")
+    publish(run, clone / PUBLISHED)
+    monkeypatch.chdir(clone)
+    assert main(["--check", str(run)]) == 0
+
+
+def test_a_run_of_given_models_is_refused(tmp_path, target):
+    with pytest.raises(ValueError, match="jkr, dmt only"):
+        publish(made_up(tmp_path / "run", "quick", ["jkr", "dmt"]), target)
+    assert renewed(target) == set()
+
+
+def test_it_says_in_a_sentence_what_was_taken(tmp_path, target, monkeypatch, capsys):
+    run = made_up(tmp_path / "run", "full")
+    clone = tmp_path / "clone"
+    (clone / "results").mkdir(parents=True)
+    shutil.move(target, clone / PUBLISHED)
+    monkeypatch.chdir(clone)
+    assert main([str(run)]) == 0
+    said = capsys.readouterr().out
+    assert said.count("\n") == 1
+    assert all(str(PUBLISHED / name) in said for name in FROM_FULL)
+    assert not any(name in said for name in FROM_QUICK)
+    assert main([str(run), "more"]) == 2
+
+
+def test_without_a_clone_there_is_nothing_to_compare_with(tmp_path, monkeypatch, capsys):
+    run = made_up(tmp_path / "run", "quick")
+    monkeypatch.chdir(tmp_path)
+    assert main(["--check", str(run)]) == 2
+    shown = capsys.readouterr()
+    assert (shown.out, shown.err.count("\n")) == ("", 1)
+    assert "a clone of the repository" in shown.err
+
+
+def test_a_run_is_compared_with_what_is_committed(tmp_path, monkeypatch, capsys):
+    run, clone = made_up(tmp_path / "run", "quick"), tmp_path / "clone"
+    monkeypatch.chdir(tmp_path)
+    publish(run, clone / PUBLISHED)
+    monkeypatch.chdir(clone)
+    assert main(["--check", str(run)]) == 0
+    write_results(frame([row(value=1.5 + 3e-9, u_num=1e-9)]), run / "results")
+    assert main(["--check", str(run)]) == 2
+    assert "results.csv was changed after it was written" in capsys.readouterr().err
+    write_record(read_record(run / "run.json"), run / "run.json")
+    assert main(["--check", str(run)]) == 1
+    assert "1.500000003" in capsys.readouterr().out
+    full = made_up(tmp_path / "full", "full")
+    assert main(["--check", str(full)]) == 2
+    assert "quick" in capsys.readouterr().err
+
+
+AGREEMENT = pd.read_csv(COMMITTED / "references_agreement.csv")
+
+
+@pytest.mark.parametrize("event", EVENTS)
+def test_the_committed_references_agree_within_what_both_claim(event):
+    rows = AGREEMENT[AGREEMENT["quantity"] == event]
+    # Over four shapes, four gradients and four Tabor numbers; not every problem has a jump.
+    assert len(rows) >= 45
+    assert set(rows["n"]) >= {1.0, 1.5, 2.0, 5.0}
+    assert set(rows["k"]) == {0.0, 0.2, 0.4, 0.6}
+    claimed = np.hypot(rows["u_num"], rows["u_reference"])
+    assert (np.abs(rows["value"] - rows["reference_value"]) <= claimed).all()
+    assert (np.abs(rows["difference"]) <= rows["claimed"]).all()
+
+
+def test_the_committed_agreement_is_about_these_events_alone():
+    assert set(AGREEMENT["quantity"]) <= set(EVENTS)
