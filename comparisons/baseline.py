@@ -19,15 +19,24 @@ import numpy as np
 import pandas as pd
 
 from comparisons.console.exit_status import guarded
-from comparisons.paper.registry import plates
+from comparisons.paper.registry import paper_figures
 from comparisons.runs.record import check_files, read_record
 from comparisons.runs.tables import atomic, csv_text, plain_text, read_table
 
-__all__ = ["PLATES", "PUBLISHED", "changes", "check", "drift", "publish", "publish_plates", "read_published"]
+__all__ = [
+    "BASELINE",
+    "PAPER_BASELINE",
+    "changes",
+    "check",
+    "drift",
+    "publish",
+    "read_baseline",
+    "renew_paper_baseline",
+]
 
 #: Where they are, in a clone of the repository.
-PUBLISHED = Path("results", "published")
-PLATES = PUBLISHED / "paper"
+BASELINE = Path("results", "baseline")
+PAPER_BASELINE = BASELINE / "paper"
 
 _KEY = ["model", "quantity", "n", "k", "mu", "nu"]
 # What depends on the machine or on the work done (seconds, iterations, residual) is left out.
@@ -42,12 +51,12 @@ _COPIES = {
 }
 _TEXTS = ("model", "quantity", "status", "reason")
 
-#: Change of a number in a plate that counts, relative to the largest of its column: a hundred times what rounding
+#: Change of a number in a figure that counts, relative to the largest of its column: a hundred times what rounding
 #: moves the least certain of them (finite elements, u_num of 4e-7), and far below what a picture shows.
 SAME = 1e-6
 
 
-def publish(folder: Path, target: Path = PUBLISHED) -> list[Path]:
+def publish(folder: Path, target: Path = BASELINE) -> list[Path]:
     """Replace the committed files by those of a run, as far as its tier makes them; return their paths.
 
     Raises
@@ -75,15 +84,15 @@ def publish(folder: Path, target: Path = PUBLISHED) -> list[Path]:
     return [target / name for name in contents]
 
 
-def publish_plates(folder: Path, target: Path = PLATES) -> list[Path]:
-    """Replace the committed plates by those in the folder of a finished ``fscm-bench paper``; return their paths.
+def renew_paper_baseline(folder: Path, target: Path = PAPER_BASELINE) -> list[Path]:
+    """Replace the committed paper_figures by those in the folder of a finished ``fscm-bench paper``; return their paths.
 
     Raises
     ------
     ValueError
         If the folder lacks one; nothing is changed then.
     """
-    found = {plate.name: sorted(folder.glob(f"{plate.stem}[._]*")) for plate in plates()}
+    found = {figure.name: sorted(folder.glob(f"{figure.stem}[._]*")) for figure in paper_figures()}
     missing = [name for name, files in found.items() if not files]
     if missing:
         raise ValueError(f"{folder} lacks {', '.join(missing)}: publish the folder of a whole `fscm-bench paper`")
@@ -99,7 +108,7 @@ def publish_plates(folder: Path, target: Path = PLATES) -> list[Path]:
 
 
 def changes(stored: pd.DataFrame, computed: pd.DataFrame) -> list[str]:
-    """Return what differs between two tables of a plate, one sentence a column.
+    """Return what differs between two tables of a figure, one sentence a column.
 
     The uncertainties (columns that start with u) are left out: they are bounds, and rounding moves them freely.
 
@@ -129,7 +138,7 @@ def _is_real(column: pd.Series) -> bool:
     return pd.api.types.is_numeric_dtype(column) and not pd.api.types.is_bool_dtype(column)
 
 
-def read_published(target: Path = PUBLISHED) -> tuple[pd.DataFrame, pd.DataFrame]:
+def read_baseline(target: Path = BASELINE) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Return the committed results and curves as tables fit for `comparisons.judging.judge.judge`.
 
     Raises
@@ -189,7 +198,7 @@ def check(folder: Path) -> pd.DataFrame:
     tier = record["arguments"]["tier"]
     if tier != "quick":
         raise ValueError(f"{folder} is a run of the {tier} tier; the results that are committed are of the quick one")
-    return drift(read_published()[0], read_table(folder / "results.parquet"))
+    return drift(read_baseline()[0], read_table(folder / "results.parquet"))
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -201,10 +210,10 @@ def main(arguments: Sequence[str]) -> int:
         0 if all is well, 1 if results have drifted, 2 if the folder or the working folder is a wrong one, 4 if
         something cannot be written.
     """
-    return guarded(lambda: _call(arguments), "python -m comparisons.baseline")
+    return guarded(lambda: _task(arguments), "python -m comparisons.baseline")
 
 
-def _call(arguments: Sequence[str]) -> int:
+def _task(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m comparisons.baseline", description=__doc__)
     parser.add_argument("--check", action="store_true", help="change nothing, and list the results that have drifted")
     parser.add_argument("folder", metavar="FOLDER", type=Path, help="of a finished run, or of the paper")
@@ -216,7 +225,7 @@ def _call(arguments: Sequence[str]) -> int:
     if (args.folder / "run.json").exists():
         gave = ", ".join(map(str, publish(args.folder)))
     else:
-        gave = f"{len(publish_plates(args.folder))} files of {PLATES}"
+        gave = f"{len(renew_paper_baseline(args.folder))} files of {PAPER_BASELINE}"
     print(f"{args.folder} gave {gave}; nothing else was changed.")
     return 0
 

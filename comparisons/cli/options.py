@@ -8,8 +8,8 @@ from typing import Any, NoReturn
 
 from rich.console import Console
 
-from comparisons.runs.cases import Case
 from comparisons.console.exit_status import FAILED, FAILS, INCONCLUSIVE, OK, WRONG_INPUT, writing_stdout
+from comparisons.runs.cases import Case
 
 __all__ = [
     "FAILED",

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from importlib.resources import files
 
-__all__ = ["REPRODUCED", "Published", "published"]
+__all__ = ["REPRODUCED", "PaperValue", "published"]
 
 #: Verdicts on a number that may have been shortened to the published one.
 REPRODUCED = ("agrees", "cut off")
@@ -21,7 +21,7 @@ _ROUNDING = 2.0**-52
 
 
 @dataclass(frozen=True, slots=True)
-class Published:
+class PaperValue:
     """A number a paper prints, and what it is of.
 
     Attributes
@@ -78,7 +78,7 @@ class Published:
 
         Examples
         --------
-        >>> [Published("", "Sec. 4.3.2", "", "6.7", "%").verdict(value, 1e-4) for value in (6.68, 6.78, 6.82)]
+        >>> [PaperValue("", "Sec. 4.3.2", "", "6.7", "%").verdict(value, 1e-4) for value in (6.68, 6.78, 6.82)]
         ['agrees', 'cut off', 'differs']
         """
         if self.exact is not None:
@@ -99,14 +99,14 @@ def _of_digits(value: Decimal, stated: Decimal) -> str:
     return "cut off" if stated < value < stated + step else "differs"
 
 
-def published(name: str | None = None) -> list[Published]:
+def paper_values(name: str | None = None) -> list[PaperValue]:
     """Return the published numbers, by default all, or those of one name.
 
     Examples
     --------
-    >>> [number.text for number in published("eta")]
+    >>> [number.text for number in paper_values("eta")]
     ['0.347', '0.499', '0.588', '0.803', '1.026']
     """
     text = files("comparisons.data").joinpath("paper_values.toml").read_text(encoding="utf-8")
-    numbers = [Published(**table) for table in tomllib.loads(text)["number"]]
+    numbers = [PaperValue(**table) for table in tomllib.loads(text)["number"]]
     return [number for number in numbers if name in (None, number.name)]

@@ -12,8 +12,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from comparisons.external.data_model import DataModel
-from comparisons.external.process_model import ForeignModel
 from comparisons.external.physical_model import SCALES
+from comparisons.external.process_model import ExternalModel
 from comparisons.model import ComputationFailed, NotApplicable, Result
 from comparisons.models.bradley import rigid_pull_off
 from comparisons.models.jkr import JKR
@@ -22,7 +22,7 @@ from fscm.problem import Problem
 
 __all__ = ["CLAIMS", "Finding", "examine"]
 
-Outside = ForeignModel | DataModel
+ExternalIdentity = ExternalModel | DataModel
 Question = tuple[str, float, float, float]
 
 OK, WRONG, FAILED, SKIPPED = "ok", "wrong", "failed", "not checked"
@@ -117,7 +117,7 @@ class Finding:
 class _Answers:
     """The model's answers, each asked once."""
 
-    def __init__(self, model: Outside) -> None:
+    def __init__(self, model: ExternalIdentity) -> None:
         self.model = model
         self.values: dict[Question, Result | None] = {}
         self.failures: dict[Question, str] = {}
@@ -144,13 +144,13 @@ class _Answers:
         return {question: answer for question, answer in self.values.items() if answer}
 
 
-def examine(model: Outside) -> list[Finding]:
+def examine(model: ExternalIdentity) -> list[Finding]:
     """Return what all checks found.
 
     Parameters
     ----------
-    model : ForeignModel or DataModel
-        As `comparisons.external.model_source.open_model` gives it.
+    model : ExternalModel or DataModel
+        As `comparisons.external.model_source.load_model` gives it.
     """
     answers = _Answers(model)
     for question in _questions(model):
@@ -160,7 +160,7 @@ def examine(model: Outside) -> list[Finding]:
     return findings
 
 
-def _questions(model: Outside) -> Iterator[Question]:
+def _questions(model: ExternalIdentity) -> Iterator[Question]:
     if isinstance(model, DataModel):
         yield from list(model.submission.rows)[:_MOST_ROWS]
         return
@@ -169,7 +169,7 @@ def _questions(model: Outside) -> Iterator[Question]:
             yield quantity, *case
 
 
-def _identity(model: Outside) -> Finding:
+def _identity(model: ExternalIdentity) -> Finding:
     missing = [name for name in ("version", "citation", "domain") if not getattr(model, name).strip()]
     if missing:
         return Finding("says what it is", WRONG, f"{', '.join(missing)} is empty, but readers cite it")

@@ -36,10 +36,10 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+from comparisons.data.toml_text import is_real, parse
 from comparisons.external.text_rules import model_name, one_line
 from comparisons.model import NotApplicable, Result
 from comparisons.quantities import QUANTITIES
-from comparisons.data.toml_text import is_real, parse
 from fscm.laws import LennardJones93
 from fscm.problem import Problem
 from fscm.punch import PowerPunch

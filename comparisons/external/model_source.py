@@ -17,14 +17,14 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.external.data_model import MANIFEST, DataModel, read_submission
-from comparisons.external.process_model import ForeignModel, connect
+from comparisons.external.process_model import ExternalModel, connect
 from comparisons.external.text_rules import one_line
 
-__all__ = ["GROUP", "close_models", "door_of", "installed", "open_model"]
+__all__ = ["GROUP", "close_models", "installed", "load_model", "source_of"]
 
 GROUP = "fscm_bench.models"
 
-_open: dict[tuple[str, float | None], ForeignModel | DataModel] = {}
+_open: dict[tuple[str, float | None], ExternalModel | DataModel] = {}
 
 
 def installed() -> list[tuple[str, str, str]]:
@@ -37,7 +37,7 @@ def installed() -> list[tuple[str, str, str]]:
     )
 
 
-def door_of(spec: str) -> dict[str, Any]:
+def source_of(spec: str) -> dict[str, Any]:
     """Return how a worker finds the model, or for a data folder where it is.
 
     Raises
@@ -47,7 +47,7 @@ def door_of(spec: str) -> dict[str, Any]:
 
     Examples
     --------
-    >>> door_of("nothing-of-this-name")
+    >>> source_of("nothing-of-this-name")
     Traceback (most recent call last):
     ...
     ValueError: no installed package has a model 'nothing-of-this-name' ...
@@ -86,7 +86,7 @@ def door_of(spec: str) -> dict[str, Any]:
     return {"kind": "entry point", "group": GROUP, "name": spec}
 
 
-def open_model(spec: str, poisson_ratio: float | None = None) -> ForeignModel | DataModel:
+def load_model(spec: str, poisson_ratio: float | None = None) -> ExternalModel | DataModel:
     """Return the model a SPEC names; opened once in a process and kept.
 
     Parameters
@@ -101,7 +101,7 @@ def open_model(spec: str, poisson_ratio: float | None = None) -> ForeignModel | 
     ValueError
         If there is none, or it does not load; one sentence says why.
     """
-    door = door_of(spec)
+    door = source_of(spec)
     key = (repr(door), poisson_ratio)
     if key not in _open:
         _open[key] = (

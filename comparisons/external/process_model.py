@@ -18,10 +18,10 @@ from fscm.laws import LennardJones93
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
-__all__ = ["ForeignModel", "ForeignModelWithCurve", "connect"]
+__all__ = ["ExternalModel", "ExternalModelWithCurve", "connect"]
 
 
-class ForeignModel:
+class ExternalModel:
     """A model in a child process.
 
     Attributes
@@ -84,7 +84,7 @@ class ForeignModel:
         raise (NotApplicable if answer["status"] == "not-applicable" else ComputationFailed)(reason)
 
 
-class ForeignModelWithCurve(ForeignModel):
+class ExternalModelWithCurve(ExternalModel):
     """A model in a child process that also knows its force-displacement curve."""
 
     def curve(self, problem: Problem) -> Curve:
@@ -97,7 +97,7 @@ class ForeignModelWithCurve(ForeignModel):
             raise ComputationFailed("its process wrote something that is not an answer") from None
 
 
-def connect(door: dict[str, Any], spec: str, poisson_ratio: float | None = None) -> ForeignModel:
+def connect(door: dict[str, Any], spec: str, poisson_ratio: float | None = None) -> ExternalModel:
     """Start a child, let it load the model, and return what stands for it here.
 
     Raises
@@ -113,7 +113,7 @@ def connect(door: dict[str, Any], spec: str, poisson_ratio: float | None = None)
         child.close()
         raise ValueError(f"the model {one_line(spec, 200)} cannot be loaded: {one_line(opened['reason'])}")
     try:
-        return (ForeignModelWithCurve if opened["curve"] is True else ForeignModel)(child, opened, poisson_ratio)
+        return (ExternalModelWithCurve if opened["curve"] is True else ExternalModel)(child, opened, poisson_ratio)
     except (KeyError, TypeError):
         child.close()
         raise ValueError(f"the model {one_line(spec, 200)} cannot be loaded: its process wrote nonsense") from None

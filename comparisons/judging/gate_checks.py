@@ -7,8 +7,8 @@ import re
 import unicodedata
 from typing import TYPE_CHECKING, Any
 
-from comparisons.numerics.number_text import exact
 from comparisons.data.toml_text import is_real
+from comparisons.numerics.number_text import exact
 
 if TYPE_CHECKING:
     from comparisons.judging.gates import Gate

@@ -12,12 +12,12 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from comparisons.runs.cases import TIERS, Case, Grid
+from comparisons.curve_quantities import SHAPES
+from comparisons.data.toml_text import is_real, names, parse
 from comparisons.judging.gate_checks import PARAMETERS, check_compared, check_numbers, label, plain_text
 from comparisons.models import MODELS
 from comparisons.quantities import QUANTITIES
-from comparisons.curve_quantities import SHAPES
-from comparisons.data.toml_text import is_real, names, parse
+from comparisons.runs.cases import TIERS, Case, Grid
 
 __all__ = ["GIVEN", "METRICS", "Gate", "gates_text", "load_gates", "of_tier"]
 

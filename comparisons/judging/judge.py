@@ -15,15 +15,15 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from comparisons.runs.cases import Case, Grid
-from comparisons.numerics.curve_distance import curve_distance
+from comparisons.judging.decision import Verdict, combined, crossing, decide, expecting_failure, roll_up
 from comparisons.judging.gates import GIVEN, Gate
+from comparisons.numerics.curve_distance import curve_distance
 from comparisons.numerics.kappa import relative_difference
 from comparisons.numerics.number_text import exact
-from comparisons.runs.tasks import asked_at, plan
-from comparisons.judging.decision import Verdict, combined, crossing, decide, expecting_failure, roll_up
+from comparisons.runs.cases import Case, Grid
+from comparisons.runs.tasks import case_for, plan
 
-__all__ = ["Judged", "by_gate", "judge", "left_out", "relevant", "worst_first"]
+__all__ = ["Judged", "by_gate", "judge", "relevant", "skipped_gates", "worst_first"]
 
 _NEEDED = {"model", "quantity", "n", "k", "mu", "nu", "value", "u_num", "status", "reason"}
 _NEEDED_OF_CURVES = {"model", "quantity", "n", "k", "mu", "nu", "x", "y", "u_distance", "status", "reason"}
@@ -107,7 +107,7 @@ def relevant(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str]
     return chosen
 
 
-def left_out(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> list[Gate]:
+def skipped_gates(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> list[Gate]:
     """Return the gates about models that are not given, which a run leaves out.
 
     Parameters
@@ -261,7 +261,7 @@ def _cases(gate: Gate, grids: Sequence[Grid], given: set[str] | None) -> list[Ca
 
 
 def _key(model: str, gate: Gate, case: Case) -> Key:
-    asked = asked_at(model, case)
+    asked = case_for(model, case)
     return model, gate.quantity, asked.n, asked.k, asked.mu, asked.nu
 
 
@@ -278,7 +278,7 @@ def _range(gate: Gate, cases: list[Case], answers: _Answers) -> float:
 
 def _judge_case(gate: Gate, case: Case, answers: _Answers, scale: float) -> Judged:
     blank = _whole(gate, "")
-    one = replace(blank, n=case.n, k=case.k, mu=case.mu, nu=asked_at(gate.candidate, case).nu)
+    one = replace(blank, n=case.n, k=case.k, mu=case.mu, nu=case_for(gate.candidate, case).nu)
     try:
         found = _distance(gate, case, answers) if gate.metric == "curve" else _error(gate, case, answers, scale)
     except _Unusable as trouble:
@@ -391,7 +391,7 @@ def by_gate(judged: pd.DataFrame) -> pd.DataFrame:
     """Return one row a gate and candidate, worst first: the rolled-up verdict and the worst case.
 
     Of cases with the same verdict the worst is the one nearest to a limit, or farthest beyond.  `cases`
-    counts those evaluated, `left_out` those that did not apply.
+    counts those evaluated, `skipped_gates` those that did not apply.
     """
     summary = []
     for _, group in judged.groupby(["gate", "candidate"], sort=False):
@@ -404,13 +404,13 @@ def by_gate(judged: pd.DataFrame) -> pd.DataFrame:
                 "verdict": verdict,
                 **worst.drop(["verdict", "reason"]).to_dict(),
                 "cases": int((applies & group["mu"].notna()).sum()),
-                "left_out": int((~applies).sum()),
+                "skipped_gates": int((~applies).sum()),
                 "reason": worst["reason"],
             }
         )
     table = pd.DataFrame(
         summary,
-        columns=["verdict", *judged.columns.drop(["verdict", "reason"]), "cases", "left_out", "reason"],
+        columns=["verdict", *judged.columns.drop(["verdict", "reason"]), "cases", "skipped_gates", "reason"],
     )
     order = table["verdict"].map(lambda verdict: Verdict(verdict).rank).astype(int)
     return table.iloc[order.argsort(kind="stable")].reset_index(drop=True)

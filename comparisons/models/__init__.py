@@ -10,17 +10,17 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib import import_module
 
-from comparisons.external.model_source import door_of, open_model
+from comparisons.external.model_source import load_model, source_of
 from comparisons.model import Model
 
-__all__ = ["MODELS", "Outside", "create", "identify", "knows_poisson"]
+__all__ = ["MODELS", "ExternalIdentity", "create", "identify", "knows_poisson"]
 
 #: name -> "module:class"; the class is called without arguments, or with the Poisson's ratio alone if it
 #: is in `_KNOWS_POISSON`.
 MODELS: dict[str, str] = {
     "fscm": "comparisons.models.fscm_model:FullSelfConsistent",
-    "fscm-stieltjes": "comparisons.models.stieltjes_model:PublishedScheme",
-    "fscm-stieltjes-400": "comparisons.models.stieltjes_model:CoarsePublishedScheme",
+    "fscm-stieltjes": "comparisons.models.stieltjes_model:StieltjesScheme",
+    "fscm-stieltjes-400": "comparisons.models.stieltjes_model:CoarseStieltjesScheme",
     "fem": "comparisons.models.fem_model:FiniteElements",
     "jkr": "comparisons.models.jkr:JKR",
     "md-original": "comparisons.models.maugis_dugdale:MaugisDugdaleOriginal",
@@ -68,7 +68,7 @@ def create(name: str, poisson_ratio: float | None = None) -> Model:
     'jkr'
     """
     if name not in MODELS:
-        return _from_outside(name, poisson_ratio)
+        return _external_model(name, poisson_ratio)
     module, _, cls = MODELS[name].partition(":")
     factory = getattr(import_module(module), cls)
     if knows_poisson(name) and poisson_ratio is not None:
@@ -77,12 +77,12 @@ def create(name: str, poisson_ratio: float | None = None) -> Model:
 
 
 @dataclass(frozen=True, slots=True)
-class Outside:
+class ExternalIdentity:
     """A model from outside by what it says of itself, and the SPEC that finds it.
 
     Examples
     --------
-    >>> Outside("mine", "1", "mine.py:Mine", citation="none", domain="n = 2").spec
+    >>> ExternalIdentity("mine", "1", "mine.py:Mine", citation="none", domain="n = 2").spec
     'mine.py:Mine'
     """
 
@@ -95,7 +95,7 @@ class Outside:
     hashed: str = ""
 
 
-def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, Outside]]:
+def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, ExternalIdentity]]:
     """Return the names of models, each once, and which of them are from outside.
 
     Raises
@@ -109,7 +109,7 @@ def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, Outside]]:
     (['jkr', 'dmt'], {})
     """
     names: list[str] = []
-    outside: dict[str, Outside] = {}
+    outside: dict[str, ExternalIdentity] = {}
     for spec in dict.fromkeys(specs):
         model = create(spec)
         if model.name in names:
@@ -117,16 +117,18 @@ def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, Outside]]:
         names.append(model.name)
         if spec not in MODELS:
             hashed = str(getattr(model, "hashed", ""))
-            outside[model.name] = Outside(model.name, model.version, spec, model.citation, model.domain, hashed)
+            outside[model.name] = ExternalIdentity(
+                model.name, model.version, spec, model.citation, model.domain, hashed
+            )
     return names, outside
 
 
-def _from_outside(spec: str, poisson_ratio: float | None) -> Model:
+def _external_model(spec: str, poisson_ratio: float | None) -> Model:
     try:
-        door_of(spec)
+        source_of(spec)
     except ValueError as error:
         raise ValueError(f"unknown model: {error}; the models are {', '.join(MODELS)}") from None
-    model = open_model(spec, poisson_ratio)
+    model = load_model(spec, poisson_ratio)
     if model.name in MODELS:
         raise ValueError(f"a model from outside calls itself {model.name}, which is one of ours")
     return model

@@ -12,12 +12,12 @@ from functools import lru_cache
 from typing import ClassVar
 
 import fem_reference
-from comparisons.numerics.curve_distance import spread
+from comparisons.curve_quantities import near
 from comparisons.model import Curve, NotApplicable, Profile, Result
 from comparisons.models.solver import result_of, translated
-from comparisons.quantities import QUANTITIES
-from comparisons.curve_quantities import near
+from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.numerics.grid_convergence import declared_order, three_grids
+from comparisons.quantities import QUANTITIES
 from fem_reference import export
 from fscm.laws import LennardJones93
 from fscm.physical import PhysicalProblem
@@ -80,7 +80,7 @@ class FiniteElements:
                 "central_gap": physical.to_dimensionless("gap", path.central_gap),
                 "edge_radius": physical.to_dimensionless("radius", path.edge_radius),
             },
-            u_distance=spread(coarse.displacement, coarse.load, path.displacement, path.load),
+            u_distance=mesh_difference(coarse.displacement, coarse.load, path.displacement, path.load),
         )
 
     def field(self, problem: Problem, event: str) -> tuple[export.Field, float]:
@@ -127,8 +127,8 @@ class FiniteElements:
         fine_radius, fine_pressure, fine_gap = fine
         return Profile(
             *fine,
-            spread(*near(gap, radius, pressure), *near(fine_gap, fine_radius, fine_pressure)),
-            spread(*near(gap, radius, gap), *near(fine_gap, fine_radius, fine_gap)),
+            mesh_difference(*near(gap, radius, pressure), *near(fine_gap, fine_radius, fine_pressure)),
+            mesh_difference(*near(gap, radius, gap), *near(fine_gap, fine_radius, fine_gap)),
         )
 
     def _physical(self, problem: Problem) -> tuple[PhysicalProblem, fem_reference.Problem]:

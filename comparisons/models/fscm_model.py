@@ -7,11 +7,11 @@ from typing import ClassVar
 import numpy as np
 
 import fscm
-from comparisons.numerics.curve_distance import spread
+from comparisons.curve_quantities import near
 from comparisons.model import Curve, Profile, Result
 from comparisons.models.gibson_limit import gibson_curve, gibson_profile
 from comparisons.models.solver import result_of, translated
-from comparisons.curve_quantities import near
+from comparisons.numerics.curve_distance import mesh_difference
 from fscm.problem import Problem
 from fscm.states import radial_field
 
@@ -63,6 +63,8 @@ class FullSelfConsistent:
             value.radius,
             value.pressure,
             value.gap,
-            spread(*near(check.gap, check.radius, check.pressure), *near(value.gap, value.radius, value.pressure)),
-            spread(*near(check.gap, check.radius, check.gap), *near(value.gap, value.radius, value.gap)),
+            mesh_difference(
+                *near(check.gap, check.radius, check.pressure), *near(value.gap, value.radius, value.pressure)
+            ),
+            mesh_difference(*near(check.gap, check.radius, check.gap), *near(value.gap, value.radius, value.gap)),
         )

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-__all__ = ["CurveDistance", "curve_distance", "spread"]
+__all__ = ["CurveDistance", "curve_distance", "mesh_difference"]
 
 Array = NDArray[np.float64]
 
@@ -92,13 +92,13 @@ def curve_distance(
     return CurveDistance(value, _interpolation_error(reference, reference_inside) if interpolated else 0.0)
 
 
-def spread(coarse_x: Array, coarse_y: Array, x: Array, y: Array) -> float:
+def mesh_difference(coarse_x: Array, coarse_y: Array, x: Array, y: Array) -> float:
     """Bound the distance of computed points from the exact curve by that of a coarser computation.
 
     Examples
     --------
     >>> t, s = np.linspace(0, 1, 21), np.linspace(0, 1, 61)
-    >>> bool(0.0 < spread(t, np.sin(3 * t) + 1e-3, s, np.sin(3 * s)) < 2e-3)
+    >>> bool(0.0 < mesh_difference(t, np.sin(3 * t) + 1e-3, s, np.sin(3 * s)) < 2e-3)
     True
     """
     return _SAFETY * curve_distance(coarse_x, coarse_y, x, y, interpolated=False).value
@@ -143,7 +143,7 @@ def _stretch(places: NDArray[np.int_], polyline: Array, low: float, high: float)
 
 
 def _interpolation_error(points: Array, inside: NDArray[np.bool_]) -> float:
-    left_out = np.zeros(len(points), bool)
-    left_out[1:-1:2] = True
-    polyline = _dense(points[~left_out])
-    return max(_nearest(point, polyline)[0] for point in points[left_out & inside]) / _HALVING_GAIN
+    skipped_gates = np.zeros(len(points), bool)
+    skipped_gates[1:-1:2] = True
+    polyline = _dense(points[~skipped_gates])
+    return max(_nearest(point, polyline)[0] for point in points[skipped_gates & inside]) / _HALVING_GAIN

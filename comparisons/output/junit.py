@@ -8,8 +8,8 @@ from xml.etree import ElementTree
 
 import pandas as pd
 
-from comparisons.numerics.number_text import limits_text
 from comparisons.judging.decision import Verdict
+from comparisons.numerics.number_text import limits_text
 
 __all__ = ["junit"]
 

@@ -14,8 +14,8 @@ from pathlib import Path
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
-from comparisons.runs.tasks import Task, answer
 from comparisons.runs.tables import Row
+from comparisons.runs.tasks import Task, answer
 
 __all__ = ["Measurement", "compare", "measure"]
 

@@ -11,13 +11,13 @@ import pandas as pd
 from rich.table import Table
 from rich.text import Text
 
-from comparisons.data.paper_values import published
+from comparisons.data.paper_values import paper_values
 from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.quantities import QUANTITIES
 
 __all__ = [
     "agreement",
-    "beside_published",
+    "beside_paper_values",
     "by_case",
     "largest",
     "largest_by_gradient",
@@ -129,24 +129,24 @@ def largest(kappa: pd.DataFrame) -> pd.DataFrame:
     -------
     DataFrame
         Columns quantity, model, n, k, cases, mu (where the largest is), at_end (whether that is an end of
-        the range of mu, so that a wider one may give more), kappa, u_kappa, published_percent, verdict.
+        the range of mu, so that a wider one may give more), kappa, u_kappa, paper_percent, verdict.
 
     Examples
     --------
     >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": np.nan, "status": "ok", "u_num": 1e-9}
     >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
     >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
-    >>> largest(relative_error(rows, "fscm"))[["mu", "at_end", "published_percent", "verdict"]].values.tolist()
+    >>> largest(relative_error(rows, "fscm"))[["mu", "at_end", "paper_percent", "verdict"]].values.tolist()
     [[2.0, True, '0.73', 'differs']]
     """
-    known = {("pull_off_force", p.model, p.n, p.k): p for p in published("largest_relative_error")}
+    known = {("pull_off_force", p.model, p.n, p.k): p for p in paper_values("largest_relative_error")}
     worst = kappa.loc[kappa["kappa"].abs().groupby([kappa[name] for name in _SERIES]).idxmax()]
     table = worst[[*_SERIES, "mu", "kappa", "u_kappa"]].sort_values(_SERIES, ignore_index=True)
     ends = kappa.groupby(_SERIES)["mu"].agg(["size", "min", "max"]).reset_index(drop=True)
     table.insert(4, "cases", ends["size"])
     table.insert(6, "at_end", (table["mu"] == ends["min"]) | (table["mu"] == ends["max"]))
     papers = [known.get(key) for key in table[_SERIES].itertuples(index=False, name=None)]
-    table["published_percent"] = [paper.text if paper else "" for paper in papers]
+    table["paper_percent"] = [paper.text if paper else "" for paper in papers]
     table["verdict"] = [
         paper.verdict(100.0 * abs(value), 100.0 * bound) if paper else ""
         for paper, value, bound in zip(papers, table["kappa"], table["u_kappa"], strict=True)
@@ -190,7 +190,7 @@ def largest_by_gradient(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, s
     return (100 * wide).reset_index(), dict.fromkeys(wide.columns, "+.2f")
 
 
-def beside_published(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
+def beside_paper_values(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
     """Return the maxima a paper states, in percent, with the verdict; and the formats of the columns.
 
     Examples
@@ -198,10 +198,10 @@ def beside_published(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]
     >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": np.nan, "status": "ok", "u_num": 1e-9}
     >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
     >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
-    >>> beside_published(largest(relative_error(rows, "fscm")))[0]["kappa"].round(3).tolist()
+    >>> beside_paper_values(largest(relative_error(rows, "fscm")))[0]["kappa"].round(3).tolist()
     [-1.143]
     """
-    stated = maxima[maxima["published_percent"] != ""].drop(columns=["quantity", "cases"])
+    stated = maxima[maxima["paper_percent"] != ""].drop(columns=["quantity", "cases"])
     shown = stated.assign(kappa=100 * stated["kappa"], u_kappa=100 * stated["u_kappa"])
     return shown, {"kappa": "+.4f", "u_kappa": ".0e"}
 

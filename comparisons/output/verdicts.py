@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pandas as pd
 
+from comparisons.curve_quantities import SHAPES
 from comparisons.judging.gates import Gate
 from comparisons.judging.judge import by_gate
 from comparisons.numerics.number_text import exact, limits_text, short
 from comparisons.output.junit import junit
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
-from comparisons.curve_quantities import SHAPES
 from comparisons.runs.tables import atomic, write_table
 
 __all__ = [
@@ -87,7 +87,8 @@ def matrix(judged: pd.DataFrame, specs: Mapping[str, str]) -> pd.DataFrame:
             "candidate": gates["candidate"],
             "reference": gates["reference"],
             "cases": [
-                f"{a}" + (f" ({b} n/a)" if b else "") for a, b in zip(gates["cases"], gates["left_out"], strict=True)
+                f"{a}" + (f" ({b} n/a)" if b else "")
+                for a, b in zip(gates["cases"], gates["skipped_gates"], strict=True)
             ],
             "worst E(U)": [error_text(row) for _, row in gates.iterrows()],
             "limits": [limits_text(*limits) for limits in zip(gates["lower"], gates["upper"], strict=True)],

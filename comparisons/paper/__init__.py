@@ -1,5 +1,5 @@
 """The paper computed again: every figure, every published number, and what it could not say.
 
-A plate is one figure or table: the calls it needs, the tables made of their answers, and the picture of the
-tables.  The workshop makes all calls of the chosen plates, each once, and keeps the answers on disk.
+A figure is one figure or table: the tasks it needs, the tables made of their answers, and the picture of the
+tables.  The cache makes all tasks of the chosen paper_figures, each once, and keeps the answers on disk.
 """

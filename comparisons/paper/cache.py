@@ -12,15 +12,15 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from comparisons.runs.journal import Journal
 from comparisons.model import ComputationFailed, NotApplicable
+from comparisons.runs.journal import Journal
 from comparisons.runs.workers import each
 
-__all__ = ["Answers", "Call", "Workshop"]
+__all__ = ["CallCache", "Results", "Task"]
 
 
 @dataclass(frozen=True, slots=True)
-class Call:
+class Task:
     """A function of a module, by name, and the numbers and words it is called with.
 
     The function must depend on its arguments alone and return what JSON can hold: finite numbers, texts, None,
@@ -31,14 +31,14 @@ class Call:
     arguments: tuple[float | str, ...]
 
     @classmethod
-    def of(cls, function: Callable[..., Any], *arguments: float | str) -> Call:
+    def of(cls, function: Callable[..., Any], *arguments: float | str) -> Task:
         """Return the call `function(*arguments)`, not made yet.
 
         Examples
         --------
         >>> from math import hypot
-        >>> Call.of(hypot, 3, 4)
-        Call(function='math:hypot', arguments=(3, 4))
+        >>> Task.of(hypot, 3, 4)
+        Task(function='math:hypot', arguments=(3, 4))
         """
         return cls(f"{function.__module__}:{function.__qualname__}", arguments)
 
@@ -50,7 +50,7 @@ class Call:
 
 @dataclass(frozen=True, slots=True)
 class _Outcome:
-    call: Call
+    call: Task
     answer: Any = None
     failure: str | None = None
     #: The failure is a refusal (`NotApplicable`), which another attempt does not change.
@@ -58,7 +58,7 @@ class _Outcome:
 
 
 def _read(line: dict[str, Any]) -> _Outcome:
-    return _Outcome(Call(line["function"], tuple(line["arguments"])), line["answer"], line["failure"], line["refused"])
+    return _Outcome(Task(line["function"], tuple(line["arguments"])), line["answer"], line["failure"], line["refused"])
 
 
 def _written(outcome: _Outcome) -> dict[str, Any]:
@@ -69,7 +69,7 @@ def _written(outcome: _Outcome) -> dict[str, Any]:
     }
 
 
-def _make(call: Call) -> _Outcome:
+def _make(call: Task) -> _Outcome:
     module, _, name = call.function.partition(":")
     try:
         return _Outcome(call, answer=getattr(import_module(module), name)(*call.arguments))
@@ -77,31 +77,31 @@ def _make(call: Call) -> _Outcome:
         return _Outcome(call, failure=str(error), refused=isinstance(error, NotApplicable))
 
 
-class Answers:
-    """What the calls returned, by call."""
+class Results:
+    """What the tasks returned, by call."""
 
     def __init__(self) -> None:
-        self._outcomes: dict[Call, _Outcome] = {}
+        self._outcomes: dict[Task, _Outcome] = {}
 
     def add(self, outcome: _Outcome) -> None:
         """Keep one."""
         self._outcomes[outcome.call] = outcome
 
-    def remove(self, call: Call) -> None:
+    def remove(self, call: Task) -> None:
         """Remove one."""
         del self._outcomes[call]
 
-    def failed(self, call: Call) -> bool:
+    def failed(self, call: Task) -> bool:
         """Whether the function raised `ComputationFailed`, or returned a dictionary with the status ``"failed"``."""
         outcome = self._outcomes[call]
         if outcome.failure is not None:
             return not outcome.refused
         return isinstance(outcome.answer, dict) and outcome.answer.get("status") == "failed"
 
-    def __contains__(self, call: Call) -> bool:
+    def __contains__(self, call: Task) -> bool:
         return call in self._outcomes
 
-    def __getitem__(self, call: Call) -> Any:
+    def __getitem__(self, call: Task) -> Any:
         """Return the answer to a call.
 
         Raises
@@ -115,8 +115,8 @@ class Answers:
         return outcome.answer
 
 
-class Workshop:
-    """Makes calls and keeps their answers in a journal.
+class CallCache:
+    """Makes tasks and keeps their answers in a journal.
 
     Parameters
     ----------
@@ -133,36 +133,36 @@ class Workshop:
 
     def __init__(self, path: Path, fingerprint: str) -> None:
         self._journal = Journal(path, fingerprint, _read, _written)
-        self.answers = Answers()
+        self.answers = Results()
         for outcome in self._journal.entries:
             self.answers.add(outcome)
 
-    def failed(self, calls: Iterable[Call]) -> list[Call]:
-        """Return those calls whose stored answer is that they failed, each once, in the order given."""
-        return [call for call in dict.fromkeys(calls) if call in self.answers and self.answers.failed(call)]
+    def failed(self, tasks: Iterable[Task]) -> list[Task]:
+        """Return those tasks whose stored answer is that they failed, each once, in the order given."""
+        return [call for call in dict.fromkeys(tasks) if call in self.answers and self.answers.failed(call)]
 
-    def forget(self, calls: Iterable[Call]) -> None:
-        """Remove stored answers: the calls are made again."""
-        unwanted = set(calls)
+    def forget(self, tasks: Iterable[Task]) -> None:
+        """Remove stored answers: the tasks are made again."""
+        unwanted = set(tasks)
         self._journal.drop(lambda outcome: outcome.call in unwanted)
         for call in unwanted:
             self.answers.remove(call)
 
-    def missing(self, calls: Iterable[Call]) -> list[Call]:
-        """Return those calls that have no answer yet, each once, in the order given."""
-        return [call for call in dict.fromkeys(calls) if call not in self.answers]
+    def missing(self, tasks: Iterable[Task]) -> list[Task]:
+        """Return those tasks that have no answer yet, each once, in the order given."""
+        return [call for call in dict.fromkeys(tasks) if call not in self.answers]
 
-    def work(self, calls: Iterable[Call], jobs: int) -> Generator[Call]:
-        """Make the calls that have no answer yet, on `jobs` processes; yield each as it is answered.
+    def work(self, tasks: Iterable[Task], jobs: int) -> Generator[Task]:
+        """Make the tasks that have no answer yet, on `jobs` processes; yield each as it is answered.
 
         Raises
         ------
         ValueError
             If an answer cannot be kept, as one that holds a NaN.
         """
-        with closing(each(_make, self.missing(calls), jobs)) as outcomes:
+        with closing(each(_make, self.missing(tasks), jobs)) as outcomes:
             for outcome in outcomes:
                 self._journal.add(outcome)
-                # Answers fresh and read again must be the same, so that a resumed run writes the same files.
+                # Results fresh and read again must be the same, so that a resumed run writes the same files.
                 self.answers.add(outcome)
                 yield outcome.call

@@ -1,15 +1,15 @@
-"""Every plate, in the order of the paper.  To add one: write its module and add its name here."""
+"""Every figure, in the order of the paper.  To add one: write its module and add its name here."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from importlib import import_module
 
-from comparisons.paper.paper_figure import Plate
+from comparisons.paper.paper_figure import PaperFigure
 
-__all__ = ["NAMES", "plates"]
+__all__ = ["NAMES", "paper_figures"]
 
-#: name -> "module:plate"; a module is imported only when its plate is asked for.
+#: name -> "module:figure"; a module is imported only when its figure is asked for.
 _PLATES = {
     "1": "comparisons.paper.figures.sketch:SKETCH",
     "2": "comparisons.paper.figures.kernel_functions:KERNEL_FUNCTIONS",
@@ -28,7 +28,7 @@ _PLATES = {
     "15": "comparisons.paper.figures.pull_off_models:PULL_OFF_BY_RIGID_LIMIT",
     "16": "comparisons.paper.figures.pull_off_models:PULL_OFF_BY_SOFT_LIMIT",
     "17": "comparisons.paper.figures.surface_models:SURFACE_MODELS",
-    "numbers": "comparisons.paper.values.comparison:PUBLISHED_NUMBERS",
+    "numbers": "comparisons.paper.values.comparison:PAPER_VALUES",
     "error-maps-shape": "comparisons.paper.studies.error_maps:ERROR_MAPS_SHAPE",
     "error-maps-gradient": "comparisons.paper.studies.error_maps:ERROR_MAPS_GRADIENT",
     "error-maps-jumps": "comparisons.paper.studies.error_maps:ERROR_MAPS_JUMPS",
@@ -40,13 +40,13 @@ _PLATES = {
 NAMES = tuple(_PLATES)
 
 
-def plates(names: Iterable[str] | None = None) -> list[Plate]:
-    """Return the plates of these names, by default all, in the order of the catalogue.
+def paper_figures(names: Iterable[str] | None = None) -> list[PaperFigure]:
+    """Return the paper_figures of these names, by default all, in the order of the catalogue.
 
     Raises
     ------
     ValueError
-        If there is no plate of a name; the sentence lists those that exist.
+        If there is no figure of a name; the sentence lists those that exist.
     """
     wanted = set(NAMES if names is None else names)
     unknown = sorted(wanted.difference(NAMES))

@@ -1,6 +1,6 @@
-"""The calls that plates share: what a model answers, as JSON, whether or not it answers.
+"""The tasks that paper_figures share: what a model answers, as JSON, whether or not it answers.
 
-A refusal is an answer here: a plate leaves the point out or writes its status, and the others are not lost.
+A refusal is an answer here: a figure leaves the point out or writes its status, and the others are not lost.
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.runs.cases import Case
+from comparisons.curve_quantities import FARTHEST_GAP
 from comparisons.model import ComputationFailed, KnowsProfiles, NotApplicable, TracesCurve
 from comparisons.models import create
-from comparisons.runs.tasks import ask
-from comparisons.curve_quantities import FARTHEST_GAP
+from comparisons.runs.cases import Case
+from comparisons.runs.tasks import evaluate
 
 __all__ = ["curve", "profile", "quantity"]
 
@@ -49,7 +49,7 @@ def quantity(model: str, name: str, n: float, k: float, mu: float) -> Json:
 
 
 def _quantity(model: str, name: str, case: Case) -> Json:
-    row = ask(create(model), name, case)
+    row = evaluate(create(model), name, case)
     return {"value": row.value, "u_num": row.u_num, "status": row.status, "reason": row.reason}
 
 

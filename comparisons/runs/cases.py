@@ -13,13 +13,13 @@ from importlib.resources import files
 from itertools import product
 from typing import Any
 
-from comparisons.models import MODELS
-from comparisons.quantities import QUANTITIES
 from comparisons.curve_quantities import SHAPES
 from comparisons.data.toml_text import is_real, names, parse
+from comparisons.models import MODELS
+from comparisons.quantities import QUANTITIES
 from fscm.problem import Problem
 
-__all__ = ["TIERS", "VERIFICATION", "Case", "Grid", "asked_of", "cases_text", "grids", "load_grids"]
+__all__ = ["TIERS", "VERIFICATION", "Case", "Grid", "cases_text", "grids", "grids_for", "load_grids"]
 
 #: A tier holds its own grids and those of every tier before it.
 TIERS = ("quick", "full")
@@ -230,12 +230,12 @@ def cases_text() -> str:
     return files("comparisons.data").joinpath("cases.toml").read_text(encoding="utf-8")
 
 
-def asked_of(chosen: Iterable[Grid], models: Sequence[str] | None) -> list[Grid]:
+def grids_for(chosen: Iterable[Grid], models: Sequence[str] | None) -> list[Grid]:
     """Return the grids that a run computes: without those of verification if models are given to it.
 
     Examples
     --------
-    >>> all(VERIFICATION not in grid.tags for grid in asked_of(grids("quick"), ["jkr"]))
+    >>> all(VERIFICATION not in grid.tags for grid in grids_for(grids("quick"), ["jkr"]))
     True
     """
     return [grid for grid in chosen if models is None or VERIFICATION not in grid.tags]

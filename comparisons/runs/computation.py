@@ -13,13 +13,13 @@ from pathlib import Path
 from random import SystemRandom
 from typing import Any
 
+from comparisons.console.progress import counting, log
+from comparisons.model import ComputationFailed
+from comparisons.runs.journal import alone_in
 from comparisons.runs.reevaluation import evaluate_again
 from comparisons.runs.row_journal import RowJournal
-from comparisons.runs.journal import alone_in
-from comparisons.model import ComputationFailed
-from comparisons.console.progress import counting, log
-from comparisons.runs.tasks import Task, compute
 from comparisons.runs.tables import Row, prepare_folder
+from comparisons.runs.tasks import Task, compute
 from comparisons.runs.workers import usable_cores
 
 __all__ = [

@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.runs.tasks import Task, compute
 from comparisons.runs.tables import Row
+from comparisons.runs.tasks import Task, compute
 
 __all__ = ["AT_MOST", "Reevaluation", "chosen", "evaluate_again", "same"]
 

@@ -9,8 +9,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from comparisons.runs.journal import Journal
 from comparisons.runs.environment import computing_environment, fingerprint
+from comparisons.runs.journal import Journal
 from comparisons.runs.tables import Row
 
 __all__ = ["RowJournal"]

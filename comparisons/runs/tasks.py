@@ -13,16 +13,16 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from traceback import extract_tb
 
-from comparisons.runs.cases import Case, Grid
+from comparisons.curve_quantities import SHAPES, Points
 from comparisons.external.identity import contradiction
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
-from comparisons.models import Outside, create, knows_poisson
+from comparisons.models import ExternalIdentity, create, knows_poisson
 from comparisons.quantities import QUANTITIES
-from comparisons.curve_quantities import SHAPES, Points
+from comparisons.runs.cases import Case, Grid
 from comparisons.runs.tables import Row
 from comparisons.runs.workers import each
 
-__all__ = ["Task", "answer", "ask", "asked_at", "compute", "plan"]
+__all__ = ["Task", "answer", "case_for", "compute", "evaluate", "plan"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +32,7 @@ class Task:
     model: str
     quantity: str
     case: Case
-    outside: Outside | None = None
+    outside: ExternalIdentity | None = None
 
     @property
     def key(self) -> tuple[str, str, float, float, float, float | None]:
@@ -40,19 +40,19 @@ class Task:
         return self.model, self.quantity, self.case.n, self.case.k, self.case.mu, self.case.nu
 
 
-def asked_at(model: str, case: Case) -> Case:
+def case_for(model: str, case: Case) -> Case:
     """Return the case as a model is asked: without Poisson's ratio if that makes no difference to it.
 
     Examples
     --------
-    >>> asked_at("jkr", Case(2, 0, 1, nu=0.25)).label
+    >>> case_for("jkr", Case(2, 0, 1, nu=0.25)).label
     'n = 2, k = 0, mu = 1'
     """
     return case if knows_poisson(model) else replace(case, nu=None)
 
 
 def plan(
-    grids: Iterable[Grid], models: list[str] | None = None, outside: Mapping[str, Outside] | None = None
+    grids: Iterable[Grid], models: list[str] | None = None, outside: Mapping[str, ExternalIdentity] | None = None
 ) -> list[Task]:
     """Return every question once: the reference and the candidates of each grid, in all its cases.
 
@@ -62,7 +62,7 @@ def plan(
         What to compute.
     models : list of str, optional
         Names of candidates that take the place of those each grid names; the reference is always computed.
-    outside : dict of str to Outside, optional
+    outside : dict of str to ExternalIdentity, optional
         Those of them that are not ours (see `comparisons.models.identify`).
 
     Returns
@@ -71,7 +71,7 @@ def plan(
         Largest Tabor numbers first: they take longest, and a core that starts one last would finish alone.
     """
     tasks = {
-        Task(model, quantity, asked_at(model, case), (outside or {}).get(model))
+        Task(model, quantity, case_for(model, case), (outside or {}).get(model))
         for grid in grids
         for model in {grid.reference, *(models or grid.models)}
         for quantity in grid.quantities
@@ -80,7 +80,7 @@ def plan(
     return sorted(tasks, key=lambda task: (-task.case.mu, task.case.n, task.case.k, task.model, task.quantity))
 
 
-def ask(model: Model, quantity: str, case: Case) -> Row:
+def evaluate(model: Model, quantity: str, case: Case) -> Row:
     """Ask a model and return its row.
 
     Raises
@@ -90,7 +90,7 @@ def ask(model: Model, quantity: str, case: Case) -> Row:
 
     Examples
     --------
-    >>> ask(create("bradley"), "pull_off_force", Case(2, 0, 1)).status
+    >>> evaluate(create("bradley"), "pull_off_force", Case(2, 0, 1)).status
     'ok'
     """
     started = time.perf_counter()
@@ -123,7 +123,7 @@ def _evaluate(model: Model, quantity: str, case: Case) -> Result | Points:
 
 
 def _row(
-    model: Model | Outside,
+    model: Model | ExternalIdentity,
     quantity: str,
     case: Case,
     started: float,
@@ -161,21 +161,21 @@ def answer(task: Task) -> Row:
     started = time.perf_counter()
     model = task.outside or create(task.model, task.case.nu)
     try:
-        if isinstance(model, Outside):
+        if isinstance(model, ExternalIdentity):
             return _ask_outside(model, task)
-        return ask(model, task.quantity, task.case)
+        return evaluate(model, task.quantity, task.case)
     except ValueError as refusal:
         return _row(model, task.quantity, task.case, started, status="failed", reason=str(refusal))
 
 
-def _ask_outside(first: Outside, task: Task) -> Row:
+def _ask_outside(first: ExternalIdentity, task: Task) -> Row:
     """Ask a model from outside; if it is not what it was when the run opened it, the row says so and is that one's."""
     started = time.perf_counter()
     model = create(first.spec, task.case.nu)
     if (model.name, model.version) != (first.name, first.version):
         reason = contradiction((first.name, first.version), (model.name, model.version))
         return _row(first, task.quantity, task.case, started, status="failed", reason=reason)
-    return ask(model, task.quantity, task.case)
+    return evaluate(model, task.quantity, task.case)
 
 
 def _batches(tasks: list[Task]) -> list[list[Task]]:

@@ -9,10 +9,10 @@ from types import ModuleType, SimpleNamespace
 import numpy as np
 import pytest
 
-from comparisons.runs.cases import load_grids
 from comparisons.judging.gates import gates_text
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from comparisons.models import MODELS
+from comparisons.runs.cases import load_grids
 
 
 class Toy:

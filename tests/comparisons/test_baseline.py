@@ -7,12 +7,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from comparisons.baseline import BASELINE, main, publish
 from comparisons.runs.environment import computing_environment, environment
-from comparisons.baseline import PUBLISHED, main, publish
 from comparisons.runs.record import read_record, write_record
 from comparisons.runs.tables import Row, curve_frame, frame, write_curves, write_results
 
-COMMITTED = Path(__file__).parents[2] / PUBLISHED
+COMMITTED = Path(__file__).parents[2] / BASELINE
 FROM_QUICK = {
     *("quick.csv", "curves.csv", "largest_kappa.csv"),
     *("fig16b_kappa.png", "fig16b_kappa.pdf", "references.png"),
@@ -142,7 +142,7 @@ def test_a_name_that_looks_like_a_formula_has_not_drifted(tmp_path, monkeypatch)
     run, clone = made_up(tmp_path / "run", "quick"), tmp_path / "clone"
     write_results(frame([row(model="=1+1", reason="-x", value=1.5, u_num=1e-9)]), run / "results")
     write_record(read_record(run / "run.json"), run / "run.json")
-    publish(run, clone / PUBLISHED)
+    publish(run, clone / BASELINE)
     monkeypatch.chdir(clone)
     assert main(["--check", str(run)]) == 0
 
@@ -157,12 +157,12 @@ def test_it_says_in_a_sentence_what_was_taken(tmp_path, target, monkeypatch, cap
     run = made_up(tmp_path / "run", "full")
     clone = tmp_path / "clone"
     (clone / "results").mkdir(parents=True)
-    shutil.move(target, clone / PUBLISHED)
+    shutil.move(target, clone / BASELINE)
     monkeypatch.chdir(clone)
     assert main([str(run)]) == 0
     said = capsys.readouterr().out
     assert said.count("\n") == 1
-    assert all(str(PUBLISHED / name) in said for name in FROM_FULL)
+    assert all(str(BASELINE / name) in said for name in FROM_FULL)
     assert not any(name in said for name in FROM_QUICK)
     assert main([str(run), "more"]) == 2
 
@@ -179,7 +179,7 @@ def test_without_a_clone_there_is_nothing_to_compare_with(tmp_path, monkeypatch,
 def test_a_run_is_compared_with_what_is_committed(tmp_path, monkeypatch, capsys):
     run, clone = made_up(tmp_path / "run", "quick"), tmp_path / "clone"
     monkeypatch.chdir(tmp_path)
-    publish(run, clone / PUBLISHED)
+    publish(run, clone / BASELINE)
     monkeypatch.chdir(clone)
     assert main(["--check", str(run)]) == 0
     write_results(frame([row(value=1.5 + 3e-9, u_num=1e-9)]), run / "results")

@@ -2,10 +2,10 @@
 
 import pytest
 
-from comparisons.runs.cases import Case
 from comparisons.model import Model, TracesCurve
 from comparisons.models import MODELS, create
-from comparisons.runs.tasks import ask
+from comparisons.runs.cases import Case
+from comparisons.runs.tasks import evaluate
 
 #: Models that take more than a second an answer; their own tests ask them.
 SLOW = {"fscm-stieltjes", "fscm-stieltjes-400", "fem"}
@@ -22,7 +22,7 @@ def test_a_model_says_what_it_is(name):
 
 @pytest.mark.parametrize("name", sorted(MODELS.keys() - SLOW))
 def test_a_model_answers_the_pull_off_force_or_says_why_not(name):
-    row = ask(create(name), "pull_off_force", Case(2, 0.4, 1))
+    row = evaluate(create(name), "pull_off_force", Case(2, 0.4, 1))
     assert row.status in {"ok", "not-applicable"}
     if row.status == "ok":
         # Between the rigid limit 2 and the JKR limit 1.7, a little more where a model is wrong.

@@ -6,16 +6,15 @@ from dataclasses import replace
 
 import pytest
 
-from comparisons.runs.cases import Case
 from comparisons.cli.main import main
-from comparisons.runs import reevaluation
-from comparisons.runs import row_journal
-from comparisons.runs import computation as computing
 from comparisons.model import ComputationFailed
-from comparisons.paper.cache import Call, Workshop
+from comparisons.paper.cache import Call, CallCache
+from comparisons.runs import computation as computing
+from comparisons.runs import reevaluation, row_journal
+from comparisons.runs.cases import Case
 from comparisons.runs.record import read_record
-from comparisons.runs.tasks import Task, answer, compute
 from comparisons.runs.tables import read_table
+from comparisons.runs.tasks import Task, answer, compute
 
 from .test_run import interrupt_after, run
 
@@ -66,11 +65,11 @@ def fail(x):
 
 def test_a_workshop_knows_its_failures_and_forgets_them(tmp_path):
     calls = [Call.of(fail, 1), Call.of(abs, -2)]
-    list(Workshop(tmp_path / "calls", "x").work(calls, 1))
-    stored = Workshop(tmp_path / "calls", "x")
+    list(CallCache(tmp_path / "calls", "x").work(calls, 1))
+    stored = CallCache(tmp_path / "calls", "x")
     assert stored.failed(calls) == calls[:1]
     stored.forget(calls[:1])
-    assert stored.missing(calls) == Workshop(tmp_path / "calls", "x").missing(calls) == calls[:1]
+    assert stored.missing(calls) == CallCache(tmp_path / "calls", "x").missing(calls) == calls[:1]
 
 
 def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path, monkeypatch, capsys):

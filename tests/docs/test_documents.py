@@ -11,12 +11,12 @@ import mpmath
 import pytest
 
 import fscm
+from comparisons.baseline import read_baseline
 from comparisons.cli import main as cli
-from comparisons.runs.cases import asked_of, grids, load_grids
 from comparisons.judging.gates import Gate, load_gates
-from comparisons.judging.judge import by_gate, judge, left_out
-from comparisons.baseline import read_published
+from comparisons.judging.judge import by_gate, judge, skipped_gates
 from comparisons.quantities import QUANTITIES
+from comparisons.runs.cases import grids, grids_for, load_grids
 from comparisons.runs.tasks import plan
 from fscm.physical import PhysicalProblem
 
@@ -112,12 +112,12 @@ def test_the_tabor_number_is_that_of_the_code():
 def test_the_gates_of_the_document_are_judged_as_it_says():
     text = (ROOT / "docs" / "judge_your_model.md").read_text(encoding="utf-8")
     example = re.search(r"```toml\n(\[\[gate\]\].*?)```", text, flags=re.DOTALL)[1]
-    rows, curves = read_published(ROOT / "results" / "published")
-    chosen = asked_of(grids("quick"), ["md-improved", "jkr"])
+    rows, curves = read_baseline(ROOT / "results" / "baseline")
+    chosen = grids_for(grids("quick"), ["md-improved", "jkr"])
     asked = {task.key for task in plan(chosen, ["md-improved", "jkr"])}
     keys = rows[["model", "quantity", "n", "k", "mu"]].itertuples(index=False, name=None)
     rows = rows[[(*key, None) in asked for key in keys]]
-    assert left_out(load_gates(example), chosen, ["md-improved", "jkr"]) == []
+    assert skipped_gates(load_gates(example), chosen, ["md-improved", "jkr"]) == []
     judged = by_gate(judge(load_gates(example), chosen, rows, curves, ["md-improved", "jkr"]))
     assert judged[["gate", "candidate"]].to_numpy().tolist() == [
         ["SOFT-PARABOLOID", "md-improved"],
@@ -126,7 +126,7 @@ def test_the_gates_of_the_document_are_judged_as_it_says():
     ]
     assert set(judged["verdict"]) == {"PASS"}
     with pytest.raises(ValueError, match=r"gate BETTER-THAN-JKR needs jkr, .*: add --model jkr"):
-        left_out(load_gates(example), chosen, ["md-improved"])
+        skipped_gates(load_gates(example), chosen, ["md-improved"])
 
 
 def test_every_key_of_a_gate_is_explained():

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import argparse
 
-from comparisons.output.scheme_benchmark import compare, measure
-from comparisons.runs.cases import Case
 from comparisons.cli.options import FAILED, OK, output
 from comparisons.console.progress import log, waiting
-from comparisons.runs.tasks import Task
+from comparisons.output.scheme_benchmark import compare, measure
 from comparisons.output.tables import rich_table
+from comparisons.runs.cases import Case
+from comparisons.runs.tasks import Task
 
 __all__ = ["add", "call"]
 

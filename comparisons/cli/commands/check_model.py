@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 
 from comparisons.cli.options import FAILED, FAILS, OK
-from comparisons.external import contract_checks as contract_suite
-from comparisons.external.model_source import open_model
-from comparisons.models import MODELS
 from comparisons.console.progress import waiting
+from comparisons.external import contract_checks as contract_suite
+from comparisons.external.model_source import load_model
+from comparisons.models import MODELS
 
 __all__ = ["add", "call"]
 
@@ -30,7 +30,7 @@ def call(args: argparse.Namespace) -> int:
     """Examine and print; return 4 if a computation failed, 1 if something is wrong, else 0."""
     if args.spec in MODELS:
         raise ValueError(f"{args.spec} is one of our own models; its tests are in tests/comparisons/models")
-    model = open_model(args.spec)
+    model = load_model(args.spec)
     if model.name in MODELS:
         raise ValueError(f"the model calls itself {model.name}, which is one of ours: it needs its own name")
     with waiting(f"checking {model.name}"):

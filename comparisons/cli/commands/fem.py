@@ -10,12 +10,12 @@ import pandas as pd
 
 import fem_reference
 from comparisons.cli.options import FAILED, OK, add_case, case_of, number, output
-from comparisons.output.style import picture_path, save
+from comparisons.console.progress import log, waiting
 from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.models.fem_model import FiniteElements
-from comparisons.console.progress import log, waiting
-from comparisons.runs.tables import writable_file, writing
+from comparisons.output.style import picture_path, save
 from comparisons.output.tables import rich_table
+from comparisons.runs.tables import writable_file, writing
 from fem_reference import export
 from fem_reference.verification import FULL_STUDY, QUICK_STUDY, elastic_checks, solver_table
 

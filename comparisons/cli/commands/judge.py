@@ -10,20 +10,20 @@ from pathlib import Path
 
 import pandas as pd
 
-from comparisons.runs.cases import Grid, asked_of, cases_text, grids
 from comparisons.cli.options import FAILED, FAILS, INCONCLUSIVE, OK, output
-from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
-from comparisons.judging.judge import judge, left_out
-from comparisons.output.markdown import to_step_summary
-from comparisons.output.verdicts import FILES, matrix, write_verdicts
 from comparisons.console.progress import log
+from comparisons.judging.decision import Verdict, roll_up
+from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
+from comparisons.judging.judge import judge, skipped_gates
+from comparisons.output.markdown import to_step_summary
+from comparisons.output.tables import rich_table
+from comparisons.output.verdicts import FILES, matrix, write_verdicts
+from comparisons.runs.cases import Grid, cases_text, grids, grids_for
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.record import check_files, read_record, warn_of_other_code, write_record
 from comparisons.runs.tables import read_table
-from comparisons.output.tables import rich_table
-from comparisons.judging.decision import Verdict, roll_up
 
-__all__ = ["GATES", "STATUS", "add", "call", "counted", "judge_and_write", "own_gates", "print_verdicts"]
+__all__ = ["GATES", "STATUS", "add", "call", "counted", "judge_and_write", "load_user_gates", "print_verdicts"]
 
 #: What a run keeps the text of its gates in: the file it was given may change, or be gone.
 GATES = "gates.toml"
@@ -57,10 +57,12 @@ def call(args: argparse.Namespace) -> int:
     stored = args.folder / GATES
     path = args.gates or (stored if stored.exists() else None)
     text = gates_text(path)
-    chosen = asked_of(grids(tier), models)
+    chosen = grids_for(grids(tier), models)
     # A run without --gates keeps the standing ones, most of which are about models that were not given to it.
     standing = path is None or (args.gates is None and record["arguments"]["gates"] is None)
-    gates = own_gates(text, path, tier, chosen, models) if path and not standing else of_tier(load_gates(text), tier)
+    gates = (
+        load_user_gates(text, path, tier, chosen, models) if path and not standing else of_tier(load_gates(text), tier)
+    )
     rows, curves = (read_table(args.folder / name) for name in ("results.parquet", "curves.parquet"))
     if sha256(cases_text().encode()).hexdigest() != record["cases_sha256"]:
         log(f"the cases have changed since {args.folder} was computed; judged by those of today")
@@ -88,7 +90,9 @@ def counted(judged: pd.DataFrame) -> dict[str, str | int]:
     return {"all": str(roll_up(judged["verdict"])), **Counter(map(str, judged["verdict"]))}
 
 
-def own_gates(text: str, path: Path, tier: str, chosen: Sequence[Grid], models: Sequence[str] | None) -> list[Gate]:
+def load_user_gates(
+    text: str, path: Path, tier: str, chosen: Sequence[Grid], models: Sequence[str] | None
+) -> list[Gate]:
     """Return the gates of a file of somebody's own that a run can judge, and say how many it leaves out.
 
     Parameters
@@ -109,7 +113,7 @@ def own_gates(text: str, path: Path, tier: str, chosen: Sequence[Grid], models: 
     """
     every = load_gates(text, models or (), str(path))
     gates = of_tier(every, tier)
-    others = left_out(gates, chosen, models)
+    others = skipped_gates(gates, chosen, models)
     if others:
         log(f"{len(others)} of {len(every)} gates of {path} are left out: their candidate is not given to this run")
     if len(gates) < len(every):

@@ -6,8 +6,8 @@ import argparse
 from pathlib import Path
 
 from comparisons.cli.options import OK
-from comparisons.external.template import write_template
 from comparisons.console.progress import log
+from comparisons.external.template import write_template
 
 __all__ = ["add", "call"]
 

@@ -8,15 +8,15 @@ from concurrent.futures import BrokenExecutor
 from contextlib import closing
 from pathlib import Path
 
-from comparisons.runs.computation import add_jobs, add_retry_failed, checked_jobs, say_failures_used
 from comparisons.cli.options import FAILED, OK, output
-from comparisons.runs.journal import alone_in
-from comparisons.model import ComputationFailed
-from comparisons.paper.registry import NAMES, plates
-from comparisons.paper.paper_figure import write
-from comparisons.paper.cache import Workshop
 from comparisons.console.progress import counting, log
+from comparisons.model import ComputationFailed
+from comparisons.paper.cache import CallCache
+from comparisons.paper.paper_figure import write
+from comparisons.paper.registry import NAMES, paper_figures
+from comparisons.runs.computation import add_jobs, add_retry_failed, checked_jobs, say_failures_used
 from comparisons.runs.environment import fingerprint
+from comparisons.runs.journal import alone_in
 from comparisons.runs.tables import prepare_folder
 
 __all__ = ["add", "call"]
@@ -43,21 +43,21 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def call(args: argparse.Namespace) -> int:
-    """Compute what is missing, write the plates, name their files; return the exit status."""
+    """Compute what is missing, write the paper_figures, name their files; return the exit status."""
     jobs = checked_jobs(args.jobs)
-    chosen = plates(args.figure)
+    chosen = paper_figures(args.figure)
     folder = prepare_folder(args.out)
-    calls = [call for plate in chosen for call in plate.calls()]
+    tasks = [call for figure in chosen for call in figure.tasks()]
     try:
         with alone_in(folder):
-            workshop = Workshop(folder / "calls.jsonl", fingerprint())
-            failed = workshop.failed(calls)
+            cache = CallCache(folder / "tasks.jsonl", fingerprint())
+            failed = cache.failed(tasks)
             if args.retry_failed:
-                workshop.forget(failed)
+                cache.forget(failed)
             else:
                 say_failures_used(Counter(call.function.partition(":")[2] for call in failed))
-            waiting = workshop.missing(calls)
-            with counting("paper", len(waiting)) as advance, closing(workshop.work(waiting, jobs)) as done:
+            waiting = cache.missing(tasks)
+            with counting("paper", len(waiting)) as advance, closing(cache.work(waiting, jobs)) as done:
                 for _ in done:
                     advance()
     except KeyboardInterrupt:
@@ -67,17 +67,17 @@ def call(args: argparse.Namespace) -> int:
         log(f"a worker process died (out of memory?); what is finished is kept in {folder}; the same command goes on")
         return FAILED
     shown, status = output(), OK
-    for plate in chosen:
+    for figure in chosen:
         try:
-            tables = plate.tables(workshop.answers)
-            written = write(plate, tables, folder)
+            tables = figure.tables(cache.answers)
+            written = write(figure, tables, folder)
         except ComputationFailed as failure:
-            log(f"{plate.stem}: {failure}")
+            log(f"{figure.stem}: {failure}")
             status = FAILED
             continue
         kinds = Counter(path.suffix[1:] for path in written)
-        shown.print(f"{plate.stem}: {plate.title} ({', '.join(f'{count} {kind}' for kind, count in kinds.items())})")
-        if plate.shown:
-            shown.print(plate.shown(tables))
+        shown.print(f"{figure.stem}: {figure.title} ({', '.join(f'{count} {kind}' for kind, count in kinds.items())})")
+        if figure.shown:
+            shown.print(figure.shown(tables))
     shown.print(f"written to {folder}")
     return status

@@ -13,23 +13,33 @@ from pathlib import Path
 import pandas as pd
 from rich.table import Table
 
-from comparisons.runs.cases import TIERS, VERIFICATION, Grid, asked_of, cases_text, grids
-from comparisons.runs.computation import add_jobs, add_out, add_retry_failed, checked_jobs, complete, folder_for
-from comparisons.cli.commands.judge import GATES, STATUS, counted, judge_and_write, own_gates, print_verdicts
+from comparisons.cli.commands.judge import GATES, STATUS, counted, judge_and_write, load_user_gates, print_verdicts
 from comparisons.cli.options import FAILED, output
+from comparisons.console.progress import log
+from comparisons.curve_quantities import SHAPES
+from comparisons.judging.decision import roll_up
+from comparisons.judging.gates import gates_text, load_gates, of_tier
+from comparisons.model import ComputationFailed
+from comparisons.models import ExternalIdentity, create, identify
 from comparisons.output.figures import agreement as agreement_figure
 from comparisons.output.figures import kappa as kappa_figure
 from comparisons.output.figures import references
-from comparisons.output.style import save
-from comparisons.judging.gates import gates_text, load_gates, of_tier
-from comparisons.model import ComputationFailed
-from comparisons.models import Outside, create, identify
 from comparisons.output.markdown import to_step_summary
-from comparisons.console.progress import log
+from comparisons.output.style import save
+from comparisons.output.tables import (
+    agreement,
+    beside_paper_values,
+    by_case,
+    largest,
+    largest_by_gradient,
+    relative_error,
+    rich_table,
+    statuses,
+)
+from comparisons.runs.cases import TIERS, VERIFICATION, Grid, cases_text, grids, grids_for
+from comparisons.runs.computation import add_jobs, add_out, add_retry_failed, checked_jobs, complete, folder_for
 from comparisons.runs.environment import environment
 from comparisons.runs.record import FORMAT, write_record
-from comparisons.runs.tasks import plan
-from comparisons.curve_quantities import SHAPES
 from comparisons.runs.tables import (
     Row,
     atomic,
@@ -39,17 +49,7 @@ from comparisons.runs.tables import (
     write_results,
     write_table,
 )
-from comparisons.output.tables import (
-    agreement,
-    beside_published,
-    by_case,
-    largest,
-    largest_by_gradient,
-    relative_error,
-    rich_table,
-    statuses,
-)
-from comparisons.judging.decision import roll_up
+from comparisons.runs.tasks import plan
 
 __all__ = ["add", "call"]
 
@@ -83,11 +83,11 @@ def call(args: argparse.Namespace) -> int:
     given = None if args.model is None else names
     specs = {name: model.spec for name, model in outside.items()}
     rules = gates_text(args.gates)
-    chosen = asked_of(grids(args.tier), given)
+    chosen = grids_for(grids(args.tier), given)
     gates = (
         of_tier(load_gates(rules), args.tier)
         if args.gates is None
-        else own_gates(rules, args.gates, args.tier, chosen, given)
+        else load_user_gates(rules, args.gates, args.tier, chosen, given)
     )
     started = datetime.now(UTC)
     to_step_summary("")
@@ -158,7 +158,7 @@ def _kappa(table: pd.DataFrame, chosen: list[Grid], models: list[str] | None) ->
     return pd.concat(tables, ignore_index=True)
 
 
-def _described(names: set[str], outside: Mapping[str, Outside]) -> dict[str, dict[str, str]]:
+def _described(names: set[str], outside: Mapping[str, ExternalIdentity]) -> dict[str, dict[str, str]]:
     """Return what each model says of itself."""
     models = {name: outside.get(name) or create(name) for name in sorted(names)}
     described = {
@@ -210,7 +210,7 @@ def _print(table: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame) -> No
         console.print(rich_table(troubles, "failed computations"))
     console.print(rich_table(statuses(table), "computations"))
     console.print(_titled(largest_by_gradient(maxima), "largest abs(kappa) in percent"))
-    stated = beside_published(maxima)
+    stated = beside_paper_values(maxima)
     if not stated[0].empty:
         title = "largest abs(kappa) in percent beside the published (at_end: at an end of the range of mu)"
         console.print(_titled(stated, title))

@@ -7,11 +7,11 @@ import json
 import math
 
 from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case, case_of, number
-from comparisons.models import create
 from comparisons.console.progress import waiting
+from comparisons.models import create
 from comparisons.quantities import QUANTITIES
-from comparisons.runs.tasks import ask
 from comparisons.runs.tables import Row, csv_text, frame
+from comparisons.runs.tasks import evaluate
 
 __all__ = ["add", "call"]
 
@@ -34,7 +34,7 @@ def call(args: argparse.Namespace) -> int:
     case = case_of(args)
     model = create(args.model, case.nu)
     with waiting(f"{args.model}, {case.label}"):
-        row = ask(model, args.quantity, case)
+        row = evaluate(model, args.quantity, case)
     print(_FORMATS[args.format](row), end="")
     return FAILED if row.status == "failed" else OK
 

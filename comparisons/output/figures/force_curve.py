@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, styled
 from comparisons.model import Curve
+from comparisons.output.style import COLOURS, styled
 
 __all__ = ["draw"]
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, LINES, styled
 from comparisons.curve_quantities import Points
+from comparisons.output.style import COLOURS, LINES, styled
 
 __all__ = ["draw"]
 

@@ -6,10 +6,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import count
 
-from comparisons.output.style import COLOURS
 from comparisons.judging.decision import Verdict
+from comparisons.output.style import COLOURS
 
-__all__ = ["SYMBOLS", "Look", "looks", "verdict_class"]
+__all__ = ["SYMBOLS", "ModelStyle", "model_styles", "verdict_class"]
 
 #: Read beside the colour, and where there is none.
 SYMBOLS = {
@@ -52,7 +52,7 @@ _OURS = {
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class ModelStyle:
     """How a model is drawn: colour, names of dash and marker, and both as SVG for the key."""
 
     colour: str
@@ -62,12 +62,12 @@ class Look:
     path: str
 
 
-def looks(names: Iterable[str]) -> dict[str, Look]:
+def model_styles(names: Iterable[str]) -> dict[str, ModelStyle]:
     """Return the look of each model; those from outside have what ours on the same page leave them.
 
     Examples
     --------
-    >>> looks(["fscm", "mine"])["fscm"].colour, looks(["fscm", "mine"])["mine"].colour
+    >>> model_styles(["fscm", "mine"])["fscm"].colour, model_styles(["fscm", "mine"])["mine"].colour
     ('#000000', '#0072b2')
     """
     present = sorted(set(names))
@@ -81,9 +81,9 @@ def looks(names: Iterable[str]) -> dict[str, Look]:
     return {name: _look(places[name], dashes[name]) for name in present}
 
 
-def _look(place: int, dash: tuple[str, str]) -> Look:
+def _look(place: int, dash: tuple[str, str]) -> ModelStyle:
     marker, path = list(_MARKERS.items())[place % len(_MARKERS)]
-    return Look(COLOURS[place % len(COLOURS)], *dash, marker, path)
+    return ModelStyle(COLOURS[place % len(COLOURS)], *dash, marker, path)
 
 
 def verdict_class(verdict: str) -> str:

@@ -7,8 +7,8 @@ from typing import Any, cast
 
 import pandas as pd
 
-from comparisons.output.report.stored_run import Stored
 from comparisons.output.report.plots import curve_group, kappa_group
+from comparisons.output.report.stored_run import Stored
 from comparisons.output.report.table import (
     CASE,
     CASE_COLUMNS,
@@ -72,7 +72,7 @@ def largest(stored: Stored) -> Table:
                 parameter(row["mu"]),
                 Cell("an end of the range" if row["at_end"] else "inside"),
                 number(row["cases"], ".0f"),
-                Cell(row["published_percent"] or ""),
+                Cell(row["paper_percent"] or ""),
                 Cell(row["verdict"] or ""),
             )
         )

@@ -6,17 +6,15 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import Any
 
-from comparisons.output.latex import latex
-from comparisons.output.verdicts import worst_cases
-from comparisons.output.report import verdict_tables
-from comparisons.output.report import number_tables
-from comparisons.output.report import plots
-from comparisons.output.report.stored_run import Stored
-from comparisons.output.report.model_style import Look, looks
-from comparisons.output.report.plot import Plot
-from comparisons.output.report.table import Table, table_tex
-from comparisons.runs.tables import csv_text
 from comparisons.judging.decision import Verdict, roll_up
+from comparisons.output.latex import latex
+from comparisons.output.report import number_tables, plots, verdict_tables
+from comparisons.output.report.model_style import ModelStyle, model_styles
+from comparisons.output.report.plot import Plot
+from comparisons.output.report.stored_run import Stored
+from comparisons.output.report.table import Table, table_tex
+from comparisons.output.verdicts import worst_cases
+from comparisons.runs.tables import csv_text
 
 __all__ = ["Page", "make_page"]
 
@@ -41,7 +39,7 @@ class Page:
         Where the numbers come from.
     files : dict of str to str
         What can be downloaded.
-    looks : dict of str to Look
+    model_styles : dict of str to ModelStyle
         How each model is drawn.
     """
 
@@ -53,7 +51,7 @@ class Page:
     plots: dict[str, list[Plot]]
     provenance: list[tuple[str, str]]
     files: dict[str, str]
-    looks: dict[str, Look]
+    model_styles: dict[str, ModelStyle]
 
     @property
     def every_plot(self) -> list[Plot]:
@@ -109,7 +107,7 @@ def make_page(stored: Stored) -> Page:
         plots=sections,
         provenance=_provenance(stored),
         files=_files(stored, tables),
-        looks=looks(drawn),
+        model_styles=model_styles(drawn),
     )
 
 

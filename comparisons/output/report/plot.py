@@ -68,7 +68,7 @@ class Plot:
 
 
 def key(*parts: str | float) -> str:
-    """Return the choice that several options make: what the script of the page looks for."""
+    """Return the choice that several options make: what the script of the page model_styles for."""
     return "|".join(part if isinstance(part, str) else parameter_text(part) for part in parts)
 
 

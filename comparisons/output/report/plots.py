@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pandas as pd
 
-from comparisons.output.verdicts import parameter_text
-from comparisons.output.report.stored_run import Stored
 from comparisons.output.report.plot import Control, Plot, Series, grouped, key, options
+from comparisons.output.report.stored_run import Stored
 from comparisons.output.report.table import kappa_cell, words
+from comparisons.output.verdicts import parameter_text
 
 __all__ = ["convergence", "curve_group", "curves", "kappa", "kappa_group"]
 

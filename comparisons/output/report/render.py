@@ -15,9 +15,9 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
+from comparisons.judging.decision import Verdict
 from comparisons.output.report.model_style import SYMBOLS, verdict_class
 from comparisons.output.report.page import Page
-from comparisons.judging.decision import Verdict
 
 __all__ = ["render", "script_json"]
 
@@ -81,7 +81,9 @@ def render(page: Page) -> str:
                 {
                     "tables": {table.id: table.data() for table in page.tables.values() if table.long},
                     "plots": [plot.data() for plot in page.every_plot],
-                    "looks": {name: [look.colour, look.dash, look.marker] for name, look in page.looks.items()},
+                    "model_styles": {
+                        name: [look.colour, look.dash, look.marker] for name, look in page.model_styles.items()
+                    },
                     "files": page.files,
                     "symbols": {str(name): symbol for name, symbol in SYMBOLS.items()},
                 }

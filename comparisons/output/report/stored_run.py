@@ -9,11 +9,11 @@ from typing import Any
 
 import pandas as pd
 
+from comparisons.judging.decision import Verdict
 from comparisons.judging.judge import Judged
 from comparisons.output.verdicts import GATE_COLUMNS
 from comparisons.runs.record import check_files, read_record, warn_of_other_code
 from comparisons.runs.tables import COLUMNS, CURVE_COLUMNS, read_table
-from comparisons.judging.decision import Verdict
 
 __all__ = ["Stored", "read_folder"]
 
@@ -21,7 +21,7 @@ _KAPPA = (
     *("quantity", "model", "n", "k", "mu", "nu", "value", "u_num"),
     *("reference", "reference_value", "u_reference", "kappa", "u_kappa"),
 )
-_LARGEST = ("quantity", "model", "n", "k", "cases", "mu", "at_end", "kappa", "u_kappa", "published_percent", "verdict")
+_LARGEST = ("quantity", "model", "n", "k", "cases", "mu", "at_end", "kappa", "u_kappa", "paper_percent", "verdict")
 
 #: Table -> its columns.
 _TABLES: dict[str, Sequence[str]] = {
@@ -44,7 +44,7 @@ _WORDS = {
     "candidate",
     "reference",
     "verdict",
-    "published_percent",
+    "paper_percent",
     "at_end",
 }
 

@@ -8,10 +8,10 @@ from typing import Any
 
 import pandas as pd
 
+from comparisons.judging.decision import Verdict
 from comparisons.judging.gates import METRICS
 from comparisons.judging.judge import by_gate, worst_first
 from comparisons.numerics.number_text import exact, limits_text
-from comparisons.output.verdicts import command, error_text
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.report.table import (
     CASE,
@@ -26,7 +26,7 @@ from comparisons.output.report.table import (
     without_empty,
     words,
 )
-from comparisons.judging.decision import Verdict
+from comparisons.output.verdicts import command, error_text
 
 __all__ = ["all_verdicts", "matrix", "offenders"]
 

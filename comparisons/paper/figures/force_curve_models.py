@@ -9,9 +9,9 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from comparisons.output.style import MODEL_LINES, MODEL_NAMES, lettered, styled
+from comparisons.paper.cache import Results, Task
+from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.tasks import curve
-from comparisons.paper.paper_figure import Plate, Tables
-from comparisons.paper.cache import Answers, Call
 
 __all__ = ["FORCE_CURVE_MODELS"]
 
@@ -21,19 +21,19 @@ _K, _MU = 0.4, 1.0
 _FAINT = 0.04
 
 
-def _question(model: str, n: float) -> Call:
-    return Call.of(curve, model, n, _K, _MU)
+def _task(model: str, n: float) -> Task:
+    return Task.of(curve, model, n, _K, _MU)
 
 
-def _calls() -> Sequence[Call]:
-    return [_question(model, n) for model in MODEL_LINES for n in _SHAPES]
+def _tasks() -> Sequence[Task]:
+    return [_task(model, n) for model in MODEL_LINES for n in _SHAPES]
 
 
-def _tables(answers: Answers) -> Tables:
+def _tables(answers: Results) -> Tables:
     parts = []
     for n in _SHAPES:
         for model in MODEL_LINES:
-            found = answers[_question(model, n)]
+            found = answers[_task(model, n)]
             shape = {"displacement": [np.nan], "load": [np.nan]} | {
                 name: found[name] for name in ("displacement", "load") if name in found
             }
@@ -72,11 +72,11 @@ def _draw(tables: Tables) -> Figure:
     return figure
 
 
-FORCE_CURVE_MODELS = Plate(
+FORCE_CURVE_MODELS = PaperFigure(
     name="13",
     stem="fig13_force_curve_models",
     title="Force-displacement curves of both Maugis-Dugdale models, which end at first contact, and the FSCM",
-    calls=_calls,
+    tasks=_tasks,
     tables=_tables,
     draw=_draw,
 )

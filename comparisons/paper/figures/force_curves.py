@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 
 from comparisons.output.style import COLOURS, LINES, lettered, styled
 from comparisons.paper import tasks as answers
-from comparisons.paper.paper_figure import Plate, Tables
-from comparisons.paper.cache import Answers, Call
+from comparisons.paper.cache import Results, Task
+from comparisons.paper.paper_figure import PaperFigure, Tables
 
 __all__ = ["OVER_GRADIENTS", "OVER_TABOR_NUMBERS"]
 
@@ -32,15 +32,15 @@ _RANGES_4 = {
 _RANGES_6 = {0.5: ((-4.0, 1.5), (-2.15, 0.8)), 1.0: ((-4.0, 2.5), (-2.15, 0.8))}
 
 
-def _calls(cases: Iterable[tuple[float, float, float]]) -> Sequence[Call]:
+def _tasks(cases: Iterable[tuple[float, float, float]]) -> Sequence[Task]:
     # The cone and large Tabor numbers take longest.
-    return [Call.of(answers.curve, "fscm", *case) for case in sorted(cases, key=lambda case: (case[0], -case[2]))]
+    return [Task.of(answers.curve, "fscm", *case) for case in sorted(cases, key=lambda case: (case[0], -case[2]))]
 
 
-def _tables(cases: Iterable[tuple[float, float, float]], answered: Answers) -> Tables:
+def _tables(cases: Iterable[tuple[float, float, float]], answered: Results) -> Tables:
     parts = []
     for n, k, mu in cases:
-        found = answered[Call.of(answers.curve, "fscm", n, k, mu)]
+        found = answered[Task.of(answers.curve, "fscm", n, k, mu)]
         if found["status"] == "ok":
             points = {name: found[name] for name in ("displacement", "u_displacement", "load", "u_load")}
             parts.append(pd.DataFrame({"n": n, "k": k, "mu": mu, "status": "ok"} | points))
@@ -93,20 +93,20 @@ def _draw_6(tables: Tables) -> Figure:
     return figure
 
 
-OVER_TABOR_NUMBERS = Plate(
+OVER_TABOR_NUMBERS = PaperFigure(
     name="4",
     stem="fig04_force_curves_over_tabor_numbers",
     title="Force-displacement curves for k = 0.4 and four shapes, over the Tabor number",
-    calls=lambda: _calls(_CASES_4),
+    tasks=lambda: _tasks(_CASES_4),
     tables=lambda answered: _tables(_CASES_4, answered),
     draw=_draw_4,
 )
 
-OVER_GRADIENTS = Plate(
+OVER_GRADIENTS = PaperFigure(
     name="6",
     stem="fig06_force_curves_over_gradients",
     title="Force-displacement curves for n = 2, mu = 0.5 and 1, over the gradient exponent",
-    calls=lambda: _calls(_CASES_6),
+    tasks=lambda: _tasks(_CASES_6),
     tables=lambda answered: _tables(_CASES_6, answered),
     draw=_draw_6,
 )

@@ -9,11 +9,11 @@ import pandas as pd
 from matplotlib.figure import Figure
 from scipy.optimize import brentq, minimize_scalar
 
-from comparisons.runs.cases import Case
-from comparisons.output.style import COLOURS, LINES, lettered, styled
 from comparisons.models.jkr import JKR
-from comparisons.paper.paper_figure import Plate, Tables
-from comparisons.paper.cache import Answers, Call
+from comparisons.output.style import COLOURS, LINES, lettered, styled
+from comparisons.paper.cache import Results, Task
+from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.runs.cases import Case
 
 __all__ = ["GRADIENT_EFFECT", "chi", "insensitive_regions", "largest_chi"]
 
@@ -86,15 +86,15 @@ def over_shapes() -> list[tuple[float, float]]:
     return [largest_chi(float(n)) for n in _SHAPE_INDICES]
 
 
-def _calls() -> Sequence[Call]:
-    return [Call.of(over_shapes), Call.of(insensitive_regions), *(Call.of(over_gradients, n) for n in _SHAPES)]
+def _tasks() -> Sequence[Task]:
+    return [Task.of(over_shapes), Task.of(insensitive_regions), *(Task.of(over_gradients, n) for n in _SHAPES)]
 
 
-def _tables(answers: Answers) -> Tables:
-    parts = [pd.DataFrame({"n": n, "k": _GRADIENTS, "chi": answers[Call.of(over_gradients, n)]}) for n in _SHAPES]
-    largest = pd.DataFrame(answers[Call.of(over_shapes)], columns=["chi_max", "k_of_chi_max"])
+def _tables(answers: Results) -> Tables:
+    parts = [pd.DataFrame({"n": n, "k": _GRADIENTS, "chi": answers[Task.of(over_gradients, n)]}) for n in _SHAPES]
+    largest = pd.DataFrame(answers[Task.of(over_shapes)], columns=["chi_max", "k_of_chi_max"])
     largest.insert(0, "n", _SHAPE_INDICES)
-    ends = answers[Call.of(insensitive_regions)]
+    ends = answers[Task.of(insensitive_regions)]
     regions = pd.DataFrame({"limit": _LIMIT, "n_from": ends[::2], "n_to": ends[1::2]})
     return {"": pd.concat(parts, ignore_index=True), "largest": largest, "regions": regions}
 
@@ -130,11 +130,11 @@ def _draw(tables: Tables) -> Figure:
     return figure
 
 
-GRADIENT_EFFECT = Plate(
+GRADIENT_EFFECT = PaperFigure(
     name="11",
     stem="fig11_gradient_effect",
     title="Deviation chi of the JKR pull-off force from the homogeneous solid's, and its largest over k",
-    calls=_calls,
+    tasks=_tasks,
     tables=_tables,
     draw=_draw,
 )

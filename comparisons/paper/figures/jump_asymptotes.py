@@ -10,12 +10,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, LINES, MARKERS, lettered, styled
 from comparisons.models.semi_rigid import jump_in_coefficient
-from comparisons.paper.tasks import quantity
+from comparisons.output.style import COLOURS, LINES, MARKERS, lettered, styled
+from comparisons.paper.cache import Results, Task
 from comparisons.paper.figures.jumps import TABOR_NUMBERS, jumps, near_critical
-from comparisons.paper.paper_figure import Plate, Tables
-from comparisons.paper.cache import Answers, Call
+from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.paper.tasks import quantity
 
 __all__ = ["JUMP_ASYMPTOTES", "asymptotes", "coefficients"]
 
@@ -64,24 +64,24 @@ def coefficients(n: float) -> list[dict[str, float]]:
     ]
 
 
-def _calls() -> Sequence[Call]:
+def _tasks() -> Sequence[Task]:
     return [
-        Call.of(near_critical, _N, _K),
-        *(Call.of(jumps, _N, _K, mu) for mu in reversed(TABOR_NUMBERS)),
-        Call.of(asymptotes, _N, _K),
-        *(Call.of(coefficients, n) for n in _SHAPES),
+        Task.of(near_critical, _N, _K),
+        *(Task.of(jumps, _N, _K, mu) for mu in reversed(TABOR_NUMBERS)),
+        Task.of(asymptotes, _N, _K),
+        *(Task.of(coefficients, n) for n in _SHAPES),
     ]
 
 
-def _tables(answers: Answers) -> Tables:
+def _tables(answers: Results) -> Tables:
     # Where the two jumps part, then evenly.
-    first = answers[Call.of(near_critical, _N, _K)]["jumps"][0]
-    computed = [first, *({"mu": mu} | answers[Call.of(jumps, _N, _K, mu)] for mu in TABOR_NUMBERS)]
+    first = answers[Task.of(near_critical, _N, _K)]["jumps"][0]
+    computed = [first, *({"mu": mu} | answers[Task.of(jumps, _N, _K, mu)] for mu in TABOR_NUMBERS)]
     computed_columns = ["mu", *(f"{u}{name}" for name in _MODELS for u in ("", "u_"))]
     fscm = pd.DataFrame(computed)[computed_columns].sort_values("mu")
-    closed = pd.DataFrame(answers[Call.of(asymptotes, _N, _K)])
+    closed = pd.DataFrame(answers[Task.of(asymptotes, _N, _K)])
     displacements = pd.concat([fscm.assign(model="fscm"), closed.assign(model="asymptote")], ignore_index=True)
-    constants = [pd.DataFrame(answers[Call.of(coefficients, n)]).assign(n=n) for n in _SHAPES]
+    constants = [pd.DataFrame(answers[Task.of(coefficients, n)]).assign(n=n) for n in _SHAPES]
     return {
         "displacements": displacements[["model", *computed_columns]].assign(n=_N, k=_K),
         "coefficients": pd.concat(constants, ignore_index=True)[["n", "k", "C_in", "C_out"]],
@@ -131,11 +131,11 @@ def _coefficients(axes: Axes, table: pd.DataFrame) -> None:
     axes.legend(loc="center", bbox_to_anchor=(0.45, 0.7), ncols=2)
 
 
-JUMP_ASYMPTOTES = Plate(
+JUMP_ASYMPTOTES = PaperFigure(
     name="9",
     stem="fig09_jump_asymptotes",
     title="Asymptotes of the jumps beside the FSCM, and their coefficients",
-    calls=_calls,
+    tasks=_tasks,
     tables=_tables,
     draw=_draw,
 )

@@ -9,10 +9,10 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, LINES, lettered, styled
 from comparisons.models.solver import translated
-from comparisons.paper.paper_figure import Plate, Tables
-from comparisons.paper.cache import Answers, Call
+from comparisons.output.style import COLOURS, LINES, lettered, styled
+from comparisons.paper.cache import Results, Task
+from comparisons.paper.paper_figure import PaperFigure, Tables
 from fscm import Analysis, NoSuchEvent, NotConverged, solve
 from fscm.problem import Problem
 
@@ -77,17 +77,17 @@ def near_critical(n: float, k: float) -> dict[str, Any]:
     return {"mu": float(critical.value), "u_mu": float(critical.u_num), "jumps": found}
 
 
-def _calls() -> Sequence[Call]:
-    far = [Call.of(jumps, 2.0, k, mu) for mu in reversed(TABOR_NUMBERS) for k in _GRADIENTS]
-    return [Call.of(near_critical, 2.0, k) for k in _GRADIENTS] + far
+def _tasks() -> Sequence[Task]:
+    far = [Task.of(jumps, 2.0, k, mu) for mu in reversed(TABOR_NUMBERS) for k in _GRADIENTS]
+    return [Task.of(near_critical, 2.0, k) for k in _GRADIENTS] + far
 
 
-def _tables(answers: Answers) -> Tables:
+def _tables(answers: Results) -> Tables:
     rows, critical = [], []
     for k in _GRADIENTS:
-        near = answers[Call.of(near_critical, 2.0, k)]
+        near = answers[Task.of(near_critical, 2.0, k)]
         critical.append({"n": 2.0, "k": k, "mu": near["mu"], "u_mu": near["u_mu"]})
-        far = [{"mu": mu} | answers[Call.of(jumps, 2.0, k, mu)] for mu in TABOR_NUMBERS]
+        far = [{"mu": mu} | answers[Task.of(jumps, 2.0, k, mu)] for mu in TABOR_NUMBERS]
         rows += [{"n": 2.0, "k": k} | row for row in [*near["jumps"], *far]]
     table = pd.DataFrame(rows).sort_values(["k", "mu"], ignore_index=True)
     return {"": table, "critical": pd.DataFrame(critical)}
@@ -130,11 +130,11 @@ def _branches(axes: Axes, tables: Tables, kind: str) -> None:
         axes.annotate(f"jump {name}", place, _LABELS[kind, name], textcoords="offset points", ha="center")
 
 
-JUMPS = Plate(
+JUMPS = PaperFigure(
     name="8",
     stem="fig08_jumps",
     title="Displacement and central gap at the jumps for n = 2, over the Tabor number",
-    calls=_calls,
+    tasks=_tasks,
     tables=_tables,
     draw=_draw,
 )

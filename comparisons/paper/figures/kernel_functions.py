@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 
 import fscm
 from comparisons.output.style import COLOURS, LINES, lettered, styled
-from comparisons.paper.paper_figure import Plate, Tables
-from comparisons.paper.cache import Answers, Call
+from comparisons.paper.cache import Results, Task
+from comparisons.paper.paper_figure import PaperFigure, Tables
 
 __all__ = ["KERNEL_FUNCTIONS", "values"]
 
@@ -51,12 +51,12 @@ def values(k: float) -> dict[str, list[float | None]]:
     }
 
 
-def _calls() -> Sequence[Call]:
-    return [Call.of(values, k) for k in _GRADIENTS]
+def _tasks() -> Sequence[Task]:
+    return [Task.of(values, k) for k in _GRADIENTS]
 
 
-def _tables(answers: Answers) -> Tables:
-    parts = [pd.DataFrame({"k": k, "s": _RATIOS} | answers[Call.of(values, k)]).astype(float) for k in _GRADIENTS]
+def _tables(answers: Results) -> Tables:
+    parts = [pd.DataFrame({"k": k, "s": _RATIOS} | answers[Task.of(values, k)]).astype(float) for k in _GRADIENTS]
     return {"": pd.concat(parts, ignore_index=True)}
 
 
@@ -83,11 +83,11 @@ def _draw(tables: Tables) -> Figure:
     return figure
 
 
-KERNEL_FUNCTIONS = Plate(
+KERNEL_FUNCTIONS = PaperFigure(
     name="2",
     stem="fig02_kernel_functions",
     title="The functions Phi_k, its derivative, and Psi_k",
-    calls=_calls,
+    tasks=_tasks,
     tables=_tables,
     draw=_draw,
 )

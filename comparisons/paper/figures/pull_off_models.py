@@ -13,10 +13,10 @@ from matplotlib.lines import Line2D
 
 from comparisons.output.figures import kappa as kappa_figure
 from comparisons.output.style import COLOURS, MARKERS, MODEL_NAMES, lettered, styled
-from comparisons.paper.tasks import quantity
-from comparisons.paper.paper_figure import Plate, Tables
-from comparisons.paper.cache import Answers, Call
 from comparisons.output.tables import relative_error
+from comparisons.paper.cache import Results, Task
+from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.paper.tasks import quantity
 
 __all__ = ["PULL_OFF", "PULL_OFF_BY_RIGID_LIMIT", "PULL_OFF_BY_SOFT_LIMIT", "TABOR_NUMBERS"]
 
@@ -34,22 +34,22 @@ _STYLES: dict[str, dict[str, Any]] = {
 _MU = r"Tabor number $\mu$"
 
 
-def _question(model: str, n: float, mu: float) -> Call:
-    return Call.of(quantity, model, "pull_off_force", n, _K, mu)
+def _task(model: str, n: float, mu: float) -> Task:
+    return Task.of(quantity, model, "pull_off_force", n, _K, mu)
 
 
-def _calls() -> Sequence[Call]:
+def _tasks() -> Sequence[Task]:
     # The largest Tabor numbers take longest.
-    return [_question(model, n, mu) for mu in reversed(TABOR_NUMBERS) for n in _SHAPES for model in _MODELS]
+    return [_task(model, n, mu) for mu in reversed(TABOR_NUMBERS) for n in _SHAPES for model in _MODELS]
 
 
-def _limits(name: str) -> Callable[[], Sequence[Call]]:
-    return lambda: [*_calls(), *(_question(name, n, mu) for n in _SHAPES for mu in TABOR_NUMBERS)]
+def _limits(name: str) -> Callable[[], Sequence[Task]]:
+    return lambda: [*_tasks(), *(_task(name, n, mu) for n in _SHAPES for mu in TABOR_NUMBERS)]
 
 
-def _forces(answers: Answers, models: Sequence[str] = _MODELS) -> pd.DataFrame:
+def _forces(answers: Results, models: Sequence[str] = _MODELS) -> pd.DataFrame:
     rows = [
-        {"n": n, "k": _K, "mu": mu, "model": model} | answers[_question(model, n, mu)]
+        {"n": n, "k": _K, "mu": mu, "model": model} | answers[_task(model, n, mu)]
         for n in _SHAPES
         for model in models
         for mu in TABOR_NUMBERS
@@ -57,13 +57,13 @@ def _forces(answers: Answers, models: Sequence[str] = _MODELS) -> pd.DataFrame:
     return pd.DataFrame(rows).astype({"value": float, "u_num": float})
 
 
-def _pull_off_tables(answers: Answers) -> Tables:
+def _pull_off_tables(answers: Results) -> Tables:
     forces = _forces(answers)
     bounds = _forces(answers, ("bradley", "jkr"))
     return {"": pd.concat([forces, bounds], ignore_index=True)}
 
 
-def _scaled(answers: Answers, limit: str) -> pd.DataFrame:
+def _scaled(answers: Results, limit: str) -> pd.DataFrame:
     """Return the forces over that of a limiting model in the same case, with the uncertainty of the ratio."""
     forces = _forces(answers)
     scale = _forces(answers, (limit,)).set_index(["n", "mu"])
@@ -75,7 +75,7 @@ def _scaled(answers: Answers, limit: str) -> pd.DataFrame:
     )
 
 
-def _kappa(answers: Answers) -> pd.DataFrame:
+def _kappa(answers: Results) -> pd.DataFrame:
     forces = _forces(answers).assign(quantity="pull_off_force", nu=np.nan)
     table = relative_error(forces, "fscm")
     return table[["quantity", "n", "k", "mu", "model", "kappa", "u_kappa"]]
@@ -180,31 +180,31 @@ def _legend(figure: Figure) -> None:
     figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=5)
 
 
-def _soft_tables(answers: Answers) -> Tables:
+def _soft_tables(answers: Results) -> Tables:
     return {"": _scaled(answers, "jkr"), "kappa": _kappa(answers)}
 
 
-PULL_OFF = Plate(
+PULL_OFF = PaperFigure(
     name="14",
     stem="fig14_pull_off_models",
     title="Pull-off force of the original and improved Maugis-Dugdale models and of the FSCM, k = 0.4",
-    calls=lambda: list(dict.fromkeys([*_limits("bradley")(), *_limits("jkr")()])),
+    tasks=lambda: list(dict.fromkeys([*_limits("bradley")(), *_limits("jkr")()])),
     tables=_pull_off_tables,
     draw=_draw_forces,
 )
-PULL_OFF_BY_RIGID_LIMIT = Plate(
+PULL_OFF_BY_RIGID_LIMIT = PaperFigure(
     name="15",
     stem="fig15_pull_off_by_rigid_limit",
     title="Pull-off force scaled by the rigid (Bradley) limit, k = 0.4",
-    calls=_limits("bradley"),
+    tasks=_limits("bradley"),
     tables=lambda answers: {"": _scaled(answers, "bradley")},
     draw=_draw_by_rigid,
 )
-PULL_OFF_BY_SOFT_LIMIT = Plate(
+PULL_OFF_BY_SOFT_LIMIT = PaperFigure(
     name="16",
     stem="fig16_pull_off_by_soft_limit",
     title="Pull-off force scaled by the soft (JKR) limit, and the relative error kappa of both models, k = 0.4",
-    calls=_limits("jkr"),
+    tasks=_limits("jkr"),
     tables=_soft_tables,
     draw=_draw_by_soft,
 )

@@ -11,11 +11,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, LINES, lettered, styled
 from comparisons.models.gibson_limit import gibson_profile
 from comparisons.models.solver import translated
-from comparisons.paper.paper_figure import Plate, Tables
-from comparisons.paper.cache import Answers, Call
+from comparisons.output.style import COLOURS, LINES, lettered, styled
+from comparisons.paper.cache import Results, Task
+from comparisons.paper.paper_figure import PaperFigure, Tables
 from fscm import Analysis, NoSuchEvent, NotConverged, solve
 from fscm.problem import Problem
 from fscm.solution import FLOOR, SAFETY, State
@@ -96,14 +96,14 @@ def _gibson(problem: Problem) -> dict[str, Any]:
     return answer
 
 
-def _calls(cases: Iterable[tuple[float, float, float]]) -> Sequence[Call]:
-    return [Call.of(surface, *case) for case in sorted(cases, key=lambda case: -case[2])]
+def _tasks(cases: Iterable[tuple[float, float, float]]) -> Sequence[Task]:
+    return [Task.of(surface, *case) for case in sorted(cases, key=lambda case: -case[2])]
 
 
-def _tables(cases: Iterable[tuple[float, float, float]], answers: Answers) -> Tables:
+def _tables(cases: Iterable[tuple[float, float, float]], answers: Results) -> Tables:
     parts = []
     for n, k, mu in cases:
-        part = pd.DataFrame({"n": n, "k": k, "mu": mu} | answers[Call.of(surface, n, k, mu)])
+        part = pd.DataFrame({"n": n, "k": k, "mu": mu} | answers[Task.of(surface, n, k, mu)])
         parts.append(part.assign(punch=part["radius"] ** n / n - part["displacement"]))
     return {"": pd.concat(parts, ignore_index=True)}
 
@@ -138,20 +138,20 @@ def _finish(figure: Figure, left: Axes, right: Axes, farthest: float, held: str)
     figure.legend([*handles, punch], [*labels, r"punch $f-\delta$"], loc="outside lower center", ncols=4)
 
 
-OVER_TABOR_NUMBERS = Plate(
+OVER_TABOR_NUMBERS = PaperFigure(
     name="5",
     stem="fig05_pull_off_over_tabor_numbers",
     title="Surface and pressure at pull-off for n = 2, k = 0.4, over the Tabor number",
-    calls=lambda: _calls(_CASES_5),
+    tasks=lambda: _tasks(_CASES_5),
     tables=lambda answers: _tables(_CASES_5, answers),
     draw=lambda tables: _draw(tables, "mu", 5.0, (-0.2, 6.2)),
 )
 
-OVER_GRADIENTS = Plate(
+OVER_GRADIENTS = PaperFigure(
     name="7",
     stem="fig07_pull_off_over_gradients",
     title="Surface and pressure at pull-off for n = 2, mu = 1, over the gradient exponent",
-    calls=lambda: _calls(_CASES_7),
+    tasks=lambda: _tasks(_CASES_7),
     tables=lambda answers: _tables(_CASES_7, answers),
     draw=lambda tables: _draw(tables, "k", 4.0, (-0.1, 2.0)),
 )

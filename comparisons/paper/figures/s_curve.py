@@ -9,11 +9,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, MODEL_NAMES, lettered, styled
 from comparisons.models.solver import translated
+from comparisons.output.style import COLOURS, MODEL_NAMES, lettered, styled
 from comparisons.paper import tasks as answers
-from comparisons.paper.paper_figure import Plate, Tables
-from comparisons.paper.cache import Answers, Call
+from comparisons.paper.cache import Results, Task
+from comparisons.paper.paper_figure import PaperFigure, Tables
 from fscm import Analysis, NoSuchEvent, NotConverged
 from fscm.problem import Problem
 from fscm.solution import FLOOR, SAFETY, EventPair, State
@@ -21,8 +21,8 @@ from fscm.solution import FLOOR, SAFETY, EventPair, State
 __all__ = ["S_CURVE", "named_points"]
 
 _CASE = (2.0, 0.4, 3.0)
-_CURVE, _JKR = Call.of(answers.curve, "fscm", *_CASE), Call.of(answers.curve, "jkr", *_CASE)
-_ENERGY = Call.of(answers.quantity, "fscm", "hysteresis_energy", *_CASE)
+_CURVE, _JKR = Task.of(answers.curve, "fscm", *_CASE), Task.of(answers.curve, "jkr", *_CASE)
+_ENERGY = Task.of(answers.quantity, "fscm", "hysteresis_energy", *_CASE)
 
 _COORDINATES: dict[str, Callable[[State], float]] = {
     "central_gap": lambda state: state.central_gap,
@@ -78,11 +78,11 @@ def _coordinates(pair: EventPair) -> dict[str, float]:
     return found
 
 
-def _calls() -> Sequence[Call]:
-    return [_CURVE, Call.of(named_points, *_CASE), _ENERGY, _JKR]
+def _tasks() -> Sequence[Task]:
+    return [_CURVE, Task.of(named_points, *_CASE), _ENERGY, _JKR]
 
 
-def _tables(answered: Answers) -> Tables:
+def _tables(answered: Results) -> Tables:
     parts = []
     for model, call in (("fscm", _CURVE), ("jkr", _JKR)):
         found = answered[call]
@@ -90,7 +90,7 @@ def _tables(answered: Answers) -> Tables:
         # The coordinate along the path, at which displacement and load are uncertain; JKR has none.
         gaps = {"central_gap": found["columns"].get("central_gap", np.nan)}
         parts.append(pd.DataFrame({"model": model} | gaps | columns))
-    points = pd.DataFrame.from_dict(answered[Call.of(named_points, *_CASE)], orient="index").rename_axis("name")
+    points = pd.DataFrame.from_dict(answered[Task.of(named_points, *_CASE)], orient="index").rename_axis("name")
     return {
         "curves": pd.concat(parts, ignore_index=True),
         "points": points.reset_index(),
@@ -183,11 +183,11 @@ def _loop(path: pd.DataFrame, points: pd.DataFrame) -> tuple[np.ndarray, np.ndar
     return outline[:, 0], outline[:, 1]
 
 
-S_CURVE = Plate(
+S_CURVE = PaperFigure(
     name="3",
     stem="fig03_s_curve",
     title="The S-shaped curve at n = 2, k = 0.4, mu = 3",
-    calls=_calls,
+    tasks=_tasks,
     tables=_tables,
     draw=_draw,
 )

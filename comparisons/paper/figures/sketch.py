@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from scipy.ndimage import gaussian_filter1d
 
 from comparisons.output.style import COLOURS, styled
-from comparisons.paper.paper_figure import Plate, Tables
+from comparisons.paper.paper_figure import PaperFigure, Tables
 
 __all__ = ["SKETCH"]
 
@@ -96,11 +96,11 @@ def _frame(axes: Axes) -> None:
     axes.set_axis_off()
 
 
-SKETCH = Plate(
+SKETCH = PaperFigure(
     name="1",
     stem="fig01_sketch",
     title="A rigid punch on a power-law graded half-space",
-    calls=tuple,
+    tasks=tuple,
     tables=lambda answers: {},
     draw=_draw,
 )

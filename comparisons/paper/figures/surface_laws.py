@@ -9,10 +9,10 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, MODEL_LINES, lettered, styled
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
-from comparisons.paper.paper_figure import Plate, Tables
-from comparisons.paper.cache import Answers, Call
+from comparisons.output.style import COLOURS, MODEL_LINES, lettered, styled
+from comparisons.paper.cache import Results, Task
+from comparisons.paper.paper_figure import PaperFigure, Tables
 from fscm.laws import LennardJones93
 
 __all__ = ["SURFACE_LAWS"]
@@ -29,8 +29,8 @@ def stresses() -> list[float]:
     return [eta(float(n)) for n in _SHAPES]
 
 
-def _calls() -> Sequence[Call]:
-    return [Call.of(stresses)]
+def _tasks() -> Sequence[Task]:
+    return [Task.of(stresses)]
 
 
 def dugdale(stress: float) -> pd.DataFrame:
@@ -45,9 +45,9 @@ def dugdale(stress: float) -> pd.DataFrame:
     return pd.DataFrame({"gap": ends, "pressure": [0.0, -stress, -stress, 0.0, 0.0]})
 
 
-def _tables(answers: Answers) -> Tables:
+def _tables(answers: Results) -> Tables:
     limits = pd.DataFrame({"n": [math.inf], "eta": [eta(math.inf)]})
-    stress = pd.DataFrame({"n": _SHAPES, "eta": answers[Call.of(stresses)]})
+    stress = pd.DataFrame({"n": _SHAPES, "eta": answers[Task.of(stresses)]})
     exact = pd.DataFrame({"gap": _GAPS, "pressure": LennardJones93().traction(_GAPS)})
     laws = {"fscm": exact, "md-original": dugdale(THEORETICAL_STRENGTH), "md-improved": dugdale(eta(_DRAWN))}
     parts = [law.assign(model=model)[["model", "gap", "pressure"]] for model, law in laws.items()]
@@ -88,11 +88,11 @@ def _draw(tables: Tables) -> Figure:
     return figure
 
 
-SURFACE_LAWS = Plate(
+SURFACE_LAWS = PaperFigure(
     name="12",
     stem="fig12_surface_laws",
     title="The cohesive stress eta(n), and the surface laws of the FSCM and both Maugis-Dugdale models",
-    calls=_calls,
+    tasks=_tasks,
     tables=_tables,
     draw=_draw,
 )

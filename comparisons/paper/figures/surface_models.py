@@ -9,12 +9,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.runs.cases import Case
-from comparisons.output.style import MODEL_LINES, MODEL_NAMES, lettered, styled
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
+from comparisons.output.style import MODEL_LINES, MODEL_NAMES, lettered, styled
+from comparisons.paper.cache import Results, Task
+from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.tasks import profile, quantity
-from comparisons.paper.paper_figure import Plate, Tables
-from comparisons.paper.cache import Answers, Call
+from comparisons.runs.cases import Case
 
 __all__ = ["SURFACE_MODELS", "cohesive_surface"]
 
@@ -54,16 +54,16 @@ def cohesive_surface(model: str, n: float, k: float, mu: float) -> dict[str, Any
     }
 
 
-_FSCM = Call.of(profile, "fscm", _N, _K, _MU)
-_FSCM_DISPLACEMENT = Call.of(quantity, "fscm", "pull_off_displacement", _N, _K, _MU)
-_MD = {model: Call.of(cohesive_surface, model, _N, _K, _MU) for model in _COHESIVE}
+_FSCM = Task.of(profile, "fscm", _N, _K, _MU)
+_FSCM_DISPLACEMENT = Task.of(quantity, "fscm", "pull_off_displacement", _N, _K, _MU)
+_MD = {model: Task.of(cohesive_surface, model, _N, _K, _MU) for model in _COHESIVE}
 
 
-def _calls() -> Sequence[Call]:
+def _tasks() -> Sequence[Task]:
     return [_FSCM, _FSCM_DISPLACEMENT, *_MD.values()]
 
 
-def _tables(answers: Answers) -> Tables:
+def _tables(answers: Results) -> Tables:
     shape = answers[_FSCM]
     displacement = answers[_FSCM_DISPLACEMENT]
     parts = [_surface("fscm", shape, displacement["value"], shape["u_distance"])]
@@ -132,11 +132,11 @@ def _mark(axes: Axes, radius: float, letter: str, at: float, model: str) -> None
     )
 
 
-SURFACE_MODELS = Plate(
+SURFACE_MODELS = PaperFigure(
     name="17",
     stem="fig17_surface_models",
     title="Surface and pressure at pull-off of both Maugis-Dugdale models and the FSCM; n = 2, k = 0.4, mu = 1",
-    calls=_calls,
+    tasks=_tasks,
     tables=_tables,
     draw=_draw,
 )

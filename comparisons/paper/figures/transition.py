@@ -13,8 +13,8 @@ from scipy.interpolate import CubicSpline
 
 from comparisons.output.style import COLOURS, LINES, MODEL_NAMES, lettered, styled
 from comparisons.paper import tasks as answers
-from comparisons.paper.paper_figure import Plate, Tables
-from comparisons.paper.cache import Answers, Call
+from comparisons.paper.cache import Results, Task
+from comparisons.paper.paper_figure import PaperFigure, Tables
 
 __all__ = ["TRANSITION"]
 
@@ -46,17 +46,17 @@ def _cases() -> list[tuple[str, float, float, float]]:
     return [*fscm, *jkr, *(("bradley", n, 0.0, mu) for n in _SHAPES for mu in _ENDS)]
 
 
-def _call(case: tuple[str, float, float, float]) -> Call:
-    return Call.of(answers.quantity, case[0], "pull_off_force", *case[1:])
+def _task(case: tuple[str, float, float, float]) -> Task:
+    return Task.of(answers.quantity, case[0], "pull_off_force", *case[1:])
 
 
-def _calls() -> Sequence[Call]:
-    return [_call(case) for case in sorted(_cases(), key=lambda case: (case[1], -case[3]))]
+def _tasks() -> Sequence[Task]:
+    return [_task(case) for case in sorted(_cases(), key=lambda case: (case[1], -case[3]))]
 
 
-def _tables(answered: Answers) -> Tables:
+def _tables(answered: Results) -> Tables:
     rows = [
-        {"model": model, "n": n, "k": k, "mu": mu} | answered[_call((model, n, k, mu))] for model, n, k, mu in _cases()
+        {"model": model, "n": n, "k": k, "mu": mu} | answered[_task((model, n, k, mu))] for model, n, k, mu in _cases()
     ]
     return {"": pd.DataFrame(rows).sort_values(["model", "n", "k", "mu"], ignore_index=True)}
 
@@ -100,11 +100,11 @@ def _smooth(forces: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
     return np.exp(at), np.exp(CubicSpline(log_mu, np.log(forces["value"].to_numpy(float)))(at))
 
 
-TRANSITION = Plate(
+TRANSITION = PaperFigure(
     name="10",
     stem="fig10_transition",
     title="Pull-off force from the Bradley to the JKR limit",
-    calls=_calls,
+    tasks=_tasks,
     tables=_tables,
     draw=_draw,
 )

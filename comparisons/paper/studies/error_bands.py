@@ -11,11 +11,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, LINES, MARKERS, lettered, styled
 from comparisons.models.semi_rigid import jump_in_coefficient
-from comparisons.paper.studies.error_grid import CANDIDATES, all_cases, calls, errors
-from comparisons.paper.paper_figure import Plate, Tables
-from comparisons.paper.cache import Answers, Call
+from comparisons.output.style import COLOURS, LINES, MARKERS, lettered, styled
+from comparisons.paper.cache import Results, Task
+from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.paper.studies.error_grid import CANDIDATES, all_cases, errors, tasks
 
 __all__ = ["ERROR_BANDS", "bands", "coefficients", "rates"]
 
@@ -115,7 +115,7 @@ def rates(table: pd.DataFrame) -> pd.DataFrame:
     Notes
     -----
     JKR's jump-out should become exact as mu^-2 for all n and k.  In the units in which JKR is one curve (Eqs. 63-65)
-    the range of the forces is z0~ = 1/mu.  Outside the contact they are ~ z0~^2 / H^3, inside the surfaces overlap by
+    the range of the forces is z0~ = 1/mu.  ExternalIdentity the contact they are ~ z0~^2 / H^3, inside the surfaces overlap by
     p / 16 in units of z0 and dgamma / z0, which is ~ z0~^2: both are corrections of the order mu^-2, the first with a
     logarithm of mu at k = 0, so that the rate comes to 2 from below and slowly.  The cohesive edge, of width
     mu^(-2/(1-k)), is no larger a correction; it is the only one of the Maugis-Dugdale models.
@@ -165,11 +165,11 @@ def coefficients(table: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def _calls() -> Sequence[Call]:
-    return calls(all_cases() + _SOFT)
+def _tasks() -> Sequence[Task]:
+    return tasks(all_cases() + _SOFT)
 
 
-def _tables(answers: Answers) -> Tables:
+def _tables(answers: Results) -> Tables:
     jumps = errors(answers, all_cases() + _SOFT, [name for name in CANDIDATES if name != "pull_off_force"])
     return {
         "": bands(errors(answers, all_cases(), CANDIDATES)),
@@ -211,11 +211,11 @@ def _curves(axes: Axes, table: pd.DataFrame, letter: str, words: str) -> None:
     axes.minorticks_off()
 
 
-ERROR_BANDS = Plate(
+ERROR_BANDS = PaperFigure(
     name="error-bands",
     stem="error_bands",
     title="Where each closed form is good to 1, 2 and 5 %, and how fast the jumps approach their asymptotes",
-    calls=_calls,
+    tasks=_tasks,
     tables=_tables,
     draw=_draw,
 )

@@ -12,10 +12,10 @@ from typing import Any
 
 import pandas as pd
 
-from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.model import ComputationFailed
+from comparisons.numerics.kappa import relative_difference, relative_uncertainty
+from comparisons.paper.cache import Results, Task
 from comparisons.paper.tasks import quantity
-from comparisons.paper.cache import Answers, Call
 
 __all__ = [
     "CANDIDATES",
@@ -25,12 +25,12 @@ __all__ = [
     "SHAPES",
     "SHAPE_SLICES",
     "TABOR",
-    "calls",
     "errors",
     "errors_at",
     "jump_onset",
     "onset_calls",
     "onset_errors",
+    "tasks",
 ]
 
 #: What is judged, by quantity.  DMT has Bradley's pull-off force by the choice of its cohesive stress (Eq. 74).
@@ -87,12 +87,12 @@ def errors_at(n: float, k: float, mu: float) -> dict[str, dict[str, Any]]:
     }
 
 
-def calls(cases: Iterable[Case]) -> Sequence[Call]:
-    """Return the calls of these cases; soft, sharp and steep ones take longest."""
-    return [Call.of(errors_at, *case) for case in sorted(cases, key=lambda case: (-case[2], case[0], -case[1]))]
+def tasks(cases: Iterable[Case]) -> Sequence[Task]:
+    """Return the tasks of these cases; soft, sharp and steep ones take longest."""
+    return [Task.of(errors_at, *case) for case in sorted(cases, key=lambda case: (-case[2], case[0], -case[1]))]
 
 
-def errors(answers: Answers, cases: Iterable[Case], quantities: Iterable[str]) -> pd.DataFrame:
+def errors(answers: Results, cases: Iterable[Case], quantities: Iterable[str]) -> pd.DataFrame:
     """Return one row a case, quantity and model.
 
     Returns
@@ -103,7 +103,7 @@ def errors(answers: Answers, cases: Iterable[Case], quantities: Iterable[str]) -
     """
     rows = []
     for case in cases:
-        found = answers[Call.of(errors_at, *case)]
+        found = answers[Task.of(errors_at, *case)]
         for name in quantities:
             for model in CANDIDATES[name]:
                 key = {"n": case[0], "k": case[1], "mu": case[2], "quantity": name, "model": model}
@@ -146,12 +146,12 @@ def jump_onset(n: float, k: float) -> dict[str, Any]:
     return {"critical": critical["value"], "u_critical": critical["u_num"], "mu": mu, "found": errors_at(n, k, mu)}
 
 
-def onset_calls(cases: Iterable[Case]) -> Sequence[Call]:
+def onset_calls(cases: Iterable[Case]) -> Sequence[Task]:
     """Return a call of `jump_onset` for each shape index and gradient exponent; sharp shapes take longest."""
-    return [Call.of(jump_onset, n, k) for n, k in sorted({(n, k) for n, k, _ in cases})]
+    return [Task.of(jump_onset, n, k) for n, k in sorted({(n, k) for n, k, _ in cases})]
 
 
-def onset_errors(answers: Answers, cases: Iterable[Case], shown: Sequence[tuple[str, str]]) -> pd.DataFrame:
+def onset_errors(answers: Results, cases: Iterable[Case], shown: Sequence[tuple[str, str]]) -> pd.DataFrame:
     """Return one row for each shape index, gradient exponent and (quantity, model) that is shown.
 
     Returns

@@ -15,21 +15,21 @@ from numpy.typing import NDArray
 
 from comparisons.output.figures.contour_labels import label_lines
 from comparisons.output.style import lettered, styled
+from comparisons.paper.cache import Results, Task
+from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.studies.error_grid import (
     GRADIENT_SLICES,
     GRADIENTS,
     SHAPE_SLICES,
     SHAPES,
     TABOR,
-    calls,
     errors,
     gradient_cases,
     onset_calls,
     onset_errors,
     shape_cases,
+    tasks,
 )
-from comparisons.paper.paper_figure import Plate, Tables
-from comparisons.paper.cache import Answers, Call
 
 __all__ = ["ERROR_MAPS_GRADIENT", "ERROR_MAPS_JUMPS", "ERROR_MAPS_SHAPE"]
 
@@ -56,28 +56,28 @@ _JUMPS = (("jump_in_displacement", "semi-rigid", "jump-in"), ("jump_out_displace
 _JUMP_NAMES = tuple(name for name, _, _ in _JUMPS)
 
 
-def _shape_calls() -> Sequence[Call]:
-    return calls(shape_cases())
+def _shape_tasks() -> Sequence[Task]:
+    return tasks(shape_cases())
 
 
-def _gradient_calls() -> Sequence[Call]:
-    return calls(gradient_cases())
+def _gradient_tasks() -> Sequence[Task]:
+    return tasks(gradient_cases())
 
 
-def _jump_calls() -> Sequence[Call]:
+def _jump_tasks() -> Sequence[Task]:
     cases = dict.fromkeys(shape_cases() + gradient_cases())
-    return [*onset_calls(cases), *calls(cases)]
+    return [*onset_calls(cases), *tasks(cases)]
 
 
-def _shape_tables(answers: Answers) -> Tables:
+def _shape_tables(answers: Results) -> Tables:
     return {"": errors(answers, shape_cases(), ("pull_off_force",))}
 
 
-def _gradient_tables(answers: Answers) -> Tables:
+def _gradient_tables(answers: Results) -> Tables:
     return {"": errors(answers, gradient_cases(), ("pull_off_force",))}
 
 
-def _jump_tables(answers: Answers) -> Tables:
+def _jump_tables(answers: Results) -> Tables:
     cases = dict.fromkeys(shape_cases() + gradient_cases())
     table = errors(answers, cases, _JUMP_NAMES)
     shown = [table[(table["quantity"] == name) & (table["model"] == model)] for name, model, _ in _JUMPS]
@@ -199,27 +199,27 @@ def _draw_jumps(tables: Tables) -> Figure:
     return figure
 
 
-ERROR_MAPS_SHAPE = Plate(
+ERROR_MAPS_SHAPE = PaperFigure(
     name="error-maps-shape",
     stem="error_maps_shape",
     title="Error of the pull-off force of the closed forms over shape index and Tabor number",
-    calls=_shape_calls,
+    tasks=_shape_tasks,
     tables=_shape_tables,
     draw=partial(_draw_pull_off, across="n", held="k", slices=SHAPE_SLICES),
 )
-ERROR_MAPS_GRADIENT = Plate(
+ERROR_MAPS_GRADIENT = PaperFigure(
     name="error-maps-gradient",
     stem="error_maps_gradient",
     title="Error of the pull-off force of the closed forms over gradient exponent and Tabor number",
-    calls=_gradient_calls,
+    tasks=_gradient_tasks,
     tables=_gradient_tables,
     draw=partial(_draw_pull_off, across="k", held="n", slices=GRADIENT_SLICES),
 )
-ERROR_MAPS_JUMPS = Plate(
+ERROR_MAPS_JUMPS = PaperFigure(
     name="error-maps-jumps",
     stem="error_maps_jumps",
     title="Errors of the semi-rigid jump-in and of JKR's jump-out; none where there is no jump",
-    calls=_jump_calls,
+    tasks=_jump_tasks,
     tables=_jump_tables,
     draw=_draw_jumps,
 )

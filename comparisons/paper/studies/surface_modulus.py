@@ -20,11 +20,11 @@ from typing import Any
 
 import fem_reference
 from comparisons.model import ComputationFailed
-from comparisons.paper.tasks import quantity
-from comparisons.paper.paper_figure import Plate, Tables
+from comparisons.paper.cache import Results, Task
+from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.studies.surface_modulus_figure import draw
 from comparisons.paper.studies.surface_modulus_tables import Sample, limits, samples, thresholds
-from comparisons.paper.cache import Answers, Call
+from comparisons.paper.tasks import quantity
 from comparisons.quantities import QUANTITIES
 from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
@@ -138,26 +138,26 @@ def _kind(name: str) -> str:
     return QUANTITIES[name].kind if name in QUANTITIES else "energy"
 
 
-def _reference(name: str, k: float, mu: float) -> Call:
-    return Call.of(quantity, "fscm", name, _N, k, mu)
+def _reference(name: str, k: float, mu: float) -> Task:
+    return Task.of(quantity, "fscm", name, _N, k, mu)
 
 
-def _uniform(name: str, k: float, mu: float, depth: float) -> Call:
+def _uniform(name: str, k: float, mu: float, depth: float) -> Task:
     return _reference(name, 0.0, homogeneous_tabor_number(k, mu, depth))
 
 
-def _calls() -> Sequence[Call]:
+def _tasks() -> Sequence[Task]:
     cases = [(k, mu, depth) for (k, mu), depths in _SERIES.items() for depth in depths]
     # The sharper the edge and the thinner the skin, the longer it takes.
     cases.sort(key=lambda case: (-case[1], case[2], -case[0]))
-    elements = [Call.of(with_skin, event, *case) for case in cases for event in _EVENTS]
+    elements = [Task.of(with_skin, event, *case) for case in cases for event in _EVENTS]
     graded = [_reference(name, k, mu) for k, mu in _SERIES for name in _REPORTED]
     uniform = [_uniform(name, *case) for case in cases if case[2] >= _THICK for name in _REPORTED]
     return elements + graded + uniform
 
 
-def _sample(answers: Answers, k: float, mu: float, depth: float, name: str) -> Sample:
-    parts = {event: answers[Call.of(with_skin, event, k, mu, depth)] for event in _EVENTS}
+def _sample(answers: Results, k: float, mu: float, depth: float, name: str) -> Sample:
+    parts = {event: answers[Task.of(with_skin, event, k, mu, depth)] for event in _EVENTS}
     known = {key: value for part in parts.values() for key, value in part.items() if key != "reason"}
     pieces = ("jump_in_energy", "jump_out_energy") if name == "hysteresis_energy" else (name,)
     reason = (
@@ -180,7 +180,7 @@ def _number(answer: dict[str, Any]) -> tuple[float, float] | None:
     return (answer["value"], answer["u_num"]) if answer["status"] == "ok" else None
 
 
-def _tables(answers: Answers) -> Tables:
+def _tables(answers: Results) -> Tables:
     found = [
         _sample(answers, k, mu, depth, name)
         for (k, mu), depths in _SERIES.items()
@@ -190,11 +190,11 @@ def _tables(answers: Answers) -> Tables:
     return {"": samples(found), "limits": limits(found), "thresholds": thresholds(found)}
 
 
-SURFACE_MODULUS = Plate(
+SURFACE_MODULUS = PaperFigure(
     name="surface-modulus",
     stem="surface_modulus",
     title="A non-zero surface modulus, from graded to uniform: pull-off, jumps and hysteresis",
-    calls=_calls,
+    tasks=_tasks,
     tables=_tables,
     draw=draw,
 )

@@ -13,17 +13,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 
-from comparisons.data.paper_values import Published, published
+from comparisons.data.paper_values import PaperValue, paper_values
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_events import CohesiveEvents
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
-from comparisons.paper.values import scheme_ingredients as scheme
+from comparisons.paper.cache import Results, Task
 from comparisons.paper.figures.gradient_effect import insensitive_regions, largest_chi
 from comparisons.paper.studies.tabor_curve import RANGE, Extreme, TaborCurve, crossing, largest_error, tabor_numbers
-from comparisons.paper.cache import Answers, Call
+from comparisons.paper.values import scheme_ingredients as scheme
 
-__all__ = ["CONVERGED", "Repeated", "calls", "cohesive_forces", "frame", "repeated"]
+__all__ = ["CONVERGED", "Repeated", "cohesive_forces", "frame", "repeated", "tasks"]
 
 CONVERGED = "converged: mu from 0.01 to 10, tail carried, sigma_0 exact"
 CONVERGED_CHI = "k up to 1, the Gibson limit"
@@ -69,18 +69,18 @@ def cohesive_forces(n: float, k: float, stress: float) -> list[float]:
     ]
 
 
-def _exact_stress(claim: Published) -> float:
+def _exact_stress(claim: PaperValue) -> float:
     return THEORETICAL_STRENGTH if claim.model == "md-original" else eta(claim.n)
 
 
-def _printed_stress(claim: Published) -> float:
+def _printed_stress(claim: PaperValue) -> float:
     if claim.model == "md-original":
-        return published("theoretical_strength")[0].value
-    return next(number.value for number in published("eta") if number.n == claim.n)
+        return paper_values("theoretical_strength")[0].value
+    return next(number.value for number in paper_values("eta") if number.n == claim.n)
 
 
-def _forces(claim: Published, stress: float) -> Call:
-    return Call.of(cohesive_forces, claim.n, _K, stress)
+def _forces(claim: PaperValue, stress: float) -> Task:
+    return Task.of(cohesive_forces, claim.n, _K, stress)
 
 
 def _at_places() -> Iterator[tuple[float, float, float]]:
@@ -88,15 +88,15 @@ def _at_places() -> Iterator[tuple[float, float, float]]:
         yield n, _K, mu
 
 
-def calls() -> Sequence[Call]:
-    """Return the calls that `repeated` needs, the longest first."""
-    claims = published("largest_relative_error")
-    found = [Call.of(scheme.scheme_force, *place) for place in _at_places()]
-    found += [Call.of(scheme.sampled_force, *place) for place in _at_places()]
-    found += [Call.of(insensitive_regions, up_to) for up_to in (1.0, *_SHORT_OF_GIBSON)]
+def tasks() -> Sequence[Task]:
+    """Return the tasks that `repeated` needs, the longest first."""
+    claims = paper_values("largest_relative_error")
+    found = [Task.of(scheme.scheme_force, *place) for place in _at_places()]
+    found += [Task.of(scheme.sampled_force, *place) for place in _at_places()]
+    found += [Task.of(insensitive_regions, up_to) for up_to in (1.0, *_SHORT_OF_GIBSON)]
     for n in sorted({claim.n for claim in claims}):
-        found += [Call.of(scheme.exact_force, n, _K, mu) for mu in tabor_numbers(_EXACT_DEGREE)]
-    found += [Call.of(scheme.exact_force, *place) for place in _at_places()]
+        found += [Task.of(scheme.exact_force, n, _K, mu) for mu in tabor_numbers(_EXACT_DEGREE)]
+    found += [Task.of(scheme.exact_force, *place) for place in _at_places()]
     found += [_forces(claim, stress(claim)) for claim in claims for stress in (_exact_stress, _printed_stress)]
     found += [_forces(claim, _JIN_STRESS) for claim in claims if claim.model == "md-original"]
     return list(dict.fromkeys(found))
@@ -108,7 +108,7 @@ class Repeated:
 
     Attributes
     ----------
-    claim : Published
+    claim : PaperValue
     ingredient : str
         What was changed.
     value, u : float
@@ -119,7 +119,7 @@ class Repeated:
         Whether the ingredient is in the paper, or was fitted here.
     """
 
-    claim: Published
+    claim: PaperValue
     ingredient: str
     value: float
     u: float
@@ -132,22 +132,22 @@ class Repeated:
         return self.claim.verdict(abs(self.value), self.u)
 
 
-def repeated(answers: Answers) -> list[Repeated]:
+def repeated(answers: Results) -> list[Repeated]:
     """Return every repetition, those of one number together and the converged one first."""
-    rows = [row for claim in published("largest_relative_error") for row in _errors(claim, answers)]
+    rows = [row for claim in paper_values("largest_relative_error") for row in _errors(claim, answers)]
     ranges = {1.0: CONVERGED_CHI} | {up_to: f"k up to {up_to:g}" for up_to in _SHORT_OF_GIBSON}
-    for claim in published("largest_chi"):
+    for claim in paper_values("largest_chi"):
         for up_to, words in ranges.items():
             largest = 100.0 * largest_chi(claim.n, up_to)[0]
             rows.append(Repeated(claim, words, largest, CHI_ROUNDING, stated=up_to == 1.0))
-    for claim in published("insensitive_region"):
+    for claim in paper_values("insensitive_region"):
         for up_to, words in ranges.items():
-            end = answers[Call.of(insensitive_regions, up_to)][claim.index]
+            end = answers[Task.of(insensitive_regions, up_to)][claim.index]
             rows.append(Repeated(claim, words, end, REGION_ROUNDING, stated=up_to == 1.0))
     return rows
 
 
-def _errors(claim: Published, answers: Answers) -> Iterator[Repeated]:
+def _errors(claim: PaperValue, answers: Results) -> Iterator[Repeated]:
     """Repeat a largest relative error with every ingredient."""
 
     def row(ingredient: str, found: Extreme, stated: bool = True) -> Repeated:
@@ -170,8 +170,8 @@ def _errors(claim: Published, answers: Answers) -> Iterator[Repeated]:
     # One Tabor number is enough for what follows: kappa is stationary there or at the end of the range.
     mu = _PLACES[claim.model, claim.n]
     place = claim.n, _K, mu
-    full, coarse = answers[Call.of(scheme.exact_force, *place)], answers[Call.of(scheme.scheme_force, *place)]
-    steps = answers[Call.of(scheme.sampled_force, *place)]
+    full, coarse = answers[Task.of(scheme.exact_force, *place)], answers[Task.of(scheme.scheme_force, *place)]
+    steps = answers[Task.of(scheme.sampled_force, *place)]
     mesh = coarse["force"] - (full["force"] - full["beyond"][0])
     yield row(f"N = {scheme.SEGMENTS} segments", _single(model, full["force"] + mesh, coarse["u_num"], mu))
     yield row(f"{nothing_beyond}; N = {scheme.SEGMENTS} segments", _single(model, coarse["force"], coarse["u_num"], mu))
@@ -202,9 +202,9 @@ def _single(model: TaborCurve, force: float, u: float, mu: float) -> Extreme:
     return Extreme(kappa, (1.0 + abs(kappa)) * (model.error + u / force), mu)
 
 
-def _exact_curves(n: float, answers: Answers) -> tuple[TaborCurve, list[TaborCurve]]:
+def _exact_curves(n: float, answers: Results) -> tuple[TaborCurve, list[TaborCurve]]:
     """Return the converged force over mu, and those without what is beyond each height."""
-    found = [answers[Call.of(scheme.exact_force, n, _K, mu)] for mu in tabor_numbers(_EXACT_DEGREE)]
+    found = [answers[Task.of(scheme.exact_force, n, _K, mu)] for mu in tabor_numbers(_EXACT_DEGREE)]
     force = np.array([answer["force"] for answer in found])
     beyond = np.array([answer["beyond"] for answer in found])
     numerical = max(answer["u_num"] / answer["force"] for answer in found)

@@ -9,8 +9,7 @@ import numpy as np
 import pandas as pd
 from rich.table import Table
 
-from comparisons.runs.cases import Case
-from comparisons.data.paper_values import REPRODUCED, Published, published
+from comparisons.data.paper_values import REPRODUCED, PaperValue, paper_values
 from comparisons.models.closed_form import EPS
 from comparisons.models.cohesive_stress import eta
 from comparisons.models.jkr import JKR
@@ -18,14 +17,15 @@ from comparisons.models.semi_rigid import SemiRigid, jump_in_coefficient
 from comparisons.numerics.number_text import short
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
-from comparisons.paper.tasks import quantity
-from comparisons.paper.values.causes import Repeated, calls, frame, repeated
-from comparisons.paper.paper_figure import Plate, Tables
-from comparisons.paper.cache import Answers, Call
 from comparisons.output.tables import rich_table
+from comparisons.paper.cache import Results, Task
+from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.paper.tasks import quantity
+from comparisons.paper.values.causes import Repeated, frame, repeated, tasks
+from comparisons.runs.cases import Case
 from fscm.laws import LennardJones93
 
-__all__ = ["PUBLISHED_NUMBERS", "cause", "judged"]
+__all__ = ["PAPER_VALUES", "cause", "judged"]
 
 Number = tuple[float, float]
 
@@ -36,40 +36,40 @@ _ROUNDING = 64.0 * EPS
 _LEAST_SHOWN = 5e-10
 
 
-def _critical(claim: Published) -> Call:
+def _critical(claim: PaperValue) -> Task:
     # The Tabor number of the case is not used.
-    return Call.of(quantity, "fscm", "critical_tabor_number", claim.n, claim.k, 1.0)
+    return Task.of(quantity, "fscm", "critical_tabor_number", claim.n, claim.k, 1.0)
 
 
-def _calls() -> Sequence[Call]:
-    return [*map(_critical, published("critical_tabor_number")), *calls()]
+def _tasks() -> Sequence[Task]:
+    return [*map(_critical, paper_values("critical_tabor_number")), *tasks()]
 
 
 def _closed(value: float) -> Number:
     return value, _ROUNDING * abs(value)
 
 
-def _strength(claim: Published) -> Number:
+def _strength(claim: PaperValue) -> Number:
     law = LennardJones93()
     return _closed(-float(law.traction(np.array(law.peak_gap))))
 
 
-def _bradley(claim: Published) -> Number:
+def _bradley(claim: PaperValue) -> Number:
     answer = quantity("bradley", "pull_off_force", claim.n, 0.0, 1.0)
     return answer["value"], answer["u_num"]
 
 
-def _farthest(values: Sequence[float], claim: Published) -> Number:
+def _farthest(values: Sequence[float], claim: PaperValue) -> Number:
     """Return the value that is farthest from the published: the limit is the same for all shape indices."""
     return _closed(max(values, key=lambda value: abs(value - claim.value)))
 
 
-def _jump_out(claim: Published) -> Number:
+def _jump_out(claim: PaperValue) -> Number:
     cases = [Case(n, 1.0, 1.0).problem() for n in _SHAPES]
     return _farthest([-JKR().evaluate(case, "jump_out_displacement").value for case in cases], claim)
 
 
-def _exponent(claim: Published) -> Number:
+def _exponent(claim: PaperValue) -> Number:
     """Slope of log(1 - displacement) over log(mu); the difference of two logarithms loses a digit."""
     low, high = (
         math.log(1.0 - SemiRigid().evaluate(Case(claim.n, claim.k, mu).problem(), "jump_in_displacement").value)
@@ -79,7 +79,7 @@ def _exponent(claim: Published) -> Number:
 
 
 #: How each number is computed that needs no long computation and has no rows of causes.
-_DIRECT: dict[str, Callable[[Published], Number]] = {
+_DIRECT: dict[str, Callable[[PaperValue], Number]] = {
     "theoretical_strength": _strength,
     "bradley_pull_off": _bradley,
     "eta": lambda claim: _closed(eta(claim.n)),
@@ -125,12 +125,12 @@ def _alone(row: Repeated) -> str:
     return f"{row.ingredient} alone gives {abs(row.value):.5g}"
 
 
-def _tables(answers: Answers) -> Tables:
+def _tables(answers: Results) -> Tables:
     again = repeated(answers)
-    return {"": pd.DataFrame([judged(claim, answers, again) for claim in published()]), "causes": frame(again)}
+    return {"": pd.DataFrame([judged(claim, answers, again) for claim in paper_values()]), "causes": frame(again)}
 
 
-def judged(claim: Published, answers: Answers, again: Sequence[Repeated]) -> dict[str, str | float]:
+def judged(claim: PaperValue, answers: Results, again: Sequence[Repeated]) -> dict[str, str | float]:
     """Return the row of a published number, from the answers and the repetitions of those that have any."""
     rows = [row for row in again if row.claim == claim]
     mu = math.nan
@@ -208,11 +208,11 @@ def _shown(tables: Tables) -> Table:
     return rich_table(readable(tables[""]), _TITLE)
 
 
-PUBLISHED_NUMBERS = Plate(
+PAPER_VALUES = PaperFigure(
     name="numbers",
-    stem="published_numbers",
+    stem="paper_values",
     title="Every published number with a verdict, and the ingredients that move those that differ",
-    calls=_calls,
+    tasks=_tasks,
     tables=_tables,
     draw=None,
     texts=_texts,

@@ -8,12 +8,12 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
+from comparisons.output.report.page import make_page
+from comparisons.output.report.stored_run import read_folder
 from comparisons.output.verdicts import FILES
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.record import FILES as WITH_CHECKSUM
 from comparisons.runs.record import read_record, write_record
-from comparisons.output.report.stored_run import read_folder
-from comparisons.output.report.page import make_page
 
 
 @pytest.fixture
@@ -119,7 +119,8 @@ def test_standing_gates_of_models_that_were_not_given_do_not_matter(small_grid, 
     rival = small_grid.replace("TEN-PERCENT", "OTHER") + 'rival = "twelve-percent"\n'
     for command in ("run", "judge"):
         monkeypatch.setattr(
-            f"comparisons.cli.commands.{command}.gates_text", lambda path: path.read_text() if path else small_grid + rival
+            f"comparisons.cli.commands.{command}.gates_text",
+            lambda path: path.read_text() if path else small_grid + rival,
         )
     assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), "--model", "ten-percent"]) == 0
     assert main(["judge", str(tmp_path / "run")]) == 0

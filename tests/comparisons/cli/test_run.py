@@ -6,11 +6,11 @@ from concurrent.futures.process import BrokenProcessPool
 import pandas as pd
 import pytest
 
-from comparisons.runs.cases import Case, load_grids
 from comparisons.cli.main import main
-from comparisons.runs import computation as computing
-from comparisons.runs.journal import Journal
 from comparisons.output.verdicts import FILES as VERDICTS
+from comparisons.runs import computation as computing
+from comparisons.runs.cases import Case, load_grids
+from comparisons.runs.journal import Journal
 from comparisons.runs.tasks import Task, answer, compute, plan
 
 FILES = {

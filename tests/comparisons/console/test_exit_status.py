@@ -16,9 +16,9 @@ from matplotlib.figure import Figure
 
 from comparisons.cli.main import main
 from comparisons.console.exit_status import FAILED, TRACEBACK, WRONG_INPUT, Terminated, guarded
+from comparisons.output.markdown import to_step_summary
 from comparisons.output.style import FORMATS, save
 from comparisons.runs.journal import Journal, alone_in
-from comparisons.output.markdown import to_step_summary
 from comparisons.runs.tables import write_json, write_table
 
 SOLVE = '["solve", "--model", "jkr", "--quantity", "pull_off_force", "--n", "2", "--k", "0.4", "--mu", "1"]'

@@ -4,11 +4,11 @@ from collections import Counter
 
 import pytest
 
-from comparisons.data.paper_values import Published, published
+from comparisons.data.paper_values import PaperValue, paper_values
 
 
 def test_every_published_number_is_there():
-    assert Counter(number.name for number in published()) == {
+    assert Counter(number.name for number in paper_values()) == {
         "theoretical_strength": 1,
         "bradley_pull_off": 4,
         "eta": 5,
@@ -21,7 +21,7 @@ def test_every_published_number_is_there():
         "insensitive_region": 4,
         "largest_relative_error": 8,
     }
-    assert len(set(published())) == len(published())
+    assert len(set(paper_values())) == len(paper_values())
 
 
 @pytest.mark.parametrize(
@@ -29,19 +29,19 @@ def test_every_published_number_is_there():
     [(8 / 3, 0.0, "agrees"), (2.6666667, 0.0, "differs"), (2.6666667, 1e-7, "agrees"), (2.67, 1e-7, "differs")],
 )
 def test_a_formula_has_no_last_digit_to_be_generous_with(computed, u, verdict):
-    assert Published("", "", "", "8/3", exact=8 / 3).verdict(computed, u) == verdict
+    assert PaperValue("", "", "", "8/3", exact=8 / 3).verdict(computed, u) == verdict
 
 
 @pytest.mark.parametrize(("computed", "verdict"), [(2.8796, "agrees"), (2.8809, "cut off"), (2.8794, "differs")])
 def test_a_last_zero_counts_as_a_digit(computed, verdict):
-    assert Published("", "", "", "2.880").verdict(computed, 1e-12) == verdict
+    assert PaperValue("", "", "", "2.880").verdict(computed, 1e-12) == verdict
 
 
 @pytest.mark.parametrize(
     ("text", "computed"), [("40.8", 40.8855), ("1.056", 1.05661), ("3.5", 3.562), ("15.9", 15.9506), ("4.4", 4.499)]
 )
 def test_digits_that_are_cut_off_rather_than_rounded_are_told_apart(text, computed):
-    claim = Published("", "", "", text)
+    claim = PaperValue("", "", "", text)
     step = 10.0 ** -len(text.partition(".")[2])
     assert claim.verdict(computed, 1e-9) == "cut off"
     assert claim.verdict(claim.value + 0.49 * step, 1e-9) == "agrees"
@@ -53,8 +53,8 @@ def test_digits_that_are_cut_off_rather_than_rounded_are_told_apart(text, comput
 
 @pytest.mark.parametrize("place", [-0.5, 0.5, 1.0])
 def test_across_a_border_nothing_is_decided(place):
-    assert Published("", "", "", "3.5").verdict(3.5 + 0.1 * place, 1e-6) == "undecided"
+    assert PaperValue("", "", "", "3.5").verdict(3.5 + 0.1 * place, 1e-6) == "undecided"
 
 
 def test_a_bound_wider_than_every_digit_decides_nothing():
-    assert Published("", "", "", "3.5").verdict(9.0, 100.0) == "undecided"
+    assert PaperValue("", "", "", "3.5").verdict(9.0, 100.0) == "undecided"

@@ -3,12 +3,12 @@
 import pandas as pd
 import pytest
 
-from comparisons.runs.cases import Case, load_grids
-from comparisons.cli.main import main
 from comparisons.cli.commands import run
+from comparisons.cli.main import main
 from comparisons.external.model_source import close_models
-from comparisons.models import Outside, create, identify
-from comparisons.runs.tasks import Task, answer, ask
+from comparisons.models import ExternalIdentity, create, identify
+from comparisons.runs.cases import Case, load_grids
+from comparisons.runs.tasks import Task, answer, evaluate
 
 from .test_hostile_models import CASE, GOOD, GRID
 
@@ -49,7 +49,7 @@ def test_a_row_is_of_the_model_that_the_run_opened(write_model, more):
 
 @pytest.mark.parametrize("more", ["name = 'jkr' if len(sys.argv) else ''", "name = '<b>'"])
 def test_one_that_takes_a_name_it_may_not_have_fails_too(write_model, more):
-    first = Outside("stranger", "1 (0)", write_model(GOOD, more=more), "nobody", "tests")
+    first = ExternalIdentity("stranger", "1 (0)", write_model(GOOD, more=more), "nobody", "tests")
     row = answer(Task("stranger", "pull_off_force", CASE, first))
     assert (row.model, row.model_version, row.status) == ("stranger", "1 (0)", "failed")
 
@@ -57,7 +57,7 @@ def test_one_that_takes_a_name_it_may_not_have_fails_too(write_model, more):
 @pytest.mark.parametrize("more", BY_PROCESS)
 def test_a_process_that_had_to_be_started_again_is_compared_with_the_first(write_model, more):
     model = create(write_model("if problem.mu == 7:\n    os._exit(1)\n" + GOOD, more=more))
-    rows = [ask(model, "pull_off_force", Case(2, 0, mu)) for mu in (1, 7, 1, 1)]
+    rows = [evaluate(model, "pull_off_force", Case(2, 0, mu)) for mu in (1, 7, 1, 1)]
     assert [row.status for row in rows] == ["ok", "failed", "failed", "failed"]
     assert "exit status 1" in rows[1].reason
     assert rows[2].reason == rows[3].reason
@@ -68,8 +68,8 @@ def test_a_process_that_had_to_be_started_again_is_compared_with_the_first(write
 def test_a_file_that_changes_during_a_run_is_noticed(write_model, tmp_path):
     (tmp_path / "table.csv").write_text("1")
     model = create(write_model("if problem.mu == 7:\n    os._exit(1)\n" + GOOD))
-    ask(model, "pull_off_force", Case(2, 0, 7))
+    evaluate(model, "pull_off_force", Case(2, 0, 7))
     (tmp_path / "table.csv").write_text("2")
-    row = ask(model, "pull_off_force", Case(2, 0, 1))
+    row = evaluate(model, "pull_off_force", Case(2, 0, 1))
     assert row.status == "failed"
     assert row.reason.startswith("the model's files changed after it was opened: it is stranger 1 (")

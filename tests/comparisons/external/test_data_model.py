@@ -5,13 +5,13 @@ import os
 
 import pytest
 
-from comparisons.runs.cases import Case
 from comparisons.cli.main import main
 from comparisons.external import data_model
 from comparisons.external.data_model import read_submission
 from comparisons.model import Model
 from comparisons.models import create
-from comparisons.runs.tasks import ask
+from comparisons.runs.cases import Case
+from comparisons.runs.tasks import evaluate
 
 from .conftest import ROWS
 
@@ -19,7 +19,7 @@ from .conftest import ROWS
 def test_a_submission_is_a_model(write_data):
     model = create(str(write_data()))
     assert isinstance(model, Model)
-    row = ask(model, "pull_off_force", Case(2, 0.4, 1))
+    row = evaluate(model, "pull_off_force", Case(2, 0.4, 1))
     assert (row.model, row.value, row.u_num, row.status) == ("measured", 1.75, 1e-6, "ok")
     assert model.version.startswith("1 (")
     assert "10.1000/182" in model.citation
@@ -35,7 +35,7 @@ def test_a_submission_is_a_model(write_data):
     ],
 )
 def test_what_is_not_covered_is_not_applicable(write_data, quantity, case):
-    assert ask(create(str(write_data())), quantity, case).status == "not-applicable"
+    assert evaluate(create(str(write_data())), quantity, case).status == "not-applicable"
 
 
 def with_row(number, text):

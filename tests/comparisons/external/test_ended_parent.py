@@ -140,7 +140,9 @@ def test_landlock_holds_for_our_thread_in_the_process_of_a_model(tmp_path):
 
 
 def landlock_works(folder):
-    program = "import sys; from comparisons.external.landlock import write_only_in; sys.exit(write_only_in(sys.argv[1]))"
+    program = (
+        "import sys; from comparisons.external.landlock import write_only_in; sys.exit(write_only_in(sys.argv[1]))"
+    )
     return subprocess.run([sys.executable, "-c", program, str(folder)], check=False).returncode == 1
 
 

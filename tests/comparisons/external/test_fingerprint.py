@@ -4,12 +4,12 @@ import os
 
 import pytest
 
-from comparisons.runs.cases import Case
 from comparisons.cli.main import main
 from comparisons.external import fingerprint as module
 from comparisons.external.model_source import close_models
 from comparisons.models import create, identify
-from comparisons.runs.tasks import ask
+from comparisons.runs.cases import Case
+from comparisons.runs.tasks import evaluate
 
 READS = """
 text = Path({folder!r}, "table.csv").read_text()
@@ -47,10 +47,10 @@ def test_every_file_of_a_small_folder_counts(folder, changed):
 
 def test_an_old_result_is_not_taken_for_one_of_a_changed_table(folder):
     first = opened(folder)
-    assert ask(first, "pull_off_force", Case(2, 0, 1)).value == 1.5
+    assert evaluate(first, "pull_off_force", Case(2, 0, 1)).value == 1.5
     (folder / "table.csv").write_text("1.6")
     second = opened(folder)
-    row = ask(second, "pull_off_force", Case(2, 0, 1))
+    row = evaluate(second, "pull_off_force", Case(2, 0, 1))
     assert row.value == 1.6
     assert row.model_version != first.version
 

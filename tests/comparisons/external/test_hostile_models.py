@@ -10,15 +10,15 @@ from types import SimpleNamespace
 import pandas as pd
 import pytest
 
-from comparisons.runs.cases import Case, load_grids
-from comparisons.cli.main import main
 from comparisons.cli.commands import run
+from comparisons.cli.main import main
 from comparisons.external.child import PATIENCE
-from comparisons.external.model_source import door_of
-from comparisons.external.process_model import ForeignModel, connect
+from comparisons.external.model_source import source_of
+from comparisons.external.process_model import ExternalModel, connect
 from comparisons.external.text_rules import model_name
 from comparisons.models import create
-from comparisons.runs.tasks import ask
+from comparisons.runs.cases import Case, load_grids
+from comparisons.runs.tasks import evaluate
 
 from .conftest import HEAD
 
@@ -27,7 +27,7 @@ GOOD = "return Result(1.5, 1e-9)"
 
 
 def row(spec):
-    return ask(create(spec), "pull_off_force", CASE)
+    return evaluate(create(spec), "pull_off_force", CASE)
 
 
 #: What `evaluate` does, and words of the reason that its row gives.
@@ -72,14 +72,14 @@ def nonsense(tmp_path_factory):
     file.with_name("mangled.py").write_text("x = 1\nx = (\n")
     file.write_text(f"{HEAD.format(name='stranger')}\n    def evaluate(self, problem, quantity):\n{bodies}\n")
     spec = f"{file}:Model"
-    model = connect(door_of(spec), spec)
+    model = connect(source_of(spec), spec)
     yield model
     model.close()
 
 
 @pytest.mark.parametrize(("number", "says"), list(enumerate((says for _, says in NONSENSE), 1)))
 def test_nonsense_is_a_failed_row_with_a_reason(nonsense, number, says):
-    answer = ask(nonsense, "pull_off_force", Case(2, 0, number))
+    answer = evaluate(nonsense, "pull_off_force", Case(2, 0, number))
     assert (answer.status, answer.value, answer.model) == ("failed", None, "stranger")
     assert says in answer.reason
     assert answer.reason.isprintable()
@@ -89,8 +89,8 @@ def test_nonsense_is_a_failed_row_with_a_reason(nonsense, number, says):
 def test_a_process_that_writes_a_count_of_its_own_is_not_believed(count):
     answer = {"status": "ok", "value": 1.5, "u_num": 0.0, "size": count, "iterations": 0, "residual": 0.0}
     said = {"name": "stranger", "version": "1", "citation": "", "domain": "", "digest": "0" * 64, "hashed": ""}
-    model = ForeignModel(SimpleNamespace(ask=lambda **_: answer), said | {"limits": [], "physical": False})
-    assert ask(model, "pull_off_force", CASE).reason == "its process wrote something that is not an answer"
+    model = ExternalModel(SimpleNamespace(ask=lambda **_: answer), said | {"limits": [], "physical": False})
+    assert evaluate(model, "pull_off_force", CASE).reason == "its process wrote something that is not an answer"
 
 
 @pytest.mark.parametrize(
@@ -145,7 +145,7 @@ def test_printing_disturbs_nobody(write_model, capfd):
 def test_it_recovers_after_a_crash(write_model):
     spec = write_model("if quantity == 'jump_in_gap':\n    os._exit(1)\n" + GOOD)
     model = create(spec)
-    statuses = [ask(model, q, CASE).status for q in ("pull_off_force", "jump_in_gap", "pull_off_force")]
+    statuses = [evaluate(model, q, CASE).status for q in ("pull_off_force", "jump_in_gap", "pull_off_force")]
     assert statuses == ["ok", "failed", "ok"]
 
 
@@ -160,7 +160,7 @@ def test_it_cannot_signal_us_nor_see_our_environment(write_model, monkeypatch):
 def test_it_leaves_no_process_behind(write_model, tmp_path):
     body = "child = os.fork()\nif child == 0:\n    time.sleep(1000)\nreturn Result(float(child), 0.0)"
     model = create(write_model(body))
-    grandchild = int(ask(model, "pull_off_force", CASE).value)
+    grandchild = int(evaluate(model, "pull_off_force", CASE).value)
     os.kill(grandchild, 0)
     model.close()
     assert ended(grandchild)

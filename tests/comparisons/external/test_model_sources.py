@@ -9,15 +9,14 @@ import sys
 
 import pytest
 
-from comparisons.runs.cases import Case, load_grids
+from comparisons.cli.commands import judge, run
 from comparisons.cli.main import main
-from comparisons.cli.commands import judge
-from comparisons.cli.commands import run
 from comparisons.external.model_source import close_models
 from comparisons.model import Model, TracesCurve
 from comparisons.models import create
 from comparisons.quantities import QUANTITIES
-from comparisons.runs.tasks import ask
+from comparisons.runs.cases import Case, load_grids
+from comparisons.runs.tasks import evaluate
 
 from .conftest import EXAMPLE
 
@@ -146,8 +145,8 @@ def test_the_example_keeps_the_contract(installed_example):
     model = create(installed_example)
     assert isinstance(model, Model)
     assert isinstance(model, TracesCurve)
-    assert ask(model, "jump_in_gap", Case(2, 0, 1)).status == "not-applicable"
-    assert ask(model, QUANTITY, Case(1, 0, 1)).status == "not-applicable"
+    assert evaluate(model, "jump_in_gap", Case(2, 0, 1)).status == "not-applicable"
+    assert evaluate(model, QUANTITY, Case(1, 0, 1)).status == "not-applicable"
 
 
 def test_an_installed_model_is_listed(installed_example, capsys):

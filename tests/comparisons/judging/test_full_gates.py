@@ -11,14 +11,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from comparisons.runs.cases import VERIFICATION, grids
+from comparisons.baseline import BASELINE
+from comparisons.curve_quantities import SHAPES
+from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import gates_text, load_gates
 from comparisons.judging.judge import judge
-from comparisons.baseline import PUBLISHED
-from comparisons.runs.tasks import plan
-from comparisons.curve_quantities import SHAPES
+from comparisons.runs.cases import VERIFICATION, grids
 from comparisons.runs.tables import Row, curve_frame, frame
-from comparisons.judging.decision import Verdict, roll_up
+from comparisons.runs.tasks import plan
 
 ROOT = Path(__file__).parents[3]
 GRIDS = [grid for grid in grids("full") if grid.tier == "full" and VERIFICATION in grid.tags]
@@ -151,7 +151,7 @@ def test_a_candidate_less_certain_than_tolerated_is_not_passed(gate):
 
 @EN_GATES
 def test_the_uncertainty_tolerated_is_two_to_three_times_the_largest_committed(gate):
-    table = pd.read_csv(ROOT / PUBLISHED / "references_agreement.csv")
+    table = pd.read_csv(ROOT / BASELINE / "references_agreement.csv")
     mine = table[(table["quantity"] == gate.quantity) & (table["model"] == gate.candidate)]
     largest = (mine["u_num"] / mine["reference_value"].abs()).max()
     assert 2.0 * largest <= gate.max_candidate_uncertainty <= 3.5 * largest

@@ -5,10 +5,10 @@ import math
 import pandas as pd
 import pytest
 
-from comparisons.runs.cases import load_grids
+from comparisons.judging.decision import roll_up
 from comparisons.judging.gates import load_gates
 from comparisons.judging.judge import by_gate, judge
-from comparisons.judging.decision import roll_up
+from comparisons.runs.cases import load_grids
 
 GRID = """
 [[grid]]
@@ -322,7 +322,7 @@ def test_not_applicable_is_an_error_unless_it_is_declared_to_be_left_out(model):
     found, judged = verdict(rows, leave_out.replace("min_cases = 4", "min_cases = 3"))
     assert found == "PASS"
     assert judged["verdict"].tolist().count("NOT-APPLICABLE") == 1
-    assert by_gate(judged)[["cases", "left_out"]].to_numpy().tolist() == [[3, 1]]
+    assert by_gate(judged)[["cases", "skipped_gates"]].to_numpy().tolist() == [[3, 1]]
 
 
 def test_all_left_out_is_an_error():

@@ -13,23 +13,23 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from comparisons.runs.cases import grids
+from comparisons.baseline import BASELINE, drift, read_baseline
 from comparisons.cli.main import main
 from comparisons.cli.options import case_of
+from comparisons.curve_quantities import SHAPES
+from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import GIVEN, gates_text, load_gates, of_tier
 from comparisons.judging.judge import by_gate, judge, relevant
 from comparisons.output.verdicts import command
-from comparisons.baseline import PUBLISHED, drift, read_published
-from comparisons.runs.tasks import answer, plan
-from comparisons.curve_quantities import SHAPES
+from comparisons.runs.cases import grids
 from comparisons.runs.tables import frame
-from comparisons.judging.decision import Verdict, roll_up
+from comparisons.runs.tasks import answer, plan
 
 GRIDS = grids("quick")
 ALL = of_tier(load_gates(gates_text()), "quick")
 GATES = [gate for gate in ALL if gate.candidate != GIVEN]
 EVERY_GATE = pytest.mark.parametrize("gate", GATES, ids=lambda gate: gate.id)
-ROWS, CURVES = read_published(Path(__file__).parents[3] / PUBLISHED)
+ROWS, CURVES = read_baseline(Path(__file__).parents[3] / BASELINE)
 
 
 def verdict(gate, rows=ROWS, curves=CURVES):
@@ -236,7 +236,7 @@ def test_a_right_model_of_one_shape_and_gradient_is_judged_and_what_it_leaves_ou
     covers = (truth["n"] == 2) & (truth["k"] == 0) & (truth["mu"] >= 1.5)
     mine = truth.assign(model="mine", status=covers.map({True: "ok", False: "not-applicable"}))
     judged = by_gate(judge([gate], grid, pd.concat([truth, mine]), CURVES, ["mine"]))
-    assert judged[["verdict", "cases", "left_out"]].to_numpy().tolist() == [["PASS", 4, len(mine) - 4]]
+    assert judged[["verdict", "cases", "skipped_gates"]].to_numpy().tolist() == [["PASS", 4, len(mine) - 4]]
 
 
 def test_the_code_computes_what_is_committed():

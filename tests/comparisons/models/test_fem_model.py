@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import fem_reference
-from comparisons.numerics.curve_distance import curve_distance
+from comparisons.curve_quantities import SHAPES, near
 from comparisons.models.fem_model import FiniteElements, _audited
 from comparisons.models.fscm_model import FullSelfConsistent
-from comparisons.curve_quantities import SHAPES, near
+from comparisons.numerics.curve_distance import curve_distance
 from fscm.problem import Problem
 
 PROBLEM = Problem(n=2, k=0.4, mu=0.5)

@@ -4,19 +4,19 @@ import pytest
 
 import fem_reference
 import fscm
-from comparisons.runs.cases import Case
 from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.models import create
 from comparisons.models.fem_model import FiniteElements
-from comparisons.models.stieltjes_model import PublishedScheme
+from comparisons.models.stieltjes_model import StieltjesScheme
 from comparisons.quantities import QUANTITIES
-from comparisons.runs.tasks import ask
+from comparisons.runs.cases import Case
+from comparisons.runs.tasks import evaluate
 from fscm.laws import Mie
 from fscm.physical import PhysicalProblem
 
 
 def test_a_jump_below_the_critical_tabor_number_is_not_applicable():
-    row = ask(create("fscm"), "jump_in_gap", Case(2, 0, 0.3))
+    row = evaluate(create("fscm"), "jump_in_gap", Case(2, 0, 0.3))
     assert row.status == "not-applicable"
     assert "critical Tabor number" in row.reason
 
@@ -87,14 +87,14 @@ def test_what_the_finite_elements_do_not_do(problem, quantity, reason):
 
 
 def test_the_published_scheme_is_off_by_no_more_than_it_says():
-    row = ask(PublishedScheme(segments=200), "pull_off_force", Case(2, 0.4, 0.5))
+    row = evaluate(StieltjesScheme(segments=200), "pull_off_force", Case(2, 0.4, 0.5))
     assert abs(row.value - 1.86628026) < row.u_num < 1e-2
-    assert ask(PublishedScheme(segments=200), "hysteresis_energy", Case(2, 0.4, 0.5)).status == "not-applicable"
-    assert ask(PublishedScheme(segments=200), "pull_off_force", Case(2, 1, 0.5)).status == "not-applicable"
+    assert evaluate(StieltjesScheme(segments=200), "hysteresis_energy", Case(2, 0.4, 0.5)).status == "not-applicable"
+    assert evaluate(StieltjesScheme(segments=200), "pull_off_force", Case(2, 1, 0.5)).status == "not-applicable"
 
 
 def test_the_two_references_agree_within_their_uncertainties():
     case = Case(1.5, 0.4, 0.6)
-    first, second = (ask(create(name, 0.2), "pull_off_force", case) for name in ("fscm", "fem"))
+    first, second = (evaluate(create(name, 0.2), "pull_off_force", case) for name in ("fscm", "fem"))
     assert abs(first.value - second.value) <= first.u_num + second.u_num
     assert second.u_num < 1e-6

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from comparisons.numerics.curve_distance import curve_distance, spread
+from comparisons.numerics.curve_distance import curve_distance, mesh_difference
 
 
 def s_curve(m, shift=0.0):
@@ -79,4 +79,4 @@ def test_the_spread_of_two_computations_bounds_the_better_one():
         return x, y + error * np.cos(x)
 
     exact = curve_distance(*computed(1e-4), *s_curve(400), interpolated=False).value
-    assert spread(*computed(4e-4), *computed(1e-4)) > exact
+    assert mesh_difference(*computed(4e-4), *computed(1e-4)) > exact

@@ -4,10 +4,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from comparisons.output.figures import force_curve
-from comparisons.output.figures import kappa
-from comparisons.output.style import FORMATS, save
 from comparisons.model import Curve
+from comparisons.output.figures import force_curve, kappa
+from comparisons.output.style import FORMATS, save
 
 
 def errors():

@@ -10,15 +10,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.console import Console
 
-from comparisons.runs.cases import Case, Grid
-from comparisons.data.paper_values import Published, published
+from comparisons.baseline import PAPER_BASELINE
+from comparisons.data.paper_values import PaperValue, paper_values
 from comparisons.judging.gates import load_gates
 from comparisons.judging.judge import judge
-from comparisons.paper.studies.error_grid import errors, errors_at
-from comparisons.paper.cache import Call
-from comparisons.baseline import PLATES
 from comparisons.output.tables import (
-    beside_published,
+    beside_paper_values,
     by_case,
     largest,
     largest_by_gradient,
@@ -26,6 +23,9 @@ from comparisons.output.tables import (
     rich_table,
     statuses,
 )
+from comparisons.paper.cache import Call
+from comparisons.paper.studies.error_grid import errors, errors_at
+from comparisons.runs.cases import Case, Grid
 
 GATE = """
 [[gate]]
@@ -91,11 +91,11 @@ def test_u_kappa_bounds_what_the_true_values_can_give(value, reference, u, u_ref
     ],
 )
 def test_verdict_is_on_the_published_digits(percent, kappa, u, verdict):
-    assert Published("", "", "", percent, "%").verdict(100 * abs(kappa), 100 * u) == verdict
+    assert PaperValue("", "", "", percent, "%").verdict(100 * abs(kappa), 100 * u) == verdict
 
 
 def test_the_published_maxima_are_those_of_the_paper():
-    table = {(p.model, p.n): p.text for p in published("largest_relative_error")}
+    table = {(p.model, p.n): p.text for p in paper_values("largest_relative_error")}
     assert table == {
         ("md-original", 1): "65.0",
         ("md-original", 1.5): "21.2",
@@ -106,7 +106,7 @@ def test_the_published_maxima_are_those_of_the_paper():
         ("md-improved", 2): "0.73",
         ("md-improved", 5): "6.7",
     }
-    assert {p.k for p in published("largest_relative_error")} == {0.4}
+    assert {p.k for p in paper_values("largest_relative_error")} == {0.4}
 
 
 def test_largest_error_is_signed_and_says_when_it_is_at_an_end():
@@ -117,9 +117,9 @@ def test_largest_error_is_signed_and_says_when_it_is_at_an_end():
     inside = table.loc["md-improved"]
     assert (inside["mu"], inside["cases"], inside["at_end"]) == (1, 3, False)
     assert inside["kappa"] == pytest.approx(-0.0073, abs=1e-12)
-    assert (inside["published_percent"], inside["verdict"]) == ("0.73", "agrees")
+    assert (inside["paper_percent"], inside["verdict"]) == ("0.73", "agrees")
     assert table.loc["x", "at_end"]
-    assert (table.loc["x", "published_percent"], table.loc["x", "verdict"]) == ("", "")
+    assert (table.loc["x", "paper_percent"], table.loc["x", "verdict"]) == ("", "")
 
 
 def test_one_row_a_case_for_reading():
@@ -149,8 +149,8 @@ def test_maxima_for_reading_keep_their_sign_and_their_place():
     maxima = largest(relative_error(pd.DataFrame(rows), "ref"))
     wide, _ = largest_by_gradient(maxima)
     assert wide[["k = 0", "k = 0.4"]].to_numpy().tolist() == [[pytest.approx(-10)] * 2]
-    stated, _ = beside_published(maxima)
-    assert stated[["n", "k", "kappa", "published_percent", "verdict"]].to_numpy().tolist() == [
+    stated, _ = beside_paper_values(maxima)
+    assert stated[["n", "k", "kappa", "paper_percent", "verdict"]].to_numpy().tolist() == [
         [2, 0.4, pytest.approx(-10), "0.73", "differs"]
     ]
 
@@ -175,7 +175,7 @@ def test_one_sign_of_kappa_in_tables_gates_and_error_maps(value, reference):
 
 
 def test_the_committed_errors_of_the_jumps_have_the_sign_of_the_tables():
-    table = pd.read_csv(Path(__file__).parents[3] / PLATES / "error_maps_jumps.csv")
+    table = pd.read_csv(Path(__file__).parents[3] / PAPER_BASELINE / "error_maps_jumps.csv")
     known = table[(table["quantity"] == "jump_out_displacement") & table["kappa"].notna()]
     rows = [known.assign(status="ok", nu=math.nan)]
     reference = known.drop_duplicates(["n", "k", "mu"])

@@ -1,17 +1,17 @@
-"""The tables of a plate, from calls made here."""
+"""The tables of a figure, from tasks made here."""
 
 import pytest
 
-from comparisons.paper.cache import Workshop
+from comparisons.paper.cache import CallCache
 
 
 @pytest.fixture(scope="module")
 def tables_of(tmp_path_factory):
-    """Make the calls and return the tables of a plate."""
+    """Make the tasks and return the tables of a figure."""
 
-    def tables(plate):
-        workshop = Workshop(tmp_path_factory.mktemp("paper") / "calls.jsonl", "test")
-        list(workshop.work(plate.calls(), 1))
-        return plate.tables(workshop.answers)
+    def tables(figure):
+        cache = CallCache(tmp_path_factory.mktemp("paper") / "tasks.jsonl", "test")
+        list(cache.work(figure.tasks(), 1))
+        return figure.tables(cache.answers)
 
     return tables

@@ -6,19 +6,19 @@ from string import ascii_lowercase
 import pandas as pd
 import pytest
 
-from comparisons.paper.registry import plates
+from comparisons.paper.registry import paper_figures
 
-PUBLISHED = Path(__file__).parents[3] / "results" / "published" / "paper"
-DRAWN = {plate.name: plate for plate in plates() if plate.draw}
+BASELINE = Path(__file__).parents[3] / "results" / "baseline" / "paper"
+DRAWN = {figure.name: figure for figure in paper_figures() if figure.draw}
 #: Of the page, in inches: rounding to pixels.
 EDGE = 0.01
 
 
 @pytest.mark.parametrize("name", DRAWN)
 def test_a_picture_is_whole(name):
-    plate = DRAWN[name]
-    files = sorted(PUBLISHED.glob(f"{plate.stem}*.csv"))
-    figure = plate.draw({path.stem[len(plate.stem) :].removeprefix("_"): pd.read_csv(path) for path in files})
+    figure = DRAWN[name]
+    files = sorted(BASELINE.glob(f"{figure.stem}*.csv"))
+    figure = figure.draw({path.stem[len(figure.stem) :].removeprefix("_"): pd.read_csv(path) for path in files})
     figure.draw_without_rendering()
     shown = figure.get_tightbbox()
     width, height = figure.get_size_inches()

@@ -1,4 +1,4 @@
-"""The workshop makes each call once, keeps the answers, and goes on where it was stopped."""
+"""The cache makes each call once, keeps the answers, and goes on where it was stopped."""
 
 import json
 import math
@@ -6,7 +6,7 @@ import math
 import pytest
 
 from comparisons.model import ComputationFailed, NotApplicable
-from comparisons.paper.cache import Call, Workshop
+from comparisons.paper.cache import CallCache, Task
 
 MADE = []
 
@@ -28,10 +28,10 @@ def not_a_number(x):
     return math.nan
 
 
-def work(path, calls, fingerprint="a", jobs=1):
-    workshop = Workshop(path, fingerprint)
-    made = list(workshop.work(calls, jobs))
-    return workshop.answers, made
+def work(path, tasks, fingerprint="a", jobs=1):
+    cache = CallCache(path, fingerprint)
+    made = list(cache.work(tasks, jobs))
+    return cache.answers, made
 
 
 @pytest.fixture(autouse=True)
@@ -40,60 +40,60 @@ def nothing_made():
 
 
 def test_each_call_is_made_once(tmp_path):
-    calls = [Call.of(double, 1), Call.of(double, 2.5), Call.of(double, 1)]
-    answers, made = work(tmp_path / "j", calls)
-    assert made == calls[:2]
+    tasks = [Task.of(double, 1), Task.of(double, 2.5), Task.of(double, 1)]
+    answers, made = work(tmp_path / "j", tasks)
+    assert made == tasks[:2]
     assert MADE == [1, 2.5]
-    assert answers[Call.of(double, 2.5)] == {"value": 5.0, "name": "double"}
+    assert answers[Task.of(double, 2.5)] == {"value": 5.0, "name": "double"}
 
 
 def test_answers_are_read_again(tmp_path):
-    work(tmp_path / "j", [Call.of(double, 1), Call.of(fail, 3)])
-    answers, made = work(tmp_path / "j", [Call.of(double, 1), Call.of(double, 2), Call.of(fail, 3)])
-    assert made == [Call.of(double, 2)]
-    assert answers[Call.of(double, 1)] == {"value": 2, "name": "double"}
+    work(tmp_path / "j", [Task.of(double, 1), Task.of(fail, 3)])
+    answers, made = work(tmp_path / "j", [Task.of(double, 1), Task.of(double, 2), Task.of(fail, 3)])
+    assert made == [Task.of(double, 2)]
+    assert answers[Task.of(double, 1)] == {"value": 2, "name": "double"}
     with pytest.raises(ComputationFailed, match="3 does not converge"):
-        answers[Call.of(fail, 3)]
+        answers[Task.of(fail, 3)]
 
 
 def test_a_torn_line_is_computed_again(tmp_path):
     path = tmp_path / "j"
-    work(path, [Call.of(double, 1), Call.of(double, 2)])
+    work(path, [Task.of(double, 1), Task.of(double, 2)])
     text = path.read_text()
     path.write_text(text[:-7])
-    _, made = work(path, [Call.of(double, 1), Call.of(double, 2)])
-    assert made == [Call.of(double, 2)]
+    _, made = work(path, [Task.of(double, 1), Task.of(double, 2)])
+    assert made == [Task.of(double, 2)]
     assert path.read_text() == text
 
 
 @pytest.mark.parametrize("function", [refuse, fail])
 def test_a_failure_is_an_answer_that_raises(tmp_path, function):
-    answers, _ = work(tmp_path / "j", [Call.of(function, 3), Call.of(double, 1)])
-    assert answers[Call.of(double, 1)]["value"] == 2
+    answers, _ = work(tmp_path / "j", [Task.of(function, 3), Task.of(double, 1)])
+    assert answers[Task.of(double, 1)]["value"] == 2
     with pytest.raises(ComputationFailed, match=rf"{function.__name__}\(3\): 3 "):
-        answers[Call.of(function, 3)]
+        answers[Task.of(function, 3)]
 
 
 def test_nan_is_refused(tmp_path):
     with pytest.raises(ValueError, match="JSON"):
-        work(tmp_path / "j", [Call.of(not_a_number, 1)])
+        work(tmp_path / "j", [Task.of(not_a_number, 1)])
 
 
 @pytest.mark.parametrize("text", ["no json\n", "[1]\n", json.dumps({"fingerprint": "a"}) + "\n{}\n"])
 def test_what_is_no_journal_is_refused(tmp_path, text):
     (tmp_path / "j").write_text(text)
     with pytest.raises(ValueError, match="not a journal"):
-        Workshop(tmp_path / "j", "a")
+        CallCache(tmp_path / "j", "a")
 
 
 def test_answers_of_other_code_are_refused(tmp_path):
     work(tmp_path / "j", [])
     with pytest.raises(ValueError, match="another version"):
-        Workshop(tmp_path / "j", "b")
+        CallCache(tmp_path / "j", "b")
 
 
 def test_calls_on_two_processes(tmp_path):
-    calls = [Call("math:hypot", (3.0 * i, 4.0 * i)) for i in range(1, 5)]
-    answers, made = work(tmp_path / "j", calls, jobs=2)
-    assert set(made) == set(calls)
-    assert [answers[call] for call in calls] == [5.0, 10.0, 15.0, 20.0]
+    tasks = [Task("math:hypot", (3.0 * i, 4.0 * i)) for i in range(1, 5)]
+    answers, made = work(tmp_path / "j", tasks, jobs=2)
+    assert set(made) == set(tasks)
+    assert [answers[call] for call in tasks] == [5.0, 10.0, 15.0, 20.0]

@@ -5,15 +5,13 @@ import pytest
 from scipy.integrate import trapezoid
 from scipy.special import hyp2f1
 
-from comparisons.runs.cases import Case
 from comparisons.models import create
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
-from comparisons.paper.figures import force_curve_models
-from comparisons.paper.figures import pull_off_models
-from comparisons.paper.figures import surface_models
+from comparisons.paper.cache import CallCache
+from comparisons.paper.figures import force_curve_models, pull_off_models, surface_models
 from comparisons.paper.figures.gradient_effect import GRADIENT_EFFECT, chi
 from comparisons.paper.figures.surface_laws import SURFACE_LAWS, dugdale
-from comparisons.paper.cache import Workshop
+from comparisons.runs.cases import Case
 
 
 def test_chi_of_the_paraboloid_is_a_third_of_the_gradient(tables_of):
@@ -48,8 +46,8 @@ def test_three_surface_laws_have_the_same_area(tables_of):
 
 @pytest.fixture(scope="module")
 def pull_off(tmp_path_factory):
-    """The tables of Figs. 14 to 16 for a few cases; the plates share their calls."""
-    plates = (
+    """The tables of Figs. 14 to 16 for a few cases; the paper_figures share their tasks."""
+    paper_figures = (
         pull_off_models.PULL_OFF,
         pull_off_models.PULL_OFF_BY_RIGID_LIMIT,
         pull_off_models.PULL_OFF_BY_SOFT_LIMIT,
@@ -57,9 +55,9 @@ def pull_off(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(pull_off_models, "TABOR_NUMBERS", (0.01, 1.0, 10.0))
         patch.setattr(pull_off_models, "_SHAPES", (1.0, 2.0))
-        workshop = Workshop(tmp_path_factory.mktemp("pull_off") / "calls.jsonl", "test")
-        list(workshop.work([call for plate in plates for call in plate.calls()], 1))
-        yield [plate.tables(workshop.answers) for plate in plates]
+        cache = CallCache(tmp_path_factory.mktemp("pull_off") / "tasks.jsonl", "test")
+        list(cache.work([call for figure in paper_figures for call in figure.tasks()], 1))
+        yield [figure.tables(cache.answers) for figure in paper_figures]
 
 
 def test_pull_off_forces_tend_to_both_limits(pull_off):

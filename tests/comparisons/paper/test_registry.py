@@ -1,12 +1,12 @@
-"""Every plate of the catalogue keeps the contract; the command makes them, restarts, and says what failed."""
+"""Every figure of the catalogue keeps the contract; the command makes them, restarts, and says what failed."""
 
 import pytest
 
 from comparisons.cli.main import main
 from comparisons.model import ComputationFailed
-from comparisons.paper.registry import NAMES, plates
-from comparisons.paper.paper_figure import Plate
-from comparisons.paper.cache import Call
+from comparisons.paper.cache import Task
+from comparisons.paper.paper_figure import PaperFigure
+from comparisons.paper.registry import NAMES, paper_figures
 
 ATTEMPTS = []
 
@@ -16,22 +16,22 @@ def fail(x):
     raise ComputationFailed(f"{x} does not converge")
 
 
-FAILING = Plate("99", "failing", "", lambda: [Call.of(fail, 1)], lambda answers: answers[Call.of(fail, 1)], None)
+FAILING = PaperFigure("99", "failing", "", lambda: [Task.of(fail, 1)], lambda answers: answers[Task.of(fail, 1)], None)
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_plate_is_found_by_its_name(name):
-    (plate,) = plates([name])
-    assert plate.name == name
-    assert (f"fig{int(name):02}_" if name.isdigit() else name.replace("-", "_")) in plate.stem
-    assert plate.title
-    # The same calls every time, none twice: they are the keys of the stored answers.
-    assert plate.calls() == plate.calls()
-    assert len(set(plate.calls())) == len(plate.calls())
+    (figure,) = paper_figures([name])
+    assert figure.name == name
+    assert (f"fig{int(name):02}_" if name.isdigit() else name.replace("-", "_")) in figure.stem
+    assert figure.title
+    # The same tasks every time, none twice: they are the keys of the stored answers.
+    assert figure.tasks() == figure.tasks()
+    assert len(set(figure.tasks())) == len(figure.tasks())
 
 
 def test_stems_differ():
-    assert len({plate.stem for plate in plates()}) == len(NAMES)
+    assert len({figure.stem for figure in paper_figures()}) == len(NAMES)
 
 
 def test_an_unknown_figure_is_refused(tmp_path, capsys):
@@ -48,7 +48,7 @@ def test_two_runs_give_the_same_bytes(tmp_path):
 
 
 def test_a_call_that_fails_costs_its_own_plate(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("comparisons.cli.commands.paper.plates", lambda names: [FAILING, *plates(names)])
+    monkeypatch.setattr("comparisons.cli.commands.paper.paper_figures", lambda names: [FAILING, *paper_figures(names)])
     assert main(["paper", "--figure", "2", "--jobs", "1", "--out", str(tmp_path)]) == 4
     said = capsys.readouterr()
     assert "does not converge" in said.err
@@ -58,7 +58,7 @@ def test_a_call_that_fails_costs_its_own_plate(tmp_path, capsys, monkeypatch):
 
 
 def test_a_stored_failure_is_used_and_said_and_made_again_when_asked_for(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("comparisons.cli.commands.paper.plates", lambda names: [FAILING])
+    monkeypatch.setattr("comparisons.cli.commands.paper.paper_figures", lambda names: [FAILING])
     arguments = ["paper", "--jobs", "1", "--out", str(tmp_path)]
     assert main(arguments) == 4
     assert "stored failures" not in capsys.readouterr().err

@@ -1,4 +1,4 @@
-"""What a model answers reaches the plates unchanged, and a refusal says why."""
+"""What a model answers reaches the paper_figures unchanged, and a refusal says why."""
 
 import json
 

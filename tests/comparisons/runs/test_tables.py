@@ -92,8 +92,8 @@ def test_every_text_is_read_back(text):
 
 
 def test_negative_numbers_and_their_texts_are_untouched():
-    table = pd.DataFrame({"n": [2.0], "value": [-0.5], "published_percent": ["-5.2"], "some": [None]})
-    assert csv_text(table) == "n,value,published_percent,some\n2,-0.5,-5.2,\n"
+    table = pd.DataFrame({"n": [2.0], "value": [-0.5], "paper_percent": ["-5.2"], "some": [None]})
+    assert csv_text(table) == "n,value,paper_percent,some\n2,-0.5,-5.2,\n"
     mixed = pd.DataFrame({"value": pd.Series([-0.1, None], dtype=object)})
     assert csv_text(mixed) == 'value\n-0.1\n""\n'
 

@@ -11,11 +11,11 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.judging.gates import gates_text, load_gates
+from comparisons.output.tables import largest, relative_error
 from comparisons.output.verdicts import write_verdicts
 from comparisons.runs.environment import computing_environment, environment
 from comparisons.runs.record import read_record, write_record
 from comparisons.runs.tables import Row, curve_frame, frame, write_curves, write_results, write_table
-from comparisons.output.tables import largest, relative_error
 
 from .browsing import ARGUMENTS, DESKTOP, PATIENCE, package, programs, show
 

@@ -10,9 +10,9 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.output.report.stored_run import read_folder
-from comparisons.output.report.model_style import looks
+from comparisons.output.report.model_style import model_styles
 from comparisons.output.report.page import make_page
+from comparisons.output.report.stored_run import read_folder
 from comparisons.output.report.table import Cell, Column, Row, Table, table_tex, without_empty
 from comparisons.runs.tables import csv_text
 
@@ -180,7 +180,7 @@ def test_a_column_without_anything_is_left_out():
 
 
 def test_ours_look_the_same_on_every_page_and_no_two_alike():
-    alone, together = looks(["jkr"]), looks(["jkr", "fscm", "fem", "mine", "theirs", "dmt"])
+    alone, together = model_styles(["jkr"]), model_styles(["jkr", "fscm", "fem", "mine", "theirs", "dmt"])
     assert alone["jkr"] == together["jkr"]
     assert len({(look.colour, look.marker) for look in together.values()}) == len(together)
 

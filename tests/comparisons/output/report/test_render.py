@@ -11,9 +11,9 @@ from itertools import pairwise
 
 import pytest
 
-from comparisons.output.report.stored_run import read_folder
 from comparisons.output.report.page import make_page
 from comparisons.output.report.render import render, script_json
+from comparisons.output.report.stored_run import read_folder
 
 
 @pytest.fixture(scope="module")

@@ -4,21 +4,21 @@ import numpy as np
 import pytest
 
 from comparisons.paper.figures import force_curves
-from comparisons.paper.paper_figure import Plate
+from comparisons.paper.paper_figure import PaperFigure
 
 
 @pytest.fixture(scope="module")
 def family(tables_of):
     def of(*cases):
-        plate = Plate(
+        figure = PaperFigure(
             "x",
             "x",
             "x",
-            lambda: force_curves._calls(cases),
+            lambda: force_curves._tasks(cases),
             lambda answers: force_curves._tables(cases, answers),
             None,
         )
-        return tables_of(plate)[""]
+        return tables_of(figure)[""]
 
     return of
 
@@ -52,5 +52,5 @@ def test_a_curve_that_is_refused_is_named(family):
 
 
 def test_the_plates_ask_for_every_curve():
-    assert len(force_curves.OVER_TABOR_NUMBERS.calls()) == 28
-    assert len(force_curves.OVER_GRADIENTS.calls()) == 10
+    assert len(force_curves.OVER_TABOR_NUMBERS.tasks()) == 28
+    assert len(force_curves.OVER_GRADIENTS.tasks()) == 10

@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from comparisons.paper.paper_figure import write
+from comparisons.paper.cache import Results
 from comparisons.paper.figures.sketch import SKETCH, _punch, _surface
-from comparisons.paper.cache import Answers
+from comparisons.paper.paper_figure import write
 
 
 def test_it_is_a_picture_only(tmp_path):
-    assert SKETCH.calls() == ()
-    written = write(SKETCH, SKETCH.tables(Answers()), tmp_path)
+    assert SKETCH.tasks() == ()
+    written = write(SKETCH, SKETCH.tables(Results()), tmp_path)
     assert sorted(path.name for path in written) == ["fig01_sketch.pdf", "fig01_sketch.png"]
     assert all(path.stat().st_size > 1000 for path in written)
 

@@ -13,7 +13,7 @@ def test_both_limits(tables_of, monkeypatch):
     force = table.set_index(["model", "n", "k", "mu"])["value"]
     assert (table["status"] == "ok").all()
     for n, rigid in ((2.0, 2.0), (5.0, 1.669)):
-        # Published (Eq. 56).
+        # PaperValue (Eq. 56).
         assert round(force["bradley", n, 0.0, 0.01], 3) == rigid
         assert force["fscm", n, 0.4, 0.01] == pytest.approx(rigid, rel=2e-3)
         # Within 1 % of JKR at mu = 10, and not yet at 1.
@@ -25,5 +25,5 @@ def test_both_limits(tables_of, monkeypatch):
 
 
 def test_every_case_is_asked_once():
-    calls = transition.TRANSITION.calls()
-    assert len(calls) == len(set(calls)) == 4 * 5 * 16 + 4 * 5 * 2 + 4 * 2
+    tasks = transition.TRANSITION.tasks()
+    assert len(tasks) == len(set(tasks)) == 4 * 5 * 16 + 4 * 5 * 2 + 4 * 2

@@ -7,31 +7,31 @@ import pandas as pd
 import pytest
 
 from comparisons.models.bradley import rigid_pull_off
-from comparisons.paper.tasks import quantity
+from comparisons.paper.cache import CallCache, Task
 from comparisons.paper.studies.error_bands import bands, coefficients, rates
 from comparisons.paper.studies.error_grid import (
     CANDIDATES,
     TABOR,
     all_cases,
-    calls,
     errors,
     errors_at,
     onset_calls,
     onset_errors,
+    tasks,
 )
 from comparisons.paper.studies.error_maps import ERROR_MAPS_JUMPS, from_onset, lattice
-from comparisons.paper.cache import Call, Workshop
+from comparisons.paper.tasks import quantity
 
-PUBLISHED = Path(__file__).parents[4] / "results" / "published" / "paper"
+BASELINE = Path(__file__).parents[4] / "results" / "baseline" / "paper"
 
 
 @pytest.fixture(scope="module")
 def few(tmp_path_factory):
-    """Answers of three cases."""
+    """Results of three cases."""
     cases = [(1.0, 0.4, 0.01), (2.0, 0.4, 1.0), (2.0, 0.0, 5.0)]
-    workshop = Workshop(tmp_path_factory.mktemp("grid") / "calls.jsonl", "test")
-    list(workshop.work(calls(cases), 1))
-    return errors(workshop.answers, cases, CANDIDATES).set_index(["quantity", "model", "n", "mu"])
+    cache = CallCache(tmp_path_factory.mktemp("grid") / "tasks.jsonl", "test")
+    list(cache.work(tasks(cases), 1))
+    return errors(cache.answers, cases, CANDIDATES).set_index(["quantity", "model", "n", "mu"])
 
 
 def test_errors_are_relative_to_known_forces(few):
@@ -62,10 +62,10 @@ def test_dmt_need_not_be_asked():
 
 def test_the_maps_share_their_calls():
     assert len(set(all_cases())) == len(all_cases())
-    needed = set(ERROR_MAPS_JUMPS.calls())
+    needed = set(ERROR_MAPS_JUMPS.tasks())
     assert {call.arguments for call in needed if call.function.endswith(":errors_at")} == set(all_cases())
     assert needed >= set(onset_calls(all_cases()))
-    assert Call.of(errors_at, 2.0, 0.4, TABOR[0]) in ERROR_MAPS_JUMPS.calls()
+    assert Task.of(errors_at, 2.0, 0.4, TABOR[0]) in ERROR_MAPS_JUMPS.tasks()
 
 
 def test_the_map_is_where_it_is_labelled():
@@ -80,7 +80,7 @@ def test_the_map_is_where_it_is_labelled():
 def test_the_map_of_a_jump_begins_at_the_critical_tabor_number():
     """At n = 2, k = 0 that is 0.69721461: at 0.72 and 0.75 there are jumps, whatever Tabor numbers are computed."""
     stored = {
-        name: pd.read_csv(PUBLISHED / f"error_maps_jumps{suffix}.csv")
+        name: pd.read_csv(BASELINE / f"error_maps_jumps{suffix}.csv")
         for name, suffix in (("", ""), ("onset", "_onset"))
     }
     at = [table[(table["k"] == 0.0) & (table["model"] == "jkr")] for table in stored.values()]
@@ -99,7 +99,7 @@ def test_the_map_of_a_jump_begins_at_the_critical_tabor_number():
 
 
 def test_the_stored_jumps_begin_where_the_stored_critical_tabor_number_says():
-    jumps, onset = (pd.read_csv(PUBLISHED / f"error_maps_jumps{end}.csv") for end in ("", "_onset"))
+    jumps, onset = (pd.read_csv(BASELINE / f"error_maps_jumps{end}.csv") for end in ("", "_onset"))
     both = jumps.merge(onset[["n", "k", "model", "critical"]], on=["n", "k", "model"], validate="many_to_one")
     assert len(both) == len(jumps)
     none = both["reason"].str.contains("there is no jump", na=False)
@@ -108,10 +108,10 @@ def test_the_stored_jumps_begin_where_the_stored_critical_tabor_number_says():
 
 
 def test_the_onset_is_just_above_the_critical_tabor_number(tmp_path):
-    workshop = Workshop(tmp_path / "calls.jsonl", "test")
-    list(workshop.work(onset_calls([(2.0, 0.0, 1.0), (2.0, 0.0, 5.0)]), 1))
+    cache = CallCache(tmp_path / "tasks.jsonl", "test")
+    list(cache.work(onset_calls([(2.0, 0.0, 1.0), (2.0, 0.0, 5.0)]), 1))
     shown = [("jump_in_displacement", "semi-rigid"), ("jump_out_displacement", "jkr")]
-    table = onset_errors(workshop.answers, [(2.0, 0.0, 1.0)], shown)
+    table = onset_errors(cache.answers, [(2.0, 0.0, 1.0)], shown)
     assert table["critical"].to_numpy() == pytest.approx(0.69721461, abs=1e-8)
     assert table["mu"].to_numpy() == pytest.approx(1.001 * 0.69721461, abs=1e-8)
     # Where the jumps merge the full model has one displacement for both.

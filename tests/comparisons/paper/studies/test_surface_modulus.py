@@ -8,9 +8,9 @@ from scipy.special import beta
 from skfem import ElementLinePp
 
 import fem_reference._contact.mesh_choice
-from comparisons.paper.tasks import quantity
 from comparisons.paper.studies.surface_modulus import homogeneous_tabor_number, with_skin
 from comparisons.paper.studies.surface_modulus_tables import Sample, limits, samples, thresholds
+from comparisons.paper.tasks import quantity
 from fem_reference import LennardJones, PowerPunch, Problem, Solid, solve_together
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.trace import trace_of

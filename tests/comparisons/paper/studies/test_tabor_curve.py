@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from comparisons.runs.cases import Case
 from comparisons.models.cohesive_stress import eta
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved
-from comparisons.paper.values.causes import cohesive_forces
 from comparisons.paper.studies.tabor_curve import RANGE, TaborCurve, crossing, largest_error, tabor_numbers
+from comparisons.paper.values.causes import cohesive_forces
+from comparisons.runs.cases import Case
 
 
 @pytest.mark.parametrize("n", [1.5, 5.0])

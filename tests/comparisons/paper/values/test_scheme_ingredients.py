@@ -2,10 +2,10 @@
 
 import pytest
 
-from comparisons.runs.cases import Case
 from comparisons.models import create
 from comparisons.paper.values import scheme_ingredients
 from comparisons.paper.values.scheme_ingredients import HEIGHTS, exact_force, sampled_force, scheme_force
+from comparisons.runs.cases import Case
 
 
 def test_what_a_stiff_cone_loses_beyond_the_domain():
