@@ -85,7 +85,7 @@ def publish(folder: Path, target: Path = BASELINE) -> list[Path]:
 
 
 def renew_paper_baseline(folder: Path, target: Path = PAPER_BASELINE) -> list[Path]:
-    """Replace the committed paper_figures by those in the folder of a finished ``fscm-bench paper``; return their paths.
+    """Replace the committed figures by those in the folder of a finished ``fscm-bench paper``; return their paths.
 
     Raises
     ------

@@ -46,7 +46,7 @@ def traced(model: Model, problem: Problem) -> Curve:
 
     Examples
     --------
-    >>> from comparisons.models import create
+    >>> from comparisons.registry import create
     >>> curve = traced(create("bradley"), Problem(n=2, k=0, mu=0.1))
     >>> round(float(curve.load.min()), 3)
     -2.0

@@ -182,7 +182,7 @@ class TracesCurve(Protocol):
 
     Examples
     --------
-    >>> from comparisons.models import create
+    >>> from comparisons.registry import create
     >>> isinstance(create("jkr"), TracesCurve)
     True
     """
@@ -198,7 +198,7 @@ class KnowsProfiles(Protocol):
 
     Examples
     --------
-    >>> from comparisons.models import create
+    >>> from comparisons.registry import create
     >>> isinstance(create("fscm"), KnowsProfiles), isinstance(create("jkr"), KnowsProfiles)
     (True, False)
     """

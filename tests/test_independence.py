@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+import comparisons
+
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = ("fscm", "fem_reference", "comparisons")
 
@@ -42,44 +44,8 @@ ALLOWED = {
     ),
 }
 
-#: The way of a datum through `comparisons`; a module imports from its own line or those before it.
-LAYERS = (
-    (
-        "comparisons.model",
-        "comparisons.quantities",
-        "comparisons.data.paper_values",
-        "comparisons.numerics.curve_distance",
-        "comparisons.numerics.kappa",
-        # How a number is written, also in the messages of the modules before `comparisons.output`.
-        "comparisons.numerics.number_text",
-        "comparisons.console.exit_status",
-        "comparisons.data.toml_text",
-        "comparisons.curve_quantities",
-        "comparisons.numerics.grid_convergence",
-        "comparisons.judging.decision",
-        "comparisons.runs.tables",
-        "comparisons.runs.journal",
-        "comparisons.runs.workers",
-        "comparisons.runs.record",
-        "comparisons.console.progress",
-        "comparisons.runs.environment",
-    ),
-    # Whoever asks a model need not know whether it is ours.
-    ("comparisons.models", "comparisons.external"),
-    ("comparisons.runs.cases",),
-    ("comparisons.runs.tasks", "comparisons.judging.gates", "comparisons.judging.gate_checks"),
-    ("comparisons.judging.judge",),
-    (
-        "comparisons.output.tables",
-        "comparisons.output.figures",
-        "comparisons.output",
-        "comparisons.output.scheme_benchmark",
-    ),
-    ("comparisons.paper", "comparisons.output.report", "comparisons.baseline"),
-    ("comparisons.cli.commands",),
-    ("comparisons.cli.main",),
-    ("comparisons.__main__",),
-)
+#: First layer to last: the folders and modules of `comparisons`, as the package itself lists them.
+LAYERS = tuple(tuple(f"comparisons.{name}" for name in layer) for layer in comparisons.LAYERS)
 
 
 def modules() -> dict[str, Path]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from importlib.resources import files
 
-__all__ = ["REPRODUCED", "PaperValue", "published"]
+__all__ = ["REPRODUCED", "PaperValue", "paper_values"]
 
 #: Verdicts on a number that may have been shortened to the published one.
 REPRODUCED = ("agrees", "cut off")

@@ -22,7 +22,7 @@ from fscm.problem import Problem
 
 __all__ = ["CLAIMS", "Finding", "examine"]
 
-ExternalIdentity = ExternalModel | DataModel
+AnyExternalModel = ExternalModel | DataModel
 Question = tuple[str, float, float, float]
 
 OK, WRONG, FAILED, SKIPPED = "ok", "wrong", "failed", "not checked"
@@ -117,7 +117,7 @@ class Finding:
 class _Answers:
     """The model's answers, each asked once."""
 
-    def __init__(self, model: ExternalIdentity) -> None:
+    def __init__(self, model: AnyExternalModel) -> None:
         self.model = model
         self.values: dict[Question, Result | None] = {}
         self.failures: dict[Question, str] = {}
@@ -144,7 +144,7 @@ class _Answers:
         return {question: answer for question, answer in self.values.items() if answer}
 
 
-def examine(model: ExternalIdentity) -> list[Finding]:
+def examine(model: AnyExternalModel) -> list[Finding]:
     """Return what all checks found.
 
     Parameters
@@ -160,7 +160,7 @@ def examine(model: ExternalIdentity) -> list[Finding]:
     return findings
 
 
-def _questions(model: ExternalIdentity) -> Iterator[Question]:
+def _questions(model: AnyExternalModel) -> Iterator[Question]:
     if isinstance(model, DataModel):
         yield from list(model.submission.rows)[:_MOST_ROWS]
         return
@@ -169,7 +169,7 @@ def _questions(model: ExternalIdentity) -> Iterator[Question]:
             yield quantity, *case
 
 
-def _identity(model: ExternalIdentity) -> Finding:
+def _identity(model: AnyExternalModel) -> Finding:
     missing = [name for name in ("version", "citation", "domain") if not getattr(model, name).strip()]
     if missing:
         return Finding("says what it is", WRONG, f"{', '.join(missing)} is empty, but readers cite it")

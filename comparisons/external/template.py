@@ -10,7 +10,7 @@ from pathlib import Path
 
 from comparisons.console.exit_status import full_disk
 from comparisons.external.text_rules import model_name
-from comparisons.models import MODELS
+from comparisons.registry import MODELS
 
 __all__ = ["write_template"]
 

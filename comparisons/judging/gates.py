@@ -15,8 +15,8 @@ from typing import Any
 from comparisons.curve_quantities import SHAPES
 from comparisons.data.toml_text import is_real, names, parse
 from comparisons.judging.gate_checks import PARAMETERS, check_compared, check_numbers, label, plain_text
-from comparisons.models import MODELS
 from comparisons.quantities import QUANTITIES
+from comparisons.registry import MODELS
 from comparisons.runs.cases import TIERS, Case, Grid
 
 __all__ = ["GIVEN", "METRICS", "Gate", "gates_text", "load_gates", "of_tier"]

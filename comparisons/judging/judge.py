@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from comparisons.judging.decision import Verdict, combined, crossing, decide, expecting_failure, roll_up
+from comparisons.judging.decision import Verdict, combined, crossing, decide, expecting_failure
 from comparisons.judging.gates import GIVEN, Gate
 from comparisons.numerics.curve_distance import curve_distance
 from comparisons.numerics.kappa import relative_difference
@@ -23,7 +23,7 @@ from comparisons.numerics.number_text import exact
 from comparisons.runs.cases import Case, Grid
 from comparisons.runs.tasks import case_for, plan
 
-__all__ = ["Judged", "by_gate", "judge", "relevant", "skipped_gates", "worst_first"]
+__all__ = ["Judged", "judge", "relevant", "skipped_gates"]
 
 _NEEDED = {"model", "quantity", "n", "k", "mu", "nu", "value", "u_num", "status", "reason"}
 _NEEDED_OF_CURVES = {"model", "quantity", "n", "k", "mu", "nu", "x", "y", "u_distance", "status", "reason"}
@@ -385,48 +385,3 @@ def _whole(gate: Gate, reason: str) -> Judged:
         verdict=Verdict.ERROR,
         reason=reason,
     )
-
-
-def by_gate(judged: pd.DataFrame) -> pd.DataFrame:
-    """Return one row a gate and candidate, worst first: the rolled-up verdict and the worst case.
-
-    Of cases with the same verdict the worst is the one nearest to a limit, or farthest beyond.  `cases`
-    counts those evaluated, `skipped_gates` those that did not apply.
-    """
-    summary = []
-    for _, group in judged.groupby(["gate", "candidate"], sort=False):
-        applies = group["verdict"] != Verdict.NOT_APPLICABLE
-        verdict = roll_up(group["verdict"])
-        candidates = group.loc[group["verdict"] == verdict] if applies.any() else group
-        worst = candidates.iloc[int(_margin(candidates).argmax())]
-        summary.append(
-            {
-                "verdict": verdict,
-                **worst.drop(["verdict", "reason"]).to_dict(),
-                "cases": int((applies & group["mu"].notna()).sum()),
-                "skipped_gates": int((~applies).sum()),
-                "reason": worst["reason"],
-            }
-        )
-    table = pd.DataFrame(
-        summary,
-        columns=["verdict", *judged.columns.drop(["verdict", "reason"]), "cases", "skipped_gates", "reason"],
-    )
-    order = table["verdict"].map(lambda verdict: Verdict(verdict).rank).astype(int)
-    return table.iloc[order.argsort(kind="stable")].reset_index(drop=True)
-
-
-def worst_first(judged: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows with the worst verdict first; of one verdict, the nearest to a limit or farthest beyond."""
-    order = pd.DataFrame(
-        {"rank": [Verdict(verdict).rank for verdict in judged["verdict"]], "nearness": -_margin(judged).to_numpy()}
-    )
-    return judged.iloc[order.sort_values(["rank", "nearness"], kind="stable").index].reset_index(drop=True)
-
-
-def _margin(rows: pd.DataFrame) -> pd.Series:
-    """How far error and uncertainty reach towards or beyond the nearer limit, in widths of the gate."""
-    numbers = rows[["error", "uncertainty", "lower", "upper"]].astype(float)
-    width = (numbers["upper"] - numbers["lower"]).where(lambda w: np.isfinite(w) & (w > 0.0), 1.0)
-    beyond = np.maximum(numbers["error"] - numbers["upper"], numbers["lower"] - numbers["error"])
-    return ((beyond + numbers["uncertainty"]) / width).fillna(np.inf)

@@ -10,10 +10,10 @@ from fscm.errors import NoSuchEvent, NotConverged
 from fscm.problem import Problem
 from fscm.stieltjes import STIELTJES_QUANTITIES, StieltjesScheme, stieltjes_solution
 
-__all__ = ["CoarseStieltjesScheme", "StieltjesScheme"]
+__all__ = ["CoarseStieltjesModel", "StieltjesModel"]
 
 
-class StieltjesScheme:
+class StieltjesModel:
     """Eqs. 34-39 as published: N uniform segments up to f = 50, Riemann-Stieltjes sums, central-gap control.
 
     Parameters
@@ -23,7 +23,7 @@ class StieltjesScheme:
 
     Examples
     --------
-    >>> answer = StieltjesScheme(segments=200).evaluate(Problem(n=2, k=0.4, mu=0.5), "pull_off_force")
+    >>> answer = StieltjesModel(segments=200).evaluate(Problem(n=2, k=0.4, mu=0.5), "pull_off_force")
     >>> abs(answer.value - 1.86628026) < answer.u_num
     True
     """
@@ -52,7 +52,7 @@ class StieltjesScheme:
         return Curve(displacement=displacement, load=load, columns={"central_gap": central_gap})
 
 
-class CoarseStieltjesScheme(StieltjesScheme):
+class CoarseStieltjesModel(StieltjesModel):
     """The same with 400 segments: a second instead of minutes.
 
     At small and moderate Tabor numbers what it leaves out beyond f = 50 is most of its error, with 2500
@@ -60,12 +60,12 @@ class CoarseStieltjesScheme(StieltjesScheme):
 
     Examples
     --------
-    >>> CoarseStieltjesScheme().name
+    >>> CoarseStieltjesModel().name
     'fscm-stieltjes-400'
     """
 
     name: ClassVar[str] = "fscm-stieltjes-400"
-    domain: ClassVar[str] = StieltjesScheme.domain.replace("2500", "400")
+    domain: ClassVar[str] = StieltjesModel.domain.replace("2500", "400")
 
     def __init__(self) -> None:
         super().__init__(segments=400)

@@ -143,7 +143,7 @@ def _stretch(places: NDArray[np.int_], polyline: Array, low: float, high: float)
 
 
 def _interpolation_error(points: Array, inside: NDArray[np.bool_]) -> float:
-    skipped_gates = np.zeros(len(points), bool)
-    skipped_gates[1:-1:2] = True
-    polyline = _dense(points[~skipped_gates])
-    return max(_nearest(point, polyline)[0] for point in points[skipped_gates & inside]) / _HALVING_GAIN
+    omitted = np.zeros(len(points), bool)
+    omitted[1:-1:2] = True
+    polyline = _dense(points[~omitted])
+    return max(_nearest(point, polyline)[0] for point in points[omitted & inside]) / _HALVING_GAIN

@@ -11,7 +11,7 @@ import pandas as pd
 
 from comparisons.curve_quantities import SHAPES
 from comparisons.judging.gates import Gate
-from comparisons.judging.judge import by_gate
+from comparisons.judging.summary import summarise
 from comparisons.numerics.number_text import exact, limits_text, short
 from comparisons.output.junit import junit
 from comparisons.output.latex import latex
@@ -79,7 +79,7 @@ def matrix(judged: pd.DataFrame, specs: Mapping[str, str]) -> pd.DataFrame:
     error of the worst case with its U in brackets, limits, the command that computes that case again, and the
     reason.
     """
-    gates = by_gate(judged)
+    gates = summarise(judged)
     return pd.DataFrame(
         {
             "verdict": gates["verdict"].map(str),
@@ -87,8 +87,7 @@ def matrix(judged: pd.DataFrame, specs: Mapping[str, str]) -> pd.DataFrame:
             "candidate": gates["candidate"],
             "reference": gates["reference"],
             "cases": [
-                f"{a}" + (f" ({b} n/a)" if b else "")
-                for a, b in zip(gates["cases"], gates["skipped_gates"], strict=True)
+                f"{a}" + (f" ({b} n/a)" if b else "") for a, b in zip(gates["cases"], gates["skipped"], strict=True)
             ],
             "worst E(U)": [error_text(row) for _, row in gates.iterrows()],
             "limits": [limits_text(*limits) for limits in zip(gates["lower"], gates["upper"], strict=True)],
@@ -112,7 +111,7 @@ def error_text(row: pd.Series) -> str:
 
 def worst_cases(judged: pd.DataFrame) -> pd.DataFrame:
     """Return the worst case of each gate as texts, the two values with their uncertainty."""
-    gates = by_gate(judged)
+    gates = summarise(judged)
     rows = [row for _, row in gates.iterrows()]
     return pd.DataFrame(
         {

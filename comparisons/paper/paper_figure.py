@@ -57,7 +57,7 @@ class PaperFigure:
     shown: Callable[[Tables], Table] | None = None
 
 
-def write(figure: PaperFigure, tables: Tables, folder: Path) -> list[Path]:
+def write(paper_figure: PaperFigure, tables: Tables, folder: Path) -> list[Path]:
     """Write the CSV of every table, the picture and the texts; return the paths.
 
     Raises
@@ -65,20 +65,20 @@ def write(figure: PaperFigure, tables: Tables, folder: Path) -> list[Path]:
     ValueError
         If a file cannot be written.
     """
-    figure = figure.draw(tables) if figure.draw else None
+    picture = paper_figure.draw(tables) if paper_figure.draw else None
     written = []
     for name, table in tables.items():
-        path = folder / (f"{figure.stem}_{name}.csv" if name else f"{figure.stem}.csv")
+        path = folder / (f"{paper_figure.stem}_{name}.csv" if name else f"{paper_figure.stem}.csv")
         with atomic(path) as file:
             file.write(csv_text(table).encode())
         written.append(path)
-    for suffix, text in (figure.texts(tables) if figure.texts else {}).items():
-        path = folder / f"{figure.stem}{suffix}"
+    for suffix, text in (paper_figure.texts(tables) if paper_figure.texts else {}).items():
+        path = folder / f"{paper_figure.stem}{suffix}"
         with atomic(path) as file:
             file.write(text.encode())
         written.append(path)
-    if figure is not None:
-        for path in (folder / f"{figure.stem}{suffix}" for suffix in _FORMATS):
-            save(figure, path)
+    if picture is not None:
+        for path in (folder / f"{paper_figure.stem}{suffix}" for suffix in _FORMATS):
+            save(picture, path)
             written.append(path)
     return written

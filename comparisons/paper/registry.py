@@ -41,7 +41,7 @@ NAMES = tuple(_PLATES)
 
 
 def paper_figures(names: Iterable[str] | None = None) -> list[PaperFigure]:
-    """Return the paper_figures of these names, by default all, in the order of the catalogue.
+    """Return the figures of these names, by default all, in the order of the catalogue.
 
     Raises
     ------

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from comparisons.curve_quantities import FARTHEST_GAP
 from comparisons.model import ComputationFailed, KnowsProfiles, NotApplicable, TracesCurve
-from comparisons.models import create
+from comparisons.registry import create
 from comparisons.runs.cases import Case
 from comparisons.runs.tasks import evaluate
 
@@ -28,7 +28,7 @@ def quantity(model: str, name: str, n: float, k: float, mu: float) -> Json:
     Parameters
     ----------
     model, name : str
-        As in `comparisons.models.MODELS` and `comparisons.quantities.QUANTITIES`.
+        As in `comparisons.registry.MODELS` and `comparisons.quantities.QUANTITIES`.
     n, k, mu : float
         The case, dimensionless.
 

@@ -15,8 +15,8 @@ from typing import Any
 
 from comparisons.curve_quantities import SHAPES
 from comparisons.data.toml_text import is_real, names, parse
-from comparisons.models import MODELS
 from comparisons.quantities import QUANTITIES
+from comparisons.registry import MODELS
 from fscm.problem import Problem
 
 __all__ = ["TIERS", "VERIFICATION", "Case", "Grid", "cases_text", "grids", "grids_for", "load_grids"]

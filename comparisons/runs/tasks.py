@@ -16,8 +16,8 @@ from traceback import extract_tb
 from comparisons.curve_quantities import SHAPES, Points
 from comparisons.external.identity import contradiction
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
-from comparisons.models import ExternalIdentity, create, knows_poisson
 from comparisons.quantities import QUANTITIES
+from comparisons.registry import ExternalIdentity, create, knows_poisson
 from comparisons.runs.cases import Case, Grid
 from comparisons.runs.tables import Row
 from comparisons.runs.workers import each
@@ -63,7 +63,7 @@ def plan(
     models : list of str, optional
         Names of candidates that take the place of those each grid names; the reference is always computed.
     outside : dict of str to ExternalIdentity, optional
-        Those of them that are not ours (see `comparisons.models.identify`).
+        Those of them that are not ours (see `comparisons.registry.identify`).
 
     Returns
     -------

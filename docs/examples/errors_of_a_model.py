@@ -5,8 +5,8 @@ python docs/examples/errors_of_a_model.py
 
 import pandas as pd
 
-from comparisons.models import create
 from comparisons.output.tables import relative_error
+from comparisons.registry import create
 from comparisons.runs.cases import Case
 from comparisons.runs.tables import frame
 from comparisons.runs.tasks import evaluate

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 import fem_reference
 import fscm
-from comparisons.models import create
+from comparisons.registry import create
 from fscm.experiment import displacement_cycle
 from fscm.physical import PhysicalProblem
 

@@ -11,7 +11,7 @@ import pytest
 
 from comparisons.judging.gates import gates_text
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
-from comparisons.models import MODELS
+from comparisons.registry import MODELS
 from comparisons.runs.cases import load_grids
 
 

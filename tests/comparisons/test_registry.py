@@ -3,7 +3,7 @@
 import pytest
 
 from comparisons.model import Model, TracesCurve
-from comparisons.models import MODELS, create
+from comparisons.registry import MODELS, create
 from comparisons.runs.cases import Case
 from comparisons.runs.tasks import evaluate
 

@@ -14,7 +14,8 @@ import fscm
 from comparisons.baseline import read_baseline
 from comparisons.cli import main as cli
 from comparisons.judging.gates import Gate, load_gates
-from comparisons.judging.judge import by_gate, judge, skipped_gates
+from comparisons.judging.judge import judge, skipped_gates
+from comparisons.judging.summary import summarise
 from comparisons.quantities import QUANTITIES
 from comparisons.runs.cases import grids, grids_for, load_grids
 from comparisons.runs.tasks import plan
@@ -118,7 +119,7 @@ def test_the_gates_of_the_document_are_judged_as_it_says():
     keys = rows[["model", "quantity", "n", "k", "mu"]].itertuples(index=False, name=None)
     rows = rows[[(*key, None) in asked for key in keys]]
     assert skipped_gates(load_gates(example), chosen, ["md-improved", "jkr"]) == []
-    judged = by_gate(judge(load_gates(example), chosen, rows, curves, ["md-improved", "jkr"]))
+    judged = summarise(judge(load_gates(example), chosen, rows, curves, ["md-improved", "jkr"]))
     assert judged[["gate", "candidate"]].to_numpy().tolist() == [
         ["SOFT-PARABOLOID", "md-improved"],
         ["SOFT-PARABOLOID", "jkr"],

@@ -8,7 +8,7 @@ from comparisons.cli.options import FAILED, FAILS, OK
 from comparisons.console.progress import waiting
 from comparisons.external import contract_checks as contract_suite
 from comparisons.external.model_source import load_model
-from comparisons.models import MODELS
+from comparisons.registry import MODELS
 
 __all__ = ["add", "call"]
 

@@ -14,9 +14,9 @@ from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case, case_of, n
 from comparisons.console.progress import log, waiting
 from comparisons.curve_quantities import SHAPES, traced
 from comparisons.model import ComputationFailed, Model, NotApplicable
-from comparisons.models import create, identify
 from comparisons.output.figures import force_curve, profiles
 from comparisons.output.style import picture_path, save
+from comparisons.registry import create, identify
 from comparisons.runs.cases import Case
 from comparisons.runs.tables import atomic, csv_text, writable_file
 from fscm.problem import Problem

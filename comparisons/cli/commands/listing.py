@@ -11,9 +11,9 @@ from comparisons.cli.options import OK, output
 from comparisons.console.progress import log
 from comparisons.external.model_source import installed
 from comparisons.judging.gates import gates_text, load_gates
-from comparisons.models import MODELS, create
 from comparisons.output.tables import rich_table
 from comparisons.quantities import QUANTITIES
+from comparisons.registry import MODELS, create
 from comparisons.runs.cases import TIERS, grids
 
 __all__ = ["add", "call"]

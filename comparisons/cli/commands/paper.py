@@ -43,7 +43,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def call(args: argparse.Namespace) -> int:
-    """Compute what is missing, write the paper_figures, name their files; return the exit status."""
+    """Compute what is missing, write the figures, name their files; return the exit status."""
     jobs = checked_jobs(args.jobs)
     chosen = paper_figures(args.figure)
     folder = prepare_folder(args.out)

@@ -20,7 +20,6 @@ from comparisons.curve_quantities import SHAPES
 from comparisons.judging.decision import roll_up
 from comparisons.judging.gates import gates_text, load_gates, of_tier
 from comparisons.model import ComputationFailed
-from comparisons.models import ExternalIdentity, create, identify
 from comparisons.output.figures import agreement as agreement_figure
 from comparisons.output.figures import kappa as kappa_figure
 from comparisons.output.figures import references
@@ -36,6 +35,7 @@ from comparisons.output.tables import (
     rich_table,
     statuses,
 )
+from comparisons.registry import ExternalIdentity, create, identify
 from comparisons.runs.cases import TIERS, VERIFICATION, Grid, cases_text, grids, grids_for
 from comparisons.runs.computation import add_jobs, add_out, add_retry_failed, checked_jobs, complete, folder_for
 from comparisons.runs.environment import environment

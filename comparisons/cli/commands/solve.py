@@ -8,8 +8,8 @@ import math
 
 from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case, case_of, number
 from comparisons.console.progress import waiting
-from comparisons.models import create
 from comparisons.quantities import QUANTITIES
+from comparisons.registry import create
 from comparisons.runs.tables import Row, csv_text, frame
 from comparisons.runs.tasks import evaluate
 

@@ -12,8 +12,8 @@ from comparisons.cli.options import FAILED, OK, output
 from comparisons.console.progress import log
 from comparisons.curve_quantities import SHAPES
 from comparisons.model import ComputationFailed
-from comparisons.models import identify
 from comparisons.output.tables import by_case, relative_error, rich_table, statuses
+from comparisons.registry import identify
 from comparisons.runs.cases import TIERS, Grid, load_grids
 from comparisons.runs.computation import add_jobs, add_out, add_retry_failed, checked_jobs, complete, folder_for
 from comparisons.runs.tables import curve_frame, frame, write_curves, write_results, write_table

@@ -10,7 +10,7 @@ import pandas as pd
 
 from comparisons.judging.decision import Verdict
 from comparisons.judging.gates import METRICS
-from comparisons.judging.judge import by_gate, worst_first
+from comparisons.judging.summary import summarise, worst_first
 from comparisons.numerics.number_text import exact, limits_text
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.report.table import (
@@ -77,7 +77,7 @@ def matrix(stored: Stored) -> Table:
     )
     cases = dict(list(judged.groupby(["gate", "candidate"])))
     rows = []
-    for _, gate in by_gate(judged).iterrows():
+    for _, gate in summarise(judged).iterrows():
         fact = facts.get(gate["gate"], {})
         of_gate = cases[gate["gate"], gate["candidate"]]
         marks = tuple(

@@ -115,7 +115,7 @@ def rates(table: pd.DataFrame) -> pd.DataFrame:
     Notes
     -----
     JKR's jump-out should become exact as mu^-2 for all n and k.  In the units in which JKR is one curve (Eqs. 63-65)
-    the range of the forces is z0~ = 1/mu.  ExternalIdentity the contact they are ~ z0~^2 / H^3, inside the surfaces overlap by
+    the range of the forces is z0~ = 1/mu.  Outside the contact they are ~ z0~^2 / H^3, inside the surfaces overlap by
     p / 16 in units of z0 and dgamma / z0, which is ~ z0~^2: both are corrections of the order mu^-2, the first with a
     logarithm of mu at k = 0, so that the rate comes to 2 from below and slowly.  The cohesive edge, of width
     mu^(-2/(1-k)), is no larger a correction; it is the only one of the Maugis-Dugdale models.

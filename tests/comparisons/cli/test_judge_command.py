@@ -39,7 +39,7 @@ def gates(text, tmp_path, *changes):
 
 def test_judging_again_gives_the_same_and_computes_nothing(folder, monkeypatch, capsys):
     before = {name: (folder / name).read_bytes() for name in FILES}
-    monkeypatch.setattr("comparisons.models.create", None)
+    monkeypatch.setattr("comparisons.registry.create", None)
     monkeypatch.setattr("comparisons.runs.tasks.answer", None)
     shown = []
     for _ in range(2):

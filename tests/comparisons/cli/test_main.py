@@ -15,8 +15,8 @@ import pytest
 from comparisons import __main__ as start
 from comparisons.cli.main import main
 from comparisons.curve_quantities import SHAPES
-from comparisons.models import MODELS, create
 from comparisons.quantities import QUANTITIES
+from comparisons.registry import MODELS, create
 from comparisons.runs.cases import Case
 
 CASE = ["--n", "2", "--k", "0.4", "--mu", "1"]

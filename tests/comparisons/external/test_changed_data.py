@@ -5,7 +5,7 @@ import pytest
 from comparisons.cli.commands import judge, run
 from comparisons.cli.main import main
 from comparisons.external.model_source import close_models
-from comparisons.models import identify
+from comparisons.registry import identify
 from comparisons.runs.cases import load_grids
 from comparisons.runs.record import read_record
 from comparisons.runs.tables import read_table

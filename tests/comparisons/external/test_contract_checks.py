@@ -7,7 +7,7 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.external.contract_checks import examine
 from comparisons.external.model_source import close_models
-from comparisons.models import create
+from comparisons.registry import create
 
 from .conftest import EXAMPLE, ROWS
 

@@ -6,7 +6,7 @@ import pytest
 from comparisons.cli.commands import run
 from comparisons.cli.main import main
 from comparisons.external.model_source import close_models
-from comparisons.models import ExternalIdentity, create, identify
+from comparisons.registry import ExternalIdentity, create, identify
 from comparisons.runs.cases import Case, load_grids
 from comparisons.runs.tasks import Task, answer, evaluate
 

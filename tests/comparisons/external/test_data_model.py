@@ -9,7 +9,7 @@ from comparisons.cli.main import main
 from comparisons.external import data_model
 from comparisons.external.data_model import read_submission
 from comparisons.model import Model
-from comparisons.models import create
+from comparisons.registry import create
 from comparisons.runs.cases import Case
 from comparisons.runs.tasks import evaluate
 

@@ -20,7 +20,7 @@ from .test_hostile_models import ended
 #: Loads a model, prints the id of its process, and is then busy with a case of it.
 PARENT = """
 import sys
-from comparisons.models import create
+from comparisons.registry import create
 from fscm.problem import Problem
 model = create(sys.argv[1])
 print(model.citation, flush=True)

@@ -7,7 +7,7 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.external import fingerprint as module
 from comparisons.external.model_source import close_models
-from comparisons.models import create, identify
+from comparisons.registry import create, identify
 from comparisons.runs.cases import Case
 from comparisons.runs.tasks import evaluate
 

@@ -16,7 +16,7 @@ from comparisons.external.child import PATIENCE
 from comparisons.external.model_source import source_of
 from comparisons.external.process_model import ExternalModel, connect
 from comparisons.external.text_rules import model_name
-from comparisons.models import create
+from comparisons.registry import create
 from comparisons.runs.cases import Case, load_grids
 from comparisons.runs.tasks import evaluate
 
@@ -170,7 +170,7 @@ def test_a_child_does_not_outlive_us(write_model):
     """Also in the middle of a question, when we are killed and can end nothing."""
     spec = write_model("while True:\n    pass", more="@property\ndef citation(self):\n    return str(os.getpid())")
     program = f"""
-from comparisons.models import create
+from comparisons.registry import create
 from fscm.problem import Problem
 model = create({spec!r})
 print(model.citation, flush=True)

@@ -13,8 +13,8 @@ from comparisons.cli.commands import judge, run
 from comparisons.cli.main import main
 from comparisons.external.model_source import close_models
 from comparisons.model import Model, TracesCurve
-from comparisons.models import create
 from comparisons.quantities import QUANTITIES
+from comparisons.registry import create
 from comparisons.runs.cases import Case, load_grids
 from comparisons.runs.tasks import evaluate
 

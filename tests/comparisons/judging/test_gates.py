@@ -7,7 +7,7 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.judging.gates import GIVEN, gates_text, load_gates, of_tier
-from comparisons.models import MODELS
+from comparisons.registry import MODELS
 from comparisons.runs.cases import Case, Grid, grids
 
 GATE = """

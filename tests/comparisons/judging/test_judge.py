@@ -7,7 +7,8 @@ import pytest
 
 from comparisons.judging.decision import roll_up
 from comparisons.judging.gates import load_gates
-from comparisons.judging.judge import by_gate, judge
+from comparisons.judging.judge import judge
+from comparisons.judging.summary import summarise
 from comparisons.runs.cases import load_grids
 
 GRID = """
@@ -231,7 +232,7 @@ def test_metrics(metric, error):
 def test_a_model_that_is_wrong_in_one_case_fails_and_the_case_is_named():
     found, judged = verdict(results(fscm=2.0, jkr=lambda k, mu: 2.3 if (k, mu) == (0.4, 0.5) else 2.0))
     assert found == "FAIL"
-    (row,) = by_gate(judged).to_dict("records")
+    (row,) = summarise(judged).to_dict("records")
     assert (row["k"], row["mu"], row["cases"]) == (0.4, 0.5, 4)
 
 
@@ -322,7 +323,7 @@ def test_not_applicable_is_an_error_unless_it_is_declared_to_be_left_out(model):
     found, judged = verdict(rows, leave_out.replace("min_cases = 4", "min_cases = 3"))
     assert found == "PASS"
     assert judged["verdict"].tolist().count("NOT-APPLICABLE") == 1
-    assert by_gate(judged)[["cases", "skipped_gates"]].to_numpy().tolist() == [[3, 1]]
+    assert summarise(judged)[["cases", "skipped"]].to_numpy().tolist() == [[3, 1]]
 
 
 def test_all_left_out_is_an_error():
@@ -390,7 +391,7 @@ def test_gates_for_models_that_are_given():
     rows = results(fscm=2.0, jkr=2.0, dmt=2.5)
     assert judge(load_gates(gate), GRIDS, rows).empty
     _, judged = verdict(rows, gate, models=["jkr", "dmt"])
-    assert by_gate(judged).set_index("candidate")["verdict"].to_dict() == {"dmt": "FAIL", "jkr": "PASS"}
+    assert summarise(judged).set_index("candidate")["verdict"].to_dict() == {"dmt": "FAIL", "jkr": "PASS"}
 
 
 def test_a_given_model_is_not_compared_with_itself():
@@ -410,7 +411,7 @@ def test_a_gate_of_a_model_that_is_not_asked_does_not_count():
 def test_worst_first():
     gates = GATE + GATE.replace("ONE", "TWO").replace('"jkr"', '"dmt"')
     _, judged = verdict(results(fscm=2.0, jkr=2.0, dmt=3.0), gates)
-    assert by_gate(judged)["gate"].tolist() == ["TWO", "ONE"]
+    assert summarise(judged)["gate"].tolist() == ["TWO", "ONE"]
 
 
 def test_judging_twice_gives_the_same_and_touches_nothing():

@@ -19,7 +19,8 @@ from comparisons.cli.options import case_of
 from comparisons.curve_quantities import SHAPES
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import GIVEN, gates_text, load_gates, of_tier
-from comparisons.judging.judge import by_gate, judge, relevant
+from comparisons.judging.judge import judge, relevant
+from comparisons.judging.summary import summarise
 from comparisons.output.verdicts import command
 from comparisons.runs.cases import grids
 from comparisons.runs.tables import frame
@@ -235,8 +236,8 @@ def test_a_right_model_of_one_shape_and_gradient_is_judged_and_what_it_leaves_ou
     truth = truth[[key in asked for key in truth[["quantity", "n", "k", "mu"]].itertuples(index=False, name=None)]]
     covers = (truth["n"] == 2) & (truth["k"] == 0) & (truth["mu"] >= 1.5)
     mine = truth.assign(model="mine", status=covers.map({True: "ok", False: "not-applicable"}))
-    judged = by_gate(judge([gate], grid, pd.concat([truth, mine]), CURVES, ["mine"]))
-    assert judged[["verdict", "cases", "skipped_gates"]].to_numpy().tolist() == [["PASS", 4, len(mine) - 4]]
+    judged = summarise(judge([gate], grid, pd.concat([truth, mine]), CURVES, ["mine"]))
+    assert judged[["verdict", "cases", "skipped"]].to_numpy().tolist() == [["PASS", 4, len(mine) - 4]]
 
 
 def test_the_code_computes_what_is_committed():

@@ -5,10 +5,10 @@ import pytest
 import fem_reference
 import fscm
 from comparisons.model import ComputationFailed, NotApplicable
-from comparisons.models import create
 from comparisons.models.fem_model import FiniteElements
-from comparisons.models.stieltjes_model import StieltjesScheme
+from comparisons.models.stieltjes_model import StieltjesModel
 from comparisons.quantities import QUANTITIES
+from comparisons.registry import create
 from comparisons.runs.cases import Case
 from comparisons.runs.tasks import evaluate
 from fscm.laws import Mie
@@ -87,10 +87,10 @@ def test_what_the_finite_elements_do_not_do(problem, quantity, reason):
 
 
 def test_the_published_scheme_is_off_by_no_more_than_it_says():
-    row = evaluate(StieltjesScheme(segments=200), "pull_off_force", Case(2, 0.4, 0.5))
+    row = evaluate(StieltjesModel(segments=200), "pull_off_force", Case(2, 0.4, 0.5))
     assert abs(row.value - 1.86628026) < row.u_num < 1e-2
-    assert evaluate(StieltjesScheme(segments=200), "hysteresis_energy", Case(2, 0.4, 0.5)).status == "not-applicable"
-    assert evaluate(StieltjesScheme(segments=200), "pull_off_force", Case(2, 1, 0.5)).status == "not-applicable"
+    assert evaluate(StieltjesModel(segments=200), "hysteresis_energy", Case(2, 0.4, 0.5)).status == "not-applicable"
+    assert evaluate(StieltjesModel(segments=200), "pull_off_force", Case(2, 1, 0.5)).status == "not-applicable"
 
 
 def test_the_two_references_agree_within_their_uncertainties():

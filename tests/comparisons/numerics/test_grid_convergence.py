@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from comparisons.models.stieltjes_model import StieltjesScheme
+from comparisons.models.stieltjes_model import StieltjesModel
 from comparisons.numerics.grid_convergence import declared_order, least_squares, three_grids
 from fscm.problem import Problem
 
@@ -114,9 +114,9 @@ def test_an_edge_singularity_decides_the_order_not_the_rule():
 @pytest.mark.parametrize("quantity", ["pull_off_force", "zero_load_displacement"])
 def test_honest_on_a_low_order_scheme_against_a_finer_truth(quantity):
     problem = Problem(n=3, k=0.2, mu=0.5)
-    truth = StieltjesScheme(800).evaluate(problem, quantity).value
+    truth = StieltjesModel(800).evaluate(problem, quantity).value
     segments = (50, 100, 200)
-    values = [StieltjesScheme(m).evaluate(problem, quantity).value for m in segments]
+    values = [StieltjesModel(m).evaluate(problem, quantity).value for m in segments]
     found = three_grids([1 / m for m in segments], values, declared_order("fscm-stieltjes", quantity))
     assert abs(found.value - truth) <= found.u_num <= 3 * abs(found.value - truth)
     assert found.observed_order == pytest.approx(2, abs=0.2)

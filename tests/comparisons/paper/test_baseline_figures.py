@@ -1,6 +1,6 @@
-"""The committed paper_figures are those the code makes: every one is there, and its numbers have not drifted.
+"""The committed figures are those the code makes: every one is there, and its numbers have not drifted.
 
-Left out of the comparison are the paper_figures that draw a path: where its points lie is the solver's choice, which rounding
+Left out of the comparison are the figures that draw a path: where its points lie is the solver's choice, which rounding
 may change (Figs. 3 to 7, 13, 17); the curves of the quick tier are compared through their gates.
 """
 

@@ -5,12 +5,12 @@ import pytest
 from scipy.integrate import trapezoid
 from scipy.special import hyp2f1
 
-from comparisons.models import create
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.paper.cache import CallCache
 from comparisons.paper.figures import force_curve_models, pull_off_models, surface_models
 from comparisons.paper.figures.gradient_effect import GRADIENT_EFFECT, chi
 from comparisons.paper.figures.surface_laws import SURFACE_LAWS, dugdale
+from comparisons.registry import create
 from comparisons.runs.cases import Case
 
 
@@ -46,7 +46,7 @@ def test_three_surface_laws_have_the_same_area(tables_of):
 
 @pytest.fixture(scope="module")
 def pull_off(tmp_path_factory):
-    """The tables of Figs. 14 to 16 for a few cases; the paper_figures share their tasks."""
+    """The tables of Figs. 14 to 16 for a few cases; the figures share their tasks."""
     paper_figures = (
         pull_off_models.PULL_OFF,
         pull_off_models.PULL_OFF_BY_RIGID_LIMIT,

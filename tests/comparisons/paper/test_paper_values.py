@@ -8,13 +8,13 @@ import pytest
 
 from comparisons.baseline import PAPER_BASELINE
 from comparisons.data.paper_values import PaperValue, paper_values
-from comparisons.models import create
 from comparisons.numerics.number_text import short
 from comparisons.paper.cache import CallCache
 from comparisons.paper.figures.gradient_effect import insensitive_regions, largest_chi
 from comparisons.paper.values import comparison
 from comparisons.paper.values.causes import Repeated, frame
 from comparisons.paper.values.comparison import cause, judged, readable
+from comparisons.registry import create
 from comparisons.runs.cases import Case
 
 DIRECT = [number for number in paper_values() if number.name in comparison._DIRECT]

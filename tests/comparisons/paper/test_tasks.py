@@ -1,12 +1,12 @@
-"""What a model answers reaches the paper_figures unchanged, and a refusal says why."""
+"""What a model answers reaches the figures unchanged, and a refusal says why."""
 
 import json
 
 import numpy as np
 import pytest
 
-from comparisons.models import create
 from comparisons.paper import tasks as answers
+from comparisons.registry import create
 from fscm.problem import Problem
 
 

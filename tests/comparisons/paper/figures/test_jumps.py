@@ -5,9 +5,9 @@ import math
 import pytest
 
 from comparisons.model import NotApplicable
-from comparisons.models import create
 from comparisons.paper.figures.jump_asymptotes import asymptotes, coefficients
 from comparisons.paper.figures.jumps import jumps, near_critical
+from comparisons.registry import create
 from fscm.problem import Problem
 
 

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from comparisons.models import create
 from comparisons.paper.figures.pull_off_surfaces import surface
+from comparisons.registry import create
 from fscm.problem import Problem
 
 STRENGTH = 16 * math.sqrt(3) / 27

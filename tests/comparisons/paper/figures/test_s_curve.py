@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from comparisons.models import create
 from comparisons.paper.figures import s_curve
+from comparisons.registry import create
 from fscm.problem import Problem
 
 

@@ -2,9 +2,9 @@
 
 import pytest
 
-from comparisons.models import create
 from comparisons.paper.values import scheme_ingredients
 from comparisons.paper.values.scheme_ingredients import HEIGHTS, exact_force, sampled_force, scheme_force
+from comparisons.registry import create
 from comparisons.runs.cases import Case
 
 
