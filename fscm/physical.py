@@ -254,6 +254,7 @@ class PhysicalProblem:
 
         Examples
         --------
+        >>> import numpy as np
         >>> sphere = PhysicalProblem(E0=1.0, c0=1.0, k=0, nu=0, Q=1.0, n=2, work_of_adhesion=1.0, z0=2.0)
         >>> sphere.to_dimensionless("gap", np.array([1.0, 4.0]))
         array([0.5, 2. ])
@@ -274,6 +275,7 @@ class PhysicalProblem:
 
         Examples
         --------
+        >>> import numpy as np
         >>> sphere = PhysicalProblem(E0=1.0, c0=1.0, k=0, nu=0, Q=1.0, n=2, work_of_adhesion=1.0, z0=2.0)
         >>> sphere.from_dimensionless("gap", np.array([0.5, 2.0]))
         array([1., 4.])

@@ -40,7 +40,7 @@ from fscm.solution import Solution
 __all__ = ["GibsonSolid"]
 
 _EPS = sys.float_info.epsilon
-# Accuracy asked of the quadrature; its own estimate of what it reached goes into u_num.
+# Tolerance of the quadrature; its own estimate of the error goes into u_num.
 _QUADRATURE = 1e-13
 # Rounding shared by all results, in units of eps (1 + M) |value|; measured worst 3 against the closed forms
 # of n = 2.
@@ -297,6 +297,6 @@ class GibsonSolid:
 
 
 def _integral(f: Callable[[float], float], a: float, b: float) -> Number:
-    """Adaptive quadrature; what it says about itself is in the error, so its warnings add nothing."""
+    """Integral and its error by adaptive quadrature; the error replaces its warnings."""
     value, error, *_ = quad(f, a, b, epsabs=_QUADRATURE, epsrel=_QUADRATURE, limit=200, full_output=1)
     return float(value), float(error)
