@@ -8,7 +8,8 @@ from dataclasses import replace
 from functools import cached_property
 
 from fscm import _events as events
-from fscm._continuation import Point, bracketing_path
+from fscm._arc_length import Point
+from fscm._continuation import bracketing_path
 from fscm._events import Bracket, Condition
 from fscm._meshes import Accuracy, Meshes
 from fscm._threads import one_thread

@@ -136,7 +136,7 @@ class PhysicalProblem:
         log_E0 = exponent * (unit._log_tabor_number - math.log(problem.mu))
         if not abs(log_E0) < _LOG_RANGE:
             raise ValueError(
-                f"mu = {problem.mu:g} asks for a modulus of 10^{log_E0 / math.log(10.0):.0f}, "
+                f"mu = {problem.mu:g} needs a modulus of 10^{log_E0 / math.log(10.0):.0f}, "
                 "outside (1e-304, 1e304): check the units"
             )
         return cls(math.exp(log_E0), c0, unit.k, nu, Q, unit.n, work_of_adhesion, z0)

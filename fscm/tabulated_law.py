@@ -51,7 +51,7 @@ class TabulatedLaw:
     Raises
     ------
     ValueError
-        When the data are not those of a surface law, in one sentence that says why.
+        When the data are not those of a surface law, with the reason in one sentence.
 
     Examples
     --------
