@@ -8,6 +8,7 @@ import pytest
 
 import fscm
 from fscm import Analysis, NoSuchEvent, Problem, Solution, profile, solve, solve_together, trace
+from fscm.gibson.solid import _QUANTITIES as GIBSON_QUANTITIES
 from fscm.quantities import TABLE
 
 # A stiff solid, which does not jump, and a soft one.
@@ -22,6 +23,10 @@ def test_every_quantity_needs_known_events() -> None:
     for row in TABLE.values():
         assert set(row.needs) <= set(fscm.EVENTS)
         assert row.kind in {"force", "displacement", "gap", "energy", "number"}
+
+
+def test_the_gibson_solid_has_the_same_quantities() -> None:
+    assert set(GIBSON_QUANTITIES) == set(TABLE)
 
 
 def test_no_other_module_knows_a_quantity_by_name() -> None:
