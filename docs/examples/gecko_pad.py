@@ -9,9 +9,8 @@ from matplotlib.figure import Figure
 
 import fem_reference
 import fscm
-from comparisons.registry import create
-from fscm.experiment import displacement_cycle
-from fscm.physical import PhysicalProblem
+from comparisons import create
+from fscm import PhysicalProblem, displacement_cycle
 
 # An asperity of 100 nm on keratin whose modulus grows with the depth: 2 GPa at 1 micrometre.  SI units.
 pad = PhysicalProblem(

@@ -6,9 +6,7 @@ python docs/examples/own_shape_and_law.py
 import numpy as np
 
 import fscm
-from fscm.custom_punch import CustomPunch
-from fscm.laws import LennardJones93, Mie
-from fscm.punch import PowerPunch
+from fscm import CustomPunch, LennardJones93, Mie, PowerPunch
 
 # Heights in z0, radii in (Q z0)^(1/n) of the paraboloid it is near its tip: r^2/2 there, a cone far out.
 rounded_cone = CustomPunch(lambda r: np.sqrt(1.0 + r**2) - 1.0, growth=1.0)

@@ -5,6 +5,7 @@ the meshes are split in other places) and a domain that ends ten times farther o
 """
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -34,6 +35,7 @@ def _sample() -> list[Problem]:
     return problems
 
 
+@cache
 def reference(problem: Problem, *quantities: str) -> list[float]:
     """Values on the reference meshes; their check mesh is not used."""
     model = Analysis(problem, REFERENCE_MESHES)
@@ -109,7 +111,7 @@ def test_a_smaller_number_is_a_finer_mesh() -> None:
     assert Meshes.of("default") == Meshes.of(1e-8) == Meshes()
 
 
-@pytest.mark.parametrize("accuracy", [0.0, 1e-12, 1e-3, 1, math.nan, "best", None, True])
+@pytest.mark.parametrize("accuracy", [0.0, 1e-11, 1e-3, 1, math.nan, "best", None, True])
 def test_a_bad_accuracy_is_refused(accuracy: object) -> None:
     with pytest.raises(ValueError, match=r"accuracy"):
         Analysis(Problem(2, 0.4, 1.0), accuracy)
