@@ -90,11 +90,11 @@ def _tasks() -> Sequence[Task]:
     return [Task.of(over_shapes), Task.of(insensitive_regions), *(Task.of(over_gradients, n) for n in _SHAPES)]
 
 
-def _tables(answers: Results) -> Tables:
-    parts = [pd.DataFrame({"n": n, "k": _GRADIENTS, "chi": answers[Task.of(over_gradients, n)]}) for n in _SHAPES]
-    largest = pd.DataFrame(answers[Task.of(over_shapes)], columns=["chi_max", "k_of_chi_max"])
+def _tables(results: Results) -> Tables:
+    parts = [pd.DataFrame({"n": n, "k": _GRADIENTS, "chi": results[Task.of(over_gradients, n)]}) for n in _SHAPES]
+    largest = pd.DataFrame(results[Task.of(over_shapes)], columns=["chi_max", "k_of_chi_max"])
     largest.insert(0, "n", _SHAPE_INDICES)
-    ends = answers[Task.of(insensitive_regions)]
+    ends = results[Task.of(insensitive_regions)]
     regions = pd.DataFrame({"limit": _LIMIT, "n_from": ends[::2], "n_to": ends[1::2]})
     return {"": pd.concat(parts, ignore_index=True), "largest": largest, "regions": regions}
 

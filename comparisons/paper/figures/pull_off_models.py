@@ -47,9 +47,9 @@ def _limits(name: str) -> Callable[[], Sequence[Task]]:
     return lambda: [*_tasks(), *(_task(name, n, mu) for n in _SHAPES for mu in TABOR_NUMBERS)]
 
 
-def _forces(answers: Results, models: Sequence[str] = _MODELS) -> pd.DataFrame:
+def _forces(results: Results, models: Sequence[str] = _MODELS) -> pd.DataFrame:
     rows = [
-        {"n": n, "k": _K, "mu": mu, "model": model} | answers[_task(model, n, mu)]
+        {"n": n, "k": _K, "mu": mu, "model": model} | results[_task(model, n, mu)]
         for n in _SHAPES
         for model in models
         for mu in TABOR_NUMBERS
@@ -57,16 +57,16 @@ def _forces(answers: Results, models: Sequence[str] = _MODELS) -> pd.DataFrame:
     return pd.DataFrame(rows).astype({"value": float, "u_num": float})
 
 
-def _pull_off_tables(answers: Results) -> Tables:
-    forces = _forces(answers)
-    bounds = _forces(answers, ("bradley", "jkr"))
+def _pull_off_tables(results: Results) -> Tables:
+    forces = _forces(results)
+    bounds = _forces(results, ("bradley", "jkr"))
     return {"": pd.concat([forces, bounds], ignore_index=True)}
 
 
-def _scaled(answers: Results, limit: str) -> pd.DataFrame:
+def _scaled(results: Results, limit: str) -> pd.DataFrame:
     """Return the forces over that of a limiting model in the same case, with the uncertainty of the ratio."""
-    forces = _forces(answers)
-    scale = _forces(answers, (limit,)).set_index(["n", "mu"])
+    forces = _forces(results)
+    scale = _forces(results, (limit,)).set_index(["n", "mu"])
     by = scale.loc[pd.MultiIndex.from_frame(forces[["n", "mu"]])]
     size, u = by["value"].to_numpy(), by["u_num"].to_numpy()
     ratio = forces["value"] / size
@@ -75,8 +75,8 @@ def _scaled(answers: Results, limit: str) -> pd.DataFrame:
     )
 
 
-def _kappa(answers: Results) -> pd.DataFrame:
-    forces = _forces(answers).assign(quantity="pull_off_force", nu=np.nan)
+def _kappa(results: Results) -> pd.DataFrame:
+    forces = _forces(results).assign(quantity="pull_off_force", nu=np.nan)
     table = relative_error(forces, "fscm")
     return table[["quantity", "n", "k", "mu", "model", "kappa", "u_kappa"]]
 
@@ -180,8 +180,8 @@ def _legend(figure: Figure) -> None:
     figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=5)
 
 
-def _soft_tables(answers: Results) -> Tables:
-    return {"": _scaled(answers, "jkr"), "kappa": _kappa(answers)}
+def _soft_tables(results: Results) -> Tables:
+    return {"": _scaled(results, "jkr"), "kappa": _kappa(results)}
 
 
 PULL_OFF = PaperFigure(
@@ -197,7 +197,7 @@ PULL_OFF_BY_RIGID_LIMIT = PaperFigure(
     stem="fig15_pull_off_by_rigid_limit",
     title="Pull-off force scaled by the rigid (Bradley) limit, k = 0.4",
     tasks=_limits("bradley"),
-    tables=lambda answers: {"": _scaled(answers, "bradley")},
+    tables=lambda results: {"": _scaled(results, "bradley")},
     draw=_draw_by_rigid,
 )
 PULL_OFF_BY_SOFT_LIMIT = PaperFigure(

@@ -100,10 +100,10 @@ def _tasks(cases: Iterable[tuple[float, float, float]]) -> Sequence[Task]:
     return [Task.of(surface, *case) for case in sorted(cases, key=lambda case: -case[2])]
 
 
-def _tables(cases: Iterable[tuple[float, float, float]], answers: Results) -> Tables:
+def _tables(cases: Iterable[tuple[float, float, float]], results: Results) -> Tables:
     parts = []
     for n, k, mu in cases:
-        part = pd.DataFrame({"n": n, "k": k, "mu": mu} | answers[Task.of(surface, n, k, mu)])
+        part = pd.DataFrame({"n": n, "k": k, "mu": mu} | results[Task.of(surface, n, k, mu)])
         parts.append(part.assign(punch=part["radius"] ** n / n - part["displacement"]))
     return {"": pd.concat(parts, ignore_index=True)}
 
@@ -143,7 +143,7 @@ OVER_TABOR_NUMBERS = PaperFigure(
     stem="fig05_pull_off_over_tabor_numbers",
     title="Surface and pressure at pull-off for n = 2, k = 0.4, over the Tabor number",
     tasks=lambda: _tasks(_CASES_5),
-    tables=lambda answers: _tables(_CASES_5, answers),
+    tables=lambda results: _tables(_CASES_5, results),
     draw=lambda tables: _draw(tables, "mu", 5.0, (-0.2, 6.2)),
 )
 
@@ -152,6 +152,6 @@ OVER_GRADIENTS = PaperFigure(
     stem="fig07_pull_off_over_gradients",
     title="Surface and pressure at pull-off for n = 2, mu = 1, over the gradient exponent",
     tasks=lambda: _tasks(_CASES_7),
-    tables=lambda answers: _tables(_CASES_7, answers),
+    tables=lambda results: _tables(_CASES_7, results),
     draw=lambda tables: _draw(tables, "k", 4.0, (-0.1, 2.0)),
 )

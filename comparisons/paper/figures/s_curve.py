@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 
 from comparisons.models.solver import translated
 from comparisons.output.style import COLOURS, MODEL_NAMES, lettered, styled
-from comparisons.paper import tasks as answers
 from comparisons.paper.cache import Results, Task
 from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.paper.tasks import curve, quantity
 from fscm import Analysis, NoSuchEvent, NotConverged
 from fscm.problem import Problem
 from fscm.solution import FLOOR, SAFETY, EventPair, State
@@ -21,8 +21,8 @@ from fscm.solution import FLOOR, SAFETY, EventPair, State
 __all__ = ["S_CURVE", "named_points"]
 
 _CASE = (2.0, 0.4, 3.0)
-_CURVE, _JKR = Task.of(answers.curve, "fscm", *_CASE), Task.of(answers.curve, "jkr", *_CASE)
-_ENERGY = Task.of(answers.quantity, "fscm", "hysteresis_energy", *_CASE)
+_CURVE, _JKR = Task.of(curve, "fscm", *_CASE), Task.of(curve, "jkr", *_CASE)
+_ENERGY = Task.of(quantity, "fscm", "hysteresis_energy", *_CASE)
 
 _COORDINATES: dict[str, Callable[[State], float]] = {
     "central_gap": lambda state: state.central_gap,
@@ -82,19 +82,19 @@ def _tasks() -> Sequence[Task]:
     return [_CURVE, Task.of(named_points, *_CASE), _ENERGY, _JKR]
 
 
-def _tables(answered: Results) -> Tables:
+def _tables(results: Results) -> Tables:
     parts = []
     for model, call in (("fscm", _CURVE), ("jkr", _JKR)):
-        found = answered[call]
+        found = results[call]
         columns = {name: found[name] for name in ("displacement", "u_displacement", "load", "u_load")}
         # The coordinate along the path, at which displacement and load are uncertain; JKR has none.
         gaps = {"central_gap": found["columns"].get("central_gap", np.nan)}
         parts.append(pd.DataFrame({"model": model} | gaps | columns))
-    points = pd.DataFrame.from_dict(answered[Task.of(named_points, *_CASE)], orient="index").rename_axis("name")
+    points = pd.DataFrame.from_dict(results[Task.of(named_points, *_CASE)], orient="index").rename_axis("name")
     return {
         "curves": pd.concat(parts, ignore_index=True),
         "points": points.reset_index(),
-        "hysteresis": pd.DataFrame([{"quantity": "hysteresis_energy"} | answered[_ENERGY]]),
+        "hysteresis": pd.DataFrame([{"quantity": "hysteresis_energy"} | results[_ENERGY]]),
     }
 
 

@@ -101,6 +101,6 @@ SKETCH = PaperFigure(
     stem="fig01_sketch",
     title="A rigid punch on a power-law graded half-space",
     tasks=tuple,
-    tables=lambda answers: {},
+    tables=lambda results: {},
     draw=_draw,
 )

@@ -45,9 +45,9 @@ def dugdale(stress: float) -> pd.DataFrame:
     return pd.DataFrame({"gap": ends, "pressure": [0.0, -stress, -stress, 0.0, 0.0]})
 
 
-def _tables(answers: Results) -> Tables:
+def _tables(results: Results) -> Tables:
     limits = pd.DataFrame({"n": [math.inf], "eta": [eta(math.inf)]})
-    stress = pd.DataFrame({"n": _SHAPES, "eta": answers[Task.of(stresses)]})
+    stress = pd.DataFrame({"n": _SHAPES, "eta": results[Task.of(stresses)]})
     exact = pd.DataFrame({"gap": _GAPS, "pressure": LennardJones93().traction(_GAPS)})
     laws = {"fscm": exact, "md-original": dugdale(THEORETICAL_STRENGTH), "md-improved": dugdale(eta(_DRAWN))}
     parts = [law.assign(model=model)[["model", "gap", "pressure"]] for model, law in laws.items()]

@@ -63,13 +63,13 @@ def _tasks() -> Sequence[Task]:
     return [_FSCM, _FSCM_DISPLACEMENT, *_MD.values()]
 
 
-def _tables(answers: Results) -> Tables:
-    shape = answers[_FSCM]
-    displacement = answers[_FSCM_DISPLACEMENT]
+def _tables(results: Results) -> Tables:
+    shape = results[_FSCM]
+    displacement = results[_FSCM_DISPLACEMENT]
     parts = [_surface("fscm", shape, displacement["value"], shape["u_distance"])]
     radii = []
     for model, call in _MD.items():
-        found = answers[call]
+        found = results[call]
         # The closed form is good to rounding.
         parts.append(_surface(model, found, found["displacement"], 0.0))
         radii.append({"model": model, "contact_radius": found["contact_radius"]})

@@ -169,10 +169,10 @@ def _tasks() -> Sequence[Task]:
     return tasks(all_cases() + _SOFT)
 
 
-def _tables(answers: Results) -> Tables:
-    jumps = errors(answers, all_cases() + _SOFT, [name for name in CANDIDATES if name != "pull_off_force"])
+def _tables(results: Results) -> Tables:
+    jumps = errors(results, all_cases() + _SOFT, [name for name in CANDIDATES if name != "pull_off_force"])
     return {
-        "": bands(errors(answers, all_cases(), CANDIDATES)),
+        "": bands(errors(results, all_cases(), CANDIDATES)),
         "rates": rates(jumps),
         "jump_in_coefficients": coefficients(jumps),
         "jumps": jumps,

@@ -92,7 +92,7 @@ def tasks(cases: Iterable[Case]) -> Sequence[Task]:
     return [Task.of(errors_at, *case) for case in sorted(cases, key=lambda case: (-case[2], case[0], -case[1]))]
 
 
-def errors(answers: Results, cases: Iterable[Case], quantities: Iterable[str]) -> pd.DataFrame:
+def errors(results: Results, cases: Iterable[Case], quantities: Iterable[str]) -> pd.DataFrame:
     """Return one row a case, quantity and model.
 
     Returns
@@ -103,7 +103,7 @@ def errors(answers: Results, cases: Iterable[Case], quantities: Iterable[str]) -
     """
     rows = []
     for case in cases:
-        found = answers[Task.of(errors_at, *case)]
+        found = results[Task.of(errors_at, *case)]
         for name in quantities:
             for model in CANDIDATES[name]:
                 key = {"n": case[0], "k": case[1], "mu": case[2], "quantity": name, "model": model}
@@ -151,7 +151,7 @@ def onset_calls(cases: Iterable[Case]) -> Sequence[Task]:
     return [Task.of(jump_onset, n, k) for n, k in sorted({(n, k) for n, k, _ in cases})]
 
 
-def onset_errors(answers: Results, cases: Iterable[Case], shown: Sequence[tuple[str, str]]) -> pd.DataFrame:
+def onset_errors(results: Results, cases: Iterable[Case], shown: Sequence[tuple[str, str]]) -> pd.DataFrame:
     """Return one row for each shape index, gradient exponent and (quantity, model) that is shown.
 
     Returns
@@ -161,7 +161,7 @@ def onset_errors(answers: Results, cases: Iterable[Case], shown: Sequence[tuple[
     """
     rows = []
     for call in onset_calls(cases):
-        onset = answers[call]
+        onset = results[call]
         for name, model in shown:
             key = {"n": call.arguments[0], "k": call.arguments[1], "mu": onset["mu"], "quantity": name, "model": model}
             found = onset["found"][name]

@@ -69,19 +69,19 @@ def _jump_tasks() -> Sequence[Task]:
     return [*onset_calls(cases), *tasks(cases)]
 
 
-def _shape_tables(answers: Results) -> Tables:
-    return {"": errors(answers, shape_cases(), ("pull_off_force",))}
+def _shape_tables(results: Results) -> Tables:
+    return {"": errors(results, shape_cases(), ("pull_off_force",))}
 
 
-def _gradient_tables(answers: Results) -> Tables:
-    return {"": errors(answers, gradient_cases(), ("pull_off_force",))}
+def _gradient_tables(results: Results) -> Tables:
+    return {"": errors(results, gradient_cases(), ("pull_off_force",))}
 
 
-def _jump_tables(answers: Results) -> Tables:
+def _jump_tables(results: Results) -> Tables:
     cases = dict.fromkeys(shape_cases() + gradient_cases())
-    table = errors(answers, cases, _JUMP_NAMES)
+    table = errors(results, cases, _JUMP_NAMES)
     shown = [table[(table["quantity"] == name) & (table["model"] == model)] for name, model, _ in _JUMPS]
-    onset = onset_errors(answers, cases, [(name, model) for name, model, _ in _JUMPS])
+    onset = onset_errors(results, cases, [(name, model) for name, model, _ in _JUMPS])
     return {"": pd.concat(shown, ignore_index=True), "onset": onset}
 
 

@@ -156,8 +156,8 @@ def _tasks() -> Sequence[Task]:
     return elements + graded + uniform
 
 
-def _sample(answers: Results, k: float, mu: float, depth: float, name: str) -> Sample:
-    parts = {event: answers[Task.of(with_skin, event, k, mu, depth)] for event in _EVENTS}
+def _sample(results: Results, k: float, mu: float, depth: float, name: str) -> Sample:
+    parts = {event: results[Task.of(with_skin, event, k, mu, depth)] for event in _EVENTS}
     known = {key: value for part in parts.values() for key, value in part.items() if key != "reason"}
     pieces = ("jump_in_energy", "jump_out_energy") if name == "hysteresis_energy" else (name,)
     reason = (
@@ -171,8 +171,8 @@ def _sample(answers: Results, k: float, mu: float, depth: float, name: str) -> S
         quantity=name,
         elements=None if reason else (sum(known[p][0] for p in pieces), sum(known[p][1] for p in pieces)),
         reason=reason,
-        graded=_number(answers[_reference(name, k, mu)]),
-        homogeneous=_number(answers[_uniform(name, k, mu, depth)]) if depth >= _THICK else None,
+        graded=_number(results[_reference(name, k, mu)]),
+        homogeneous=_number(results[_uniform(name, k, mu, depth)]) if depth >= _THICK else None,
     )
 
 
@@ -180,9 +180,9 @@ def _number(answer: dict[str, Any]) -> tuple[float, float] | None:
     return (answer["value"], answer["u_num"]) if answer["status"] == "ok" else None
 
 
-def _tables(answers: Results) -> Tables:
+def _tables(results: Results) -> Tables:
     found = [
-        _sample(answers, k, mu, depth, name)
+        _sample(results, k, mu, depth, name)
         for (k, mu), depths in _SERIES.items()
         for name in _REPORTED
         for depth in depths
