@@ -79,4 +79,5 @@ FORCE_CURVE_MODELS = PaperFigure(
     tasks=_tasks,
     tables=_tables,
     draw=_draw,
+    follows_path=True,
 )

@@ -100,6 +100,7 @@ OVER_TABOR_NUMBERS = PaperFigure(
     tasks=lambda: _tasks(_CASES_4),
     tables=lambda results: _tables(_CASES_4, results),
     draw=_draw_4,
+    follows_path=True,
 )
 
 OVER_GRADIENTS = PaperFigure(
@@ -109,4 +110,5 @@ OVER_GRADIENTS = PaperFigure(
     tasks=lambda: _tasks(_CASES_6),
     tables=lambda results: _tables(_CASES_6, results),
     draw=_draw_6,
+    follows_path=True,
 )

@@ -145,6 +145,7 @@ OVER_TABOR_NUMBERS = PaperFigure(
     tasks=lambda: _tasks(_CASES_5),
     tables=lambda results: _tables(_CASES_5, results),
     draw=lambda tables: _draw(tables, "mu", 5.0, (-0.2, 6.2)),
+    follows_path=True,
 )
 
 OVER_GRADIENTS = PaperFigure(
@@ -154,4 +155,5 @@ OVER_GRADIENTS = PaperFigure(
     tasks=lambda: _tasks(_CASES_7),
     tables=lambda results: _tables(_CASES_7, results),
     draw=lambda tables: _draw(tables, "k", 4.0, (-0.1, 2.0)),
+    follows_path=True,
 )

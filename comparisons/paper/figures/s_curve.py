@@ -190,4 +190,5 @@ S_CURVE = PaperFigure(
     tasks=_tasks,
     tables=_tables,
     draw=_draw,
+    follows_path=True,
 )

@@ -139,4 +139,5 @@ SURFACE_MODELS = PaperFigure(
     tasks=_tasks,
     tables=_tables,
     draw=_draw,
+    follows_path=True,
 )

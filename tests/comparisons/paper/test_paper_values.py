@@ -6,9 +6,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from comparisons.baseline import PAPER_BASELINE
 from comparisons.data.paper_values import PaperValue, paper_values
 from comparisons.numerics.number_text import short
+from comparisons.paper.baseline import PAPER_BASELINE
 from comparisons.paper.cache import CallCache
 from comparisons.paper.figures.gradient_effect import insensitive_regions, largest_chi
 from comparisons.paper.values import comparison
