@@ -62,10 +62,10 @@ def made_up(folder, tier, model=None):
             (folder / f"{name}.{suffix}").write_text(f"{name} of the {tier} run")
     for name in ("largest_kappa", "agreement"):
         (folder / f"{name}.csv").write_text(f"{name} of the {tier} run")
-    asked = {"tier": tier, "model": model, "outside": {}, "gates": None, "jobs": 2, "out": str(folder)}
+    arguments = {"tier": tier, "model": model, "outside": {}, "gates": None, "jobs": 2, "out": str(folder)}
     record = {
         "format": 3,
-        "arguments": asked,
+        "arguments": arguments,
         "command": ["fscm-bench", "run"],
         "started": "2026-01-01T00:00:00+00:00",
         "finished": "2026-01-01T00:00:09+00:00",
@@ -203,8 +203,8 @@ def test_the_committed_references_agree_within_both_bounds(event):
     assert len(rows) >= 45
     assert set(rows["n"]) >= {1.0, 1.5, 2.0, 5.0}
     assert set(rows["k"]) == {0.0, 0.2, 0.4, 0.6}
-    claimed = np.hypot(rows["u_num"], rows["u_reference"])
-    assert (np.abs(rows["value"] - rows["reference_value"]) <= claimed).all()
+    bound = np.hypot(rows["u_num"], rows["u_reference"])
+    assert (np.abs(rows["value"] - rows["reference_value"]) <= bound).all()
     assert (np.abs(rows["difference"]) <= rows["claimed"]).all()
 
 

@@ -1,4 +1,4 @@
-"""Fig. 13: force-displacement curves of both Maugis-Dugdale models beside the FSCM's."""
+"""Fig. 13: force-displacement curves of both Maugis-Dugdale models and of the FSCM."""
 
 from __future__ import annotations
 

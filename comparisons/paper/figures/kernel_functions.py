@@ -1,4 +1,4 @@
-"""Fig. 2: the functions that take the singularity out of the integral equation."""
+"""Fig. 2: primitives of the ring response, which remove the singularity of the integral equation."""
 
 from __future__ import annotations
 

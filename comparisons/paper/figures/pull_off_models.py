@@ -1,4 +1,4 @@
-"""Figs. 14-16: the pull-off force of both Maugis-Dugdale models against the Tabor number, beside the FSCM's."""
+"""Figs. 14-16: pull-off force of both Maugis-Dugdale models and of the FSCM over the Tabor number."""
 
 from __future__ import annotations
 
@@ -125,10 +125,10 @@ def _draw_by_soft(tables: Tables) -> Figure:
         for index, (_, of_shape) in enumerate(tables[""].groupby("n")):
             for model, style in _STYLES.items():
                 part = of_shape[of_shape["model"] == model]
-                look = style | {"color": COLOURS[index]}
+                coloured = style | {"color": COLOURS[index]}
                 if model == "fscm":
-                    look["marker"] = MARKERS[index]
-                axes.plot(part["mu"], part["ratio"], **look)
+                    coloured["marker"] = MARKERS[index]
+                axes.plot(part["mu"], part["ratio"], **coloured)
         axes.axhline(1.0, color="0.55", lw=0.9, ls=":")
         axes.set(xscale="log", yscale="log", xlim=(0.008, 12.0), xlabel=_MU, ylabel=r"$P_c/P_c^{\mathrm{JKR}}$")
         _plain_ticks(axes)
@@ -143,10 +143,10 @@ def _draw_by_soft(tables: Tables) -> Figure:
 
 
 def _handles() -> list[Line2D]:
-    """What the legend of Fig. 16(a) shows: the colour and marker of each n, the line of each model."""
+    """Return the entries of the legend of Fig. 16(a): colour and marker of each n, line of each model."""
     colours = list(zip(_SHAPES, COLOURS, MARKERS, strict=False))
     shapes = [Line2D([], [], color=c, marker=m, ms=3.5, mfc="white", label=f"$n$ = {n:g}") for n, c, m in colours]
-    models = [Line2D([], [], label=MODEL_NAMES[name], **(look | {"color": "0.45"})) for name, look in _STYLES.items()]
+    models = [Line2D([], [], label=MODEL_NAMES[name], **(style | {"color": "0.45"})) for name, style in _STYLES.items()]
     return [*shapes, *models]
 
 

@@ -88,12 +88,12 @@ def _gibson(problem: Problem) -> dict[str, Any]:
         "pressure": found.pressure[shown],
         "deformation": problem.compliance * found.pressure[shown],
     }
-    answer: dict[str, Any] = {"displacement": pull_off.value, "radius": found.radius[shown].tolist()}
+    columns: dict[str, Any] = {"displacement": pull_off.value, "radius": found.radius[shown].tolist()}
     for name, values in shapes.items():
         # Along the surface gap and pressure are exact functions of each other; only the radius carries an error.
         u = (1.0 + problem.compliance) * pull_off.u_num + FLOOR * (1.0 + np.abs(values))
-        answer |= {name: values.tolist(), f"u_{name}": u.tolist()}
-    return answer
+        columns |= {name: values.tolist(), f"u_{name}": u.tolist()}
+    return columns
 
 
 def _tasks(cases: Iterable[tuple[float, float, float]]) -> Sequence[Task]:

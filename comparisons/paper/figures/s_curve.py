@@ -29,9 +29,9 @@ _COORDINATES: dict[str, Callable[[State], float]] = {
     "displacement": lambda state: state.displacement,
     "load": lambda state: state.load,
 }
-#: The points, and where their names stand beside them in (b), in points of the page.
+#: The points, and the offsets of their names in (b), in points of the page.
 _BESIDE = {"B'": (-3, 6), "A": (4, 5), "B": (-11, -9), "A'": (7, -3), "C": (-3, -12), "D": (-12, 3)}
-#: Shown of central gap and displacement: the approach goes on to the left of (b) and to the right of (a).
+#: Ranges of the axes: the approach continues to the left of (b) and to the right of (a).
 _GAPS, _DISPLACEMENTS, _LOADS = (-0.35, 6.0), (-7.2, 7.6), (-2.05, 0.55)
 #: In contact the central gap hardly moves; an inset shows it.
 _NEAR_GAPS, _NEAR_DISPLACEMENTS = (-0.024, 0.034), (-7.2, 9.0)
@@ -124,9 +124,9 @@ def _against_gap(
         shown.plot(path["central_gap"], path[name], color=COLOURS[0])
         shown.axhline(0.0, color="0.4", lw=0.8)
     near = (points["central_gap"] > _NEAR_GAPS[0]) & (points["central_gap"] < _NEAR_GAPS[1])
-    # Names stand on the convex side of the curve.
-    inside = (3, 4) if name == "displacement" else (6, -7)
-    for shown, some, beside in ((axes, points[~near], (3, 4)), (inset, points[near], inside)):
+    # The names are on the convex side of the curve.
+    in_inset = (3, 4) if name == "displacement" else (6, -7)
+    for shown, some, beside in ((axes, points[~near], (3, 4)), (inset, points[near], in_inset)):
         shown.plot(some["central_gap"], some[name], ls="none", marker="o", ms=3.5, color=COLOURS[2])
         for label, point in some.iterrows():
             where = point["central_gap"], point[name]
@@ -165,7 +165,7 @@ def _places(points: pd.DataFrame) -> dict[str, tuple[float, float]]:
 
 
 def _loop(path: pd.DataFrame, points: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
-    """Outline B'-A-A'-B-B' of what a cycle of displacement control loses."""
+    """Outline B'-A-A'-B-B' of the energy that a cycle of displacement control loses."""
     displacement, load = path["displacement"].to_numpy(), path["load"].to_numpy()
     falling = np.diff(displacement) < 0.0
     top, bottom = int(np.argmax(falling)), int(np.flatnonzero(falling)[-1]) + 1

@@ -20,7 +20,7 @@ __all__ = ["SURFACE_LAWS"]
 _MARKED = (1.0, 1.5, 2.0, 5.0)
 _SHAPES = np.unique(np.concatenate([np.geomspace(0.7, 100.0, 200), _MARKED]))
 _GAPS = np.linspace(-0.08, 4.0, 409)
-#: The punch whose improved law is drawn.
+#: Shape index whose improved law is drawn.
 _DRAWN = 2.0
 
 

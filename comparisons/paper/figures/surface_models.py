@@ -1,4 +1,4 @@
-"""Fig. 17: surface deformation and pressure at pull-off of both Maugis-Dugdale models beside the FSCM's."""
+"""Fig. 17: surface and pressure at pull-off of both Maugis-Dugdale models and of the FSCM."""
 
 from __future__ import annotations
 

@@ -139,7 +139,7 @@ def _map(axes: Axes, table: pd.DataFrame, across: str, onset: pd.DataFrame | Non
         axes.contour(x, mu, kappa, levels=levels, colors="black", linewidths=0.8, linestyles=styles)
 
 
-def _finish(figure: Figure, words: str, more: str = "") -> None:
+def _finish(figure: Figure, name: str, more: str = "") -> None:
     """Add the scale, and the labels of the lines once the layout is known."""
     maps = list(figure.axes)
     colours = ScalarMappable(
@@ -150,7 +150,7 @@ def _finish(figure: Figure, words: str, more: str = "") -> None:
     )
     bar.set_ticks(list(_BANDS[:-1]), labels=[f"{band:g}" for band in _BANDS[:-1]])
     bar.set_label(
-        rf"$|\kappa|$ of the {words} (%); lines: $\kappa$, full where the model is above the FSCM, dashed below{more}"
+        rf"$|\kappa|$ of the {name} (%); lines: $\kappa$, full where the model is above the FSCM, dashed below{more}"
     )
     figure.draw_without_rendering()
     for axes in maps:

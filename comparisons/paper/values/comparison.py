@@ -163,7 +163,7 @@ def judged(paper_value: PaperValue, results: Results, again: Sequence[Repeated])
 
 
 def readable(table: pd.DataFrame) -> pd.DataFrame:
-    """Return the table as texts: the case in words, the computed number with the digits that its uncertainty leaves."""
+    """Return the table as texts, the computed number with the digits that its uncertainty leaves."""
 
     def case(row: pd.Series) -> str:
         parts = [f"{name} = {row[name]:g}" for name in ("n", "k") if not math.isnan(row[name])]

@@ -22,7 +22,7 @@ DIRECT = [number for number in paper_values() if number.name in comparison._DIRE
 
 
 @pytest.fixture(scope="module")
-def answers(tmp_path_factory):
+def results(tmp_path_factory):
     cache = CallCache(tmp_path_factory.mktemp("numbers") / "tasks.jsonl", "test")
     list(cache.work(map(comparison._critical, paper_values("critical_tabor_number")), 1))
     return cache.answers
@@ -31,14 +31,14 @@ def answers(tmp_path_factory):
 @pytest.mark.parametrize(
     "paper_value", DIRECT, ids=lambda paper_value: f"{paper_value.name}-{paper_value.n}-{paper_value.k}"
 )
-def test_closed_forms_agree_to_every_printed_digit(paper_value, answers):
-    row = judged(paper_value, answers, [])
+def test_closed_forms_agree_to_every_printed_digit(paper_value, results):
+    row = judged(paper_value, results, [])
     assert (row["verdict"], row["cause"]) == ("agrees", "")
     assert row["u"] < 1e-13 * abs(row["computed"])
 
 
-def test_critical_tabor_numbers_agree_to_every_printed_digit(answers):
-    rows = [judged(paper_value, answers, []) for paper_value in paper_values("critical_tabor_number")]
+def test_critical_tabor_numbers_agree_to_every_printed_digit(results):
+    rows = [judged(paper_value, results, []) for paper_value in paper_values("critical_tabor_number")]
     assert [(row["printed"], row["verdict"]) for row in rows] == [
         (text, "agrees") for text in ("0.70", "0.75", "0.78", "0.78")
     ]
@@ -78,7 +78,7 @@ def test_no_cause_is_sought_where_the_digits_agree():
 
 
 @pytest.mark.parametrize(
-    ("others", "words"),
+    ("others", "expected"),
     [
         ([repeated("cut", -1.71), repeated("grid", 1.72, False)], "reproduced by cut (1.71)"),
         (
@@ -100,8 +100,8 @@ def test_no_cause_is_sought_where_the_digits_agree():
         ),
     ],
 )
-def test_a_cause_is_an_ingredient_that_gives_the_printed_digits(others, words):
-    assert cause([repeated("converged", -1.8354), *others]) == words
+def test_a_cause_is_an_ingredient_that_gives_the_printed_digits(others, expected):
+    assert cause([repeated("converged", -1.8354), *others]) == expected
 
 
 def test_causes_tell_what_each_ingredient_shifts():
@@ -110,8 +110,8 @@ def test_causes_tell_what_each_ingredient_shifts():
     assert table["verdict"].tolist() == ["differs", "differs"]
 
 
-def test_for_reading_a_number_keeps_the_digits_its_uncertainty_leaves(answers):
-    rows = [judged(paper_value, answers, []) for paper_value in paper_values("critical_tabor_number")]
+def test_for_reading_a_number_keeps_the_digits_its_uncertainty_leaves(results):
+    rows = [judged(paper_value, results, []) for paper_value in paper_values("critical_tabor_number")]
     shown = readable(pd.DataFrame(rows))
     assert shown["case"].tolist()[1] == "n = 2, k = 0.2"
     assert shown["computed"].tolist()[0] == short(rows[0]["computed"], 5e-10)

@@ -30,7 +30,7 @@ def test_a_figure_is_found_by_its_name(name):
     if name.isdigit():
         assert figure.stem.startswith(f"fig{int(name):02}_")
     assert figure.title
-    # The same tasks every time, none twice: they are the keys of the stored answers.
+    # The same tasks every time, none twice: they are the keys of the stored results.
     assert figure.tasks() == figure.tasks()
     assert len(set(figure.tasks())) == len(figure.tasks())
 
