@@ -11,8 +11,8 @@ sphere = PowerPunch(n=2, Q=100e-9)  # m: the radius
 law = LennardJones(work_of_adhesion=0.05, z0=0.5e-9)  # J/m^2, m
 E0, c0, k, nu = 2e9, 1e-6, 0.4, 0.3  # E = E0 (z/c0)^k: 2 GPa at a depth of one micrometre
 
-# 2 GPa at the surface and 1 GPa below.  The exponents are those of the power laws at the surface and at great depth; the
-# modulus leaves the first one over `surface_depth`.
+# 2 GPa at the surface and 1 GPa below.  The exponents are those of the power laws at the surface and at great depth;
+# over `surface_depth` the modulus leaves the first one.
 skin = CustomModulus(
     lambda z: 1e9 * (1.0 + np.exp(-z / 10e-9)), surface_exponent=0.0, depth_exponent=0.0, surface_depth=10e-9
 )
