@@ -73,15 +73,15 @@ def _tasks() -> Sequence[Task]:
     ]
 
 
-def _tables(answers: Results) -> Tables:
+def _tables(results: Results) -> Tables:
     # Where the two jumps part, then evenly.
-    first = answers[Task.of(near_critical, _N, _K)]["jumps"][0]
-    computed = [first, *({"mu": mu} | answers[Task.of(jumps, _N, _K, mu)] for mu in TABOR_NUMBERS)]
+    first = results[Task.of(near_critical, _N, _K)]["jumps"][0]
+    computed = [first, *({"mu": mu} | results[Task.of(jumps, _N, _K, mu)] for mu in TABOR_NUMBERS)]
     computed_columns = ["mu", *(f"{u}{name}" for name in _MODELS for u in ("", "u_"))]
     fscm = pd.DataFrame(computed)[computed_columns].sort_values("mu")
-    closed = pd.DataFrame(answers[Task.of(asymptotes, _N, _K)])
+    closed = pd.DataFrame(results[Task.of(asymptotes, _N, _K)])
     displacements = pd.concat([fscm.assign(model="fscm"), closed.assign(model="asymptote")], ignore_index=True)
-    constants = [pd.DataFrame(answers[Task.of(coefficients, n)]).assign(n=n) for n in _SHAPES]
+    constants = [pd.DataFrame(results[Task.of(coefficients, n)]).assign(n=n) for n in _SHAPES]
     return {
         "displacements": displacements[["model", *computed_columns]].assign(n=_N, k=_K),
         "coefficients": pd.concat(constants, ignore_index=True)[["n", "k", "C_in", "C_out"]],

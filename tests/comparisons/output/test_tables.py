@@ -80,7 +80,7 @@ def test_u_kappa_bounds_what_the_true_values_can_give(value, reference, u, u_ref
     [
         ("6.7", 0.0674, 1e-6, "agrees"),
         ("6.7", -0.0666, 1e-6, "agrees"),
-        ("6.7", 0.0676, 1e-6, "cut off"),
+        ("6.7", 0.0676, 1e-6, "agrees if truncated"),
         ("6.7", 0.0681, 1e-6, "differs"),
         ("6.7", 0.0664, 1e-6, "differs"),
         ("6.7", 0.06749, 1e-3, "undecided"),
