@@ -28,7 +28,7 @@ METRICS = {
     "rel": "(candidate - reference) / |reference|",
     "abs": "candidate - reference",
     "range-relative": "(candidate - reference) / range of the reference over the cases",
-    "en": "(candidate - reference) / sqrt(u_candidate^2 + u_reference^2): is the error inside what both claim?",
+    "en": "(candidate - reference) / (u_candidate + u_reference), the normalised error E_n",
     "curve": "largest distance of the two curves, as a fraction of the picture",
 }
 BASES = ("derived", "published", "measured")

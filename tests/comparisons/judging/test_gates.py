@@ -60,7 +60,7 @@ def test_a_range_of_poissons_ratio_does_not_select_a_case_without_one():
     assert [gate.selects(grid, Case(2, 0, 1, nu)) for nu in (None, 0.0, 0.3)] == [False, True, True]
 
 
-def test_the_reference_may_be_asked_elsewhere():
+def test_the_reference_may_be_taken_at_other_parameters():
     (gate,) = load_gates(GATE + "reference_at = { k = 1, nu = 0.25 }")
     assert gate.reference_case(Case(2, 0.95, 0.5)) == Case(2, 1, 0.5, 0.25)
 
