@@ -8,6 +8,7 @@ import pandas as pd
 import pytest
 
 from comparisons.baseline import BASELINE, main, renew
+from comparisons.numerics.bounds import combined
 from comparisons.runs.environment import computing_environment, environment
 from comparisons.runs.record import read_record, write_record
 from comparisons.runs.tables import Row, curve_frame, frame, write_curves, write_results
@@ -203,9 +204,11 @@ def test_the_committed_references_agree_within_both_bounds(event):
     assert len(rows) >= 45
     assert set(rows["n"]) >= {1.0, 1.5, 2.0, 5.0}
     assert set(rows["k"]) == {0.0, 0.2, 0.4, 0.6}
-    bound = np.hypot(rows["u_num"], rows["u_reference"])
-    assert (np.abs(rows["value"] - rows["reference_value"]) <= bound).all()
-    assert (np.abs(rows["difference"]) <= rows["claimed"]).all()
+    bound = combined(rows["u_num"], rows["u_reference"])
+    difference = rows["value"] - rows["reference_value"]
+    assert (np.abs(difference) <= bound).all()
+    assert rows["en"].to_numpy() == pytest.approx((difference / bound).to_numpy(), rel=1e-6)
+    assert (rows["difference"] / rows["claimed"]).to_numpy() == pytest.approx(rows["en"].to_numpy(), rel=1e-12)
 
 
 def test_the_committed_agreement_is_about_these_events_alone():
