@@ -19,12 +19,12 @@ from fscm.problem import Problem
 __all__ = [
     "ComputationFailed",
     "Curve",
-    "KnowsProfiles",
+    "HasCurve",
+    "HasProfile",
     "Model",
     "NotApplicable",
-    "Profile",
+    "RadialField",
     "Result",
-    "TracesCurve",
 ]
 
 
@@ -122,7 +122,7 @@ class Curve:
 
 
 @dataclass(frozen=True, slots=True)
-class Profile:
+class RadialField:
     """The surface where P is smallest (all arrays of one length, dimensionless, radii increasing).
 
     Attributes
@@ -134,7 +134,7 @@ class Profile:
 
     Examples
     --------
-    >>> Profile(radius=np.array([0.1, 0.2]), pressure=np.array([0.3, -1.0]), gap=np.array([-0.1, 0.2])).u_distance
+    >>> RadialField(radius=np.array([0.1, 0.2]), pressure=np.array([0.3, -1.0]), gap=np.array([-0.1, 0.2])).u_distance
     0.0
     """
 
@@ -177,13 +177,13 @@ class Model(Protocol):
 
 
 @runtime_checkable
-class TracesCurve(Protocol):
+class HasCurve(Protocol):
     """A model that also knows its whole force-displacement curve.
 
     Examples
     --------
     >>> from comparisons.registry import create
-    >>> isinstance(create("jkr"), TracesCurve)
+    >>> isinstance(create("jkr"), HasCurve)
     True
     """
 
@@ -193,16 +193,16 @@ class TracesCurve(Protocol):
 
 
 @runtime_checkable
-class KnowsProfiles(Protocol):
+class HasProfile(Protocol):
     """A model that also knows gap and pressure over the radius.
 
     Examples
     --------
     >>> from comparisons.registry import create
-    >>> isinstance(create("fscm"), KnowsProfiles), isinstance(create("jkr"), KnowsProfiles)
+    >>> isinstance(create("fscm"), HasProfile), isinstance(create("jkr"), HasProfile)
     (True, False)
     """
 
-    def pull_off_profile(self, problem: Problem) -> Profile:
+    def pull_off_profile(self, problem: Problem) -> RadialField:
         """Return the surface where P is smallest, or raise `NotApplicable` or `ComputationFailed`."""
         ...

@@ -13,7 +13,7 @@ from typing import ClassVar
 
 import fem_reference
 from comparisons.curve_quantities import near
-from comparisons.model import Curve, NotApplicable, Profile, Result
+from comparisons.model import Curve, NotApplicable, RadialField, Result
 from comparisons.models.solver import result_of, translated
 from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.numerics.grid_convergence import declared_order, three_grids
@@ -25,6 +25,9 @@ from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
 __all__ = ["FiniteElements"]
+
+MODELS = {"fem": "FiniteElements"}
+DEPENDS_ON_POISSON_RATIO = ("fem",)
 
 #: Meshes of a curve and of the coarser one that tells its uncertainty.
 _LEVELS = ("quick", "default")
@@ -108,11 +111,11 @@ class FiniteElements:
         )
         return field, point.edge_radius / scales["radius"]
 
-    def pull_off_profile(self, problem: Problem) -> Profile:
+    def pull_off_profile(self, problem: Problem) -> RadialField:
         """Return the surface where P is smallest, and as its uncertainty the distance of two meshes."""
         return _surface_at_pull_off(self._poisson_ratio, problem)
 
-    def _surface_at_pull_off(self, problem: Problem) -> Profile:
+    def _surface_at_pull_off(self, problem: Problem) -> RadialField:
         physical, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             found = [fem_reference.profile(body, accuracy=level) for level in _LEVELS]
@@ -125,7 +128,7 @@ class FiniteElements:
             for profile in found
         )
         fine_radius, fine_pressure, fine_gap = fine
-        return Profile(
+        return RadialField(
             *fine,
             mesh_difference(*near(gap, radius, pressure), *near(fine_gap, fine_radius, fine_pressure)),
             mesh_difference(*near(gap, radius, gap), *near(fine_gap, fine_radius, fine_gap)),
@@ -159,6 +162,6 @@ def _audited(solution: fem_reference.Solution, quantity: str) -> fem_reference.S
 
 
 @lru_cache(maxsize=1)
-def _surface_at_pull_off(poisson_ratio: float, problem: Problem) -> Profile:
+def _surface_at_pull_off(poisson_ratio: float, problem: Problem) -> RadialField:
     """One surface answers for its pressure and its gap, which are asked one after the other."""
     return FiniteElements(poisson_ratio)._surface_at_pull_off(problem)

@@ -8,7 +8,7 @@ import numpy as np
 
 import fscm
 from comparisons.curve_quantities import near
-from comparisons.model import Curve, Profile, Result
+from comparisons.model import Curve, RadialField, Result
 from comparisons.models.gibson_limit import gibson_curve, gibson_profile
 from comparisons.models.solver import result_of, translated
 from comparisons.numerics.curve_distance import mesh_difference
@@ -16,6 +16,8 @@ from fscm.problem import Problem
 from fscm.states import radial_field
 
 __all__ = ["FullSelfConsistent"]
+
+MODELS = {"fscm": "FullSelfConsistent"}
 
 #: Step of a curve: other curves are compared with it between its points (measured: a cubic spline is then
 #: within 1e-5 of the picture).
@@ -52,14 +54,14 @@ class FullSelfConsistent:
         shares = path.u_displacement / np.ptp(path.displacement), path.u_load / np.ptp(path.load)
         return Curve(path.displacement, path.load, columns, u_distance=float(np.hypot(*shares)))
 
-    def pull_off_profile(self, problem: Problem) -> Profile:
+    def pull_off_profile(self, problem: Problem) -> RadialField:
         """Return the surface where P is smallest, and as its uncertainty the distance of the two meshes."""
         with translated(fscm.NoSuchEvent, fscm.NotConverged):
             if problem.k == 1.0:
                 return gibson_profile(problem)
             event = fscm.Analysis(problem).event("pull_off")
         check, value = radial_field(event.check), radial_field(event.value)
-        return Profile(
+        return RadialField(
             value.radius,
             value.pressure,
             value.gap,

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.model import Curve, Profile
+from comparisons.model import Curve, RadialField
 from fscm.gibson import GibsonSolid, LocalEquilibrium, root
 from fscm.problem import Problem
 
@@ -78,7 +78,7 @@ def _end(solid: GibsonSolid, entry: float) -> float:
     return root(lambda H: solid.load(H) - force, gap, entry)
 
 
-def gibson_profile(problem: Problem) -> Profile:
+def gibson_profile(problem: Problem) -> RadialField:
     """Return the surface at k = 1 where P is smallest; two points share the radius of the front.
 
     Examples
@@ -99,7 +99,7 @@ def gibson_profile(problem: Problem) -> Profile:
     level = np.array([local.level(float(H)) for H in gap])
     radius = (problem.n * np.maximum(level + delta, 0.0)) ** (1.0 / problem.n)
     # The two levels of the front are one, but for rounding.
-    return Profile(np.maximum.accumulate(radius), problem.law.traction(gap), gap, _U_DISTANCE, _U_DISTANCE)
+    return RadialField(np.maximum.accumulate(radius), problem.law.traction(gap), gap, _U_DISTANCE, _U_DISTANCE)
 
 
 def _towards(first: float, last: float) -> Array:

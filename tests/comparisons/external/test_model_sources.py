@@ -12,7 +12,7 @@ import pytest
 from comparisons.cli.commands import judge, run
 from comparisons.cli.main import main
 from comparisons.external.model_source import close_models
-from comparisons.model import Model, TracesCurve
+from comparisons.model import HasCurve, Model
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
 from comparisons.runs.cases import Case, load_grids
@@ -144,7 +144,7 @@ def test_the_doors_agree_in_solve(data_door, installed_example, capsys):
 def test_the_example_keeps_the_contract(installed_example):
     model = create(installed_example)
     assert isinstance(model, Model)
-    assert isinstance(model, TracesCurve)
+    assert isinstance(model, HasCurve)
     assert evaluate(model, "jump_in_gap", Case(2, 0, 1)).status == "not-applicable"
     assert evaluate(model, QUANTITY, Case(1, 0, 1)).status == "not-applicable"
 
