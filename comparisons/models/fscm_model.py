@@ -1,4 +1,4 @@
-"""The full self-consistent model as one of the models: the reference the others are compared with."""
+"""The full self-consistent model, the reference with which the others are compared."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ class FullSelfConsistent:
 
     Examples
     --------
-    >>> answer = FullSelfConsistent().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
-    >>> round(answer.value, 8)
+    >>> result = FullSelfConsistent().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
+    >>> round(result.value, 8)
     1.78848171
     """
 
@@ -40,7 +40,7 @@ class FullSelfConsistent:
     domain: ClassVar[str] = "n > 2/3, 0 <= k <= 1; to the digits of u_num where the cohesive edge is wider than 1e-6"
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
-        """Return the quantity, or raise as `comparisons.model.Model` says."""
+        """Return the quantity, or raise as in `comparisons.model.Model`."""
         with translated(fscm.NoSuchEvent, fscm.NotConverged):
             return result_of(fscm.solve(problem, quantity))
 

@@ -1,4 +1,4 @@
-"""Force-displacement curve and surface of the full self-consistent model at k = 1, where it is algebra.
+"""Force-displacement curve and surface of the full self-consistent model at k = 1, in closed form.
 
 The surface moves only where it is pressed, w = M p, so that every radius has a gap of its own at the level
 u = f(r) - delta: a far one, or inside the front of a contact a near one (`fscm.gibson`).
@@ -23,7 +23,7 @@ _POINTS = 120
 _FARTHEST_GAP, _START_PER_MU = 10.0, 5.0
 #: Step inwards, as a factor of the gap less that of the singularity, in search of the end of a curve.
 _INWARDS = 0.97
-#: Bound on the error of a load as a fraction of the range of the curve: the quadrature is asked for 1e-13 (measured
+#: Bound on the error of a load as a fraction of the range of the curve; the quadrature has the tolerance 1e-13 (measured
 #: worst 1e-15 for n = 2 and mu up to 3, against the closed form P = 2 e of the energy e at the axis).
 _U_DISTANCE = 1e-12
 
@@ -45,13 +45,13 @@ def gibson_curve(problem: Problem) -> Curve:
     local = LocalEquilibrium(problem.law, problem.compliance)
     start = _FARTHEST_GAP + _START_PER_MU * problem.mu
     if local.folds and local.front:
-        outside = [*_between(start, local.folds[1]), *_between(local.folds[1], local.front.far)]
+        approach = [*_between(start, local.folds[1]), *_between(local.folds[1], local.front.far)]
         entry = local.front.near
     else:
-        outside = [*_between(start, local.law.peak_gap)]
+        approach = [*_between(start, local.law.peak_gap)]
         entry = local.law.peak_gap
-    inside = _between(entry, _end(solid, entry))
-    gaps = np.array([*outside, *inside])
+    contact = _between(entry, _end(solid, entry))
+    gaps = np.array([*approach, *contact])
     central_gap = gaps.copy()
     if local.folds:
         central_gap[_POINTS : 2 * _POINTS] = np.nan

@@ -88,7 +88,7 @@ def test_a_new_model_is_found_by_its_file_alone(folder):
 
 def test_two_modules_cannot_declare_one_name(folder):
     (folder / "copy.py").write_text('MODELS = {"jkr": "Other"}')
-    with pytest.raises(ValueError, match="models.copy declares a model jkr, which another"):
+    with pytest.raises(ValueError, match=r"models\.copy declares a model jkr, which another"):
         list(registry._found())
 
 

@@ -49,14 +49,14 @@ def test_a_right_model_passes(write_model, capsys):
         (
             JKR + "return Result(value + 1e-15 * time.perf_counter(), 0.0)",
             "",
-            "gives the same answer again",
+            "gives the same result again",
             "a random number, a clock",
         ),
         (
             JKR + "self.asked = getattr(self, 'asked', 0) + 1\nreturn Result(value + 1e-9 * self.asked, 0.0)",
             "",
-            "gives the same answer again",
-            "kept between questions",
+            "gives the same result again",
+            "kept between evaluations",
         ),
         (RIGHT, 'limits = ("rigid",)', "is right in the limit rigid", "-25 % off Bradley"),
         (
@@ -66,7 +66,7 @@ def test_a_right_model_passes(write_model, capsys):
             "it must come nearer",
         ),
         (RIGHT, 'limits = ("dmt",)', "is right in the limit dmt", "known are rigid, jkr"),
-        (RIGHT, 'citation = " "', "says what it is", "citation is empty"),
+        (RIGHT, 'citation = " "', "has version, citation and domain", "citation is empty"),
     ],
 )
 def test_what_is_wrong_is_said(write_model, capsys, body, more, check, says):
@@ -80,7 +80,7 @@ def test_what_is_wrong_is_said(write_model, capsys, body, more, check, says):
 @pytest.mark.parametrize(
     ("body", "says"),
     [
-        ("raise NotApplicable('nothing')", "none of 25 questions was answered"),
+        ("raise NotApplicable('nothing')", "none of 25 evaluations gave a value"),
         ("if problem.k:\n    raise ComputationFailed('no root')\n" + RIGHT, "no root"),
         ("return Result(float('nan'), 0.0)", "not a finite number"),
     ],

@@ -32,7 +32,9 @@ def test_a_run_goes_on_with_a_model_that_names_itself_by_its_process(write_model
     theirs = table[table["model"].str.startswith("stranger")]
     assert theirs["model"].nunique() == theirs["model_version"].nunique() == 1
     assert set(theirs["status"]) == {"failed"}
-    assert theirs["reason"].str.startswith("the model contradicts itself: it is stranger").all()
+    assert (
+        theirs["reason"].str.startswith("the model's name or version changed after it was loaded: it is stranger").all()
+    )
     assert set(table.loc[table["model"] == "good", "status"]) == {"ok"}
 
 
@@ -61,7 +63,7 @@ def test_a_process_that_had_to_be_started_again_is_compared_with_the_first(write
     assert [row.status for row in rows] == ["ok", "failed", "failed", "failed"]
     assert "exit status 1" in rows[1].reason
     assert rows[2].reason == rows[3].reason
-    assert rows[2].reason.startswith("the model contradicts itself")
+    assert rows[2].reason.startswith("the model's name or version changed")
     assert {(row.model, row.model_version) for row in rows} == {(model.name, model.version)}
 
 
@@ -72,4 +74,4 @@ def test_a_file_that_changes_during_a_run_is_noticed(write_model, tmp_path):
     (tmp_path / "table.csv").write_text("2")
     row = evaluate(model, "pull_off_force", Case(2, 0, 1))
     assert row.status == "failed"
-    assert row.reason.startswith("the model's files changed after it was opened: it is stranger 1 (")
+    assert row.reason.startswith("the model's files changed after it was loaded: it is stranger 1 (")

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import comparisons
-from comparisons.external.child import _PROGRAM
+from comparisons.external.launch import PROGRAM
 from comparisons.external.scratch import Scratch, make_scratch, remove_scratch
 
 from .test_hostile_models import ended
@@ -114,25 +114,25 @@ def test_landlock_holds_for_our_thread_in_the_process_of_a_model(tmp_path):
     scratch.mkdir()
     file = tmp_path / "trespasser.py"
     file.write_text(TRESPASSER.format(outside=str(outside), scratch=str(scratch)))
-    answers, theirs = os.pipe()
+    replies, child_end = os.pipe()
     path = [str(Path(comparisons.__file__).parent.parent), *filter(None, sys.path)]
     with subprocess.Popen(
-        [sys.executable, "-c", _PROGRAM, str(theirs), str(scratch), *path],
+        [sys.executable, "-c", PROGRAM, str(child_end), str(scratch), *path],
         stdin=subprocess.PIPE,
-        pass_fds=[theirs],
+        pass_fds=[child_end],
         cwd=scratch,
     ) as child:
-        os.close(theirs)
-        ready = {"ask": "ready", "limits": {}, "path": path}
-        opened = {"ask": "open", "door": {"kind": "file", "file": str(file), "attribute": "Model"}}
-        for request in (ready, opened):
+        os.close(child_end)
+        ready = {"request": "ready", "limits": {}, "path": path}
+        loading = {"request": "load", "source": {"kind": "file", "file": str(file), "attribute": "Model"}}
+        for request in (ready, loading):
             child.stdin.write(json.dumps(request).encode() + b"\n")
             child.stdin.flush()
-            assert select.select([answers], [], [], 120.0)[0]
-            assert json.loads(os.read(answers, 1 << 16))["status"] == "ok"
-        child.stdin.write(b'{"ask": "evaluate", "n": 2, "k": 0, "mu": 1, "quantity": "pull_off_force"}\n')
+            assert select.select([replies], [], [], 120.0)[0]
+            assert json.loads(os.read(replies, 1 << 16))["status"] == "ok"
+        child.stdin.write(b'{"request": "evaluate", "n": 2, "k": 0, "mu": 1, "quantity": "pull_off_force"}\n')
         child.stdin.close()
-    os.close(answers)
+    os.close(replies)
     if (scratch / "written").exists() and not landlock_works(tmp_path):
         pytest.skip("this kernel has no Landlock")
     assert [entry.name for entry in scratch.iterdir()] == ["refused"]

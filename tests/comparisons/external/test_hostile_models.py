@@ -57,7 +57,7 @@ NONSENSE = [
     ("raise type('Odd', (ComputationFailed,), {'__str__': lambda self: 1 / 0})", "__str__ raises ZeroDivisionError"),
     ("sys.exit(type('Odd', (), {'__repr__': lambda self: 1 / 0})())", "__repr__ raises ZeroDivisionError"),
     ("import mangled", "SyntaxError in line 2 of mangled.py: "),
-    ("raise ComputationFailed", "did not say why"),
+    ("raise ComputationFailed", "without a reason"),
     ("raise ValueError('k is large')", "k is large (a case outside the domain is NotApplicable)"),
 ]
 
@@ -87,10 +87,10 @@ def test_nonsense_is_a_failed_row_with_a_reason(nonsense, number, says):
 
 @pytest.mark.parametrize("count", [10**30, -1, 2**63])
 def test_a_process_that_writes_a_count_of_its_own_is_not_believed(count):
-    answer = {"status": "ok", "value": 1.5, "u_num": 0.0, "size": count, "iterations": 0, "residual": 0.0}
+    reply = {"status": "ok", "value": 1.5, "u_num": 0.0, "size": count, "iterations": 0, "residual": 0.0}
     said = {"name": "stranger", "version": "1", "citation": "", "domain": "", "digest": "0" * 64, "hashed": ""}
-    model = ExternalModel(SimpleNamespace(ask=lambda **_: answer), said | {"limits": [], "physical": False})
-    assert evaluate(model, "pull_off_force", CASE).reason == "its process wrote something that is not an answer"
+    model = ExternalModel(SimpleNamespace(request=lambda *_, **__: reply), said | {"limits": [], "physical": False})
+    assert evaluate(model, "pull_off_force", CASE).reason == "its process wrote something that is not a result"
 
 
 @pytest.mark.parametrize(
@@ -101,7 +101,7 @@ def test_a_process_that_writes_a_count_of_its_own_is_not_believed(count):
         ("os.kill(os.getpid(), 40)", "killed by signal 40"),
         (
             "for fd in range(3, 200):\n    with suppress(OSError):\n        os.write(fd, b'{}\\n')",
-            "not an answer",
+            "not a result",
         ),
         ("os.closerange(0, 100)\nreturn Result(1.0, 0.0)", "exit status"),
     ],
@@ -116,8 +116,8 @@ def test_one_that_loops_for_ever_is_ended_and_not_asked_for_ever(write_model, mo
     monkeypatch.setenv("FSCM_BENCH_TIME_LIMIT", "0.3")
     spec = write_model("while True:\n    pass")
     reasons = [row(spec).reason for _ in range(PATIENCE + 1)]
-    assert reasons == ["it had no answer after 0.3 s and was ended"] * PATIENCE + [
-        f"not asked: it ran out of time {PATIENCE} times in a row"
+    assert reasons == ["it gave no result within 0.3 s and was ended"] * PATIENCE + [
+        f"not evaluated: it ran out of time {PATIENCE} times in a row"
     ]
 
 
