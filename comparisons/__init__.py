@@ -49,7 +49,7 @@ _EXPORTS = {
     "judge_folder": "comparisons.pipeline.judgement",
 }
 
-__all__ = ["LAYERS", *_EXPORTS]  # noqa: PLE0604
+__all__ = ["LAYERS", *_EXPORTS]
 
 
 def __getattr__(name: str) -> Any:

@@ -16,7 +16,8 @@ from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
-from comparisons.external.data_model import MANIFEST, DataModel, read_submission
+from comparisons.external.data_model import DataModel, read_submission
+from comparisons.external.manifest import MANIFEST
 from comparisons.external.process_model import ExternalModel, connect
 from comparisons.external.text_rules import one_line
 

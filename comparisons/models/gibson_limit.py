@@ -23,7 +23,7 @@ _POINTS = 120
 _FARTHEST_GAP, _START_PER_MU = 10.0, 5.0
 #: Step inwards, as a factor of the gap less that of the singularity, in search of the end of a curve.
 _INWARDS = 0.97
-#: Bound on the error of a load as a fraction of the range of the curve; the quadrature has the tolerance 1e-13 (measured
+#: Bound on the error of a load as a fraction of the range of the curve; the quadrature has tolerance 1e-13 (measured
 #: worst 1e-15 for n = 2 and mu up to 3, against the closed form P = 2 e of the energy e at the axis).
 _U_DISTANCE = 1e-12
 

@@ -1,4 +1,4 @@
-"""Predictions as data: what is right is read exactly, what is wrong is refused with its place."""
+"""Predictions as data: right ones are read exactly, wrong ones are refused with their place."""
 
 import hashlib
 import os
@@ -6,7 +6,7 @@ import os
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.external import data_model
+from comparisons.external import manifest
 from comparisons.external.data_model import read_submission
 from comparisons.model import Model
 from comparisons.registry import create
@@ -47,7 +47,7 @@ def with_row(number, text):
     [
         ({"change": {'["pull_off_force"]': '[["a"]]'}}, "unknown quantity ['a']"),
         ({"change": {'["pull_off_force"]': "[{a=1}]"}}, "unknown quantity {'a': 1}"),
-        ({"change": {"n = [2]": 'n = ["2"]'}}, "n in [[covers]] must be a list of numbers; '2' is none"),
+        ({"change": {"n = [2]": 'n = ["2"]'}}, "n in [[covers]] must be a list of numbers; found '2'"),
         ({"change": {"n = [2]": "n = [1" + "0" * 400 + "]"}}, "n in [[covers]] must be a list of numbers"),
         ({"change": {'name = "': "x = " + "[" * 5000 + "]" * 5000 + '\nname = "'}}, "nested too deeply"),
         ({"rows": with_row(1, "pull_off_force,2,0,1,1_6,0")}, "line 3: value = '1_6' is not a number"),
@@ -80,15 +80,21 @@ def with_row(number, text):
         ({"change": {'"measured"': '"<b>measured</b>"'}}, "letters, digits"),
         ({"change": {'"A. Author"': '"A.\\nAuthor"'}}, "author must be one line"),
         ({"change": {'"A. Author"': '"A.\\u202eAuthor"'}}, "author must be one line"),
-        ({"change": {'"A. Author"': '""'}}, "author must be a text"),
-        ({"change": {'doi = "10.1000/182"': 'doi = "javascript:1"'}}, "doi"),
-        ({"change": {'doi = "10.1000/182"': 'doi = "10.1000/<b>"'}}, "doi"),
+        ({"change": {'"A. Author"': '""'}}, "author must be one line of 1 to 500 printable characters; found ''"),
+        ({"change": {'doi = "10.1000/182"': 'doi = "javascript:1"'}}, """or "none"; found 'javascript:1'"""),
+        ({"change": {'doi = "10.1000/182"': 'doi = "10.1000/<b>"'}}, "doi must be a DOI such as"),
+        ({"change": {'doi = "10.1000/182"': "doi = 1"}}, 'doi must be a DOI such as "10.1000/182", or "none"; found 1'),
+        ({"change": {'"CC-BY-4.0"': '"<b>"'}}, "licence must be a licence of"),
+        ({"digest": "..."}, "sha256 must be the SHA-256 of the predictions, 64 hexadecimal digits; found '...'"),
+        ({"change": {"[units]": 'limits = ["jkr", 1]\n[units]'}}, "limits must be a list of names of limits; found 1"),
+        ({"change": {'"pi Q^(2/n) dgamma z0^(2/n-1)"': "1"}}, "pull_off_force in [units] must be a unit as"),
+        ({"change": {"[units]": "x = " + "[" * 400 + "]" * 400 + "\n[units]"}}, "x missing or unknown"),
         ({"change": {'licence = "CC-BY-4.0"': ""}}, "licence missing or unknown"),
         ({"change": {"[units]": 'colour = "red"\n[units]'}}, "colour missing or unknown"),
         ({"change": {"k = [0, 0.4]": "k = [0, 1.4]"}}, "[0, 1]"),
         ({"change": {"k = [0, 0.4]": 'k = [0, "0.4"]'}}, "k in [[covers]] must be a list of numbers"),
         ({"change": {"k = [0, 0.4]": "k = []"}}, "no case"),
-        ({"change": {"k = [0, 0.4]": "q = [0, 0.4]"}}, "has the lists"),
+        ({"change": {"k = [0, 0.4]": "q = [0, 0.4]"}}, "k, q missing or unknown in [[covers]]"),
         ({"change": {'["pull_off_force"]': '["pull_off"]'}}, "unknown quantity 'pull_off'"),
         ({"change": {"[[covers]]": "[covers]"}}, "[[covers]] table"),
         ({"change": {"[[covers]]": "[[covers"}}, "Expected"),
@@ -178,7 +184,7 @@ def test_too_many_promised_cases_are_refused_before_any_is_built(write_data, mon
     """A file of 1 kB must not cost a minute and 400 MB."""
     folder = write_data(change={"[[covers]]": f"{tables}\n[[covers]]"})
     built = []
-    monkeypatch.setattr(data_model, "Problem", lambda *case: built.append(case))
+    monkeypatch.setattr(manifest, "Problem", lambda *case: built.append(case))
     with pytest.raises(ValueError, match=says) as refusal:
         read_submission(folder)
     assert "\n" not in str(refusal.value)
