@@ -47,19 +47,23 @@ def test_poissons_ratio_reaches_the_model_that_needs_it():
     assert create("jkr", 0.1).name == "jkr"
 
 
+#: The order of lists and tables; a new model comes after them.
+ORDER = [
+    "fscm",
+    "fscm-stieltjes",
+    "fscm-stieltjes-400",
+    "fem",
+    "jkr",
+    "md-original",
+    "md-improved",
+    "dmt",
+    "bradley",
+    "semi-rigid",
+]
+
+
 def test_the_models_stand_in_the_order_of_the_tables():
-    assert list(MODELS) == [
-        "fscm",
-        "fscm-stieltjes",
-        "fscm-stieltjes-400",
-        "fem",
-        "jkr",
-        "md-original",
-        "md-improved",
-        "dmt",
-        "bradley",
-        "semi-rigid",
-    ]
+    assert list(MODELS)[: len(ORDER)] == ORDER
 
 
 NEW = """

@@ -43,7 +43,7 @@ def with_row(number, text):
 
 
 @pytest.mark.parametrize(
-    ("wrong", "says"),
+    ("wrong", "sentence"),
     [
         ({"change": {'["pull_off_force"]': '[["a"]]'}}, "unknown quantity ['a']"),
         ({"change": {'["pull_off_force"]': "[{a=1}]"}}, "unknown quantity {'a': 1}"),
@@ -100,15 +100,15 @@ def with_row(number, text):
         ({"change": {"[[covers]]": "[[covers"}}, "Expected"),
     ],
 )
-def test_what_is_wrong_is_refused_with_its_place(write_data, capsys, wrong, says):
+def test_what_is_wrong_is_refused_with_its_place(write_data, capsys, wrong, sentence):
     folder = write_data(**wrong)
     with pytest.raises(ValueError, match="data") as refusal:
         read_submission(folder)
-    assert says in str(refusal.value)
+    assert sentence in str(refusal.value)
     arguments = ["--quantity", "pull_off_force", "--n", "2", "--k", "0", "--mu", "1"]
     assert main(["solve", "--model", str(folder), *arguments]) == 2
     shown = capsys.readouterr()
-    assert says in shown.err
+    assert sentence in shown.err
     assert shown.err.count("\n") == 1
     assert shown.out == ""
 
@@ -174,18 +174,18 @@ mu = [{MANY}]
 
 
 @pytest.mark.parametrize(
-    ("tables", "says"),
+    ("tables", "sentence"),
     [
         (TABLE.replace("0.4", ", ".join(f"0.{i}" for i in range(1, 90))) * 2, "promise 1270020 cases, more than"),
         (TABLE, "promises 15488 cases, but the predictions have 5 lines"),
     ],
 )
-def test_too_many_promised_cases_are_refused_before_any_is_built(write_data, monkeypatch, tables, says):
+def test_too_many_promised_cases_are_refused_before_any_is_built(write_data, monkeypatch, tables, sentence):
     """A file of 1 kB must not cost a minute and 400 MB."""
     folder = write_data(change={"[[covers]]": f"{tables}\n[[covers]]"})
     built = []
     monkeypatch.setattr(manifest, "Problem", lambda *case: built.append(case))
-    with pytest.raises(ValueError, match=says) as refusal:
+    with pytest.raises(ValueError, match=sentence) as refusal:
         read_submission(folder)
     assert "\n" not in str(refusal.value)
     assert not built

@@ -1,4 +1,4 @@
-"""What is left when the parent of a model's process ends: no process, no scratch folder, every other file."""
+"""End of the parent of a model's process: no process and no scratch folder is left, and every other file is."""
 
 import json
 import os
@@ -83,14 +83,14 @@ def test_a_model_that_changes_the_functions_of_its_process_ends_too(write_model,
     assert comes_true(lambda: not list((tmp_path / "temporary").iterdir()))
 
 
-#: Does in our own thread, when the parent has ended, what a model may not do; then says so in its scratch folder.
+#: Writes elsewhere from our own thread when the parent has ended, and leaves the outcome in its scratch folder.
 TRESPASSER = """
 import os, shutil, sys
 from pathlib import Path
 
 def trespass(*_, **__):
     try:
-        (Path({outside!r}) / "new").write_text("x")
+        (Path({elsewhere!r}) / "new").write_text("x")
     except OSError:
         Path({scratch!r}, "refused").touch()
     else:
@@ -109,11 +109,11 @@ class Model:
 
 
 def test_landlock_holds_for_our_thread_in_the_process_of_a_model(tmp_path):
-    outside, scratch = tmp_path / "outside", tmp_path / "scratch"
-    outside.mkdir()
+    elsewhere, scratch = tmp_path / "elsewhere", tmp_path / "scratch"
+    elsewhere.mkdir()
     scratch.mkdir()
     file = tmp_path / "trespasser.py"
-    file.write_text(TRESPASSER.format(outside=str(outside), scratch=str(scratch)))
+    file.write_text(TRESPASSER.format(elsewhere=str(elsewhere), scratch=str(scratch)))
     replies, child_end = os.pipe()
     path = [str(Path(comparisons.__file__).parent.parent), *filter(None, sys.path)]
     with subprocess.Popen(
@@ -136,7 +136,7 @@ def test_landlock_holds_for_our_thread_in_the_process_of_a_model(tmp_path):
     if (scratch / "written").exists() and not landlock_works(tmp_path):
         pytest.skip("this kernel has no Landlock")
     assert [entry.name for entry in scratch.iterdir()] == ["refused"]
-    assert not list(outside.iterdir())
+    assert not list(elsewhere.iterdir())
 
 
 def landlock_works(folder):

@@ -96,7 +96,7 @@ def test_the_workflow_ends_with_the_status_of_the_run(package, tmp_path, status)
 
 
 @pytest.mark.parametrize(
-    ("name", "says"),
+    ("name", "sentence"),
     [
         ("<b>", "letters, digits"),
         ("3d", "begins with a digit"),
@@ -115,10 +115,10 @@ def test_the_workflow_ends_with_the_status_of_the_run(package, tmp_path, status)
         ("my-model-", "ends in a sign"),
     ],
 )
-def test_a_name_that_cannot_be_is_refused(tmp_path, capsys, name, says):
+def test_a_name_that_cannot_be_is_refused(tmp_path, capsys, name, sentence):
     assert main(["new-model", str(tmp_path / name)]) == 2
     shown = capsys.readouterr().err
-    assert says in shown
+    assert sentence in shown
     assert shown.count("\n") == 1
     assert not (tmp_path / name).exists()
 
