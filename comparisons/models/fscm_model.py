@@ -52,6 +52,7 @@ class FullSelfConsistent:
             path = fscm.trace(problem, longest_step=_STEP)
         columns = {"central_gap": path.central_gap, "edge_radius": path.edge_radius}
         shares = path.u_displacement / np.ptp(path.displacement), path.u_load / np.ptp(path.load)
+        # Not a combination of two bounds, but the longest vector with components within them.
         return Curve(path.displacement, path.load, columns, u_distance=float(np.hypot(*shares)))
 
     def pull_off_profile(self, problem: Problem) -> RadialField:

@@ -12,6 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from comparisons.data.paper_values import paper_values
+from comparisons.numerics.bounds import combined
 from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.quantities import QUANTITIES
 
@@ -98,9 +99,9 @@ def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
     -------
     DataFrame
         Columns quantity, model, n, k, mu, nu, value, u_num, reference, reference_value, u_reference,
-        difference, claimed, en.  Difference and claimed = sqrt(u_num^2 + u_reference^2) are relative for forces
-        and energies, else in the unit of the quantity; en = difference / claimed is within -1 and 1 where the
-        claims are right.
+        difference, claimed, en.  `difference` and `claimed`, the bound U of `comparisons.numerics.bounds`, are relative
+        for forces and energies, otherwise in the unit of the quantity.  en = difference / claimed is within -1 and 1
+        where both bounds hold.
 
     Examples
     --------
@@ -117,7 +118,7 @@ def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
     relative = table["quantity"].map(lambda name: QUANTITIES[name].kind in _RELATIVE)
     scale = table["reference_value"].abs().where(relative, 1.0)
     table["difference"] = (table["value"] - table["reference_value"]) / scale
-    table["claimed"] = np.hypot(table["u_num"], table["u_reference"]) / scale
+    table["claimed"] = combined(table["u_num"], table["u_reference"]) / scale
     table["en"] = table["difference"] / table["claimed"]
     return table.drop(columns=["kappa", "u_kappa"])
 

@@ -14,7 +14,8 @@ import fscm
 from comparisons.baseline import read_baseline
 from comparisons.cli import main as cli
 from comparisons.judging.gates import Gate, load_gates
-from comparisons.judging.judge import judge, skipped_gates
+from comparisons.judging.judge import judge
+from comparisons.judging.selection import skipped_gates
 from comparisons.judging.summary import summarise
 from comparisons.quantities import QUANTITIES
 from comparisons.runs.cases import grids, grids_for, load_grids

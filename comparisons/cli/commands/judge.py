@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from hashlib import sha256
 from pathlib import Path
 
@@ -14,7 +14,8 @@ from comparisons.cli.options import FAILED, FAILS, INCONCLUSIVE, OK, output
 from comparisons.console.progress import log
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
-from comparisons.judging.judge import judge, skipped_gates
+from comparisons.judging.judge import judge
+from comparisons.judging.selection import load_user_gates
 from comparisons.output.markdown import to_step_summary
 from comparisons.output.tables import rich_table
 from comparisons.output.verdicts import FILES, matrix, write_verdicts
@@ -23,7 +24,7 @@ from comparisons.runs.environment import fingerprint
 from comparisons.runs.record import check_files, read_record, warn_of_other_code, write_record
 from comparisons.runs.tables import read_table
 
-__all__ = ["GATES", "STATUS", "add", "call", "counted", "judge_and_write", "load_user_gates", "print_verdicts"]
+__all__ = ["GATES", "STATUS", "add", "call", "counted", "judge_and_write", "print_verdicts"]
 
 #: What a run keeps the text of its gates in: the file it was given may change, or be gone.
 GATES = "gates.toml"
@@ -88,37 +89,6 @@ def call(args: argparse.Namespace) -> int:
 def counted(judged: pd.DataFrame) -> dict[str, str | int]:
     """Return the verdict over all and how many cases have each, as ``run.json`` holds them."""
     return {"all": str(roll_up(judged["verdict"])), **Counter(map(str, judged["verdict"]))}
-
-
-def load_user_gates(
-    text: str, path: Path, tier: str, chosen: Sequence[Grid], models: Sequence[str] | None
-) -> list[Gate]:
-    """Return the gates of a file of somebody's own that a run can judge, and say how many it leaves out.
-
-    Parameters
-    ----------
-    text, path
-        Of the file.
-    tier : str
-        Of the run.
-    chosen : sequence of Grid
-        What the run computes.
-    models : sequence of str or None
-        Models given in place of those each grid names.
-
-    Raises
-    ------
-    ValueError
-        If a gate is wrong or needs a model that is not computed; one sentence says which.
-    """
-    every = load_gates(text, models or (), str(path))
-    gates = of_tier(every, tier)
-    others = skipped_gates(gates, chosen, models)
-    if others:
-        log(f"{len(others)} of {len(every)} gates of {path} are left out: their candidate is not given to this run")
-    if len(gates) < len(every):
-        log(f"{len(every) - len(gates)} of {len(every)} gates of {path} are left out: they are of the tier full")
-    return gates
 
 
 def judge_and_write(

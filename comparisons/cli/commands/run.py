@@ -13,12 +13,13 @@ from pathlib import Path
 import pandas as pd
 from rich.table import Table
 
-from comparisons.cli.commands.judge import GATES, STATUS, counted, judge_and_write, load_user_gates, print_verdicts
+from comparisons.cli.commands.judge import GATES, STATUS, counted, judge_and_write, print_verdicts
 from comparisons.cli.options import FAILED, output
 from comparisons.console.progress import log
 from comparisons.curve_quantities import SHAPES
 from comparisons.judging.decision import roll_up
 from comparisons.judging.gates import gates_text, load_gates, of_tier
+from comparisons.judging.selection import load_user_gates
 from comparisons.model import ComputationFailed
 from comparisons.output.figures import agreement as agreement_figure
 from comparisons.output.figures import kappa as kappa_figure

@@ -9,6 +9,8 @@ from itertools import groupby
 
 import pandas as pd
 
+from comparisons.numerics.bounds import combined
+
 __all__ = ["THRESHOLDS", "Sample", "limits", "samples", "thresholds"]
 
 Number = tuple[float, float]
@@ -77,8 +79,8 @@ def _series(found: Iterable[Sample]) -> Iterable[list[Sample]]:
 def limits(found: Sequence[Sample]) -> pd.DataFrame:
     """Return how the finite elements approach the integral equation in both limits.
 
-    The two thinnest and the two thickest skins with an answer; `difference` is elements minus limit, `u_num` covers
-    both, `rate` is the observed exponent of its decay in z_s (negative) or 1 / z_s (positive), NaN in the first row
+    The two thinnest and the two thickest skins with an answer; `difference` is elements minus limit, `u_num` bounds
+    it, `rate` is the observed exponent of its decay in z_s (negative) or 1 / z_s (positive), NaN in the first row
     of each pair and where the difference is not four times its uncertainty; `expected` is 1 - k for a thin skin.  A
     thick one stiffens its solid by a share of a / z_s, a the contact radius, and as the solid becomes rigid what is
     left to change dies out too: the rate is one or more.
@@ -94,7 +96,7 @@ def limits(found: Sequence[Sample]) -> pd.DataFrame:
             for s in ends:
                 elements, limit = s.elements or (math.nan, math.nan), getattr(s, name)
                 difference = elements[0] - limit[0]
-                u_num = math.hypot(elements[1], limit[1])
+                u_num = combined(elements[1], limit[1])
                 rate = math.nan
                 if previous and abs(difference) > 4.0 * u_num:
                     rate = abs(math.log(abs(difference / previous[1])) / math.log(s.depth / previous[0]))
