@@ -22,17 +22,13 @@ Types, patterns and keys are in `comparisons/data/model.schema.json`.
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterable
-from importlib.resources import files
 from itertools import product
 from typing import Any
 
-from jsonschema import Draft202012Validator
-from jsonschema.exceptions import ValidationError
-
-from comparisons.data.toml_text import is_real, names, parse
+from comparisons.data.toml_text import is_real, parse
+from comparisons.data.validation import known_name, validated
 from comparisons.external.text_rules import model_name, one_line
 from comparisons.quantities import QUANTITIES
 from fscm.problem import Problem
@@ -45,7 +41,6 @@ MANIFEST = "model.toml"
 Key = tuple[str, float, float, float]
 
 _COVERS = ("quantities", "n", "k", "mu")
-_BRACKETS = {"covers": "[[covers]]", "units": "[units]"}
 _MOST_CASES = 1_000_000
 
 #: So many cases more than the CSV has lines are still built: the sentence then names the first that is missing.
@@ -62,41 +57,21 @@ def read_manifest(text: str) -> dict[str, Any]:
 
     Examples
     --------
-    >>> read_manifest('doi = "10.1000/182"')
+    >>> read_manifest('licens = "CC-BY-4.0"')
     Traceback (most recent call last):
     ...
-    ValueError: model.toml: author, covers, domain, ... missing or unknown; see docs/judge_your_model.md
+    ValueError: model.toml: unknown key 'licens': did you mean licence?
     """
     manifest = parse(text, MANIFEST)
-    schema = json.loads(files("comparisons.data").joinpath("model.schema.json").read_text(encoding="utf-8"))
     try:
-        # The keys of a table first, then its values.
-        error = min(Draft202012Validator(schema).iter_errors(manifest), key=_rank, default=None)
+        validated(manifest, "model", MANIFEST)
     except RecursionError:
         raise ValueError(f"{MANIFEST} cannot be read: its brackets are nested too deeply") from None
-    if error is not None:
-        raise ValueError(f"{MANIFEST}: {_sentence(error)}")
     for name, value in manifest.items():
         if isinstance(value, str) and value != one_line(value):
             raise ValueError(f"{MANIFEST}: {name} must be one line of 1 to 500 printable characters")
     model_name(manifest["name"])
     return manifest
-
-
-def _rank(error: ValidationError) -> tuple[int, bool]:
-    return len(error.absolute_path), error.validator not in {"required", "additionalProperties"}
-
-
-def _sentence(error: ValidationError) -> str:
-    """Return what is wrong, from the description in the schema."""
-    table, *inner = [part for part in error.absolute_path if isinstance(part, str)] or [""]
-    place = f" in {_BRACKETS[table]}" if table in _BRACKETS else ""
-    if error.validator in {"required", "additionalProperties"}:
-        known, required = error.schema["properties"].keys(), set(error.schema["required"])
-        wrong = sorted((required - error.instance.keys()) | (error.instance.keys() - known))
-        return f"{names(dict.fromkeys(wrong))} missing or unknown{place}; see docs/judge_your_model.md"
-    key = f"{inner[0]}{place}" if inner else table
-    return f"{key} must be {error.schema['description']}; found {one_line(repr(error.instance), 80)}"
 
 
 def covered_cases(tables: list[dict[str, Any]], lines: int) -> set[Key]:
@@ -147,8 +122,7 @@ def covered_cases(tables: list[dict[str, Any]], lines: int) -> set[Key]:
 
 def _check_values(table: dict[str, Any]) -> None:
     for quantity in table["quantities"]:
-        if not isinstance(quantity, str) or quantity not in QUANTITIES:
-            raise ValueError(f"{MANIFEST}: unknown quantity {quantity!r}; known are {', '.join(QUANTITIES)}")
+        known_name("quantity", quantity, QUANTITIES, f"{MANIFEST}: [[covers]]")
     for name in ("n", "k", "mu"):
         if wrong := [entry for entry in table[name] if not is_real(entry)]:
             raise ValueError(f"{MANIFEST}: {name} in [[covers]] must be a list of numbers; found {wrong[0]!r}")
