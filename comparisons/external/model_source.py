@@ -44,7 +44,7 @@ def source_of(spec: str) -> dict[str, Any]:
     Raises
     ------
     ValueError
-        If nothing is there, or more than one; the sentence says what a SPEC can be.
+        If there is no such source, or more than one; the sentence lists what a SPEC can be.
 
     Examples
     --------

@@ -63,7 +63,7 @@ def test_the_workflow_knows_the_exit_statuses(package):
     assert "fscm-bench check-model my-model" in text
     assert "fscm-bench run --model my-model --gates gates.toml --out results" in text
     assert f'"$status" -eq {INCONCLUSIVE}' in text
-    # It is told apart and fails the job all the same.
+    # It has a message of its own and fails the job all the same.
     assert "exit 0" not in text
     meanings = {
         OK: "pass",
