@@ -1,7 +1,19 @@
 """Closed forms, the judge, tables, figures and the command line.
 
 The folders are layers, in the order of `LAYERS`: a module imports from its own layer and from those before it.
+The names below are loaded when they are first used, so that ``import comparisons`` takes no time.
+
+Examples
+--------
+>>> from comparisons import Case, create, evaluate
+>>> evaluate(create("bradley"), "pull_off_force", Case(n=2, k=0.4, mu=1)).value
+2.0
 """
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
 
 #: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
 LAYERS = (
@@ -13,7 +25,40 @@ LAYERS = (
     ("judging",),
     ("output",),
     ("paper",),
+    ("pipeline",),
     ("baseline",),
     ("cli",),
     ("__main__",),
 )
+
+#: Public name -> the module that defines it.
+_EXPORTS = {
+    "Model": "comparisons.model",
+    "Result": "comparisons.model",
+    "Curve": "comparisons.model",
+    "NotApplicable": "comparisons.model",
+    "ComputationFailed": "comparisons.model",
+    "PhysicalModel": "comparisons.external.physical_model",
+    "QUANTITIES": "comparisons.quantities",
+    "create": "comparisons.registry",
+    "Case": "comparisons.runs.cases",
+    "evaluate": "comparisons.runs.tasks",
+    "errors": "comparisons.pipeline.errors",
+    "run": "comparisons.pipeline.runs",
+    "judge": "comparisons.judging.judge",
+    "judge_folder": "comparisons.pipeline.judgement",
+}
+
+__all__ = ["LAYERS", *_EXPORTS]
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name from its module."""
+    if name not in _EXPORTS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = globals()[name] = getattr(import_module(_EXPORTS[name]), name)
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_EXPORTS})

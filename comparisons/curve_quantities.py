@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.model import Curve, KnowsProfiles, Model, NotApplicable, Profile, TracesCurve
+from comparisons.model import Curve, HasCurve, HasProfile, Model, NotApplicable, RadialField
 from fscm.problem import Problem
 
 __all__ = ["SHAPES", "Points", "Shape", "near", "traced"]
@@ -51,7 +51,7 @@ def traced(model: Model, problem: Problem) -> Curve:
     >>> round(float(curve.load.min()), 3)
     -2.0
     """
-    if not isinstance(model, TracesCurve):
+    if not isinstance(model, HasCurve):
         raise NotApplicable("the model has no force-displacement curve")
     return model.curve(problem)
 
@@ -61,8 +61,8 @@ def _force_curve(model: Model, problem: Problem) -> Points:
     return _points(curve.displacement, curve.load, curve.u_distance)
 
 
-def _pull_off_profile(model: Model, problem: Problem) -> Profile:
-    if not isinstance(model, KnowsProfiles):
+def _pull_off_profile(model: Model, problem: Problem) -> RadialField:
+    if not isinstance(model, HasProfile):
         raise NotApplicable("the model does not know the surface at pull-off")
     return model.pull_off_profile(problem)
 

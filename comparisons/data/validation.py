@@ -117,7 +117,7 @@ def _place(error: ValidationError) -> tuple[list[tuple[int, str]], int]:
 def _sentence(error: ValidationError, document: dict[str, Any], schema: Mapping[str, Any]) -> str:
     path = list(error.absolute_path)
     where = ""
-    if len(path) > 1 and isinstance(path[1], int):
+    if len(path) > 1 and isinstance(path[1], int) and isinstance(document[path[0]][path[1]], Mapping):
         where = label(str(path[0]), document[path[0]][path[1]], path[1] + 1) + ": "
     inner = path[2:] if where else path
     table = f"{'.'.join(map(str, inner))}: " if inner else ""

@@ -17,7 +17,7 @@ from comparisons.curve_quantities import SHAPES, Points
 from comparisons.external.identity import contradiction
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
 from comparisons.quantities import QUANTITIES
-from comparisons.registry import ExternalIdentity, create, knows_poisson
+from comparisons.registry import ExternalIdentity, create, depends_on_poisson_ratio
 from comparisons.runs.cases import Case, Grid
 from comparisons.runs.tables import Row
 from comparisons.runs.workers import each
@@ -48,7 +48,7 @@ def case_for(model: str, case: Case) -> Case:
     >>> case_for("jkr", Case(2, 0, 1, nu=0.25)).label
     'n = 2, k = 0, mu = 1'
     """
-    return case if knows_poisson(model) else replace(case, nu=None)
+    return case if depends_on_poisson_ratio(model) else replace(case, nu=None)
 
 
 def plan(

@@ -1,0 +1,1 @@
+"""Whole computations: a run, a run judged again, and the figures of the paper, each one function."""

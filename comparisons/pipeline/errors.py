@@ -1,0 +1,57 @@
+"""Relative errors of models against a reference, without a folder."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import pandas as pd
+
+from comparisons.model import Model
+from comparisons.output.tables import relative_error
+from comparisons.quantities import QUANTITIES
+from comparisons.registry import create
+from comparisons.runs.cases import Case
+from comparisons.runs.tables import frame
+from comparisons.runs.tasks import evaluate
+
+__all__ = ["errors"]
+
+
+def errors(
+    models: Iterable[Model | str], cases: Iterable[Case], quantity: str = "pull_off_force", reference: str = "fscm"
+) -> pd.DataFrame:
+    """Return kappa = (model - reference) / abs(reference) of every model in every case, with its uncertainty.
+
+    Parameters
+    ----------
+    models : iterable of Model or str
+        Models, or the names of models; the reference may be one of them.
+    cases : iterable of Case
+    quantity : str
+        A key of `comparisons.quantities.QUANTITIES`.
+    reference : str
+        The name of the model that the others are compared with.
+
+    Returns
+    -------
+    DataFrame
+        As `comparisons.output.tables.relative_error`: one row for each model and case where both have a value.
+
+    Raises
+    ------
+    ValueError
+        If a model, a case or the quantity is not admissible.
+
+    Examples
+    --------
+    >>> table = errors(["jkr"], [Case(n=2, k=0, mu=1)], reference="bradley")
+    >>> table["kappa"].round(6).tolist()
+    [-0.25]
+    """
+    if quantity not in QUANTITIES:
+        raise ValueError(f"unknown quantity {quantity!r}; the quantities are {', '.join(QUANTITIES)}")
+    chosen = {model.name: model for model in (create(m) if isinstance(m, str) else m for m in models)}
+    if reference not in chosen:
+        chosen[reference] = create(reference)
+    rows = [evaluate(model, quantity, case) for case in cases for model in chosen.values()]
+    return relative_error(frame(rows), reference)
