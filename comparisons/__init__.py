@@ -5,7 +5,7 @@ The folders are layers, in the order of `LAYERS`: a module imports from its own 
 
 #: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
 LAYERS = (
-    ("model", "quantities", "curve_quantities", "console"),
+    ("model", "quantities", "console"),
     ("data", "numerics"),
     ("models", "external"),
     ("registry",),

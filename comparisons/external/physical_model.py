@@ -66,7 +66,7 @@ class InUnits:
         answer = self._model.evaluate_physical(physical, quantity)
         if not isinstance(answer, Result):
             return answer
-        kind = QUANTITIES[quantity].kind
+        kind = QUANTITIES[quantity].scale
         if kind == "number":
             return answer
         return dataclasses.replace(

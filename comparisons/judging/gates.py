@@ -12,10 +12,9 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from comparisons.curve_quantities import SHAPES
 from comparisons.data.toml_text import is_real, names, parse
 from comparisons.judging.gate_checks import PARAMETERS, check_compared, check_numbers, label, plain_text
-from comparisons.quantities import QUANTITIES
+from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.registry import MODELS
 from comparisons.runs.cases import TIERS, Case, Grid
 
@@ -46,7 +45,7 @@ class Gate:
     requirement : str
         One sentence.
     quantity : str
-        A name of `QUANTITIES`, or of `SHAPES` for the metric "curve".
+        A name of `QUANTITIES`, or of `CURVES` for the metric "curve".
     candidate, reference : str
         Names of models; the candidate `GIVEN` stands for every model given to a run.
     cases : dict
@@ -215,7 +214,7 @@ def _gate(table: dict[str, Any], where: str, models: set[str]) -> Gate:
     }.items():
         if getattr(gate, key) not in allowed:
             raise ValueError(f"{where}: {key} = {getattr(gate, key)!r} is not one of {', '.join(allowed)}")
-    quantities = SHAPES if gate.metric == "curve" else QUANTITIES
+    quantities = CURVES if gate.metric == "curve" else QUANTITIES
     if gate.quantity not in quantities:
         raise ValueError(
             f"{where}: unknown quantity {gate.quantity!r} for the metric {gate.metric}; "

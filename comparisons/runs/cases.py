@@ -13,9 +13,8 @@ from importlib.resources import files
 from itertools import product
 from typing import Any
 
-from comparisons.curve_quantities import SHAPES
 from comparisons.data.toml_text import is_real, names, parse
-from comparisons.quantities import QUANTITIES
+from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS
 from fscm.problem import Problem
 
@@ -156,7 +155,7 @@ def _grid(table: dict[str, Any], where: str, tier: str | None) -> Grid:
             raise ValueError(f"{where}: {key} = {table[key]!r} must be a text")
     _known("tier", [tier or table["tier"]], TIERS, where)
     _known("model", [table["reference"], *table["models"]], MODELS, where)
-    _known("quantity", table["quantities"], (*QUANTITIES, *SHAPES), where)
+    _known("quantity", table["quantities"], tuple(ALL_QUANTITIES), where)
     parameters = product(table["n"], table["k"], table["mu"], table.get("nu", [None]))
     cases = {Case(*values) for values in parameters}
     return Grid(
