@@ -42,14 +42,6 @@ _ALL_QUANTITIES = 2
 #: The most rows of a submission that are looked at again; all of them were validated when it was read.
 _MOST_ROWS = 1000
 
-#: Smallest admissible value (strictly above) of the quantities that have a sign.
-_ABOVE = {
-    "pull_off_force": 0.0,
-    "jump_in_gap": -1.0,
-    "jump_out_gap": -1.0,
-    "critical_tabor_number": 0.0,
-}
-
 #: What the error towards a limit may grow by: a model that is exact there has rounding for errors.
 _STANDSTILL = 1e-6
 
@@ -197,9 +189,8 @@ def _finite(answers: _Answers) -> Finding:
 def _signs(answers: _Answers) -> Finding:
     check = "keeps the sign rules"
     for question, answer in answers.given.items():
-        quantity = question[0]
-        if answer.value <= _ABOVE.get(quantity, -math.inf) or (quantity == "hysteresis_energy" and answer.value < 0):
-            asked = QUANTITIES[quantity]
+        asked = QUANTITIES[question[0]]
+        if not asked.admits(answer.value):
             text = f"{_label(question)} is {answer.value:g}, but it is: {asked.meaning}, {asked.sign}"
             return Finding(check, WRONG, text)
     if not answers.given:

@@ -6,13 +6,13 @@ import math
 from collections.abc import Mapping
 from decimal import ROUND_CEILING, ROUND_HALF_EVEN, Decimal
 
-__all__ = ["case_text", "error_text", "exact", "limits_text", "percent_text", "short", "value_text"]
+__all__ = ["LEAST_SHOWN", "case_text", "error_text", "exact", "limits_text", "percent_text", "short", "value_text"]
 
 #: A double has 17 digits; where the uncertainty is far below the last of them, zeros in between have no meaning.
 _MOST_DIGITS = 20
 
 #: Smaller uncertainties of a value are shown as this one: sixteen digits are hard to read.
-_LEAST_SHOWN = 5e-10
+LEAST_SHOWN = 5e-10
 
 #: A relative error in percent is shown to this digit, or to the digit that its uncertainty leaves it.
 _LEAST_PERCENT = 5e-5
@@ -94,7 +94,7 @@ def value_text(value: float | None, u: float | None) -> str:
     if value is None or math.isnan(value):
         return ""
     # NaN, from a table, is a missing uncertainty; max keeps it where it is its first argument.
-    return short(value, max(float(u or 0.0), _LEAST_SHOWN))
+    return short(value, max(float(u or 0.0), LEAST_SHOWN))
 
 
 def percent_text(fraction: float, u: float) -> str:

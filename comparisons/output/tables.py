@@ -201,7 +201,7 @@ def beside_paper_values(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, s
     >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
     >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
     >>> beside_paper_values(largest(relative_error(rows, "fscm")))[0]["kappa"].tolist()
-    ['-1.14286(12)']
+    ['-1.14286(5)']
     """
     stated = maxima[maxima["paper_percent"] != ""].drop(columns=["quantity", "cases"])
     texts = [percent_text(*pair) for pair in zip(stated["kappa"], stated["u_kappa"], strict=True)]

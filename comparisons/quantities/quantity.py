@@ -31,21 +31,26 @@ class Quantity:
     meaning: str
 
 
-#: Scale -> unit; the scales are those of `fscm.physical.PhysicalProblem.scales`, and plain numbers.
-_UNITS = {
-    "load": "pi Q^(2/n) dgamma z0^(2/n-1)",
-    "energy": "pi Q^(2/n) dgamma z0^(2/n)",
-    "displacement": "z0",
-    "gap": "z0",
-    "number": "1",
-}
+@dataclass(frozen=True, slots=True)
+class _Scale:
+    """Unit, sign rule, and that rule as a test of a value."""
 
-_SIGNS = {
-    "load": "positive, though the load is a tension",
-    "energy": "never negative",
-    "displacement": "positive towards the half-space, zero where the undeformed gap at r = 0 is zero",
-    "gap": "zero at the equilibrium distance of two flat surfaces, above -1",
-    "number": "positive",
+    unit: str
+    sign: str
+    admits: Callable[[float], bool]
+
+
+#: The scales of `fscm.physical.PhysicalProblem.scales`, and plain numbers.
+_SCALES = {
+    "load": _Scale("pi Q^(2/n) dgamma z0^(2/n-1)", "positive, though the load is a tension", lambda value: value > 0.0),
+    "energy": _Scale("pi Q^(2/n) dgamma z0^(2/n)", "never negative", lambda value: value >= 0.0),
+    "displacement": _Scale(
+        "z0",
+        "positive towards the half-space, zero where the undeformed gap at r = 0 is zero",
+        lambda value: True,
+    ),
+    "gap": _Scale("z0", "zero at the equilibrium distance of two flat surfaces, above -1", lambda value: value > -1.0),
+    "number": _Scale("1", "positive", lambda value: value > 0.0),
 }
 
 
@@ -58,6 +63,8 @@ class ScalarQuantity(Quantity):
     >>> from comparisons.quantities import QUANTITIES
     >>> QUANTITIES["pull_off_force"].unit
     'pi Q^(2/n) dgamma z0^(2/n-1)'
+    >>> QUANTITIES["jump_in_gap"].admits(-1.2)
+    False
     """
 
     scale: str
@@ -70,12 +77,16 @@ class ScalarQuantity(Quantity):
     @property
     def unit(self) -> str:
         """The scale of the dimensionless value."""
-        return _UNITS[self.scale]
+        return _SCALES[self.scale].unit
 
     @property
     def sign(self) -> str:
         """The positive direction, and the place of zero."""
-        return _SIGNS[self.scale]
+        return _SCALES[self.scale].sign
+
+    def admits(self, value: float) -> bool:
+        """Whether a value keeps the sign rule."""
+        return _SCALES[self.scale].admits(value)
 
     @property
     def relative(self) -> bool:

@@ -36,7 +36,7 @@ _JUDGED: dict[str, Sequence[str]] = {
     "largest_kappa": _LARGEST,
 }
 
-#: Columns of texts and of truth values; every other one holds numbers.
+#: Columns of texts, and of yes or no; every other one holds numbers.
 _WORDS = {
     "model",
     "model_version",

@@ -1,4 +1,4 @@
-"""Figures show the data they were given, and the same data give the same file."""
+"""Figures show their data, and the same data give the same file."""
 
 import numpy as np
 import pandas as pd

@@ -1,4 +1,4 @@
-"""Relative errors, their uncertainty, and the verdict on published digits."""
+"""Relative errors, their uncertainty, and the verdict on printed digits."""
 
 import io
 import math
@@ -90,11 +90,11 @@ def test_u_kappa_bounds_what_the_true_values_can_give(value, reference, u, u_ref
         ("65.0", 0.6512, 1e-6, "differs"),
     ],
 )
-def test_verdict_is_on_the_published_digits(percent, kappa, u, verdict):
+def test_verdict_is_on_the_printed_digits(percent, kappa, u, verdict):
     assert PaperValue("", "", "", percent, "%").verdict(100 * abs(kappa), 100 * u) == verdict
 
 
-def test_the_published_maxima_are_those_of_the_paper():
+def test_the_paper_values_of_the_maxima():
     table = {(p.model, p.n): p.text for p in paper_values("largest_relative_error")}
     assert table == {
         ("md-original", 1): "65.0",
@@ -135,7 +135,7 @@ def test_statuses_are_counted_by_model():
     assert statuses(rows).to_dict("list") == {"model": ["a", "b"], "failed": [0, 1], "ok": [2, 0]}
 
 
-def test_text_from_outside_is_not_markup():
+def test_external_text_is_not_markup():
     stream = io.StringIO()
     table = pd.DataFrame({"reason": ["[bold]k in [0, 1]"], "x": [math.nan], "y": [0.5]})
     Console(file=stream, width=80).print(rich_table(table, "t", {"y": ".3f"}))
