@@ -66,7 +66,7 @@ class InUnits:
         result = self._model.evaluate_physical(physical, quantity)
         if not isinstance(result, Result):
             return result
-        kind = QUANTITIES[quantity].kind
+        kind = QUANTITIES[quantity].scale
         if kind == "number":
             return result
         return dataclasses.replace(

@@ -12,11 +12,10 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from comparisons.curve_quantities import SHAPES
 from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, label, validated
 from comparisons.judging.gate_checks import PARAMETERS, check_compared, check_numbers, plain_text
-from comparisons.quantities import QUANTITIES
+from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.registry import MODELS
 from comparisons.runs.cases import TIERS, Case, Grid
 
@@ -45,7 +44,7 @@ class Gate:
     requirement : str
         One sentence.
     quantity : str
-        A name of `QUANTITIES`, or of `SHAPES` for the metric "curve".
+        A name of `QUANTITIES`, or of `CURVES` for the metric "curve".
     candidate, reference : str
         Names of models; the candidate `GIVEN` stands for every model named in a run.
     cases : dict
@@ -187,7 +186,7 @@ def _gate(table: dict[str, Any], where: str, models: set[str], shared: Mapping[s
         model = getattr(gate, key)
         if model is not None and not (key == "candidate" and model == GIVEN):
             known_name(key, model, sorted(models), where)
-    quantities = SHAPES if gate.metric == "curve" else QUANTITIES
+    quantities = CURVES if gate.metric == "curve" else QUANTITIES
     known_name(f"quantity of the metric {gate.metric}", gate.quantity, quantities, where)
     check_numbers(gate, where)
     return gate

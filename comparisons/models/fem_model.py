@@ -12,12 +12,12 @@ from functools import lru_cache
 from typing import ClassVar
 
 import fem_reference
-from comparisons.curve_quantities import near
 from comparisons.model import Curve, NotApplicable, RadialField, Result
 from comparisons.models.solver import result_of, translated
 from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.numerics.grid_convergence import declared_order, three_grids
 from comparisons.quantities import QUANTITIES
+from comparisons.quantities.points import near
 from fem_reference import export
 from fscm.laws import LennardJones93
 from fscm.physical import PhysicalProblem
@@ -69,7 +69,7 @@ class FiniteElements:
         physical, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             solution = fem_reference.solve(body, quantity)
-        return result_of(_audited(solution, quantity), unit=physical.scales[QUANTITIES[quantity].kind])
+        return result_of(_audited(solution, quantity), unit=physical.scales[QUANTITIES[quantity].scale])
 
     def curve(self, problem: Problem) -> Curve:
         """Return the equilibrium path from far away into compression."""

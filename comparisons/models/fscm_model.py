@@ -7,11 +7,11 @@ from typing import ClassVar
 import numpy as np
 
 import fscm
-from comparisons.curve_quantities import near
 from comparisons.model import Curve, RadialField, Result
 from comparisons.models.gibson_limit import gibson_curve, gibson_profile
 from comparisons.models.solver import result_of, translated
 from comparisons.numerics.curve_distance import mesh_difference
+from comparisons.quantities.points import near
 from fscm.problem import Problem
 from fscm.states import radial_field
 

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.curve_quantities import FARTHEST_GAP
 from comparisons.model import ComputationFailed, HasCurve, HasProfile, NotApplicable
+from comparisons.quantities.points import FARTHEST_GAP
 from comparisons.registry import create
 from comparisons.runs.cases import Case
 from comparisons.runs.tasks import evaluate

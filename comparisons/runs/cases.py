@@ -12,10 +12,9 @@ from importlib.resources import files
 from itertools import product
 from typing import Any
 
-from comparisons.curve_quantities import SHAPES
 from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, label, validated
-from comparisons.quantities import QUANTITIES
+from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS
 from fscm.problem import Problem
 
@@ -130,7 +129,7 @@ def _grid(table: dict[str, Any], where: str, tier: str | None) -> Grid:
     for model in (table["reference"], *table["models"]):
         known_name("model", model, MODELS, where)
     for quantity in table["quantities"]:
-        known_name("quantity", quantity, (*QUANTITIES, *SHAPES), where)
+        known_name("quantity", quantity, tuple(ALL_QUANTITIES), where)
     parameters = product(table["n"], table["k"], table["mu"], table.get("nu", [None]))
     cases = {Case(*values) for values in parameters}
     return Grid(

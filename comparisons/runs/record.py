@@ -30,7 +30,7 @@ FORMAT = 3
 FILES = (
     *(
         f"{table}.{suffix}"
-        for table in ("results", "curves", "kappa", "largest_kappa", "agreement", "verdicts", "gates")
+        for table in ("results", "curves", "kappa", "largest_kappa", "agreement", "verdicts", "gates", "summary")
         for suffix in ("csv", "parquet")
     ),
     *(f"{figure}.{suffix}" for figure in ("fig16b_kappa", "agreement", "references") for suffix in ("png", "pdf")),

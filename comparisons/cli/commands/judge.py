@@ -16,6 +16,7 @@ from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
 from comparisons.judging.judge import judge
 from comparisons.judging.selection import load_user_gates
+from comparisons.judging.summary import summarise
 from comparisons.output.markdown import to_step_summary
 from comparisons.output.tables import rich_table
 from comparisons.output.verdicts import FILES, matrix, write_verdicts
@@ -120,7 +121,7 @@ def print_verdicts(judged: pd.DataFrame, specs: Mapping[str, str]) -> None:
     if judged.empty:
         log("no gate was evaluated")
         return
-    shown = matrix(judged, specs)
+    shown = matrix(summarise(judged), specs)
     console.print(rich_table(shown.drop(columns=["command", "reason"]), "verdicts, worst first"))
     width = shown["gate"].str.len().max()
     console.print("the worst case of each gate is computed again by", style="bold")

@@ -16,14 +16,11 @@ from rich.table import Table
 from comparisons.cli.commands.judge import GATES, STATUS, counted, judge_and_write, print_verdicts
 from comparisons.cli.options import FAILED, output
 from comparisons.console.progress import log
-from comparisons.curve_quantities import SHAPES
 from comparisons.judging.decision import roll_up
 from comparisons.judging.gates import gates_text, load_gates, of_tier
 from comparisons.judging.selection import load_user_gates
 from comparisons.model import ComputationFailed
-from comparisons.output.figures import agreement as agreement_figure
-from comparisons.output.figures import kappa as kappa_figure
-from comparisons.output.figures import references
+from comparisons.output.figures.registry import figures_of
 from comparisons.output.markdown import to_step_summary
 from comparisons.output.style import save
 from comparisons.output.tables import (
@@ -36,6 +33,7 @@ from comparisons.output.tables import (
     rich_table,
     statuses,
 )
+from comparisons.quantities import CURVES
 from comparisons.registry import ExternalIdentity, create, identify
 from comparisons.runs.cases import TIERS, VERIFICATION, Grid, cases_text, grids, grids_for
 from comparisons.runs.computation import add_jobs, add_out, add_retry_failed, checked_jobs, complete, folder_for
@@ -102,8 +100,8 @@ def call(args: argparse.Namespace) -> int:
         log(str(failure))
         return FAILED
     rows = completed.rows
-    table = frame(row for row in rows if row.quantity not in SHAPES)
-    curves = curve_frame(row for row in rows if row.quantity in SHAPES)
+    table = frame(row for row in rows if row.quantity not in CURVES)
+    curves = curve_frame(row for row in rows if row.quantity in CURVES)
     kappa = _kappa(table, chosen, given)
     maxima = largest(kappa)
     _write(folder, table, curves, kappa, maxima)
@@ -185,17 +183,10 @@ def _write(folder: Path, table: pd.DataFrame, curves: pd.DataFrame, kappa: pd.Da
     write_curves(curves, folder / "curves")
     write_table(kappa, folder / "kappa")
     write_table(maxima, folder / "largest_kappa")
-    figures = {}
-    # A run of other models has nothing of what the figure shows.
-    if not kappa_figure.shown(kappa).empty:
-        figures["fig16b_kappa"] = kappa_figure.draw(kappa)
     apart = agreement(table, SECOND_REFERENCE, REFERENCE)
     if not apart.empty:
         write_table(apart, folder / "agreement")
-        figures["agreement"] = agreement_figure.draw(apart)
-    if not curves.empty:
-        figures["references"] = references.draw(curves)
-    for name, figure in figures.items():
+    for name, figure in figures_of({"kappa": kappa, "agreement": apart, "curves": curves}):
         for suffix in (".png", ".pdf"):
             save(figure, folder / f"{name}{suffix}")
 

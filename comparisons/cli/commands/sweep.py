@@ -10,9 +10,9 @@ import pandas as pd
 
 from comparisons.cli.options import FAILED, OK, output
 from comparisons.console.progress import log
-from comparisons.curve_quantities import SHAPES
 from comparisons.model import ComputationFailed
 from comparisons.output.tables import by_case, relative_error, rich_table, statuses
+from comparisons.quantities import CURVES
 from comparisons.registry import identify
 from comparisons.runs.cases import TIERS, Grid, load_grids
 from comparisons.runs.computation import add_jobs, add_out, add_retry_failed, checked_jobs, complete, folder_for
@@ -49,9 +49,9 @@ def call(args: argparse.Namespace) -> int:
     except ComputationFailed as failure:
         log(str(failure))
         return FAILED
-    table = frame(row for row in rows if row.quantity not in SHAPES)
+    table = frame(row for row in rows if row.quantity not in CURVES)
     write_results(table, folder / "results")
-    write_curves(curve_frame(row for row in rows if row.quantity in SHAPES), folder / "curves")
+    write_curves(curve_frame(row for row in rows if row.quantity in CURVES), folder / "curves")
     kappa = pd.concat(
         [relative_error(table, reference) for reference in sorted({grid.reference for grid in chosen})],
         ignore_index=True,

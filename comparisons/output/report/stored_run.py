@@ -1,4 +1,4 @@
-"""What a run folder holds, read back and checked once; everything after this may rely on it."""
+"""The content of a run folder, read back and checked once."""
 
 from __future__ import annotations
 
@@ -27,12 +27,16 @@ _LARGEST = ("quantity", "model", "n", "k", "cases", "mu", "at_end", "kappa", "u_
 _TABLES: dict[str, Sequence[str]] = {
     "results": COLUMNS.names,
     "curves": CURVE_COLUMNS.names,
-    "verdicts": Judged.__slots__,
     "kappa": _KAPPA,
+}
+#: Tables of what is judged, which a sweep does not have.
+_JUDGED: dict[str, Sequence[str]] = {
+    "verdicts": Judged.__slots__,
+    "summary": (*Judged.__slots__, "cases", "skipped"),
     "largest_kappa": _LARGEST,
 }
 
-#: Columns of text, or of truth; every other one holds numbers.
+#: Columns of texts, and of yes or no; every other one holds numbers.
 _WORDS = {
     "model",
     "model_version",
@@ -51,45 +55,63 @@ _WORDS = {
 
 @dataclass(frozen=True, slots=True)
 class Stored:
-    """The record and the tables of a run, as `comparisons.cli.commands.run` wrote them.
+    """The record and the tables of a run or of a sweep.
 
-    `gates` is None in a folder that was judged before gates were stored beside the verdicts.
+    Of a sweep nothing is judged: `judged` is false, and `verdicts`, `summary` and `largest` have no rows.  `gates` is
+    None there, and in a folder that was judged before gates were stored beside the verdicts.
     """
 
     record: dict[str, Any]
     results: pd.DataFrame
     curves: pd.DataFrame
-    verdicts: pd.DataFrame
     kappa: pd.DataFrame
+    verdicts: pd.DataFrame
+    summary: pd.DataFrame
     largest: pd.DataFrame
     gates: pd.DataFrame | None
+    judged: bool = True
 
 
 def read_folder(folder: Path) -> Stored:
-    """Read the folder of a finished run.
+    """Read the folder of a finished run or sweep.
 
     Raises
     ------
     ValueError
-        If there is no finished run, or a file of it is broken or was changed; one sentence says which and how.
+        If there is neither, or a file of it is broken or was changed; one sentence says which and how.
     """
     record = read_record(folder / "run.json")
     check_files(record, folder)
     warn_of_other_code(record, folder)
     tables = {name: _table(folder / f"{name}.parquet", columns) for name, columns in _TABLES.items()}
+    judged = _has(folder, record, "verdicts") or _has(folder, record, "summary")
+    tables |= {
+        name: _table(folder / f"{name}.parquet", columns)
+        if judged or _has(folder, record, name)
+        else pd.DataFrame(columns=list(columns))
+        for name, columns in _JUDGED.items()
+    }
     gates = folder / "gates.parquet"
-    unknown = sorted(set(tables["verdicts"]["verdict"]) - {str(verdict) for verdict in Verdict})
-    if unknown:
-        raise ValueError(f"{folder / 'verdicts.parquet'} has the unknown verdict {unknown[0]!r}")
+    for name in ("verdicts", "summary"):
+        unknown = sorted(set(tables[name]["verdict"]) - {str(verdict) for verdict in Verdict})
+        if unknown:
+            raise ValueError(f"{folder / f'{name}.parquet'} has the unknown verdict {unknown[0]!r}")
     return Stored(
         record,
         tables["results"],
         tables["curves"],
-        tables["verdicts"],
         tables["kappa"],
+        tables["verdicts"],
+        tables["summary"],
         tables["largest_kappa"],
         _table(gates, GATE_COLUMNS, words=set(GATE_COLUMNS)) if gates.exists() else None,
+        judged,
     )
+
+
+def _has(folder: Path, record: dict[str, Any], name: str) -> bool:
+    """Whether a folder has a table, or lost it: the record lists it, and its reader refuses the folder."""
+    return (folder / f"{name}.parquet").exists() or f"{name}.parquet" in record["files"]
 
 
 def _table(path: Path, columns: Sequence[str], words: set[str] = _WORDS) -> pd.DataFrame:

@@ -135,7 +135,7 @@ def with_skin(event: str, k: float, mu: float, depth: float) -> dict[str, Any]:
 
 
 def _kind(name: str) -> str:
-    return QUANTITIES[name].kind if name in QUANTITIES else "energy"
+    return QUANTITIES[name].scale if name in QUANTITIES else "energy"
 
 
 def _reference(name: str, k: float, mu: float) -> Task:

@@ -14,7 +14,7 @@ from comparisons.models.closed_form import EPS
 from comparisons.models.cohesive_stress import eta
 from comparisons.models.jkr import JKR
 from comparisons.models.semi_rigid import SemiRigid, jump_in_coefficient
-from comparisons.numerics.number_text import short
+from comparisons.numerics.number_text import LEAST_SHOWN, value_text
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
 from comparisons.output.tables import rich_table
@@ -32,8 +32,6 @@ Number = tuple[float, float]
 _SHAPES = (1.0, 1.5, 2.0, 5.0)
 #: Relative rounding of a closed form: a few Gamma functions at 2e-15 each.
 _ROUNDING = 64.0 * EPS
-#: Uncertainties below this are shown as this, so that a number has ten digits and not sixteen.
-_LEAST_SHOWN = 5e-10
 
 
 def _critical(paper_value: PaperValue) -> Task:
@@ -170,10 +168,10 @@ def readable(table: pd.DataFrame) -> pd.DataFrame:
         return ", ".join([*parts, *([row["model"]] if row["model"] else [])])
 
     def computed(row: pd.Series) -> str:
-        return in_unit(short(row["computed"], max(row["u"], _LEAST_SHOWN)), row["unit"])
+        return in_unit(value_text(row["computed"], row["u"]), row["unit"])
 
     def difference(row: pd.Series) -> str:
-        small = abs(row["difference"]) <= _LEAST_SHOWN
+        small = abs(row["difference"]) <= LEAST_SHOWN
         return "0" if small else in_unit(f"{row['difference']:+.2g}", row["unit"])
 
     def in_unit(text: str, unit: str) -> str:

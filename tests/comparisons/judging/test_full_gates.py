@@ -12,11 +12,11 @@ import pandas as pd
 import pytest
 
 from comparisons.baseline import BASELINE
-from comparisons.curve_quantities import SHAPES
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import gates_text, load_gates
 from comparisons.judging.judge import judge
 from comparisons.numerics.bounds import combined
+from comparisons.quantities import CURVES as CURVE_QUANTITIES
 from comparisons.runs.cases import VERIFICATION, grids
 from comparisons.runs.tables import Row, curve_frame, frame
 from comparisons.runs.tasks import plan
@@ -51,7 +51,7 @@ def made_up(task):
         "residual": 0.0,
         "seconds": 0.0,
     }
-    if task.quantity not in SHAPES:
+    if task.quantity not in CURVE_QUANTITIES:
         return Row(value=case.n + case.k + case.mu, u_num=U_NUM, **common)
     t = np.linspace(0.0, 1.0, POINTS[task.model])
     return Row(value=None, u_num=None, points=(list(3.0 * t - 2.0), list(np.sin(3.0 * t)), U_DISTANCE), **common)

@@ -16,13 +16,13 @@ import pytest
 from comparisons.baseline import BASELINE, drift, read_baseline
 from comparisons.cli.main import main
 from comparisons.cli.options import case_of
-from comparisons.curve_quantities import SHAPES
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import GIVEN, gates_text, load_gates, of_tier
 from comparisons.judging.judge import judge
 from comparisons.judging.selection import relevant
 from comparisons.judging.summary import summarise
 from comparisons.output.verdicts import command
+from comparisons.quantities import CURVES as CURVE_QUANTITIES
 from comparisons.runs.cases import grids
 from comparisons.runs.tables import frame
 from comparisons.runs.tasks import answer, plan
@@ -48,7 +48,7 @@ def where(table, gate, model, at=None):
 
 
 def shapeless(gate):
-    return gate.quantity not in SHAPES
+    return gate.quantity not in CURVE_QUANTITIES
 
 
 @EVERY_GATE
@@ -85,10 +85,10 @@ def test_the_command_that_is_shown_computes_the_case_of_the_gate(monkeypatch):
             row = pd.Series({"candidate": candidate, "quantity": gate.quantity, "nu": None, **case.parameters})
             assert main(shlex.split(command(row, {}))[1:]) == 0
             name, args = called[-1]
-            assert name == ("curve" if gate.quantity in SHAPES else "solve")
+            assert name == ("curve" if gate.quantity in CURVE_QUANTITIES else "solve")
             assert (args.model, args.quantity) == ([candidate] if name == "curve" else candidate, gate.quantity)
             assert case_of(args) == case
-    assert {args.quantity for name, args in called if name == "curve"} == set(SHAPES)
+    assert {args.quantity for name, args in called if name == "curve"} == set(CURVE_QUANTITIES)
     assert any(args.nu is not None for _, args in called)
 
 
@@ -250,8 +250,8 @@ def test_the_code_computes_what_is_committed():
     }
     slow = {"fem", "fscm", "fscm-stieltjes-400"}
     tasks = plan(GRIDS)
-    assert {task.key[:5] for task in tasks if task.quantity not in SHAPES} == stored
-    chosen = [t for t in tasks if t.model not in slow and t.quantity not in SHAPES][::7]
+    assert {task.key[:5] for task in tasks if task.quantity not in CURVE_QUANTITIES} == stored
+    chosen = [t for t in tasks if t.model not in slow and t.quantity not in CURVE_QUANTITIES][::7]
     chosen += [
         t for t in tasks if t.model == "fscm" and t.quantity == "pull_off_force" and t.case.n == 5 and t.case.k == 0.2
     ][::4]
@@ -265,7 +265,11 @@ def test_the_code_computes_what_is_committed():
 
 @pytest.mark.heavy
 def test_the_finite_elements_compute_what_is_committed():
-    chosen = [task for task in plan(GRIDS) if task.model == "fem" and task.case.n == 5 and task.quantity not in SHAPES]
+    chosen = [
+        task
+        for task in plan(GRIDS)
+        if task.model == "fem" and task.case.n == 5 and task.quantity not in CURVE_QUANTITIES
+    ]
     found = drift(ROWS, frame(answer(task) for task in chosen))
     assert found.empty, found.to_string()
 

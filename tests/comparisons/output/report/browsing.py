@@ -1,4 +1,4 @@
-"""Steps on a page in a real browser: headless Chromium with everything it would ask the network for recorded."""
+"""Steps on a page in a real browser: headless Chromium that records every network request."""
 
 import importlib
 import os
@@ -52,7 +52,7 @@ def drawn(browser):
 
 
 def show(browser, path, width, height):
-    """Open a page and return what was asked for and what was said meanwhile."""
+    """Open a page in a window of this size; the logs hold its messages alone."""
     browser.get("about:blank")
     for kind in ("browser", "performance"):
         browser.get_log(kind)
