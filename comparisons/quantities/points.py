@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.model import HasCurve, HasProfile, Model, NotApplicable
+from comparisons.model import HasCurve, HasProfile, Model, NotApplicable, RadialField
 from comparisons.quantities.quantity import Points
 from fscm.problem import Problem
 
