@@ -7,7 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 import fscm
-from comparisons.model import Curve, Profile, Result
+from comparisons.model import Curve, NotApplicable, Profile, Result
 from comparisons.models.gibson_limit import gibson_curve, gibson_profile
 from comparisons.models.solver import result_of, translated
 from comparisons.numerics.curve_distance import mesh_difference
@@ -39,6 +39,8 @@ class FullSelfConsistent:
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the quantity, or raise as `comparisons.model.Model` says."""
+        if quantity not in fscm.QUANTITIES:
+            raise NotApplicable(f"the FSCM does not compute {quantity}")
         with translated(fscm.NoSuchEvent, fscm.NotConverged):
             return result_of(fscm.solve(problem, quantity))
 
