@@ -50,7 +50,7 @@ def test_a_field_that_a_model_does_not_know_is_not_applicable():
             CURVES[name].evaluate(create("jkr"), PROBLEM)
 
 
-@pytest.mark.parametrize("name", ["fscm", "fem", "jkr"])
+@pytest.mark.parametrize("name", ["fscm", "fem"])
 def test_a_quantity_that_a_model_does_not_compute_is_not_applicable(name):
     """A row of the registry may be there before a solver computes it."""
     with pytest.raises(NotApplicable, match="gap_at_infinity"):
