@@ -7,7 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 import fscm
-from comparisons.model import Curve, RadialField, Result
+from comparisons.model import Curve, NotApplicable, RadialField, Result
 from comparisons.models.gibson_limit import gibson_curve, gibson_profile
 from comparisons.models.solver import result_of, translated
 from comparisons.numerics.curve_distance import mesh_difference
@@ -41,6 +41,8 @@ class FullSelfConsistent:
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the quantity, or raise as in `comparisons.model.Model`."""
+        if quantity not in fscm.QUANTITIES:
+            raise NotApplicable(f"the FSCM does not compute {quantity}")
         with translated(fscm.NoSuchEvent, fscm.NotConverged):
             return result_of(fscm.solve(problem, quantity))
 

@@ -50,6 +50,13 @@ def test_a_field_that_a_model_does_not_know_is_not_applicable():
             CURVES[name].evaluate(create("jkr"), PROBLEM)
 
 
+@pytest.mark.parametrize("name", ["fscm", "fem"])
+def test_a_quantity_that_a_model_does_not_compute_is_not_applicable(name):
+    """A row of the registry may be there before a solver computes it."""
+    with pytest.raises(NotApplicable, match="gap_at_infinity"):
+        create(name, 0.3).evaluate(PROBLEM, "gap_at_infinity")
+
+
 @pytest.mark.parametrize(
     ("name", "value", "admitted"),
     [

@@ -60,7 +60,9 @@ def test_force_curves_are_named():
 
 def test_a_figure_without_rows_is_not_drawn():
     others = errors().assign(model="jkr")
-    assert [stem for stem, _ in figures_of({"kappa": errors(), "curves": pd.DataFrame()})] == ["fig16b_kappa"]
+    drawn_stems = [stem for stem, _ in figures_of({"kappa": errors(), "curves": pd.DataFrame()})]
+    assert "fig16b_kappa" in drawn_stems
+    assert "references" not in drawn_stems
     assert list(figures_of({"kappa": others})) == []
     assert len({figure.stem for figure in FIGURES}) == len(FIGURES)
 
