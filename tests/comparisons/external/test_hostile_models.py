@@ -136,7 +136,7 @@ def test_a_refusal_whose_text_cannot_be_had_is_a_refusal(write_model):
     assert "__str__ raises ZeroDivisionError" in row.reason
 
 
-def test_printing_disturbs_nobody(write_model, capfd):
+def test_printing_of_a_model_is_not_shown(write_model, capfd):
     body = "print('{\"status\": \"ok\"}' * 9999)\nos.write(1, b'x')\nos.write(2, b'y')\nsys.stdout.close()\n" + GOOD
     assert row_of(write_model(body)).value == 1.5
     assert capfd.readouterr() == ("", "")

@@ -20,15 +20,15 @@ from comparisons.runs.tasks import evaluate
 
 from .conftest import EXAMPLE
 
-FILE_DOOR = f"{EXAMPLE / 'double_hertz.py'}:DoubleHertz"
+FILE_SOURCE = f"{EXAMPLE / 'double_hertz.py'}:DoubleHertz"
 QUANTITY = "pull_off_force"
 CASES = [Case(2, k, mu) for k in (0, 0.4) for mu in (0.1, 1)]
 
 
 @pytest.fixture
-def data_door(tmp_path):
+def data_source(tmp_path):
     """Write the predictions of the example as an author would who cannot give the code away."""
-    model = create(FILE_DOOR)
+    model = create(FILE_SOURCE)
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["quantity", "n", "k", "mu", "value", "u_num"])
@@ -104,11 +104,13 @@ def gates(tmp_path):
     return str(path)
 
 
-def test_all_doors_give_the_same_rows_and_verdicts(data_door, installed_example, gates, tmp_path, monkeypatch, capsys):
+def test_all_sources_give_the_same_rows_and_verdicts(
+    data_source, installed_example, gates, tmp_path, monkeypatch, capsys
+):
     for command in (run, judge):
         monkeypatch.setattr(command, "grids", lambda tier: load_grids(GRID))
     tables, verdicts = [], []
-    for number, spec in enumerate((installed_example, FILE_DOOR, data_door)):
+    for number, spec in enumerate((installed_example, FILE_SOURCE, data_source)):
         out = tmp_path / str(number)
         assert main(["run", "--jobs", "1", "--out", str(out), "--gates", gates, "--model", spec]) == 0
         verdicts.append((out / "verdicts.csv").read_text())
@@ -128,9 +130,9 @@ def test_all_doors_give_the_same_rows_and_verdicts(data_door, installed_example,
     assert verdicts[0].count("PASS") == len(CASES)
 
 
-def test_the_doors_agree_in_solve(data_door, installed_example, capsys):
+def test_the_sources_agree_in_solve(data_source, installed_example, capsys):
     values = []
-    for spec in (installed_example, FILE_DOOR, data_door):
+    for spec in (installed_example, FILE_SOURCE, data_source):
         arguments = ["--quantity", QUANTITY, "--n", "2", "--k", "0.4", "--mu", "1", "--format", "json"]
         assert main(["solve", "--model", spec, *arguments]) == 0
         shown = capsys.readouterr()
@@ -183,8 +185,8 @@ def test_a_run_goes_on_and_notices_that_a_model_changed(write_model, gates, tmp_
     assert values == [1.6] * 4
 
 
-def test_two_models_of_one_name_are_refused(write_model, data_door, capsys):
-    assert main(["run", "--model", FILE_DOOR, data_door]) == 2
+def test_two_models_of_one_name_are_refused(write_model, data_source, capsys):
+    assert main(["run", "--model", FILE_SOURCE, data_source]) == 2
     assert "two models are called double-hertz" in capsys.readouterr().err
 
 

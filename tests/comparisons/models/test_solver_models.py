@@ -22,7 +22,7 @@ def test_a_jump_below_the_critical_tabor_number_is_not_applicable():
 
 
 @pytest.mark.parametrize(("name", "segments"), [("fscm-stieltjes", 2500), ("fscm-stieltjes-400", 400)])
-def test_the_published_scheme_states_its_own_segments(name, segments):
+def test_the_stieltjes_scheme_states_its_own_segments(name, segments):
     model = create(name)
     assert model._segments == segments
     assert f"wider than the {segments} segments" in model.domain
@@ -86,7 +86,7 @@ def test_what_the_finite_elements_do_not_do(problem, quantity, reason):
         FiniteElements().evaluate(problem, quantity)
 
 
-def test_the_published_scheme_is_off_by_no_more_than_it_says():
+def test_the_stieltjes_scheme_is_within_its_bound():
     row = evaluate(StieltjesModel(segments=200), "pull_off_force", Case(2, 0.4, 0.5))
     assert abs(row.value - 1.86628026) < row.u_num < 1e-2
     assert evaluate(StieltjesModel(segments=200), "hysteresis_energy", Case(2, 0.4, 0.5)).status == "not-applicable"
