@@ -117,7 +117,7 @@ def _place(error: ValidationError) -> tuple[list[tuple[int, str]], int]:
 def _sentence(error: ValidationError, document: dict[str, Any], schema: Mapping[str, Any]) -> str:
     path = list(error.absolute_path)
     where = ""
-    if len(path) > 1 and isinstance(path[1], int):
+    if len(path) > 1 and isinstance(path[1], int) and isinstance(document[path[0]][path[1]], dict):
         where = label(str(path[0]), document[path[0]][path[1]], path[1] + 1) + ": "
     inner = path[2:] if where else path
     table = f"{'.'.join(map(str, inner))}: " if inner else ""
@@ -133,17 +133,19 @@ def _sentence(error: ValidationError, document: dict[str, Any], schema: Mapping[
             f"{', '.join(error.validator_value)}" + (f" and may have {', '.join(optional)}" if optional else "")
         )
     depth, description = _described(schema, path)
+    while depth > 1 and isinstance(path[depth - 1], int):
+        depth -= 1
     value: Any = document
     for part in path[:depth]:
         value = value[part]
-    key = ".".join(str(part) for part in path[2 if where else 0 : depth])
+    where = where if depth > 1 else ""
+    key = where + ".".join(map(str, path[2 if where else 0 : depth]))
     if error.validator == "enum":
         near = get_close_matches(str(value), error.validator_value, n=1)
         description = f"one of {', '.join(error.validator_value)}" + (f": did you mean {near[0]}?" if near else "")
-    where = where if depth > 1 else ""
-    if isinstance(value, list) and len(path) > depth > 1:
-        return f"{where}{key} must be {description}; it holds {_shown(error.instance)}"
-    return f"{where}{key} = {_shown(value)} must be {description}"
+    if len(path) > depth:
+        return f"{key} must be {description}; it holds {_shown(error.instance)}"
+    return f"{key} = {_shown(value)} must be {description}"
 
 
 def _described(schema: Mapping[str, Any], path: Iterable[str | int]) -> tuple[int, str]:
