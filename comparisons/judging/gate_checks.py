@@ -148,6 +148,6 @@ def _check_worst_measured(gate: Gate, where: str) -> None:
         )
     if inside and gate.expected_failure is not None:
         raise ValueError(
-            f"{where}: worst_measured = {exact(worst)} is within {limits}, and yet expected_failure says that every "
+            f"{where}: worst_measured = {exact(worst)} is within {limits}, although expected_failure states that every "
             "case fails; correct one of them"
         )

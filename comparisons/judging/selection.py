@@ -89,7 +89,7 @@ def load_user_gates(
     Raises
     ------
     ValueError
-        If a gate is wrong or needs a model that is not computed; one sentence says which.
+        If a gate is wrong or needs a model that is not computed; one sentence names it.
     """
     every = load_gates(text, models or (), str(path))
     gates = of_tier(every, tier)

@@ -1,1 +1,1 @@
-"""Grid convergence and distances of curves."""
+"""Bounds, grid convergence and distances of curves."""

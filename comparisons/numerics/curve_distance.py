@@ -1,9 +1,9 @@
-"""The distance of two curves given by points, e.g. two S-shaped force-displacement curves.
+"""Distance of two curves given by points, e.g. two S-shaped force-displacement curves.
 
 Both axes are scaled by the range of the reference, so that a distance is a fraction of the picture.  The
 distance is the largest one of a point of the candidate from the reference, interpolated by a cubic spline
-over its length, in the range of x that both have.  The candidate must go everywhere the reference goes: a
-long stretch without points counts as a distance of its length.
+over its length, in the range of x that both have.  The candidate must cover the whole reference: a long part of it
+without points counts as a distance of its length.
 """
 
 from __future__ import annotations
@@ -24,20 +24,19 @@ _SAMPLES = 32
 #: Neighbouring points nearer than this, as a fraction of the picture, count as one: a fold inserted beside a
 #: point.
 _SAME = 1e-7
-#: The spline through every other point errs 16 times as much where the curve is smooth; half of that is
-#: counted on.
+#: The spline through every other point has 16 times the error where the curve is smooth; half of that is used.
 _HALVING_GAIN = 8.0
-#: Longest stretch of the reference, as a fraction of its length, that the candidate may leave without a point
+#: Longest part of the reference, as a fraction of its length, that may have no point of the candidate
 #: (measured: 0.25 far away, where the steps of the finite elements are long).
-_STRETCH = 1 / 3
-#: Factor on the distance of two computations of different fineness, as an estimate of the error of the finer.
+_LONGEST_PART = 1 / 3
+#: Factor on the distance of two computations with different meshes, as a bound on the error of the finer.
 _SAFETY = 2.0
 _FEWEST_POINTS = 8
 
 
 @dataclass(frozen=True, slots=True)
 class CurveDistance:
-    """The distance and what interpolating the reference may add to it; fractions of the picture.
+    """A distance and the bound on its error by the interpolation of the reference, as fractions of the picture.
 
     Examples
     --------
@@ -87,8 +86,8 @@ def curve_distance(
     curve, reference = curve[inside] / span, reference / span
     polyline = _dense(reference)
     nearest = [_nearest(point, polyline) for point in curve]
-    missing = _stretch(np.array([place for _, place in nearest]), polyline, low / span[0], high / span[0])
-    value = max([distance for distance, _ in nearest] + [missing] * (missing > _STRETCH))
+    missing = _longest_part(np.array([place for _, place in nearest]), polyline, low / span[0], high / span[0])
+    value = max([distance for distance, _ in nearest] + [missing] * (missing > _LONGEST_PART))
     return CurveDistance(value, _interpolation_error(reference, reference_inside) if interpolated else 0.0)
 
 
@@ -134,8 +133,8 @@ def _nearest(point: Array, polyline: Array) -> tuple[float, int]:
     return float(distances[place]), place
 
 
-def _stretch(places: NDArray[np.int_], polyline: Array, low: float, high: float) -> float:
-    """Longest stretch of the reference, as a fraction of it, without a point at one of these segments."""
+def _longest_part(places: NDArray[np.int_], polyline: Array, low: float, high: float) -> float:
+    """Longest part of the reference, as a fraction of it, without a point at one of these segments."""
     inside = np.flatnonzero((polyline[:, 0] >= low) & (polyline[:, 0] <= high))
     length = _lengths(polyline)
     stops = np.sort(np.concatenate([[inside[0]], places, [inside[-1]]]))

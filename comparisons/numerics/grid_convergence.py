@@ -1,9 +1,8 @@
-"""Grid convergence: what a number computed on several grids says about its own error.
+"""Bound on the error of a number from its values on several grids.
 
-`three_grids` is the procedure of Celik et al. (J. Fluids Eng. 130 (2008) 078001), which rests on Roache's
-grid convergence index; `least_squares` that of Eca and Hoekstra (J. Comput. Phys. 262 (2014) 104-130), for
-four grids or more and values that scatter.  Both take the order of convergence as *declared* for the
-quantity: singularities at a cohesive edge decide it, not the polynomials of an element.
+`three_grids` is the procedure of Celik et al. (J. Fluids Eng. 130 (2008) 078001), with Roache's grid convergence index;
+`comparisons.numerics.least_squares` is one for four grids or more.  Both take the order of convergence as *declared*
+for the quantity, since it is decided by singularities at a cohesive edge and not by the polynomials of an element.
 """
 
 from __future__ import annotations
@@ -14,27 +13,36 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 
-__all__ = ["DECLARED_ORDERS", "GridConvergence", "declared_order", "least_squares", "three_grids"]
+__all__ = [
+    "CAUTIOUS_SAFETY",
+    "DECLARED_ORDERS",
+    "LOWEST_ORDER",
+    "NOISE",
+    "SAFETY",
+    "GridConvergence",
+    "checked",
+    "declared_order",
+    "three_grids",
+]
 
 Array = NDArray[np.float64]
 
-#: Factor on the error estimate of three grids in their asymptotic range, and otherwise (Roache 1998, Sec.
-#: 5.9).
+#: Factor on the error estimate of three grids in their asymptotic range, and otherwise (Roache 1998, Sec. 5.9).
 SAFETY, CAUTIOUS_SAFETY = 1.25, 3.0
-#: An observed order in this range around the declared one is trusted (Eca and Hoekstra take 0.5 to 2.1 for
-#: 2).
-_LOWEST, _EXCESS = 0.5, 0.1
-_FIXED_POINT_STEPS, _FIXED_POINT_TOLERANCE = 200, 1e-12
-#: Orders searched by the least-squares fit.
-_ORDERS = np.linspace(0.05, 12.0, 120)
+#: An observed order below this is not trusted (Eca and Hoekstra).
+LOWEST_ORDER = 0.5
+#: Ratios of grid sizes nearer to each other than this count as equal; the order has then a closed form.
+_SAME_RATIO = 1e-12
+#: Natural logarithm of the largest power of a ratio in the search for the order.
+_LARGEST_POWER = 200.0
 #: Differences below this many roundings of the value are noise: they have no order.
-_NOISE = 16.0 * 2.0**-52
+NOISE = 16.0 * 2.0**-52
 
-#: Model -> quantity -> order in the width of the segments.  The published scheme is a midpoint sum: 2,
-#: measured 1.9 to 2.1 on 100 to 400 segments where the edge is wider than a segment.  The finite elements are of
-#: degree 6 on meshes that resolve the edge; what they are asked converges faster (measured 7 to 15), which is
-#: not relied on.
+#: Model -> quantity -> order in the width of the segments.  The Stieltjes scheme is a midpoint sum: 2, measured 1.9 to
+#: 2.1 on 100 to 400 segments where the edge is wider than a segment.  The finite elements are of degree 6 on meshes
+#: that resolve the edge; their quantities converge faster (measured 7 to 15), which is not relied on.
 DECLARED_ORDERS: dict[str, dict[str, float]] = {
     "fem": dict.fromkeys(
         (
@@ -75,7 +83,7 @@ def declared_order(model: str, quantity: str) -> float:
 
 @dataclass(frozen=True, slots=True)
 class GridConvergence:
-    """What a family of grids says.
+    """Value, limit and bound from a family of grids.
 
     Attributes
     ----------
@@ -101,7 +109,8 @@ class GridConvergence:
     observed_order: float
 
 
-def _checked(sizes: Sequence[float], values: Sequence[float], fewest: int) -> tuple[Array, Array]:
+def checked(sizes: Sequence[float], values: Sequence[float], fewest: int) -> tuple[Array, Array]:
+    """Return sizes and values as arrays, finest grid first, or raise a ValueError if they have no order."""
     h, f = np.asarray(sizes, float), np.asarray(values, float)
     if h.shape != f.shape or h.ndim != 1 or len(h) < fewest:
         raise ValueError(
@@ -111,7 +120,7 @@ def _checked(sizes: Sequence[float], values: Sequence[float], fewest: int) -> tu
         raise ValueError("grid sizes must be positive and everything finite")
     order = np.argsort(h)
     if (np.diff(h[order]) <= 0.0).any():
-        raise ValueError("two grids have the same size: they say nothing about convergence")
+        raise ValueError("two grids have the same size: they show nothing about convergence")
     return h[order], f[order]
 
 
@@ -137,134 +146,40 @@ def three_grids(sizes: Sequence[float], values: Sequence[float], declared: float
     >>> round(found.observed_order, 5), round(found.extrapolated, 5), round(found.u_num / 0.97050, 8)
     (1.78617, 0.9713, 0.00103083)
     """
-    h, f = _checked(sizes, values, 3)
+    h, f = checked(sizes, values, 3)
     if len(h) != 3:
         raise ValueError(f"{len(h)} grids are not three: use least_squares")
     (h1, h2, h3), (f1, f2, f3) = h.tolist(), f.tolist()
     fine, coarse = f2 - f1, f3 - f2
-    noise = _NOISE * max(abs(f1), abs(f2), abs(f3))
+    noise = NOISE * max(abs(f1), abs(f2), abs(f3))
     if abs(fine) <= noise or abs(coarse) <= noise:
         return GridConvergence(f1, f1, CAUTIOUS_SAFETY * max(abs(fine), abs(coarse), noise), math.nan)
     p = _observed_order(h2 / h1, h3 / h2, coarse / fine)
     # A negative order is divergence; the estimate of order 1/2 then only tells how far the grids are apart.
-    used = min(max(p, _LOWEST), declared) if math.isfinite(p) else _LOWEST
+    used = min(max(p, LOWEST_ORDER), declared) if math.isfinite(p) else LOWEST_ORDER
     error = fine / ((h2 / h1) ** used - 1.0)
     oscillates = coarse / fine < 0.0
-    factor = CAUTIOUS_SAFETY if oscillates or not p >= _LOWEST else SAFETY
+    factor = CAUTIOUS_SAFETY if oscillates or not p >= LOWEST_ORDER else SAFETY
     size = max(abs(error), abs(f1 - f3)) if oscillates or not p > 0.0 else abs(error)
     return GridConvergence(f1, f1 - error, factor * size, p)
 
 
 def _observed_order(r21: float, r32: float, ratio: float) -> float:
-    """Solve Celik et al.'s p = abs(ln abs(ratio) + q(p)) / ln r21 by fixed point; NaN if not reached."""
-    s, p = math.copysign(1.0, ratio), 1.0
-    for _ in range(_FIXED_POINT_STEPS):
-        a, b = r21**p - s, r32**p - s
-        if a <= 0.0 or b <= 0.0:
-            return math.nan
-        new = abs(math.log(abs(ratio)) + math.log(a / b)) / math.log(r21)
-        if abs(new - p) <= _FIXED_POINT_TOLERANCE * max(1.0, p):
-            # The absolute value makes a positive number of divergence too; tell it apart.
-            return -new if s > 0.0 and abs(ratio) < _ratio(r21, r32, 0.0) else new
-        p = new
-    return math.nan
+    """Return Celik et al.'s p of (f3 - f2)/(f2 - f1) = ratio; negative for divergence, NaN if there is none.
 
-
-def _ratio(r21: float, r32: float, p: float) -> float:
-    """(f3 - f2) / (f2 - f1) of a term h^p; the limit at p = 0 divides convergence from divergence."""
-    if p == 0.0:
-        return math.log(r32) / math.log(r21)
-    return r21**p * (r32**p - 1.0) / (r21**p - 1.0)
-
-
-def least_squares(sizes: Sequence[float], values: Sequence[float], declared: float) -> GridConvergence:
-    """Fit f0 + alpha h^p to four grids or more; bound the error by the fit, its scatter and its misfit.
-
-    Parameters
-    ----------
-    sizes, values : sequence of float, length >= 4
-        Typical element sizes, in any order, and the value on each grid.
-    declared : float
-        Order the quantity converges with; takes the place of the 2 of the original procedure.
-
-    Returns
-    -------
-    GridConvergence
-        With the data range D = (max f - min f) / (m - 1) and the scatter s of the chosen fit:
-        u_num = F abs(f1 - f0) + s + abs(f1 - fit) if s < D, and 3 s/D times (error + s + misfit) otherwise;
-        F = 1.25 if the fitted order is trusted and s < D, else 3.
-
-    Notes
-    -----
-    Where the fitted order is above the declared one the best of the fits with p = 1 and p = declared is
-    taken, and where it is below 1/2 also f0 + a h + b h^declared.  Every fit is made with equal weights and
-    with weights 1/h, and the one of less scatter is taken (Eca and Hoekstra, Secs. 3.3 and 4).
-
-    Examples
-    --------
-    >>> h = [1.0, 1.5, 2.0, 3.0]
-    >>> found = least_squares(h, [2.0 + 0.1 * x**2 for x in h], declared=2)
-    >>> round(found.observed_order, 6), round(found.extrapolated, 9), round(found.u_num, 9)
-    (2.0, 2.0, 0.125)
+    Where the values oscillate, p a = abs(ln abs(ratio) + q(p)) makes p positive for growing oscillations too.
     """
-    h, f = _checked(sizes, values, 4)
-    fits = [_best_power(h, f, weights) for weights in _weightings(h)]
-    p, fit = min(fits, key=lambda found: found[1].scatter)
-    trusted = _LOWEST <= p <= declared + _EXCESS
-    if not trusted:
-        terms = [(1.0,), (declared,)] + ([(1.0, declared)] if p < _LOWEST and declared != 1.0 else [])
-        fit = min(
-            (_fit(h, f, weights, powers) for powers in terms for weights in _weightings(h)),
-            key=lambda found: found.scatter,
-        )
-    spread = float(np.ptp(f)) / (len(f) - 1)
-    error, misfit = abs(f[0] - fit.limit), abs(f[0] - fit.at_finest)
-    if spread == 0.0:
-        noise = _NOISE * abs(f[0])
-        return GridConvergence(float(f[0]), float(f[0]), float(CAUTIOUS_SAFETY * noise), math.nan)
-    if fit.scatter < spread:
-        u_num = (SAFETY if trusted else CAUTIOUS_SAFETY) * error + fit.scatter + misfit
-    else:
-        u_num = CAUTIOUS_SAFETY * fit.scatter / spread * (error + fit.scatter + misfit)
-    return GridConvergence(float(f[0]), fit.limit, float(u_num), p)
+    a, b, size = math.log(r21), math.log(r32), math.log(abs(ratio))
+    sign = 1.0 if ratio > 0.0 else math.copysign(1.0, size)
+    size *= sign
+    if abs(b - a) <= _SAME_RATIO * a:
+        return size / a
 
+    def misfit(p: float) -> float:
+        if ratio < 0.0:
+            return p * a + sign * math.log((math.exp(p * b) + 1.0) / (math.exp(p * a) + 1.0)) - size
+        return p * a + math.log(math.expm1(p * b) / math.expm1(p * a) if p else b / a) - size
 
-@dataclass(frozen=True, slots=True)
-class _Fit:
-    limit: float
-    at_finest: float
-    scatter: float
-
-
-def _weightings(h: Array) -> tuple[Array, Array]:
-    inverse = 1.0 / h
-    return np.full(len(h), 1.0 / len(h)), inverse / inverse.sum()
-
-
-def _fit(h: Array, f: Array, weights: Array, powers: tuple[float, ...]) -> _Fit:
-    """Weighted least squares of f0 + sum alpha_j h^p_j; an order counts as a parameter, fitted or not."""
-    matrix = np.column_stack([np.ones(len(h)), *((h / h[-1]) ** p for p in powers)])
-    root = np.sqrt(weights)
-    coefficients = np.linalg.lstsq(matrix * root[:, None], f * root, rcond=None)[0]
-    fitted = matrix @ coefficients
-    # m w is 1 on average; the two-term and the power fit both spend three parameters.
-    freedom = max(len(h) - 1 - max(len(powers), 1), 1)
-    scatter = math.sqrt(float((len(h) * weights * (f - fitted) ** 2).sum()) / freedom)
-    return _Fit(float(coefficients[0]), float(fitted[0]), scatter)
-
-
-def _best_power(h: Array, f: Array, weights: Array) -> tuple[float, _Fit]:
-    """The order with the least scatter: the best of a table, then golden section between its neighbours."""
-
-    def scatter(p: float) -> float:
-        return _fit(h, f, weights, (p,)).scatter
-
-    best = int(np.argmin([scatter(p) for p in _ORDERS]))
-    low, high = _ORDERS[max(best - 1, 0)], _ORDERS[min(best + 1, len(_ORDERS) - 1)]
-    golden = (math.sqrt(5.0) - 1.0) / 2.0
-    for _ in range(40):
-        width = golden * (high - low)
-        a, b = high - width, low + width
-        low, high = (low, b) if scatter(a) < scatter(b) else (a, high)
-    p = float(0.5 * (low + high))
-    return p, _fit(h, f, weights, (p,))
+    end = _LARGEST_POWER / max(a, b)
+    start = -end if ratio > 0.0 else 0.0
+    return brentq(misfit, start, end, xtol=1e-13) if misfit(start) <= 0.0 < misfit(end) else math.nan

@@ -23,8 +23,8 @@ __all__ = ["TIERS", "VERIFICATION", "Case", "Grid", "cases_text", "grids", "grid
 #: A tier holds its own grids and those of every tier before it.
 TIERS = ("quick", "full")
 
-#: Grids with this tag are questions about the references themselves.  They are not asked of models that are
-#: given to a run, and are not in its tables of errors.
+#: Grids with this tag are about the references themselves.  They are not computed for the models that a user names, and
+#: are not in the tables of errors.
 VERIFICATION = "verification"
 
 
@@ -60,7 +60,7 @@ class Case:
             object.__setattr__(self, name, float(getattr(self, name)))
         if self.nu is not None and not 0 <= self.nu < 0.5:
             raise ValueError(
-                f"Poisson's ratio nu = {self.nu:g} is outside [0, 0.5): "
+                f"Poisson's ratio nu = {self.nu:g} is not in [0, 0.5): "
                 "at 0.5 the solid is incompressible and displacements alone do not give the stress"
             )
         self.problem()
@@ -71,9 +71,9 @@ class Case:
 
     @property
     def parameters(self) -> dict[str, float]:
-        """The parameters that were given, by name."""
-        given = {"n": self.n, "k": self.k, "mu": self.mu}
-        return given if self.nu is None else {**given, "nu": self.nu}
+        """The parameters that are not None, by name."""
+        parameters = {"n": self.n, "k": self.k, "mu": self.mu}
+        return parameters if self.nu is None else {**parameters, "nu": self.nu}
 
     @property
     def label(self) -> str:
@@ -98,7 +98,7 @@ class Grid:
     models : tuple of str
         The candidates.
     quantities : tuple of str
-        What is asked of every model.
+        What every model computes.
     cases : tuple of Case
         Sorted, without duplicates.
     tags : tuple of str

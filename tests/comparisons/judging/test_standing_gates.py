@@ -104,9 +104,9 @@ def changed(gate, change):
     return rows, curves
 
 
-# A factor of 1.7 and a wrong sign are outside every gate.  The wrong exponent is a power of mu too many, with a
-# scale that is no case's, or it would not show there.  Swapped n and k is the factor 1 / (1 + k) of Eq. 51 written
-# with n; at (k, n) itself no problem is admissible.
+# A factor of 1.7 and a wrong sign are beyond the limits of every gate.  The wrong exponent is a power of mu too many,
+# with a scale that is no case's, or it would not show there.  Swapped n and k is the factor 1 / (1 + k) of Eq. 51
+# written with n; at (k, n) itself no problem is admissible.
 MISTAKES = {
     "factor": lambda rows: 1.7 * rows["value"],
     "sign": lambda rows: -rows["value"],

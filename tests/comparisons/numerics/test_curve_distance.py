@@ -1,4 +1,4 @@
-"""The distance of curves: closed forms, invariance under sampling and units, folds, and what is refused."""
+"""Distance of curves: closed forms, invariance under sampling and units, folds, and wrong input."""
 
 import numpy as np
 import pytest
@@ -73,7 +73,7 @@ def test_a_reference_without_range_is_refused():
         curve_distance(t, t, t, np.ones(20))
 
 
-def test_the_spread_of_two_computations_bounds_the_better_one():
+def test_the_difference_of_two_computations_bounds_the_better_one():
     def computed(error):
         x, y = s_curve(50)
         return x, y + error * np.cos(x)

@@ -1,4 +1,4 @@
-"""Grid convergence against published examples, and for honesty against known truths."""
+"""Grid convergence against examples of the literature and against known values."""
 
 import math
 
@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from comparisons.models.stieltjes_model import StieltjesModel
-from comparisons.numerics.grid_convergence import declared_order, least_squares, three_grids
+from comparisons.numerics.grid_convergence import declared_order, three_grids
+from comparisons.numerics.least_squares import least_squares
 from fscm.problem import Problem
 
 # Celik et al., J. Fluids Eng. 130 (2008) 078001, Table 1: numbers of cells in two dimensions, and as printed
@@ -81,7 +82,7 @@ def noisy(seed):
     return abs(error[0]) / found.u_num
 
 
-def test_scattered_values_are_covered_as_often_as_the_procedure_claims():
+def test_scattered_values_are_covered_as_often_as_the_procedure_states():
     """The bound is meant to hold in 95 of 100 cases (measured: 97 %; 90 % if the scatter is 10 %)."""
     ratios = np.array([noisy(seed) for seed in range(60)])
     assert (ratios <= 1.0).mean() >= 0.95
@@ -112,13 +113,13 @@ def test_an_edge_singularity_decides_the_order_not_the_rule():
 
 
 @pytest.mark.parametrize("quantity", ["pull_off_force", "zero_load_displacement"])
-def test_honest_on_a_low_order_scheme_against_a_finer_truth(quantity):
+def test_the_bound_of_a_low_order_scheme_holds_against_a_finer_grid(quantity):
     problem = Problem(n=3, k=0.2, mu=0.5)
-    truth = StieltjesModel(800).evaluate(problem, quantity).value
+    reference = StieltjesModel(800).evaluate(problem, quantity).value
     segments = (50, 100, 200)
     values = [StieltjesModel(m).evaluate(problem, quantity).value for m in segments]
     found = three_grids([1 / m for m in segments], values, declared_order("fscm-stieltjes", quantity))
-    assert abs(found.value - truth) <= found.u_num <= 3 * abs(found.value - truth)
+    assert abs(found.value - reference) <= found.u_num <= 3 * abs(found.value - reference)
     assert found.observed_order == pytest.approx(2, abs=0.2)
 
 
@@ -141,3 +142,35 @@ def test_wrong_input(sizes, values, why):
 def test_an_undeclared_order_is_an_error():
     with pytest.raises(ValueError, match="no order"):
         declared_order("jkr", "pull_off_force")
+
+
+def test_the_order_of_unequal_ratios_solves_the_equation_of_celik_et_al():
+    """p ln r21 = abs(ln abs(ratio) + ln((r21^p - s)/(r32^p - s))), also where a fixed-point iteration does not end."""
+    rng = np.random.default_rng(5)
+    for p, r21, r32, s in zip(
+        rng.uniform(0.6, 8.0, 200),
+        rng.uniform(1.1, 3.0, 200),
+        rng.uniform(1.1, 3.0, 200),
+        rng.choice([-1.0, 1.0], 200),
+        strict=True,
+    ):
+        h = np.array([1.0, r21, r21 * r32])
+        found = three_grids(h, 1.0 + 1e-3 * h**p * np.array([1.0, s, 1.0]), declared=9)
+        order, ratio = found.observed_order, (r32**p - s) / (r21**p - s) * r21**p
+        assert order == pytest.approx(p, rel=1e-6)
+        assert order * np.log(r21) == pytest.approx(
+            abs(np.log(ratio) + np.log((r21**order - s) / (r32**order - s))), rel=1e-6
+        )
+
+
+def test_growing_oscillations_have_the_positive_order_of_celik_et_al():
+    found = three_grids([1.0, 2.0, 3.0], [1.004, 1.0, 1.001], declared=2)
+    p = found.observed_order
+    assert p * np.log(2.0) == pytest.approx(abs(np.log(0.25) + np.log((2.0**p + 1) / (1.5**p + 1))), rel=1e-9)
+    assert found.u_num >= 3 * 0.003
+
+
+@pytest.mark.parametrize("h", [[1.0, 2.0, 4.0], [1.0, 1.5, 2.9]])
+def test_divergence_has_its_negative_order(h):
+    values = 1.0 + np.power(h, -0.7)
+    assert three_grids(h, values, declared=2).observed_order == pytest.approx(-0.7, abs=1e-9)
