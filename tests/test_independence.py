@@ -1,4 +1,4 @@
-"""The two references share no code, and nothing upstream imports what is downstream of it."""
+"""Imports between the packages and between the layers of `comparisons`."""
 
 import ast
 from pathlib import Path
@@ -14,22 +14,22 @@ PACKAGES = ("fscm", "fem_reference", "comparisons")
 ALLOWED = {
     "fscm": (),
     "fem_reference": (),
-    # The pure data of a problem is what all of comparisons speaks of.
+    # The data of a problem, which every module of comparisons uses.
     "comparisons": ("fscm.problem", "fscm.punch", "fscm.laws"),
-    # A model from outside may work in physical units.
+    # An external model may work in physical units.
     "comparisons.external": ("fscm.physical", "fscm.problem", "fscm.punch", "fscm.laws"),
     # Shows what is inside the finite elements: fields, checks, solver table.
     "comparisons.cli.commands.fem": ("fem_reference", "fscm.problem", "fscm.punch", "fscm.laws"),
     # Shows the functions inside the FSCM.
     "comparisons.paper.figures.kernel_functions": ("fscm",),
-    # Asks the finite elements about a solid that is no power law, which no dimensionless problem describes.
+    # A solid that is no power law has no dimensionless problem.
     "comparisons.paper.studies.surface_modulus": ("fscm.physical", "fscm.problem", "fem_reference"),
-    # Shows where a jump lands and what the surface is at pull-off, which no quantity of a model says.
+    # The landing of a jump and the surface at pull-off are no quantities of a model.
     "comparisons.paper.figures.s_curve": ("fscm",),
     "comparisons.paper.figures.pull_off_surfaces": ("fscm",),
-    # Both jumps of one path, at every Tabor number, in half the time of asking for each.
+    # Both jumps of one path, at every Tabor number, in half the time of two computations.
     "comparisons.paper.figures.jumps": ("fscm",),
-    # Takes the published scheme apart: what is left out, the mesh, the steps, one at a time.
+    # Changes one ingredient of the Stieltjes scheme at a time.
     "comparisons.paper.values.scheme_ingredients": ("fscm",),
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
@@ -96,9 +96,9 @@ def ours(name: str, path: Path) -> set[str]:
 def test_packages_import_only_what_they_may(name):
     own = name.split(".")[0]
     rule = max((start for start in ALLOWED if within(name, (start,))), key=len)
-    foreign = {module for module in ours(name, modules()[name]) if module.split(".")[0] != own}
+    others = {module for module in ours(name, modules()[name]) if module.split(".")[0] != own}
     # "from fscm.problem import ..." also names the package itself.
-    assert {module for module in foreign if not within(module, ALLOWED[rule]) and "." in module} == set()
+    assert {module for module in others if not within(module, ALLOWED[rule]) and "." in module} == set()
     if not any("." not in allowed for allowed in ALLOWED[rule]):
         source = modules()[name].read_text(encoding="utf-8")
         bare = {module for module in imported(name, source) if module in PACKAGES and module != own}
