@@ -20,8 +20,10 @@ import pandas as pd
 
 from comparisons.console.exit_status import guarded
 from comparisons.paper.registry import paper_figures
+from comparisons.runs.atomic_files import atomic
+from comparisons.runs.csv_format import csv_text, plain_text
 from comparisons.runs.record import check_files, read_record
-from comparisons.runs.tables import atomic, csv_text, plain_text, read_table
+from comparisons.runs.tables import read_table
 
 __all__ = [
     "BASELINE",

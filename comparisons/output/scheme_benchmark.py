@@ -14,7 +14,7 @@ from pathlib import Path
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
-from comparisons.runs.tables import Row
+from comparisons.runs.rows import Row
 from comparisons.runs.tasks import Task, answer
 
 __all__ = ["Measurement", "compare", "measure"]

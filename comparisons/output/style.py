@@ -9,7 +9,7 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.runs.tables import atomic
+from comparisons.runs.atomic_files import atomic
 
 __all__ = [
     "COLOURS",

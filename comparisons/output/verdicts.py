@@ -16,7 +16,8 @@ from comparisons.numerics.number_text import exact, limits_text, short
 from comparisons.output.junit import junit
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
-from comparisons.runs.tables import atomic, write_table
+from comparisons.runs.atomic_files import atomic
+from comparisons.runs.tables import write_table
 
 __all__ = [
     "FILES",

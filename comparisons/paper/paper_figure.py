@@ -12,7 +12,8 @@ from rich.table import Table
 
 from comparisons.output.style import save
 from comparisons.paper.cache import Results, Task
-from comparisons.runs.tables import atomic, csv_text
+from comparisons.runs.atomic_files import atomic
+from comparisons.runs.csv_format import csv_text
 
 __all__ = ["PaperFigure", "Tables", "write"]
 

@@ -15,10 +15,11 @@ from typing import Any
 
 from comparisons.console.progress import counting, log
 from comparisons.model import ComputationFailed
+from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.journal import alone_in
 from comparisons.runs.reevaluation import evaluate_again
 from comparisons.runs.row_journal import RowJournal
-from comparisons.runs.tables import Row, prepare_folder
+from comparisons.runs.rows import Row
 from comparisons.runs.tasks import Task, compute
 from comparisons.runs.workers import usable_cores
 

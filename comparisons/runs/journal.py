@@ -17,8 +17,8 @@ from typing import Any, Generic, TypeVar
 from filelock import FileLock, Timeout
 
 from comparisons.console.progress import log
+from comparisons.runs.atomic_files import atomic, writing
 from comparisons.runs.environment import differences
-from comparisons.runs.tables import atomic, writing
 
 __all__ = ["Journal", "alone_in"]
 

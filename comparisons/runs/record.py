@@ -18,8 +18,8 @@ from jsonschema import Draft202012Validator
 from jsonschema.exceptions import best_match
 
 from comparisons.console.progress import log
+from comparisons.runs.atomic_files import write_json
 from comparisons.runs.environment import differences, fingerprint
-from comparisons.runs.tables import write_json
 
 __all__ = ["FILES", "FORMAT", "check_files", "read_record", "warn_of_other_code", "write_record"]
 

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.runs.tables import Row
+from comparisons.runs.rows import Row
 from comparisons.runs.tasks import Task, compute
 
 __all__ = ["AT_MOST", "Reevaluation", "chosen", "evaluate_again", "same"]

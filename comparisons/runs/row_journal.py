@@ -11,7 +11,7 @@ from typing import Any
 
 from comparisons.runs.environment import computing_environment, fingerprint
 from comparisons.runs.journal import Journal
-from comparisons.runs.tables import Row
+from comparisons.runs.rows import Row
 
 __all__ = ["RowJournal"]
 

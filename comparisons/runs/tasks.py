@@ -19,7 +19,7 @@ from comparisons.model import ComputationFailed, Model, NotApplicable, Result
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import ExternalIdentity, create, knows_poisson
 from comparisons.runs.cases import Case, Grid
-from comparisons.runs.tables import Row
+from comparisons.runs.rows import Row
 from comparisons.runs.workers import each
 
 __all__ = ["Task", "answer", "case_for", "compute", "evaluate", "plan"]

@@ -10,7 +10,8 @@ import pytest
 from comparisons.baseline import BASELINE, main, publish
 from comparisons.runs.environment import computing_environment, environment
 from comparisons.runs.record import read_record, write_record
-from comparisons.runs.tables import Row, curve_frame, frame, write_curves, write_results
+from comparisons.runs.rows import Row, curve_frame, frame
+from comparisons.runs.tables import write_curves, write_results
 
 COMMITTED = Path(__file__).parents[2] / BASELINE
 FROM_QUICK = {

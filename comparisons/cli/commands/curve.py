@@ -17,8 +17,9 @@ from comparisons.model import ComputationFailed, Model, NotApplicable
 from comparisons.output.figures import force_curve, profiles
 from comparisons.output.style import picture_path, save
 from comparisons.registry import create, identify
+from comparisons.runs.atomic_files import atomic, writable_file
 from comparisons.runs.cases import Case
-from comparisons.runs.tables import atomic, csv_text, writable_file
+from comparisons.runs.csv_format import csv_text
 from fscm.problem import Problem
 
 __all__ = ["add", "call"]

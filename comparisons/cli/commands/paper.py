@@ -14,10 +14,10 @@ from comparisons.model import ComputationFailed
 from comparisons.paper.cache import CallCache
 from comparisons.paper.paper_figure import write
 from comparisons.paper.registry import NAMES, paper_figures
+from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.computation import add_jobs, add_retry_failed, checked_jobs, say_failures_used
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.journal import alone_in
-from comparisons.runs.tables import prepare_folder
 
 __all__ = ["add", "call"]
 

@@ -10,7 +10,7 @@ from comparisons.console.progress import log
 from comparisons.output.report.page import make_page
 from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
-from comparisons.runs.tables import atomic, writable_file
+from comparisons.runs.atomic_files import atomic, writable_file
 
 __all__ = ["add", "call"]
 

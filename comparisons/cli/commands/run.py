@@ -36,19 +36,13 @@ from comparisons.output.tables import (
     statuses,
 )
 from comparisons.registry import ExternalIdentity, create, identify
+from comparisons.runs.atomic_files import atomic
 from comparisons.runs.cases import TIERS, VERIFICATION, Grid, cases_text, grids, grids_for
 from comparisons.runs.computation import add_jobs, add_out, add_retry_failed, checked_jobs, complete, folder_for
 from comparisons.runs.environment import environment
 from comparisons.runs.record import FORMAT, write_record
-from comparisons.runs.tables import (
-    Row,
-    atomic,
-    curve_frame,
-    frame,
-    write_curves,
-    write_results,
-    write_table,
-)
+from comparisons.runs.rows import Row, curve_frame, frame
+from comparisons.runs.tables import write_curves, write_results, write_table
 from comparisons.runs.tasks import plan
 
 __all__ = ["add", "call"]

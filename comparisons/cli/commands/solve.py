@@ -10,7 +10,8 @@ from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case, case_of, n
 from comparisons.console.progress import waiting
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
-from comparisons.runs.tables import Row, csv_text, frame
+from comparisons.runs.csv_format import csv_text
+from comparisons.runs.rows import Row, frame
 from comparisons.runs.tasks import evaluate
 
 __all__ = ["add", "call"]

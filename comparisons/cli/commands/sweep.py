@@ -16,7 +16,8 @@ from comparisons.output.tables import by_case, relative_error, rich_table, statu
 from comparisons.registry import identify
 from comparisons.runs.cases import TIERS, Grid, load_grids
 from comparisons.runs.computation import add_jobs, add_out, add_retry_failed, checked_jobs, complete, folder_for
-from comparisons.runs.tables import curve_frame, frame, write_curves, write_results, write_table
+from comparisons.runs.rows import curve_frame, frame
+from comparisons.runs.tables import write_curves, write_results, write_table
 from comparisons.runs.tasks import plan
 
 __all__ = ["add", "call"]

@@ -14,7 +14,7 @@ from comparisons.output.report.plot import Plot
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.report.table import Table, table_tex
 from comparisons.output.verdicts import worst_cases
-from comparisons.runs.tables import csv_text
+from comparisons.runs.csv_format import csv_text
 
 __all__ = ["Page", "make_page"]
 

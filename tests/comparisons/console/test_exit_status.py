@@ -18,8 +18,9 @@ from comparisons.cli.main import main
 from comparisons.console.exit_status import FAILED, TRACEBACK, WRONG_INPUT, Terminated, guarded
 from comparisons.output.markdown import to_step_summary
 from comparisons.output.style import FORMATS, save
+from comparisons.runs.atomic_files import write_json
 from comparisons.runs.journal import Journal, alone_in
-from comparisons.runs.tables import write_json, write_table
+from comparisons.runs.tables import write_table
 
 SOLVE = '["solve", "--model", "jkr", "--quantity", "pull_off_force", "--n", "2", "--k", "0.4", "--mu", "1"]'
 ROOT = Path(__file__).resolve().parents[3]
@@ -184,7 +185,7 @@ def full_disk(monkeypatch):
         os.close(handle)
         return open("/dev/full", mode)
 
-    monkeypatch.setattr("comparisons.runs.tables.os.fdopen", fdopen)
+    monkeypatch.setattr("comparisons.runs.atomic_files.os.fdopen", fdopen)
 
 
 def figure():

@@ -17,7 +17,7 @@ from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import gates_text, load_gates
 from comparisons.judging.judge import judge
 from comparisons.runs.cases import VERIFICATION, grids
-from comparisons.runs.tables import Row, curve_frame, frame
+from comparisons.runs.rows import Row, curve_frame, frame
 from comparisons.runs.tasks import plan
 
 ROOT = Path(__file__).parents[3]

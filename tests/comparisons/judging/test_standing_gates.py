@@ -23,7 +23,7 @@ from comparisons.judging.judge import judge, relevant
 from comparisons.judging.summary import summarise
 from comparisons.output.verdicts import command
 from comparisons.runs.cases import grids
-from comparisons.runs.tables import frame
+from comparisons.runs.rows import frame
 from comparisons.runs.tasks import answer, plan
 
 GRIDS = grids("quick")

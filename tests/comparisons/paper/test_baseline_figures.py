@@ -11,7 +11,7 @@ import pytest
 
 from comparisons.baseline import PAPER_BASELINE, changes, main, renew_paper_baseline
 from comparisons.paper.registry import NAMES, paper_figures
-from comparisons.runs.tables import csv_text
+from comparisons.runs.csv_format import csv_text
 
 FOLDER = Path(__file__).parents[3] / PAPER_BASELINE
 CHEAP = ("2", "11", "12")

@@ -14,7 +14,7 @@ from comparisons.output.report.model_style import model_styles
 from comparisons.output.report.page import make_page
 from comparisons.output.report.stored_run import read_folder
 from comparisons.output.report.table import Cell, Column, Row, Table, table_tex, without_empty
-from comparisons.runs.tables import csv_text
+from comparisons.runs.csv_format import csv_text
 
 
 @pytest.fixture(scope="module")
