@@ -44,12 +44,12 @@ _EXPORTS = {
     "Case": "comparisons.runs.cases",
     "evaluate": "comparisons.runs.tasks",
     "errors": "comparisons.pipeline.errors",
-    "run": "comparisons.pipeline.runs",
+    "run": "comparisons.pipeline.run",
     "judge": "comparisons.judging.judge",
     "judge_folder": "comparisons.pipeline.judgement",
 }
 
-__all__ = ["LAYERS", *_EXPORTS]  # noqa: PLE0604
+__all__ = ["LAYERS", *_EXPORTS]
 
 
 def __getattr__(name: str) -> Any:

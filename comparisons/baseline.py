@@ -14,14 +14,17 @@ import math
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from comparisons.console.exit_status import guarded
+from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA_FIGURE, LARGEST_KAPPA, REFERENCES, RESULTS
 from comparisons.paper.registry import paper_figures
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.csv_format import csv_text, plain_text
+from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import check_files, read_record
 from comparisons.runs.tables import read_table
 
@@ -43,13 +46,16 @@ PAPER_BASELINE = BASELINE / "paper"
 _KEY = ["model", "quantity", "n", "k", "mu", "nu"]
 # What depends on the machine or on the work done (seconds, iterations, residual) is left out.
 _TABLES = {
-    "quick.csv": ("results.parquet", [*_KEY, "value", "u_num", "status", "reason"]),
-    "curves.csv": ("curves.parquet", [*_KEY, "point", "x", "y", "u_distance", "status", "reason"]),
+    "quick.csv": (f"{RESULTS}.parquet", [*_KEY, "value", "u_num", "status", "reason"]),
+    "curves.csv": (f"{CURVES}.parquet", [*_KEY, "point", "x", "y", "u_distance", "status", "reason"]),
 }
 #: What is taken as it is, by tier: the committed name, and that in the folder of the run.
 _COPIES = {
-    "quick": {name: name for name in ("largest_kappa.csv", "fig16b_kappa.png", "fig16b_kappa.pdf", "references.png")},
-    "full": {f"references_agreement.{suffix}": f"agreement.{suffix}" for suffix in ("csv", "png")},
+    "quick": {
+        name: name
+        for name in (f"{LARGEST_KAPPA}.csv", f"{KAPPA_FIGURE}.png", f"{KAPPA_FIGURE}.pdf", f"{REFERENCES}.png")
+    },
+    "full": {f"references_agreement.{suffix}": f"{AGREEMENT}.{suffix}" for suffix in ("csv", "png")},
 }
 _TEXTS = ("model", "quantity", "status", "reason")
 
@@ -64,18 +70,19 @@ def publish(folder: Path, target: Path = BASELINE) -> list[Path]:
     Raises
     ------
     ValueError
-        If it is no finished run, lacks a file, was changed, or was asked for other models than the standing ones;
+        If it is no finished run, lacks a file, was changed, or has other models or cases than the standing ones;
         nothing is changed then.
     """
-    record = read_record(folder / "run.json")
+    record = read_record(RunFolder(folder).record)
     check_files(record, folder)
-    asked = record["arguments"]
-    if asked["model"] is not None:
-        raise ValueError(f"{folder} has the models {', '.join(asked['model'])} only: publish a run without --model")
-    tables = _TABLES if asked["tier"] == "quick" else {}
+    tier = _tier(record, folder)
+    models = record["arguments"]["model"]
+    if models is not None:
+        raise ValueError(f"{folder} has the models {', '.join(models)} only: publish a run without --model")
+    tables = _TABLES if tier == "quick" else {}
     texts = {name: csv_text(read_table(folder / source)[columns]) for name, (source, columns) in tables.items()}
     contents = {name: text.encode() for name, text in texts.items()}
-    for name, source in _COPIES[asked["tier"]].items():
+    for name, source in _COPIES[tier].items():
         if not (folder / source).exists():
             raise ValueError(f"{folder} lacks {source}: publish the folder of a finished run")
         contents[name] = (folder / source).read_bytes()
@@ -84,6 +91,14 @@ def publish(folder: Path, target: Path = BASELINE) -> list[Path]:
         with atomic(target / name) as file:
             file.write(content)
     return [target / name for name in contents]
+
+
+def _tier(record: dict[str, Any], folder: Path) -> str:
+    """Return the tier of a run."""
+    tier = record["arguments"].get("tier")
+    if tier is None:
+        raise ValueError(f"{folder} is not the folder of a run of the standing cases: give one of `fscm-bench run`")
+    return str(tier)
 
 
 def renew_paper_baseline(folder: Path, target: Path = PAPER_BASELINE) -> list[Path]:
@@ -195,12 +210,12 @@ def check(folder: Path) -> pd.DataFrame:
     ValueError
         If it is no finished run of that tier, or a file of it was changed.
     """
-    record = read_record(folder / "run.json")
+    record = read_record(RunFolder(folder).record)
     check_files(record, folder)
-    tier = record["arguments"]["tier"]
+    tier = _tier(record, folder)
     if tier != "quick":
         raise ValueError(f"{folder} is a run of the {tier} tier; the results that are committed are of the quick one")
-    return drift(read_baseline()[0], read_table(folder / "results.parquet"))
+    return drift(read_baseline()[0], read_table(RunFolder(folder).parquet(RunFolder(folder).results)))
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -224,7 +239,8 @@ def _task(arguments: Sequence[str]) -> int:
         drifted = check(args.folder)
         print(f"{args.folder} is what is committed" if drifted.empty else csv_text(drifted))
         return 0 if drifted.empty else 1
-    if (args.folder / "run.json").exists():
+    record = RunFolder(args.folder).record
+    if record.exists() and read_record(record)["command_name"] != "paper":
         gave = ", ".join(map(str, publish(args.folder)))
     else:
         gave = f"{len(renew_paper_baseline(args.folder))} files of {PAPER_BASELINE}"

@@ -102,12 +102,9 @@ tier = "quick"
 
 @pytest.fixture
 def small_grid(toys, monkeypatch):
-    """Make `fscm-bench run` compute four cases of toy models and judge them by one gate, given here."""
-    for command in ("run", "judge"):
-        monkeypatch.setattr(f"comparisons.cli.commands.{command}.grids", lambda tier: load_grids(GRID))
-        monkeypatch.setattr(
-            f"comparisons.cli.commands.{command}.gates_text", lambda path: gates_text(path) if path else GATES
-        )
+    """Make `fscm-bench run` compute four cases of toy models and judge them by one gate."""
+    monkeypatch.setattr("comparisons.pipeline.inputs.grids", lambda tier: load_grids(GRID))
+    monkeypatch.setattr("comparisons.pipeline.inputs.gates_text", lambda path: gates_text(path) if path else GATES)
     return GATES
 
 

@@ -63,9 +63,10 @@ def made_up(folder, tier, model=None):
             (folder / f"{name}.{suffix}").write_text(f"{name} of the {tier} run")
     for name in ("largest_kappa", "agreement"):
         (folder / f"{name}.csv").write_text(f"{name} of the {tier} run")
-    asked = {"tier": tier, "model": model, "outside": {}, "gates": None, "jobs": 2, "out": str(folder)}
+    asked = {"tier": tier, "grid": None, "model": model, "external": {}, "gates": None, "jobs": 2, "out": str(folder)}
     record = {
-        "format": 3,
+        "format": 4,
+        "command_name": "run",
         "arguments": asked,
         "command": ["fscm-bench", "run"],
         "started": "2026-01-01T00:00:00+00:00",

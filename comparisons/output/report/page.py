@@ -78,7 +78,7 @@ def make_page(stored: Stored) -> Page:
     stored : Stored
         As `comparisons.output.report.stored_run.read_folder` returns it.
     """
-    specs = stored.record["arguments"]["outside"]
+    specs = stored.record["arguments"]["external"]
     curves = plots.curves(stored)
     made = [
         verdict_tables.matrix(stored),

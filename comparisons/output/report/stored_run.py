@@ -12,6 +12,7 @@ import pandas as pd
 from comparisons.judging.decision import Verdict
 from comparisons.judging.judge import Judged
 from comparisons.output.verdicts import GATE_COLUMNS
+from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import check_files, read_record, warn_of_other_code
 from comparisons.runs.rows import COLUMNS, CURVE_COLUMNS
 from comparisons.runs.tables import read_table
@@ -52,7 +53,7 @@ _WORDS = {
 
 @dataclass(frozen=True, slots=True)
 class Stored:
-    """The record and the tables of a run, as `comparisons.cli.commands.run` wrote them.
+    """The record and the tables of a run, as `comparisons.pipeline.run` wrote them.
 
     `gates` is None in a folder that was judged before gates were stored beside the verdicts.
     """
@@ -74,14 +75,15 @@ def read_folder(folder: Path) -> Stored:
     ValueError
         If there is no finished run, or a file of it is broken or was changed; one sentence says which and how.
     """
-    record = read_record(folder / "run.json")
+    files = RunFolder(folder)
+    record = read_record(files.record)
     check_files(record, folder)
     warn_of_other_code(record, folder)
     tables = {name: _table(folder / f"{name}.parquet", columns) for name, columns in _TABLES.items()}
-    gates = folder / "gates.parquet"
+    gates = files.parquet(files.gates)
     unknown = sorted(set(tables["verdicts"]["verdict"]) - {str(verdict) for verdict in Verdict})
     if unknown:
-        raise ValueError(f"{folder / 'verdicts.parquet'} has the unknown verdict {unknown[0]!r}")
+        raise ValueError(f"{files.parquet(files.verdicts)} has the unknown verdict {unknown[0]!r}")
     return Stored(
         record,
         tables["results"],

@@ -18,7 +18,7 @@ from comparisons.numerics.number_text import short
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
 from comparisons.output.tables import rich_table
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.tasks import quantity
 from comparisons.paper.values.causes import Repeated, frame, repeated, tasks
@@ -36,12 +36,12 @@ _ROUNDING = 64.0 * EPS
 _LEAST_SHOWN = 5e-10
 
 
-def _critical(claim: PaperValue) -> Task:
+def _critical(claim: PaperValue) -> CachedCall:
     # The Tabor number of the case is not used.
-    return Task.of(quantity, "fscm", "critical_tabor_number", claim.n, claim.k, 1.0)
+    return CachedCall.of(quantity, "fscm", "critical_tabor_number", claim.n, claim.k, 1.0)
 
 
-def _tasks() -> Sequence[Task]:
+def _tasks() -> Sequence[CachedCall]:
     return [*map(_critical, paper_values("critical_tabor_number")), *tasks()]
 
 

@@ -8,11 +8,10 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
+from comparisons.data.file_names import RUN_FILES, VERDICT_FILES
 from comparisons.output.report.page import make_page
 from comparisons.output.report.stored_run import read_folder
-from comparisons.output.verdicts import FILES
 from comparisons.runs.environment import fingerprint
-from comparisons.runs.record import FILES as WITH_CHECKSUM
 from comparisons.runs.record import read_record, write_record
 
 
@@ -38,14 +37,14 @@ def gates(text, tmp_path, *changes):
 
 
 def test_judging_again_gives_the_same_and_computes_nothing(folder, monkeypatch, capsys):
-    before = {name: (folder / name).read_bytes() for name in FILES}
+    before = {name: (folder / name).read_bytes() for name in VERDICT_FILES}
     monkeypatch.setattr("comparisons.registry.create", None)
-    monkeypatch.setattr("comparisons.runs.tasks.answer", None)
+    monkeypatch.setattr("comparisons.runs.tasks.evaluate_task", None)
     shown = []
     for _ in range(2):
         assert main(["judge", str(folder)]) == 0
         shown.append(capsys.readouterr().out)
-        assert {name: (folder / name).read_bytes() for name in FILES} == before
+        assert {name: (folder / name).read_bytes() for name in VERDICT_FILES} == before
     assert shown[0] == shown[1]
     assert "TEN-PERCENT" in shown[0]
     assert "fscm-bench solve --model ten-percent --quantity pull_off_force --n 2 --k 0" in shown[0]
@@ -107,7 +106,7 @@ def test_a_run_is_judged_again_by_the_gates_it_was_made_with(small_grid, tmp_pat
     other = small_grid.replace("TEN-PERCENT", "OTHER").replace('"ten-percent"', '"refuses"')
     rules = gates(small_grid + other * bool(models), tmp_path, ("upper = 0.11", "upper = 0.095"))
     assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), *models, *rules]) == 1
-    before = {name: (tmp_path / "run" / name).read_bytes() for name in (*FILES, "run.json", "gates.toml")}
+    before = {name: (tmp_path / "run" / name).read_bytes() for name in (*VERDICT_FILES, "run.json", "gates.toml")}
     (tmp_path / "gates.toml").unlink()
     capsys.readouterr()
     assert main(["judge", str(tmp_path / "run")]) == 1
@@ -235,7 +234,7 @@ def test_no_flipped_bit_of_any_stored_file_is_judged_in_silence(folder, capsys):
             said = capsys.readouterr().err
             if name == "journal.jsonl":  # Neither command reads it.
                 assert statuses == (0, 0)
-            elif name in FILES:  # These the judge writes again.
+            elif name in VERDICT_FILES:  # These the judge writes again.
                 assert statuses == (0, 0)
                 assert (folder / name).read_bytes() == whole[name]
             else:
@@ -246,7 +245,7 @@ def test_no_flipped_bit_of_any_stored_file_is_judged_in_silence(folder, capsys):
             (folder / "run.json").write_bytes(whole["run.json"])
 
 
-@pytest.mark.parametrize("name", [name for name in FILES if name in WITH_CHECKSUM])
+@pytest.mark.parametrize("name", [name for name in VERDICT_FILES if name in RUN_FILES])
 def test_verdicts_that_were_changed_are_not_reported(folder, capsys, name):
     with (folder / name).open("ab") as file:
         file.write(b" ")

@@ -4,7 +4,7 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.model import ComputationFailed
-from comparisons.paper.cache import Task
+from comparisons.paper.cache import CachedCall
 from comparisons.paper.paper_figure import PaperFigure
 from comparisons.paper.registry import NAMES, paper_figures
 
@@ -16,7 +16,9 @@ def fail(x):
     raise ComputationFailed(f"{x} does not converge")
 
 
-FAILING = PaperFigure("99", "failing", "", lambda: [Task.of(fail, 1)], lambda answers: answers[Task.of(fail, 1)], None)
+FAILING = PaperFigure(
+    "99", "failing", "", lambda: [CachedCall.of(fail, 1)], lambda answers: answers[CachedCall.of(fail, 1)], None
+)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -48,7 +50,7 @@ def test_two_runs_give_the_same_bytes(tmp_path):
 
 
 def test_a_call_that_fails_costs_its_own_plate(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("comparisons.cli.commands.paper.paper_figures", lambda names: [FAILING, *paper_figures(names)])
+    monkeypatch.setattr("comparisons.pipeline.figures.paper_figures", lambda names: [FAILING, *paper_figures(names)])
     assert main(["paper", "--figure", "2", "--jobs", "1", "--out", str(tmp_path)]) == 4
     said = capsys.readouterr()
     assert "does not converge" in said.err
@@ -58,7 +60,7 @@ def test_a_call_that_fails_costs_its_own_plate(tmp_path, capsys, monkeypatch):
 
 
 def test_a_stored_failure_is_used_and_said_and_made_again_when_asked_for(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("comparisons.cli.commands.paper.paper_figures", lambda names: [FAILING])
+    monkeypatch.setattr("comparisons.pipeline.figures.paper_figures", lambda names: [FAILING])
     arguments = ["paper", "--jobs", "1", "--out", str(tmp_path)]
     assert main(arguments) == 4
     assert "stored failures" not in capsys.readouterr().err

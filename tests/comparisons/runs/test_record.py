@@ -8,8 +8,17 @@ from comparisons.runs.environment import computing_environment, environment
 from comparisons.runs.record import read_record, write_record
 
 GOOD = {
-    "format": 3,
-    "arguments": {"tier": "quick", "model": None, "outside": {}, "gates": None, "jobs": 2, "out": "x"},
+    "format": 4,
+    "command_name": "run",
+    "arguments": {
+        "tier": "quick",
+        "grid": None,
+        "model": None,
+        "external": {},
+        "gates": None,
+        "jobs": 2,
+        "out": "x",
+    },
     "command": ["fscm-bench", "run"],
     "started": "2026-01-01T00:00:00+00:00",
     "finished": "2026-01-01T00:00:09+00:00",

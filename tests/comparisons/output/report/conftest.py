@@ -127,11 +127,13 @@ def write_run(folder: Path) -> Path:
     write_record(
         environment()
         | {
-            "format": 3,
+            "format": 4,
+            "command_name": "run",
             "arguments": {
                 "tier": "quick",
                 "model": [IMAGE, SCRIPT],
-                "outside": specs,
+                "grid": None,
+                "external": specs,
                 "gates": None,
                 "jobs": 2,
                 "out": LINE,

@@ -8,13 +8,13 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.model import ComputationFailed
-from comparisons.paper.cache import Call, CallCache
+from comparisons.paper.cache import CachedCall, CallCache
 from comparisons.runs import computation as computing
-from comparisons.runs import reevaluation, row_journal
+from comparisons.runs import part_journal, reevaluation, row_journal
 from comparisons.runs.cases import Case
 from comparisons.runs.record import read_record
 from comparisons.runs.tables import read_table
-from comparisons.runs.tasks import Task, answer, compute
+from comparisons.runs.tasks import Task, compute, evaluate_task
 
 from .test_run import interrupt_after, run
 
@@ -63,8 +63,8 @@ def fail(x):
     raise ComputationFailed("not enough iterations")
 
 
-def test_a_workshop_knows_its_failures_and_forgets_them(tmp_path):
-    calls = [Call.of(fail, 1), Call.of(abs, -2)]
+def test_a_cache_knows_its_failures_and_forgets_them(tmp_path):
+    calls = [CachedCall.of(fail, 1), CachedCall.of(abs, -2)]
     list(CallCache(tmp_path / "calls", "x").work(calls, 1))
     stored = CallCache(tmp_path / "calls", "x")
     assert stored.failed(calls) == calls[:1]
@@ -73,11 +73,11 @@ def test_a_workshop_knows_its_failures_and_forgets_them(tmp_path):
 
 
 def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path, monkeypatch, capsys):
-    here = row_journal.computing_environment()
+    here = part_journal.computing_environment()
     there = here | {"python": "3.99.0", "cpu": "another"}
     with monkeypatch.context() as patch:
         patch.setattr(computing, "compute", interrupt_after(5, BrokenProcessPool))
-        patch.setattr(row_journal, "computing_environment", lambda: there)
+        patch.setattr(part_journal, "computing_environment", lambda: there)
         assert run(tmp_path) == 4
     assert run(tmp_path) == 0
     record = read_record(tmp_path / "run.json")
@@ -133,7 +133,7 @@ def test_results_with_another_numpy_are_refused_and_it_is_said_which(small_grid,
     ],
 )
 def test_rows_agree_within_both_uncertainties(toys, change, agree):
-    row = answer(Task("truth", "pull_off_force", Case(2, 0, 1)))
+    row = evaluate_task(Task("truth", "pull_off_force", Case(2, 0, 1)))
     assert reevaluation.same(row, replace(row, **change)) == agree
 
 
@@ -147,6 +147,6 @@ def test_rows_agree_within_both_uncertainties(toys, change, agree):
     ],
 )
 def test_curves_agree_point_by_point(toys, points, agree):
-    row = answer(Task("truth", "pull_off_force", Case(2, 0, 1)))
+    row = evaluate_task(Task("truth", "pull_off_force", Case(2, 0, 1)))
     stored = replace(row, value=None, u_num=None, points=([0.0, 2.0], [1.0, 5.0], 1e-3))
     assert reevaluation.same(stored, replace(stored, points=points)) == agree
