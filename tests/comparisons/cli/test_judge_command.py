@@ -116,11 +116,9 @@ def test_a_run_is_judged_again_by_the_gates_it_was_made_with(small_grid, tmp_pat
 
 def test_standing_gates_of_models_that_were_not_given_do_not_matter(small_grid, tmp_path, capsys, monkeypatch):
     rival = small_grid.replace("TEN-PERCENT", "OTHER") + 'rival = "twelve-percent"\n'
-    for command in ("run", "judge"):
-        monkeypatch.setattr(
-            f"comparisons.cli.commands.{command}.gates_text",
-            lambda path: path.read_text() if path else small_grid + rival,
-        )
+    monkeypatch.setattr(
+        "comparisons.pipeline.inputs.gates_text", lambda path: path.read_text() if path else small_grid + rival
+    )
     assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), "--model", "ten-percent"]) == 0
     assert main(["judge", str(tmp_path / "run")]) == 0
     assert "left out" not in capsys.readouterr().err
