@@ -1,8 +1,7 @@
-"""Cases as data: which problems a run computes, read from a TOML file.
+"""Cases of a run, read from a TOML file.
 
 A case is one dimensionless problem; a grid is the product of lists of n, k, mu and nu with an id, a tier and
-the quantities (or shapes) and models asked.  Unknown keys are refused, so that a misspelt one cannot pass
-unnoticed.
+its quantities (or shapes) and models.  Unknown keys are refused: a misspelt one would have no effect.
 """
 
 from __future__ import annotations
@@ -24,8 +23,8 @@ __all__ = ["TIERS", "VERIFICATION", "Case", "Grid", "cases_text", "grids", "grid
 #: A tier holds its own grids and those of every tier before it.
 TIERS = ("quick", "full")
 
-#: Grids with this tag are questions about the references themselves.  They are not asked of models that are
-#: given to a run, and are not in its tables of errors.
+#: Grids with this tag verify the references themselves.  A run with --model does not compute them, and they are not in
+#: its tables of errors.
 VERIFICATION = "verification"
 
 
@@ -72,9 +71,9 @@ class Case:
 
     @property
     def parameters(self) -> dict[str, float]:
-        """The parameters that were given, by name."""
-        given = {"n": self.n, "k": self.k, "mu": self.mu}
-        return given if self.nu is None else {**given, "nu": self.nu}
+        """The parameters by name, without Poisson's ratio if it is None."""
+        parameters = {"n": self.n, "k": self.k, "mu": self.mu}
+        return parameters if self.nu is None else {**parameters, "nu": self.nu}
 
     @property
     def label(self) -> str:
@@ -99,7 +98,7 @@ class Grid:
     models : tuple of str
         The candidates.
     quantities : tuple of str
-        What is asked of every model.
+        Quantities that every model computes.
     cases : tuple of Case
         Sorted, without duplicates.
     tags : tuple of str
@@ -231,7 +230,7 @@ def cases_text() -> str:
 
 
 def grids_for(chosen: Iterable[Grid], models: Sequence[str] | None) -> list[Grid]:
-    """Return the grids that a run computes: without those of verification if models are given to it.
+    """Return the grids that a run computes: without those of verification if it has models of its own.
 
     Examples
     --------

@@ -103,7 +103,7 @@ def evaluate(model: Model, quantity: str, case: Case) -> Row:
     except ValueError:
         raise
     except Exception as error:
-        # A defect of the model: its row says where, the other models go on.
+        # A defect of the model: its row gives the place, and the other models are computed.
         place = extract_tb(error.__traceback__)[-1].name
         return _row(
             model,

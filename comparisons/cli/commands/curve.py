@@ -24,7 +24,7 @@ from fscm.problem import Problem
 
 __all__ = ["add", "call"]
 
-_Answer = TypeVar("_Answer")
+_Found = TypeVar("_Found")
 
 
 def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -50,13 +50,13 @@ def call(args: argparse.Namespace) -> int:
     """Trace, write, draw; return the exit status."""
     case = case_of(args)
     # All that can be wrong with the request is found out before anything is computed.
-    names, outside = identify(args.model)
-    models = {name: create(outside[name].spec if name in outside else name, case.nu) for name in names}
+    names, external = identify(args.model)
+    models = {name: create(external[name].spec if name in external else name, case.nu) for name in names}
     if args.csv:
         writable_file(args.csv)
     if args.plot:
         writable_file(picture_path(args.plot))
-    points, draw, status = _asked(models, args.quantity, case)
+    points, draw, status = _traced(models, args.quantity, case)
     if args.csv:
         with atomic(args.csv) as file:
             file.write(csv_text(points).encode())
@@ -67,11 +67,11 @@ def call(args: argparse.Namespace) -> int:
     return status
 
 
-def _asked(models: dict[str, Model], quantity: str, case: Case) -> tuple[pd.DataFrame, Callable[[], Figure], int]:
-    """Ask every model; return one row a point, what draws them, and the exit status."""
+def _traced(models: dict[str, Model], quantity: str, case: Case) -> tuple[pd.DataFrame, Callable[[], Figure], int]:
+    """Evaluate every model; return one row a point, a function that draws them, and the exit status."""
     if quantity == "force_curve":
-        # Not through the registry of shapes, which has no room for what else a model knows on its path.
-        curves, status = _answers(models, case, traced)
+        # Not through the registry of shapes, which has no room for the other columns of a path.
+        curves, status = _evaluated(models, case, traced)
         tables = {
             name: {"displacement": curve.displacement, "load": curve.load, **curve.columns}
             for name, curve in curves.items()
@@ -79,27 +79,27 @@ def _asked(models: dict[str, Model], quantity: str, case: Case) -> tuple[pd.Data
         axes = ["displacement", "load"]
         return _points(tables, axes), lambda: force_curve.draw(curves, case.label), status
     shape = SHAPES[quantity]
-    found, status = _answers(models, case, shape.ask)
+    found, status = _evaluated(models, case, shape.ask)
     surfaces = {name: {shape.x: points.x, shape.y: points.y} for name, points in found.items()}
     return _points(surfaces, [shape.x, shape.y]), lambda: profiles.draw(found, quantity, case.label), status
 
 
-def _answers(
-    models: dict[str, Model], case: Case, ask: Callable[[Model, Problem], _Answer]
-) -> tuple[dict[str, _Answer], int]:
-    """Return what the models that can answer do, and the exit status; the others are told of on stderr."""
-    answers: dict[str, _Answer] = {}
+def _evaluated(
+    models: dict[str, Model], case: Case, evaluate: Callable[[Model, Problem], _Found]
+) -> tuple[dict[str, _Found], int]:
+    """Return the results by model, and the exit status; the models without a result are named on stderr."""
+    found: dict[str, _Found] = {}
     status = OK
     for name, model in models.items():
         try:
             with waiting(f"{name}, {case.label}"):
-                answers[name] = ask(model, case.problem())
+                found[name] = evaluate(model, case.problem())
         except NotApplicable as refusal:
             log(f"{name}: not-applicable: {refusal}")
         except ComputationFailed as failure:
             log(f"{name}: failed: {failure}")
             status = FAILED
-    return answers, status
+    return found, status
 
 
 def _points(tables: Mapping[str, Mapping[str, Any]], axes: list[str]) -> pd.DataFrame:

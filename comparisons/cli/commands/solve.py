@@ -41,8 +41,8 @@ def call(args: argparse.Namespace) -> int:
 
 
 def _case(row: Row) -> dict[str, float]:
-    given = {"n": row.n, "k": row.k, "mu": row.mu}
-    return given if row.nu is None else {**given, "nu": row.nu}
+    parameters = {"n": row.n, "k": row.k, "mu": row.mu}
+    return parameters if row.nu is None else {**parameters, "nu": row.nu}
 
 
 def _json(row: Row) -> str:

@@ -1,4 +1,4 @@
-"""What a run says about its gates, and judging it again: exit statuses and files."""
+"""Verdicts of a run and of a folder that is judged again: exit statuses and files."""
 
 import json
 import random
@@ -80,7 +80,7 @@ def test_the_exit_status_is_the_verdict(small_grid, tmp_path, capsys, changes, s
     assert main([*arguments, *gates(small_grid, tmp_path, *changes)]) == status
     shown = capsys.readouterr()
     assert verdict in shown.out or "no gate was evaluated" in shown.err
-    # Status 4 is explained where the program says what went wrong.
+    # Status 4 is explained on stderr.
     assert ("a gate is in error: TEN-PERCENT of " in shown.err) == (verdict == "ERROR" and "no gate" not in shown.err)
     if command == "run":
         assert json.loads((tmp_path / "run" / "run.json").read_text())["verdicts"]["all"] == verdict
@@ -164,7 +164,7 @@ def test_a_gate_whose_rival_is_not_computed_is_refused_and_adding_it_helps(
     out[-1:] = ["ten-percent", "twelve-percent"]
     out[out.index("--out") + 1] = str(tmp_path / "both")
     assert main(["run", *out, *rules]) == 0
-    # The rival is not asked by how much it exceeds itself.
+    # The rival is not compared with itself.
     assert "PASS: 1 gates, 4 cases PASS" in capsys.readouterr().out
     assert main(["judge", str(tmp_path / "both"), *rules]) == 0
 
@@ -179,9 +179,9 @@ def test_gates_that_are_left_out_are_counted(small_grid, tmp_path, capsys, comma
     if command == "judge":
         capsys.readouterr()
         assert main(["judge", str(tmp_path / "run"), *rules]) == 0
-    told = capsys.readouterr().err
-    assert re.search("1 of 3 gates of .*gates.toml are left out: their candidate is not given", told)
-    assert re.search("1 of 3 gates of .*gates.toml are left out: they are of the tier full", told)
+    message = capsys.readouterr().err
+    assert re.search("1 of 3 gates of .*gates.toml are left out: their candidate is not given", message)
+    assert re.search("1 of 3 gates of .*gates.toml are left out: they are of the tier full", message)
 
 
 def test_a_gate_for_given_models_is_counted_when_none_is_given(small_grid, tmp_path, capsys):
@@ -196,10 +196,10 @@ def test_results_spoilt_after_the_run_are_an_error(folder, capsys):
     seal(folder)
     assert main(["judge", str(folder)]) == 4
     assert "no column u_num" in capsys.readouterr().out
-    table[table["model"] != "truth"].to_parquet(folder / "results.parquet")
+    table[table["model"] != "exact"].to_parquet(folder / "results.parquet")
     seal(folder)
     assert main(["judge", str(folder)]) == 4
-    assert "truth has no row" in capsys.readouterr().out
+    assert "exact has no row" in capsys.readouterr().out
 
 
 def test_absurd_but_finite_values_are_judged_and_reported(small_grid, tmp_path, capsys):
@@ -229,7 +229,7 @@ def test_no_flipped_bit_of_any_stored_file_is_judged_in_silence(folder, capsys):
         for _ in range(FLIPS):
             (folder / name).write_bytes(flipped(whole[name], chosen))
             statuses = main(["judge", str(folder)]), main(["report", str(folder)])
-            said = capsys.readouterr().err
+            message = capsys.readouterr().err
             if name == "journal.jsonl":  # Neither command reads it.
                 assert statuses == (0, 0)
             elif name in VERDICT_FILES:  # These the judge writes again.
@@ -237,8 +237,8 @@ def test_no_flipped_bit_of_any_stored_file_is_judged_in_silence(folder, capsys):
                 assert (folder / name).read_bytes() == whole[name]
             else:
                 assert statuses == (2, 2), name
-                assert said.count("\n") == 2
-                assert name in said
+                assert message.count("\n") == 2
+                assert name in message
             (folder / name).write_bytes(whole[name])
             (folder / "run.json").write_bytes(whole["run.json"])
 

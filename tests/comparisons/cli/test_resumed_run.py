@@ -23,32 +23,32 @@ def test_stored_failures_are_used_and_this_is_said(small_grid, tmp_path, capsys)
     assert run(tmp_path, "--model", "ten-percent", "fails") == 4
     assert "stored failures" not in capsys.readouterr().err
     assert run(tmp_path, "--model", "ten-percent", "fails") == 4
-    said = capsys.readouterr().err
-    assert "0 computations" in said
-    assert "4 stored failures of fails are used; --retry-failed computes them again" in said
+    message = capsys.readouterr().err
+    assert "0 computations" in message
+    assert "4 stored failures of fails are used; --retry-failed computes them again" in message
 
 
 def test_stored_failures_are_computed_again_when_it_is_asked_for(small_grid, tmp_path, monkeypatch, capsys):
     assert run(tmp_path, "--model", "ten-percent", "fails") == 4
-    asked = []
+    computed = []
 
     def counted(tasks, jobs):
-        asked.extend(task.model for task in tasks)
+        computed.extend(task.model for task in tasks)
         return compute(tasks, jobs)
 
     monkeypatch.setattr(computing, "compute", counted)
     assert run(tmp_path, "--model", "ten-percent", "fails", "--retry-failed") == 4
-    assert asked == ["fails"] * 4
-    said = capsys.readouterr().err
-    assert "4 computations on 1 processes, 8 are stored" in said
-    assert "stored failures" not in said
+    assert computed == ["fails"] * 4
+    message = capsys.readouterr().err
+    assert "4 computations on 1 processes, 8 are stored" in message
+    assert "stored failures" not in message
     table = read_table(tmp_path / "results.parquet")
     assert not table.duplicated(["model", "quantity", "n", "k", "mu"]).any()
 
 
 def test_a_sweep_retries_too(toys, tmp_path, capsys):
     (tmp_path / "grid.toml").write_text(
-        '[[grid]]\nid = "mine"\ntitle = "Mine"\nreference = "truth"\nmodels = ["fails"]\n'
+        '[[grid]]\nid = "mine"\ntitle = "Mine"\nreference = "exact"\nmodels = ["fails"]\n'
         'quantities = ["pull_off_force"]\nn = [2]\nk = [0]\nmu = [1, 2]\n'
     )
     arguments = ["sweep", str(tmp_path / "grid.toml"), "--jobs", "1", "--out", str(tmp_path / "out")]
@@ -106,9 +106,9 @@ def test_a_row_whose_line_is_damaged_is_computed_again(small_grid, tmp_path, cap
     journal.write_text("".join(lines))
     capsys.readouterr()
     assert run(tmp_path) == 0
-    said = capsys.readouterr().err
-    assert "damaged lines (1)" in said
-    assert "1 computations on 1 processes, 11 are stored" in said
+    message = capsys.readouterr().err
+    assert "damaged lines (1)" in message
+    assert "1 computations on 1 processes, 11 are stored" in message
     assert (tmp_path / "results.csv").read_bytes() == whole
 
 
@@ -118,9 +118,9 @@ def test_results_with_another_numpy_are_refused_and_it_is_said_which(small_grid,
     monkeypatch.setattr(row_journal, "fingerprint", lambda: now.replace("NumPy ", "NumPy 0."))
     capsys.readouterr()
     assert run(tmp_path) == 2
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1
-    assert "another version of the code, of NumPy or of SciPy (NumPy " in said
+    message = capsys.readouterr().err
+    assert message.count("\n") == 1
+    assert "another version of the code, of NumPy or of SciPy (NumPy " in message
 
 
 @pytest.mark.parametrize(
@@ -133,7 +133,7 @@ def test_results_with_another_numpy_are_refused_and_it_is_said_which(small_grid,
     ],
 )
 def test_rows_agree_within_both_uncertainties(toys, change, agree):
-    row = evaluate_task(Task("truth", "pull_off_force", Case(2, 0, 1)))
+    row = evaluate_task(Task("exact", "pull_off_force", Case(2, 0, 1)))
     assert reevaluation.same(row, replace(row, **change)) == agree
 
 
@@ -147,6 +147,6 @@ def test_rows_agree_within_both_uncertainties(toys, change, agree):
     ],
 )
 def test_curves_agree_point_by_point(toys, points, agree):
-    row = evaluate_task(Task("truth", "pull_off_force", Case(2, 0, 1)))
+    row = evaluate_task(Task("exact", "pull_off_force", Case(2, 0, 1)))
     stored = replace(row, value=None, u_num=None, points=([0.0, 2.0], [1.0, 5.0], 1e-3))
     assert reevaluation.same(stored, replace(stored, points=points)) == agree

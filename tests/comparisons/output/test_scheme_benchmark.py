@@ -10,7 +10,7 @@ from comparisons.runs.tasks import Task, evaluate_task
 def test_ratios_are_of_the_baseline_to_the_accurate_model(toys):
     accurate, baseline = (
         Measurement(evaluate_task(Task(name, "pull_off_force", Case(2, 0, 1))), 100.0)
-        for name in ("truth", "ten-percent")
+        for name in ("exact", "ten-percent")
     )
     table = compare(accurate, baseline).set_index("")
     # The baseline is at least 0.2 - u_num from the truth, the accurate model at most u_num.

@@ -21,7 +21,7 @@ GRID = """
 [[grid]]
 id = "mine"
 title = "Mine"
-reference = "truth"
+reference = "exact"
 models = ["ten-percent", "refuses"]
 quantities = ["pull_off_force"]
 n = [2]

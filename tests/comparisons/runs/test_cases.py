@@ -28,7 +28,7 @@ def test_a_grid_is_the_sorted_product_without_duplicates():
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "says"),
+    ("old", "new", "sentence"),
     [
         ("title", "titel", "titel, title missing or unknown"),
         ('tier = "quick"', 'tier = "slow"', "unknown tier 'slow'"),
@@ -41,8 +41,8 @@ def test_a_grid_is_the_sorted_product_without_duplicates():
         ("[[grid]]", "[grid", "Expected"),
     ],
 )
-def test_a_wrong_grid_is_refused_with_a_reason(old, new, says):
-    with pytest.raises(ValueError, match=says.replace("[", r"\[")):
+def test_a_wrong_grid_is_refused_with_a_reason(old, new, sentence):
+    with pytest.raises(ValueError, match=sentence.replace("[", r"\[")):
         load_grids(GRID.replace(old, new))
 
 

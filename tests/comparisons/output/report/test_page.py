@@ -258,6 +258,6 @@ def test_a_folder_that_is_not_there(tmp_path, capsys):
 def test_the_models_of_a_run_are_described_in_its_record(small_grid, tmp_path):
     assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run")]) == 0
     record = json.loads((tmp_path / "run" / "run.json").read_text())
-    assert record["models"]["truth"] == {"version": "7", "citation": "none", "domain": "tests"}
+    assert record["models"]["exact"] == {"version": "7", "citation": "none", "domain": "tests"}
     assert main(["report", str(tmp_path / "run")]) == 0
     assert csv_text(pd.read_parquet(tmp_path / "run" / "verdicts.parquet")).count("TEN-PERCENT") == 4
