@@ -17,7 +17,7 @@ from typing import Any
 
 #: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
 LAYERS = (
-    ("model", "quantities", "curve_quantities", "console"),
+    ("model", "quantities", "console"),
     ("data", "numerics"),
     ("models", "external"),
     ("registry",),

@@ -1,10 +1,12 @@
-"""The results that are committed, numbers as CSV with 17 digits, so that a change shows.
+"""Baseline: the committed results, numbers as CSV with 17 digits, so that a change shows.
 
-``python -m comparisons.baseline FOLDER`` takes them from the folder of a finished ``fscm-bench run`` or, with its
-pictures, of ``fscm-bench paper``.  Of a run of the quick tier these are the results, the curves, the largest errors and
-their pictures; of one of the full tier how far both references are apart, of which the quick tier has a few cases only.
-``python -m comparisons.baseline --check FOLDER`` changes nothing and lists the results of a run that are not those
-committed.
+``python -m comparisons.baseline FOLDER`` renews them from the folder of a finished ``fscm-bench run`` or ``fscm-bench
+paper``.  A run of the quick tier gives the results, the curves, the largest errors and their pictures.  A run of the
+full tier gives the agreement of the two references, of which the quick tier has a few cases only.  ``fscm-bench paper``
+gives the figures of the paper.
+
+``python -m comparisons.baseline --check FOLDER`` changes nothing.  It lists the results of a run of the quick tier, or
+the tables of the paper's figures, that differ from the committed ones.
 """
 
 from __future__ import annotations
@@ -16,12 +18,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from comparisons.console.exit_status import guarded
 from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA_FIGURE, LARGEST_KAPPA, REFERENCES, RESULTS
-from comparisons.paper.registry import paper_figures
+from comparisons.paper import baseline as paper_baseline
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.csv_format import csv_text, plain_text
 from comparisons.runs.folder import RunFolder
@@ -30,26 +31,22 @@ from comparisons.runs.tables import read_table
 
 __all__ = [
     "BASELINE",
-    "PAPER_BASELINE",
-    "changes",
     "check",
     "drift",
-    "publish",
     "read_baseline",
-    "renew_paper_baseline",
+    "renew",
 ]
 
-#: Where they are, in a clone of the repository.
+#: Folder of the committed results, in a clone of the repository.
 BASELINE = Path("results", "baseline")
-PAPER_BASELINE = BASELINE / "paper"
 
 _KEY = ["model", "quantity", "n", "k", "mu", "nu"]
-# What depends on the machine or on the work done (seconds, iterations, residual) is left out.
+# Without the columns that depend on the machine or on the work done (seconds, iterations, residual).
 _TABLES = {
     "quick.csv": (f"{RESULTS}.parquet", [*_KEY, "value", "u_num", "status", "reason"]),
     "curves.csv": (f"{CURVES}.parquet", [*_KEY, "point", "x", "y", "u_distance", "status", "reason"]),
 }
-#: What is taken as it is, by tier: the committed name, and that in the folder of the run.
+#: Files that are copied, by tier: the committed name, and the name in the folder of the run.
 _COPIES = {
     "quick": {
         name: name
@@ -59,12 +56,8 @@ _COPIES = {
 }
 _TEXTS = ("model", "quantity", "status", "reason")
 
-#: Change of a number in a figure that counts, relative to the largest of its column: a hundred times what rounding
-#: moves the least certain of them (finite elements, u_num of 4e-7), and far below what a picture shows.
-SAME = 1e-6
 
-
-def publish(folder: Path, target: Path = BASELINE) -> list[Path]:
+def renew(folder: Path, target: Path = BASELINE) -> list[Path]:
     """Replace the committed files by those of a run, as far as its tier makes them; return their paths.
 
     Raises
@@ -75,16 +68,15 @@ def publish(folder: Path, target: Path = BASELINE) -> list[Path]:
     """
     record = read_record(RunFolder(folder).record)
     check_files(record, folder)
-    tier = _tier(record, folder)
-    models = record["arguments"]["model"]
+    tier, models = _tier(record, folder), record["arguments"]["model"]
     if models is not None:
-        raise ValueError(f"{folder} has the models {', '.join(models)} only: publish a run without --model")
+        raise ValueError(f"{folder} has the models {', '.join(models)} only: the baseline needs a run without --model")
     tables = _TABLES if tier == "quick" else {}
     texts = {name: csv_text(read_table(folder / source)[columns]) for name, (source, columns) in tables.items()}
     contents = {name: text.encode() for name, text in texts.items()}
     for name, source in _COPIES[tier].items():
         if not (folder / source).exists():
-            raise ValueError(f"{folder} lacks {source}: publish the folder of a finished run")
+            raise ValueError(f"{folder} lacks {source}: renew the baseline from the folder of a finished run")
         contents[name] = (folder / source).read_bytes()
     target.mkdir(parents=True, exist_ok=True)
     for name, content in contents.items():
@@ -99,60 +91,6 @@ def _tier(record: dict[str, Any], folder: Path) -> str:
     if tier is None:
         raise ValueError(f"{folder} is not the folder of a run of the standing cases: give one of `fscm-bench run`")
     return str(tier)
-
-
-def renew_paper_baseline(folder: Path, target: Path = PAPER_BASELINE) -> list[Path]:
-    """Replace the committed figures by those in the folder of a finished ``fscm-bench paper``; return their paths.
-
-    Raises
-    ------
-    ValueError
-        If the folder lacks one; nothing is changed then.
-    """
-    found = {figure.name: sorted(folder.glob(f"{figure.stem}[._]*")) for figure in paper_figures()}
-    missing = [name for name, files in found.items() if not files]
-    if missing:
-        raise ValueError(f"{folder} lacks {', '.join(missing)}: publish the folder of a whole `fscm-bench paper`")
-    target.mkdir(parents=True, exist_ok=True)
-    for stale in target.iterdir():
-        stale.unlink()
-    written = []
-    for source in (file for files in found.values() for file in files):
-        with atomic(target / source.name) as file:
-            file.write(source.read_bytes())
-        written.append(target / source.name)
-    return written
-
-
-def changes(stored: pd.DataFrame, computed: pd.DataFrame) -> list[str]:
-    """Return what differs between two tables of a figure, one sentence a column.
-
-    The uncertainties (columns that start with u) are left out: they are bounds, and rounding moves them freely.
-
-    Examples
-    --------
-    >>> stored = pd.DataFrame({"n": [1.0, 2.0], "value": [3.0, 4.0]})
-    >>> changes(stored, stored.assign(value=[3.0, 4.1]))
-    ['value: up to 0.1 apart']
-    """
-    if list(stored.columns) != list(computed.columns) or len(stored) != len(computed):
-        return [f"{len(stored)} rows of {list(stored.columns)}, now {len(computed)} of {list(computed.columns)}"]
-    found = []
-    for name in (name for name in stored.columns if not (name == "u" or name.startswith("u_"))):
-        before, now = stored[name], computed[name]
-        if _is_real(before) and _is_real(now):
-            apart = (now - before).abs()
-            if (before.isna() != now.isna()).any():
-                found.append(f"{name}: a number where there was none, or none where there was")
-            elif apart.max() > SAME * before.abs().max():
-                found.append(f"{name}: up to {apart.max():.2g} apart")
-        elif not np.array_equal(before.fillna("").astype(str), now.fillna("").astype(str)):
-            found.append(f"{name}: other texts")
-    return found
-
-
-def _is_real(column: pd.Series) -> bool:
-    return pd.api.types.is_numeric_dtype(column) and not pd.api.types.is_bool_dtype(column)
 
 
 def read_baseline(target: Path = BASELINE) -> tuple[pd.DataFrame, pd.DataFrame]:
@@ -184,12 +122,12 @@ def _read(path: Path) -> pd.DataFrame:
 
 
 def drift(stored: pd.DataFrame, computed: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows of `computed` that are not those stored, within the uncertainties both state.
+    """Return the rows of `computed` that differ from the stored ones by more than both uncertainties.
 
     Parameters
     ----------
     stored, computed : DataFrame
-        Results; what is stored but was not computed does not matter.
+        Results; rows that are stored and not computed do not matter.
 
     Returns
     -------
@@ -203,7 +141,7 @@ def drift(stored: pd.DataFrame, computed: pd.DataFrame) -> pd.DataFrame:
 
 
 def check(folder: Path) -> pd.DataFrame:
-    """Return the results of a run of the quick tier that are not those committed, as `drift` does.
+    """Return the results of a run of the quick tier that differ from the committed ones, as `drift` does.
 
     Raises
     ------
@@ -214,37 +152,37 @@ def check(folder: Path) -> pd.DataFrame:
     check_files(record, folder)
     tier = _tier(record, folder)
     if tier != "quick":
-        raise ValueError(f"{folder} is a run of the {tier} tier; the results that are committed are of the quick one")
+        raise ValueError(f"{folder} is a run of the {tier} tier; the committed results are of the quick tier")
     return drift(read_baseline()[0], read_table(RunFolder(folder).parquet(RunFolder(folder).results)))
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Publish what the folder that is given holds, or check it.
+    """Renew the baseline from a folder, or compare the folder with it.
 
     Returns
     -------
     int
-        0 if all is well, 1 if results have drifted, 2 if the folder or the working folder is a wrong one, 4 if
-        something cannot be written.
+        0 if all is well, 1 if results differ, 2 if the folder or the working folder is a wrong one, 4 if something
+        cannot be written.
     """
     return guarded(lambda: _task(arguments), "python -m comparisons.baseline")
 
 
 def _task(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m comparisons.baseline", description=__doc__)
-    parser.add_argument("--check", action="store_true", help="change nothing, and list the results that have drifted")
+    parser.add_argument("--check", action="store_true", help="change nothing, and list the results that differ")
     parser.add_argument("folder", metavar="FOLDER", type=Path, help="of a finished run, or of the paper")
     args = parser.parse_args(arguments)
+    of_paper = paper_baseline.has_figures(args.folder)
     if args.check:
-        drifted = check(args.folder)
-        print(f"{args.folder} is what is committed" if drifted.empty else csv_text(drifted))
-        return 0 if drifted.empty else 1
-    record = RunFolder(args.folder).record
-    if record.exists() and read_record(record)["command_name"] != "paper":
-        gave = ", ".join(map(str, publish(args.folder)))
+        different = paper_baseline.check(args.folder) if of_paper else check(args.folder)
+        print(f"{args.folder} agrees with the baseline" if different.empty else csv_text(different))
+        return 0 if different.empty else 1
+    if of_paper:
+        renewed = f"{len(paper_baseline.renew(args.folder))} files of {paper_baseline.PAPER_BASELINE}"
     else:
-        gave = f"{len(renew_paper_baseline(args.folder))} files of {PAPER_BASELINE}"
-    print(f"{args.folder} gave {gave}; nothing else was changed.")
+        renewed = ", ".join(map(str, renew(args.folder)))
+    print(f"{args.folder} renewed {renewed}; nothing else was changed.")
     return 0
 
 

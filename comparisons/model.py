@@ -1,8 +1,8 @@
-"""What a model is, what it answers, and how it says that a question does not apply to it.
+"""The contract of every model: its methods, its results and its two exceptions.
 
 Data flow: a `fscm.problem.Problem` and the name of a quantity go in, a `Result` comes out.  A model that
 does not define the quantity raises `NotApplicable` with one sentence; a computation that did not converge
-raises `ComputationFailed`.  No model ever returns an unconverged number.
+raises `ComputationFailed`.  No model returns an unconverged number.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ from fscm.problem import Problem
 __all__ = [
     "ComputationFailed",
     "Curve",
-    "KnowsProfiles",
+    "HasCurve",
+    "HasProfile",
     "Model",
     "NotApplicable",
-    "Profile",
+    "RadialField",
     "Result",
-    "TracesCurve",
 ]
 
 
 class NotApplicable(Exception):
-    """The model does not define this quantity for this problem; the message says why.
+    """The model does not define this quantity for this problem; the message has the reason.
 
     Examples
     --------
@@ -40,7 +40,7 @@ class NotApplicable(Exception):
 
 
 class ComputationFailed(Exception):
-    """The computation of the quantity did not converge; the message says what to change.
+    """The computation of the quantity did not converge; the message has the remedy.
 
     Examples
     --------
@@ -52,7 +52,7 @@ class ComputationFailed(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """One answer of one model.
+    """A value of a model with the bound on its numerical error.
 
     Attributes
     ----------
@@ -60,13 +60,13 @@ class Result:
         Dimensionless value, in the unit the quantity registry states.
     u_num : float
         Bound on the numerical error of `value` (same unit, >= 0).  For a closed form this is the rounding
-        and root-finding error; it says nothing about how good the model is.
+        and root-finding error.  The error of the model itself is not part of it.
     size : int
         Number of unknowns of the discrete problem (0 for a closed form).
     iterations : int
         Newton or root-finding iterations (0 when none).
     residual : float
-        Largest residual of the discrete equations at the answer (0 when none).
+        Largest residual of the discrete equations at the solution (0 when none).
     seconds : float
         Wall-clock time of the computation.
     observed_order : float or None
@@ -104,7 +104,7 @@ class Curve:
     load : ndarray, shape (m,)
         P / (pi Q^(2/n) dgamma z0^(2/n - 1)), tension negative.
     columns : dict of str to ndarray, shape (m,)
-        What else the model knows on the path, e.g. ``central_gap``, ``contact_radius``, ``cohesive_radius``.
+        Further values on the path, e.g. ``central_gap``, ``contact_radius``, ``cohesive_radius``.
     u_distance : float
         Bound on the numerical distance of the points from the exact curve, as a fraction of its ranges.
 
@@ -122,7 +122,7 @@ class Curve:
 
 
 @dataclass(frozen=True, slots=True)
-class Profile:
+class RadialField:
     """The surface where P is smallest (all arrays of one length, dimensionless, radii increasing).
 
     Attributes
@@ -134,7 +134,7 @@ class Profile:
 
     Examples
     --------
-    >>> Profile(radius=np.array([0.1, 0.2]), pressure=np.array([0.3, -1.0]), gap=np.array([-0.1, 0.2])).u_distance
+    >>> RadialField(radius=np.array([0.1, 0.2]), pressure=np.array([0.3, -1.0]), gap=np.array([-0.1, 0.2])).u_distance
     0.0
     """
 
@@ -147,7 +147,7 @@ class Profile:
 
 @runtime_checkable
 class Model(Protocol):
-    """The contract of every model, ours or foreign.
+    """The contract of every model of this repository and of every external model.
 
     Attributes are plain data; `evaluate` is a pure function of its arguments.
 
@@ -158,7 +158,7 @@ class Model(Protocol):
     ...
     ...     def evaluate(self, problem: Problem, quantity: str) -> Result:
     ...         if quantity != "pull_off_force":
-    ...             raise NotApplicable("a rigid sphere knows its pull-off force alone")
+    ...             raise NotApplicable("the rigid sphere has a pull-off force only")
     ...         return Result(value=2.0, u_num=0.0)
     >>> isinstance(Rigid(), Model)
     True
@@ -177,13 +177,13 @@ class Model(Protocol):
 
 
 @runtime_checkable
-class TracesCurve(Protocol):
-    """A model that also knows its whole force-displacement curve.
+class HasCurve(Protocol):
+    """A model with a force-displacement curve.
 
     Examples
     --------
     >>> from comparisons.registry import create
-    >>> isinstance(create("jkr"), TracesCurve)
+    >>> isinstance(create("jkr"), HasCurve)
     True
     """
 
@@ -193,16 +193,16 @@ class TracesCurve(Protocol):
 
 
 @runtime_checkable
-class KnowsProfiles(Protocol):
-    """A model that also knows gap and pressure over the radius.
+class HasProfile(Protocol):
+    """A model with gap and pressure over the radius.
 
     Examples
     --------
     >>> from comparisons.registry import create
-    >>> isinstance(create("fscm"), KnowsProfiles), isinstance(create("jkr"), KnowsProfiles)
+    >>> isinstance(create("fscm"), HasProfile), isinstance(create("jkr"), HasProfile)
     (True, False)
     """
 
-    def pull_off_profile(self, problem: Problem) -> Profile:
+    def pull_off_profile(self, problem: Problem) -> RadialField:
         """Return the surface where P is smallest, or raise `NotApplicable` or `ComputationFailed`."""
         ...

@@ -1,66 +1,125 @@
-"""The registry of models: from a name or a SPEC to a model.
+"""Registry of models: from a name or a SPEC to a model.
 
-A model is looked up by the name a user types and imported only then: asking JKR for a pull-off force does
-not load the finite elements.  To add a model, write its module and add one row here.
+The models of this repository are found in the folder `comparisons.models`.  A module there declares its models
+in two literals, which are read without importing the module:
+
+    MODELS = {"jkr": "JKR"}              # name -> class
+    DEPENDS_ON_POISSON_RATIO = ("fem",)  # optional: models whose class takes Poisson's ratio
+
+So a command that needs JKR does not load the finite elements, and a new model is one new file.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import ast
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from importlib import import_module
+from importlib.resources import files
 
 from comparisons.external.model_source import load_model, source_of
 from comparisons.model import Model
 
-__all__ = ["MODELS", "ExternalIdentity", "create", "identify", "knows_poisson"]
+__all__ = ["MODELS", "ExternalIdentity", "create", "declared_models", "depends_on_poisson_ratio", "identify"]
 
-#: name -> "module:class"; the class is called without arguments, or with the Poisson's ratio alone if it
-#: is in `_KNOWS_POISSON`.
-MODELS: dict[str, str] = {
-    "fscm": "comparisons.models.fscm_model:FullSelfConsistent",
-    "fscm-stieltjes": "comparisons.models.stieltjes_model:StieltjesModel",
-    "fscm-stieltjes-400": "comparisons.models.stieltjes_model:CoarseStieltjesModel",
-    "fem": "comparisons.models.fem_model:FiniteElements",
-    "jkr": "comparisons.models.jkr:JKR",
-    "md-original": "comparisons.models.maugis_dugdale:MaugisDugdaleOriginal",
-    "md-improved": "comparisons.models.maugis_dugdale:MaugisDugdaleImproved",
-    "dmt": "comparisons.models.dmt:DMT",
-    "bradley": "comparisons.models.bradley:Bradley",
-    "semi-rigid": "comparisons.models.semi_rigid:SemiRigid",
-}
+_FOLDER = "comparisons.models"
+_LITERALS = ("MODELS", "DEPENDS_ON_POISSON_RATIO")
 
-#: Models that work with physical quantities.  The dimensionless problem has no Poisson's ratio (Eq. 29 has
-#: absorbed it), so every other model gives the same answer for all of them.
-_KNOWS_POISSON = frozenset({"fem"})
+#: Modules whose models come first in lists and tables; the others follow by the name of the module.
+_FIRST = (
+    "fscm_model",
+    "stieltjes_model",
+    "fem_model",
+    "jkr",
+    "maugis_dugdale",
+    "dmt",
+    "bradley",
+    "semi_rigid",
+)
 
 
-def knows_poisson(name: str) -> bool:
-    """Whether the answers of a model depend on Poisson's ratio, if only numerically.
+def declared_models(source: str) -> dict[str, tuple[str, bool]]:
+    """Return the models that a module declares: name -> (class, whether it takes Poisson's ratio).
+
+    Parameters
+    ----------
+    source : str
+        Text of the module.
+
+    Raises
+    ------
+    ValueError
+        If the value of `MODELS` or `DEPENDS_ON_POISSON_RATIO` is not a literal.
 
     Examples
     --------
-    >>> knows_poisson("fem"), knows_poisson("fscm")
+    >>> declared_models('MODELS = {"jkr": "JKR"}')
+    {'jkr': ('JKR', False)}
+    """
+    # Most modules of the folder declare no model and need no parsing.
+    statements = ast.parse(source).body if "\nMODELS" in f"\n{source}" else []
+    literals = {
+        target.id: ast.literal_eval(statement.value)
+        for statement in statements
+        if isinstance(statement, ast.Assign)
+        for target in statement.targets
+        if isinstance(target, ast.Name) and target.id in _LITERALS
+    }
+    with_ratio = literals.get("DEPENDS_ON_POISSON_RATIO", ())
+    return {name: (cls, name in with_ratio) for name, cls in literals.get("MODELS", {}).items()}
+
+
+def _found() -> Iterator[tuple[str, str, bool]]:
+    """Name, "module:class" and use of Poisson's ratio of every model in the folder, in the order of lists."""
+    sources = {
+        entry.name.removesuffix(".py"): entry.read_text(encoding="utf-8")
+        for entry in files(_FOLDER).iterdir()
+        if entry.name.endswith(".py")
+    }
+    names: set[str] = set()
+    for module in [*(name for name in _FIRST if name in sources), *sorted(sources.keys() - set(_FIRST))]:
+        for name, (cls, with_ratio) in declared_models(sources[module]).items():
+            if name in names:
+                raise ValueError(f"{_FOLDER}.{module} declares a model {name}, which another module declares as well")
+            names.add(name)
+            yield name, f"{_FOLDER}.{module}:{cls}", with_ratio
+
+
+_FOUND = list(_found())
+
+#: Name -> "module:class"; the class is called without arguments, or with Poisson's ratio alone if it takes it.
+MODELS: dict[str, str] = {name: place for name, place, _ in _FOUND}
+
+_WITH_POISSON_RATIO = frozenset(name for name, _, with_ratio in _FOUND if with_ratio)
+
+
+def depends_on_poisson_ratio(name: str) -> bool:
+    """Whether the results of a model depend on Poisson's ratio, if only by numerical errors.
+
+    Only a model of physical quantities can: the dimensionless problem has no Poisson's ratio (Eq. 29).
+
+    Examples
+    --------
+    >>> depends_on_poisson_ratio("fem"), depends_on_poisson_ratio("fscm")
     (True, False)
     """
-    return name in _KNOWS_POISSON
+    return name in _WITH_POISSON_RATIO
 
 
 def create(name: str, poisson_ratio: float | None = None) -> Model:
-    """Return the model registered as `name`, or one from outside.
+    """Return the model registered as `name`, or an external one.
 
     Parameters
     ----------
     name : str
-        A key of `MODELS`, or the SPEC of a model from outside (see `comparisons.external.model_source`).
+        A key of `MODELS`, or the SPEC of an external model (see `comparisons.external.model_source`).
     poisson_ratio : float, optional
         Poisson's ratio of the solid, for models that need one; by default the model's own choice.
 
     Raises
     ------
     ValueError
-        If no model has that name, the sentence lists those that exist; or if one from outside cannot be
-        loaded.
+        If no model has that name (the sentence lists those that exist), or if an external one cannot be loaded.
 
     Examples
     --------
@@ -71,14 +130,14 @@ def create(name: str, poisson_ratio: float | None = None) -> Model:
         return _external_model(name, poisson_ratio)
     module, _, cls = MODELS[name].partition(":")
     factory = getattr(import_module(module), cls)
-    if knows_poisson(name) and poisson_ratio is not None:
+    if depends_on_poisson_ratio(name) and poisson_ratio is not None:
         return factory(poisson_ratio)
     return factory()
 
 
 @dataclass(frozen=True, slots=True)
 class ExternalIdentity:
-    """A model from outside by what it says of itself, and the SPEC that finds it.
+    """Name, version and texts of an external model, and the SPEC that finds it.
 
     Examples
     --------
@@ -91,12 +150,12 @@ class ExternalIdentity:
     spec: str
     citation: str
     domain: str
-    #: Which of its files the digest in the version is of, in words.
+    #: The files that the digest in the version covers, in words.
     hashed: str = ""
 
 
 def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, ExternalIdentity]]:
-    """Return the names of models, each once, and which of them are from outside.
+    """Return the names of models, each once, and the identities of the external ones.
 
     Raises
     ------
@@ -109,7 +168,7 @@ def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, ExternalIdentit
     (['jkr', 'dmt'], {})
     """
     names: list[str] = []
-    outside: dict[str, ExternalIdentity] = {}
+    external: dict[str, ExternalIdentity] = {}
     for spec in dict.fromkeys(specs):
         model = create(spec)
         if model.name in names:
@@ -117,10 +176,10 @@ def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, ExternalIdentit
         names.append(model.name)
         if spec not in MODELS:
             hashed = str(getattr(model, "hashed", ""))
-            outside[model.name] = ExternalIdentity(
+            external[model.name] = ExternalIdentity(
                 model.name, model.version, spec, model.citation, model.domain, hashed
             )
-    return names, outside
+    return names, external
 
 
 def _external_model(spec: str, poisson_ratio: float | None) -> Model:
@@ -130,5 +189,5 @@ def _external_model(spec: str, poisson_ratio: float | None) -> Model:
         raise ValueError(f"unknown model: {error}; the models are {', '.join(MODELS)}") from None
     model = load_model(spec, poisson_ratio)
     if model.name in MODELS:
-        raise ValueError(f"a model from outside calls itself {model.name}, which is one of ours")
+        raise ValueError(f"the external model {model.name} has the same name as one of ours; it needs its own")
     return model

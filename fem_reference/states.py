@@ -30,7 +30,7 @@ class EquilibriumPath:
     central_gap : ndarray
         Gap at r = 0.
     edge_radius : ndarray
-        Radius of the largest tension; 0 before a contact edge exists.
+        Radius of the largest tension; nan while the central gap is above the gap of largest tension.
     """
 
     displacement: Array
@@ -95,7 +95,7 @@ def trace(problem: Problem, accuracy: float | str = "default") -> EquilibriumPat
             np.array([p.state.displacement for p in points]),
             np.array([p.state.load for p in points]),
             np.array([p.state.central_gap for p in points]),
-            np.array([p.edge_radius for p in points]),
+            np.array([p.edge_radius if p.branch.touching else np.nan for p in points]),
         )
 
 

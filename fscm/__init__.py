@@ -8,7 +8,7 @@
 
 from fscm._kernel import Phi, Psi, ring_response
 from fscm._meshes import ACCURACIES
-from fscm.analysis import Analysis
+from fscm.analysis import EVENTS, Analysis
 from fscm.custom_punch import CustomPunch
 from fscm.errors import NoSuchEvent, NotConverged
 from fscm.experiment import Cycle, displacement_cycle, load_controlled_retreat
@@ -17,7 +17,6 @@ from fscm.path import EquilibriumPath, trace
 from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
 from fscm.punch import PowerPunch, PowerSum, PunchShape, RoundedCone
-from fscm.quantities import EVENTS
 from fscm.solution import Solution
 from fscm.solve import QUANTITIES, solve, solve_together
 from fscm.states import EquilibriumState, RadialField, equilibria, profile

@@ -11,28 +11,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import brentq
 
 from fscm._adaptivity import fit, initial_mesh, rescaled_mesh
+from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of
 from fscm._equilibrium import Control, Discretisation, Rates, State
 from fscm._meshes import Meshes
 from fscm._newton import STEP_TOLERANCE, newton
 from fscm.errors import NotConverged
 from fscm.problem import Problem
 
-__all__ = [
-    "Point",
-    "bracketing_path",
-    "equilibrium_path",
-    "moved",
-    "parameter_control",
-    "parameter_of",
-    "path_until",
-    "rates_of",
-]
+__all__ = ["MAX_POINTS", "bracketing_path", "equilibrium_path", "moved", "path_until"]
 
 # Measured: at most 80 points of a bracketing path for k up to 0.8, but 790 and 1060 at n = 2, k = 0.9, mu = 1 and 2,
 # where the nucleus of contact grows in small steps.  Each keeps its matrices: 2 MB on such meshes.
@@ -54,73 +46,6 @@ _FLAT_SHARE, _FLAT_STEP = 0.5, 0.1
 # of that gap's distance to the singular gap: nearer to it the edge radius is a poor variable (it starts as a
 # root).
 _HAND_OVER = 0.05
-
-
-@dataclass(frozen=True)
-class Point:
-    """A state on the path and its unit tangent in arc length, oriented from separation into contact."""
-
-    state: State
-    rates: Rates
-
-
-@dataclass(frozen=True)
-class _ArcLength:
-    """Units in which displacement and load enter the arc length; the continuation parameter enters as it is."""
-
-    displacement_in_contact: float
-    load: float
-
-    def parameter_unit(self, state: State) -> float:
-        """Unit of the continuation parameter: 1 for log c, the distance to the singular gap for the central gap."""
-        return 1.0 if state.follows_edge else state.central_gap - state.disc.problem.law.singular_gap
-
-    def displacement_unit(self, state: State) -> float:
-        """Unit of the displacement: larger far apart, where the path is nearly straight."""
-        return self.displacement_in_contact + max(state.central_gap, 0.0)
-
-    def tangent(self, state: State) -> Rates:
-        rates = rates_of(state)
-        parameter = 1.0 / self.parameter_unit(state)
-        norm = math.hypot(parameter, rates.displacement / self.displacement_unit(state), rates.load / self.load)
-        return rates.scaled((1.0 if state.follows_edge else -1.0) / norm)
-
-    def turn(self, a: Point, b: Point) -> float:
-        """Cosine of the angle between the tangents at two points of one stretch."""
-
-        def direction(point: Point) -> np.ndarray:
-            state, rates = point.state, point.rates
-            parameter = rates.log_scale if state.follows_edge else rates.central_gap
-            units = (self.parameter_unit(state), self.displacement_unit(state), self.load)
-            return np.array([parameter, rates.displacement, rates.load]) / units
-
-        return float(direction(a) @ direction(b))
-
-    def control(self, state: State, tangent: Rates, step: float) -> Control:
-        """The condition that the projection of the move on the tangent is `step`."""
-        unit = self.parameter_unit(state) ** 2
-        a = (tangent.log_scale if state.follows_edge else tangent.central_gap) / unit
-        b = tangent.displacement / self.displacement_unit(state) ** 2
-        c = tangent.load / self.load**2
-        value = a * parameter_of(state) + b * state.displacement + c * state.load + step
-        if state.follows_edge:
-            return Control(value, log_scale=a, displacement=b, load=c)
-        return Control(value, gap=a, displacement=b, load=c)
-
-
-def parameter_of(state: State) -> float:
-    """The continuation parameter: log c when the mesh follows the edge, else the central gap."""
-    return math.log(state.scale) if state.follows_edge else state.central_gap
-
-
-def parameter_control(state: State, value: float) -> Control:
-    """The condition that the continuation parameter has a value."""
-    return Control(value, log_scale=1.0) if state.follows_edge else Control(value, gap=1.0)
-
-
-def rates_of(state: State) -> Rates:
-    """Exact derivatives per unit of the continuation parameter."""
-    return state.rates("log_scale" if state.follows_edge else "gap")
 
 
 def _predicted(state: State, rates: Rates, step: float) -> State:
@@ -204,7 +129,7 @@ def equilibrium_path(
     NotConverged
         When the step becomes too small.
     """
-    arc = _ArcLength(1.0 + problem.mu, 2.0 * max(1.0, problem.mu ** ((2.0 - problem.n) / problem.n)))
+    arc = ArcLength(1.0 + problem.mu, 2.0 * max(1.0, problem.mu ** ((2.0 - problem.n) / problem.n)))
     state = _far_state(problem, _start_gap(problem) if start_gap is None else start_gap, order, tolerance, end_height)
     peak, singular = problem.law.peak_gap, problem.law.singular_gap
     hand_over = peak - _HAND_OVER * (peak - singular)

@@ -13,7 +13,8 @@ from itertools import pairwise
 from scipy.optimize import brentq, minimize_scalar
 
 from fscm._adaptivity import fit, on_mesh
-from fscm._continuation import Point, moved, parameter_control, parameter_of, rates_of
+from fscm._arc_length import Point, parameter_control, parameter_of, rates_of
+from fscm._continuation import moved
 from fscm._equilibrium import Rates, State
 from fscm._newton import newton
 from fscm._panels import PanelMesh

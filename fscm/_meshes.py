@@ -13,7 +13,7 @@ __all__ = ["ACCURACIES", "Accuracy", "Mesh", "Meshes"]
 #: Names of relative errors.
 ACCURACIES = {"quick": 1e-6, "default": 1e-8, "fine": 1e-10}
 # Coarser meshes do not bracket the events of a soft solid; on finer ones rounding stops the refinement.
-_FINEST, _COARSEST = 1e-11, 1e-4
+_FINEST, _COARSEST = 1e-10, 1e-4
 
 
 class Mesh(NamedTuple):
@@ -59,7 +59,7 @@ class Meshes:
         Raises
         ------
         ValueError
-            For an unknown name, or a number outside [1e-11, 1e-4].
+            For an unknown name, or a number outside [1e-10, 1e-4].
         """
         if isinstance(accuracy, Meshes):
             return accuracy

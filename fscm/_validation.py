@@ -23,7 +23,7 @@ def real_number(
     Parameters
     ----------
     name : str
-        What the number is, as the message shall call it.
+        Name of the number in the message.
     value : object
         Python or numpy real scalar; bool, complex, str and arrays are not real numbers.
     low, high : float

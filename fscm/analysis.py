@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property
 
 from fscm import _events as events
-from fscm._continuation import Point, bracketing_path
+from fscm._arc_length import Point
+from fscm._continuation import bracketing_path
 from fscm._events import Bracket, Condition
 from fscm._meshes import Accuracy, Meshes
 from fscm._threads import one_thread
 from fscm.errors import NoSuchEvent, NotConverged
 from fscm.problem import Problem
-from fscm.quantities import EVENTS, quantity_named
+from fscm.quantities import quantity_named
 from fscm.solution import EventPair, Solution
 
-__all__ = ["Analysis"]
+__all__ = ["EVENTS", "Analysis"]
 
 
 class Analysis:
@@ -40,6 +42,9 @@ class Analysis:
     >>> round(model.solution("pull_off_force").value, 8)
     1.78848171
     """
+
+    problem: Problem
+    meshes: Meshes
 
     def __init__(self, problem: Problem, accuracy: Accuracy = "default") -> None:
         if problem.k >= 1.0:
@@ -69,15 +74,14 @@ class Analysis:
             "jump below the critical Tabor number"
         )
 
-    def _bracket(self, name: str) -> tuple[Bracket, Condition]:
-        if name == "pull_off":
-            minima = events.brackets(self.points, events.load_fold, rising=True)
-            if not minima:
-                raise NotConverged(f"no minimum of the load was found on the path of {self.problem}")
-            return min(minima, key=lambda pair: min(p.state.load for p in pair)), events.load_fold
-        if name == "zero_load":
-            return events.brackets(self.points, events.zero_load, rising=True)[-1], events.zero_load
-        return self._folds[0 if name == "jump_in" else 1], events.displacement_fold
+    def _least_load(self) -> Bracket:
+        minima = events.brackets(self.points, events.load_fold, rising=True)
+        if not minima:
+            raise NotConverged(f"no minimum of the load was found on the path of {self.problem}")
+        return min(minima, key=lambda pair: min(p.state.load for p in pair))
+
+    def _last_zero_load(self) -> Bracket:
+        return events.brackets(self.points, events.zero_load, rising=True)[-1]
 
     @one_thread()
     def event(self, name: str) -> EventPair:
@@ -106,11 +110,11 @@ class Analysis:
         >>> abs(state.load) < 1e-9, round(state.displacement, 6)
         (True, 2.085962)
         """
-        if name not in EVENTS:
-            raise ValueError(f"unknown event {name!r}; known are {', '.join(EVENTS)}")
+        if name not in _EVENTS:
+            raise ValueError(f"unknown event {name!r}; known are {', '.join(_EVENTS)}")
         if name not in self._pairs:
-            bracket, condition = self._bracket(name)
-            coarse = events.locate(*bracket, condition)
+            bracket, condition = _EVENTS[name]
+            coarse = events.locate(*bracket(self), condition)
             check = events.sharpen(coarse, condition, *self.meshes.check)
             self._pairs[name] = EventPair(check, events.sharpen(check, condition, *self.meshes.value))
         return self._pairs[name]
@@ -118,8 +122,8 @@ class Analysis:
     @one_thread()
     def landing(self, event: str) -> EventPair:
         """Where a jump ("jump_in" or "jump_out") under displacement control lands: on the other branch."""
-        if event not in ("jump_in", "jump_out"):
-            raise ValueError(f"there is no jump {event!r} that could land; the jumps are jump_in and jump_out")
+        if event not in _LANDINGS:
+            raise ValueError(f"unknown jump {event!r}; known are {', '.join(_LANDINGS)}")
         fold = self.event(event)
 
         def at(displacement: float) -> Condition:
@@ -127,7 +131,7 @@ class Analysis:
 
         condition = at(fold.value.displacement)
         crossings = events.brackets(self.points, condition, rising=True)
-        coarse = events.locate(*crossings[-1 if event == "jump_in" else 0], condition)
+        coarse = events.locate(*crossings[_LANDINGS[event]], condition)
         check = events.sharpen(coarse, at(fold.check.displacement), *self.meshes.check)
         return EventPair(check, events.sharpen(check, at(fold.value.displacement), *self.meshes.value))
 
@@ -142,3 +146,17 @@ class Analysis:
         row = quantity_named(quantity)
         start = time.perf_counter()
         return replace(row.compute(self), seconds=time.perf_counter() - start)
+
+
+# Bracket and condition of each event.
+_EVENTS: dict[str, tuple[Callable[[Analysis], Bracket], Condition]] = {
+    "pull_off": (Analysis._least_load, events.load_fold),
+    "jump_in": (lambda analysis: analysis._folds[0], events.displacement_fold),
+    "jump_out": (lambda analysis: analysis._folds[1], events.displacement_fold),
+    "zero_load": (Analysis._last_zero_load, events.zero_load),
+}
+# Where a jump lands among the points of the path with the displacement of its fold: on the last or on the first branch.
+_LANDINGS = {"jump_in": -1, "jump_out": 0}
+
+#: Points of the equilibrium path that have names.
+EVENTS = tuple(_EVENTS)

@@ -12,7 +12,8 @@ from dataclasses import replace
 
 from scipy.optimize import brentq
 
-from fscm._continuation import bracketing_path, moved, parameter_control, parameter_of, rates_of
+from fscm._arc_length import parameter_control, parameter_of, rates_of
+from fscm._continuation import bracketing_path, moved
 from fscm._equilibrium import Discretisation, State
 from fscm._events import refined, slowest
 from fscm._meshes import Accuracy, Meshes

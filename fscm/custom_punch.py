@@ -133,7 +133,7 @@ class CustomPunch:
             radii.append(2.0 * radii[-1])
             heights.append(float(self.height(np.array(radii[-1:]))[0]))
         far = np.array(heights[-3:])
-        # A positive height is what the loop asked of the last point only.
+        # The loop ensures a positive height of the last point only.
         local = np.diff(np.log2(np.maximum(far, np.finfo(float).tiny)))
         if not np.all(np.abs(local - self.growth) <= _GROWTH_TOLERANCE * max(1.0, self.growth)):
             raise ValueError(

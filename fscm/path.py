@@ -8,7 +8,8 @@ from itertools import pairwise
 import numpy as np
 
 from fscm import _events as events
-from fscm._continuation import Point, parameter_of, path_until
+from fscm._arc_length import Point, parameter_of
+from fscm._continuation import path_until
 from fscm._equilibrium import State
 from fscm._events import refined
 from fscm._meshes import Accuracy, Meshes

@@ -136,7 +136,7 @@ class PhysicalProblem:
         log_E0 = exponent * (unit._log_tabor_number - math.log(problem.mu))
         if not abs(log_E0) < _LOG_RANGE:
             raise ValueError(
-                f"mu = {problem.mu:g} asks for a modulus of 10^{log_E0 / math.log(10.0):.0f}, "
+                f"mu = {problem.mu:g} needs a modulus of 10^{log_E0 / math.log(10.0):.0f}, "
                 "outside (1e-304, 1e304): check the units"
             )
         return cls(math.exp(log_E0), c0, unit.k, nu, Q, unit.n, work_of_adhesion, z0)
@@ -254,6 +254,7 @@ class PhysicalProblem:
 
         Examples
         --------
+        >>> import numpy as np
         >>> sphere = PhysicalProblem(E0=1.0, c0=1.0, k=0, nu=0, Q=1.0, n=2, work_of_adhesion=1.0, z0=2.0)
         >>> sphere.to_dimensionless("gap", np.array([1.0, 4.0]))
         array([0.5, 2. ])
@@ -274,6 +275,7 @@ class PhysicalProblem:
 
         Examples
         --------
+        >>> import numpy as np
         >>> sphere = PhysicalProblem(E0=1.0, c0=1.0, k=0, nu=0, Q=1.0, n=2, work_of_adhesion=1.0, z0=2.0)
         >>> sphere.from_dimensionless("gap", np.array([0.5, 2.0]))
         array([1., 4.])

@@ -15,10 +15,7 @@ from fscm.solution import Solution, State, solution_of
 if TYPE_CHECKING:
     from fscm.analysis import Analysis
 
-__all__ = ["EVENTS", "QUANTITIES", "TABLE", "AtEvent", "PathPoint", "Quantity", "quantity_named"]
-
-#: Points of the equilibrium path that have names.
-EVENTS = ("pull_off", "jump_in", "jump_out", "zero_load")
+__all__ = ["QUANTITIES", "TABLE", "AtEvent", "PathPoint", "Quantity", "quantity_named"]
 
 
 class PathPoint(Protocol):

@@ -31,8 +31,8 @@ def solve(problem: Problem, quantity: str, accuracy: Accuracy = "default") -> So
     quantity : str
         One of `QUANTITIES`.
     accuracy : float or str
-        Relative error that is requested, between 1e-11 and 1e-4, or its name in `ACCURACIES`.  It chooses the meshes;
-        `u_num` of the solution bounds the error that was reached.  The Gibson solid is always solved to rounding.
+        Relative error that is requested, between 1e-10 and 1e-4, or its name in `ACCURACIES`.  It chooses the meshes:
+        it is reached nearly always, and `u_num` bounds the error in any case.  The Gibson solid is solved to rounding.
 
     Returns
     -------

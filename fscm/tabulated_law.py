@@ -33,7 +33,7 @@ class TabulatedLaw:
     """Surface law through data points, normalised to energy -1 at the equilibrium gap H = 0.
 
     The origin of the data's gaps is free, and so is the unit of the tractions: both are normalised away, and
-    `equilibrium_gap` and `work_of_adhesion` say what they were.  The gaps have to be in units of z0, whose
+    `equilibrium_gap` and `work_of_adhesion` hold their values.  The gaps have to be in units of z0, whose
     choice is the user's: it fixes the Tabor number.  Immutable, hashable, picklable.
 
     Parameters
@@ -51,7 +51,7 @@ class TabulatedLaw:
     Raises
     ------
     ValueError
-        When the data are not those of a surface law, in one sentence that says why.
+        When the data are not those of a surface law, with the reason in one sentence.
 
     Examples
     --------

@@ -1,8 +1,13 @@
-"""One thread for the linear algebra of the tests: their processes share the cores already."""
+"""Settings of all tests: one thread for the linear algebra, whose processes share the cores, and no deadlines."""
 
 import pytest
 import scipy.linalg  # noqa: F401  # what is not loaded cannot be limited
+from hypothesis import settings
 from threadpoolctl import threadpool_limits
+
+# An example that takes longer than hypothesis allows by default is no error on a busy machine.
+settings.register_profile("no deadline", deadline=None)
+settings.load_profile("no deadline")
 
 
 @pytest.fixture(scope="session", autouse=True)

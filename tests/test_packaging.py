@@ -54,7 +54,7 @@ def test_every_import_of_the_packages_is_declared_and_nothing_else():
 
 
 def test_every_import_of_the_tests_is_declared():
-    own = {path.stem for path in (ROOT / "tests").rglob("*.py")}
+    own = {"tests", *(path.stem for path in (ROOT / "tests").rglob("*.py"))}
     declared = {canonical(requirement) for requirement in RUNTIME + FOR_TESTS}
     assert external("tests") - declared - {canonical(name) for name in own} == set()
 

@@ -1,6 +1,6 @@
 """Numbers that a paper prints, and whether a computed one has their digits.
 
-`published.toml` holds them as text, so that the number of digits is known.
+`paper_values.toml` holds them as text, so that the number of digits is known.
 """
 
 from __future__ import annotations
@@ -11,10 +11,12 @@ from dataclasses import dataclass
 from decimal import Decimal
 from importlib.resources import files
 
-__all__ = ["REPRODUCED", "PaperValue", "paper_values"]
+__all__ = ["REPRODUCED", "TRUNCATED", "PaperValue", "paper_values"]
 
-#: Verdicts on a number that may have been shortened to the published one.
-REPRODUCED = ("agrees", "cut off")
+#: Verdict on a number that has the printed digits only if its further digits are dropped.
+TRUNCATED = "agrees if truncated"
+#: Verdicts on a number that may have been shortened to the printed one.
+REPRODUCED = ("agrees", TRUNCATED)
 
 # Of a formula written as a decimal here.
 _ROUNDING = 2.0**-52
@@ -61,9 +63,9 @@ class PaperValue:
         return float(self.text) if self.exact is None else self.exact
 
     def verdict(self, computed: float, u: float) -> str:
-        """Say whether a computed number has the published digits.
+        """Return whether a computed number has the printed digits.
 
-        Nothing tells how a paper shortens its numbers: most are rounded, and 6.78 for 6.7 was cut off.
+        The paper does not state how it shortens numbers: most are rounded, and 6.78 printed as 6.7 was truncated.
 
         Parameters
         ----------
@@ -73,13 +75,14 @@ class PaperValue:
         Returns
         -------
         str
-            "agrees" where it rounds to them, "cut off" where it has them only if its further digits are dropped,
-            "differs", or "undecided" where `u` allows more than one of these.  A formula agrees with what `u` allows.
+            "agrees" where it rounds to them, "agrees if truncated" where it has them only if its further digits are
+            dropped, "differs", or "undecided" where `u` allows more than one of these.  A formula agrees with what
+            `u` allows.
 
         Examples
         --------
         >>> [PaperValue("", "Sec. 4.3.2", "", "6.7", "%").verdict(value, 1e-4) for value in (6.68, 6.78, 6.82)]
-        ['agrees', 'cut off', 'differs']
+        ['agrees', 'agrees if truncated', 'differs']
         """
         if self.exact is not None:
             return "agrees" if abs(computed - self.exact) <= u + _ROUNDING * abs(self.exact) else "differs"
@@ -96,11 +99,11 @@ def _of_digits(value: Decimal, stated: Decimal) -> str:
     step = Decimal(1).scaleb(stated.as_tuple().exponent)  # type: ignore[arg-type]
     if abs(value - stated) <= step / 2:
         return "agrees"
-    return "cut off" if stated < value < stated + step else "differs"
+    return TRUNCATED if stated < value < stated + step else "differs"
 
 
 def paper_values(name: str | None = None) -> list[PaperValue]:
-    """Return the published numbers, by default all, or those of one name.
+    """Return the paper values, by default all, or those of one name.
 
     Examples
     --------

@@ -1,13 +1,12 @@
-"""TOML that somebody wrote: read, or refused in one sentence that names the file."""
+"""Reading of TOML text, with one sentence that names the file for what is wrong."""
 
 from __future__ import annotations
 
 import sys
 import tomllib
-from collections.abc import Mapping
 from typing import Any
 
-__all__ = ["is_real", "names", "parse"]
+__all__ = ["is_real", "parse"]
 
 
 def parse(text: str, source: str) -> dict[str, Any]:
@@ -49,14 +48,3 @@ def is_real(value: object) -> bool:
     if isinstance(value, bool) or not isinstance(value, int | float):
         return False
     return isinstance(value, float) or abs(value) <= sys.float_info.max
-
-
-def names(tables: Mapping[str, object]) -> str:
-    r"""Return the keys of a file that should have others, for a sentence; those that cannot be printed are escaped.
-
-    Examples
-    --------
-    >>> names({"gates": 1, "\x1b[31m": 2})
-    "'\\x1b[31m', gates"
-    """
-    return ", ".join(key if key.isprintable() else ascii(key) for key in sorted(tables)) or "nothing"

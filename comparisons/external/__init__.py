@@ -1,7 +1,7 @@
-"""Models from outside: found by entry point, file or data folder, run in a process of their own, checked.
+"""External models: from a package, a file or data, run in a process of their own, and checked.
 
-Nothing of theirs is ever imported into this process.  A package or a file runs in a child (`child`, `worker`)
-that has a time limit, a memory limit and, where the system can, no right to write outside its scratch folder;
-predictions as data (`data_model`) run nothing at all.  `loading.load_model` hides the difference: whatever
-the door, what comes out is a `comparisons.model.Model`.
+No code of an external model is imported into this process.  A package or a file runs in a child (`child`,
+`worker`) that has a time limit, a memory limit and, where the system can, no right to write anywhere but in its
+scratch folder.  Predictions as data (`data_model`) run nothing at all.  `model_source.load_model` returns a
+`comparisons.model.Model` for every source.
 """

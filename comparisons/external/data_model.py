@@ -1,26 +1,8 @@
-"""Predictions as data: a folder with `model.toml` and a CSV, judged without executing anything of theirs.
+"""Predictions as data: a folder with `model.toml` and a CSV, judged without the execution of any code.
 
-For codes that cannot be shipped and for measurements.  `model.toml`:
-
-    name = "my-abaqus"                       # letters, digits, ".", "_", "-"
-    version = "2026-03"
-    author = "A. Author"
-    doi = "10.1000/xyz"                      # or "none"
-    licence = "CC-BY-4.0"                    # SPDX
-    domain = "n = 2, k = 0, 0.1 <= mu <= 2"
-    predictions = "predictions.csv"          # beside this file
-    sha256 = "..."                           # of that file: sha256sum predictions.csv
-    limits = []                              # optional: "rigid", "jkr"
-    [units]                                  # as fscm-bench list quantities has them
-    pull_off_force = "pi Q^(2/n) dgamma z0^(2/n-1)"
-    [[covers]]                               # a product of lists; several are allowed
-    quantities = ["pull_off_force"]
-    n = [2]
-    k = [0]
-    mu = [0.1, 1, 2]
-
-The CSV has the columns quantity, n, k, mu, value, u_num and one row for each case that is covered, no other.
-`u_num` bounds the numerical error of the value (for a measurement, its uncertainty).
+For codes that cannot be shipped and for measurements.  `comparisons.external.manifest` has the keys of
+`model.toml`.  The CSV has the columns quantity, n, k, mu, value, u_num and one row for each case that is
+covered, no other.  `u_num` bounds the numerical error of the value (for a measurement, its uncertainty).
 """
 
 from __future__ import annotations
@@ -29,49 +11,33 @@ import csv
 import hashlib
 import io
 import math
-import re
-from collections.abc import Iterable
 from dataclasses import dataclass
-from itertools import product
 from pathlib import Path
-from typing import Any
 
-from comparisons.data.toml_text import is_real, parse
-from comparisons.external.text_rules import model_name, one_line
+from comparisons.external.manifest import MANIFEST, Key, check_units, covered_cases, read_manifest
+from comparisons.external.text_rules import one_line
 from comparisons.model import NotApplicable, Result
-from comparisons.quantities import QUANTITIES
 from fscm.laws import LennardJones93
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
-__all__ = ["MANIFEST", "DataModel", "Submission", "read_submission"]
-
-MANIFEST = "model.toml"
-
-Key = tuple[str, float, float, float]
+__all__ = ["DataModel", "Submission", "read_submission"]
 
 _COLUMNS = ["quantity", "n", "k", "mu", "value", "u_num"]
-_TEXTS = ("name", "version", "author", "doi", "licence", "domain", "predictions", "sha256")
-_COVERS = ("quantities", "n", "k", "mu")
-_DOI = re.compile(r"none|10\.\d{4,9}/[!-;=?-~]{1,200}")
-_LICENCE = re.compile(r"[A-Za-z0-9.+ ()-]{1,100}")
-_FILE = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,100}\.csv")
-_LARGEST_MANIFEST, _LARGEST_CSV, _MOST_CASES = 1_000_000, 50_000_000, 1_000_000
-
-#: So many cases more than the CSV has lines are still built: the sentence then names the first that is missing.
-_NAMED_MISSING = 1000
+_TEXTS = ("name", "version", "author", "doi", "licence", "domain")
+_LARGEST_MANIFEST, _LARGEST_CSV = 1_000_000, 50_000_000
 
 
 @dataclass(frozen=True, slots=True)
 class Submission:
-    """What a folder holds, all of it checked.
+    """The checked content of a folder.
 
     Attributes
     ----------
     name, version, author, doi, licence, domain : str
         As the author states them, each one printable line.
     limits : tuple of str
-        Limits the predictions are said to be right in.
+        Limits in which the predictions are exact, as their author states.
     sha256 : str
         Of the CSV.
     rows : dict
@@ -126,7 +92,7 @@ def read_submission(folder: Path) -> Submission:
     Raises
     ------
     ValueError
-        At the first thing that is wrong; one sentence says what and where.
+        At the first thing that is wrong; one sentence names it with its place.
     """
     try:
         return _submission(folder)
@@ -137,48 +103,32 @@ def read_submission(folder: Path) -> Submission:
 
 
 def _submission(folder: Path) -> Submission:
-    manifest = parse(_text_of(_bytes(folder, MANIFEST, _LARGEST_MANIFEST), MANIFEST), MANIFEST)
-    optional = {"limits"}
-    expected = {*_TEXTS, "units", "covers"}
-    if wrong := sorted((expected - manifest.keys()) | (manifest.keys() - expected - optional)):
-        raise ValueError(f"{MANIFEST}: {', '.join(wrong)} missing or unknown; see docs/judge_your_model.md")
-    texts = {name: _text(name, manifest[name]) for name in _TEXTS}
-    model_name(manifest["name"])
-    for name, pattern in (("doi", _DOI), ("licence", _LICENCE)):
-        if not pattern.fullmatch(texts[name]):
-            raise ValueError(f'{MANIFEST}: {name} = "{texts[name]}" is not one ("none" is a doi too)')
-    limits = manifest.get("limits", [])
-    if not (isinstance(limits, list) and all(isinstance(limit, str) for limit in limits)):
-        raise ValueError(f"{MANIFEST}: limits must be a list of names")
-    if not _FILE.fullmatch(texts["predictions"]):
-        raise ValueError(
-            f'{MANIFEST}: predictions = "{texts["predictions"]}" must be the name of a .csv file beside {MANIFEST}'
-        )
-    content = _bytes(folder, texts["predictions"], _LARGEST_CSV)
+    manifest = read_manifest(_text_of(_bytes(folder, MANIFEST, _LARGEST_MANIFEST), MANIFEST))
+    file = manifest["predictions"]
+    content = _bytes(folder, file, _LARGEST_CSV)
     digest = hashlib.sha256(content).hexdigest()
-    if digest != texts["sha256"].lower():
+    if digest != manifest["sha256"].lower():
         raise ValueError(
-            f"{texts['predictions']} has the SHA-256 {digest}, but {MANIFEST} states {texts['sha256']}: "
+            f"{file} has the SHA-256 {digest}, but {MANIFEST} states {manifest['sha256']}: "
             "one of them is not the author's"
         )
-    covered = _covered(manifest["covers"], _lines(content))
-    _check_units(manifest["units"], {key[0] for key in covered})
-    rows = _rows(content, texts["predictions"], covered)
+    covered = covered_cases(manifest["covers"], _lines(content))
+    check_units(manifest["units"], {key[0] for key in covered})
     return Submission(
-        **{name: texts[name] for name in ("name", "version", "author", "doi", "licence", "domain")},
-        limits=tuple(one_line(limit, 60) for limit in limits),
+        **{name: manifest[name] for name in _TEXTS},
+        limits=tuple(one_line(limit, 60) for limit in manifest.get("limits", [])),
         sha256=digest,
-        rows=rows,
+        rows=_rows(content, file, covered),
     )
 
 
 def _bytes(folder: Path, name: str, largest: int) -> bytes:
     path = folder / name
     try:
-        inside = path.resolve().parent == folder.resolve()
+        is_inside = path.resolve().parent == folder.resolve()
     except RuntimeError:  # Python 3.11 and 3.12; a later one finds no file below
         raise ValueError(f"{name} is a loop of symbolic links") from None
-    if not inside:
+    if not is_inside:
         raise ValueError(f"{name} leads out of the folder")
     if not path.is_file():
         raise ValueError(f"there is no file {name}")
@@ -198,65 +148,6 @@ def _text_of(content: bytes, file: str) -> str:
     except UnicodeDecodeError as error:
         line = content[: error.start].count(b"\n") + 1
         raise ValueError(f"{file}, line {line}: byte 0x{content[error.start]:02x} is not UTF-8 text") from None
-
-
-def _text(name: str, value: object) -> str:
-    if not (isinstance(value, str) and value.strip()):
-        raise ValueError(f"{MANIFEST}: {name} must be a text")
-    if value != one_line(value):
-        raise ValueError(f"{MANIFEST}: {name} must be one line of at most 500 printable characters")
-    return value
-
-
-def _covered(tables: object, lines: int) -> set[Key]:
-    """Return the cases that are promised; `lines` is how many the CSV has, and so the most rows it can have."""
-    if not (isinstance(tables, list) and tables and all(isinstance(table, dict) for table in tables)):
-        raise ValueError(f"{MANIFEST}: covers must be at least one [[covers]] table")
-    for table in tables:
-        _check_table(table)
-    # Nothing is built before it is known how many cases there are: a short file can promise very many.
-    lists = [[list(dict.fromkeys(table[name])) for name in _COVERS] for table in tables]
-    sizes = [math.prod(map(len, table)) for table in lists]
-    if sum(sizes) > _MOST_CASES:
-        raise ValueError(
-            f"{MANIFEST}: the [[covers]] tables promise {sum(sizes)} cases, more than {_MOST_CASES}: "
-            "each of them needs a row"
-        )
-    if max(sizes) > lines + _NAMED_MISSING:
-        raise ValueError(
-            f"{MANIFEST}: a [[covers]] table promises {max(sizes)} cases, but the predictions have {lines} lines: "
-            "each case needs a row"
-        )
-    keys: set[Key] = set()
-    for table in lists:
-        for quantity, n, k, mu in product(*table):
-            problem = Problem(n, k, mu)
-            keys.add((quantity, problem.n, problem.k, problem.mu))
-    if not keys:
-        raise ValueError(f"{MANIFEST}: [[covers]] has no case")
-    return keys
-
-
-def _check_table(table: dict[str, Any]) -> None:
-    if table.keys() != set(_COVERS) or not all(isinstance(table[name], list) for name in _COVERS):
-        raise ValueError(f"{MANIFEST}: a [[covers]] table has the lists {', '.join(_COVERS)} and no other")
-    for quantity in table["quantities"]:
-        if not isinstance(quantity, str) or quantity not in QUANTITIES:
-            raise ValueError(f"{MANIFEST}: unknown quantity {quantity!r}; known are {', '.join(QUANTITIES)}")
-    for name in ("n", "k", "mu"):
-        if wrong := [entry for entry in table[name] if not is_real(entry)]:
-            raise ValueError(f"{MANIFEST}: {name} in [[covers]] must be a list of numbers; {wrong[0]!r} is none")
-
-
-def _check_units(units: object, quantities: set[str]) -> None:
-    if not isinstance(units, dict) or units.keys() != quantities:
-        raise ValueError(f"{MANIFEST}: [units] must have exactly {', '.join(sorted(quantities))}")
-    for name, unit in units.items():
-        if unit != QUANTITIES[name].unit:
-            raise ValueError(
-                f'{MANIFEST}: {name} is given in "{unit}" but compared in "{QUANTITIES[name].unit}": '
-                "divide the values by that"
-            )
 
 
 def _rows(content: bytes, file: str, covered: set[Key]) -> dict[Key, tuple[float, float]]:
@@ -293,8 +184,7 @@ def _rows(content: bytes, file: str, covered: set[Key]) -> dict[Key, tuple[float
         raise ValueError(f"{file}, line {reader.line_num}: {error}") from None
     if missing := sorted(covered - rows.keys()):
         raise ValueError(
-            f"{file}: {len(missing)} of {len(covered)} rows that [[covers]] promises are missing, "
-            f"the first is "
+            f"{file}: {len(missing)} of {len(covered)} rows that [[covers]] promises are missing, the first is "
             f"{_label(missing[0])}"
         )
     return rows
@@ -304,7 +194,7 @@ def _number(cell: str, name: str, where: str) -> float:
     try:
         number = float(cell)
         if "_" in cell:
-            # Ten to Python; whoever wrote 1_0 meant something else.
+            # Python reads 1_0 as ten; in a CSV it is a misprint.
             raise ValueError
     except ValueError:
         raise ValueError(f"{where}: {name} = {one_line(repr(cell), 40)} is not a number") from None
@@ -313,6 +203,6 @@ def _number(cell: str, name: str, where: str) -> float:
     return number
 
 
-def _label(key: Key | Iterable[Any]) -> str:
+def _label(key: Key) -> str:
     quantity, n, k, mu = key
     return f"{one_line(str(quantity), 60)} at n = {n:g}, k = {k:g}, mu = {mu:g}"

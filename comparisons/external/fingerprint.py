@@ -1,4 +1,4 @@
-"""A SHA-256 of the files that a model's numbers can depend on, and a sentence that says which they are.
+"""SHA-256 of the files that the results of a model can depend on, with a list of them in words.
 
 Run in the child process.  A small folder is hashed as a whole: tables, binaries and modules that are imported
 late count too.  Of a large one, and of one that several programs share, only what is imported or declared does.
@@ -27,7 +27,7 @@ MOST_FILES, MOST_BYTES = 200, 20_000_000
 #: What a model declares may be larger; it is read again for every process of the model.
 _MOST_DECLARED, _MOST_DECLARED_BYTES = 10_000, 2_000_000_000
 
-#: A folder with one of them holds the results of a run, which change while the model is asked.
+#: A folder with one of them holds the results of a run, which change during a run.
 _OF_A_RUN = (RECORD, JOURNAL)
 _SITES = ("site-packages", "dist-packages")
 _NOT_ENTERED = ("__pycache__", "results", "node_modules", *_SITES)
@@ -71,7 +71,7 @@ def fingerprint(
     installed : iterable of Path, optional
         Files that were installed with the model.
     skip : iterable of (device, inode), optional
-        Files that are written while the model is asked, such as one that takes standard output.
+        Files that are written during a run, such as one that takes standard output.
 
     Raises
     ------
@@ -79,26 +79,26 @@ def fingerprint(
         If what is declared is not a tuple of names, does not exist or is too large.
     """
     files: dict[str, Path] = {}
-    told: list[str] = []
+    parts: list[str] = []
     roots: list[Path] = []
     for name in modules:
         file = getattr(sys.modules.get(name), "__file__", None)
-        if file is None or not _is_theirs(Path(file).resolve()):
+        if file is None or not _is_of_model(Path(file).resolve()):
             continue
         root = _root(name, Path(file).resolve())
         if root in roots:
             continue
         found, words = _of_root(root, Path(file).resolve(), set(installed), set(skip))
         files |= {f"{len(roots)}/{path.relative_to(root).as_posix()}": path for path in found}
-        told.append(words)
+        parts.append(words)
         roots.append(root)
     named = _declared(declared, roots[0] if roots else Path.cwd())
     if named:
-        told.append(f"{len(named)} declared files" if len(named) > 1 else "1 declared file")
-    return _hashed(files | named, told)
+        parts.append(f"{len(named)} declared files" if len(named) > 1 else "1 declared file")
+    return _hashed(files | named, parts)
 
 
-def _hashed(files: dict[str, Path], told: list[str]) -> Fingerprint:
+def _hashed(files: dict[str, Path], parts: list[str]) -> Fingerprint:
     digest = hashlib.sha256()
     size = 0
     for label, path in sorted(files.items()):
@@ -110,7 +110,7 @@ def _hashed(files: dict[str, Path], told: list[str]) -> Fingerprint:
         except OSError:
             pass
         digest.update(label.encode(errors="surrogateescape") + b"\0" + content)
-    words = " and ".join(told) or "nothing: the model has no file"
+    words = " and ".join(parts) or "nothing: the model has no file"
     return Fingerprint(digest.hexdigest(), one_line(f"{words}; {len(files)} files, {size} bytes"))
 
 
@@ -138,7 +138,7 @@ def _of_root(root: Path, file: Path, installed: set[Path], skip: set[tuple[int, 
 
 
 def _is_shared(root: Path) -> bool:
-    """Whether a folder changes for reasons that are not the model's: home, root, temporary files, results."""
+    """Whether a folder has other uses than the model: home, root, temporary files, results."""
     home = Path(pwd.getpwuid(os.getuid()).pw_dir).resolve()
     return (
         root == home
@@ -151,7 +151,7 @@ def _is_shared(root: Path) -> bool:
 def _whole(root: Path, skip: set[tuple[int, int]]) -> list[Path] | None:
     found: list[Path] = []
     size = 0
-    for path in _walk(root):
+    for path in _counted_paths(root):
         try:
             status = path.stat()
         except OSError:
@@ -166,7 +166,7 @@ def _whole(root: Path, skip: set[tuple[int, int]]) -> list[Path] | None:
     return found
 
 
-def _walk(root: Path) -> Iterator[Path]:
+def _counted_paths(root: Path) -> Iterator[Path]:
     for folder, inner, names in os.walk(root):
         here = Path(folder)
         inner[:] = [name for name in inner if _is_entered(here / name)]
@@ -195,12 +195,12 @@ def _imported(root: Path, file: Path) -> list[Path]:
         loaded = getattr(module, "__file__", None)
         if isinstance(loaded, str) and loaded.startswith(os.sep):
             path = Path(loaded).resolve()
-            if path.is_relative_to(root) and _counts(path.relative_to(root)) and _is_theirs(path):
+            if path.is_relative_to(root) and _counts(path.relative_to(root)) and _is_of_model(path):
                 found.add(path)
     return sorted(found)
 
 
-def _is_theirs(file: Path) -> bool:
+def _is_of_model(file: Path) -> bool:
     """Whether a file is neither of Python itself nor of this program."""
     python = file.is_relative_to(_STANDARD_LIBRARY) and not any(part in _SITES for part in file.parts)
     return not python and not any(file.is_relative_to(folder) for folder in _OURS)

@@ -6,14 +6,14 @@ from typing import Any
 
 from comparisons.external.text_rules import one_line
 
-__all__ = ["DIGEST", "contradiction", "said"]
+__all__ = ["DIGEST", "contradiction", "identity_of"]
 
 #: Digits of the digest that are kept in the version of a model.
 DIGEST = 12
 
 
 def contradiction(first: tuple[str, str], later: tuple[str, str]) -> str:
-    """Return why a model is refused that is not in a later process what it was in the first.
+    """Return the sentence for a model whose name, version or files are not the same in a later process.
 
     Parameters
     ----------
@@ -23,14 +23,21 @@ def contradiction(first: tuple[str, str], later: tuple[str, str]) -> str:
     Examples
     --------
     >>> contradiction(("mine", "1 (ab)"), ("mine", "1 (cd)"))
-    "the model's files changed after it was opened: it is mine 1 (cd) in a later process, and was mine 1 (ab)"
+    "the model's files changed after it was loaded: it is mine 1 (cd) in a later process, and was mine 1 (ab)"
     """
     same = first[0] == later[0] and first[1].rpartition(" (")[0] == later[1].rpartition(" (")[0]
-    what = "the model's files changed after it was opened" if same else "the model contradicts itself"
-    return one_line(f"{what}: it is {' '.join(later)} in a later process, and was {' '.join(first)}")
+    what = "files" if same else "name or version"
+    now = f"it is {' '.join(later)} in a later process, and was {' '.join(first)}"
+    return one_line(f"the model's {what} changed after it was loaded: {now}")
 
 
-def said(opened: dict[str, Any]) -> tuple[str, str]:
-    """Return name and version of a model as its process gave them, the version with the digest."""
-    name, version, digest = (one_line(str(opened.get(key)), 60) for key in ("name", "version", "digest"))
+def identity_of(loaded: dict[str, Any]) -> tuple[str, str]:
+    """Return name and version of a model from the reply of its process, the version with the digest.
+
+    Examples
+    --------
+    >>> identity_of({"name": "mine", "version": "1", "digest": "0123456789abcdef"})
+    ('mine', '1 (0123456789ab)')
+    """
+    name, version, digest = (one_line(str(loaded.get(key)), 60) for key in ("name", "version", "digest"))
     return name, f"{version} ({digest[:DIGEST]})"

@@ -1,4 +1,4 @@
-"""Landlock of Linux: a process gives up, for itself and its children, writing and signalling outside.
+"""Landlock of Linux: no writing and no signals beyond one folder, for a process and its children.
 
 Kernel documentation: userspace-api/landlock.  It needs no privileges and holds for a superuser too.  It binds
 the calling thread and what that thread starts later, so it must be called before any other thread exists.
@@ -22,7 +22,7 @@ _VERSION_FLAG, _RULE_PATH_BENEATH, _NO_NEW_PRIVILEGES = 1, 1, 38
 _WRITE_FILE, _REFER, _TRUNCATE = 1 << 1, 1 << 13, 1 << 14
 #: Write, remove folder and file, make device, folder, file, socket, fifo, block device and link.
 _CHANGES = _WRITE_FILE | sum(1 << bit for bit in range(4, 13))
-#: Abstract sockets and signals to processes outside.
+#: Abstract sockets and signals to other processes.
 _SCOPES = 0b11
 
 
@@ -36,7 +36,7 @@ class _PathBeneath(ctypes.Structure):
 
 
 def write_only_in(folder: Path | str) -> bool:
-    """Give up writing anywhere but below `folder` and to /dev/null.
+    """Restrict writing to the tree below `folder` and to /dev/null.
 
     Returns
     -------

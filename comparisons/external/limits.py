@@ -1,8 +1,8 @@
-"""What a model from outside may use: seconds, memory and files.
+"""Limits of an external model: time, memory and size of files.
 
 The limits are environment variables, so that they reach every process of a run:
 
-    FSCM_BENCH_TIME_LIMIT     seconds for one question, and for loading (60)
+    FSCM_BENCH_TIME_LIMIT     seconds for one evaluation, and for loading (60)
     FSCM_BENCH_MEMORY_LIMIT   MB of address space (4096)
 """
 
@@ -16,13 +16,13 @@ __all__ = ["LARGEST_COUNT", "Limits", "cpu_seconds_from_now", "limit_resources"]
 _TIME, _MEMORY = "FSCM_BENCH_TIME_LIMIT", "FSCM_BENCH_MEMORY_LIMIT"
 _DEFAULT_SECONDS, _DEFAULT_MEGABYTES = 60.0, 4096.0
 
-#: One file in the scratch folder; a model has no business writing more.
+#: Bytes of one file in the scratch folder.
 _LARGEST_FILE = 256_000_000
 
 #: Counts (of unknowns, of iterations) are below it: tables store them with 64 bits and a sign.
 LARGEST_COUNT = 2**63
 
-#: The parent ends a question by the clock; the limit of processor time is for a child whose parent was
+#: The parent ends an evaluation by the clock; the limit of processor time is for a child whose parent was
 #: killed.
 _GRACE = 10.0
 
@@ -34,7 +34,7 @@ class Limits:
     Attributes
     ----------
     seconds : float
-        Wall-clock time of one question.
+        Wall-clock time of one evaluation.
     megabytes : float
         Address space, 1e6 bytes.
 
@@ -82,7 +82,7 @@ def limit_resources(limits: Limits) -> None:
 
 
 def cpu_seconds_from_now(limits: Limits) -> None:
-    """Have this process killed when it has used far more processor time than one question may take."""
+    """Set the limit of processor time of this process far above the time of one evaluation from now on."""
     import resource
 
     used = resource.getrusage(resource.RUSAGE_SELF)

@@ -1,4 +1,4 @@
-"""Loading a model from a file; run in the child process only."""
+"""Import of a model from a file, in the child process only."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def load_file(file: Path, attribute: str) -> object:
     Raises
     ------
     AttributeError
-        If the file does not define it.  Whatever the file raises comes through.
+        If the file does not define it.  An exception that the file raises is not caught.
     """
     sys.path.insert(0, str(file.parent))
     spec = spec_from_file_location(file.stem, file)

@@ -1,8 +1,8 @@
-"""The three doors: which kind of model a SPEC names, and opening it.
+"""Sources of external models: a package, a file or data, and the model that a SPEC names.
 
-NAME                 an entry point of the group `fscm_bench.models` of an installed package
-FILE.py:CLASS        a local file
-FOLDER               predictions as data: a folder with a `model.toml`
+NAME                 package: an entry point of the group `fscm_bench.models` of an installed package
+FILE.py:CLASS        file: a local Python file
+FOLDER               data: predictions in a folder with a `model.toml`
 
 A name that is both an entry point and a folder with a `model.toml` is refused; with a separator (./NAME) it is
 the folder.
@@ -16,7 +16,8 @@ from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
-from comparisons.external.data_model import MANIFEST, DataModel, read_submission
+from comparisons.external.data_model import DataModel, read_submission
+from comparisons.external.manifest import MANIFEST
 from comparisons.external.process_model import ExternalModel, connect
 from comparisons.external.text_rules import one_line
 
@@ -24,7 +25,7 @@ __all__ = ["GROUP", "close_models", "installed", "load_model", "source_of"]
 
 GROUP = "fscm_bench.models"
 
-_open: dict[tuple[str, float | None], ExternalModel | DataModel] = {}
+_loaded: dict[tuple[str, float | None], ExternalModel | DataModel] = {}
 
 
 def installed() -> list[tuple[str, str, str]]:
@@ -38,12 +39,12 @@ def installed() -> list[tuple[str, str, str]]:
 
 
 def source_of(spec: str) -> dict[str, Any]:
-    """Return how a worker finds the model, or for a data folder where it is.
+    """Return the source of a model: its kind, and how a worker finds it or where its folder is.
 
     Raises
     ------
     ValueError
-        If nothing is there, or more than one; the sentence says what a SPEC can be.
+        If there is no such source, or more than one; the sentence lists what a SPEC can be.
 
     Examples
     --------
@@ -69,7 +70,7 @@ def source_of(spec: str) -> dict[str, Any]:
     if data and count:
         raise ValueError(
             f"{spec!r} is both a folder with a {MANIFEST} and a model of an installed package: "
-            f"name the folder .{os.sep}{spec}, or ask for the other from elsewhere"
+            f"name the folder .{os.sep}{spec}, or use the package from another working folder"
         )
     if data:
         return {"kind": "data", "folder": str(folder.resolve())}
@@ -83,38 +84,38 @@ def source_of(spec: str) -> dict[str, Any]:
             f"no installed package has a model {one_line(spec, 60)!r} (entry points of group {GROUP}), and it is "
             f"neither FILE.py:CLASS nor a folder with a {MANIFEST}"
         )
-    return {"kind": "entry point", "group": GROUP, "name": spec}
+    return {"kind": "package", "group": GROUP, "name": spec}
 
 
 def load_model(spec: str, poisson_ratio: float | None = None) -> ExternalModel | DataModel:
-    """Return the model a SPEC names; opened once in a process and kept.
+    """Return the model that a SPEC names; loaded once in a process and kept.
 
     Parameters
     ----------
     spec : str
         See the module's text.
     poisson_ratio : float, optional
-        For a model in physical units; the others do not depend on it.
+        For a model of physical quantities; the others do not depend on it.
 
     Raises
     ------
     ValueError
-        If there is none, or it does not load; one sentence says why.
+        If there is none, or it does not load; the sentence has the reason.
     """
-    door = source_of(spec)
-    key = (repr(door), poisson_ratio)
-    if key not in _open:
-        _open[key] = (
-            DataModel(read_submission(Path(door["folder"])))
-            if door["kind"] == "data"
-            else connect(door, spec, poisson_ratio)
+    source = source_of(spec)
+    key = (repr(source), poisson_ratio)
+    if key not in _loaded:
+        _loaded[key] = (
+            DataModel(read_submission(Path(source["folder"])))
+            if source["kind"] == "data"
+            else connect(source, spec, poisson_ratio)
         )
-    return _open[key]
+    return _loaded[key]
 
 
 @atexit.register
 def close_models() -> None:
-    """End the child processes of all models that are open."""
-    for model in _open.values():
+    """End the child processes of all models that are loaded."""
+    for model in _loaded.values():
         model.close()
-    _open.clear()
+    _loaded.clear()

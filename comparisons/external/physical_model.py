@@ -1,8 +1,8 @@
-"""Models that work in physical units: asked a dimensionless question through scales of our choosing.
+"""Models of physical quantities, evaluated for dimensionless problems.
 
 An author whose code takes a modulus, a radius and a work of adhesion writes `evaluate_physical` in place of
-`evaluate` and never meets a Tabor number.  The answer must not depend on the scales; `check-model` tries
-several.
+`evaluate`; no Tabor number is needed.  The dimensionless result must not depend on the scales of the physical
+problem; `check-model` tries several.
 """
 
 from __future__ import annotations
@@ -42,13 +42,13 @@ SCALES: tuple[dict[str, float], ...] = (
 
 
 class InUnits:
-    """A physical model as one that answers dimensionless questions.
+    """A physical model as a model of dimensionless problems.
 
     Parameters
     ----------
     model : PhysicalModel
     poisson_ratio : float, optional
-        By default 0.3; the Gibson solid k = 1 has 0.5 whatever this says.
+        By default 0.3; the Gibson solid k = 1 has 0.5 in any case.
     scales : int
         Which of `SCALES`.
     """
@@ -63,16 +63,16 @@ class InUnits:
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the dimensionless quantity, or raise as the model does."""
         physical = self._physical(problem)
-        answer = self._model.evaluate_physical(physical, quantity)
-        if not isinstance(answer, Result):
-            return answer
-        kind = QUANTITIES[quantity].kind
+        result = self._model.evaluate_physical(physical, quantity)
+        if not isinstance(result, Result):
+            return result
+        kind = QUANTITIES[quantity].scale
         if kind == "number":
-            return answer
+            return result
         return dataclasses.replace(
-            answer,
-            value=physical.to_dimensionless(kind, answer.value),
-            u_num=physical.to_dimensionless(kind, answer.u_num),
+            result,
+            value=physical.to_dimensionless(kind, result.value),
+            u_num=physical.to_dimensionless(kind, result.u_num),
         )
 
     def _physical(self, problem: Problem) -> PhysicalProblem:

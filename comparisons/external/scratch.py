@@ -1,4 +1,4 @@
-"""The scratch folder of a child process, and the small process that removes it when the parent has ended.
+"""Scratch folder of a child process, and the process that removes it when the parent has ended.
 
 This file is also a program (``python -I -S scratch.py PATH DEVICE INODE``).  It runs beside the child, not in
 it: no code of a model can change what it does.  The parent writes the child's process id to its standard

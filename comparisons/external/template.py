@@ -1,16 +1,16 @@
-"""What `new-model` writes: a package with one model that works, its test, and a workflow that gates it."""
+"""The package that `new-model` writes: one model that works, its test, its gates and a workflow."""
 
 from __future__ import annotations
 
 import keyword
 import os
 import sys
+from collections.abc import Collection
 from importlib.resources import files
 from pathlib import Path
 
 from comparisons.console.exit_status import full_disk
 from comparisons.external.text_rules import model_name
-from comparisons.registry import MODELS
 
 __all__ = ["write_template"]
 
@@ -29,13 +29,15 @@ _PLACES = {
 }
 
 
-def write_template(folder: Path) -> tuple[list[Path], str]:
+def write_template(folder: Path, reserved: Collection[str] = ()) -> tuple[list[Path], str]:
     """Write a new package; its model has the name of the folder.
 
     Parameters
     ----------
     folder : Path
         Made if it does not exist; it must be empty.
+    reserved : collection of str, optional
+        Names of models that exist already; the new one must have another.
 
     Returns
     -------
@@ -47,15 +49,15 @@ def write_template(folder: Path) -> tuple[list[Path], str]:
     Raises
     ------
     ValueError
-        If the folder is not empty, its name cannot be that of a model or is that of one of ours, or nothing can be
-        written there.
+        If the folder is not empty, its name cannot be that of a model or is reserved, or nothing can be written
+        there.
     OSError
         If the disk is full.
     """
     name = model_name(Path(os.path.realpath(folder)).name)
     module = name.replace("-", "_").replace(".", "_").lower()
     cls = "".join(part.title() for part in module.split("_"))
-    if why := _unusable(name, module, cls):
+    if why := _unusable(name, module, cls, reserved):
         raise ValueError(f"the folder's name {name} {why}; choose another")
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise ValueError(f"{folder} exists and is not an empty folder")
@@ -77,9 +79,9 @@ def write_template(folder: Path) -> tuple[list[Path], str]:
     return written, f"{folder / module}.py:{words['CLASS']}"
 
 
-def _unusable(name: str, module: str, cls: str) -> str:
+def _unusable(name: str, module: str, cls: str, reserved: Collection[str]) -> str:
     """Return why a package of that name would not work; nothing if it would."""
-    if name in MODELS or module in {model.replace("-", "_") for model in MODELS}:
+    if module in {model.replace("-", "_") for model in reserved}:
         return "is that of one of our own models"
     if not name[-1].isalnum():
         return "ends in a sign: no package can be installed under it"

@@ -1,4 +1,4 @@
-"""What a model from outside may call itself: names by a pattern, other texts as one short printable line."""
+"""Text rules for external models: a name keeps a pattern, any other text is one short printable line."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ NAME_PATTERN = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}")
 
 _MISSING = "is what programs that read CSV take for a missing value"
 _TAKEN = {
-    "given": "stands in gates for every model that is given",
+    "given": "stands in gates for every model of --model",
     **dict.fromkeys(("nan", "na", "n-a", "null", "none", "nil"), _MISSING),
 }
 _LONGEST_TEXT = 500
 
 
 def model_name(text: object) -> str:
-    """Return the name of a model, or refuse it.
+    """Return the name of a model if it is admissible.
 
     Raises
     ------
@@ -36,8 +36,7 @@ def model_name(text: object) -> str:
     if isinstance(text, str) and NAME_PATTERN.fullmatch(text):
         return text
     raise ValueError(
-        f"the model's name {one_line(repr(text), 60)} is not 1 to 64 letters, digits, '.', '_' and "
-        f"'-' beginning "
+        f"the model's name {one_line(repr(text), 60)} is not 1 to 64 letters, digits, '.', '_' and '-' beginning "
         "with a letter or a digit: it becomes a file name and a cell of tables"
     )
 

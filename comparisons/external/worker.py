@@ -1,7 +1,7 @@
-"""The child process: loads one model from outside and answers questions about it, one JSON object a line.
+"""Program of the child process: it loads one external model and evaluates it, one JSON object a line.
 
-Requests come on what was stdin, answers go to a descriptor of their own; stdin, stdout and stderr lead
-nowhere before any foreign code runs, so a model may print what it likes.
+Requests come on what was stdin; replies go to a descriptor of their own.  Before any code of the model runs,
+stdin, stdout and stderr are redirected to the null device, so a model may print what it likes.
 """
 
 from __future__ import annotations
@@ -37,20 +37,20 @@ _LARGEST_CURVE = 1_000_000
 _COUNTS = ("size", "iterations")
 
 
-def main(answers: int) -> None:
-    """Answer requests until there are no more.
+def main(replies: int) -> None:
+    """Serve requests until there are no more.
 
     Parameters
     ----------
-    answers : int
-        Descriptor to write answers to.
+    replies : int
+        Descriptor to write replies to.
     """
     requests = os.fdopen(os.dup(0), "r", encoding="utf-8")
-    nowhere = os.open(os.devnull, os.O_RDWR)
+    null = os.open(os.devnull, os.O_RDWR)
     for stream in (0, 1, 2):
-        os.dup2(nowhere, stream)
+        os.dup2(null, stream)
     threading.Thread(target=_end_with_parent, args=(requests.fileno(),), daemon=True).start()
-    with os.fdopen(answers, "w", encoding="utf-8") as out:
+    with os.fdopen(replies, "w", encoding="utf-8") as out:
         _serve(requests, out)
 
 
@@ -73,18 +73,18 @@ def _serve(requests: IO[str], out: IO[str]) -> None:
         request = json.loads(line)
         started = time.perf_counter()
         try:
-            if request["ask"] == "ready":
+            if request["request"] == "ready":
                 limits, reply = Limits(**request["limits"]), {"status": "ok"}
                 _confine(request["path"], limits)
-            elif request["ask"] == "open":
-                model, reply = _open(request["door"])
+            elif request["request"] == "load":
+                model, reply = _load(request["source"])
             else:
                 cpu_seconds_from_now(limits)
-                reply = _answers[request["ask"]](model, request)
+                reply = _HANDLERS[request["request"]](model, request)
         except NotApplicable as refusal:
             reply = {"status": "not-applicable", "reason": _words(refusal)}
         except BaseException as error:
-            reply = {"status": "failed", "reason": _explain(error, limits, request["ask"])}
+            reply = {"status": "failed", "reason": _explain(error, limits, request["request"])}
         reply["seconds"] = time.perf_counter() - started
         out.write(json.dumps(reply, allow_nan=False) + "\n")
         out.flush()
@@ -96,12 +96,12 @@ def _confine(path: list[str], limits: Limits) -> None:
     sys.path[:] = path
 
 
-def _open(door: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
-    if door["kind"] == "file":
-        file, installed = Path(door["file"]), []
-        made, module = load_file(file, door["attribute"]), file.stem
+def _load(source: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
+    if source["kind"] == "file":
+        file, installed = Path(source["file"]), []
+        made, module = load_file(file, source["attribute"]), file.stem
     else:
-        (found,) = {entry for entry in entry_points(group=door["group"]) if entry.name == door["name"]}
+        (found,) = {entry for entry in entry_points(group=source["group"]) if entry.name == source["name"]}
         made, module = found.load(), found.module
         files = found.dist.files if found.dist else None
         installed = [Path(str(path.locate())).resolve() for path in files or ()]
@@ -111,7 +111,7 @@ def _open(door: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
         (module, cls.__module__),
         getattr(model, "files", ()),
         installed=installed,
-        skip=[(device, inode) for device, inode in door.get("skip", ())],
+        skip=[(device, inode) for device, inode in source.get("skip", ())],
     )
     reply = {
         "status": "ok",
@@ -146,12 +146,12 @@ def _curve(model: Any, request: dict[str, Any]) -> dict[str, Any]:
     arrays = {one_line(str(name), 60): _array(str(name), array) for name, array in named.items()}
     lengths = {name: len(array) for name, array in arrays.items()}
     if len(set(lengths.values())) != 1:
-        told = ", ".join(f"{name} {length}" for name, length in lengths.items())
-        raise ComputationFailed(f"the columns of the curve have different lengths: {told}")
+        listed = ", ".join(f"{name} {length}" for name, length in lengths.items())
+        raise ComputationFailed(f"the columns of the curve have different lengths: {listed}")
     return {"status": "ok", "columns": arrays}
 
 
-_answers: dict[str, Callable[[Any, dict[str, Any]], dict[str, Any]]] = {
+_HANDLERS: dict[str, Callable[[Any, dict[str, Any]], dict[str, Any]]] = {
     "evaluate": _evaluate,
     "curve": _curve,
 }
@@ -171,7 +171,7 @@ def _real(name: str, value: object) -> float:
 
 
 def _count(name: str, value: object) -> int:
-    """Return a number of things, as the stored tables have it."""
+    """Return a count, as the stored tables have it."""
     number = int(_real(name, value))
     if not 0 <= number < LARGEST_COUNT:
         raise ComputationFailed(f"the model gave {_kind(value)} as {name}, which is outside [0, 2^63): it counts")
@@ -190,7 +190,7 @@ def _array(name: str, values: object) -> list[float]:
 
 
 def _kind(value: object) -> str:
-    """Say what a value is, without trusting its own words for more than a line."""
+    """Describe a value; of its own text at most one line."""
     if isinstance(value, np.ndarray):
         return f"an array of shape {value.shape} and type {value.dtype}"
     if isinstance(value, str | int | float | complex | None):
@@ -198,35 +198,38 @@ def _kind(value: object) -> str:
     return f"an object of type {one_line(type(value).__name__, 60)}"
 
 
-def _is_theirs(filename: str) -> bool:
+def _is_of_model(filename: str) -> bool:
+    """Whether a line of a traceback is code of the model, not of this program."""
     return not filename.startswith("<") and not Path(filename).is_relative_to(_OURS)
 
 
 def _words(thing: object, by: Callable[[object], str] = str) -> str:
-    """Return what an exception says; its class may be of the model, and fail at that."""
+    """Return the text of an exception; its class may be of the model, and the conversion may fail."""
     try:
         return one_line(by(thing))
     except BaseException as worse:
         return f"its text cannot be had: __{by.__name__}__ raises {type(worse).__name__}"
 
 
-def _explain(error: BaseException, limits: Limits, asked: str) -> str:
-    """Return what happened in one line; the model's own refusals in its words, defects with their place."""
+def _explain(error: BaseException, limits: Limits, request: str) -> str:
+    """Return one line about a failure: the text of a `ComputationFailed`, else the error and its place in the code."""
     if isinstance(error, ComputationFailed):
-        return _words(error) or "the model failed and did not say why"
+        return _words(error) or "the model failed without a reason"
     name = type(error).__name__
     if isinstance(error, MemoryError):
-        return f"MemoryError: the model asked for more than its {limits.megabytes:g} MB"
+        return f"MemoryError: the model needs more than its {limits.megabytes:g} MB"
     if isinstance(error, SystemExit):
         return f"SystemExit: the model called sys.exit({one_line(_words(error.code, repr), 60)})"
-    if isinstance(error, SyntaxError) and error.lineno and error.filename and _is_theirs(error.filename):
+    if isinstance(error, SyntaxError) and error.lineno and error.filename and _is_of_model(error.filename):
         # It has no frame of its own: the place is in the exception.
         where = f"line {error.lineno} of {Path(error.filename).name}"
         return one_line(f"{type(error).__name__} in {where}: {error.msg}")
     every = traceback.extract_tb(error.__traceback__)
-    # The place in the author's code: a Result that refuses a text was given it there.
-    frames = [frame for frame in every if _is_theirs(frame.filename)] or every
+    # The place in the author's code, where for instance a Result was made of a text.
+    frames = [frame for frame in every if _is_of_model(frame.filename)] or every
     place = f" in {frames[-1].name}, line {frames[-1].lineno} of {Path(frames[-1].filename).name}" if frames else ""
-    # Loading a model asks no case.
-    hint = " (a case outside the domain is NotApplicable)" if isinstance(error, ValueError) and asked != "open" else ""
+    # Loading a model involves no case.
+    hint = (
+        " (a case outside the domain is NotApplicable)" if isinstance(error, ValueError) and request != "load" else ""
+    )
     return one_line(f"{name}{place}: {_words(error)}{hint}")

@@ -1,8 +1,8 @@
-"""Verdicts after ASME V&V 20: an error is judged together with its uncertainty.
+"""Verdicts on an error and its bound, after ASME V&V 20.
 
-With the error E of a candidate and U = k sqrt(u_cand^2 + u_ref^2), the true error is taken to be in [E - U, E
-+ U]. A gate passes if all of that interval is inside its limits, fails if none of it is, and is inconclusive
-between.
+With the error E of a candidate and the bound U of `comparisons.numerics.bounds`, the exact error is in
+[E - U, E + U].  A gate passes if all of this interval is within its limits, fails if none of it is, and is inconclusive
+otherwise.
 """
 
 from __future__ import annotations
@@ -13,11 +13,7 @@ from enum import StrEnum
 
 from comparisons.numerics.number_text import exact
 
-__all__ = ["COVERAGE", "Verdict", "combined", "crossing", "decide", "expecting_failure", "roll_up"]
-
-#: k of U: two, as V&V 20 takes for 95 % of a normal distribution.  Here each u is already a bound, with a
-#: safety factor of its own, so that U errs on the side of "inconclusive".
-COVERAGE = 2.0
+__all__ = ["Verdict", "crossing", "decide", "expecting_failure", "roll_up"]
 
 
 class Verdict(StrEnum):
@@ -38,17 +34,6 @@ class Verdict(StrEnum):
     def rank(self) -> int:
         """0 for the worst."""
         return list(Verdict).index(self)
-
-
-def combined(*uncertainties: float) -> float:
-    """Return U = k sqrt(sum of squares), in the unit of the arguments.
-
-    Examples
-    --------
-    >>> combined(3e-9, 4e-9)
-    1e-08
-    """
-    return COVERAGE * math.hypot(*uncertainties)
 
 
 def decide(error: float, uncertainty: float, lower: float, upper: float) -> Verdict:

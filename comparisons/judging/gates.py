@@ -1,7 +1,7 @@
-"""Gates as data: what is required of which model, in which cases, within which limits, and on what grounds.
+"""Gates: requirements on the models, read from a TOML file.
 
-A gate compares one quantity of a candidate with that of a reference.  Unknown and missing keys are refused,
-so that a misspelt one cannot pass unnoticed.
+A gate compares one quantity of a candidate with that of a reference.  Types, names of keys and enumerations are
+checked by the schema ``comparisons/data/gates.schema.json``, the rest by `comparisons.judging.gate_checks`.
 """
 
 from __future__ import annotations
@@ -12,27 +12,25 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from comparisons.curve_quantities import SHAPES
-from comparisons.data.toml_text import is_real, names, parse
-from comparisons.judging.gate_checks import PARAMETERS, check_compared, check_numbers, label, plain_text
-from comparisons.quantities import QUANTITIES
+from comparisons.data.toml_text import parse
+from comparisons.data.validation import known_name, label, validated
+from comparisons.judging.gate_checks import PARAMETERS, check_compared, check_numbers, plain_text
+from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.registry import MODELS
 from comparisons.runs.cases import TIERS, Case, Grid
 
 __all__ = ["GIVEN", "METRICS", "Gate", "gates_text", "load_gates", "of_tier"]
 
-#: The candidate of a gate for every model that is given to a run, whatever its name.
+#: The candidate of a gate for every model that is named in a run.
 GIVEN = "given"
 
 METRICS = {
     "rel": "(candidate - reference) / |reference|",
     "abs": "candidate - reference",
     "range-relative": "(candidate - reference) / range of the reference over the cases",
-    "en": "(candidate - reference) / sqrt(u_candidate^2 + u_reference^2): is the error inside what both claim?",
+    "en": "(candidate - reference) / (u_candidate + u_reference), the normalised error E_n",
     "curve": "largest distance of the two curves, as a fraction of the picture",
 }
-BASES = ("derived", "published", "measured")
-NOT_APPLICABLE = ("error", "leave-out")
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,9 +44,9 @@ class Gate:
     requirement : str
         One sentence.
     quantity : str
-        A name of `QUANTITIES`, or of `SHAPES` for the metric "curve".
+        A name of `QUANTITIES`, or of `CURVES` for the metric "curve".
     candidate, reference : str
-        Names of models; the candidate `GIVEN` stands for every model given to a run.
+        Names of models; the candidate `GIVEN` stands for every model named in a run.
     cases : dict
         Ranges [low, high] of n, k, mu and nu, ends included, and tags of grids; what is not named is not
         restricted.
@@ -62,9 +60,10 @@ class Gate:
     max_candidate_uncertainty : float or None
         The same of the candidate; "en" must state it, where the error counts in units of both uncertainties.
     basis : str
-        Where the limits come from: one of "derived", "published", "measured".
+        Origin of the limits: "derived", "published" or "measured".
     grounds : str
-        The derivation in short, the place published, or the worst case measured.
+        The derivation in short, the place in the paper, or the reason for the limits; in the file either this text or,
+        as ``shared_grounds``, its name in the table ``[grounds]``.
     min_cases : int
         Fewer evaluated cases are an error.
     tier : str
@@ -76,7 +75,7 @@ class Gate:
     rival : str or None
         A second model: the error is then by how much the candidate's exceeds the rival's in size.
     not_applicable : str
-        What a case is of which a model says that it does not apply: an error, or left out.
+        "error", or "leave-out" for a case to which a model does not apply.
     expected_failure : str or None
         Why every case is known to fail; one that passes is then reported.
     """
@@ -121,35 +120,11 @@ class Gate:
         return value is not None and low <= value <= high
 
     def reference_case(self, case: Case) -> Case:
-        """Return the case in which the reference is asked."""
+        """Return the case in which the reference is taken."""
         return replace(case, **self.reference_at)
 
 
-_FIELDS: dict[str, type | tuple[type, ...]] = {
-    "id": str,
-    "requirement": str,
-    "quantity": str,
-    "candidate": str,
-    "reference": str,
-    "cases": dict,
-    "metric": str,
-    "lower": (int, float),
-    "upper": (int, float),
-    "max_reference_uncertainty": (int, float),
-    "basis": str,
-    "grounds": str,
-    "min_cases": int,
-    "tier": str,
-}
-_OPTIONAL: dict[str, type | tuple[type, ...]] = {
-    "max_candidate_uncertainty": (int, float),
-    "worst_measured": (int, float),
-    "reference_at": dict,
-    "rival": str,
-    "not_applicable": str,
-    "expected_failure": str,
-}
-#: Sentences for readers.
+#: Entries that are sentences.
 _TEXTS = ("requirement", "grounds", "expected_failure")
 
 
@@ -159,9 +134,9 @@ def load_gates(text: str, models: Iterable[str] = (), source: str = "the gates f
     Parameters
     ----------
     text : str
-        ``[[gate]]`` tables and nothing else.
+        ``[[gate]]`` tables, and a table ``[grounds]`` of texts that several gates may share.
     models : iterable of str
-        Names of models that may be named besides those of the register.
+        Names of models that a gate may name besides those of the registry.
     source : str
         What the text is of, for the sentence that refuses it.
 
@@ -174,53 +149,45 @@ def load_gates(text: str, models: Iterable[str] = (), source: str = "the gates f
     --------
     >>> load_gates("[[gate]] # without anything")
     Traceback (most recent call last):
-    ValueError: gate 1: basis, candidate, cases, ... missing or unknown; ...
+    ValueError: the gates file: gate 1: id, requirement, quantity, ... missing; a gate has ...
     """
     tables = parse(text, source)
-    if tables.keys() != {"gate"}:
-        raise ValueError(f"{source}: a gates file holds [[gate]] tables and nothing else, not {names(tables)}")
-    if not isinstance(tables["gate"], list) or not all(isinstance(table, dict) for table in tables["gate"]):
-        raise ValueError(f"{source}: a gates file holds [[gate]] tables and nothing else; its gate is something else")
+    validated(tables, "gates", source)
+    shared = {
+        name: plain_text(name, grounds, f"{source}: grounds") for name, grounds in tables.get("grounds", {}).items()
+    }
     known = {*MODELS, *models}
-    read = [_gate(table, label(table, number), known) for number, table in enumerate(tables["gate"], start=1)]
-    ids = [gate.id for gate in read]
+    gates = [
+        _gate(table, f"{source}: {label('gate', table, number)}", known, shared)
+        for number, table in enumerate(tables["gate"], start=1)
+    ]
+    ids = [gate.id for gate in gates]
     if twice := sorted({id for id in ids if ids.count(id) > 1}):
-        raise ValueError(f"the id of a gate must be its own; {', '.join(twice)} is there twice")
-    return read
-
-
-def _gate(table: dict[str, Any], where: str, models: set[str]) -> Gate:
-    wrong = sorted((_FIELDS.keys() - table.keys()) | (table.keys() - _FIELDS.keys() - _OPTIONAL.keys()))
-    if wrong:
-        shown = [key if key.isprintable() else ascii(key) for key in wrong]
+        raise ValueError(f"{source}: the id of a gate must be unique; {', '.join(twice)} is there twice")
+    used = {table.get("shared_grounds") for table in tables["gate"]}
+    if unused := sorted(shared.keys() - used):
         raise ValueError(
-            f"{where}: {', '.join(shown)} missing or unknown; a gate has {', '.join(_FIELDS)} "
-            f"and may have {', '.join(_OPTIONAL)}"
+            f"{source}: no gate has the shared grounds {', '.join(unused)}: remove them, or name them in one"
         )
-    for key, kind in (_FIELDS | _OPTIONAL).items():
-        fits = is_real if kind == (int, float) else lambda value, kind=kind: isinstance(value, kind)
-        if key in table and (not fits(table[key]) or isinstance(table[key], bool)):
-            raise ValueError(f"{where}: {key} = {table[key]!r} has the wrong type")
+    return gates
+
+
+def _gate(table: dict[str, Any], where: str, models: set[str], shared: Mapping[str, str]) -> Gate:
+    table = dict(table)
+    name = table.pop("shared_grounds", None)
+    if (name is None) == ("grounds" not in table):
+        raise ValueError(f"{where}: a gate needs either grounds, one sentence, or shared_grounds, a name in [grounds]")
+    if name is not None:
+        known_name("shared grounds", name, shared, where)
+        table["grounds"] = shared[name]
     gate = Gate(**table | {key: plain_text(key, table[key], where) for key in _TEXTS if key in table})
     check_compared(gate, where)
     for key in ("candidate", "reference", "rival"):
-        name = getattr(gate, key)
-        if name is not None and name not in models and not (key == "candidate" and name == GIVEN):
-            raise ValueError(f"{where}: unknown {key} {name!r}; the models are {', '.join(sorted(models))}")
-    for key, allowed in {
-        "metric": METRICS,
-        "basis": BASES,
-        "tier": TIERS,
-        "not_applicable": NOT_APPLICABLE,
-    }.items():
-        if getattr(gate, key) not in allowed:
-            raise ValueError(f"{where}: {key} = {getattr(gate, key)!r} is not one of {', '.join(allowed)}")
-    quantities = SHAPES if gate.metric == "curve" else QUANTITIES
-    if gate.quantity not in quantities:
-        raise ValueError(
-            f"{where}: unknown quantity {gate.quantity!r} for the metric {gate.metric}; "
-            f"known are {', '.join(quantities)}"
-        )
+        model = getattr(gate, key)
+        if model is not None and not (key == "candidate" and model == GIVEN):
+            known_name(key, model, sorted(models), where)
+    quantities = CURVES if gate.metric == "curve" else QUANTITIES
+    known_name(f"quantity of the metric {gate.metric}", gate.quantity, quantities, where)
     check_numbers(gate, where)
     return gate
 

@@ -1,6 +1,6 @@
 """The part of the model contract that every closed form has in common.
 
-A closed form answers the quantities for which it has a method of that name; for any other it says why not.
+A closed form computes the quantities for which it has a method of that name; for any other it has a reason.
 """
 
 from __future__ import annotations
@@ -60,14 +60,14 @@ def monomial(*factors: tuple[float, float]) -> Estimate:
 
 
 class ClosedForm(ABC):
-    """Base of the closed forms: checks the problem, finds the answer, keeps the time.
+    """Base of the closed forms: it checks the problem, calls the method of the quantity and measures the time.
 
     Attributes
     ----------
     name, version, citation, domain : str
         As in `comparisons.model.Model`.
     undefined : dict of str to str
-        Why the model does not define a quantity, one sentence each.
+        Reasons why the model does not define a quantity, one sentence each.
 
     Examples
     --------
@@ -97,12 +97,12 @@ class ClosedForm(ABC):
         if quantity not in QUANTITIES:
             raise ValueError(f"quantity {quantity!r} is unknown; the known ones are {', '.join(QUANTITIES)}")
         self.check(problem)
-        answer = getattr(self, quantity, None)
-        if answer is None:
+        method = getattr(self, quantity, None)
+        if method is None:
             reason = self.undefined.get(quantity, "its equations do not contain it")
             raise NotApplicable(f"{self.name} does not define {quantity}: {reason}")
         start = time.perf_counter()
-        estimate: Estimate = answer(problem)
+        estimate: Estimate = method(problem)
         return Result(
             value=estimate.value,
             u_num=estimate.u_num,

@@ -1,4 +1,4 @@
-"""Where the curve of a Maugis-Dugdale contact has its pull-off, its fold and its zero load.
+"""Pull-off, fold and zero load on the curve of a Maugis-Dugdale contact.
 
 The curve is smooth in w = log(a/L).  A scan brackets every change of sign of an exact slope, Brent's method
 converges it to rounding, and the error bound of a value follows from the magnitude of the terms in it.

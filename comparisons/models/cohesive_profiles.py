@@ -148,8 +148,8 @@ def cohesive_profiles(contact: CohesiveContact, state: ContactState, scale: Scal
     dense = np.sin(np.linspace(0.0, 0.5 * np.pi, _POINTS_A_ZONE))
     both = np.sin(np.linspace(0.0, 0.5 * np.pi, _POINTS_A_ZONE)) ** 2
     inside = _NEAREST * c + (a - _NEAREST * c) * dense if a > _NEAREST * c else np.array([_NEAREST * c])
-    outside = c + (_FARTHEST - 1.0) * c * (1.0 - dense[::-1])
-    r = np.unique(np.concatenate((inside, a + (c - a) * both, [c * (1.0 - _BELOW_EDGE)], outside)))
+    beyond = c + (_FARTHEST - 1.0) * c * (1.0 - dense[::-1])
+    r = np.unique(np.concatenate((inside, a + (c - a) * both, [c * (1.0 - _BELOW_EDGE)], beyond)))
     r = r[r > 0.0]
     return CohesiveProfiles(
         contact_radius=scale.radius * a,

@@ -22,6 +22,8 @@ from fscm.problem import Problem
 
 __all__ = ["DMT", "dmt_pull_off"]
 
+MODELS = {"dmt": "DMT"}
+
 _POINTS = 401
 
 

@@ -1,8 +1,8 @@
-"""The finite elements as one of the models: dimensionless questions, physical computation.
+"""The finite elements as a model of dimensionless problems.
 
-`fem_reference` has never heard of a Tabor number.  Here a dimensionless problem becomes a physical one by
-Eqs. 7, 24 and 29, and its answer is scaled back by Eqs. 25 and 31; so where the two references agree, those
-equations are right as well.  No scale is 1 and no two are equal, or a wrong power of one would not show.
+`fem_reference` solves physical problems and contains no Tabor number.  Here a dimensionless problem becomes a
+physical one by Eqs. 7, 24 and 29, and its result is scaled back by Eqs. 25 and 31; so where the two references
+agree, those equations are right as well.  No scale is 1 and no two are equal: a wrong power of one shows.
 """
 
 from __future__ import annotations
@@ -12,12 +12,12 @@ from functools import lru_cache
 from typing import ClassVar
 
 import fem_reference
-from comparisons.curve_quantities import near
-from comparisons.model import Curve, NotApplicable, Profile, Result
+from comparisons.model import Curve, NotApplicable, RadialField, Result
 from comparisons.models.solver import result_of, translated
 from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.numerics.grid_convergence import declared_order, three_grids
 from comparisons.quantities import QUANTITIES
+from comparisons.quantities.points import near
 from fem_reference import export
 from fscm.laws import LennardJones93
 from fscm.physical import PhysicalProblem
@@ -26,23 +26,26 @@ from fscm.punch import PowerPunch
 
 __all__ = ["FiniteElements"]
 
-#: Meshes of a curve and of the coarser one that tells its uncertainty.
+MODELS = {"fem": "FiniteElements"}
+DEPENDS_ON_POISSON_RATIO = ("fem",)
+
+#: Meshes of a curve: the coarser one, which gives its uncertainty, and that of its points.
 _LEVELS = ("quick", "default")
 
 #: Up to this gradient exponent the elements converge: at 0.9 (n = 2, mu = 1) to 5.5e-4 of the pull-off force by their
-#: own word and to 7e-6 in truth; at 0.95 the computation fails.
+#: own bound, and to 7e-6 compared with the integral equation; at 0.95 the computation fails.
 LARGEST_K = 0.9
 
 _SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25}
 
 
 class FiniteElements:
-    """The package `fem_reference` asked in dimensionless terms.
+    """The package `fem_reference`, evaluated for dimensionless problems.
 
     Parameters
     ----------
     poisson_ratio : float
-        In [0, 0.5); the dimensionless answer does not depend on it but for numerical errors.
+        In [0, 0.5); the dimensionless result depends on it by numerical errors only.
 
     Examples
     --------
@@ -60,13 +63,13 @@ class FiniteElements:
         self._poisson_ratio = poisson_ratio
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
-        """Return the quantity, or raise as `comparisons.model.Model` says."""
+        """Return the quantity, or raise as in `comparisons.model.Model`."""
         if quantity not in fem_reference.QUANTITIES:
             raise NotApplicable(f"the finite elements do not compute {quantity}")
         physical, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             solution = fem_reference.solve(body, quantity)
-        return result_of(_audited(solution, quantity), unit=physical.scales[QUANTITIES[quantity].kind])
+        return result_of(_audited(solution, quantity), unit=physical.scales[QUANTITIES[quantity].scale])
 
     def curve(self, problem: Problem) -> Curve:
         """Return the equilibrium path from far away into compression."""
@@ -108,11 +111,11 @@ class FiniteElements:
         )
         return field, point.edge_radius / scales["radius"]
 
-    def pull_off_profile(self, problem: Problem) -> Profile:
+    def pull_off_profile(self, problem: Problem) -> RadialField:
         """Return the surface where P is smallest, and as its uncertainty the distance of two meshes."""
         return _surface_at_pull_off(self._poisson_ratio, problem)
 
-    def _surface_at_pull_off(self, problem: Problem) -> Profile:
+    def _surface_at_pull_off(self, problem: Problem) -> RadialField:
         physical, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             found = [fem_reference.profile(body, accuracy=level) for level in _LEVELS]
@@ -125,7 +128,7 @@ class FiniteElements:
             for profile in found
         )
         fine_radius, fine_pressure, fine_gap = fine
-        return Profile(
+        return RadialField(
             *fine,
             mesh_difference(*near(gap, radius, pressure), *near(fine_gap, fine_radius, fine_pressure)),
             mesh_difference(*near(gap, radius, gap), *near(fine_gap, fine_radius, fine_gap)),
@@ -140,7 +143,7 @@ class FiniteElements:
                 "contact has an edge too narrow for their mesh"
             )
         if problem.punch != PowerPunch(problem.n) or not isinstance(problem.law, LennardJones93):
-            raise NotApplicable("the finite elements are asked here for the power-law punch and the 9-3 law alone")
+            raise NotApplicable("this adapter to the finite elements is for the power-law punch and the 9-3 law alone")
         physical = PhysicalProblem.from_problem(problem, nu=self._poisson_ratio, **_SCALES)
         return (
             physical,
@@ -153,12 +156,12 @@ class FiniteElements:
 
 
 def _audited(solution: fem_reference.Solution, quantity: str) -> fem_reference.Solution:
-    """Take the solver's own bound only where the procedure every model is held to gives no larger one."""
+    """Return the solution with the larger of two bounds: the solver's own, and that of the three-grid procedure."""
     family = three_grids(solution.densities, solution.values, declared_order(FiniteElements.name, quantity))
     return replace(solution, u_num=max(solution.u_num, family.u_num))
 
 
 @lru_cache(maxsize=1)
-def _surface_at_pull_off(poisson_ratio: float, problem: Problem) -> Profile:
-    """One surface answers for its pressure and its gap, which are asked one after the other."""
+def _surface_at_pull_off(poisson_ratio: float, problem: Problem) -> RadialField:
+    """Keep the last surface: its pressure and its gap are requested one after the other."""
     return FiniteElements(poisson_ratio)._surface_at_pull_off(problem)

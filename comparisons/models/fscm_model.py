@@ -1,4 +1,4 @@
-"""The full self-consistent model as one of the models: the reference the others are compared with."""
+"""The full self-consistent model, the reference with which the others are compared."""
 
 from __future__ import annotations
 
@@ -7,15 +7,17 @@ from typing import ClassVar
 import numpy as np
 
 import fscm
-from comparisons.curve_quantities import near
-from comparisons.model import Curve, Profile, Result
+from comparisons.model import Curve, RadialField, Result
 from comparisons.models.gibson_limit import gibson_curve, gibson_profile
 from comparisons.models.solver import result_of, translated
 from comparisons.numerics.curve_distance import mesh_difference
+from comparisons.quantities.points import near
 from fscm.problem import Problem
 from fscm.states import radial_field
 
 __all__ = ["FullSelfConsistent"]
+
+MODELS = {"fscm": "FullSelfConsistent"}
 
 #: Step of a curve: other curves are compared with it between its points (measured: a cubic spline is then
 #: within 1e-5 of the picture).
@@ -27,8 +29,8 @@ class FullSelfConsistent:
 
     Examples
     --------
-    >>> answer = FullSelfConsistent().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
-    >>> round(answer.value, 8)
+    >>> result = FullSelfConsistent().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
+    >>> round(result.value, 8)
     1.78848171
     """
 
@@ -38,7 +40,7 @@ class FullSelfConsistent:
     domain: ClassVar[str] = "n > 2/3, 0 <= k <= 1; to the digits of u_num where the cohesive edge is wider than 1e-6"
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
-        """Return the quantity, or raise as `comparisons.model.Model` says."""
+        """Return the quantity, or raise as in `comparisons.model.Model`."""
         with translated(fscm.NoSuchEvent, fscm.NotConverged):
             return result_of(fscm.solve(problem, quantity))
 
@@ -50,16 +52,17 @@ class FullSelfConsistent:
             path = fscm.trace(problem, longest_step=_STEP)
         columns = {"central_gap": path.central_gap, "edge_radius": path.edge_radius}
         shares = path.u_displacement / np.ptp(path.displacement), path.u_load / np.ptp(path.load)
+        # Not a combination of two bounds, but the longest vector with components within them.
         return Curve(path.displacement, path.load, columns, u_distance=float(np.hypot(*shares)))
 
-    def pull_off_profile(self, problem: Problem) -> Profile:
+    def pull_off_profile(self, problem: Problem) -> RadialField:
         """Return the surface where P is smallest, and as its uncertainty the distance of the two meshes."""
         with translated(fscm.NoSuchEvent, fscm.NotConverged):
             if problem.k == 1.0:
                 return gibson_profile(problem)
             event = fscm.Analysis(problem).event("pull_off")
         check, value = radial_field(event.check), radial_field(event.value)
-        return Profile(
+        return RadialField(
             value.radius,
             value.pressure,
             value.gap,

@@ -1,4 +1,4 @@
-"""Force-displacement curve and surface of the full self-consistent model at k = 1, where it is algebra.
+"""Force-displacement curve and surface of the full self-consistent model at k = 1, in closed form.
 
 The surface moves only where it is pressed, w = M p, so that every radius has a gap of its own at the level
 u = f(r) - delta: a far one, or inside the front of a contact a near one (`fscm.gibson`).
@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.model import Curve, Profile
+from comparisons.model import Curve, RadialField
 from fscm.gibson import GibsonSolid, LocalEquilibrium, root
 from fscm.problem import Problem
 
@@ -23,7 +23,7 @@ _POINTS = 120
 _FARTHEST_GAP, _START_PER_MU = 10.0, 5.0
 #: Step inwards, as a factor of the gap less that of the singularity, in search of the end of a curve.
 _INWARDS = 0.97
-#: Bound on the error of a load as a fraction of the range of the curve: the quadrature is asked for 1e-13 (measured
+#: Bound on the error of a load as a fraction of the range of the curve; the quadrature has tolerance 1e-13 (measured
 #: worst 1e-15 for n = 2 and mu up to 3, against the closed form P = 2 e of the energy e at the axis).
 _U_DISTANCE = 1e-12
 
@@ -45,13 +45,13 @@ def gibson_curve(problem: Problem) -> Curve:
     local = LocalEquilibrium(problem.law, problem.compliance)
     start = _FARTHEST_GAP + _START_PER_MU * problem.mu
     if local.folds and local.front:
-        outside = [*_between(start, local.folds[1]), *_between(local.folds[1], local.front.far)]
+        approach = [*_between(start, local.folds[1]), *_between(local.folds[1], local.front.far)]
         entry = local.front.near
     else:
-        outside = [*_between(start, local.law.peak_gap)]
+        approach = [*_between(start, local.law.peak_gap)]
         entry = local.law.peak_gap
-    inside = _between(entry, _end(solid, entry))
-    gaps = np.array([*outside, *inside])
+    contact = _between(entry, _end(solid, entry))
+    gaps = np.array([*approach, *contact])
     central_gap = gaps.copy()
     if local.folds:
         central_gap[_POINTS : 2 * _POINTS] = np.nan
@@ -78,7 +78,7 @@ def _end(solid: GibsonSolid, entry: float) -> float:
     return root(lambda H: solid.load(H) - force, gap, entry)
 
 
-def gibson_profile(problem: Problem) -> Profile:
+def gibson_profile(problem: Problem) -> RadialField:
     """Return the surface at k = 1 where P is smallest; two points share the radius of the front.
 
     Examples
@@ -99,7 +99,7 @@ def gibson_profile(problem: Problem) -> Profile:
     level = np.array([local.level(float(H)) for H in gap])
     radius = (problem.n * np.maximum(level + delta, 0.0)) ** (1.0 / problem.n)
     # The two levels of the front are one, but for rounding.
-    return Profile(np.maximum.accumulate(radius), problem.law.traction(gap), gap, _U_DISTANCE, _U_DISTANCE)
+    return RadialField(np.maximum.accumulate(radius), problem.law.traction(gap), gap, _U_DISTANCE, _U_DISTANCE)
 
 
 def _towards(first: float, last: float) -> Array:

@@ -1,4 +1,4 @@
-"""What JKR, DMT and Maugis-Dugdale share: a power-law punch in contact with a power-law graded half-space.
+"""Common equations of JKR, DMT and Maugis-Dugdale: a power-law punch in contact with a power-law graded half-space.
 
 The kernel of Eq. 6 is a product of two Abel kernels,
 

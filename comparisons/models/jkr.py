@@ -21,6 +21,8 @@ from fscm.problem import Problem
 
 __all__ = ["JKR"]
 
+MODELS = {"jkr": "JKR"}
+
 _POINTS = 401
 
 

@@ -23,6 +23,8 @@ from fscm.problem import Problem
 
 __all__ = ["MaugisDugdaleImproved", "MaugisDugdaleOriginal"]
 
+MODELS = {"md-original": "MaugisDugdaleOriginal", "md-improved": "MaugisDugdaleImproved"}
+
 _POINTS = 401
 # The curve starts at a = 0 and then at this fraction of its largest contact radius.
 _FIRST_RADIUS = 1e-4

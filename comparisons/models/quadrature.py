@@ -1,4 +1,4 @@
-"""A quadrature rule on (0, 1) that does not care how close a singularity sits to either end.
+"""Quadrature rule on (0, 1) for integrands with a singularity at or near either end.
 
 With z = 1 / (1 + exp(-u)) the trapezoidal rule in u converges geometrically whatever algebraic singularity
 the integrand has at z = 0, at z = 1 or just outside: z = -eps becomes log(eps) + i pi, pi from the real line.

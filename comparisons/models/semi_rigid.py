@@ -23,6 +23,8 @@ from fscm.problem import Problem
 
 __all__ = ["SemiRigid", "jump_in_coefficient"]
 
+MODELS = {"semi-rigid": "SemiRigid"}
+
 _POINTS = 401
 _FARTHEST_GAP = 10.0
 

@@ -1,4 +1,4 @@
-"""What the adapters to the solvers share: exceptions and solutions in terms of the model contract."""
+"""Translation of a solver's exceptions and solutions into those of the model contract."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["Solution", "result_of", "translated"]
 
 
 class Solution(Protocol):
-    """What every solver here returns."""
+    """The attributes of a solution of every solver here."""
 
     @property
     def value(self) -> float:
@@ -37,7 +37,7 @@ class Solution(Protocol):
 
     @property
     def residual(self) -> float:
-        """Largest residual at the answer."""
+        """Largest residual at the solution."""
         ...
 
     @property

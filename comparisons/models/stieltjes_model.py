@@ -1,4 +1,4 @@
-"""The paper's own discretisation of the full self-consistent model as one of the models."""
+"""The Stieltjes scheme: the paper's own discretisation of the full self-consistent model."""
 
 from __future__ import annotations
 
@@ -12,9 +12,11 @@ from fscm.stieltjes import STIELTJES_QUANTITIES, StieltjesScheme, stieltjes_solu
 
 __all__ = ["CoarseStieltjesModel", "StieltjesModel"]
 
+MODELS = {"fscm-stieltjes": "StieltjesModel", "fscm-stieltjes-400": "CoarseStieltjesModel"}
+
 
 class StieltjesModel:
-    """Eqs. 34-39 as published: N uniform segments up to f = 50, Riemann-Stieltjes sums, central-gap control.
+    """Eqs. 34-39 as printed in the paper: N uniform segments up to f = 50, Riemann-Stieltjes sums, central-gap control.
 
     Parameters
     ----------
@@ -23,8 +25,8 @@ class StieltjesModel:
 
     Examples
     --------
-    >>> answer = StieltjesModel(segments=200).evaluate(Problem(n=2, k=0.4, mu=0.5), "pull_off_force")
-    >>> abs(answer.value - 1.86628026) < answer.u_num
+    >>> result = StieltjesModel(segments=200).evaluate(Problem(n=2, k=0.4, mu=0.5), "pull_off_force")
+    >>> abs(result.value - 1.86628026) < result.u_num
     True
     """
 
@@ -37,9 +39,9 @@ class StieltjesModel:
         self._segments = segments
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
-        """Return the quantity, or raise as `comparisons.model.Model` says."""
+        """Return the quantity, or raise as in `comparisons.model.Model`."""
         if quantity not in STIELTJES_QUANTITIES:
-            raise NotApplicable(f"the published scheme is kept for points of the path, not for {quantity}")
+            raise NotApplicable(f"the Stieltjes scheme is for points of the path, not for {quantity}")
         _check(problem)
         with translated(NoSuchEvent, NotConverged):
             return result_of(stieltjes_solution(problem, quantity, self._segments))
@@ -73,4 +75,4 @@ class CoarseStieltjesModel(StieltjesModel):
 
 def _check(problem: Problem) -> None:
     if problem.k >= 1.0:
-        raise NotApplicable(f"the published scheme is for k < 1, not k = {problem.k:g}")
+        raise NotApplicable(f"the Stieltjes scheme is for k < 1, not k = {problem.k:g}")

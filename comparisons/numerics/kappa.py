@@ -1,10 +1,12 @@
-"""Relative error kappa, its sign and its uncertainty: the one rule for tables, figures, gates and report."""
+"""Relative error kappa: its sign and its bound, for tables, figures, gates and report."""
 
 from __future__ import annotations
 
 from typing import TypeVar
 
 import pandas as pd
+
+from comparisons.numerics.bounds import combined
 
 __all__ = ["relative_difference", "relative_uncertainty"]
 
@@ -25,11 +27,13 @@ def relative_difference(candidate: _Numbers, reference: _Numbers) -> _Numbers:
 
 
 def relative_uncertainty(value: _Numbers, u_num: _Numbers, reference: _Numbers, u_reference: _Numbers) -> _Numbers:
-    """Return what two uncertainties, as bounds, allow of a relative error; the reference is also its unit.
+    """Return the bound u_kappa on the error of kappa, to first order (see `comparisons.numerics.bounds`).
+
+    The bound of the reference counts abs(value / reference) times, since the reference is also the unit of kappa.
 
     Examples
     --------
     >>> round(relative_uncertainty(1.1, 0.0, 1.0, 0.01), 12)
     0.011
     """
-    return (u_num + abs(value / reference) * u_reference) / abs(reference)
+    return combined(u_num, abs(value / reference) * u_reference) / abs(reference)

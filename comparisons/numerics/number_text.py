@@ -1,14 +1,21 @@
-"""A number printed with its uncertainty, to the digit the uncertainty leaves it."""
+"""Texts of numbers with their uncertainty, in the notation 1.788482(3)."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from decimal import ROUND_CEILING, ROUND_HALF_EVEN, Decimal
 
-__all__ = ["exact", "limits_text", "short"]
+__all__ = ["LEAST_SHOWN", "case_text", "error_text", "exact", "limits_text", "percent_text", "short", "value_text"]
 
-#: A double has 17 digits; where the uncertainty is far below the last of them, zeros in between say nothing.
+#: A double has 17 digits; where the uncertainty is far below the last of them, zeros in between have no meaning.
 _MOST_DIGITS = 20
+
+#: Smaller uncertainties of a value are shown as this one: sixteen digits are hard to read.
+LEAST_SHOWN = 5e-10
+
+#: A relative error in percent is shown to this digit, or to the digit that its uncertainty leaves it.
+_LEAST_PERCENT = 5e-5
 
 
 def exact(value: float) -> str:
@@ -74,3 +81,56 @@ def short(value: float, uncertainty: float | None) -> str:
     if place <= 0:
         return f"{rounded:f}({int(u.scaleb(-place))})"
     return f"{int(rounded.scaleb(-place))}({int(u.scaleb(-place))})e{place}"
+
+
+def value_text(value: float | None, u: float | None) -> str:
+    """Return a value for a table; an uncertainty below 5e-10 is shown as that, a missing value as nothing.
+
+    Examples
+    --------
+    >>> value_text(1.7884817, 2.6e-6), value_text(2.0, 0.0), value_text(None, None)
+    ('1.788482(3)', '2.0000000000(5)', '')
+    """
+    if value is None or math.isnan(value):
+        return ""
+    # NaN, from a table, is a missing uncertainty; max keeps it where it is its first argument.
+    return short(value, max(float(u or 0.0), LEAST_SHOWN))
+
+
+def percent_text(fraction: float, u: float) -> str:
+    """Return a relative error in percent.
+
+    Examples
+    --------
+    >>> percent_text(0.066931234, 1e-9)
+    '6.69312(5)'
+    """
+    return value_text(100 * fraction, max(100 * u, _LEAST_PERCENT))
+
+
+def error_text(error: float | None, u: float | None) -> str:
+    """Return the error of a gate; one far below 1 is a power of ten, a missing one nothing.
+
+    Examples
+    --------
+    >>> error_text(-0.0494, 3e-4), error_text(-0.0494, 3e-9), error_text(2.1e-7, 4e-9), error_text(None, None)
+    ('-0.0494(3)', '-0.04940', '2.1e-07(4e-09)', '')
+    """
+    if error is None or u is None or math.isnan(error):
+        return ""
+    if 0.0 < max(abs(error), u) < 1e-3:
+        return f"{error:.1e}({u:.0e})"
+    return short(error, u) if u > 1e-5 else f"{error:.5f}"
+
+
+def case_text(case: Mapping[str, float | None]) -> str:
+    """Return the parameters of a case that have a value; nothing where none has.
+
+    Examples
+    --------
+    >>> case_text({"n": 2.0, "k": 0.4, "mu": 1.0, "nu": None})
+    'n = 2, k = 0.4, mu = 1'
+    """
+    return ", ".join(
+        f"{name} = {number:g}" for name, number in case.items() if number is not None and not math.isnan(number)
+    )

@@ -1,1 +1,1 @@
-"""Verdicts in the forms people paste: one module a format."""
+"""Output of results and verdicts: tables, figures, LaTeX, Markdown, JUnit XML and the report."""

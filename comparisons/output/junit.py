@@ -13,8 +13,8 @@ from comparisons.numerics.number_text import limits_text
 
 __all__ = ["junit"]
 
-#: Verdict -> element inside the test case; those not here are passes.  An inconclusive gate is a failure to
-#: show what was to be shown; what is expected to fail, and does, counts as skipped, as pytest has it.
+#: Verdict -> element inside the test case; those not here are passes.  An inconclusive gate did not show
+#: what it requires, and is a failure; an expected failure counts as skipped, as in pytest.
 _ELEMENTS = {
     Verdict.ERROR: "error",
     Verdict.FAIL: "failure",
@@ -47,12 +47,12 @@ def junit(judged: pd.DataFrame, command: Callable[[pd.Series], str]) -> bytes:
 
 
 def _case(suite: ElementTree.Element, row: pd.Series, command: Callable[[pd.Series], str]) -> None:
-    given = [f"{name}={row[name]:g}" for name in ("n", "k", "mu", "nu") if pd.notna(row[name])]
+    parameters = [f"{name}={row[name]:g}" for name in ("n", "k", "mu", "nu") if pd.notna(row[name])]
     case = ElementTree.SubElement(
         suite,
         "testcase",
         classname=_text(f"fscm-bench.{row['gate']}"),
-        name=_text(f"{row['candidate']} {row['quantity']} {' '.join(given) or 'whole gate'}"),
+        name=_text(f"{row['candidate']} {row['quantity']} {' '.join(parameters) or 'whole gate'}"),
     )
     numbers = f"E = {row['error']}, U = {row['uncertainty']}, limits {limits_text(row['lower'], row['upper'])}"
     element = _ELEMENTS.get(row["verdict"])

@@ -118,7 +118,7 @@ _ACCENTS = {
     "\u0331": "b",
 }
 
-#: Greek letters that have a command; the other capitals look like Latin letters.
+#: Greek letters that have a command; the other capitals have the shape of Latin letters.
 _CAPITALS = {"GAMMA", "DELTA", "THETA", "LAMBDA", "XI", "PI", "SIGMA", "UPSILON", "PHI", "PSI", "OMEGA"}
 _SMALL = _CAPITALS | {"ALPHA", "BETA", "ZETA", "ETA", "IOTA", "KAPPA", "MU", "NU", "RHO", "TAU", "CHI"}
 _LATIN = dict(zip("ΑΒΕΖΗΙΚΜΝΟΡΤΧο", "ABEZHIKMNOPTXo", strict=True))

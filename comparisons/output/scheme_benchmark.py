@@ -1,7 +1,7 @@
-"""Time, memory and error of the accurate solver beside the paper's own scheme, on the same question.
+"""Time, memory and error of the accurate solver beside the Stieltjes scheme, for the same task.
 
-Each model answers in a fresh process, so that start-up costs and memory are its own, and neither finds the
-other's results.
+Each model is evaluated in a fresh process: start-up costs and memory are its own, and neither finds the results
+of the other.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ __all__ = ["Measurement", "compare", "measure"]
 
 @dataclass(frozen=True, slots=True)
 class Measurement:
-    """An answer and what it took.
+    """A row and what it took.
 
     Attributes
     ----------
     row : Row
-        The answer, with the seconds of the computation alone.
+        The result, with the seconds of the computation alone.
     peak_memory : float or None
         Largest resident memory of the process in MB (1e6 bytes), Python and libraries included; None where
-        the system does not tell.
+        the system does not report it.
     """
 
     row: Row
@@ -38,7 +38,7 @@ class Measurement:
 
 
 def measure(task: Task) -> Measurement:
-    """Answer a task in a process of its own."""
+    """Evaluate a task in a process of its own."""
     with ProcessPoolExecutor(1, get_context("spawn")) as pool:
         return pool.submit(_measured, task).result()
 
@@ -66,7 +66,7 @@ def compare(accurate: Measurement, baseline: Measurement) -> pd.DataFrame:
     value, bound = accurate.row.value, accurate.row.u_num
     other = baseline.row.value
     if value is None or bound is None or other is None:
-        raise ValueError("both models must have answered")
+        raise ValueError("both models must have a value for this task; one of them has none")
     error = max(abs(other - value) - bound, 0.0)
     lines = [
         ("value", value, other, None),

@@ -1,7 +1,13 @@
-"""One look for every figure: legible in print and in grey, told apart by colour, line style and marker."""
+"""Styles of models, verdicts, figures and the report.
+
+They are legible in print and in grey: models differ by colour, line style and marker.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +15,7 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from comparisons.judging.decision import Verdict
 from comparisons.runs.atomic_files import atomic
 
 __all__ = [
@@ -18,10 +25,15 @@ __all__ = [
     "MARKERS",
     "MODEL_LINES",
     "MODEL_NAMES",
+    "VERDICT_SYMBOLS",
+    "ModelStyle",
     "lettered",
+    "model_label",
+    "model_styles",
     "picture_path",
     "save",
     "styled",
+    "verdict_class",
 ]
 
 #: Okabe and Ito's colours that stay apart for every kind of colour vision and, in this order, in grey.
@@ -38,21 +50,139 @@ LINES: tuple[Any, ...] = (
     (0, (2, 2)),
 )
 
-#: How models are written in pictures, as in the paper; others under the name they are asked by.
-MODEL_NAMES = {
-    "fscm": "FSCM",
-    "fem": "FEM",
-    "bradley": r"Bradley-$n$",
-    "jkr": r"JKR-$n$-$k$",
-    "md-original": r"original M-D-$n$-$k$",
-    "md-improved": r"improved M-D-$n$-$k$",
+#: Dashes: line style of Matplotlib, name in Bokeh, dash array of SVG.
+_SOLID, _DASHED, _DASHDOT, _DOTTED = (
+    ("-", "solid", ""),
+    ("--", "dashed", "6 3"),
+    ("-.", "dotdash", "2 4 6 4"),
+    (":", "dotted", "2 3"),
+)
+_DASHES = (_SOLID, _DASHED, _DASHDOT, _DOTTED)
+
+#: Markers in the order of `MARKERS`: name in Bokeh, and path of SVG in a box of -5 to 5.
+_PAGE_MARKERS = (
+    ("circle", "M-4 0a4 4 0 1 0 8 0a4 4 0 1 0 -8 0z"),
+    ("square", "M-4 -4h8v8h-8z"),
+    ("triangle", "M0 -4.5l4.5 8h-9z"),
+    ("diamond", "M0 -5l4 5l-4 5l-4 -5z"),
+    ("inverted_triangle", "M0 4.5l4.5 -8h-9z"),
+    ("hex", "M-5 0l2.5 -4.3h5l2.5 4.3l-2.5 4.3h-5z"),
+    ("square_pin", "M-4 -4q4 2 8 0q-2 4 0 8q-4 -2 -8 0q2 -4 0 -8z"),
+    ("star", "M0 -5l1.3 3.4h3.7l-3 2.2l1.2 3.6l-3.2 -2.2l-3.2 2.2l1.2 -3.6l-3 -2.2h3.7z"),
+)
+
+#: Model -> (label as in the paper, dash), in the order of the colours and markers; a model needs no row here.
+_MODELS = {
+    "fscm": ("FSCM", _SOLID),
+    "md-improved": (r"improved M-D-$n$-$k$", _SOLID),
+    "md-original": (r"original M-D-$n$-$k$", _DASHED),
+    "fem": ("FEM", _DASHED),
+    "jkr": (r"JKR-$n$-$k$", _DASHDOT),
+    "bradley": (r"Bradley-$n$", _DOTTED),
+    "dmt": ("dmt", _DASHED),
+    "semi-rigid": ("semi-rigid", _SOLID),
+    "fscm-stieltjes": ("fscm-stieltjes", _DOTTED),
+    "fscm-stieltjes-400": ("fscm-stieltjes-400", _DOTTED),
 }
-#: How they are drawn side by side: the FSCM broad and pale below; the lines of the others as in the paper.
-MODEL_LINES: dict[str, dict[str, Any]] = {
-    "fscm": {"color": COLOURS[0], "ls": "-", "lw": 2.6, "alpha": 0.35},
-    "md-original": {"color": COLOURS[2], "ls": "--"},
-    "md-improved": {"color": COLOURS[1], "ls": "-"},
+
+#: The model whose curve is broad and pale, below the others: where they are right they cover it.
+_BROAD = "fscm"
+
+
+@dataclass(frozen=True, slots=True)
+class ModelStyle:
+    """How a model is drawn in figures and on a page.
+
+    Attributes
+    ----------
+    label : str
+        Its name in figures.
+    colour : str
+        In hexadecimal digits.
+    line, dash, array : str
+        Its dashes in Matplotlib, Bokeh and SVG.
+    marker, path : str
+        Its marker in Bokeh and SVG.
+    broad : bool
+        Whether its line is broad and pale, below the others.
+    """
+
+    label: str
+    colour: str
+    line: str
+    dash: str
+    array: str
+    marker: str
+    path: str
+    broad: bool
+
+    @property
+    def arguments(self) -> dict[str, Any]:
+        """Keyword arguments of its line in Matplotlib."""
+        return {"color": self.colour, "ls": self.line} | ({"lw": 2.6, "alpha": 0.35} if self.broad else {})
+
+
+def model_styles(names: Iterable[str]) -> dict[str, ModelStyle]:
+    """Return the style of each model; external models have what is free beside ours.
+
+    Examples
+    --------
+    >>> styles = model_styles(["fscm", "mine"])
+    >>> styles["fscm"].colour, styles["mine"].colour, styles["mine"].label
+    ('#000000', '#0072b2', 'mine')
+    """
+    present = sorted(set(names))
+    known = {name: place for place, name in enumerate(_MODELS) if name in present}
+    free = (place for place in count() if place not in known.values())
+    styles = {}
+    for name in present:
+        place = known.get(name)
+        if place is None:
+            place = next(free)
+        label, (line, dash, array) = _MODELS.get(name, (name, _DASHES[place % len(_DASHES)]))
+        marker, path = _PAGE_MARKERS[place % len(_PAGE_MARKERS)]
+        colour = COLOURS[place % len(COLOURS)]
+        styles[name] = ModelStyle(label, colour, line, dash, array, marker, path, broad=name == _BROAD)
+    return styles
+
+
+def model_label(name: str) -> str:
+    """Return the name of a model in figures.
+
+    Examples
+    --------
+    >>> model_label("fem"), model_label("mine")
+    ('FEM', 'mine')
+    """
+    return _MODELS[name][0] if name in _MODELS else name
+
+
+#: Labels of our models, and the lines of those that the figures of the paper draw side by side.
+MODEL_NAMES = {name: label for name, (label, _) in _MODELS.items()}
+MODEL_LINES = {name: model_styles([name])[name].arguments for name in ("fscm", "md-original", "md-improved")}
+
+#: Verdict -> symbol, read beside the colour, and where there is none.
+VERDICT_SYMBOLS = {
+    Verdict.PASS: "✓",
+    Verdict.FAIL: "✗",
+    Verdict.ERROR: "!",
+    Verdict.INCONCLUSIVE: "?",
+    Verdict.XFAIL: "~",
+    Verdict.XPASS: "*",
+    Verdict.NOT_APPLICABLE: "–",
 }
+
+
+def verdict_class(verdict: str) -> str:
+    """Return the CSS class of a verdict.
+
+    Examples
+    --------
+    >>> verdict_class("NOT-APPLICABLE")
+    'v-not-applicable'
+    """
+    return f"v-{Verdict(verdict).value.lower()}"
+
 
 #: File formats of a figure, by suffix.
 FORMATS = (".png", ".pdf", ".svg")

@@ -1,4 +1,4 @@
-"""Tables made from stored results: relative errors, and the largest of them beside the published.
+"""Tables of stored results: relative errors, and the largest of them beside those of the paper.
 
 kappa = (model - reference) / abs(reference) (Sec. 4.3.2 of the paper for the pull-off force, which is positive), here
 for any quantity.
@@ -12,7 +12,9 @@ from rich.table import Table
 from rich.text import Text
 
 from comparisons.data.paper_values import paper_values
+from comparisons.numerics.bounds import combined
 from comparisons.numerics.kappa import relative_difference, relative_uncertainty
+from comparisons.numerics.number_text import percent_text, value_text
 from comparisons.quantities import QUANTITIES
 
 __all__ = [
@@ -27,8 +29,6 @@ __all__ = [
 ]
 
 _CASE = ["quantity", "n", "k", "mu", "nu"]
-#: Kinds of quantities whose error is stated as a fraction of them; displacements and gaps may pass through zero.
-_RELATIVE = ("load", "energy")
 _SERIES = ["quantity", "model", "n", "k"]
 
 
@@ -58,10 +58,10 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
     """
     usable = rows.loc[rows["status"] == "ok", [*_CASE, "model", "value", "u_num"]]
     is_reference = usable["model"] == reference
-    truth = (
+    values = (
         usable[is_reference].drop(columns="model").rename(columns={"value": "reference_value", "u_num": "u_reference"})
     )
-    table = usable[~is_reference].merge(truth, on=_CASE, validate="many_to_one")
+    table = usable[~is_reference].merge(values, on=_CASE, validate="many_to_one")
     table["reference"] = reference
     table["kappa"] = relative_difference(table["value"], table["reference_value"])
     table["u_kappa"] = relative_uncertainty(
@@ -85,7 +85,7 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
 
 
 def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
-    """Return how far a model is from a reference in every case both answer, beside what both claim.
+    """Return the differences of a model from a reference, with their combined uncertainty.
 
     Parameters
     ----------
@@ -98,9 +98,9 @@ def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
     -------
     DataFrame
         Columns quantity, model, n, k, mu, nu, value, u_num, reference, reference_value, u_reference,
-        difference, claimed, en.  Difference and claimed = sqrt(u_num^2 + u_reference^2) are relative for forces
-        and energies, else in the unit of the quantity; en = difference / claimed is within -1 and 1 where the
-        claims are right.
+        difference, claimed, en.  `difference` and `claimed`, the bound U of `comparisons.numerics.bounds`, are relative
+        for forces and energies, otherwise in the unit of the quantity.  en = difference / claimed is within -1 and 1
+        where both bounds hold.
 
     Examples
     --------
@@ -114,16 +114,16 @@ def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
     of_reference = rows[rows["model"] == reference].drop(columns="nu")
     cases = rows.loc[rows["model"] == model, [*_CASE]].merge(of_reference, on=[name for name in _CASE if name != "nu"])
     table = relative_error(pd.concat([rows[rows["model"] == model], cases]), reference)
-    relative = table["quantity"].map(lambda name: QUANTITIES[name].kind in _RELATIVE)
+    relative = table["quantity"].map(lambda name: QUANTITIES[name].relative)
     scale = table["reference_value"].abs().where(relative, 1.0)
     table["difference"] = (table["value"] - table["reference_value"]) / scale
-    table["claimed"] = np.hypot(table["u_num"], table["u_reference"]) / scale
+    table["claimed"] = combined(table["u_num"], table["u_reference"]) / scale
     table["en"] = table["difference"] / table["claimed"]
     return table.drop(columns=["kappa", "u_kappa"])
 
 
 def largest(kappa: pd.DataFrame) -> pd.DataFrame:
-    """Return the largest abs(kappa) for each quantity, model, n and k, beside the published number.
+    """Return the largest abs(kappa) for each quantity, model, n and k, beside the number of the paper.
 
     Returns
     -------
@@ -164,12 +164,15 @@ def by_case(kappa: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
     >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": np.nan, "status": "ok", "u_num": 1e-9}
     >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
     >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
-    >>> by_case(relative_error(rows, "fscm"))[0]["md-improved"].round(3).tolist()
-    [-0.556, -1.143]
+    >>> shown = by_case(relative_error(rows, "fscm"))[0]
+    >>> shown["reference"].tolist(), shown["md-improved"].round(3).tolist()
+    (['1.8000000000(10)', '1.7500000000(10)'], [-0.556, -1.143])
     """
     wide = kappa.pivot(index=["n", "k", "mu", "reference_value", "u_reference"], columns="model", values="kappa")
     shown = (100 * wide).reset_index().rename_axis(columns=None)
-    return shown, {"reference_value": ".9f", "u_reference": ".0e"} | dict.fromkeys(wide.columns, "+.3f")
+    values = [value_text(*pair) for pair in zip(shown["reference_value"], shown["u_reference"], strict=True)]
+    shown.insert(3, "reference", values)
+    return shown.drop(columns=["reference_value", "u_reference"]), dict.fromkeys(wide.columns, "+.3f")
 
 
 def largest_by_gradient(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
@@ -191,19 +194,19 @@ def largest_by_gradient(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, s
 
 
 def beside_paper_values(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
-    """Return the maxima a paper states, in percent, with the verdict; and the formats of the columns.
+    """Return the maxima that the paper prints, in percent, with the verdict; and the formats of the columns.
 
     Examples
     --------
     >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": np.nan, "status": "ok", "u_num": 1e-9}
     >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
     >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
-    >>> beside_paper_values(largest(relative_error(rows, "fscm")))[0]["kappa"].round(3).tolist()
-    [-1.143]
+    >>> beside_paper_values(largest(relative_error(rows, "fscm")))[0]["kappa"].tolist()
+    ['-1.14286(5)']
     """
     stated = maxima[maxima["paper_percent"] != ""].drop(columns=["quantity", "cases"])
-    shown = stated.assign(kappa=100 * stated["kappa"], u_kappa=100 * stated["u_kappa"])
-    return shown, {"kappa": "+.4f", "u_kappa": ".0e"}
+    texts = [percent_text(*pair) for pair in zip(stated["kappa"], stated["u_kappa"], strict=True)]
+    return stated.assign(kappa=texts).drop(columns="u_kappa"), {}
 
 
 def statuses(rows: pd.DataFrame) -> pd.DataFrame:

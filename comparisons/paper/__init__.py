@@ -1,5 +1,5 @@
-"""The paper computed again: every figure, every published number, and what it could not say.
+"""Figures and numbers of the paper, computed again, and studies beyond it.
 
-A figure is one figure or table: the tasks it needs, the tables made of their answers, and the picture of the
-tables.  The cache makes all tasks of the chosen paper_figures, each once, and keeps the answers on disk.
+A figure has tasks, tables made of their results, and the picture of the tables.  A cache on disk keeps the results of
+finished tasks, so that figures share them and each is computed once.
 """

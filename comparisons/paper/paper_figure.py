@@ -1,4 +1,4 @@
-"""A figure: one figure or table of the paper, from tasks to tables to the picture of the tables."""
+"""Figures and tables of the paper: tasks, tables made of their results, and the picture of the tables."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class PaperFigure:
     Attributes
     ----------
     name : str
-        What the user asks for: the number of the figure, or a word for what is not in the paper.
+        Number of the figure in the paper, or a name for what is not a figure of the paper.
     stem : str
         Start of the names of its files.
     title : str
@@ -39,13 +39,16 @@ class PaperFigure:
     tasks : callable
         Returns the tasks it needs, the longest first.
     tables : callable
-        Makes its tables of the answers; raises `comparisons.model.ComputationFailed` as they do.
+        Makes its tables of the results; raises `comparisons.model.ComputationFailed` if a task it needs has failed.
     draw : callable or None
         Draws the tables; None for a figure that is a table only.
     texts : callable or None
         Makes texts of the tables, by the suffix of the file each goes to (".md").
     shown : callable or None
         Makes the table that the command prints.
+    follows_path : bool
+        Whether the rows of its tables lie along equilibrium paths.  The solver places these points, so that rounding
+        may change where they lie and how many there are.
     """
 
     name: str
@@ -56,6 +59,15 @@ class PaperFigure:
     draw: Callable[[Tables], Figure] | None
     texts: Callable[[Tables], dict[str, str]] | None = None
     shown: Callable[[Tables], Table] | None = None
+    follows_path: bool = False
+
+    def table_file(self, name: str) -> str:
+        """Return the name of the CSV file of a table."""
+        return f"{self.stem}_{name}.csv" if name else f"{self.stem}.csv"
+
+    def files_in(self, folder: Path) -> list[Path]:
+        """Return the files of the figure that a folder holds, sorted."""
+        return sorted(folder.glob(f"{self.stem}[._]*"))
 
 
 def write(paper_figure: PaperFigure, tables: Tables, folder: Path) -> list[Path]:
@@ -69,7 +81,7 @@ def write(paper_figure: PaperFigure, tables: Tables, folder: Path) -> list[Path]
     picture = paper_figure.draw(tables) if paper_figure.draw else None
     written = []
     for name, table in tables.items():
-        path = folder / (f"{paper_figure.stem}_{name}.csv" if name else f"{paper_figure.stem}.csv")
+        path = folder / paper_figure.table_file(name)
         with atomic(path) as file:
             file.write(csv_text(table).encode())
         written.append(path)

@@ -1,60 +1,64 @@
-"""Every figure, in the order of the paper.  To add one: write its module and add its name here."""
+"""Registry of the figures of the paper and of the studies beyond it.
+
+A figure is a statement ``FIGURE = PaperFigure(name="9", ...)`` at the top level of a module in `FOLDERS`, with its name
+as the first argument.  The registry finds these statements in the sources, so that a new figure is one new module, and
+a module is imported only when one of its figures is needed.
+"""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from importlib import import_module
+from importlib.resources import files
 
 from comparisons.paper.paper_figure import PaperFigure
 
-__all__ = ["NAMES", "paper_figures"]
+__all__ = ["FOLDERS", "NAMES", "paper_figures"]
 
-#: name -> "module:figure"; a module is imported only when its figure is asked for.
-_PLATES = {
-    "1": "comparisons.paper.figures.sketch:SKETCH",
-    "2": "comparisons.paper.figures.kernel_functions:KERNEL_FUNCTIONS",
-    "3": "comparisons.paper.figures.s_curve:S_CURVE",
-    "4": "comparisons.paper.figures.force_curves:OVER_TABOR_NUMBERS",
-    "5": "comparisons.paper.figures.pull_off_surfaces:OVER_TABOR_NUMBERS",
-    "6": "comparisons.paper.figures.force_curves:OVER_GRADIENTS",
-    "7": "comparisons.paper.figures.pull_off_surfaces:OVER_GRADIENTS",
-    "8": "comparisons.paper.figures.jumps:JUMPS",
-    "9": "comparisons.paper.figures.jump_asymptotes:JUMP_ASYMPTOTES",
-    "10": "comparisons.paper.figures.transition:TRANSITION",
-    "11": "comparisons.paper.figures.gradient_effect:GRADIENT_EFFECT",
-    "12": "comparisons.paper.figures.surface_laws:SURFACE_LAWS",
-    "13": "comparisons.paper.figures.force_curve_models:FORCE_CURVE_MODELS",
-    "14": "comparisons.paper.figures.pull_off_models:PULL_OFF",
-    "15": "comparisons.paper.figures.pull_off_models:PULL_OFF_BY_RIGID_LIMIT",
-    "16": "comparisons.paper.figures.pull_off_models:PULL_OFF_BY_SOFT_LIMIT",
-    "17": "comparisons.paper.figures.surface_models:SURFACE_MODELS",
-    "numbers": "comparisons.paper.values.comparison:PAPER_VALUES",
-    "error-maps-shape": "comparisons.paper.studies.error_maps:ERROR_MAPS_SHAPE",
-    "error-maps-gradient": "comparisons.paper.studies.error_maps:ERROR_MAPS_GRADIENT",
-    "error-maps-jumps": "comparisons.paper.studies.error_maps:ERROR_MAPS_JUMPS",
-    "error-bands": "comparisons.paper.studies.error_bands:ERROR_BANDS",
-    "surface-modulus": "comparisons.paper.studies.surface_modulus:SURFACE_MODULUS",
-}
+#: Folders of modules with figures, in the order of `NAMES`.
+FOLDERS = ("figures", "values", "studies")
 
-#: What `--figure` takes: the numbers of the paper's figures, then what is not in the paper.
-NAMES = tuple(_PLATES)
+_STATEMENT = re.compile(r'^(\w+) = PaperFigure\(\s*name="([^"]+)"', flags=re.MULTILINE)
+
+
+def _places() -> dict[str, tuple[str, str]]:
+    """Return the module and the variable of every figure, by name."""
+    found: dict[str, tuple[str, str]] = {}
+    for folder in FOLDERS:
+        package = f"comparisons.paper.{folder}"
+        sources = (file for file in files(package).iterdir() if file.name.endswith(".py"))
+        for file in sorted(sources, key=lambda file: file.name):
+            module = f"{package}.{file.name.removesuffix('.py')}"
+            for variable, name in _STATEMENT.findall(file.read_text(encoding="utf-8")):
+                if name in found:
+                    raise ValueError(f"two figures have the name {name!r}: in {found[name][0]} and in {module}")
+                found[name] = module, variable
+    # Figures of the paper by their number, then the others in the order of their modules.
+    return dict(sorted(found.items(), key=lambda item: int(item[0]) if item[0].isdigit() else len(found)))
+
+
+_PLACES = _places()
+
+#: Values of `--figure`: the numbers of the paper's figures, then the names of what is not a figure of the paper.
+NAMES = tuple(_PLACES)
 
 
 def paper_figures(names: Iterable[str] | None = None) -> list[PaperFigure]:
-    """Return the figures of these names, by default all, in the order of the catalogue.
+    """Return the figures of these names, by default all, in the order of `NAMES`.
 
     Raises
     ------
     ValueError
         If there is no figure of a name; the sentence lists those that exist.
+
+    Examples
+    --------
+    >>> [figure.title for figure in paper_figures(["10"])]
+    ['Pull-off force from the Bradley to the JKR limit']
     """
     wanted = set(NAMES if names is None else names)
     unknown = sorted(wanted.difference(NAMES))
     if unknown:
         raise ValueError(f"there is no figure {unknown[0]!r}; there are {', '.join(NAMES)}")
-    found = []
-    for name in NAMES:
-        if name in wanted:
-            module, _, attribute = _PLATES[name].partition(":")
-            found.append(getattr(import_module(module), attribute))
-    return found
+    return [getattr(import_module(module), variable) for name, (module, variable) in _PLACES.items() if name in wanted]

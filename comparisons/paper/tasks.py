@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from comparisons.curve_quantities import FARTHEST_GAP
-from comparisons.model import ComputationFailed, KnowsProfiles, NotApplicable, TracesCurve
+from comparisons.model import ComputationFailed, HasCurve, HasProfile, NotApplicable
+from comparisons.quantities.points import FARTHEST_GAP
 from comparisons.registry import create
 from comparisons.runs.cases import Case
 from comparisons.runs.tasks import evaluate
@@ -74,7 +74,7 @@ def curve(model: str, n: float, k: float, mu: float) -> Json:
 
 def _curve(model: str, case: Case) -> Json:
     tracing = create(model)
-    if not isinstance(tracing, TracesCurve):
+    if not isinstance(tracing, HasCurve):
         raise NotApplicable(f"{model} has no force-displacement curve")
     found = tracing.curve(case.problem())
     return {
@@ -106,7 +106,7 @@ def profile(model: str, n: float, k: float, mu: float) -> Json:
 
 def _profile(model: str, case: Case) -> Json:
     tracing = create(model)
-    if not isinstance(tracing, KnowsProfiles):
+    if not isinstance(tracing, HasProfile):
         raise NotApplicable(f"{model} has no profile at pull-off")
     found = tracing.pull_off_profile(case.problem())
     near = found.gap <= FARTHEST_GAP

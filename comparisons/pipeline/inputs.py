@@ -7,12 +7,11 @@ from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 
-from comparisons.console.progress import log
 from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
-from comparisons.judging.judge import skipped_gates
+from comparisons.judging.selection import load_user_gates
 from comparisons.runs.cases import TIERS, Grid, cases_text, grids, grids_for, load_grids
 
-__all__ = ["Cases", "Gates", "load_cases", "load_user_gates", "read_gates"]
+__all__ = ["Cases", "Gates", "load_cases", "read_gates"]
 
 #: The name of a text that is in no file, for messages and for the record.
 _TEXT = "a text"
@@ -119,34 +118,7 @@ def read_gates(
     if gates is None or standing:
         return Gates(of_tier(load_gates(text), cases.tier_of_gates), text, None)
     source = str(gates) if isinstance(gates, Path) else _TEXT
-    return Gates(load_user_gates(text, source, cases, models), text, source)
-
-
-def load_user_gates(text: str, source: str, cases: Cases, models: Sequence[str] | None) -> list[Gate]:
-    """Return the gates of a user's file that a run can judge, and log how many are left out.
-
-    Parameters
-    ----------
-    text, source : str
-        Of the file.
-    cases : Cases
-        The cases that the run computes.
-    models : sequence of str or None
-        Models in place of those each grid names.
-
-    Raises
-    ------
-    ValueError
-        If a gate is wrong or needs a model that is not computed; one sentence gives its id.
-    """
-    every = load_gates(text, models or (), source)
-    gates = of_tier(every, cases.tier_of_gates)
-    others = skipped_gates(gates, cases.grids, models)
-    if others:
-        log(f"{len(others)} of {len(every)} gates of {source} are left out: their candidate is not given to this run")
-    if len(gates) < len(every):
-        log(f"{len(every) - len(gates)} of {len(every)} gates of {source} are left out: they are of the tier full")
-    return gates
+    return Gates(load_user_gates(text, source, cases.tier_of_gates, cases.grids, models), text, source)
 
 
 def _read(path: Path) -> str:

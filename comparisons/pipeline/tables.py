@@ -7,14 +7,12 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from comparisons.curve_quantities import SHAPES
-from comparisons.data.file_names import AGREEMENT, KAPPA_FIGURE, REFERENCES
-from comparisons.output.figures import agreement as agreement_figure
-from comparisons.output.figures import kappa as kappa_figure
-from comparisons.output.figures import references
+from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA
+from comparisons.output.figures.registry import figures_of
 from comparisons.output.style import save
 from comparisons.output.tables import agreement, largest, relative_error
 from comparisons.pipeline.inputs import Cases
+from comparisons.quantities import CURVES as CURVE_QUANTITIES
 from comparisons.runs.cases import VERIFICATION
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.rows import Row, curve_frame, frame
@@ -60,8 +58,8 @@ def make_tables(rows: Sequence[Row], cases: Cases, models: list[str] | None) -> 
     models : list of str or None
         Models in place of those each grid names.
     """
-    results = frame(row for row in rows if row.quantity not in SHAPES)
-    curves = curve_frame(row for row in rows if row.quantity in SHAPES)
+    results = frame(row for row in rows if row.quantity not in CURVE_QUANTITIES)
+    curves = curve_frame(row for row in rows if row.quantity in CURVE_QUANTITIES)
     kappa = _kappa(results, cases, models)
     return RunTables(results, curves, kappa, largest(kappa), agreement(results, SECOND_REFERENCE, REFERENCE))
 
@@ -92,13 +90,7 @@ def write_tables(tables: RunTables, folder: RunFolder) -> None:
 
 def write_pictures(tables: RunTables, folder: RunFolder) -> None:
     """Draw the pictures of the standing cases, as far as there are rows for them."""
-    figures = {}
-    if not kappa_figure.shown(tables.kappa).empty:
-        figures[KAPPA_FIGURE] = kappa_figure.draw(tables.kappa)
-    if not tables.agreement.empty:
-        figures[AGREEMENT] = agreement_figure.draw(tables.agreement)
-    if not tables.curves.empty:
-        figures[REFERENCES] = references.draw(tables.curves)
-    for name, figure in figures.items():
+    shown = {KAPPA: tables.kappa, AGREEMENT: tables.agreement, CURVES: tables.curves}
+    for name, figure in figures_of(shown):
         for path in folder.figure(name):
             save(figure, path)

@@ -1,20 +1,20 @@
 """Cases of a run, read from a TOML file.
 
-A case is one dimensionless problem; a grid is the product of lists of n, k, mu and nu with an id, a tier and
-its quantities (or shapes) and models.  Unknown keys are refused: a misspelt one would have no effect.
+A case is one dimensionless problem.  A grid is the product of lists of n, k, mu and nu, with an id, a tier, and the
+quantities and models that are computed.  The form of the file is checked by ``comparisons/data/cases.schema.json``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from itertools import product
 from typing import Any
 
-from comparisons.curve_quantities import SHAPES
-from comparisons.data.toml_text import is_real, names, parse
-from comparisons.quantities import QUANTITIES
+from comparisons.data.toml_text import parse
+from comparisons.data.validation import known_name, label, validated
+from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS
 from fscm.problem import Problem
 
@@ -121,41 +121,15 @@ class Grid:
     tags: tuple[str, ...] = ()
 
 
-_LISTS = ("models", "quantities", "n", "k", "mu")
-_PARAMETERS = ("n", "k", "mu", "nu")
-_OPTIONAL = ("nu", "tags")
-_TEXTS = ("id", "title", "tier", "reference")
-
-
-def _known(what: str, names: list[str], register: Mapping[str, object] | Sequence[str], where: str) -> None:
-    for name in names:
-        if name not in register:
-            raise ValueError(f"{where}: unknown {what} {name!r}; known are {', '.join(register)}")
-
-
-def _is_text(entry: object) -> bool:
-    return isinstance(entry, str)
-
-
 def _grid(table: dict[str, Any], where: str, tier: str | None) -> Grid:
-    expected = {*_LISTS, *_TEXTS} - ({"tier"} if tier else set())
-    if wrong := sorted((expected - table.keys()) | (table.keys() - expected - {*_OPTIONAL})):
-        raise ValueError(
-            f"{where}: {', '.join(wrong)} missing or unknown; a grid has {', '.join(sorted(expected))} "
-            f"and may have {', '.join(_OPTIONAL)}"
-        )
-    for key in (*_LISTS, *(key for key in _OPTIONAL if key in table)):
-        if not (isinstance(table[key], list) and table[key]):
-            raise ValueError(f"{where}: {key} must be a list with at least one entry")
-        fits, kind = (is_real, "numbers") if key in _PARAMETERS else (_is_text, "names")
-        if wrong := [entry for entry in table[key] if not fits(entry)]:
-            raise ValueError(f"{where}: {key} must be a list of {kind}; {wrong[0]!r} is none")
-    for key in sorted(expected & {*_TEXTS}):
-        if not _is_text(table[key]):
-            raise ValueError(f"{where}: {key} = {table[key]!r} must be a text")
-    _known("tier", [tier or table["tier"]], TIERS, where)
-    _known("model", [table["reference"], *table["models"]], MODELS, where)
-    _known("quantity", table["quantities"], (*QUANTITIES, *SHAPES), where)
+    if tier is None and "tier" not in table:
+        raise ValueError(f"{where}: tier missing; it is one of {', '.join(TIERS)}")
+    if tier is not None and "tier" in table:
+        raise ValueError(f"{where}: unknown key 'tier': the grids of a sweep have none")
+    for model in (table["reference"], *table["models"]):
+        known_name("model", model, MODELS, where)
+    for quantity in table["quantities"]:
+        known_name("quantity", quantity, tuple(ALL_QUANTITIES), where)
     parameters = product(table["n"], table["k"], table["mu"], table.get("nu", [None]))
     cases = {Case(*values) for values in parameters}
     return Grid(
@@ -205,16 +179,14 @@ def load_grids(text: str, tier: str | None = None, source: str = "the case file"
     ['n = 2, k = 0, mu = 0.1', 'n = 2, k = 0, mu = 1']
     """
     tables = parse(text, source)
-    if tables.keys() != {"grid"}:
-        raise ValueError(f"{source}: a case file holds [[grid]] tables and nothing else, not {names(tables)}")
-    if not isinstance(tables["grid"], list) or not all(isinstance(table, dict) for table in tables["grid"]):
-        raise ValueError(f"{source}: a case file holds [[grid]] tables and nothing else; its grid is something else")
+    validated(tables, "cases", source)
     read = [
-        _grid(table, f"grid {table.get('id', number)}", tier) for number, table in enumerate(tables["grid"], start=1)
+        _grid(table, f"{source}: {label('grid', table, number)}", tier)
+        for number, table in enumerate(tables["grid"], start=1)
     ]
     ids = [grid.id for grid in read]
     if len(set(ids)) < len(ids):
-        raise ValueError(f"the id of a grid must be its own; found {', '.join(sorted(ids))}")
+        raise ValueError(f"{source}: the id of a grid must be unique; found {', '.join(sorted(ids))}")
     return read
 
 

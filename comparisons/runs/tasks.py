@@ -13,11 +13,10 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from traceback import extract_tb
 
-from comparisons.curve_quantities import SHAPES, Points
 from comparisons.external.identity import contradiction
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
-from comparisons.quantities import QUANTITIES
-from comparisons.registry import ExternalIdentity, create, knows_poisson
+from comparisons.quantities import ALL_QUANTITIES, Points
+from comparisons.registry import ExternalIdentity, create, depends_on_poisson_ratio
 from comparisons.runs.cases import Case, Grid
 from comparisons.runs.rows import Row
 from comparisons.runs.workers import each
@@ -48,7 +47,7 @@ def case_for(model: str, case: Case) -> Case:
     >>> case_for("jkr", Case(2, 0, 1, nu=0.25)).label
     'n = 2, k = 0, mu = 1'
     """
-    return case if knows_poisson(model) else replace(case, nu=None)
+    return case if depends_on_poisson_ratio(model) else replace(case, nu=None)
 
 
 def plan(
@@ -117,9 +116,7 @@ def evaluate(model: Model, quantity: str, case: Case) -> Row:
 
 
 def _evaluate(model: Model, quantity: str, case: Case) -> Result | Points:
-    if quantity in SHAPES:
-        return SHAPES[quantity].ask(model, case.problem())
-    return model.evaluate(case.problem(), quantity)
+    return ALL_QUANTITIES[quantity].evaluate(model, case.problem())
 
 
 def _row(
@@ -144,7 +141,7 @@ def _row(
         nu=case.nu,
         value=number.value if number else None,
         u_num=number.u_num if number else None,
-        unit=(QUANTITIES | SHAPES)[quantity].unit,
+        unit=ALL_QUANTITIES[quantity].unit,
         status=status,
         reason=reason,
         size=number.size if number else None,

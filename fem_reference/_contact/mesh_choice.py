@@ -192,12 +192,14 @@ def chosen(problem: Problem, events: tuple[str, ...], accuracy: float | str) -> 
     Raises
     ------
     ValueError
-        For an unknown accuracy.
+        For an unknown accuracy, or for an object that is not a Problem.
     NoSuchEvent
         As `MeshChoice.adapted`.
     NotConverged
         If the path cannot be traced on the finest meshes either.
     """
+    if not isinstance(problem, Problem):
+        raise ValueError(f"problem = {problem!r} is not a Problem; make one of a solid, a punch and a surface law")
     *coarser, finest = finer_levels(accuracy)
     for level in coarser:
         choice = MeshChoice(problem, level)

@@ -138,11 +138,11 @@ class ElasticPreconditioner:
         kept = vertices[present]
         size = vertices.size
         # A vertex on the axis has no u_r: a unit row keeps the blocks whole.
-        spread = sparse.csr_array(
+        injection = sparse.csr_array(
             (np.ones(kept.size), (np.flatnonzero(present), np.arange(kept.size))), (size, kept.size)
         )
         padding = sparse.diags_array((~present).astype(float))
-        coarse = spread @ self.matrix[kept][:, kept] @ spread.T + padding
+        coarse = injection @ self.matrix[kept][:, kept] @ injection.T + padding
         unit = np.zeros(size)
         unit[present] = 1.0 / self.scale[kept]
         candidates = np.zeros((size, 2))

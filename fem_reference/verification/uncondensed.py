@@ -153,9 +153,9 @@ class FullContact:
         free, D = self.half_space.free, sparse.diags_array(self.preconditioner.scale)
         reduced = []
         for vector in vectors:
-            spread = np.zeros(size)
-            spread[1::2] = vector
-            reduced.append(self.preconditioner.scale * spread[free])
+            full_vector = np.zeros(size)
+            full_vector[1::2] = vector
+            reduced.append(self.preconditioner.scale * full_vector[free])
         return reduced[0], (D @ full[free][:, free] @ D).tocsr(), reduced[1], reduced[2]
 
     def under_pressure(self, pressure: Array, c: float) -> Array:

@@ -40,7 +40,7 @@ from fscm.solution import Solution
 __all__ = ["GibsonSolid"]
 
 _EPS = sys.float_info.epsilon
-# Accuracy asked of the quadrature; its own estimate of what it reached goes into u_num.
+# Tolerance of the quadrature; its own estimate of the error goes into u_num.
 _QUADRATURE = 1e-13
 # Rounding shared by all results, in units of eps (1 + M) |value|; measured worst 3 against the closed forms
 # of n = 2.
@@ -211,20 +211,9 @@ class GibsonSolid:
             For an unknown quantity.
         """
         start = time.perf_counter()
-        methods: dict[str, Callable[[], Number]] = {
-            "pull_off_force": self._pull_off_force,
-            "pull_off_displacement": self._pull_off_displacement,
-            "zero_load_displacement": self._zero_load_displacement,
-            "jump_in_displacement": lambda: (-self._local.level(self._hysteretic()[0]), 0.0),
-            "jump_in_gap": self._jump_in_gap,
-            "jump_out_displacement": self._jump_out_displacement,
-            "jump_out_gap": self._jump_out_gap,
-            "hysteresis_energy": self._hysteresis_energy,
-            "critical_tabor_number": lambda: (math.sqrt(0.5 / self._local.steepness), 0.0),
-        }
-        if quantity not in methods:
-            raise ValueError(f"unknown quantity {quantity!r}; known are {', '.join(methods)}")
-        value, error = methods[quantity]()
+        if quantity not in _QUANTITIES:
+            raise ValueError(f"unknown quantity {quantity!r}; known are {', '.join(_QUANTITIES)}")
+        value, error = _QUANTITIES[quantity](self)
         u_num = error + _ROUNDING * _EPS * (1.0 + self._local.M) * (1.0 + abs(value))
         return Solution(value, u_num, 1, 0, 0.0, time.perf_counter() - start)
 
@@ -262,6 +251,9 @@ class GibsonSolid:
         delta = root(lambda x: self._sum(x, True, 0)[0], low, high)
         return delta, self._sum(delta, True, 0)[1] / self._sum(delta, True, 1)[0]
 
+    def _jump_in_displacement(self) -> Number:
+        return -self._local.level(self._hysteretic()[0]), 0.0
+
     def _jump_in_gap(self) -> Number:
         H, _ = self._hysteretic()
         curvature = float(self.problem.law.curvature(np.array(H)))
@@ -275,6 +267,9 @@ class GibsonSolid:
     def _jump_out_gap(self) -> Number:
         self._hysteretic()
         raise NoSuchEvent("jump_out_gap has no value at k = 1: the germ of contact at the jump shrinks to the axis")
+
+    def _critical_tabor_number(self) -> Number:
+        return math.sqrt(0.5 / self._local.steepness), 0.0
 
     def _hysteresis_energy(self) -> Number:
         """Energy of the open profile at A less that of the contact profile there, integral of r^2 [p] du.
@@ -296,7 +291,21 @@ class GibsonSolid:
         return opened - closed, error + wrong
 
 
+# Value and error of each quantity.
+_QUANTITIES: dict[str, Callable[[GibsonSolid], Number]] = {
+    "pull_off_force": GibsonSolid._pull_off_force,
+    "pull_off_displacement": GibsonSolid._pull_off_displacement,
+    "jump_in_displacement": GibsonSolid._jump_in_displacement,
+    "jump_in_gap": GibsonSolid._jump_in_gap,
+    "jump_out_displacement": GibsonSolid._jump_out_displacement,
+    "jump_out_gap": GibsonSolid._jump_out_gap,
+    "zero_load_displacement": GibsonSolid._zero_load_displacement,
+    "hysteresis_energy": GibsonSolid._hysteresis_energy,
+    "critical_tabor_number": GibsonSolid._critical_tabor_number,
+}
+
+
 def _integral(f: Callable[[float], float], a: float, b: float) -> Number:
-    """Adaptive quadrature; what it says about itself is in the error, so its warnings add nothing."""
+    """Integral and its error by adaptive quadrature; the error replaces its warnings."""
     value, error, *_ = quad(f, a, b, epsabs=_QUADRATURE, epsrel=_QUADRATURE, limit=200, full_output=1)
     return float(value), float(error)

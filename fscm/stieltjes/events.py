@@ -45,6 +45,7 @@ def find_event(scheme: StieltjesScheme, name: str) -> StieltjesState:
 
     Examples
     --------
+    >>> from fscm.problem import Problem
     >>> scheme = StieltjesScheme(Problem(n=2, k=0.4, mu=0.5), segments=100, gap_step=0.2)
     >>> -1.9 < find_event(scheme, "pull_off").load < -1.8  # converged: -1.8663
     True

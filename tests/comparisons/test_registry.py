@@ -1,27 +1,32 @@
-"""Every registered model keeps the contract of `comparisons.model`."""
+"""The registry finds the models of its folder, and every one keeps the contract of `comparisons.model`."""
+
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 
-from comparisons.model import Model, TracesCurve
-from comparisons.registry import MODELS, create
+from comparisons import registry
+from comparisons.model import HasCurve, Model
+from comparisons.registry import MODELS, create, declared_models
 from comparisons.runs.cases import Case
 from comparisons.runs.tasks import evaluate
 
-#: Models that take more than a second an answer; their own tests ask them.
+#: Models that take more than a second a value; their own tests evaluate them.
 SLOW = {"fscm-stieltjes", "fscm-stieltjes-400", "fem"}
 
 
 @pytest.mark.parametrize("name", MODELS)
-def test_a_model_says_what_it_is(name):
+def test_a_model_has_its_texts(name):
     model = create(name)
     assert isinstance(model, Model)
-    assert isinstance(model, TracesCurve)
+    assert isinstance(model, HasCurve)
     assert model.name == name
     assert all(isinstance(text, str) and text for text in (model.version, model.citation, model.domain))
 
 
 @pytest.mark.parametrize("name", sorted(MODELS.keys() - SLOW))
-def test_a_model_answers_the_pull_off_force_or_says_why_not(name):
+def test_a_model_gives_the_pull_off_force_or_the_reason_why_not(name):
     row = evaluate(create(name), "pull_off_force", Case(2, 0.4, 1))
     assert row.status in {"ok", "not-applicable"}
     if row.status == "ok":
@@ -40,3 +45,72 @@ def test_an_unknown_name_lists_the_known():
 def test_poissons_ratio_reaches_the_model_that_needs_it():
     assert create("fem", 0.1)._poisson_ratio == 0.1
     assert create("jkr", 0.1).name == "jkr"
+
+
+#: The order of lists and tables; a new model comes after them.
+ORDER = [
+    "fscm",
+    "fscm-stieltjes",
+    "fscm-stieltjes-400",
+    "fem",
+    "jkr",
+    "md-original",
+    "md-improved",
+    "dmt",
+    "bradley",
+    "semi-rigid",
+]
+
+
+def test_the_models_stand_in_the_order_of_the_tables():
+    assert list(MODELS)[: len(ORDER)] == ORDER
+
+
+NEW = """
+MODELS = {"third": "Third", "second": "Second"}
+DEPENDS_ON_POISSON_RATIO = ("second",)
+"""
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """A folder of models in place of `comparisons.models`."""
+    monkeypatch.setattr(registry, "files", lambda package: tmp_path)
+    (tmp_path / "jkr.py").write_text('"""Old."""\n\nMODELS = {"jkr": "JKR"}\n')
+    (tmp_path / "quadrature.py").write_text("raise ImportError('it has no model and is not imported')\n")
+    return tmp_path
+
+
+def test_a_new_model_is_found_by_its_file_alone(folder):
+    (folder / "a_new_one.py").write_text(NEW)
+    assert list(registry._found()) == [
+        ("jkr", "comparisons.models.jkr:JKR", False),
+        ("third", "comparisons.models.a_new_one:Third", False),
+        ("second", "comparisons.models.a_new_one:Second", True),
+    ]
+
+
+def test_two_modules_cannot_declare_one_name(folder):
+    (folder / "copy.py").write_text('MODELS = {"jkr": "Other"}')
+    with pytest.raises(ValueError, match=r"models\.copy declares a model jkr, which another"):
+        list(registry._found())
+
+
+@pytest.mark.parametrize("source", ["", "x = 1", "def f():\n    MODELS = {'a': 'A'}", "OTHER_MODELS = {'a': 'A'}"])
+def test_a_module_without_the_literal_declares_nothing(source):
+    assert declared_models(source) == {}
+
+
+def test_a_declaration_must_be_a_literal():
+    with pytest.raises(ValueError, match="malformed"):
+        declared_models("MODELS = {name: name for name in ()}")
+
+
+def test_no_model_is_imported_before_it_is_created():
+    program = (
+        "import sys; from comparisons.registry import create; create('dmt');"
+        "print([name for name in sys.modules if name.split('.')[0] in ('fem_reference', 'skfem', 'pyamg')])"
+    )
+    root = Path(__file__).resolve().parents[2]
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=root)
+    assert done.stdout.strip() == "[]", done.stderr

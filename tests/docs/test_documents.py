@@ -1,4 +1,4 @@
-"""The documents are true: examples run, links lead somewhere, every quantity has its symbol, formulas hold."""
+"""Documents: examples and code blocks run, commands parse, links resolve, formulas hold."""
 
 import re
 import shlex
@@ -14,18 +14,19 @@ import fscm
 from comparisons.baseline import read_baseline
 from comparisons.cli import main as cli
 from comparisons.judging.gates import Gate, load_gates
-from comparisons.judging.judge import judge, skipped_gates
+from comparisons.judging.judge import judge
+from comparisons.judging.selection import skipped_gates
 from comparisons.judging.summary import summarise
 from comparisons.quantities import QUANTITIES
 from comparisons.runs.cases import grids, grids_for, load_grids
 from comparisons.runs.tasks import plan
-from fscm.physical import PhysicalProblem
 
 ROOT = Path(__file__).resolve().parents[2]
-EXAMPLES = sorted((ROOT / "docs" / "examples").glob("*.py"))
-DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+DOCS = ROOT / "docs"
+EXAMPLES = sorted((DOCS / "examples").glob("*.py"))
+DOCUMENTS = [ROOT / "README.md", *sorted(DOCS.glob("*.md"))]
 
-#: What each example must print: the numbers the documents quote.
+#: Numbers that each example prints: those that the documents quote.
 QUOTED = {
     "gecko_pad.py": ["Tabor number 2.6556", "27.066203 nN", "-1.34 %", "-0.74 %", "-1.23 %", "10.0064 aJ"],
     "own_shape_and_law.py": ["paraboloid    9-3   pull-off force 1.78848171", "rounded cone  10-4"],
@@ -34,20 +35,8 @@ QUOTED = {
 }
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
-def test_an_example_runs_and_prints_what_is_quoted(path, tmp_path):
-    done = subprocess.run([sys.executable, path], cwd=tmp_path, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    assert QUOTED[path.name]
-    assert [text for text in QUOTED[path.name] if text not in done.stdout] == []
-
-
-def test_the_tutorial_quotes_its_example():
-    text = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
-    assert [number for number in ("2.6556", "27.066203", "-1.34 %", "-0.74 %", "-1.23 %") if number not in text] == []
-    code = (ROOT / "docs" / "examples" / "gecko_pad.py").read_text(encoding="utf-8")
-    for name, value in re.findall(r"^    (\w+)=([\d.e-]+),", text, flags=re.MULTILINE):
-        assert f"{name}={value}," in code
+def by_name(path):
+    return path.name
 
 
 def blocks(path, language):
@@ -55,69 +44,114 @@ def blocks(path, language):
     return re.findall(rf"^```{language}\n(.*?)^```", path.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
 
 
-COMMANDS = [line for path in DOCUMENTS for block in blocks(path, "sh") for line in block.splitlines()]
+def printed_by(code, folder):
+    done = subprocess.run([sys.executable, "-c", code], cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=by_name)
+def test_an_example_runs_and_prints_the_quoted_numbers(path, tmp_path):
+    printed = "\n".join(printed_by(path.read_text(encoding="utf-8"), tmp_path))
+    assert QUOTED[path.name]
+    assert [text for text in QUOTED[path.name] if text not in printed] == []
+
+
+def test_the_python_of_the_readme_runs(tmp_path):
+    (line, *_) = printed_by("".join(blocks(ROOT / "README.md", "python")), tmp_path)
+    value, u_num = map(float, line.split())
+    assert value == pytest.approx(1.78848171, abs=5e-9)
+    assert 0.0 < u_num < 1e-9
+
+
+def test_the_python_of_the_tutorial_prints_the_numbers_of_its_comments(tmp_path):
+    code = "".join(blocks(DOCS / "tutorial.md", "python"))
+    printed = [line for line in printed_by(code, tmp_path) if re.fullmatch(r"[-+.\de]+", line)]
+    stated = re.findall(r"^print\(.*\)  # ([-+.\de]+)", code, flags=re.MULTILINE)
+    assert len(printed) == len(stated) > 3
+    for number, text in zip(printed, stated, strict=True):
+        digits = len(text.partition("e")[0].replace(".", "").lstrip("-0"))
+        assert f"{float(number):.{digits}g}" == f"{float(text):.{digits}g}"
+
+
+COMMANDS = [
+    line for path in DOCUMENTS for block in blocks(path, "sh") for line in block.splitlines() if "fscm-bench " in line
+]
 
 
 @pytest.mark.parametrize("line", [line for line in COMMANDS if line.startswith("fscm-bench ")])
-def test_a_command_people_are_told_to_type_is_one(line):
-    """It parses: names of commands and options, choices, what is required."""
+def test_a_command_parses(line):
+    """Names of commands and options, choices, required arguments."""
     _, *arguments = shlex.split(line, comments=True)
     cli._parser().parse_args(cli._keep_negative_numbers(arguments))
 
 
 def test_commands_are_found():
-    assert len([line for line in COMMANDS if line.startswith("fscm-bench ")]) > 20
+    assert len(COMMANDS) > 20
 
 
-def test_the_python_of_the_front_page_runs(tmp_path):
-    code = blocks(ROOT / "README.md", "python")
-    done = subprocess.run([sys.executable, "-c", "".join(code)], cwd=tmp_path, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    value, u_num = map(float, done.stdout.split())
-    assert value == pytest.approx(1.78848171, abs=5e-9)
-    assert 0.0 < u_num < 1e-9
+TABLES = [(path, text) for path in DOCUMENTS for text in blocks(path, "toml")]
 
 
-def test_the_grid_of_the_front_page_is_one():
-    (text,) = blocks(ROOT / "README.md", "toml")
-    (grid,) = load_grids(text, tier="quick")
-    assert len(grid.cases) == 12
+def tables_with(name):
+    return [text for _, text in TABLES if f"[[{name}]]" in text]
 
 
-@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.name)
-def test_links_lead_somewhere(path):
-    links = re.findall(r"\]\(([^)#]+)\)", path.read_text(encoding="utf-8"))
-    local = [link for link in links if "://" not in link]
-    assert [link for link in local if not (path.parent / link).exists()] == []
+def test_every_grid_of_a_document_loads():
+    assert tables_with("grid")
+    for text in tables_with("grid"):
+        assert all(grid.cases for grid in load_grids(text, tier="quick"))
+
+
+def test_every_gate_of_a_document_loads():
+    assert tables_with("gate")
+    for text in tables_with("gate"):
+        assert load_gates(text)
+
+
+def anchors(path):
+    """The anchors of the headings of a document, as on GitHub."""
+    headings = re.findall(r"^#+ (.*)$", path.read_text(encoding="utf-8"), flags=re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=by_name)
+def test_links_resolve(path):
+    wrong = []
+    for link in re.findall(r"\]\(([^)\s]+)\)", path.read_text(encoding="utf-8")):
+        name, _, anchor = link.partition("#")
+        target = path.parent / name if name else path
+        if "://" not in link and not (target.exists() and (not anchor or anchor in anchors(target))):
+            wrong.append(link)
+    assert wrong == []
 
 
 def test_every_quantity_has_a_symbol():
-    text = (ROOT / "docs" / "symbols.md").read_text(encoding="utf-8")
+    text = (DOCS / "symbols.md").read_text(encoding="utf-8")
     assert [name for name in QUANTITIES if f"`{name}`" not in text] == []
 
 
 def test_the_tabor_number_is_that_of_the_code():
-    text = (ROOT / "docs" / "symbols.md").read_text(encoding="utf-8")
+    text = (DOCS / "symbols.md").read_text(encoding="utf-8")
     formula = re.search(r"^    mu = (.*)$", text, flags=re.MULTILINE)[1].replace("^", "**")
-    body = {"E0": 3e6, "c0": 2e-5, "nu": 0.3, "z0": 4e-10}
+    scales = {"E0": 3e6, "c0": 2e-5, "nu": 0.3, "z0": 4e-10}
     for n, k, Q in ((2, 0, 1e-6), (2, 0.4, 1e-6), (1, 0.2, 0.5), (5, 0.6, 1e-24)):
-        problem = PhysicalProblem(**body, n=n, k=k, Q=Q, work_of_adhesion=0.05)
-        names = {"n": n, "k": k, "Q": Q, "c0": body["c0"], "z0": body["z0"], "dgamma": 0.05}
+        problem = fscm.PhysicalProblem(**scales, n=n, k=k, Q=Q, work_of_adhesion=0.05)
+        names = {"n": n, "k": k, "Q": Q, "c0": scales["c0"], "z0": scales["z0"], "dgamma": 0.05}
         mu = eval(formula, names | {"b": problem.response_factor, "Es": problem.contact_modulus})
         assert mu == pytest.approx(problem.tabor_number, rel=1e-12)
         if (n, k) == (2, 0):
-            ordinary = (Q * 0.05**2 / (problem.contact_modulus**2 * body["z0"] ** 3)) ** (1 / 3)
+            ordinary = (Q * 0.05**2 / (problem.contact_modulus**2 * scales["z0"] ** 3)) ** (1 / 3)
             assert mu == pytest.approx(ordinary, rel=1e-12)
 
 
-def test_the_gates_of_the_document_are_judged_as_it_says():
-    text = (ROOT / "docs" / "judge_your_model.md").read_text(encoding="utf-8")
-    example = re.search(r"```toml\n(\[\[gate\]\].*?)```", text, flags=re.DOTALL)[1]
+def test_the_gates_of_the_documents_are_judged():
+    (example,) = [text for text in tables_with("gate") if "BETTER-THAN-JKR" in text]
     rows, curves = read_baseline(ROOT / "results" / "baseline")
     chosen = grids_for(grids("quick"), ["md-improved", "jkr"])
-    asked = {task.key for task in plan(chosen, ["md-improved", "jkr"])}
+    planned = {task.key for task in plan(chosen, ["md-improved", "jkr"])}
     keys = rows[["model", "quantity", "n", "k", "mu"]].itertuples(index=False, name=None)
-    rows = rows[[(*key, None) in asked for key in keys]]
+    rows = rows[[(*key, None) in planned for key in keys]]
     assert skipped_gates(load_gates(example), chosen, ["md-improved", "jkr"]) == []
     judged = summarise(judge(load_gates(example), chosen, rows, curves, ["md-improved", "jkr"]))
     assert judged[["gate", "candidate"]].to_numpy().tolist() == [
@@ -131,19 +165,27 @@ def test_the_gates_of_the_document_are_judged_as_it_says():
 
 
 def test_every_key_of_a_gate_is_explained():
-    text = (ROOT / "docs" / "judge_your_model.md").read_text(encoding="utf-8")
-    table = text[text.index("| key | what it is |") :].partition("\n\n")[0]
-    told = {name for line in table.splitlines() for name in re.findall(r"`(\w+)`", line.split("|")[1])}
-    assert told == {field.name for field in fields(Gate)}
+    """In one table of one document, the one with the key of the candidate."""
+    (table,) = [
+        part
+        for path in DOCUMENTS
+        for part in path.read_text(encoding="utf-8").split("\n\n")
+        if part.startswith("| key |") and "| `candidate`" in part
+    ]
+    explained = {name for line in table.splitlines() for name in re.findall(r"`(\w+)`", line.split("|")[1])}
+    assert explained == {field.name for field in fields(Gate)}
 
 
-def test_every_module_named_in_the_theory_exists():
-    text = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
-    for heading in re.findall(r"^## .*$|^\* \*\*.*$", text, flags=re.MULTILINE):
-        folder = None
-        for name in re.findall(r"`([\w/]+\.py)`", heading):
-            folder = name.rpartition("/")[0] or folder
-            assert (ROOT / folder / name.rpartition("/")[2]).exists(), name
+@pytest.mark.parametrize("path", DOCUMENTS, ids=by_name)
+def test_every_module_of_a_document_exists(path):
+    names = re.findall(r"`((?:fscm|fem_reference|comparisons|tests)/[\w/]+\.\w+)`", path.read_text(encoding="utf-8"))
+    assert [name for name in names if not (ROOT / name).exists()] == []
+
+
+def test_the_theory_names_its_modules():
+    names = re.findall(r"`([\w/]+\.py)`", (DOCS / "theory.md").read_text(encoding="utf-8"))
+    assert len(names) > 20
+    assert [name for name in names if not (ROOT / name).exists()] == []
 
 
 @pytest.mark.parametrize("k", [0.0, 0.3, 0.7])

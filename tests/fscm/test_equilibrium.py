@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from fscm import NotConverged, Problem, solve
-from fscm._continuation import equilibrium_path, parameter_control, parameter_of
+from fscm._arc_length import parameter_control, parameter_of
+from fscm._continuation import equilibrium_path
 from fscm._equilibrium import Control, State
 from fscm._newton import newton
 

@@ -1,4 +1,4 @@
-"""Events against values from elsewhere, published figures, limits and each other."""
+"""Events against reference values, numbers of the paper, limits and each other."""
 
 import math
 
@@ -21,11 +21,11 @@ def test_reference_values_to_every_digit(known: ReferenceValue) -> None:
     assert solution.u_num < 0.1 * known.last_digit
 
 
-@pytest.mark.parametrize(("k", "published"), [(0.0, 0.70), (0.2, 0.75), (0.4, 0.78), (0.6, 0.78)])
-def test_critical_tabor_numbers(k: float, published: float) -> None:
+@pytest.mark.parametrize(("k", "printed"), [(0.0, 0.70), (0.2, 0.75), (0.4, 0.78), (0.6, 0.78)])
+def test_critical_tabor_numbers(k: float, printed: float) -> None:
     """Sec. 3.3; and hysteresis exists just above and not just below."""
     solution = solve(Problem(2, k, 1.0), "critical_tabor_number")
-    assert round(solution.value, 2) == published
+    assert round(solution.value, 2) == printed
     assert solution.u_num < 1e-7
     with pytest.raises(NoSuchEvent, match="critical Tabor number"):
         solve(Problem(2, k, solution.value * (1 - 2e-3)), "jump_in_displacement")

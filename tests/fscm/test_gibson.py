@@ -58,7 +58,7 @@ def test_the_load_of_a_paraboloid_is_twice_the_energy_at_its_center(mu, H):
 
 @pytest.mark.parametrize(("n", "bradley"), [(1, 2.880), (1.5, 2.166), (2, 2.0), (5, 1.669)])
 def test_stiff_limit_is_bradley(n, bradley):
-    # Eq. 56, as published to four digits.
+    # Eq. 56, as printed to four digits.
     assert value(n, 1e-4, "pull_off_force") == pytest.approx(bradley, abs=6e-4)
 
 
@@ -205,12 +205,12 @@ def test_other_laws():
 def test_between_the_branches_there_is_no_number():
     model = solid(2, 1.0)
     inside = 0.5 * (model._local.front.near + model.solution("jump_in_gap").value)
-    for ask in (model.load, model.displacement):
+    for compute in (model.load, model.displacement):
         with pytest.raises(ValueError, match="between jump-in and jump-out"):
-            ask(inside)
+            compute(inside)
         for outside in (-1.0, -2.0, math.nan, math.inf):
             with pytest.raises(ValueError, match="central gap"):
-                ask(outside)
+                compute(outside)
     with pytest.raises(NoSuchEvent, match="jump_out_gap"):
         model.solution("jump_out_gap")
 

@@ -5,6 +5,7 @@ the meshes are split in other places) and a domain that ends ten times farther o
 """
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -34,6 +35,7 @@ def _sample() -> list[Problem]:
     return problems
 
 
+@cache
 def reference(problem: Problem, *quantities: str) -> list[float]:
     """Values on the reference meshes; their check mesh is not used."""
     model = Analysis(problem, REFERENCE_MESHES)
@@ -80,8 +82,8 @@ def test_every_event_is_honest(n: float, k: float, mu: float) -> None:
 
 
 # Problems of the sample on which an accuracy is measured, and the share of results that reach it: it is a request.
-# Measured on 22 problems and 6 quantities: every result is honest, and of those below 90 % reach 1e-6 and 98 % 1e-8;
-# the gap at the jump-out of a soft solid is ten times as uncertain.
+# Measured on every third problem for 1e-5, 1e-6, 1e-8 and 1e-10: 64, 64, 65 and 66 of the 66 results below reach it,
+# and of all 106 quantities of the paths 101, 98, 99 and 100 (of the 8 gaps at the jump-out only half).
 EVERY = 5
 REACHED = 0.85
 
@@ -109,7 +111,7 @@ def test_a_smaller_number_is_a_finer_mesh() -> None:
     assert Meshes.of("default") == Meshes.of(1e-8) == Meshes()
 
 
-@pytest.mark.parametrize("accuracy", [0.0, 1e-12, 1e-3, 1, math.nan, "best", None, True])
+@pytest.mark.parametrize("accuracy", [0.0, 1e-11, 1e-3, 1, math.nan, "best", None, True])
 def test_a_bad_accuracy_is_refused(accuracy: object) -> None:
     with pytest.raises(ValueError, match=r"accuracy"):
         Analysis(Problem(2, 0.4, 1.0), accuracy)

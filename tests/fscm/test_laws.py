@@ -1,4 +1,4 @@
-"""Surface laws against 40-digit formulas, their own integrals, and published values."""
+"""Surface laws against 40-digit formulas, their own integrals, and values of the paper."""
 
 import math
 import pickle

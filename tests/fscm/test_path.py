@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from fscm import NoSuchEvent, Problem, equilibria, profile, solve, trace
-from fscm._continuation import equilibrium_path, moved, parameter_of, rates_of
+from fscm._arc_length import parameter_of, rates_of
+from fscm._continuation import equilibrium_path, moved
 from fscm.experiment import displacement_cycle, load_controlled_retreat
 
 

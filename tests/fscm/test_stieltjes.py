@@ -140,7 +140,7 @@ def test_events_that_are_not_on_the_path():
     for name in ("jump_in", "jump_out"):
         with pytest.raises(NoSuchEvent, match="jump"):
             find_event(calm, name)
-    # The pull-off of a cone lies beyond the published range.
+    # The pull-off of a cone lies beyond the range of the paper.
     with pytest.raises(NoSuchEvent, match="pull off"):
         find_event(StieltjesScheme(Problem(1, 0.4, 0.1), 100, last_gap=-0.1, **COARSE), "pull_off")
 
@@ -173,11 +173,11 @@ def test_bad_settings(settings):
         StieltjesScheme(Problem(2, 0.4, 1.0), **settings)
 
 
-def test_bad_questions():
+def test_bad_arguments():
     problem = Problem(2, 0.4, 0.5)
     with pytest.raises(ValueError, match="gradient exponent"):
         StieltjesScheme(Problem(2, 1, 1.0))
     with pytest.raises(ValueError, match="unknown event"):
-        find_event(StieltjesScheme(problem, 20), "lunch")
+        find_event(StieltjesScheme(problem, 20), "nonsense")
     with pytest.raises(ValueError, match="unknown quantity"):
         stieltjes_solution(problem, "weight", 20)

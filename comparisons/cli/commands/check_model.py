@@ -6,7 +6,7 @@ import argparse
 
 from comparisons.cli.options import FAILED, FAILS, OK
 from comparisons.console.progress import waiting
-from comparisons.external import contract_checks as contract_suite
+from comparisons.external.contract_checks import examine
 from comparisons.external.model_source import load_model
 from comparisons.registry import MODELS
 
@@ -34,7 +34,7 @@ def call(args: argparse.Namespace) -> int:
     if model.name in MODELS:
         raise ValueError(f"the model calls itself {model.name}, which is one of ours: it needs its own name")
     with waiting(f"checking {model.name}"):
-        findings = contract_suite.examine(model)
+        findings = examine(model)
     width = max(len(finding.status) for finding in findings)
     for finding in findings:
         print(f"{finding.status:{width}}  {finding.check}: {finding.text}")

@@ -8,6 +8,7 @@ from pathlib import Path
 from comparisons.cli.options import FAILED, FAILS, INCONCLUSIVE, OK, output
 from comparisons.console.progress import log
 from comparisons.judging.decision import Verdict
+from comparisons.judging.summary import summarise
 from comparisons.output.markdown import to_step_summary
 from comparisons.output.tables import rich_table
 from comparisons.output.verdicts import matrix
@@ -49,7 +50,7 @@ def print_verdicts(judgement: Judgement) -> None:
     if judgement.verdicts.empty:
         log("no gate was evaluated")
         return
-    shown = matrix(judgement.verdicts, judgement.specs)
+    shown = matrix(summarise(judgement.verdicts), judgement.specs)
     console.print(rich_table(shown.drop(columns=["command", "reason"]), "verdicts, worst first"))
     width = shown["gate"].str.len().max()
     console.print("the worst case of each gate is computed again by", style="bold")

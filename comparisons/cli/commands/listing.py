@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import asdict
 
 import pandas as pd
 
@@ -12,7 +11,7 @@ from comparisons.console.progress import log
 from comparisons.external.model_source import installed
 from comparisons.judging.gates import gates_text, load_gates
 from comparisons.output.tables import rich_table
-from comparisons.quantities import QUANTITIES
+from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS, create
 from comparisons.runs.cases import TIERS, grids
 
@@ -45,7 +44,10 @@ def _models() -> pd.DataFrame:
 
 
 def _quantities() -> pd.DataFrame:
-    return pd.DataFrame([asdict(one) | {"unit": one.unit, "sign": one.sign} for one in QUANTITIES.values()])
+    columns = ("name", "symbol", "kind", "meaning", "unit", "sign")
+    return pd.DataFrame(
+        [[str(getattr(one, column)) for column in columns] for one in ALL_QUANTITIES.values()]
+    ).set_axis(list(columns), axis="columns")
 
 
 def _cases() -> pd.DataFrame:

@@ -8,6 +8,7 @@ from pathlib import Path
 from comparisons.cli.options import OK
 from comparisons.console.progress import log
 from comparisons.external.template import write_template
+from comparisons.registry import MODELS
 
 __all__ = ["add", "call"]
 
@@ -21,7 +22,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def call(args: argparse.Namespace) -> int:
     """Write the files and name them; return the exit status."""
-    written, spec = write_template(args.folder)
+    written, spec = write_template(args.folder, reserved=MODELS)
     for path in written:
         print(path)
     log(f"change what the model computes; then: fscm-bench check-model {spec}")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
 
 from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case, case_of, number
 from comparisons.console.progress import waiting
+from comparisons.numerics.number_text import case_text, short
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
 from comparisons.runs.csv_format import csv_text
@@ -67,29 +67,13 @@ def _csv(row: Row) -> str:
 
 def _text(row: Row) -> str:
     quantity = QUANTITIES[row.quantity]
-    lines = [
-        f"{row.model}: {row.quantity} at " + ", ".join(f"{name} = {value:g}" for name, value in _case(row).items())
-    ]
+    lines = [f"{row.model}: {row.quantity} at {case_text(_case(row))}"]
     if row.value is None or row.u_num is None:
         lines.append(f"  {row.status}: {row.reason}")
     else:
         unit = "" if quantity.unit == "1" else f" {quantity.unit}"
-        lines.append(f"  {quantity.symbol} = {with_uncertainty(row.value, row.u_num)}{unit}  ({row.seconds:.2g} s)")
+        lines.append(f"  {quantity.symbol} = {short(row.value, row.u_num)}{unit}  ({row.seconds:.2g} s)")
     return "\n".join(lines) + "\n"
-
-
-def with_uncertainty(value: float, uncertainty: float) -> str:
-    """Return a value with the digits its uncertainty leaves it.
-
-    Examples
-    --------
-    >>> with_uncertainty(1.788481712345, 3e-9)
-    '1.7884817123 +- 3.0e-09'
-    """
-    if uncertainty == 0:
-        return f"{value!r}"
-    decimals = max(0, 1 - math.floor(math.log10(uncertainty)))
-    return f"{value:.{min(decimals, 17)}f} +- {uncertainty:.1e}"
 
 
 _FORMATS = {"text": _text, "json": _json, "csv": _csv}

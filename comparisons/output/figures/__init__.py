@@ -1,1 +1,1 @@
-"""One module a figure."""
+"""Figures of stored results, one module each; `registry` lists those of a run."""

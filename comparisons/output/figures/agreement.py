@@ -1,4 +1,4 @@
-"""How far two references are apart, beside what they claim: one panel a quantity, one point a case."""
+"""Differences of two references beside their stated uncertainty: one panel a quantity, one point a case."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, MARKERS, MODEL_NAMES, lettered, styled
-from comparisons.quantities import QUANTITIES
+from comparisons.output.style import COLOURS, MARKERS, lettered, model_label, styled
+from comparisons.quantities import QUANTITIES, title_of
 
 __all__ = ["draw"]
 
-#: Differences below this, far below any claim, are drawn on the lower edge.
+#: Differences below this, far below any stated uncertainty, are drawn on the lower edge.
 _SMALLEST = 1e-13
 _COLUMNS = 4
 
 
 def draw(agreement: pd.DataFrame) -> Figure:
-    """Draw the differences of two models as points, and the uncertainty both claim together as dashes.
+    """Draw the differences of two models as points, and their combined uncertainty as dashes.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ def draw(agreement: pd.DataFrame) -> Figure:
         As `comparisons.output.tables.agreement` returns it; at least one row.
     """
     names = [str(agreement[column].iloc[0]) for column in ("model", "reference")]
-    pair = " and ".join(MODEL_NAMES.get(name, name) for name in names)
+    pair = " and ".join(model_label(name) for name in names)
     quantities = [name for name in QUANTITIES if name in set(agreement["quantity"])]
     columns = min(_COLUMNS, len(quantities))
     rows = -(-len(quantities) // columns)
@@ -37,7 +37,7 @@ def draw(agreement: pd.DataFrame) -> Figure:
         panels = figure.subplots(rows, columns, sharey=True, squeeze=False)
         for letter, axes, quantity in zip(ascii_lowercase, panels.flat, quantities, strict=False):
             _panel(axes, agreement[agreement["quantity"] == quantity], sorted(agreement["n"].unique()))
-            lettered(axes, letter, _words(quantity))
+            lettered(axes, letter, title_of(quantity))
         for axes in panels.flat[len(quantities) :]:
             axes.set_visible(False)
         # The lowest panel of each column.
@@ -48,14 +48,6 @@ def draw(agreement: pd.DataFrame) -> Figure:
         handles, labels = panels.flat[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
     return figure
-
-
-def _words(quantity: str) -> str:
-    """The name of a quantity as one writes it."""
-    words = quantity.replace("_", " ")
-    for event in ("pull off", "jump in", "jump out", "zero load"):
-        words = words.replace(event, event.replace(" ", "-"))
-    return words
 
 
 def _panel(axes: Axes, rows: pd.DataFrame, shapes: list[float]) -> None:

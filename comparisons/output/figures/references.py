@@ -6,25 +6,13 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, MODEL_NAMES, lettered, styled
+from comparisons.output.style import COLOURS, lettered, model_label, styled
+from comparisons.quantities import CURVES
 
 __all__ = ["draw"]
 
-#: Quantity -> (limits of x, limits of y, labels of both axes).
-_PANELS = {
-    "force_curve": (
-        (-4.5, 2.5),
-        (-2.0, 1.0),
-        r"displacement $\delta / z_0$",
-        r"load $P / (\pi Q^{2/n} \Delta\gamma z_0^{2/n-1})$",
-    ),
-    "pull_off_pressure": (
-        (0.0, 3.0),
-        None,
-        r"radius $r / (Q z_0)^{1/n}$",
-        r"pressure at pull-off $p z_0 / \Delta\gamma$",
-    ),
-}
+#: Quantity -> limits of x, and of y.
+_PANELS = {"force_curve": ((-4.5, 2.5), (-2.0, 1.0)), "pull_off_pressure": ((0.0, 3.0), None)}
 
 
 def draw(curves: pd.DataFrame) -> Figure:
@@ -46,16 +34,16 @@ def draw(curves: pd.DataFrame) -> Figure:
 
 
 def _panel(axes: Axes, curves: pd.DataFrame, quantity: str) -> None:
-    x_limits, y_limits, x_label, y_label = _PANELS[quantity]
+    x_limits, y_limits = _PANELS[quantity]
     for index, ((n, k, mu), case) in enumerate(curves.groupby(["n", "k", "mu"])):
         colour, label = COLOURS[index % len(COLOURS)], f"$n$ = {n:g}, $k$ = {k:g}, $\\mu$ = {mu:g}"
         for model, points in case.groupby("model"):
             points = points.sort_values("point")
             line = {"ls": "-"} if model == "fscm" else {"ls": "none", "marker": "o", "ms": 2.5, "mfc": "white"}
-            axes.plot(points["x"], points["y"], color=colour, label=f"{MODEL_NAMES[str(model)]}, {label}", **line)
+            axes.plot(points["x"], points["y"], color=colour, label=f"{model_label(str(model))}, {label}", **line)
     axes.axhline(0, color="0.4", lw=0.8)
     axes.set_xlim(*x_limits)
     if y_limits:
         axes.set_ylim(*y_limits)
-    axes.set_xlabel(x_label)
-    axes.set_ylabel(y_label)
+    axes.set_xlabel(CURVES[quantity].x.figure_label)
+    axes.set_ylabel(CURVES[quantity].y.figure_label)

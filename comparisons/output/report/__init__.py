@@ -1,1 +1,1 @@
-"""One self-contained HTML page from the folder of a run: reads what is stored, computes and judges nothing."""
+"""One self-contained HTML page of the stored results in a run folder."""

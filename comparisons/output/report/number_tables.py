@@ -22,8 +22,8 @@ from comparisons.output.report.table import (
     parameter,
     value,
     without_empty,
-    words,
 )
+from comparisons.quantities import title_of
 
 __all__ = ["convergence", "curve_points", "kappa", "largest", "models", "results"]
 
@@ -34,7 +34,7 @@ def kappa(stored: Stored) -> Table:
         Row(
             (
                 Cell(row["model"]),
-                Cell(words(row["quantity"])),
+                Cell(title_of(row["quantity"])),
                 *case_cells(row),
                 value(row["value"], row["u_num"]),
                 Cell(row["reference"]),
@@ -60,12 +60,12 @@ def kappa(stored: Stored) -> Table:
 
 
 def largest(stored: Stored) -> Table:
-    """Return the largest error of each model for each n and k, beside the published one where there is one."""
+    """Return the largest error of each model for each n and k, beside that of the paper where it prints one."""
     rows = [
         Row(
             (
                 Cell(row["model"]),
-                Cell(words(row["quantity"])),
+                Cell(title_of(row["quantity"])),
                 parameter(row["n"]),
                 parameter(row["k"]),
                 kappa_cell(row["kappa"], row["u_kappa"]),
@@ -87,8 +87,8 @@ def largest(stored: Stored) -> Table:
         Column("at μ", "number"),
         Column("where"),
         Column("cases", "number"),
-        Column("published (%)", "number"),
-        Column("published digits"),
+        Column("paper (%)", "number"),
+        Column("digits of the paper"),
     )
     caption = "Largest relative error over the computed Tabor numbers, by size, with its sign"
     return without_empty(Table("largest", caption, columns, rows, ("largest_kappa.csv", "largest_kappa.tex")))
@@ -101,7 +101,7 @@ def convergence(stored: Stored) -> Table:
         Row(
             (
                 Cell(row["model"]),
-                Cell(words(row["quantity"])),
+                Cell(title_of(row["quantity"])),
                 *case_cells(row),
                 value(row["value"], row["u_num"]),
                 number(row["u_num"], ".1e"),
@@ -135,7 +135,7 @@ def results(stored: Stored) -> Table:
             (
                 Cell(row["model"]),
                 Cell(row["model_version"]),
-                Cell(words(row["quantity"])),
+                Cell(title_of(row["quantity"])),
                 *case_cells(row),
                 value(row["value"], row["u_num"]),
                 number(row["u_num"], ".1e"),
@@ -184,17 +184,15 @@ def curve_points(stored: Stored, quantity: str, columns: tuple[str, str]) -> Tab
         *(Column(name, "number") for name in columns),
         Column("u, share of the picture", "number"),
     )
-    return without_empty(
-        Table(quantity, f"Stored points: {quantity.replace('_', ' ')}", headings, rows, ("curves.csv",))
-    )
+    return without_empty(Table(quantity, f"Stored points: {title_of(quantity)}", headings, rows, ("curves.csv",)))
 
 
 def models(stored: Stored, specs: Mapping[str, str]) -> Table:
-    """Return what was run: each model with what it says of itself, and how its computations ended."""
+    """Return what was run: each model with its own description, and how its computations ended."""
     every = pd.concat(
         [stored.results[["model", "model_version", "status"]], _whole_curves(stored.curves)], ignore_index=True
     )
-    said = stored.record.get("models", {})
+    described = stored.record.get("models", {})
     seconds = stored.record["seconds"]["by_model"]
     rows = []
     for key, of_model in every.groupby(["model", "model_version"]):
@@ -208,8 +206,8 @@ def models(stored: Stored, specs: Mapping[str, str]) -> Table:
                     *(number(ended.get(status, 0), ".0f") for status in ("ok", "not-applicable", "failed")),
                     number(seconds.get(name, float("nan")), ".3g"),
                     Cell(specs.get(name, "")),
-                    Cell(said.get(name, {}).get("domain", "")),
-                    Cell(said.get(name, {}).get("citation", "")),
+                    Cell(described.get(name, {}).get("domain", "")),
+                    Cell(described.get(name, {}).get("citation", "")),
                 )
             )
         )
@@ -220,11 +218,11 @@ def models(stored: Stored, specs: Mapping[str, str]) -> Table:
         Column("not applicable", "number"),
         Column("failed", "number"),
         Column("seconds", "number"),
-        Column("SPEC, if from outside", "code"),
+        Column("SPEC, if external", "code"),
         Column("domain", "prose"),
         Column("citation", "prose"),
     )
-    return without_empty(Table("models", "What was asked, and how it ended", columns, rows))
+    return without_empty(Table("models", "Models, and how their computations ended", columns, rows))
 
 
 def _whole_curves(curves: pd.DataFrame) -> pd.DataFrame:

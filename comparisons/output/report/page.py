@@ -1,4 +1,4 @@
-"""The model of a page: every section's texts, tables and plots, before there is any HTML."""
+"""The content of a page: the texts, tables and plots of its sections, before there is any HTML."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from typing import Any
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.output.latex import latex
 from comparisons.output.report import number_tables, plots, verdict_tables
-from comparisons.output.report.model_style import ModelStyle, model_styles
 from comparisons.output.report.plot import Plot
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.report.table import Table, table_tex
+from comparisons.output.style import ModelStyle, model_styles
 from comparisons.output.verdicts import worst_cases
 from comparisons.runs.csv_format import csv_text
 
@@ -21,12 +21,12 @@ __all__ = ["Page", "make_page"]
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """What a page says.
+    """The content of a page.
 
     Attributes
     ----------
     verdict, meaning : str
-        Over all gates.
+        Over all gates; no verdict where nothing was judged.
     counts : list of (str, int)
         How many cases ended with each verdict, worst first.
     summary : str
@@ -59,7 +59,7 @@ class Page:
         return [plot for section in self.plots.values() for plot in section]
 
 
-#: What the verdict over all gates means to somebody who sees it for the first time.
+#: The verdict over all gates in words, for a reader who sees it for the first time.
 _MEANINGS = {
     Verdict.ERROR: "Something could not be judged: a value, a row or a case is missing, or no gate was evaluated.",
     Verdict.FAIL: "At least one gate fails: an error is outside its limits, whatever the uncertainties.",
@@ -80,10 +80,13 @@ def make_page(stored: Stored) -> Page:
     """
     specs = stored.record["arguments"]["external"]
     curves = plots.curves(stored)
-    made = [
+    of_verdicts = [
         verdict_tables.matrix(stored),
         verdict_tables.offenders(stored, specs),
         verdict_tables.all_verdicts(stored),
+    ]
+    made = [
+        *(of_verdicts if stored.judged else ()),
         number_tables.kappa(stored),
         number_tables.largest(stored),
         *(number_tables.curve_points(stored, plot.table, (plot.x_label, plot.y_label)) for plot in curves),
@@ -98,9 +101,10 @@ def make_page(stored: Stored) -> Page:
         "convergence": plots.convergence(stored),
     }
     drawn = {name for section in sections.values() for plot in section for name in plot.models}
+    verdict = roll_up(stored.verdicts["verdict"])
     return Page(
-        verdict=str(roll_up(stored.verdicts["verdict"])),
-        meaning=_MEANINGS[roll_up(stored.verdicts["verdict"])],
+        verdict=str(verdict) if stored.judged else "",
+        meaning=_MEANINGS[verdict] if stored.judged else "Nothing was judged: these are results without gates.",
         counts=_counts(stored),
         summary=_summary(stored),
         tables=tables,
@@ -117,30 +121,36 @@ def _counts(stored: Stored) -> list[tuple[str, int]]:
 
 
 def _summary(stored: Stored) -> str:
-    gates = stored.verdicts[["gate", "candidate"]].drop_duplicates()
+    rows = stored.record["rows"]["all"]
+    if not stored.judged:
+        names = sorted({*stored.results["model"], *stored.curves["model"]})
+        return f"The folder holds {rows} computations. Models: {', '.join(names) or 'none'}."
     models = stored.record["arguments"]["model"]
-    candidates = ", ".join(models if models is not None else sorted(set(gates["candidate"])))
-    asked = f"The {stored.record['arguments']['tier']} tier asked {stored.record['rows']['all']} questions."
-    if gates.empty:
-        return f"{asked} No gate was evaluated, which is an error and not a pass. Candidates: {candidates or 'none'}."
-    return (
-        f"{asked} {len(gates)} gates were judged in {len(stored.verdicts)} cases. Candidates: {candidates or 'none'}."
-    )
+    candidates = ", ".join(models if models is not None else sorted(set(stored.summary["candidate"]))) or "none"
+    size = f"The {stored.record['arguments']['tier']} tier has {rows} computations."
+    if stored.summary.empty:
+        return f"{size} No gate was evaluated, which is an error and not a pass. Candidates: {candidates}."
+    gates = f"{len(stored.summary)} gates were judged in {len(stored.verdicts)} cases."
+    return f"{size} {gates} Candidates: {candidates}."
 
 
 def _files(stored: Stored, tables: dict[str, Table]) -> dict[str, str]:
     """Return the CSV files of the folder, digit for digit, and the shorter tables as LaTeX."""
-    caption = "Verdicts of fscm-bench, worst first, each in its worst case"
-    return {
-        "verdicts.csv": csv_text(stored.verdicts),
+    files = {
         "kappa.csv": csv_text(stored.kappa),
         "largest_kappa.csv": csv_text(stored.largest),
         "curves.csv": csv_text(stored.curves.drop(columns="seconds")),
         "results.csv": csv_text(stored.results.drop(columns="seconds")),
-        "verdicts.tex": latex(worst_cases(stored.verdicts), caption),
-        "offenders.tex": table_tex(tables["offenders"]),
         "largest_kappa.tex": table_tex(tables["largest"]),
     }
+    if stored.judged:
+        caption = "Verdicts of fscm-bench, worst first, each in its worst case"
+        files |= {
+            "verdicts.csv": csv_text(stored.verdicts),
+            "verdicts.tex": latex(worst_cases(stored.summary), caption),
+            "offenders.tex": table_tex(tables["offenders"]),
+        }
+    return files
 
 
 def _provenance(stored: Stored) -> list[tuple[str, str]]:
@@ -159,7 +169,7 @@ def _provenance(stored: Stored) -> list[tuple[str, str]]:
         ("work tree", dirty),
         ("SHA-256 of the code", package["code_sha256"]),
         ("SHA-256 of the cases", record["cases_sha256"]),
-        ("SHA-256 of the gates", record["gates_sha256"]),
+        *([("SHA-256 of the gates", record["gates_sha256"])] if stored.judged else []),
         ("Python", record["python"]),
         ("dependencies", _pairs(record["dependencies"])),
         ("system", machine["system"]),
@@ -173,7 +183,7 @@ def _provenance(stored: Stored) -> list[tuple[str, str]]:
         again = record["judged_again"]
         facts.append(("judged again", f"by {again['gates']}, SHA-256 {again['gates_sha256']}"))
     then, now = record["verdicts"], {"all": str(roll_up(stored.verdicts["verdict"])), **dict(_counts(stored))}
-    if then != now:
+    if stored.judged and then != now:
         facts.append(("judged again", f"yes; at the end of the run the verdicts were {_pairs(then)}"))
     return facts
 

@@ -1,4 +1,4 @@
-"""A plot as the page draws it: axes, choices, and series of stored numbers."""
+"""Plots of the page: axes, choices, and series of stored numbers."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any, cast
 
 import pandas as pd
 
-from comparisons.output.verdicts import parameter_text
+from comparisons.numerics.number_text import exact
 
 __all__ = ["Control", "Plot", "Series", "grouped", "key", "options"]
 
@@ -24,14 +24,14 @@ class Control:
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """The points of one model under one choice; `low` and `high` bound a band, `says` is read off a point."""
+    """The points of one model under one choice; `low` and `high` bound a band, `hover` is shown at a point."""
 
     group: str
     model: str
     label: str
     x: list[float]
     y: list[float]
-    says: list[str]
+    hover: list[str]
     low: list[float] | None = None
     high: list[float] | None = None
 
@@ -68,13 +68,13 @@ class Plot:
 
 
 def key(*parts: str | float) -> str:
-    """Return the choice that several options make: what the script of the page model_styles for."""
-    return "|".join(part if isinstance(part, str) else parameter_text(part) for part in parts)
+    """Return the choice that several options make: the key by which the script of the page finds its series."""
+    return "|".join(part if isinstance(part, str) else exact(part) for part in parts)
 
 
 def options(values: Iterable[float]) -> tuple[tuple[str, str], ...]:
     """Return numbers as options of a control, each once, sorted."""
-    return tuple((parameter_text(value), parameter_text(value)) for value in sorted(set(values)))
+    return tuple((exact(value), exact(value)) for value in sorted(set(values)))
 
 
 def grouped(table: pd.DataFrame, names: list[str]) -> Iterator[tuple[tuple[Any, ...], pd.DataFrame]]:

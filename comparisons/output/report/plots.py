@@ -1,4 +1,4 @@
-"""What the plots of a page draw: series of stored numbers, and the choices by which they are shown."""
+"""The plots of a page: series of stored numbers, and the choices by which they are shown."""
 
 from __future__ import annotations
 
@@ -7,18 +7,14 @@ import math
 import numpy as np
 import pandas as pd
 
+from comparisons.numerics.number_text import case_text, exact, percent_text
+from comparisons.output.figures.curves import tension_view
 from comparisons.output.report.plot import Control, Plot, Series, grouped, key, options
 from comparisons.output.report.stored_run import Stored
-from comparisons.output.report.table import kappa_cell, words
-from comparisons.output.verdicts import parameter_text
+from comparisons.output.style import model_styles
+from comparisons.quantities import ALL_QUANTITIES, CURVES, Kind, title_of
 
 __all__ = ["convergence", "curve_group", "curves", "kappa", "kappa_group"]
-
-# Where the load is below this share of the pull-off force, a curve approaches the axis and ends the first view.
-_FAINT = 0.02
-
-#: The model whose curve is drawn below the others.
-_REFERENCE = "fscm"
 
 
 def kappa_group(row: pd.Series) -> str:
@@ -43,8 +39,8 @@ def kappa(stored: Stored) -> Plot:
                 label=model if math.isnan(nu) else f"{model}, ν = {nu:g}",
                 x=rows["mu"].tolist(),
                 y=percent.tolist(),
-                says=[
-                    f"μ = {parameter_text(mu)}, κ = {kappa_cell(value, u).text} %"
+                hover=[
+                    f"μ = {exact(mu)}, κ = {percent_text(value, u)} %"
                     for mu, value, u in zip(rows["mu"], rows["kappa"], rows["u_kappa"], strict=True)
                 ],
                 low=(percent - band).tolist(),
@@ -53,7 +49,7 @@ def kappa(stored: Stored) -> Plot:
         )
     pairs = table[["quantity", "reference"]].drop_duplicates().sort_values(["quantity", "reference"])
     controls = (
-        Control("quantity", tuple((q, words(q)) for q in dict.fromkeys(pairs["quantity"]))),
+        Control("quantity", tuple((q, title_of(q)) for q in dict.fromkeys(pairs["quantity"]))),
         Control("reference", tuple((r, r) for r in dict.fromkeys(pairs["reference"]))),
         Control("shape index n", options(table["n"]), first="2"),
         Control("gradient exponent k", options(table["k"])),
@@ -79,43 +75,12 @@ def curve_group(row: pd.Series) -> str:
     return key(*(row[name] for name in ("n", "k", "mu")))
 
 
-#: Quantity -> (title, symbol on x, symbol on y, label of x, label of y, caption).
-_CURVES = {
-    "force_curve": (
-        "Force-displacement curves",
-        "δ",
-        "P",
-        "displacement δ / z₀",
-        "load P / (π Q^(2/n) Δγ z₀^(2/n−1))",
-        "The whole equilibrium path, its unstable part included, from far away (left) into contact. A machine that "
-        "controls the displacement jumps where the path turns back. Tension is negative.",
-    ),
-    "pull_off_pressure": (
-        "Pressure under the punch at pull-off",
-        "r",
-        "p",
-        "radius r / (Q z₀)^(1/n)",
-        "pressure p z₀ / Δγ",
-        "The pressure where the load is smallest, out to a gap of 10 z₀; tension is negative.",
-    ),
-    "pull_off_gap": (
-        "Gap under the punch at pull-off",
-        "r",
-        "H",
-        "radius r / (Q z₀)^(1/n)",
-        "gap H / z₀",
-        "The gap where the load is smallest, out to 10 z₀. Zero is the equilibrium distance of two flat surfaces, "
-        "where the pressure is zero.",
-    ),
-}
-
-
 def curves(stored: Stored) -> list[Plot]:
     """One plot a kind of curve that is stored."""
     usable = stored.curves[stored.curves["status"] == "ok"].sort_values("point", kind="stable")
     plots = []
-    for quantity, (title, x_symbol, y_symbol, x_label, y_label, caption) in _CURVES.items():
-        chosen = usable[usable["quantity"] == quantity]
+    for row in CURVES.values():
+        chosen = usable[usable["quantity"] == row.name]
         if chosen.empty:
             continue
         series = [
@@ -125,49 +90,46 @@ def curves(stored: Stored) -> list[Plot]:
                 label=model if math.isnan(nu) else f"{model}, ν = {nu:g}",
                 x=rows["x"].tolist(),
                 y=rows["y"].tolist(),
-                says=[f"{x_symbol} = {x:.6g}, {y_symbol} = {y:.6g}" for x, y in zip(rows["x"], rows["y"], strict=True)],
+                hover=[
+                    f"{row.x.symbol} = {x:.6g}, {row.y.symbol} = {y:.6g}"
+                    for x, y in zip(rows["x"], rows["y"], strict=True)
+                ],
             )
             for (model, n, k, mu, nu), rows in grouped(chosen, ["model", "n", "k", "mu", "nu"])
         ]
-        # The reference lies below: where the others are right, they cover it with their dashes.
-        series.sort(key=lambda one: one.model != _REFERENCE)
+        # The broad line lies below: where the others are right, they cover it with their dashes.
+        styles = model_styles(one.model for one in series)
+        series.sort(key=lambda one: not styles[one.model].broad)
         cases = chosen[["n", "k", "mu"]].drop_duplicates().sort_values(["n", "k", "mu"])
         choices = tuple(
-            (key(n, k, mu), f"n = {n:g}, k = {k:g}, μ = {mu:g}") for n, k, mu in cases.itertuples(index=False)
+            (key(n, k, mu), case_text({"n": n, "k": k, "μ": mu})) for n, k, mu in cases.itertuples(index=False)
         )
-        views = {case: _view([s for s in series if s.group == case]) for case, _ in choices}
+        views = {
+            case: view
+            for case, _ in choices
+            if row.kind is Kind.CURVE and (view := tension_view((s.x, s.y) for s in series if s.group == case))
+        }
         plots.append(
             Plot(
-                id=f"plot-{quantity.replace('_', '-')}",
-                title=title,
-                x_label=x_label,
-                y_label=y_label,
+                id=f"plot-{row.name.replace('_', '-')}",
+                title=row.title.capitalize(),
+                x_label=row.x.label,
+                y_label=row.y.label,
                 x_scale="linear",
                 y_scale="linear",
                 mark="line",
                 controls=(Control("case", choices),),
                 series=series,
-                table=quantity,
-                caption=caption,
-                views={case: view for case, view in views.items() if view and quantity == "force_curve"},
+                table=row.name,
+                caption=row.caption,
+                views=views,
             )
         )
     return plots
 
 
-def _view(series: list[Series]) -> list[float] | None:
-    """Where the surfaces pull, and as much compression: some curves go on far beyond."""
-    deepest = min((min(one.y) for one in series), default=0.0)
-    if deepest >= 0.0:
-        return None
-    x, y = (np.concatenate([getattr(one, name) for one in series]) for name in ("x", "y"))
-    shown = x[(abs(y) > -_FAINT * deepest) & (y < -deepest)]
-    margin = 0.05 * float(np.ptp(shown))
-    return [float(shown.min()) - margin, float(shown.max()) + margin, 1.15 * deepest, -deepest]
-
-
 def convergence(stored: Stored) -> list[Plot]:
-    """How sure a discretisation is of its numbers, and how fast it was seen to converge, over its size."""
+    """Uncertainty and observed order of convergence of discretisations, over their size."""
     rows = stored.results[(stored.results["size"] > 0) & (stored.results["status"] == "ok")]
     of_value = _over_size(
         rows[rows["u_num"] > 0],
@@ -176,8 +138,8 @@ def convergence(stored: Stored) -> list[Plot]:
         title="Numerical uncertainty against size",
         y_label="u_num, in the unit of the quantity",
         y_scale="log",
-        caption="Each point is one number that a discretisation gave: what bounds its numerical error, against the "
-        "number of unknowns it took.",
+        caption="Each point is one number of a discretisation: the bound on its numerical error, against its "
+        "number of unknowns.",
     )
     of_order = _over_size(
         rows[rows["observed_order"].notna()],
@@ -186,7 +148,7 @@ def convergence(stored: Stored) -> list[Plot]:
         title="Observed order of convergence",
         y_label="observed order",
         y_scale="linear",
-        caption="The order of convergence that a model saw over the meshes of an answer, where it measured one.",
+        caption="The order of convergence that a model observed over its meshes, where it measured one.",
     )
     return [plot for plot in (of_value, of_order) if plot.series]
 
@@ -201,7 +163,7 @@ def _over_size(
             label=model,
             x=of_model["size"].tolist(),
             y=of_model[column].tolist(),
-            says=[
+            hover=[
                 f"n = {row['n']:g}, k = {row['k']:g}, μ = {row['mu']:g}: {row['size']:.0f} unknowns, "
                 f"u_num = {row['u_num']:.1e}"
                 + ("" if math.isnan(row["observed_order"]) else f", order {row['observed_order']:.2f}")
@@ -210,7 +172,7 @@ def _over_size(
         )
         for (quantity, model), of_model in grouped(rows, ["quantity", "model"])
     ]
-    choices = tuple((name, words(name)) for name in sorted(set(rows["quantity"]), key=_by_use))
+    choices = tuple((name, title_of(name)) for name in sorted(set(rows["quantity"]), key=_in_registry))
     return Plot(
         id=id,
         title=title,
@@ -226,6 +188,7 @@ def _over_size(
     )
 
 
-def _by_use(quantity: str) -> tuple[bool, str]:
-    """The pull-off force is what most people look for."""
-    return quantity != "pull_off_force", quantity
+def _in_registry(quantity: str) -> tuple[int, str]:
+    """The order of the registry; a quantity that is not in it comes last."""
+    names = list(ALL_QUANTITIES)
+    return names.index(quantity) if quantity in names else len(names), quantity

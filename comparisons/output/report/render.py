@@ -1,4 +1,4 @@
-"""From the model of a page to one HTML file that needs nothing from outside.
+"""One HTML file of a page, without any external resource.
 
 Everything that is text is escaped by Jinja2; what scripts read is JSON in which no character can end the
 script.  A content security policy then forbids every connection, and every script but those written here.
@@ -16,8 +16,8 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from comparisons.judging.decision import Verdict
-from comparisons.output.report.model_style import SYMBOLS, verdict_class
 from comparisons.output.report.page import Page
+from comparisons.output.style import VERDICT_SYMBOLS, verdict_class
 
 __all__ = ["render", "script_json"]
 
@@ -66,7 +66,7 @@ def render(page: Page) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.globals |= {"symbols": {str(name): symbol for name, symbol in SYMBOLS.items()}}
+    environment.globals |= {"symbols": {str(name): symbol for name, symbol in VERDICT_SYMBOLS.items()}}
     environment.filters |= {"verdict_class": verdict_class}
     scripts = [_script(files("bokeh").joinpath(name).read_text(encoding="utf-8")) for name in _BOKEH]
     scripts += [_script(_asset(name)) for name in ("tables.js", "plots.js")]
@@ -82,10 +82,11 @@ def render(page: Page) -> str:
                     "tables": {table.id: table.data() for table in page.tables.values() if table.long},
                     "plots": [plot.data() for plot in page.every_plot],
                     "model_styles": {
-                        name: [look.colour, look.dash, look.marker] for name, look in page.model_styles.items()
+                        name: [style.colour, style.dash, style.marker, style.broad]
+                        for name, style in page.model_styles.items()
                     },
                     "files": page.files,
-                    "symbols": {str(name): symbol for name, symbol in SYMBOLS.items()},
+                    "verdicts": {str(name): [VERDICT_SYMBOLS[name], verdict_class(name)] for name in Verdict},
                 }
             ),
         )
@@ -98,7 +99,7 @@ def _asset(name: str) -> str:
 
 
 def _script(text: str) -> Markup:
-    """A script as it stands in the page; a link to a map of its source would be asked for over the network."""
+    """A script as it stands in the page; a browser would fetch a link to a map of its source over the network."""
     # HTML reads a carriage return as a line's end, and the hash of the script would then be another.
     lines = [line for line in text.replace("\r", "").split("\n") if not line.startswith("//# sourceMappingURL")]
     return Markup("\n".join(lines).replace("</script", "<\\/script"))

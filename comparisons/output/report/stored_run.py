@@ -1,4 +1,4 @@
-"""What a run folder holds, read back and checked once; everything after this may rely on it."""
+"""The content of a run folder, read back and checked once."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Any
 
 import pandas as pd
 
+from comparisons.data.file_names import CURVES, KAPPA, LARGEST_KAPPA, RESULTS, SUMMARY, VERDICTS
 from comparisons.judging.decision import Verdict
 from comparisons.judging.judge import Judged
 from comparisons.output.verdicts import GATE_COLUMNS
@@ -27,14 +28,18 @@ _LARGEST = ("quantity", "model", "n", "k", "cases", "mu", "at_end", "kappa", "u_
 
 #: Table -> its columns.
 _TABLES: dict[str, Sequence[str]] = {
-    "results": COLUMNS.names,
-    "curves": CURVE_COLUMNS.names,
-    "verdicts": Judged.__slots__,
-    "kappa": _KAPPA,
-    "largest_kappa": _LARGEST,
+    RESULTS: COLUMNS.names,
+    CURVES: CURVE_COLUMNS.names,
+    KAPPA: _KAPPA,
+}
+#: Tables of what is judged, which a sweep does not have.
+_JUDGED: dict[str, Sequence[str]] = {
+    VERDICTS: Judged.__slots__,
+    SUMMARY: (*Judged.__slots__, "cases", "skipped"),
+    LARGEST_KAPPA: _LARGEST,
 }
 
-#: Columns of text, or of truth; every other one holds numbers.
+#: Columns of texts, and of yes or no; every other one holds numbers.
 _WORDS = {
     "model",
     "model_version",
@@ -53,46 +58,64 @@ _WORDS = {
 
 @dataclass(frozen=True, slots=True)
 class Stored:
-    """The record and the tables of a run, as `comparisons.pipeline.run` wrote them.
+    """The record and the tables of a run or of a sweep.
 
-    `gates` is None in a folder that was judged before gates were stored beside the verdicts.
+    Of a sweep nothing is judged: `judged` is false, and `verdicts`, `summary` and `largest` have no rows.  `gates` is
+    None there, and in a folder that was judged before gates were stored beside the verdicts.
     """
 
     record: dict[str, Any]
     results: pd.DataFrame
     curves: pd.DataFrame
-    verdicts: pd.DataFrame
     kappa: pd.DataFrame
+    verdicts: pd.DataFrame
+    summary: pd.DataFrame
     largest: pd.DataFrame
     gates: pd.DataFrame | None
+    judged: bool = True
 
 
 def read_folder(folder: Path) -> Stored:
-    """Read the folder of a finished run.
+    """Read the folder of a finished run or sweep.
 
     Raises
     ------
     ValueError
-        If there is no finished run, or a file of it is broken or was changed; one sentence says which and how.
+        If there is neither, or a file of it is broken or was changed; one sentence says which and how.
     """
     files = RunFolder(folder)
     record = read_record(files.record)
     check_files(record, folder)
     warn_of_other_code(record, folder)
     tables = {name: _table(folder / f"{name}.parquet", columns) for name, columns in _TABLES.items()}
+    judged = _has(folder, record, VERDICTS) or _has(folder, record, SUMMARY)
+    tables |= {
+        name: _table(folder / f"{name}.parquet", columns)
+        if judged or _has(folder, record, name)
+        else pd.DataFrame(columns=list(columns))
+        for name, columns in _JUDGED.items()
+    }
     gates = files.parquet(files.gates)
-    unknown = sorted(set(tables["verdicts"]["verdict"]) - {str(verdict) for verdict in Verdict})
-    if unknown:
-        raise ValueError(f"{files.parquet(files.verdicts)} has the unknown verdict {unknown[0]!r}")
+    for name in (VERDICTS, SUMMARY):
+        unknown = sorted(set(tables[name]["verdict"]) - {str(verdict) for verdict in Verdict})
+        if unknown:
+            raise ValueError(f"{folder / f'{name}.parquet'} has the unknown verdict {unknown[0]!r}")
     return Stored(
         record,
-        tables["results"],
-        tables["curves"],
-        tables["verdicts"],
-        tables["kappa"],
-        tables["largest_kappa"],
+        tables[RESULTS],
+        tables[CURVES],
+        tables[KAPPA],
+        tables[VERDICTS],
+        tables[SUMMARY],
+        tables[LARGEST_KAPPA],
         _table(gates, GATE_COLUMNS, words=set(GATE_COLUMNS)) if gates.exists() else None,
+        judged,
     )
+
+
+def _has(folder: Path, record: dict[str, Any], name: str) -> bool:
+    """Whether a folder has a table, or lost it: the record lists it, and its reader refuses the folder."""
+    return (folder / f"{name}.parquet").exists() or f"{name}.parquet" in record["files"]
 
 
 def _table(path: Path, columns: Sequence[str], words: set[str] = _WORDS) -> pd.DataFrame:

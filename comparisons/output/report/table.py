@@ -1,4 +1,4 @@
-"""A table as the page shows it: texts, the stored numbers behind them, and what can be downloaded."""
+"""Tables of the page: texts, the stored numbers behind them, and the files that hold them."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from typing import Any
 
 import pandas as pd
 
+from comparisons.numerics.number_text import exact, percent_text, value_text
 from comparisons.output.latex import latex
-from comparisons.output.verdicts import parameter_text, value_text
 
 __all__ = [
     "CASE",
@@ -26,22 +26,18 @@ __all__ = [
     "table_tex",
     "value",
     "without_empty",
-    "words",
 ]
 
 #: Tables with more rows are handed over as data and laid out when they are opened: a page of a hundred
 #: thousand cells is slow on a phone.
 _LONG = 250
 
-#: kappa is shown to this digit in percent, or to the digit its uncertainty leaves it.
-_LEAST_PERCENT = 5e-5
-
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """What is read, and the stored number it stands for (None for words).
+    """The text of a cell, and the stored number behind it (None for words).
 
-    `marks` draws small squares above the text: one (verdict, label) each.  `more` is said in small print below.
+    `marks` draws small squares above the text: one (verdict, label) each.  `more` is small print below.
     """
 
     text: str
@@ -110,20 +106,6 @@ def without_empty(table: Table) -> Table:
     )
 
 
-def words(quantity: str) -> str:
-    """Return the name of a quantity as it is written in a sentence.
-
-    Examples
-    --------
-    >>> words("pull_off_force"), words("hysteresis_energy")
-    ('pull-off force', 'hysteresis energy')
-    """
-    name = quantity.replace("_", " ")
-    for pair in ("pull off", "jump in", "jump out", "zero load", "force curve"):
-        name = name.replace(pair, pair.replace(" ", "-"))
-    return name.replace("force-curve", "force-displacement curve")
-
-
 #: The parameters of a case.
 CASE = ("n", "k", "mu", "nu")
 CASE_COLUMNS = tuple(Column(label, "number") for label in ("n", "k", "μ", "ν"))
@@ -142,7 +124,7 @@ def parameter(number: float) -> Cell:
     >>> parameter(0.4).text, parameter(float("nan")).text
     ('0.4', '')
     """
-    return Cell("") if pd.isna(number) else Cell(parameter_text(number), float(number))
+    return Cell("") if pd.isna(number) else Cell(exact(number), float(number))
 
 
 def value(number: float, u: float) -> Cell:
@@ -173,7 +155,7 @@ def kappa_cell(kappa: float, u_kappa: float) -> Cell:
     >>> kappa_cell(0.066931234, 1e-9)
     Cell(text='6.69312(5)', value=0.066931234, marks=(), more='')
     """
-    return Cell(value_text(100 * kappa, max(100 * u_kappa, _LEAST_PERCENT)), float(kappa))
+    return Cell(percent_text(kappa, u_kappa), float(kappa))
 
 
 def table_tex(table: Table) -> str:

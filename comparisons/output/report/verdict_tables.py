@@ -10,8 +10,8 @@ import pandas as pd
 
 from comparisons.judging.decision import Verdict
 from comparisons.judging.gates import METRICS
-from comparisons.judging.summary import summarise, worst_first
-from comparisons.numerics.number_text import exact, limits_text
+from comparisons.judging.summary import worst_first
+from comparisons.numerics.number_text import case_text, error_text, exact, limits_text
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.report.table import (
     CASE,
@@ -24,14 +24,14 @@ from comparisons.output.report.table import (
     number,
     value,
     without_empty,
-    words,
 )
-from comparisons.output.verdicts import command, error_text
+from comparisons.output.verdicts import command
+from comparisons.quantities import title_of
 
 __all__ = ["all_verdicts", "matrix", "offenders"]
 
-#: So many rows are shown where fewer than that do not pass, so that a clean run still tells what is nearest
-#: to its limits; and no more than the second, because the table of every verdict has the rest.
+#: So many rows are shown where fewer than that do not pass, so that a clean run still shows what is nearest
+#: to its limits; and at most the second, because the table of every verdict has the rest.
 _AT_LEAST, _AT_MOST = 12, 60
 
 _NUMBERS = (
@@ -44,12 +44,13 @@ _NUMBERS = (
 
 
 def _case_label(row: pd.Series) -> str:
-    given = [f"{name} = {row[name]:g}" for name in CASE if pd.notna(row[name])]
-    return ", ".join(given) or "the gate as a whole"
+    return case_text({name: row[name] for name in CASE}) or "the gate as a whole"
 
 
 def _error(row: pd.Series) -> Cell:
-    return Cell("") if pd.isna(row["error"]) else Cell(error_text(row), float(row["error"]))
+    return (
+        Cell("") if pd.isna(row["error"]) else Cell(error_text(row["error"], row["uncertainty"]), float(row["error"]))
+    )
 
 
 def _numbers(row: pd.Series) -> tuple[Cell, ...]:
@@ -71,13 +72,12 @@ def _limits(row: pd.Series) -> Cell:
 
 def matrix(stored: Stored) -> Table:
     """Return one row a gate and candidate, worst first, with a mark for each case."""
-    judged = stored.verdicts
     facts: dict[Any, dict[Any, Any]] = (
         {} if stored.gates is None else stored.gates.drop_duplicates("id").set_index("id").to_dict("index")
     )
-    cases = dict(list(judged.groupby(["gate", "candidate"])))
+    cases = dict(list(stored.verdicts.groupby(["gate", "candidate"])))
     rows = []
-    for _, gate in summarise(judged).iterrows():
+    for _, gate in stored.summary.iterrows():
         fact = facts.get(gate["gate"], {})
         of_gate = cases[gate["gate"], gate["candidate"]]
         marks = tuple(
@@ -132,7 +132,7 @@ def offenders(stored: Stored, specs: Mapping[str, str]) -> Table:
                 _verdict(row),
                 Cell(row["gate"], more=row["reason"] or ""),
                 Cell(row["candidate"]),
-                Cell(words(row["quantity"])),
+                Cell(title_of(row["quantity"])),
                 *case_cells(row),
                 *_numbers(row),
                 Cell(command(row, specs)),
@@ -174,7 +174,7 @@ def all_verdicts(stored: Stored) -> Table:
                 Cell(row["gate"]),
                 Cell(row["candidate"]),
                 Cell(row["reference"]),
-                Cell(words(row["quantity"])),
+                Cell(title_of(row["quantity"])),
                 *case_cells(row),
                 *_numbers(row),
                 Cell(row["reason"] or ""),

@@ -1,1 +1,1 @@
-"""One module a figure of the paper."""
+"""Figures of the paper, one module each."""

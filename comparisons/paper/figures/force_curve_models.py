@@ -1,4 +1,4 @@
-"""Fig. 13: force-displacement curves of both Maugis-Dugdale models beside the FSCM's."""
+"""Fig. 13: force-displacement curves of both Maugis-Dugdale models and of the FSCM."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ def _tasks() -> Sequence[CachedCall]:
     return [_task(model, n) for model in MODEL_LINES for n in _SHAPES]
 
 
-def _tables(answers: Results) -> Tables:
+def _tables(results: Results) -> Tables:
     parts = []
     for n in _SHAPES:
         for model in MODEL_LINES:
-            found = answers[_task(model, n)]
+            found = results[_task(model, n)]
             shape = {"displacement": [np.nan], "load": [np.nan]} | {
                 name: found[name] for name in ("displacement", "load") if name in found
             }
@@ -79,4 +79,5 @@ FORCE_CURVE_MODELS = PaperFigure(
     tasks=_tasks,
     tables=_tables,
     draw=_draw,
+    follows_path=True,
 )

@@ -9,9 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.output.style import COLOURS, LINES, lettered, styled
-from comparisons.paper import tasks as answers
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.paper.tasks import curve
 
 __all__ = ["OVER_GRADIENTS", "OVER_TABOR_NUMBERS"]
 
@@ -34,13 +34,13 @@ _RANGES_6 = {0.5: ((-4.0, 1.5), (-2.15, 0.8)), 1.0: ((-4.0, 2.5), (-2.15, 0.8))}
 
 def _tasks(cases: Iterable[tuple[float, float, float]]) -> Sequence[CachedCall]:
     # The cone and large Tabor numbers take longest.
-    return [CachedCall.of(answers.curve, "fscm", *case) for case in sorted(cases, key=lambda case: (case[0], -case[2]))]
+    return [CachedCall.of(curve, "fscm", *case) for case in sorted(cases, key=lambda case: (case[0], -case[2]))]
 
 
-def _tables(cases: Iterable[tuple[float, float, float]], answered: Results) -> Tables:
+def _tables(cases: Iterable[tuple[float, float, float]], results: Results) -> Tables:
     parts = []
     for n, k, mu in cases:
-        found = answered[CachedCall.of(answers.curve, "fscm", n, k, mu)]
+        found = results[CachedCall.of(curve, "fscm", n, k, mu)]
         if found["status"] == "ok":
             points = {name: found[name] for name in ("displacement", "u_displacement", "load", "u_load")}
             parts.append(pd.DataFrame({"n": n, "k": k, "mu": mu, "status": "ok"} | points))
@@ -51,9 +51,9 @@ def _tables(cases: Iterable[tuple[float, float, float]], answered: Results) -> T
 
 def _family(axes: Axes, curves: pd.DataFrame, name: str, symbol: str, values: Sequence[float]) -> None:
     for index, value in enumerate(values):
-        curve = curves[curves[name] == value]
+        part = curves[curves[name] == value]
         label = f"{symbol} = {value:g}" + (" (Gibson)" if (name, value) == ("k", 1.0) else "")
-        axes.plot(curve["displacement"], curve["load"], color=COLOURS[index], ls=LINES[index], label=label)
+        axes.plot(part["displacement"], part["load"], color=COLOURS[index], ls=LINES[index], label=label)
     axes.axhline(0.0, color="0.4", lw=0.8)
 
 
@@ -98,8 +98,9 @@ OVER_TABOR_NUMBERS = PaperFigure(
     stem="fig04_force_curves_over_tabor_numbers",
     title="Force-displacement curves for k = 0.4 and four shapes, over the Tabor number",
     tasks=lambda: _tasks(_CASES_4),
-    tables=lambda answered: _tables(_CASES_4, answered),
+    tables=lambda results: _tables(_CASES_4, results),
     draw=_draw_4,
+    follows_path=True,
 )
 
 OVER_GRADIENTS = PaperFigure(
@@ -107,6 +108,7 @@ OVER_GRADIENTS = PaperFigure(
     stem="fig06_force_curves_over_gradients",
     title="Force-displacement curves for n = 2, mu = 0.5 and 1, over the gradient exponent",
     tasks=lambda: _tasks(_CASES_6),
-    tables=lambda answered: _tables(_CASES_6, answered),
+    tables=lambda results: _tables(_CASES_6, results),
     draw=_draw_6,
+    follows_path=True,
 )

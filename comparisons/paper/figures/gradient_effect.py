@@ -1,4 +1,4 @@
-"""Fig. 11: how much the gradient changes the JKR pull-off force at a given Tabor number (Eq. 58)."""
+"""Fig. 11: change of the JKR pull-off force by the gradient at one Tabor number (Eq. 58)."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ __all__ = ["GRADIENT_EFFECT", "chi", "insensitive_regions", "largest_chi"]
 _SHAPES = (1.0, 1.5, 2.0, 5.0)
 _GRADIENTS = np.linspace(0.0, 1.0, 101)
 _SHAPE_INDICES = np.unique(np.concatenate([np.linspace(0.9, 2.0, 111), np.linspace(2.0, 8.0, 121)]))
-#: Eq. 58 limited to this makes the two regions of Fig. 11(b).
+#: In the two regions of Fig. 11(b) the chi of Eq. 58 is below it.
 _LIMIT = 0.1
 #: Brackets of the four ends of the regions; chi_max - 0.1 changes its sign once in each.
 _BRACKETS = ((0.9, 1.0), (1.0, 1.2), (3.0, 4.0), (5.0, 8.0))
-#: Where the largest is searched: chi(k) has one maximum at most between neighbours.
+#: Gradient exponents of the search: between neighbours chi(k) has one maximum at most.
 _SEARCHED = np.linspace(0.0, 1.0, 21)
 #: Of the gradient exponent where chi is largest; chi is stationary there, or it is an end.
 _PLACE_TOLERANCE = 1e-9
@@ -59,10 +59,10 @@ def largest_chi(n: float, up_to: float = 1.0) -> tuple[float, float]:
     values = [chi(n, float(k)) for k in gradients]
     at = int(np.argmax(values))
     low, high = gradients[max(at - 1, 0)], gradients[min(at + 1, len(gradients) - 1)]
-    inside = minimize_scalar(
+    found = minimize_scalar(
         lambda k: -chi(n, float(k)), bounds=(low, high), method="bounded", options={"xatol": _PLACE_TOLERANCE}
     )
-    return max((values[at], float(gradients[at])), (-float(inside.fun), float(inside.x)))
+    return max((values[at], float(gradients[at])), (-float(found.fun), float(found.x)))
 
 
 def insensitive_regions(up_to: float = 1.0) -> list[float]:
@@ -94,11 +94,11 @@ def _tasks() -> Sequence[CachedCall]:
     ]
 
 
-def _tables(answers: Results) -> Tables:
-    parts = [pd.DataFrame({"n": n, "k": _GRADIENTS, "chi": answers[CachedCall.of(over_gradients, n)]}) for n in _SHAPES]
-    largest = pd.DataFrame(answers[CachedCall.of(over_shapes)], columns=["chi_max", "k_of_chi_max"])
+def _tables(results: Results) -> Tables:
+    parts = [pd.DataFrame({"n": n, "k": _GRADIENTS, "chi": results[CachedCall.of(over_gradients, n)]}) for n in _SHAPES]
+    largest = pd.DataFrame(results[CachedCall.of(over_shapes)], columns=["chi_max", "k_of_chi_max"])
     largest.insert(0, "n", _SHAPE_INDICES)
-    ends = answers[CachedCall.of(insensitive_regions)]
+    ends = results[CachedCall.of(insensitive_regions)]
     regions = pd.DataFrame({"limit": _LIMIT, "n_from": ends[::2], "n_to": ends[1::2]})
     return {"": pd.concat(parts, ignore_index=True), "largest": largest, "regions": regions}
 
@@ -116,7 +116,7 @@ def _draw(tables: Tables) -> Figure:
         right.plot(largest["n"], 100 * largest["chi_max"], color=COLOURS[0])
         right.axhline(100 * _LIMIT, color="0.4", lw=0.8, ls="--")
         ends = tables["regions"][["n_from", "n_to"]].to_numpy()
-        # The first region is too narrow for its words; they stand beside it.
+        # The first region is too narrow for its text, which stands beside it.
         for (low, high), place, align, then in zip(
             ends, ((1.3, 2.0), (4.8, 17.0)), ("left", "center"), ("\n", " "), strict=True
         ):

@@ -73,15 +73,15 @@ def _tasks() -> Sequence[CachedCall]:
     ]
 
 
-def _tables(answers: Results) -> Tables:
+def _tables(results: Results) -> Tables:
     # Where the two jumps part, then evenly.
-    first = answers[CachedCall.of(near_critical, _N, _K)]["jumps"][0]
-    computed = [first, *({"mu": mu} | answers[CachedCall.of(jumps, _N, _K, mu)] for mu in TABOR_NUMBERS)]
+    first = results[CachedCall.of(near_critical, _N, _K)]["jumps"][0]
+    computed = [first, *({"mu": mu} | results[CachedCall.of(jumps, _N, _K, mu)] for mu in TABOR_NUMBERS)]
     computed_columns = ["mu", *(f"{u}{name}" for name in _MODELS for u in ("", "u_"))]
     fscm = pd.DataFrame(computed)[computed_columns].sort_values("mu")
-    closed = pd.DataFrame(answers[CachedCall.of(asymptotes, _N, _K)])
+    closed = pd.DataFrame(results[CachedCall.of(asymptotes, _N, _K)])
     displacements = pd.concat([fscm.assign(model="fscm"), closed.assign(model="asymptote")], ignore_index=True)
-    constants = [pd.DataFrame(answers[CachedCall.of(coefficients, n)]).assign(n=n) for n in _SHAPES]
+    constants = [pd.DataFrame(results[CachedCall.of(coefficients, n)]).assign(n=n) for n in _SHAPES]
     return {
         "displacements": displacements[["model", *computed_columns]].assign(n=_N, k=_K),
         "coefficients": pd.concat(constants, ignore_index=True)[["n", "k", "C_in", "C_out"]],

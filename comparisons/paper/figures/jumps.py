@@ -82,12 +82,12 @@ def _tasks() -> Sequence[CachedCall]:
     return [CachedCall.of(near_critical, 2.0, k) for k in _GRADIENTS] + far
 
 
-def _tables(answers: Results) -> Tables:
+def _tables(results: Results) -> Tables:
     rows, critical = [], []
     for k in _GRADIENTS:
-        near = answers[CachedCall.of(near_critical, 2.0, k)]
+        near = results[CachedCall.of(near_critical, 2.0, k)]
         critical.append({"n": 2.0, "k": k, "mu": near["mu"], "u_mu": near["u_mu"]})
-        far = [{"mu": mu} | answers[CachedCall.of(jumps, 2.0, k, mu)] for mu in TABOR_NUMBERS]
+        far = [{"mu": mu} | results[CachedCall.of(jumps, 2.0, k, mu)] for mu in TABOR_NUMBERS]
         rows += [{"n": 2.0, "k": k} | row for row in [*near["jumps"], *far]]
     table = pd.DataFrame(rows).sort_values(["k", "mu"], ignore_index=True)
     return {"": table, "critical": pd.DataFrame(critical)}

@@ -1,4 +1,4 @@
-"""Fig. 2: the functions that take the singularity out of the integral equation."""
+"""Fig. 2: primitives of the ring response, which remove the singularity of the integral equation."""
 
 from __future__ import annotations
 
@@ -55,8 +55,8 @@ def _tasks() -> Sequence[CachedCall]:
     return [CachedCall.of(values, k) for k in _GRADIENTS]
 
 
-def _tables(answers: Results) -> Tables:
-    parts = [pd.DataFrame({"k": k, "s": _RATIOS} | answers[CachedCall.of(values, k)]).astype(float) for k in _GRADIENTS]
+def _tables(results: Results) -> Tables:
+    parts = [pd.DataFrame({"k": k, "s": _RATIOS} | results[CachedCall.of(values, k)]).astype(float) for k in _GRADIENTS]
     return {"": pd.concat(parts, ignore_index=True)}
 
 

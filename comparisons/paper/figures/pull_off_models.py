@@ -1,4 +1,4 @@
-"""Figs. 14-16: the pull-off force of both Maugis-Dugdale models against the Tabor number, beside the FSCM's."""
+"""Figs. 14-16: pull-off force of both Maugis-Dugdale models and of the FSCM over the Tabor number."""
 
 from __future__ import annotations
 
@@ -47,9 +47,9 @@ def _limits(name: str) -> Callable[[], Sequence[CachedCall]]:
     return lambda: [*_tasks(), *(_task(name, n, mu) for n in _SHAPES for mu in TABOR_NUMBERS)]
 
 
-def _forces(answers: Results, models: Sequence[str] = _MODELS) -> pd.DataFrame:
+def _forces(results: Results, models: Sequence[str] = _MODELS) -> pd.DataFrame:
     rows = [
-        {"n": n, "k": _K, "mu": mu, "model": model} | answers[_task(model, n, mu)]
+        {"n": n, "k": _K, "mu": mu, "model": model} | results[_task(model, n, mu)]
         for n in _SHAPES
         for model in models
         for mu in TABOR_NUMBERS
@@ -57,16 +57,16 @@ def _forces(answers: Results, models: Sequence[str] = _MODELS) -> pd.DataFrame:
     return pd.DataFrame(rows).astype({"value": float, "u_num": float})
 
 
-def _pull_off_tables(answers: Results) -> Tables:
-    forces = _forces(answers)
-    bounds = _forces(answers, ("bradley", "jkr"))
+def _pull_off_tables(results: Results) -> Tables:
+    forces = _forces(results)
+    bounds = _forces(results, ("bradley", "jkr"))
     return {"": pd.concat([forces, bounds], ignore_index=True)}
 
 
-def _scaled(answers: Results, limit: str) -> pd.DataFrame:
+def _scaled(results: Results, limit: str) -> pd.DataFrame:
     """Return the forces over that of a limiting model in the same case, with the uncertainty of the ratio."""
-    forces = _forces(answers)
-    scale = _forces(answers, (limit,)).set_index(["n", "mu"])
+    forces = _forces(results)
+    scale = _forces(results, (limit,)).set_index(["n", "mu"])
     by = scale.loc[pd.MultiIndex.from_frame(forces[["n", "mu"]])]
     size, u = by["value"].to_numpy(), by["u_num"].to_numpy()
     ratio = forces["value"] / size
@@ -75,8 +75,8 @@ def _scaled(answers: Results, limit: str) -> pd.DataFrame:
     )
 
 
-def _kappa(answers: Results) -> pd.DataFrame:
-    forces = _forces(answers).assign(quantity="pull_off_force", nu=np.nan)
+def _kappa(results: Results) -> pd.DataFrame:
+    forces = _forces(results).assign(quantity="pull_off_force", nu=np.nan)
     table = relative_error(forces, "fscm")
     return table[["quantity", "n", "k", "mu", "model", "kappa", "u_kappa"]]
 
@@ -125,10 +125,10 @@ def _draw_by_soft(tables: Tables) -> Figure:
         for index, (_, of_shape) in enumerate(tables[""].groupby("n")):
             for model, style in _STYLES.items():
                 part = of_shape[of_shape["model"] == model]
-                look = style | {"color": COLOURS[index]}
+                coloured = style | {"color": COLOURS[index]}
                 if model == "fscm":
-                    look["marker"] = MARKERS[index]
-                axes.plot(part["mu"], part["ratio"], **look)
+                    coloured["marker"] = MARKERS[index]
+                axes.plot(part["mu"], part["ratio"], **coloured)
         axes.axhline(1.0, color="0.55", lw=0.9, ls=":")
         axes.set(xscale="log", yscale="log", xlim=(0.008, 12.0), xlabel=_MU, ylabel=r"$P_c/P_c^{\mathrm{JKR}}$")
         _plain_ticks(axes)
@@ -143,10 +143,10 @@ def _draw_by_soft(tables: Tables) -> Figure:
 
 
 def _handles() -> list[Line2D]:
-    """What the legend of Fig. 16(a) shows: the colour and marker of each n, the line of each model."""
+    """Return the entries of the legend of Fig. 16(a): colour and marker of each n, line of each model."""
     colours = list(zip(_SHAPES, COLOURS, MARKERS, strict=False))
     shapes = [Line2D([], [], color=c, marker=m, ms=3.5, mfc="white", label=f"$n$ = {n:g}") for n, c, m in colours]
-    models = [Line2D([], [], label=MODEL_NAMES[name], **(look | {"color": "0.45"})) for name, look in _STYLES.items()]
+    models = [Line2D([], [], label=MODEL_NAMES[name], **(style | {"color": "0.45"})) for name, style in _STYLES.items()]
     return [*shapes, *models]
 
 
@@ -180,8 +180,8 @@ def _legend(figure: Figure) -> None:
     figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=5)
 
 
-def _soft_tables(answers: Results) -> Tables:
-    return {"": _scaled(answers, "jkr"), "kappa": _kappa(answers)}
+def _soft_tables(results: Results) -> Tables:
+    return {"": _scaled(results, "jkr"), "kappa": _kappa(results)}
 
 
 PULL_OFF = PaperFigure(
@@ -197,7 +197,7 @@ PULL_OFF_BY_RIGID_LIMIT = PaperFigure(
     stem="fig15_pull_off_by_rigid_limit",
     title="Pull-off force scaled by the rigid (Bradley) limit, k = 0.4",
     tasks=_limits("bradley"),
-    tables=lambda answers: {"": _scaled(answers, "bradley")},
+    tables=lambda results: {"": _scaled(results, "bradley")},
     draw=_draw_by_rigid,
 )
 PULL_OFF_BY_SOFT_LIMIT = PaperFigure(

@@ -88,22 +88,22 @@ def _gibson(problem: Problem) -> dict[str, Any]:
         "pressure": found.pressure[shown],
         "deformation": problem.compliance * found.pressure[shown],
     }
-    answer: dict[str, Any] = {"displacement": pull_off.value, "radius": found.radius[shown].tolist()}
+    columns: dict[str, Any] = {"displacement": pull_off.value, "radius": found.radius[shown].tolist()}
     for name, values in shapes.items():
         # Along the surface gap and pressure are exact functions of each other; only the radius carries an error.
         u = (1.0 + problem.compliance) * pull_off.u_num + FLOOR * (1.0 + np.abs(values))
-        answer |= {name: values.tolist(), f"u_{name}": u.tolist()}
-    return answer
+        columns |= {name: values.tolist(), f"u_{name}": u.tolist()}
+    return columns
 
 
 def _tasks(cases: Iterable[tuple[float, float, float]]) -> Sequence[CachedCall]:
     return [CachedCall.of(surface, *case) for case in sorted(cases, key=lambda case: -case[2])]
 
 
-def _tables(cases: Iterable[tuple[float, float, float]], answers: Results) -> Tables:
+def _tables(cases: Iterable[tuple[float, float, float]], results: Results) -> Tables:
     parts = []
     for n, k, mu in cases:
-        part = pd.DataFrame({"n": n, "k": k, "mu": mu} | answers[CachedCall.of(surface, n, k, mu)])
+        part = pd.DataFrame({"n": n, "k": k, "mu": mu} | results[CachedCall.of(surface, n, k, mu)])
         parts.append(part.assign(punch=part["radius"] ** n / n - part["displacement"]))
     return {"": pd.concat(parts, ignore_index=True)}
 
@@ -143,8 +143,9 @@ OVER_TABOR_NUMBERS = PaperFigure(
     stem="fig05_pull_off_over_tabor_numbers",
     title="Surface and pressure at pull-off for n = 2, k = 0.4, over the Tabor number",
     tasks=lambda: _tasks(_CASES_5),
-    tables=lambda answers: _tables(_CASES_5, answers),
+    tables=lambda results: _tables(_CASES_5, results),
     draw=lambda tables: _draw(tables, "mu", 5.0, (-0.2, 6.2)),
+    follows_path=True,
 )
 
 OVER_GRADIENTS = PaperFigure(
@@ -152,6 +153,7 @@ OVER_GRADIENTS = PaperFigure(
     stem="fig07_pull_off_over_gradients",
     title="Surface and pressure at pull-off for n = 2, mu = 1, over the gradient exponent",
     tasks=lambda: _tasks(_CASES_7),
-    tables=lambda answers: _tables(_CASES_7, answers),
+    tables=lambda results: _tables(_CASES_7, results),
     draw=lambda tables: _draw(tables, "k", 4.0, (-0.1, 2.0)),
+    follows_path=True,
 )

@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 
 from comparisons.models.solver import translated
 from comparisons.output.style import COLOURS, MODEL_NAMES, lettered, styled
-from comparisons.paper import tasks as answers
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.paper.tasks import curve, quantity
 from fscm import Analysis, NoSuchEvent, NotConverged
 from fscm.problem import Problem
 from fscm.solution import FLOOR, SAFETY, EventPair, State
@@ -21,17 +21,17 @@ from fscm.solution import FLOOR, SAFETY, EventPair, State
 __all__ = ["S_CURVE", "named_points"]
 
 _CASE = (2.0, 0.4, 3.0)
-_CURVE, _JKR = CachedCall.of(answers.curve, "fscm", *_CASE), CachedCall.of(answers.curve, "jkr", *_CASE)
-_ENERGY = CachedCall.of(answers.quantity, "fscm", "hysteresis_energy", *_CASE)
+_CURVE, _JKR = CachedCall.of(curve, "fscm", *_CASE), CachedCall.of(curve, "jkr", *_CASE)
+_ENERGY = CachedCall.of(quantity, "fscm", "hysteresis_energy", *_CASE)
 
 _COORDINATES: dict[str, Callable[[State], float]] = {
     "central_gap": lambda state: state.central_gap,
     "displacement": lambda state: state.displacement,
     "load": lambda state: state.load,
 }
-#: The points, and where their names stand beside them in (b), in points of the page.
+#: The points, and the offsets of their names in (b), in points of the page.
 _BESIDE = {"B'": (-3, 6), "A": (4, 5), "B": (-11, -9), "A'": (7, -3), "C": (-3, -12), "D": (-12, 3)}
-#: Shown of central gap and displacement: the approach goes on to the left of (b) and to the right of (a).
+#: Ranges of the axes: the approach continues to the left of (b) and to the right of (a).
 _GAPS, _DISPLACEMENTS, _LOADS = (-0.35, 6.0), (-7.2, 7.6), (-2.05, 0.55)
 #: In contact the central gap hardly moves; an inset shows it.
 _NEAR_GAPS, _NEAR_DISPLACEMENTS = (-0.024, 0.034), (-7.2, 9.0)
@@ -82,19 +82,19 @@ def _tasks() -> Sequence[CachedCall]:
     return [_CURVE, CachedCall.of(named_points, *_CASE), _ENERGY, _JKR]
 
 
-def _tables(answered: Results) -> Tables:
+def _tables(results: Results) -> Tables:
     parts = []
     for model, call in (("fscm", _CURVE), ("jkr", _JKR)):
-        found = answered[call]
+        found = results[call]
         columns = {name: found[name] for name in ("displacement", "u_displacement", "load", "u_load")}
         # The coordinate along the path, at which displacement and load are uncertain; JKR has none.
         gaps = {"central_gap": found["columns"].get("central_gap", np.nan)}
         parts.append(pd.DataFrame({"model": model} | gaps | columns))
-    points = pd.DataFrame.from_dict(answered[CachedCall.of(named_points, *_CASE)], orient="index").rename_axis("name")
+    points = pd.DataFrame.from_dict(results[CachedCall.of(named_points, *_CASE)], orient="index").rename_axis("name")
     return {
         "curves": pd.concat(parts, ignore_index=True),
         "points": points.reset_index(),
-        "hysteresis": pd.DataFrame([{"quantity": "hysteresis_energy"} | answered[_ENERGY]]),
+        "hysteresis": pd.DataFrame([{"quantity": "hysteresis_energy"} | results[_ENERGY]]),
     }
 
 
@@ -124,9 +124,9 @@ def _against_gap(
         shown.plot(path["central_gap"], path[name], color=COLOURS[0])
         shown.axhline(0.0, color="0.4", lw=0.8)
     near = (points["central_gap"] > _NEAR_GAPS[0]) & (points["central_gap"] < _NEAR_GAPS[1])
-    # Names stand on the convex side of the curve.
-    inside = (3, 4) if name == "displacement" else (6, -7)
-    for shown, some, beside in ((axes, points[~near], (3, 4)), (inset, points[near], inside)):
+    # The names are on the convex side of the curve.
+    in_inset = (3, 4) if name == "displacement" else (6, -7)
+    for shown, some, beside in ((axes, points[~near], (3, 4)), (inset, points[near], in_inset)):
         shown.plot(some["central_gap"], some[name], ls="none", marker="o", ms=3.5, color=COLOURS[2])
         for label, point in some.iterrows():
             where = point["central_gap"], point[name]
@@ -165,7 +165,7 @@ def _places(points: pd.DataFrame) -> dict[str, tuple[float, float]]:
 
 
 def _loop(path: pd.DataFrame, points: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
-    """Outline B'-A-A'-B-B' of what a cycle of displacement control loses."""
+    """Outline B'-A-A'-B-B' of the energy that a cycle of displacement control loses."""
     displacement, load = path["displacement"].to_numpy(), path["load"].to_numpy()
     falling = np.diff(displacement) < 0.0
     top, bottom = int(np.argmax(falling)), int(np.flatnonzero(falling)[-1]) + 1
@@ -190,4 +190,5 @@ S_CURVE = PaperFigure(
     tasks=_tasks,
     tables=_tables,
     draw=_draw,
+    follows_path=True,
 )

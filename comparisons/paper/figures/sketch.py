@@ -1,4 +1,4 @@
-"""Fig. 1: what is pressed on what, drawn; nothing is computed."""
+"""Fig. 1: sketch of the punch and the graded half-space, without computed data."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def _punch(r: np.ndarray) -> np.ndarray:
 
 
 def _surface(r: np.ndarray) -> np.ndarray:
-    """Height -w of the surface: on the punch in contact, falling from the pile-up outside."""
+    """Height -w of the surface: on the punch in contact, and beyond it falling from the pile-up."""
     rim = _punch(np.array(_CONTACT)) - _GAP
     beyond = np.maximum(np.abs(r) - _CONTACT, 0.0)
     height = np.where(beyond > 0.0, rim / (1.0 + beyond / _FALL) ** 1.5, _punch(r) - _GAP)
@@ -41,9 +41,9 @@ def _draw(tables: Tables) -> Figure:
     with styled():
         figure = Figure(figsize=(7.2, 4.9), layout="constrained")
         axes = figure.subplots()
-        inside = punch <= _HEIGHT
-        axes.fill_between(r[inside], punch[inside], _HEIGHT, color="#d9d9d9", lw=0)
-        axes.plot(r[inside], punch[inside], color=COLOURS[0])
+        drawn = punch <= _HEIGHT
+        axes.fill_between(r[drawn], punch[drawn], _HEIGHT, color="#d9d9d9", lw=0)
+        axes.plot(r[drawn], punch[drawn], color=COLOURS[0])
         shade = axes.imshow(
             np.linspace(0.0, 1.0, 128)[:, None],
             cmap=_SHADES,
@@ -101,6 +101,6 @@ SKETCH = PaperFigure(
     stem="fig01_sketch",
     title="A rigid punch on a power-law graded half-space",
     tasks=tuple,
-    tables=lambda answers: {},
+    tables=lambda results: {},
     draw=_draw,
 )

@@ -20,7 +20,7 @@ __all__ = ["SURFACE_LAWS"]
 _MARKED = (1.0, 1.5, 2.0, 5.0)
 _SHAPES = np.unique(np.concatenate([np.geomspace(0.7, 100.0, 200), _MARKED]))
 _GAPS = np.linspace(-0.08, 4.0, 409)
-#: The punch whose improved law is drawn.
+#: Shape index whose improved law is drawn.
 _DRAWN = 2.0
 
 
@@ -45,9 +45,9 @@ def dugdale(stress: float) -> pd.DataFrame:
     return pd.DataFrame({"gap": ends, "pressure": [0.0, -stress, -stress, 0.0, 0.0]})
 
 
-def _tables(answers: Results) -> Tables:
+def _tables(results: Results) -> Tables:
     limits = pd.DataFrame({"n": [math.inf], "eta": [eta(math.inf)]})
-    stress = pd.DataFrame({"n": _SHAPES, "eta": answers[CachedCall.of(stresses)]})
+    stress = pd.DataFrame({"n": _SHAPES, "eta": results[CachedCall.of(stresses)]})
     exact = pd.DataFrame({"gap": _GAPS, "pressure": LennardJones93().traction(_GAPS)})
     laws = {"fscm": exact, "md-original": dugdale(THEORETICAL_STRENGTH), "md-improved": dugdale(eta(_DRAWN))}
     parts = [law.assign(model=model)[["model", "gap", "pressure"]] for model, law in laws.items()]

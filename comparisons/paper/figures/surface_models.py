@@ -1,4 +1,4 @@
-"""Fig. 17: surface deformation and pressure at pull-off of both Maugis-Dugdale models beside the FSCM's."""
+"""Fig. 17: surface and pressure at pull-off of both Maugis-Dugdale models and of the FSCM."""
 
 from __future__ import annotations
 
@@ -63,13 +63,13 @@ def _tasks() -> Sequence[CachedCall]:
     return [_FSCM, _FSCM_DISPLACEMENT, *_MD.values()]
 
 
-def _tables(answers: Results) -> Tables:
-    shape = answers[_FSCM]
-    displacement = answers[_FSCM_DISPLACEMENT]
+def _tables(results: Results) -> Tables:
+    shape = results[_FSCM]
+    displacement = results[_FSCM_DISPLACEMENT]
     parts = [_surface("fscm", shape, displacement["value"], shape["u_distance"])]
     radii = []
     for model, call in _MD.items():
-        found = answers[call]
+        found = results[call]
         # The closed form is good to rounding.
         parts.append(_surface(model, found, found["displacement"], 0.0))
         radii.append({"model": model, "contact_radius": found["contact_radius"]})
@@ -139,4 +139,5 @@ SURFACE_MODELS = PaperFigure(
     tasks=_tasks,
     tables=_tables,
     draw=_draw,
+    follows_path=True,
 )

@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 from scipy.interpolate import CubicSpline
 
 from comparisons.output.style import COLOURS, LINES, MODEL_NAMES, lettered, styled
-from comparisons.paper import tasks as answers
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.paper.tasks import quantity
 
 __all__ = ["TRANSITION"]
 
@@ -47,16 +47,16 @@ def _cases() -> list[tuple[str, float, float, float]]:
 
 
 def _task(case: tuple[str, float, float, float]) -> CachedCall:
-    return CachedCall.of(answers.quantity, case[0], "pull_off_force", *case[1:])
+    return CachedCall.of(quantity, case[0], "pull_off_force", *case[1:])
 
 
 def _tasks() -> Sequence[CachedCall]:
     return [_task(case) for case in sorted(_cases(), key=lambda case: (case[1], -case[3]))]
 
 
-def _tables(answered: Results) -> Tables:
+def _tables(results: Results) -> Tables:
     rows = [
-        {"model": model, "n": n, "k": k, "mu": mu} | answered[_task((model, n, k, mu))] for model, n, k, mu in _cases()
+        {"model": model, "n": n, "k": k, "mu": mu} | results[_task((model, n, k, mu))] for model, n, k, mu in _cases()
     ]
     return {"": pd.DataFrame(rows).sort_values(["model", "n", "k", "mu"], ignore_index=True)}
 

@@ -1,4 +1,4 @@
-"""Ranges of the Tabor number in which a closed form is good to 1, 2, 5 %, and the rates at which jumps converge."""
+"""Ranges of the Tabor number with errors below 1, 2 and 5 %, and convergence rates of the jumps."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from comparisons.paper.studies.error_grid import CANDIDATES, all_cases, errors, 
 
 __all__ = ["ERROR_BANDS", "bands", "coefficients", "rates"]
 
-#: Errors that are asked for.
+#: Limits of the relative error.
 LIMITS = (0.01, 0.02, 0.05)
 
 #: Beyond the maps, for the rates: (n, k, mu).
@@ -30,7 +30,7 @@ _SHOWN = (1.0, 1.5, 2.0, 5.0)
 
 
 def _round(value: float) -> float:
-    """Two digits: linear interpolation between the computed Tabor numbers deserves no more."""
+    """Two digits: linear interpolation between the computed Tabor numbers is not more accurate."""
     return float(f"{value:.2g}")
 
 
@@ -54,8 +54,8 @@ def bands(table: pd.DataFrame) -> pd.DataFrame:
     DataFrame
         One row a range.  ``mu_from`` and ``mu_to`` are its ends with two digits, interpolated between the computed
         Tabor numbers ``from_below``, ``from_above`` and ``to_below``, ``to_above``.  Where the range begins or ends
-        with the computed ones both are equal: it may go on.  A row without numbers says that there is no range.
-        ``largest_kappa`` and ``at_mu`` belong to all computed Tabor numbers of the row's n and k.
+        with the computed ones both are equal: it may extend further.  A row without numbers
+        stands for no range.  ``largest_kappa`` and ``at_mu`` belong to all computed Tabor numbers of the row's n and k.
 
     Examples
     --------
@@ -82,7 +82,7 @@ def bands(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def _spans(points: list[tuple[float, float]], limit: float) -> list[dict[str, float]]:
-    """Ranges of mu within the limit; a sign change between two points outside is not taken for one."""
+    """Ranges of mu within the limit; a sign change between two points beyond the limit is not a range."""
     spans: list[dict[str, float]] = []
     first = points[0]
     start = {"mu_from": first[0], "from_below": first[0], "from_above": first[0]} if abs(first[1]) <= limit else None
@@ -133,7 +133,7 @@ def rates(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def coefficients(table: pd.DataFrame) -> pd.DataFrame:
-    """Return C_in of Eq. 48 beside (1 - delta_in) / mu^((2n+k-1)/(4n+k-1)) of the FSCM, which it is to be.
+    """Return C_in of Eq. 48 and (1 - delta_in) / mu^((2n+k-1)/(4n+k-1)) of the FSCM, which it approximates.
 
     Parameters
     ----------
@@ -149,8 +149,8 @@ def coefficients(table: pd.DataFrame) -> pd.DataFrame:
     Notes
     -----
     Without the repulsion, negligible at a jump-in from far, one gap H + 1 measured in mu^((2n+k-1)/(4n+k-1)) obeys one
-    equation for all mu.  The power of Eq. 47 is therefore exact, and the excess of its coefficient does not go to zero
-    as mu grows: at the fold the deformation is a fixed share of the gap, however soft the solid.
+    equation for all mu.  The power of Eq. 47 is therefore exact, and the excess of its coefficient does not vanish as
+    mu grows: at the fold the deformation is a fixed share of the gap.
     """
     rows = []
     found = table[(table["model"] == "semi-rigid") & table["fscm"].notna()]
@@ -169,10 +169,10 @@ def _tasks() -> Sequence[CachedCall]:
     return tasks(all_cases() + _SOFT)
 
 
-def _tables(answers: Results) -> Tables:
-    jumps = errors(answers, all_cases() + _SOFT, [name for name in CANDIDATES if name != "pull_off_force"])
+def _tables(results: Results) -> Tables:
+    jumps = errors(results, all_cases() + _SOFT, [name for name in CANDIDATES if name != "pull_off_force"])
     return {
-        "": bands(errors(answers, all_cases(), CANDIDATES)),
+        "": bands(errors(results, all_cases(), CANDIDATES)),
         "rates": rates(jumps),
         "jump_in_coefficients": coefficients(jumps),
         "jumps": jumps,
@@ -194,13 +194,13 @@ def _draw(tables: Tables) -> Figure:
     return figure
 
 
-def _curves(axes: Axes, table: pd.DataFrame, letter: str, words: str) -> None:
+def _curves(axes: Axes, table: pd.DataFrame, letter: str, title: str) -> None:
     for index, n in enumerate(_SHOWN):
         for k, line in ((0.0, LINES[0]), (0.4, LINES[1])):
             part = table[(table["n"] == n) & (table["k"] == k) & table["kappa"].notna()]
             style = {"color": COLOURS[index], "ls": line, "marker": MARKERS[index], "ms": 3.5, "lw": 1.0}
             axes.plot(part["mu"], 100.0 * part["kappa"].abs(), label=f"$n$ = {n:g}, $k$ = {k:g}", **style)
-    lettered(axes, letter, words)
+    lettered(axes, letter, title)
     axes.set(xscale="log", yscale="log", xlabel=r"Tabor number $\mu$")
     axes.set_ylabel(r"relative error of the displacement $|\kappa|$ (%)")
     axes.set_xticks([1, 2, 5, 10, 20], labels=["1", "2", "5", "10", "20"])

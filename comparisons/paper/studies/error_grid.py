@@ -1,7 +1,7 @@
 """Errors of the closed forms against the full self-consistent model over (n, mu) and (k, mu).
 
 The error is relative, kappa = (model - FSCM) / |FSCM|, also for the jumps: wherever a jump exists its displacement is
-beyond -z0, so nothing is divided by something small, and a share of what an experiment measures is what one asks for.
+beyond -z0, so no divisor is small, and an experiment measures this displacement.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ __all__ = [
     "tasks",
 ]
 
-#: What is judged, by quantity.  DMT has Bradley's pull-off force by the choice of its cohesive stress (Eq. 74).
+#: Closed forms, by quantity.  DMT has Bradley's pull-off force by the choice of its cohesive stress (Eq. 74).
 CANDIDATES = {
     "pull_off_force": ("md-improved", "md-original", "jkr", "bradley"),
     "jump_in_displacement": ("semi-rigid",),
@@ -73,7 +73,7 @@ def all_cases() -> list[Case]:
 
 
 def errors_at(n: float, k: float, mu: float) -> dict[str, dict[str, Any]]:
-    """Return by quantity what the FSCM and the closed forms answer, as `comparisons.paper.tasks.quantity` does.
+    """Return the results of the FSCM and the closed forms by quantity, each as of `comparisons.paper.tasks.quantity`.
 
     Examples
     --------
@@ -92,18 +92,18 @@ def tasks(cases: Iterable[Case]) -> Sequence[CachedCall]:
     return [CachedCall.of(errors_at, *case) for case in sorted(cases, key=lambda case: (-case[2], case[0], -case[1]))]
 
 
-def errors(answers: Results, cases: Iterable[Case], quantities: Iterable[str]) -> pd.DataFrame:
+def errors(results: Results, cases: Iterable[Case], quantities: Iterable[str]) -> pd.DataFrame:
     """Return one row a case, quantity and model.
 
     Returns
     -------
     DataFrame
         ``n``, ``k``, ``mu``, ``quantity``, ``model``; ``value``, ``u_num``, ``fscm``, ``u_fscm`` and ``kappa``,
-        ``u_kappa`` (its numerical uncertainty), NaN where one of the two has no answer; ``reason`` then says why.
+        ``u_kappa`` (its numerical uncertainty), NaN where one of the two has no value; ``reason`` then has the reason.
     """
     rows = []
     for case in cases:
-        found = answers[CachedCall.of(errors_at, *case)]
+        found = results[CachedCall.of(errors_at, *case)]
         for name in quantities:
             for model in CANDIDATES[name]:
                 key = {"n": case[0], "k": case[1], "mu": case[2], "quantity": name, "model": model}
@@ -151,7 +151,7 @@ def onset_calls(cases: Iterable[Case]) -> Sequence[CachedCall]:
     return [CachedCall.of(jump_onset, n, k) for n, k in sorted({(n, k) for n, k, _ in cases})]
 
 
-def onset_errors(answers: Results, cases: Iterable[Case], shown: Sequence[tuple[str, str]]) -> pd.DataFrame:
+def onset_errors(results: Results, cases: Iterable[Case], shown: Sequence[tuple[str, str]]) -> pd.DataFrame:
     """Return one row for each shape index, gradient exponent and (quantity, model) that is shown.
 
     Returns
@@ -161,7 +161,7 @@ def onset_errors(answers: Results, cases: Iterable[Case], shown: Sequence[tuple[
     """
     rows = []
     for call in onset_calls(cases):
-        onset = answers[call]
+        onset = results[call]
         for name, model in shown:
             key = {"n": call.arguments[0], "k": call.arguments[1], "mu": onset["mu"], "quantity": name, "model": model}
             found = onset["found"][name]

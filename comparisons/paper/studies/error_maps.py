@@ -69,19 +69,19 @@ def _jump_tasks() -> Sequence[CachedCall]:
     return [*onset_calls(cases), *tasks(cases)]
 
 
-def _shape_tables(answers: Results) -> Tables:
-    return {"": errors(answers, shape_cases(), ("pull_off_force",))}
+def _shape_tables(results: Results) -> Tables:
+    return {"": errors(results, shape_cases(), ("pull_off_force",))}
 
 
-def _gradient_tables(answers: Results) -> Tables:
-    return {"": errors(answers, gradient_cases(), ("pull_off_force",))}
+def _gradient_tables(results: Results) -> Tables:
+    return {"": errors(results, gradient_cases(), ("pull_off_force",))}
 
 
-def _jump_tables(answers: Results) -> Tables:
+def _jump_tables(results: Results) -> Tables:
     cases = dict.fromkeys(shape_cases() + gradient_cases())
-    table = errors(answers, cases, _JUMP_NAMES)
+    table = errors(results, cases, _JUMP_NAMES)
     shown = [table[(table["quantity"] == name) & (table["model"] == model)] for name, model, _ in _JUMPS]
-    onset = onset_errors(answers, cases, [(name, model) for name, model, _ in _JUMPS])
+    onset = onset_errors(results, cases, [(name, model) for name, model, _ in _JUMPS])
     return {"": pd.concat(shown, ignore_index=True), "onset": onset}
 
 
@@ -139,7 +139,7 @@ def _map(axes: Axes, table: pd.DataFrame, across: str, onset: pd.DataFrame | Non
         axes.contour(x, mu, kappa, levels=levels, colors="black", linewidths=0.8, linestyles=styles)
 
 
-def _finish(figure: Figure, words: str, more: str = "") -> None:
+def _finish(figure: Figure, name: str, more: str = "") -> None:
     """Add the scale, and the labels of the lines once the layout is known."""
     maps = list(figure.axes)
     colours = ScalarMappable(
@@ -150,7 +150,7 @@ def _finish(figure: Figure, words: str, more: str = "") -> None:
     )
     bar.set_ticks(list(_BANDS[:-1]), labels=[f"{band:g}" for band in _BANDS[:-1]])
     bar.set_label(
-        rf"$|\kappa|$ of the {words} (%); lines: $\kappa$, full where the model is above the FSCM, dashed below{more}"
+        rf"$|\kappa|$ of the {name} (%); lines: $\kappa$, full where the model is above the FSCM, dashed below{more}"
     )
     figure.draw_without_rendering()
     for axes in maps:

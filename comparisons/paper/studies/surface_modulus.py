@@ -1,6 +1,6 @@
-"""What a non-zero surface modulus does: E = E0 ((z + z_s) / c0)^k, by finite elements, which the paper leaves open.
+"""Effect of a non-zero surface modulus, E = E0 ((z + z_s) / c0)^k, by finite elements; the paper leaves it open.
 
-Held fixed are E0, c0, k, Poisson's ratio, the sphere (n = 2) and the surface law, so that only the modulus of the skin
+E0, c0, k, Poisson's ratio, the sphere (n = 2) and the surface law are fixed, so that only the modulus of the skin
 changes: it is E0 (z_s / c0)^k at the surface instead of zero, and hardly changes at depths z >> z_s.  The material is
 stated by mu, the Tabor number (Eq. 29) of the limit z_s = 0, and z_s is measured in the transverse length
 L = (Q z0)^(1/n) (Eq. 25).  Two limits are known from the integral equation, which shares no code with the elements:
@@ -10,7 +10,7 @@ L = (Q z0)^(1/n) (Eq. 25).  Two limits are known from the integral equation, whi
   mu_0(z_s), which falls as z_s^(-2k/3): a thick skin is a stiff solid, on the way to Bradley's.
 
 Uncertainties are those of three similar meshes, whose elements resolve z_s together with the contact edge; the exact
-exterior takes over at least 64 z_s below the surface, and the answers do not depend on where.
+exterior takes over at least 64 z_s below the surface, and the results do not depend on where.
 """
 
 from __future__ import annotations
@@ -39,16 +39,16 @@ _SERIES: dict[tuple[float, float], tuple[float, ...]] = {
     (0.4, 2.0): (1e-3, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0, 1000.0),
     (0.6, 1.0): (1e-3, 1e-2, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0, 1000.0),
 }
-#: The uniform limit is shown from here on; much below, its Tabor number has nothing to do with the solid.
+#: The uniform limit is shown from here on; far below, its Tabor number does not describe the solid.
 _THICK = 0.3
 
-#: Quantities that one family of meshes serves: those with the contact edge at one radius, the first deciding where.
+#: Quantities that share a family of meshes: their contact edge is at one radius, that of the first.
 _EVENTS = {
     "pull-off": ("pull_off_force", "pull_off_displacement"),
     "jump-out": ("jump_out_displacement", "jump_in_displacement", "jump_out_energy"),
     "landing": ("jump_in_energy",),
 }
-#: What is reported; the hysteresis is the sum of the losses of both jumps.
+#: Quantities of the tables; the hysteresis is the sum of the losses of both jumps.
 _REPORTED = (
     "pull_off_force",
     "pull_off_displacement",
@@ -57,7 +57,7 @@ _REPORTED = (
     "hysteresis_energy",
 )
 
-# As for the adapter of the finite elements: no scale is 1, or a wrong power of one would not show.
+# No scale is 1, so that a wrong power of one shows.
 _SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25}
 
 
@@ -100,7 +100,7 @@ def with_skin(event: str, k: float, mu: float, depth: float) -> dict[str, Any]:
     -------
     dict
         ``reason`` (empty, or why there is no such event) and by quantity ``[value, u_num]``, in the units of the
-        graded problem (Eqs. 25 and 31), which do not know z_s.
+        graded problem (Eqs. 25 and 31), which do not contain z_s.
 
     Raises
     ------
@@ -125,17 +125,17 @@ def with_skin(event: str, k: float, mu: float, depth: float) -> dict[str, Any]:
         )
     except fem_reference.NotConverged as failure:
         raise ComputationFailed(str(failure)) from failure
-    answer: dict[str, Any] = {"reason": ""}
+    by_quantity: dict[str, Any] = {"reason": ""}
     for name, solution in found.items():
         if isinstance(solution, fem_reference.NoSuchEvent):
             return {"reason": str(solution)}
         unit = graded.scales[_kind(name)]
-        answer[name] = [solution.value / unit, solution.u_num / unit]
-    return answer
+        by_quantity[name] = [solution.value / unit, solution.u_num / unit]
+    return by_quantity
 
 
 def _kind(name: str) -> str:
-    return QUANTITIES[name].kind if name in QUANTITIES else "energy"
+    return QUANTITIES[name].scale if name in QUANTITIES else "energy"
 
 
 def _reference(name: str, k: float, mu: float) -> CachedCall:
@@ -156,8 +156,8 @@ def _tasks() -> Sequence[CachedCall]:
     return elements + graded + uniform
 
 
-def _sample(answers: Results, k: float, mu: float, depth: float, name: str) -> Sample:
-    parts = {event: answers[CachedCall.of(with_skin, event, k, mu, depth)] for event in _EVENTS}
+def _sample(results: Results, k: float, mu: float, depth: float, name: str) -> Sample:
+    parts = {event: results[CachedCall.of(with_skin, event, k, mu, depth)] for event in _EVENTS}
     known = {key: value for part in parts.values() for key, value in part.items() if key != "reason"}
     pieces = ("jump_in_energy", "jump_out_energy") if name == "hysteresis_energy" else (name,)
     reason = (
@@ -171,18 +171,18 @@ def _sample(answers: Results, k: float, mu: float, depth: float, name: str) -> S
         quantity=name,
         elements=None if reason else (sum(known[p][0] for p in pieces), sum(known[p][1] for p in pieces)),
         reason=reason,
-        graded=_number(answers[_reference(name, k, mu)]),
-        homogeneous=_number(answers[_uniform(name, k, mu, depth)]) if depth >= _THICK else None,
+        graded=_number(results[_reference(name, k, mu)]),
+        homogeneous=_number(results[_uniform(name, k, mu, depth)]) if depth >= _THICK else None,
     )
 
 
-def _number(answer: dict[str, Any]) -> tuple[float, float] | None:
-    return (answer["value"], answer["u_num"]) if answer["status"] == "ok" else None
+def _number(found: dict[str, Any]) -> tuple[float, float] | None:
+    return (found["value"], found["u_num"]) if found["status"] == "ok" else None
 
 
-def _tables(answers: Results) -> Tables:
+def _tables(results: Results) -> Tables:
     found = [
-        _sample(answers, k, mu, depth, name)
+        _sample(results, k, mu, depth, name)
         for (k, mu), depths in _SERIES.items()
         for name in _REPORTED
         for depth in depths

@@ -1,4 +1,4 @@
-"""The picture of the study of the surface modulus."""
+"""Picture of the study of the surface modulus."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
     with styled():
         figure = Figure(figsize=(7.2, 6.0), layout="constrained")
         panels = figure.subplots(2, 2, sharex=True).flat
-        for letter, axes, (words, label, names) in zip("abcd", panels, _PANELS, strict=True):
-            lettered(axes, letter, words)
+        for letter, axes, (title, label, names) in zip("abcd", panels, _PANELS, strict=True):
+            lettered(axes, letter, title)
             for name in names:
                 _curves(axes, table[table["quantity"] == name], hollow=name == "jump_in_displacement")
             axes.set(ylabel=label, xscale="log")
         for axes in figure.axes[2:]:
             axes.set_xlabel(r"offset $z_s\,/\,(Qz_0)^{1/n}$")
-        # Solids as soft as the thinnest skins would fill the picture with what nobody asks.
+        # The displacements of the softest solids are far below those of interest.
         figure.axes[1].set(ylim=(-1.15, 0.05))
         figure.axes[2].set(ylim=(-3.4, -1.2))
         figure.axes[3].set(yscale="log")

@@ -1,4 +1,4 @@
-"""Tables of the study of the surface modulus: its values, the approach to both limits, and depths that matter."""
+"""Tables of the study of the surface modulus: values, approach to both limits, depths that change a quantity."""
 
 from __future__ import annotations
 
@@ -9,14 +9,16 @@ from itertools import groupby
 
 import pandas as pd
 
+from comparisons.numerics.bounds import combined
+
 __all__ = ["THRESHOLDS", "Sample", "limits", "samples", "thresholds"]
 
 Number = tuple[float, float]
 
-#: Relative changes whose depth is asked for.
+#: Relative changes of a quantity whose depth is tabulated.
 THRESHOLDS = (0.01, 0.05)
 
-#: Factor over which the law of thin skins is extrapolated.
+#: Greatest factor in the change over which the law of thin skins is extrapolated.
 STRETCH = 5.0
 
 
@@ -77,8 +79,8 @@ def _series(found: Iterable[Sample]) -> Iterable[list[Sample]]:
 def limits(found: Sequence[Sample]) -> pd.DataFrame:
     """Return how the finite elements approach the integral equation in both limits.
 
-    The two thinnest and the two thickest skins with an answer; `difference` is elements minus limit, `u_num` covers
-    both, `rate` is the observed exponent of its decay in z_s (negative) or 1 / z_s (positive), NaN in the first row
+    The two thinnest and the two thickest skins with a value; `difference` is elements minus limit, `u_num` bounds
+    it, `rate` is the observed exponent of its decay in z_s (negative) or 1 / z_s (positive), NaN in the first row
     of each pair and where the difference is not four times its uncertainty; `expected` is 1 - k for a thin skin.  A
     thick one stiffens its solid by a share of a / z_s, a the contact radius, and as the solid becomes rigid what is
     left to change dies out too: the rate is one or more.
@@ -94,7 +96,7 @@ def limits(found: Sequence[Sample]) -> pd.DataFrame:
             for s in ends:
                 elements, limit = s.elements or (math.nan, math.nan), getattr(s, name)
                 difference = elements[0] - limit[0]
-                u_num = math.hypot(elements[1], limit[1])
+                u_num = combined(elements[1], limit[1])
                 rate = math.nan
                 if previous and abs(difference) > 4.0 * u_num:
                     rate = abs(math.log(abs(difference / previous[1])) / math.log(s.depth / previous[0]))
@@ -122,7 +124,7 @@ def thresholds(found: Sequence[Sample]) -> pd.DataFrame:
 
     `below` and `above` are the computed depths that bracket it, `depth` is interpolated between them in the logarithms
     of both.  Below the thinnest computed skin, where `below` is 0, the change goes as z_s^(1-k) (see `limits`); that
-    law is not stretched beyond a factor of `STRETCH` in the change, and `depth` then NaN.  No row where it stays
+    law is not extrapolated beyond a factor of `STRETCH` in the change; `depth` is then NaN.  No row where it stays
     smaller or the quantity ends first.
     """
     rows = []

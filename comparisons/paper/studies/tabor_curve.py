@@ -1,4 +1,4 @@
-"""A force as a function of the Tabor number, from its values at Chebyshev points: for maxima over ranges of mu."""
+"""Forces as functions of the Tabor number, from their values at Chebyshev points, and maxima over ranges of mu."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ __all__ = ["RANGE", "Extreme", "TaborCurve", "crossing", "largest_error", "tabor
 
 Array = NDArray[np.float64]
 
-#: The paper shows mu from 0.01 to a few; beyond 10 nothing is left of the differences.
+#: The paper shows mu from 0.01 to a few; beyond 10 the differences vanish.
 RANGE = (0.01, 10.0)
-# The last coefficients are the error of a series that ends there, within a factor: measured at random mu, never
-# more than 3 times the largest of the last five.
+# The last coefficients estimate the error of the series: measured at random mu, it is at most 3 times the largest of
+# the last five.
 _LAST, _SAFETY = 5, 3.0
 # Points of the search; the largest is refined by a parabola, whose error is then below 1e-8 of the maximum.
 _SEARCH = 4001

@@ -1,1 +1,1 @@
-"""The numbers that the paper prints, computed again."""
+"""Numbers that the paper prints, computed again."""

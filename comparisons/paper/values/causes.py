@@ -1,7 +1,7 @@
-"""Why a published number is not the converged one: each computed again with one ingredient changed at a time.
+"""Causes of the differences between paper values and converged ones: one ingredient changed at a time.
 
 The largest relative errors kappa (Fig. 16(b)) are repeated with what the paper states of its computation (Sec. 2.4)
-and with what it leaves open; the regions of Fig. 11(b) with a gradient exponent that stops short of 1.
+and with what it leaves open; the regions of Fig. 11(b) with a gradient exponent that ends below 1.
 """
 
 from __future__ import annotations
@@ -46,9 +46,9 @@ _PLACES = {
     ("md-improved", 5.0): 0.836,
 }
 _CONE = 1.0
-#: Jin et al. (2021) left out the decimals of 1.026, as Sec. 4.2 tells.
+#: Jin et al. (2021) left out the decimals of 1.026 (Sec. 4.2).
 _JIN_STRESS = 1.0
-#: Gradient exponents near 1, where a computation that cannot take the limit k = 1 might stop.
+#: Gradient exponents near 1: the last ones of a computation that does not take the limit k = 1.
 _SHORT_OF_GIBSON = (0.9995, 0.999)
 _SPARSE = np.array([step * 10.0**power for power in (-2, -1, 0) for step in (1, 2, 5)] + [10.0])
 
@@ -69,18 +69,18 @@ def cohesive_forces(n: float, k: float, stress: float) -> list[float]:
     ]
 
 
-def _exact_stress(claim: PaperValue) -> float:
-    return THEORETICAL_STRENGTH if claim.model == "md-original" else eta(claim.n)
+def _exact_stress(paper_value: PaperValue) -> float:
+    return THEORETICAL_STRENGTH if paper_value.model == "md-original" else eta(paper_value.n)
 
 
-def _printed_stress(claim: PaperValue) -> float:
-    if claim.model == "md-original":
+def _printed_stress(paper_value: PaperValue) -> float:
+    if paper_value.model == "md-original":
         return paper_values("theoretical_strength")[0].value
-    return next(number.value for number in paper_values("eta") if number.n == claim.n)
+    return next(number.value for number in paper_values("eta") if number.n == paper_value.n)
 
 
-def _forces(claim: PaperValue, stress: float) -> CachedCall:
-    return CachedCall.of(cohesive_forces, claim.n, _K, stress)
+def _forces(paper_value: PaperValue, stress: float) -> CachedCall:
+    return CachedCall.of(cohesive_forces, paper_value.n, _K, stress)
 
 
 def _at_places() -> Iterator[tuple[float, float, float]]:
@@ -90,36 +90,36 @@ def _at_places() -> Iterator[tuple[float, float, float]]:
 
 def tasks() -> Sequence[CachedCall]:
     """Return the tasks that `repeated` needs, the longest first."""
-    claims = paper_values("largest_relative_error")
+    errors = paper_values("largest_relative_error")
     found = [CachedCall.of(scheme.scheme_force, *place) for place in _at_places()]
     found += [CachedCall.of(scheme.sampled_force, *place) for place in _at_places()]
     found += [CachedCall.of(insensitive_regions, up_to) for up_to in (1.0, *_SHORT_OF_GIBSON)]
-    for n in sorted({claim.n for claim in claims}):
+    for n in sorted({error.n for error in errors}):
         found += [CachedCall.of(scheme.exact_force, n, _K, mu) for mu in tabor_numbers(_EXACT_DEGREE)]
     found += [CachedCall.of(scheme.exact_force, *place) for place in _at_places()]
-    found += [_forces(claim, stress(claim)) for claim in claims for stress in (_exact_stress, _printed_stress)]
-    found += [_forces(claim, _JIN_STRESS) for claim in claims if claim.model == "md-original"]
+    found += [_forces(error, stress(error)) for error in errors for stress in (_exact_stress, _printed_stress)]
+    found += [_forces(error, _JIN_STRESS) for error in errors if error.model == "md-original"]
     return list(dict.fromkeys(found))
 
 
 @dataclass(frozen=True)
 class Repeated:
-    """A published number computed again.
+    """A paper value computed again.
 
     Attributes
     ----------
-    claim : PaperValue
+    paper_value : PaperValue
     ingredient : str
         What was changed.
     value, u : float
-        The number, signed, and its bound, in the unit of the claim.
+        The number, signed, and its bound, in the unit of the paper value.
     mu : float
         Where it is, NaN if it has no Tabor number.
     stated : bool
         Whether the ingredient is in the paper, or was fitted here.
     """
 
-    claim: PaperValue
+    paper_value: PaperValue
     ingredient: str
     value: float
     u: float
@@ -128,53 +128,53 @@ class Repeated:
 
     @property
     def verdict(self) -> str:
-        """Whether it has the published digits."""
-        return self.claim.verdict(abs(self.value), self.u)
+        """Whether it has the printed digits."""
+        return self.paper_value.verdict(abs(self.value), self.u)
 
 
-def repeated(answers: Results) -> list[Repeated]:
+def repeated(results: Results) -> list[Repeated]:
     """Return every repetition, those of one number together and the converged one first."""
-    rows = [row for claim in paper_values("largest_relative_error") for row in _errors(claim, answers)]
+    rows = [row for paper_value in paper_values("largest_relative_error") for row in _errors(paper_value, results)]
     ranges = {1.0: CONVERGED_CHI} | {up_to: f"k up to {up_to:g}" for up_to in _SHORT_OF_GIBSON}
-    for claim in paper_values("largest_chi"):
-        for up_to, words in ranges.items():
-            largest = 100.0 * largest_chi(claim.n, up_to)[0]
-            rows.append(Repeated(claim, words, largest, CHI_ROUNDING, stated=up_to == 1.0))
-    for claim in paper_values("insensitive_region"):
-        for up_to, words in ranges.items():
-            end = answers[CachedCall.of(insensitive_regions, up_to)][claim.index]
-            rows.append(Repeated(claim, words, end, REGION_ROUNDING, stated=up_to == 1.0))
+    for paper_value in paper_values("largest_chi"):
+        for up_to, ingredient in ranges.items():
+            largest = 100.0 * largest_chi(paper_value.n, up_to)[0]
+            rows.append(Repeated(paper_value, ingredient, largest, CHI_ROUNDING, stated=up_to == 1.0))
+    for paper_value in paper_values("insensitive_region"):
+        for up_to, ingredient in ranges.items():
+            end = results[CachedCall.of(insensitive_regions, up_to)][paper_value.index]
+            rows.append(Repeated(paper_value, ingredient, end, REGION_ROUNDING, stated=up_to == 1.0))
     return rows
 
 
-def _errors(claim: PaperValue, answers: Results) -> Iterator[Repeated]:
+def _errors(paper_value: PaperValue, results: Results) -> Iterator[Repeated]:
     """Repeat a largest relative error with every ingredient."""
 
     def row(ingredient: str, found: Extreme, stated: bool = True) -> Repeated:
-        return Repeated(claim, ingredient, 100.0 * found.kappa, 100.0 * found.u, found.mu, stated)
+        return Repeated(paper_value, ingredient, 100.0 * found.kappa, 100.0 * found.u, found.mu, stated)
 
-    exact, cut = _exact_curves(claim.n, answers)
-    model = TaborCurve.through(np.array(answers[_forces(claim, _exact_stress(claim))]))
-    printed = TaborCurve.through(np.array(answers[_forces(claim, _printed_stress(claim))]))
+    exact, cut = _exact_curves(paper_value.n, results)
+    model = TaborCurve.through(np.array(results[_forces(paper_value, _exact_stress(paper_value))]))
+    printed = TaborCurve.through(np.array(results[_forces(paper_value, _printed_stress(paper_value))]))
     nothing_beyond = f"f(r_max) = {scheme.HEIGHTS[0]:g}, nothing beyond"
-    rounded = f"sigma_0 = {_printed_stress(claim):g} as printed"
+    rounded = f"sigma_0 = {_printed_stress(paper_value):g} as printed"
 
     yield row(CONVERGED, largest_error(model, exact))
     yield row(nothing_beyond, largest_error(model, cut[0]))
-    if claim.n == _CONE:
+    if paper_value.n == _CONE:
         for height, curve in zip(scheme.HEIGHTS[1:], cut[1:], strict=True):
             yield row(f"f(r_max) = {height:g}, nothing beyond", largest_error(model, curve), stated=False)
     yield row(rounded, largest_error(printed, exact))
     yield row(f"{nothing_beyond}; {rounded}", largest_error(printed, cut[0]))
 
-    # One Tabor number is enough for what follows: kappa is stationary there or at the end of the range.
-    mu = _PLACES[claim.model, claim.n]
-    place = claim.n, _K, mu
+    # The rest needs one Tabor number only: kappa is stationary there, or it is the end of the range.
+    mu = _PLACES[paper_value.model, paper_value.n]
+    place = paper_value.n, _K, mu
     full, coarse = (
-        answers[CachedCall.of(scheme.exact_force, *place)],
-        answers[CachedCall.of(scheme.scheme_force, *place)],
+        results[CachedCall.of(scheme.exact_force, *place)],
+        results[CachedCall.of(scheme.scheme_force, *place)],
     )
-    steps = answers[CachedCall.of(scheme.sampled_force, *place)]
+    steps = results[CachedCall.of(scheme.sampled_force, *place)]
     mesh = coarse["force"] - (full["force"] - full["beyond"][0])
     yield row(f"N = {scheme.SEGMENTS} segments", _single(model, full["force"] + mesh, coarse["u_num"], mu))
     yield row(f"{nothing_beyond}; N = {scheme.SEGMENTS} segments", _single(model, coarse["force"], coarse["u_num"], mu))
@@ -188,13 +188,13 @@ def _errors(claim: PaperValue, answers: Results) -> Iterator[Repeated]:
             f"largest load among central gaps {step:g} apart", _single(model, force, steps["u_num"], mu), stated=False
         )
 
-    if claim.model == "md-original":
-        jin = TaborCurve.through(np.array(answers[_forces(claim, _JIN_STRESS)]))
+    if paper_value.model == "md-original":
+        jin = TaborCurve.through(np.array(results[_forces(paper_value, _JIN_STRESS)]))
         yield row("sigma_0 = 1, without its decimals", largest_error(jin, exact), stated=False)
     yield row("mu from 0.02 to 10", largest_error(model, exact, low=0.02), stated=False)
     yield row("mu from 0.01 to 2", largest_error(model, exact, high=2.0), stated=False)
     yield row("mu = 1, 2, 5, 10, ... of 0.01 to 10 only", largest_error(model, exact, sampled=_SPARSE), stated=False)
-    start = crossing(lambda mu: 100.0 * abs(printed(mu) / exact(mu) - 1.0), claim.value)
+    start = crossing(lambda mu: 100.0 * abs(printed(mu) / exact(mu) - 1.0), paper_value.value)
     if mu == RANGE[0] and start is not None:
         fitted = largest_error(printed, exact, low=start)
         yield row(f"{rounded}; mu from {start:.4f}, fitted", replace(fitted, mu=start), stated=False)
@@ -205,12 +205,12 @@ def _single(model: TaborCurve, force: float, u: float, mu: float) -> Extreme:
     return Extreme(kappa, (1.0 + abs(kappa)) * (model.error + u / force), mu)
 
 
-def _exact_curves(n: float, answers: Results) -> tuple[TaborCurve, list[TaborCurve]]:
+def _exact_curves(n: float, results: Results) -> tuple[TaborCurve, list[TaborCurve]]:
     """Return the converged force over mu, and those without what is beyond each height."""
-    found = [answers[CachedCall.of(scheme.exact_force, n, _K, mu)] for mu in tabor_numbers(_EXACT_DEGREE)]
-    force = np.array([answer["force"] for answer in found])
-    beyond = np.array([answer["beyond"] for answer in found])
-    numerical = max(answer["u_num"] / answer["force"] for answer in found)
+    found = [results[CachedCall.of(scheme.exact_force, n, _K, mu)] for mu in tabor_numbers(_EXACT_DEGREE)]
+    force = np.array([point["force"] for point in found])
+    beyond = np.array([point["beyond"] for point in found])
+    numerical = max(point["u_num"] / point["force"] for point in found)
     curves = [TaborCurve.through(force - lost) for lost in (np.zeros_like(force), *beyond.T)]
     exact, *cut = [replace(curve, error=curve.error + numerical) for curve in curves]
     return exact, cut
@@ -220,12 +220,12 @@ def frame(rows: Sequence[Repeated]) -> pd.DataFrame:
     """Return one row a repetition; ``shift`` is what the ingredient changes, in the unit of the number."""
     table = pd.DataFrame(
         {
-            "quantity": row.claim.quantity,
-            "model": row.claim.model,
-            "n": row.claim.n,
-            "k": row.claim.k,
-            "unit": row.claim.unit,
-            "published": row.claim.text,
+            "quantity": row.paper_value.quantity,
+            "model": row.paper_value.model,
+            "n": row.paper_value.n,
+            "k": row.paper_value.k,
+            "unit": row.paper_value.unit,
+            "printed": row.paper_value.text,
             "ingredient": row.ingredient,
             "stated_in_paper": row.stated,
             "mu": row.mu,

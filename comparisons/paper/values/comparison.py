@@ -1,4 +1,4 @@
-"""Every number the paper prints, computed again: a verdict on each, and for each difference its cause."""
+"""Verdicts on the numbers that the paper prints, and the causes of the differences."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import numpy as np
 import pandas as pd
 from rich.table import Table
 
-from comparisons.data.paper_values import REPRODUCED, PaperValue, paper_values
+from comparisons.data.paper_values import REPRODUCED, TRUNCATED, PaperValue, paper_values
 from comparisons.models.closed_form import EPS
 from comparisons.models.cohesive_stress import eta
 from comparisons.models.jkr import JKR
 from comparisons.models.semi_rigid import SemiRigid, jump_in_coefficient
-from comparisons.numerics.number_text import short
+from comparisons.numerics.number_text import LEAST_SHOWN, value_text
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
 from comparisons.output.tables import rich_table
@@ -32,13 +32,11 @@ Number = tuple[float, float]
 _SHAPES = (1.0, 1.5, 2.0, 5.0)
 #: Relative rounding of a closed form: a few Gamma functions at 2e-15 each.
 _ROUNDING = 64.0 * EPS
-#: Uncertainties below this are shown as this: nobody reads sixteen digits.
-_LEAST_SHOWN = 5e-10
 
 
-def _critical(claim: PaperValue) -> CachedCall:
+def _critical(paper_value: PaperValue) -> CachedCall:
     # The Tabor number of the case is not used.
-    return CachedCall.of(quantity, "fscm", "critical_tabor_number", claim.n, claim.k, 1.0)
+    return CachedCall.of(quantity, "fscm", "critical_tabor_number", paper_value.n, paper_value.k, 1.0)
 
 
 def _tasks() -> Sequence[CachedCall]:
@@ -49,31 +47,31 @@ def _closed(value: float) -> Number:
     return value, _ROUNDING * abs(value)
 
 
-def _strength(claim: PaperValue) -> Number:
+def _strength(paper_value: PaperValue) -> Number:
     law = LennardJones93()
     return _closed(-float(law.traction(np.array(law.peak_gap))))
 
 
-def _bradley(claim: PaperValue) -> Number:
-    answer = quantity("bradley", "pull_off_force", claim.n, 0.0, 1.0)
-    return answer["value"], answer["u_num"]
+def _bradley(paper_value: PaperValue) -> Number:
+    found = quantity("bradley", "pull_off_force", paper_value.n, 0.0, 1.0)
+    return found["value"], found["u_num"]
 
 
-def _farthest(values: Sequence[float], claim: PaperValue) -> Number:
-    """Return the value that is farthest from the published: the limit is the same for all shape indices."""
-    return _closed(max(values, key=lambda value: abs(value - claim.value)))
+def _farthest(values: Sequence[float], paper_value: PaperValue) -> Number:
+    """Return the value that is farthest from the printed one: the limit is the same for all shape indices."""
+    return _closed(max(values, key=lambda value: abs(value - paper_value.value)))
 
 
-def _jump_out(claim: PaperValue) -> Number:
+def _jump_out(paper_value: PaperValue) -> Number:
     cases = [Case(n, 1.0, 1.0).problem() for n in _SHAPES]
-    return _farthest([-JKR().evaluate(case, "jump_out_displacement").value for case in cases], claim)
+    return _farthest([-JKR().evaluate(case, "jump_out_displacement").value for case in cases], paper_value)
 
 
-def _exponent(claim: PaperValue) -> Number:
+def _exponent(paper_value: PaperValue) -> Number:
     """Slope of log(1 - displacement) over log(mu); the difference of two logarithms loses a digit."""
     low, high = (
-        math.log(1.0 - SemiRigid().evaluate(Case(claim.n, claim.k, mu).problem(), "jump_in_displacement").value)
-        for mu in (1.0, math.e**7)
+        math.log(1.0 - SemiRigid().evaluate(case.problem(), "jump_in_displacement").value)
+        for case in (Case(paper_value.n, paper_value.k, mu) for mu in (1.0, math.e**7))
     )
     return _closed((high - low) / 7.0)
 
@@ -82,16 +80,16 @@ def _exponent(claim: PaperValue) -> Number:
 _DIRECT: dict[str, Callable[[PaperValue], Number]] = {
     "theoretical_strength": _strength,
     "bradley_pull_off": _bradley,
-    "eta": lambda claim: _closed(eta(claim.n)),
-    "jump_in_limit": lambda claim: _farthest([jump_in_coefficient(n, 1.0) for n in _SHAPES], claim),
+    "eta": lambda paper_value: _closed(eta(paper_value.n)),
+    "jump_in_limit": lambda paper_value: _farthest([jump_in_coefficient(n, 1.0) for n in _SHAPES], paper_value),
     "jump_out_limit": _jump_out,
-    "jump_in_prefactor": lambda claim: _closed(jump_in_coefficient(claim.n, claim.k)),
+    "jump_in_prefactor": lambda paper_value: _closed(jump_in_coefficient(paper_value.n, paper_value.k)),
     "jump_in_exponent": _exponent,
 }
 
 
 def cause(rows: Sequence[Repeated]) -> str:
-    """Return in a sentence which ingredient gives the published digits; empty if the first row has them.
+    """Return which ingredient gives the printed digits, in a sentence; empty if the first row has them.
 
     Parameters
     ----------
@@ -104,74 +102,76 @@ def cause(rows: Sequence[Repeated]) -> str:
     stated = [row for row in others if row.stated]
     reproducing = [row for row in stated if row.verdict in REPRODUCED]
     if reproducing:
-        words = f"reproduced by {_said(reproducing[0])}"
+        sentence = f"reproduced by {_with_value(reproducing[0])}"
         against = stated[0]
-        # What the paper states most plainly, the size of the domain, may lead away from its number.
-        return words if against.verdict in REPRODUCED or against.ingredient in words else f"{words}; {_alone(against)}"
-    elsewhere = " or ".join(_said(row) for row in others if row.verdict in REPRODUCED)
+        # The plainest statement of the paper, the size of the domain, may increase the difference.
+        known = against.verdict in REPRODUCED or against.ingredient in sentence
+        return sentence if known else f"{sentence}; {_alone(against)}"
+    elsewhere = " or ".join(_with_value(row) for row in others if row.verdict in REPRODUCED)
     plain = f"; {_alone(stated[0])}" if stated else ""
     if not elsewhere:
-        nearest = min(others, key=lambda row: abs(abs(row.value) - converged.claim.value))
-        return f"not reproduced; nearest is {_said(nearest)}{plain}"
+        nearest = min(others, key=lambda row: abs(abs(row.value) - converged.paper_value.value))
+        return f"not reproduced; nearest is {_with_value(nearest)}{plain}"
     return f"nothing the paper states gives it; these do: {elsewhere}{plain}"
 
 
-def _said(row: Repeated) -> str:
-    shortened = ", cut off" if row.verdict == "cut off" else ""
-    return f"{row.ingredient} ({abs(row.value):.5g}{shortened})"
+def _with_value(row: Repeated) -> str:
+    truncated = f", {TRUNCATED}" if row.verdict == TRUNCATED else ""
+    return f"{row.ingredient} ({abs(row.value):.5g}{truncated})"
 
 
 def _alone(row: Repeated) -> str:
     return f"{row.ingredient} alone gives {abs(row.value):.5g}"
 
 
-def _tables(answers: Results) -> Tables:
-    again = repeated(answers)
-    return {"": pd.DataFrame([judged(claim, answers, again) for claim in paper_values()]), "causes": frame(again)}
+def _tables(results: Results) -> Tables:
+    again = repeated(results)
+    rows = [judged(paper_value, results, again) for paper_value in paper_values()]
+    return {"": pd.DataFrame(rows), "causes": frame(again)}
 
 
-def judged(claim: PaperValue, answers: Results, again: Sequence[Repeated]) -> dict[str, str | float]:
-    """Return the row of a published number, from the answers and the repetitions of those that have any."""
-    rows = [row for row in again if row.claim == claim]
+def judged(paper_value: PaperValue, results: Results, again: Sequence[Repeated]) -> dict[str, str | float]:
+    """Return the row of a paper value; `again` holds the repetitions of the values that have any."""
+    rows = [row for row in again if row.paper_value == paper_value]
     mu = math.nan
     if rows:
         computed, u, mu = rows[0].value, rows[0].u, rows[0].mu
-    elif claim.name in _DIRECT:
-        computed, u = _DIRECT[claim.name](claim)
+    elif paper_value.name in _DIRECT:
+        computed, u = _DIRECT[paper_value.name](paper_value)
     else:
-        answer = answers[_critical(claim)]
-        computed, u = answer["value"], answer["u_num"]
+        found = results[_critical(paper_value)]
+        computed, u = found["value"], found["u_num"]
     # The paper prints the largest errors without their sign.
     size = abs(computed)
     return {
-        "where": claim.source,
-        "quantity": claim.quantity,
-        "model": claim.model,
-        "n": claim.n,
-        "k": claim.k,
-        "unit": claim.unit,
-        "published": claim.text,
+        "where": paper_value.source,
+        "quantity": paper_value.quantity,
+        "model": paper_value.model,
+        "n": paper_value.n,
+        "k": paper_value.k,
+        "unit": paper_value.unit,
+        "printed": paper_value.text,
         "computed": computed,
         "u": u,
         "at_mu": mu,
-        "verdict": claim.verdict(size, u),
-        "difference": size - claim.value,
+        "verdict": paper_value.verdict(size, u),
+        "difference": size - paper_value.value,
         "cause": cause(rows) if rows else "",
     }
 
 
 def readable(table: pd.DataFrame) -> pd.DataFrame:
-    """Return the table as texts: the case in words, the computed number to the digit its uncertainty leaves it."""
+    """Return the table as texts, the computed number with the digits that its uncertainty leaves."""
 
     def case(row: pd.Series) -> str:
         parts = [f"{name} = {row[name]:g}" for name in ("n", "k") if not math.isnan(row[name])]
         return ", ".join([*parts, *([row["model"]] if row["model"] else [])])
 
     def computed(row: pd.Series) -> str:
-        return in_unit(short(row["computed"], max(row["u"], _LEAST_SHOWN)), row["unit"])
+        return in_unit(value_text(row["computed"], row["u"]), row["unit"])
 
     def difference(row: pd.Series) -> str:
-        small = abs(row["difference"]) <= _LEAST_SHOWN
+        small = abs(row["difference"]) <= LEAST_SHOWN
         return "0" if small else in_unit(f"{row['difference']:+.2g}", row["unit"])
 
     def in_unit(text: str, unit: str) -> str:
@@ -182,7 +182,7 @@ def readable(table: pd.DataFrame) -> pd.DataFrame:
             "where": table["where"],
             "quantity": table["quantity"],
             "case": table.apply(case, axis=1),
-            "published": table.apply(lambda row: in_unit(row["published"], row["unit"]), axis=1),
+            "printed": table.apply(lambda row: in_unit(row["printed"], row["unit"]), axis=1),
             "computed": table.apply(computed, axis=1),
             "verdict": table["verdict"],
             "difference": table.apply(difference, axis=1),
@@ -191,11 +191,11 @@ def readable(table: pd.DataFrame) -> pd.DataFrame:
     )
 
 
-_TITLE = "Numbers published in the paper, computed again"
+_TITLE = "Numbers printed in the paper, computed again"
 _NOTES = (
-    "In brackets: a bound on the error in units of the last digit, at least 5e-10. Difference: of the sizes. Cut off: "
-    "the digits agree if further ones are dropped. In the causes f(r_max) is the height of the punch, in z0, where the "
-    "paper's integration ends, and sigma_0 the cohesive stress."
+    "In brackets: a bound on the error in units of the last digit, at least 5e-10. Difference: of the sizes. Agrees if "
+    "truncated: the digits agree if further ones are dropped. In the causes f(r_max) is the height of the punch, in "
+    "z0, where the paper's integration ends, and sigma_0 the cohesive stress."
 )
 
 
@@ -211,7 +211,7 @@ def _shown(tables: Tables) -> Table:
 PAPER_VALUES = PaperFigure(
     name="numbers",
     stem="paper_values",
-    title="Every published number with a verdict, and the ingredients that move those that differ",
+    title="Numbers that the paper prints, a verdict on each, and the ingredients that change those that differ",
     tasks=_tasks,
     tables=_tables,
     draw=None,

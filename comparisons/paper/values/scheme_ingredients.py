@@ -1,6 +1,6 @@
-"""The pull-off force with one ingredient of the published scheme (Sec. 2.4) at a time put into an accurate solution.
+"""Pull-off forces of an accurate solution with one ingredient of the Stieltjes scheme (Sec. 2.4) at a time.
 
-The ingredients are the traction left out beyond f(r_max) = 50, the N = 2500 uniform segments, the steps of the
+The ingredients are the traction neglected beyond f(r_max) = 50, the N = 2500 uniform segments, the steps of the
 central gap of which the largest force is taken, and the last central gap, -0.1.
 """
 
@@ -26,7 +26,7 @@ GAP_STEPS = (0.1, 0.05, 0.01, 0.001)
 LAST_GAP = -0.1
 SEGMENTS = 2500
 
-# Of the traction that is left out, over log(r): measured error below 1e-8 of the force.
+# Of the neglected traction, over log(r): measured error below 1e-8 of the force.
 _QUADRATURE_POINTS = 4001
 # First step and tolerance of the central gap at pull-off, over its size: the force is stationary in it, and an
 # error of 1e-3 of it is 3e-7 of the force.
@@ -39,9 +39,9 @@ def exact_force(n: float, k: float, mu: float) -> dict[str, float | list[float]]
     Returns
     -------
     dict
-        ``force`` and its ``u_num``; ``beyond``, the share of the force from radii with f > height, of which the
-        truncated scheme knows nothing (it also moves the surface there, by a constant, which the pull-off force
-        does not feel); ``central_gap`` at pull-off.
+        ``force`` and its ``u_num``; ``beyond``, the share of the force from radii with f > height, which the
+        truncated scheme neglects (it also moves the surface there, by a constant, on which the pull-off force does
+        not depend); ``central_gap`` at pull-off.
 
     Raises
     ------
@@ -79,8 +79,8 @@ def _pull_off(problem: fscm.Problem) -> tuple[fscm.Solution, State]:
         raise ComputationFailed(str(failure)) from failure
 
 
-def scheme_force(n: float, k: float, mu: float) -> dict[str, float]:
-    """Return the pull-off force of the published scheme, f(r_max) = 50 and N = 2500, at its own stationary gap.
+def scheme_force(n: float, k: float, mu: float, segments: int = SEGMENTS) -> dict[str, float]:
+    """Return the pull-off force of the Stieltjes scheme, f(r_max) = 50, at its own stationary gap.
 
     The path is not followed: Newton's method starts from the accurate surface, so that only the discretisation
     and the truncation differ.
@@ -96,7 +96,7 @@ def scheme_force(n: float, k: float, mu: float) -> dict[str, float]:
         If the scheme does not converge.
     """
     problem = fscm.Problem(n, k, mu)
-    scheme = StieltjesScheme(problem, SEGMENTS, farthest_height=HEIGHTS[0])
+    scheme = StieltjesScheme(problem, segments, farthest_height=HEIGHTS[0])
     _, accurate = _pull_off(problem)
     start, central = np.interp(scheme.radius, accurate.radius, accurate.gap), float(accurate.central_gap)
     states: list[StieltjesState] = []

@@ -7,7 +7,7 @@ import pytest
 from comparisons.data.paper_values import PaperValue, paper_values
 
 
-def test_every_published_number_is_there():
+def test_every_printed_number_is_there():
     assert Counter(number.name for number in paper_values()) == {
         "theoretical_strength": 1,
         "bradley_pull_off": 4,
@@ -32,7 +32,9 @@ def test_a_formula_has_no_last_digit_to_be_generous_with(computed, u, verdict):
     assert PaperValue("", "", "", "8/3", exact=8 / 3).verdict(computed, u) == verdict
 
 
-@pytest.mark.parametrize(("computed", "verdict"), [(2.8796, "agrees"), (2.8809, "cut off"), (2.8794, "differs")])
+@pytest.mark.parametrize(
+    ("computed", "verdict"), [(2.8796, "agrees"), (2.8809, "agrees if truncated"), (2.8794, "differs")]
+)
 def test_a_last_zero_counts_as_a_digit(computed, verdict):
     assert PaperValue("", "", "", "2.880").verdict(computed, 1e-12) == verdict
 
@@ -40,15 +42,15 @@ def test_a_last_zero_counts_as_a_digit(computed, verdict):
 @pytest.mark.parametrize(
     ("text", "computed"), [("40.8", 40.8855), ("1.056", 1.05661), ("3.5", 3.562), ("15.9", 15.9506), ("4.4", 4.499)]
 )
-def test_digits_that_are_cut_off_rather_than_rounded_are_told_apart(text, computed):
-    claim = PaperValue("", "", "", text)
+def test_truncated_digits_are_distinguished_from_rounded_ones(text, computed):
+    printed = PaperValue("", "", "", text)
     step = 10.0 ** -len(text.partition(".")[2])
-    assert claim.verdict(computed, 1e-9) == "cut off"
-    assert claim.verdict(claim.value + 0.49 * step, 1e-9) == "agrees"
-    assert claim.verdict(claim.value - 0.49 * step, 1e-9) == "agrees"
-    # Numbers are not cut off upwards.
-    assert claim.verdict(claim.value - 0.51 * step, 1e-9) == "differs"
-    assert claim.verdict(claim.value + 1.01 * step, 1e-9) == "differs"
+    assert printed.verdict(computed, 1e-9) == "agrees if truncated"
+    assert printed.verdict(printed.value + 0.49 * step, 1e-9) == "agrees"
+    assert printed.verdict(printed.value - 0.49 * step, 1e-9) == "agrees"
+    # Numbers are not truncated upwards.
+    assert printed.verdict(printed.value - 0.51 * step, 1e-9) == "differs"
+    assert printed.verdict(printed.value + 1.01 * step, 1e-9) == "differs"
 
 
 @pytest.mark.parametrize("place", [-0.5, 0.5, 1.0])

@@ -1,4 +1,4 @@
-"""Models from outside, written to files as their authors would."""
+"""External models, written to files as their authors would."""
 
 import hashlib
 import shutil
@@ -29,7 +29,7 @@ from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 class Model:
     name = "{name}"
     version = "1"
-    citation = "nobody"
+    citation = "A. Author"
     domain = "tests"
 """
 

@@ -73,26 +73,26 @@ def values(folder):
 
 def test_an_old_pass_does_not_stand_when_the_data_have_changed(once, tmp_path):
     assert once("2.0")[0] == 0
-    status, said = once("2.5")
+    status, messages = once("2.5")
     assert status == 1
-    assert "stranger has changed (pull_off_" in said
-    assert f"was 2 and is 2.5): its stored results ({TASKS}) are all computed again" in said
-    assert f"{TASKS} computations" in said
+    assert "stranger has changed (pull_off_" in messages
+    assert f"was 2 and is 2.5): its stored results ({TASKS}) are all computed again" in messages
+    assert f"{TASKS} computations" in messages
     assert values(tmp_path / "out") == [2.5] * TASKS
     again = read_record(tmp_path / "out" / "run.json")["evaluated_again"]["models"]["stranger"]
     assert not again["same"]
     # The rows that were not trusted are gone for good.
-    status, said = once("2.5")
+    status, messages = once("2.5")
     assert status == 1
-    assert "0 computations" in said
+    assert "0 computations" in messages
 
 
 def test_unchanged_results_are_used_and_the_record_has_what_was_evaluated_again(once, tmp_path):
     once("2.0")
     assert "evaluated_again" not in read_record(tmp_path / "out" / "run.json")
-    status, said = once("2.0")
+    status, messages = once("2.0")
     assert status == 0
-    assert "0 computations" in said
+    assert "0 computations" in messages
     again = read_record(tmp_path / "out" / "run.json")["evaluated_again"]
     assert again["seed"] >= 0
     assert again["models"]["stranger"]["same"]
@@ -103,17 +103,17 @@ def test_unchanged_results_are_used_and_the_record_has_what_was_evaluated_again(
 
 def test_a_model_that_fails_now_is_not_passed_for_what_it_was(once, tmp_path):
     once("2.0")
-    status, said = once("two")
+    status, messages = once("two")
     assert status == 4
-    assert "was 2 and is failed" in said
+    assert "was 2 and is failed" in messages
     assert all(value != 2.0 for value in values(tmp_path / "out"))
 
 
 def test_failures_of_an_external_model_are_always_computed_again(once, tmp_path):
     assert once("two")[0] == 4
-    status, said = once("2.0")
+    status, messages = once("2.0")
     assert status == 0
-    assert f"{TASKS} computations" in said
+    assert f"{TASKS} computations" in messages
     assert values(tmp_path / "out") == [2.0] * TASKS
 
 
@@ -131,7 +131,7 @@ def test_what_was_hashed_is_in_the_record(write_model):
     assert _described(set(names), {name: Hashed(model) for name, model in models.items()}) == {
         "stranger": {
             "version": models["stranger"].version,
-            "citation": "nobody",
+            "citation": "A. Author",
             "domain": "tests",
             "hashed": "its folder, 3 files",
         }

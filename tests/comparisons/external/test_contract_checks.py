@@ -1,4 +1,4 @@
-"""The contract suite finds what is wrong, says it in plain words, and is content with what is right."""
+"""Checks of the contract: every defect is found and named, and a right model passes."""
 
 import csv
 
@@ -39,7 +39,7 @@ def test_a_right_model_passes(write_model, capsys):
 
 
 @pytest.mark.parametrize(
-    ("body", "more", "check", "says"),
+    ("body", "more", "check", "sentence"),
     [
         (JKR + "return Result(-value, 0.0)", "", "keeps the sign rules", "positive"),
         (JKR + "return Result(-value, 0.0)", "", "is of the right size", "the sign"),
@@ -49,14 +49,14 @@ def test_a_right_model_passes(write_model, capsys):
         (
             JKR + "return Result(value + 1e-15 * time.perf_counter(), 0.0)",
             "",
-            "gives the same answer again",
+            "gives the same result again",
             "a random number, a clock",
         ),
         (
-            JKR + "self.asked = getattr(self, 'asked', 0) + 1\nreturn Result(value + 1e-9 * self.asked, 0.0)",
+            JKR + "self.calls = getattr(self, 'calls', 0) + 1\nreturn Result(value + 1e-9 * self.calls, 0.0)",
             "",
-            "gives the same answer again",
-            "kept between questions",
+            "gives the same result again",
+            "kept between evaluations",
         ),
         (RIGHT, 'limits = ("rigid",)', "is right in the limit rigid", "-25 % off Bradley"),
         (
@@ -66,35 +66,37 @@ def test_a_right_model_passes(write_model, capsys):
             "it must come nearer",
         ),
         (RIGHT, 'limits = ("dmt",)', "is right in the limit dmt", "known are rigid, jkr"),
-        (RIGHT, 'citation = " "', "says what it is", "citation is empty"),
+        (RIGHT, 'citation = " "', "has version, citation and domain", "citation is empty"),
     ],
 )
-def test_what_is_wrong_is_said(write_model, capsys, body, more, check, says):
+def test_what_is_wrong_is_named(write_model, capsys, body, more, check, sentence):
     code, shown = status(capsys, write_model(body, more=more))
     assert code == 1
     (line,) = (line for line in shown.splitlines() if f" {check}: " in line)
     assert line.startswith("wrong")
-    assert says in line
+    assert sentence in line
 
 
 @pytest.mark.parametrize(
-    ("body", "says"),
+    ("body", "sentence"),
     [
-        ("raise NotApplicable('nothing')", "none of 25 questions was answered"),
+        ("raise NotApplicable('nothing')", "none of 25 evaluations gave a value"),
         ("if problem.k:\n    raise ComputationFailed('no root')\n" + RIGHT, "no root"),
         ("return Result(float('nan'), 0.0)", "not a finite number"),
     ],
 )
-def test_a_failed_computation_has_status_4(write_model, capsys, body, says):
+def test_a_failed_computation_has_status_4(write_model, capsys, body, sentence):
     code, shown = status(capsys, write_model(body))
     assert code == 4
-    assert says in shown
+    assert sentence in shown
 
 
-@pytest.mark.parametrize(("arguments", "says"), [(["jkr"], "one of our own"), (["nowhere"], "no installed package")])
-def test_what_cannot_be_checked_is_wrong_input(capsys, arguments, says):
+@pytest.mark.parametrize(
+    ("arguments", "sentence"), [(["jkr"], "one of our own"), (["nowhere"], "no installed package")]
+)
+def test_what_cannot_be_checked_is_wrong_input(capsys, arguments, sentence):
     assert main(["check-model", *arguments]) == 2
-    assert says in capsys.readouterr().err
+    assert sentence in capsys.readouterr().err
 
 
 PHYSICAL = """

@@ -29,27 +29,31 @@ def test_a_run_goes_on_with_a_model_that_names_itself_by_its_process(write_model
     assert main(["run", "--jobs", "2", "--out", str(out), "--model", *specs]) == 4
     table = pd.read_csv(out / "results.csv", dtype=str)
     assert sorted(table["model"].str.partition("-")[0]) == ["bradley"] * 2 + ["good"] * 2 + ["stranger"] * 2
-    theirs = table[table["model"].str.startswith("stranger")]
-    assert theirs["model"].nunique() == theirs["model_version"].nunique() == 1
-    assert set(theirs["status"]) == {"failed"}
-    assert theirs["reason"].str.startswith("the model contradicts itself: it is stranger").all()
+    rows_of_model = table[table["model"].str.startswith("stranger")]
+    assert rows_of_model["model"].nunique() == rows_of_model["model_version"].nunique() == 1
+    assert set(rows_of_model["status"]) == {"failed"}
+    assert (
+        rows_of_model["reason"]
+        .str.startswith("the model's name or version changed after it was loaded: it is stranger")
+        .all()
+    )
     assert set(table.loc[table["model"] == "good", "status"]) == {"ok"}
 
 
 @pytest.mark.parametrize("more", BY_PROCESS)
 def test_a_row_is_of_the_model_that_the_run_opened(write_model, more):
     spec = write_model(GOOD, more=more)
-    (name,), outside = identify([spec])
+    (name,), external = identify([spec])
     close_models()
-    row = evaluate_task(Task(name, "pull_off_force", CASE, outside[name]))
-    assert (row.model, row.model_version) == (name, outside[name].version)
+    row = evaluate_task(Task(name, "pull_off_force", CASE, external[name]))
+    assert (row.model, row.model_version) == (name, external[name].version)
     assert (row.status, row.value) == ("failed", None)
-    assert row.reason.endswith(f"in a later process, and was {name} {outside[name].version}")
+    assert row.reason.endswith(f"in a later process, and was {name} {external[name].version}")
 
 
 @pytest.mark.parametrize("more", ["name = 'jkr' if len(sys.argv) else ''", "name = '<b>'"])
 def test_one_that_takes_a_name_it_may_not_have_fails_too(write_model, more):
-    first = ExternalIdentity("stranger", "1 (0)", write_model(GOOD, more=more), "nobody", "tests")
+    first = ExternalIdentity("stranger", "1 (0)", write_model(GOOD, more=more), "A. Author", "tests")
     row = evaluate_task(Task("stranger", "pull_off_force", CASE, first))
     assert (row.model, row.model_version, row.status) == ("stranger", "1 (0)", "failed")
 
@@ -61,7 +65,7 @@ def test_a_process_that_had_to_be_started_again_is_compared_with_the_first(write
     assert [row.status for row in rows] == ["ok", "failed", "failed", "failed"]
     assert "exit status 1" in rows[1].reason
     assert rows[2].reason == rows[3].reason
-    assert rows[2].reason.startswith("the model contradicts itself")
+    assert rows[2].reason.startswith("the model's name or version changed")
     assert {(row.model, row.model_version) for row in rows} == {(model.name, model.version)}
 
 
@@ -72,4 +76,4 @@ def test_a_file_that_changes_during_a_run_is_noticed(write_model, tmp_path):
     (tmp_path / "table.csv").write_text("2")
     row = evaluate(model, "pull_off_force", Case(2, 0, 1))
     assert row.status == "failed"
-    assert row.reason.startswith("the model's files changed after it was opened: it is stranger 1 (")
+    assert row.reason.startswith("the model's files changed after it was loaded: it is stranger 1 (")

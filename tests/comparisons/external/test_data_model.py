@@ -1,4 +1,4 @@
-"""Predictions as data: what is right is read exactly, what is wrong is refused with its place."""
+"""Predictions as data: right ones are read exactly, wrong ones are refused with their place."""
 
 import hashlib
 import os
@@ -6,7 +6,7 @@ import os
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.external import data_model
+from comparisons.external import manifest
 from comparisons.external.data_model import read_submission
 from comparisons.model import Model
 from comparisons.registry import create
@@ -43,11 +43,14 @@ def with_row(number, text):
 
 
 @pytest.mark.parametrize(
-    ("wrong", "says"),
+    ("wrong", "sentence"),
     [
-        ({"change": {'["pull_off_force"]': '[["a"]]'}}, "unknown quantity ['a']"),
-        ({"change": {'["pull_off_force"]': "[{a=1}]"}}, "unknown quantity {'a': 1}"),
-        ({"change": {"n = [2]": 'n = ["2"]'}}, "n in [[covers]] must be a list of numbers; '2' is none"),
+        (
+            {"change": {'["pull_off_force"]': '[["a"]]'}},
+            "quantities must be a list of quantities; it holds ['a']",
+        ),
+        ({"change": {'["pull_off_force"]': "[{a=1}]"}}, "quantities must be a list of quantities; it holds {'a': 1}"),
+        ({"change": {"n = [2]": 'n = ["2"]'}}, "n in [[covers]] must be a list of numbers; found '2'"),
         ({"change": {"n = [2]": "n = [1" + "0" * 400 + "]"}}, "n in [[covers]] must be a list of numbers"),
         ({"change": {'name = "': "x = " + "[" * 5000 + "]" * 5000 + '\nname = "'}}, "nested too deeply"),
         ({"rows": with_row(1, "pull_off_force,2,0,1,1_6,0")}, "line 3: value = '1_6' is not a number"),
@@ -80,29 +83,44 @@ def with_row(number, text):
         ({"change": {'"measured"': '"<b>measured</b>"'}}, "letters, digits"),
         ({"change": {'"A. Author"': '"A.\\nAuthor"'}}, "author must be one line"),
         ({"change": {'"A. Author"': '"A.\\u202eAuthor"'}}, "author must be one line"),
-        ({"change": {'"A. Author"': '""'}}, "author must be a text"),
-        ({"change": {'doi = "10.1000/182"': 'doi = "javascript:1"'}}, "doi"),
-        ({"change": {'doi = "10.1000/182"': 'doi = "10.1000/<b>"'}}, "doi"),
-        ({"change": {'licence = "CC-BY-4.0"': ""}}, "licence missing or unknown"),
-        ({"change": {"[units]": 'colour = "red"\n[units]'}}, "colour missing or unknown"),
+        ({"change": {'"A. Author"': '""'}}, "author = '' must be one line of 1 to 500 printable"),
+        ({"change": {'doi = "10.1000/182"': 'doi = "javascript:1"'}}, "doi = 'javascript:1' must be a DOI such as"),
+        ({"change": {'doi = "10.1000/182"': 'doi = "10.1000/<b>"'}}, "doi = '10.1000/<b>' must be a DOI such as"),
+        ({"change": {'doi = "10.1000/182"': "doi = 1"}}, 'doi = 1 must be a DOI such as "10.1000/182", or "none"'),
+        ({"change": {'"CC-BY-4.0"': '"<b>"'}}, "licence = '<b>' must be a licence of"),
+        ({"digest": "..."}, "sha256 = '...' must be the SHA-256 of the predictions, 64 hex"),
+        (
+            {"change": {"[units]": 'limits = ["jkr", 1]\n[units]'}},
+            "limits = ['jkr', 1] must be a list of names",
+        ),
+        ({"change": {'"pi Q^(2/n) dgamma z0^(2/n-1)"': "1"}}, "units.pull_off_force = 1 must be a unit as"),
+        (
+            {"change": {"[units]": "x = " + "[" * 400 + "]" * 400 + "\n[units]"}},
+            "unknown key 'x'; known are name",
+        ),
+        ({"change": {'licence = "CC-BY-4.0"': ""}}, "licence missing; a folder of predictions has name,"),
+        ({"change": {"[units]": 'colour = "red"\n[units]'}}, "unknown key 'colour'; known are"),
         ({"change": {"k = [0, 0.4]": "k = [0, 1.4]"}}, "[0, 1]"),
         ({"change": {"k = [0, 0.4]": 'k = [0, "0.4"]'}}, "k in [[covers]] must be a list of numbers"),
         ({"change": {"k = [0, 0.4]": "k = []"}}, "no case"),
-        ({"change": {"k = [0, 0.4]": "q = [0, 0.4]"}}, "has the lists"),
-        ({"change": {'["pull_off_force"]': '["pull_off"]'}}, "unknown quantity 'pull_off'"),
+        ({"change": {"k = [0, 0.4]": "q = [0, 0.4]"}}, "covers 1: unknown key 'q'; known are quantities, n, k, mu"),
+        (
+            {"change": {'["pull_off_force"]': '["pull_off"]'}},
+            "'pull_off': did you mean pull_off_force?",
+        ),
         ({"change": {"[[covers]]": "[covers]"}}, "[[covers]] table"),
         ({"change": {"[[covers]]": "[[covers"}}, "Expected"),
     ],
 )
-def test_what_is_wrong_is_refused_with_its_place(write_data, capsys, wrong, says):
+def test_what_is_wrong_is_refused_with_its_place(write_data, capsys, wrong, sentence):
     folder = write_data(**wrong)
     with pytest.raises(ValueError, match="data") as refusal:
         read_submission(folder)
-    assert says in str(refusal.value)
+    assert sentence in str(refusal.value)
     arguments = ["--quantity", "pull_off_force", "--n", "2", "--k", "0", "--mu", "1"]
     assert main(["solve", "--model", str(folder), *arguments]) == 2
     shown = capsys.readouterr()
-    assert says in shown.err
+    assert sentence in shown.err
     assert shown.err.count("\n") == 1
     assert shown.out == ""
 
@@ -168,18 +186,18 @@ mu = [{MANY}]
 
 
 @pytest.mark.parametrize(
-    ("tables", "says"),
+    ("tables", "sentence"),
     [
         (TABLE.replace("0.4", ", ".join(f"0.{i}" for i in range(1, 90))) * 2, "promise 1270020 cases, more than"),
         (TABLE, "promises 15488 cases, but the predictions have 5 lines"),
     ],
 )
-def test_too_many_promised_cases_are_refused_before_any_is_built(write_data, monkeypatch, tables, says):
+def test_too_many_promised_cases_are_refused_before_any_is_built(write_data, monkeypatch, tables, sentence):
     """A file of 1 kB must not cost a minute and 400 MB."""
     folder = write_data(change={"[[covers]]": f"{tables}\n[[covers]]"})
     built = []
-    monkeypatch.setattr(data_model, "Problem", lambda *case: built.append(case))
-    with pytest.raises(ValueError, match=says) as refusal:
+    monkeypatch.setattr(manifest, "Problem", lambda *case: built.append(case))
+    with pytest.raises(ValueError, match=sentence) as refusal:
         read_submission(folder)
     assert "\n" not in str(refusal.value)
     assert not built

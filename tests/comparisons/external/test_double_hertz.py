@@ -118,14 +118,14 @@ def test_limits(k):
 @pytest.mark.parametrize("k", [0.0, 0.4])
 def test_it_is_near_maugis_dugdale_of_the_same_strength(k, mu):
     """Two laws of one strength and one work of adhesion: at most 2 % apart."""
-    ours, theirs = (
+    ours, of_maugis_dugdale = (
         model.evaluate(Problem(2, k, mu), "pull_off_force").value for model in (MODEL, MaugisDugdaleOriginal())
     )
-    assert theirs < ours < 1.02 * theirs
+    assert of_maugis_dugdale < ours < 1.02 * of_maugis_dugdale
 
 
 @pytest.mark.parametrize(("n", "k", "mu"), [(1, 0, 1), (2, 0.95, 1), (2, 0, 101)])
-def test_outside_its_domain_it_says_so(n, k, mu):
+def test_beyond_its_domain_it_is_not_applicable(n, k, mu):
     with pytest.raises(NotApplicable, match="n = 2"):
         MODEL.evaluate(Problem(n, k, mu), "pull_off_force")
 

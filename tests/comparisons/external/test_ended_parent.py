@@ -1,4 +1,4 @@
-"""What is left when the parent of a model's process ends: no process, no scratch folder, every other file."""
+"""End of the parent of a model's process: no process and no scratch folder is left, and every other file is."""
 
 import json
 import os
@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import comparisons
-from comparisons.external.child import _PROGRAM
+from comparisons.external.launch import PROGRAM
 from comparisons.external.scratch import Scratch, make_scratch, remove_scratch
 
 from .test_hostile_models import ended
@@ -83,14 +83,14 @@ def test_a_model_that_changes_the_functions_of_its_process_ends_too(write_model,
     assert comes_true(lambda: not list((tmp_path / "temporary").iterdir()))
 
 
-#: Does in our own thread, when the parent has ended, what a model may not do; then says so in its scratch folder.
+#: Writes elsewhere from our own thread when the parent has ended, and leaves the outcome in its scratch folder.
 TRESPASSER = """
 import os, shutil, sys
 from pathlib import Path
 
 def trespass(*_, **__):
     try:
-        (Path({outside!r}) / "new").write_text("x")
+        (Path({elsewhere!r}) / "new").write_text("x")
     except OSError:
         Path({scratch!r}, "refused").touch()
     else:
@@ -109,34 +109,34 @@ class Model:
 
 
 def test_landlock_holds_for_our_thread_in_the_process_of_a_model(tmp_path):
-    outside, scratch = tmp_path / "outside", tmp_path / "scratch"
-    outside.mkdir()
+    elsewhere, scratch = tmp_path / "elsewhere", tmp_path / "scratch"
+    elsewhere.mkdir()
     scratch.mkdir()
     file = tmp_path / "trespasser.py"
-    file.write_text(TRESPASSER.format(outside=str(outside), scratch=str(scratch)))
-    answers, theirs = os.pipe()
+    file.write_text(TRESPASSER.format(elsewhere=str(elsewhere), scratch=str(scratch)))
+    replies, child_end = os.pipe()
     path = [str(Path(comparisons.__file__).parent.parent), *filter(None, sys.path)]
     with subprocess.Popen(
-        [sys.executable, "-c", _PROGRAM, str(theirs), str(scratch), *path],
+        [sys.executable, "-c", PROGRAM, str(child_end), str(scratch), *path],
         stdin=subprocess.PIPE,
-        pass_fds=[theirs],
+        pass_fds=[child_end],
         cwd=scratch,
     ) as child:
-        os.close(theirs)
-        ready = {"ask": "ready", "limits": {}, "path": path}
-        opened = {"ask": "open", "door": {"kind": "file", "file": str(file), "attribute": "Model"}}
-        for request in (ready, opened):
+        os.close(child_end)
+        ready = {"request": "ready", "limits": {}, "path": path}
+        loading = {"request": "load", "source": {"kind": "file", "file": str(file), "attribute": "Model"}}
+        for request in (ready, loading):
             child.stdin.write(json.dumps(request).encode() + b"\n")
             child.stdin.flush()
-            assert select.select([answers], [], [], 120.0)[0]
-            assert json.loads(os.read(answers, 1 << 16))["status"] == "ok"
-        child.stdin.write(b'{"ask": "evaluate", "n": 2, "k": 0, "mu": 1, "quantity": "pull_off_force"}\n')
+            assert select.select([replies], [], [], 120.0)[0]
+            assert json.loads(os.read(replies, 1 << 16))["status"] == "ok"
+        child.stdin.write(b'{"request": "evaluate", "n": 2, "k": 0, "mu": 1, "quantity": "pull_off_force"}\n')
         child.stdin.close()
-    os.close(answers)
+    os.close(replies)
     if (scratch / "written").exists() and not landlock_works(tmp_path):
         pytest.skip("this kernel has no Landlock")
     assert [entry.name for entry in scratch.iterdir()] == ["refused"]
-    assert not list(outside.iterdir())
+    assert not list(elsewhere.iterdir())
 
 
 def landlock_works(folder):

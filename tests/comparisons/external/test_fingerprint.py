@@ -134,7 +134,7 @@ def test_a_declared_file_counts_where_others_do_not(tmp_path, write_model):
 
 
 @pytest.mark.parametrize(
-    ("files", "says"),
+    ("files", "sentence"),
     [
         ('"table.csv"', "files = 'table.csv' is not a tuple of texts"),
         ("(1,)", "files = (1,) is not a tuple of texts"),
@@ -143,11 +143,11 @@ def test_a_declared_file_counts_where_others_do_not(tmp_path, write_model):
         ('("a\\0b",)', "no such file"),
     ],
 )
-def test_wrong_names_of_files_are_refused_in_one_sentence(write_model, capsys, files, says):
+def test_wrong_names_of_files_are_refused_in_one_sentence(write_model, capsys, files, sentence):
     spec = write_model("return Result(1.5, 0.0)", more=f"files = {files}")
     assert main(["solve", "--model", spec, "--quantity", "pull_off_force", "--n", "2", "--k", "0", "--mu", "1"]) == 2
     message = capsys.readouterr().err
-    assert says in message
+    assert sentence in message
     assert message.count("\n") == 1
     assert "Traceback" not in message
 
@@ -202,7 +202,7 @@ def test_every_file_of_an_installed_package_counts_and_none_beside_it(installed)
 
 
 def test_of_a_single_installed_module_what_its_package_lists_counts(installed):
-    """A distribution of modules without a package: its record says which files are its own."""
+    """A distribution of modules without a package: its record lists its files."""
     info = installed / "stranger-1.dist-info"
     (installed / "stranger" / "model.py").rename(installed / "model.py")
     (installed / "table.csv").write_text("1")
@@ -217,10 +217,10 @@ def test_of_a_single_installed_module_what_its_package_lists_counts(installed):
 
 def test_what_was_hashed_is_passed_on(folder, write_data):
     spec = f"{folder / 'stranger.py'}:Model"
-    _, outside = identify([spec, "jkr"])
-    assert outside["stranger"].hashed == create(spec).hashed
-    _, outside = identify([str(write_data())])
-    assert "4 rows" in outside["measured"].hashed
+    _, external = identify([spec, "jkr"])
+    assert external["stranger"].hashed == create(spec).hashed
+    _, external = identify([str(write_data())])
+    assert "4 rows" in external["measured"].hashed
 
 
 def test_check_model_says_what_was_hashed(folder, capsys):

@@ -1,4 +1,4 @@
-"""What a model does wrong costs its own rows, each with a reason that says what it was, and nothing else."""
+"""Defects of a model: each costs the rows of this model, with a reason, and nothing else."""
 
 import os
 import subprocess
@@ -26,7 +26,7 @@ CASE = Case(2, 0.4, 1)
 GOOD = "return Result(1.5, 1e-9)"
 
 
-def row(spec):
+def row_of(spec):
     return evaluate(create(spec), "pull_off_force", CASE)
 
 
@@ -57,14 +57,14 @@ NONSENSE = [
     ("raise type('Odd', (ComputationFailed,), {'__str__': lambda self: 1 / 0})", "__str__ raises ZeroDivisionError"),
     ("sys.exit(type('Odd', (), {'__repr__': lambda self: 1 / 0})())", "__repr__ raises ZeroDivisionError"),
     ("import mangled", "SyntaxError in line 2 of mangled.py: "),
-    ("raise ComputationFailed", "did not say why"),
+    ("raise ComputationFailed", "without a reason"),
     ("raise ValueError('k is large')", "k is large (a case outside the domain is NotApplicable)"),
 ]
 
 
 @pytest.fixture(scope="module")
 def nonsense(tmp_path_factory):
-    """One process that does all of the above, as the Tabor number says."""
+    """One process with all defects above; the Tabor number is the number of the defect."""
     bodies = "\n".join(
         f"        if problem.mu == {number}:\n            {body}" for number, (body, _) in enumerate(NONSENSE, 1)
     )
@@ -77,68 +77,68 @@ def nonsense(tmp_path_factory):
     model.close()
 
 
-@pytest.mark.parametrize(("number", "says"), list(enumerate((says for _, says in NONSENSE), 1)))
-def test_nonsense_is_a_failed_row_with_a_reason(nonsense, number, says):
-    answer = evaluate(nonsense, "pull_off_force", Case(2, 0, number))
-    assert (answer.status, answer.value, answer.model) == ("failed", None, "stranger")
-    assert says in answer.reason
-    assert answer.reason.isprintable()
+@pytest.mark.parametrize(("number", "sentence"), list(enumerate((sentence for _, sentence in NONSENSE), 1)))
+def test_nonsense_is_a_failed_row_with_a_reason(nonsense, number, sentence):
+    row = evaluate(nonsense, "pull_off_force", Case(2, 0, number))
+    assert (row.status, row.value, row.model) == ("failed", None, "stranger")
+    assert sentence in row.reason
+    assert row.reason.isprintable()
 
 
 @pytest.mark.parametrize("count", [10**30, -1, 2**63])
 def test_a_process_that_writes_a_count_of_its_own_is_not_believed(count):
-    answer = {"status": "ok", "value": 1.5, "u_num": 0.0, "size": count, "iterations": 0, "residual": 0.0}
-    said = {"name": "stranger", "version": "1", "citation": "", "domain": "", "digest": "0" * 64, "hashed": ""}
-    model = ExternalModel(SimpleNamespace(ask=lambda **_: answer), said | {"limits": [], "physical": False})
-    assert evaluate(model, "pull_off_force", CASE).reason == "its process wrote something that is not an answer"
+    reply = {"status": "ok", "value": 1.5, "u_num": 0.0, "size": count, "iterations": 0, "residual": 0.0}
+    texts = {"name": "stranger", "version": "1", "citation": "", "domain": "", "digest": "0" * 64, "hashed": ""}
+    model = ExternalModel(SimpleNamespace(request=lambda *_, **__: reply), texts | {"limits": [], "physical": False})
+    assert evaluate(model, "pull_off_force", CASE).reason == "its process wrote something that is not a result"
 
 
 @pytest.mark.parametrize(
-    ("body", "says"),
+    ("body", "sentence"),
     [
         ("os._exit(0)", "ended its process with exit status 0"),
         ("ctypes.string_at(0)", "killed by SIGSEGV"),
         ("os.kill(os.getpid(), 40)", "killed by signal 40"),
         (
             "for fd in range(3, 200):\n    with suppress(OSError):\n        os.write(fd, b'{}\\n')",
-            "not an answer",
+            "not a result",
         ),
         ("os.closerange(0, 100)\nreturn Result(1.0, 0.0)", "exit status"),
     ],
 )
-def test_one_that_ends_or_corrupts_its_process_is_a_failed_row(write_model, body, says):
-    answer = row(write_model(body))
-    assert (answer.status, answer.value) == ("failed", None)
-    assert says in answer.reason
+def test_one_that_ends_or_corrupts_its_process_is_a_failed_row(write_model, body, sentence):
+    row = row_of(write_model(body))
+    assert (row.status, row.value) == ("failed", None)
+    assert sentence in row.reason
 
 
-def test_one_that_loops_for_ever_is_ended_and_not_asked_for_ever(write_model, monkeypatch):
+def test_one_that_loops_for_ever_is_ended_and_evaluated_no_more(write_model, monkeypatch):
     monkeypatch.setenv("FSCM_BENCH_TIME_LIMIT", "0.3")
     spec = write_model("while True:\n    pass")
-    reasons = [row(spec).reason for _ in range(PATIENCE + 1)]
-    assert reasons == ["it had no answer after 0.3 s and was ended"] * PATIENCE + [
-        f"not asked: it ran out of time {PATIENCE} times in a row"
+    reasons = [row_of(spec).reason for _ in range(PATIENCE + 1)]
+    assert reasons == ["it gave no result within 0.3 s and was ended"] * PATIENCE + [
+        f"not evaluated: it ran out of time {PATIENCE} times in a row"
     ]
 
 
 def test_one_that_allocates_without_bound_runs_into_its_limit(write_model, monkeypatch):
     monkeypatch.setenv("FSCM_BENCH_MEMORY_LIMIT", "1500")
     spec = write_model("kept = []\nwhile True:\n    kept.append(bytearray(50_000_000))")
-    answer = row(spec)
-    assert answer.status == "failed"
-    assert "1500 MB" in answer.reason
-    assert row(spec).status == "failed"
+    row = row_of(spec)
+    assert row.status == "failed"
+    assert "1500 MB" in row.reason
+    assert row_of(spec).status == "failed"
 
 
 def test_a_refusal_whose_text_cannot_be_had_is_a_refusal(write_model):
-    answer = row(write_model("raise type('Odd', (NotApplicable,), {'__str__': lambda self: 1 / 0})"))
-    assert answer.status == "not-applicable"
-    assert "__str__ raises ZeroDivisionError" in answer.reason
+    row = row_of(write_model("raise type('Odd', (NotApplicable,), {'__str__': lambda self: 1 / 0})"))
+    assert row.status == "not-applicable"
+    assert "__str__ raises ZeroDivisionError" in row.reason
 
 
 def test_printing_disturbs_nobody(write_model, capfd):
     body = "print('{\"status\": \"ok\"}' * 9999)\nos.write(1, b'x')\nos.write(2, b'y')\nsys.stdout.close()\n" + GOOD
-    assert row(write_model(body)).value == 1.5
+    assert row_of(write_model(body)).value == 1.5
     assert capfd.readouterr() == ("", "")
 
 
@@ -151,10 +151,10 @@ def test_it_recovers_after_a_crash(write_model):
 
 def test_it_cannot_signal_us_nor_see_our_environment(write_model, monkeypatch):
     monkeypatch.setenv("SOME_TOKEN", "secret")
-    assert row(write_model("return Result(float('SOME_TOKEN' in os.environ), 0.0)")).value == 0.0
+    assert row_of(write_model("return Result(float('SOME_TOKEN' in os.environ), 0.0)")).value == 0.0
     # Signal 0 does nothing, whatever the system allows.
-    answer = row(write_model("os.kill(os.getppid(), 0)\n" + GOOD, name="killer"))
-    assert answer.status in {"ok", "failed"}
+    row = row_of(write_model("os.kill(os.getppid(), 0)\n" + GOOD, name="killer"))
+    assert row.status in {"ok", "failed"}
 
 
 def test_it_leaves_no_process_behind(write_model, tmp_path):
@@ -167,7 +167,7 @@ def test_it_leaves_no_process_behind(write_model, tmp_path):
 
 
 def test_a_child_does_not_outlive_us(write_model):
-    """Also in the middle of a question, when we are killed and can end nothing."""
+    """Also in the middle of an evaluation, when this process is killed and cannot end the child."""
     spec = write_model("while True:\n    pass", more="@property\ndef citation(self):\n    return str(os.getpid())")
     program = f"""
 from comparisons.registry import create
@@ -183,7 +183,7 @@ model.evaluate(Problem(2, 0, 1), "pull_off_force")
 
 
 def ended(process):
-    """Whether a process that was sent a SIGKILL is gone, or a zombie that nobody has reaped yet."""
+    """Whether a process that was sent a SIGKILL is gone, or a zombie that has not been reaped yet."""
     for _ in range(1000):
         try:
             state = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
@@ -211,16 +211,16 @@ def test_a_nonsense_curve_is_refused(write_model, capsys):
         for number, (curve, _) in enumerate(CURVES, 1)
     )
     spec = write_model(GOOD, more=f"def curve(self, problem):\n{curves}    return 'curve'")
-    for number, (_, says) in enumerate([*CURVES, ("", "str 'curve'")], 1):
+    for number, (_, sentence) in enumerate([*CURVES, ("", "str 'curve'")], 1):
         assert main(["curve", "--model", spec, "jkr", "--n", "2", "--k", "0", "--mu", str(number)]) == 4
         shown = capsys.readouterr()
-        assert says in shown.err
+        assert sentence in shown.err
         assert "jkr" in shown.out
         assert "stranger" not in shown.out
 
 
 @pytest.mark.parametrize(
-    ("name", "says"),
+    ("name", "sentence"),
     [
         ("<b>bold</b>", "letters, digits"),
         ("", "letters, digits"),
@@ -231,22 +231,22 @@ def test_a_nonsense_curve_is_refused(write_model, capsys):
         ("NaN", "missing value"),
     ],
 )
-def test_a_name_that_could_do_harm_is_refused(name, says):
-    with pytest.raises(ValueError, match=says):
+def test_a_name_that_could_do_harm_is_refused(name, sentence):
+    with pytest.raises(ValueError, match=sentence):
         model_name(name)
 
 
-@pytest.mark.parametrize(("name", "says"), [("<b>bold</b>", "letters, digits"), ("jkr", "one of ours")])
-def test_a_model_with_such_a_name_is_wrong_input(write_model, capsys, name, says):
+@pytest.mark.parametrize(("name", "sentence"), [("<b>bold</b>", "letters, digits"), ("jkr", "one of ours")])
+def test_a_model_with_such_a_name_is_wrong_input(write_model, capsys, name, sentence):
     spec = write_model(GOOD, more=f"name = {name!r}")
     assert main(["solve", "--model", spec, "--quantity", "pull_off_force", "--n", "2", "--k", "0", "--mu", "1"]) == 2
     message = capsys.readouterr().err
-    assert says in message
+    assert sentence in message
     assert message.count("\n") == 1
 
 
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "sentence"),
     [
         ("import no_such_module_at_all", "no_such_module_at_all"),
         ("x = 1\ndef f(:", "SyntaxError in line 2 of stranger.py: invalid syntax"),
@@ -260,7 +260,7 @@ def test_a_model_with_such_a_name_is_wrong_input(write_model, capsys, name, says
         ("class Model:\n    def __init__(self, radius):\n        pass", "radius"),
     ],
 )
-def test_one_that_cannot_be_loaded_is_wrong_input(tmp_path, capsys, text, says):
+def test_one_that_cannot_be_loaded_is_wrong_input(tmp_path, capsys, text, sentence):
     file = tmp_path / "stranger.py"
     file.write_text(text)
     arguments = ["--quantity", "pull_off_force", "--n", "2", "--k", "0", "--mu", "1"]
@@ -268,7 +268,7 @@ def test_one_that_cannot_be_loaded_is_wrong_input(tmp_path, capsys, text, says):
     shown = capsys.readouterr()
     assert "cannot be loaded" in shown.err
     assert "NotApplicable" not in shown.err
-    assert says in shown.err
+    assert sentence in shown.err
     assert shown.out == ""
 
 

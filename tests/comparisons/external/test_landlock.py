@@ -10,7 +10,7 @@ import os, sys
 from pathlib import Path
 from comparisons.external.landlock import write_only_in
 
-inside, outside = map(Path, sys.argv[1:])
+inside, elsewhere = map(Path, sys.argv[1:])
 if not write_only_in(inside):
     print("not here")
     sys.exit()
@@ -25,30 +25,30 @@ def tried(action):
 print(
     tried(lambda: (inside / "new").write_text("x")),
     tried(lambda: Path(os.devnull).write_text("x")),
-    tried(lambda: (outside / "old").read_text()),
-    tried(lambda: (outside / "old").write_text("x")),
-    tried(lambda: os.truncate(outside / "old", 0)),
-    tried(lambda: (outside / "old").unlink()),
-    tried(lambda: (outside / "new").touch()),
-    tried(lambda: (outside / "folder").mkdir()),
-    tried(lambda: os.rename(inside / "new", outside / "new")),
+    tried(lambda: (elsewhere / "old").read_text()),
+    tried(lambda: (elsewhere / "old").write_text("x")),
+    tried(lambda: os.truncate(elsewhere / "old", 0)),
+    tried(lambda: (elsewhere / "old").unlink()),
+    tried(lambda: (elsewhere / "new").touch()),
+    tried(lambda: (elsewhere / "folder").mkdir()),
+    tried(lambda: os.rename(inside / "new", elsewhere / "new")),
 )
 """
 
 
 def test_only_the_scratch_folder_is_writable(tmp_path):
-    inside, outside = tmp_path / "inside", tmp_path / "outside"
+    inside, elsewhere = tmp_path / "inside", tmp_path / "elsewhere"
     inside.mkdir()
-    outside.mkdir()
-    (outside / "old").write_text("kept")
-    command = [sys.executable, "-c", PROGRAM, str(inside), str(outside)]
-    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
-    if said == ["not", "here"]:
+    elsewhere.mkdir()
+    (elsewhere / "old").write_text("kept")
+    command = [sys.executable, "-c", PROGRAM, str(inside), str(elsewhere)]
+    outcomes = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
+    if outcomes == ["not", "here"]:
         pytest.skip("this kernel has no Landlock")
-    assert said[:3] == ["done"] * 3
-    assert {said[3], *said[5:8]} == {"PermissionError"}
+    assert outcomes[:3] == ["done"] * 3
+    assert {outcomes[3], *outcomes[5:8]} == {"PermissionError"}
     # Truncation is refused from Linux 6.2 on, and a move across the border as such or as crossing devices.
-    assert said[4] in {"PermissionError", "done"}
-    assert said[8] in {"PermissionError", "OSError"}
-    assert [path.name for path in outside.iterdir()] == ["old"]
-    assert (outside / "old").read_text() in {"kept", ""}
+    assert outcomes[4] in {"PermissionError", "done"}
+    assert outcomes[8] in {"PermissionError", "OSError"}
+    assert [path.name for path in elsewhere.iterdir()] == ["old"]
+    assert (elsewhere / "old").read_text() in {"kept", ""}

@@ -1,4 +1,4 @@
-"""One model through three doors gives one answer; an example written from outside is a model like ours."""
+"""One model from three sources (package, file, data) has the same results, and is treated as our own models are."""
 
 import csv
 import hashlib
@@ -11,7 +11,7 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.external.model_source import close_models
-from comparisons.model import Model, TracesCurve
+from comparisons.model import HasCurve, Model
 from comparisons.pipeline import inputs
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
@@ -33,8 +33,8 @@ def data_door(tmp_path):
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["quantity", "n", "k", "mu", "value", "u_num"])
     for case in CASES:
-        answer = model.evaluate(case.problem(), QUANTITY)
-        writer.writerow([QUANTITY, case.n, case.k, case.mu, repr(answer.value), repr(answer.u_num)])
+        result = model.evaluate(case.problem(), QUANTITY)
+        writer.writerow([QUANTITY, case.n, case.k, case.mu, repr(result.value), repr(result.u_num)])
     folder = tmp_path / "submission"
     folder.mkdir()
     content = text.getvalue().encode()
@@ -63,10 +63,10 @@ mu = [0.1, 1]
 
 GRID = f"""
 [[grid]]
-id = "doors"
+id = "sources"
 title = "The cases of the submission"
 tier = "quick"
-tags = ["doors"]
+tags = ["sources"]
 reference = "md-improved"
 models = ["jkr"]
 quantities = ["{QUANTITY}"]
@@ -83,7 +83,7 @@ requirement = "The model has the pull-off force of md-improved to 5 %."
 quantity = "{QUANTITY}"
 candidate = "given"
 reference = "md-improved"
-cases = {{ tags = ["doors"] }}
+cases = {{ tags = ["sources"] }}
 metric = "rel"
 lower = -0.05
 upper = 0.05
@@ -134,16 +134,16 @@ def test_the_doors_agree_in_solve(data_door, installed_example, capsys):
         assert main(["solve", "--model", spec, *arguments]) == 0
         shown = capsys.readouterr()
         assert shown.err == ""
-        answer = json.loads(shown.out)
-        assert answer["model"] == "double-hertz"
-        values.append((answer["value"], answer["u_num"]))
+        result = json.loads(shown.out)
+        assert result["model"] == "double-hertz"
+        values.append((result["value"], result["u_num"]))
     assert len(set(values)) == 1
 
 
 def test_the_example_keeps_the_contract(installed_example):
     model = create(installed_example)
     assert isinstance(model, Model)
-    assert isinstance(model, TracesCurve)
+    assert isinstance(model, HasCurve)
     assert evaluate(model, "jump_in_gap", Case(2, 0, 1)).status == "not-applicable"
     assert evaluate(model, QUANTITY, Case(1, 0, 1)).status == "not-applicable"
 
@@ -171,14 +171,14 @@ def test_a_run_goes_on_and_notices_that_a_model_changed(write_model, gates, tmp_
         rows = list(csv.DictReader((out / "results.csv").read_text().splitlines()))
         return capsys.readouterr().err, [float(row["value"]) for row in rows if row["model"] == "stranger"]
 
-    said, values = once("return Result(1.5, 0.0)")
-    assert "8 computations" in said
+    messages, values = once("return Result(1.5, 0.0)")
+    assert "8 computations" in messages
     assert values == [1.5] * 4
-    said, values = once("return Result(1.5, 0.0)")
-    assert "0 computations" in said
+    messages, values = once("return Result(1.5, 0.0)")
+    assert "0 computations" in messages
     close_models()
-    said, values = once("return Result(1.6, 0.0)")
-    assert "4 computations" in said
+    messages, values = once("return Result(1.6, 0.0)")
+    assert "4 computations" in messages
     assert values == [1.6] * 4
 
 

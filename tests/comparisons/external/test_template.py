@@ -63,7 +63,7 @@ def test_the_workflow_knows_the_exit_statuses(package):
     assert "fscm-bench check-model my-model" in text
     assert "fscm-bench run --model my-model --gates gates.toml --out results" in text
     assert f'"$status" -eq {INCONCLUSIVE}' in text
-    # It is told apart and fails the job all the same.
+    # It has a message of its own and fails the job all the same.
     assert "exit 0" not in text
     meanings = {
         OK: "pass",
@@ -96,7 +96,7 @@ def test_the_workflow_ends_with_the_status_of_the_run(package, tmp_path, status)
 
 
 @pytest.mark.parametrize(
-    ("name", "says"),
+    ("name", "sentence"),
     [
         ("<b>", "letters, digits"),
         ("3d", "begins with a digit"),
@@ -115,10 +115,10 @@ def test_the_workflow_ends_with_the_status_of_the_run(package, tmp_path, status)
         ("my-model-", "ends in a sign"),
     ],
 )
-def test_a_name_that_cannot_be_is_refused(tmp_path, capsys, name, says):
+def test_a_name_that_cannot_be_is_refused(tmp_path, capsys, name, sentence):
     assert main(["new-model", str(tmp_path / name)]) == 2
     shown = capsys.readouterr().err
-    assert says in shown
+    assert sentence in shown
     assert shown.count("\n") == 1
     assert not (tmp_path / name).exists()
 

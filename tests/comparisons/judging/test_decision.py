@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from comparisons.judging.decision import COVERAGE, Verdict, combined, decide, expecting_failure, roll_up
+from comparisons.judging.decision import Verdict, decide, expecting_failure, roll_up
 
 NUMBERS = st.floats(-1e3, 1e3)
 
@@ -45,11 +45,6 @@ def test_more_uncertainty_never_makes_a_verdict_surer(error, u, lower, width):
 @given(NUMBERS, st.floats(0, 1e3), NUMBERS, st.floats(0, 1e3))
 def test_the_sign_of_everything_is_a_symmetry(error, u, lower, width):
     assert decide(error, u, lower, lower + width) == decide(-error, u, -lower - width, -lower)
-
-
-def test_u_is_the_root_of_the_sum_of_squares_with_its_coverage():
-    assert combined(3.0, 4.0) == COVERAGE * 5.0 == 10.0
-    assert combined(3.0, 4.0, 12.0) == 26.0
 
 
 ORDER = ["ERROR", "FAIL", "XPASS", "INCONCLUSIVE", "XFAIL", "PASS"]

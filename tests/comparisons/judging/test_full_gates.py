@@ -1,7 +1,7 @@
-"""The standing gates of the full tier can fail: their verdicts on made-up answers of both references.
+"""Verdicts of the standing gates of the full tier on made-up results of both references.
 
 The full tier takes long and its results are not committed, so the two references agree here by construction: one
-number for each question, and for each curve points of one line, others for each model.
+number for each task, and for each curve points of one line, others for each model.
 """
 
 import math
@@ -12,10 +12,11 @@ import pandas as pd
 import pytest
 
 from comparisons.baseline import BASELINE
-from comparisons.curve_quantities import SHAPES
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import gates_text, load_gates
 from comparisons.judging.judge import judge
+from comparisons.numerics.bounds import combined
+from comparisons.quantities import CURVES as CURVE_QUANTITIES
 from comparisons.runs.cases import VERIFICATION, grids
 from comparisons.runs.rows import Row, curve_frame, frame
 from comparisons.runs.tasks import plan
@@ -32,7 +33,7 @@ POINTS = {"fem": 15, "fscm": 45}
 
 
 def made_up(task):
-    """One answer for every question, by the case alone: what a model and another agree on."""
+    """One result for every task, by the case alone: two models agree on it."""
     case = task.case
     common = {
         "model": task.model,
@@ -50,15 +51,15 @@ def made_up(task):
         "residual": 0.0,
         "seconds": 0.0,
     }
-    if task.quantity not in SHAPES:
+    if task.quantity not in CURVE_QUANTITIES:
         return Row(value=case.n + case.k + case.mu, u_num=U_NUM, **common)
     t = np.linspace(0.0, 1.0, POINTS[task.model])
     return Row(value=None, u_num=None, points=(list(3.0 * t - 2.0), list(np.sin(3.0 * t)), U_DISTANCE), **common)
 
 
-ANSWERS = [made_up(task) for task in plan(GRIDS)]
-ROWS = frame(row for row in ANSWERS if not row.points)
-CURVES = curve_frame(row for row in ANSWERS if row.points)
+RESULTS = [made_up(task) for task in plan(GRIDS)]
+ROWS = frame(row for row in RESULTS if not row.points)
+CURVES = curve_frame(row for row in RESULTS if row.points)
 
 
 def verdict(gate, rows=ROWS, curves=CURVES):
@@ -66,7 +67,7 @@ def verdict(gate, rows=ROWS, curves=CURVES):
 
 
 def changed(gate, model, column, change):
-    """The results with one column of a model's answers to a gate's question changed."""
+    """The results with one column of a model's rows of a gate's quantity changed."""
     tables = {"rows": ROWS.copy(), "curves": CURVES.copy()}
     table = tables["curves" if gate.metric == "curve" else "rows"]
     mine = (table["model"] == model) & (table["quantity"] == gate.quantity)
@@ -85,7 +86,7 @@ def test_they_are_there():
 
 
 @EVERY_GATE
-def test_answers_that_agree_pass(gate):
+def test_results_that_agree_pass(gate):
     assert verdict(gate) == Verdict.PASS
 
 
@@ -116,7 +117,7 @@ def test_an_error_a_little_outside_the_limits_fails(gate, sign):
         if gate.metric == "rel":
             return table["value"] * (1.0 + sign * (beyond + 3.0 * U_NUM))
         if gate.metric == "en":
-            return table["value"] + sign * beyond * math.hypot(U_NUM, U_NUM)
+            return table["value"] + sign * beyond * combined(U_NUM, U_NUM)
         return table["y"] + sign * (beyond + 1e-5) * np.ptp(table["y"]) * 2.0
 
     assert verdict(gate, **changed(gate, gate.candidate, ordinate(gate), change)) == Verdict.FAIL
@@ -137,7 +138,7 @@ EN_GATES = pytest.mark.parametrize("gate", [gate for gate in GATES if gate.metri
 
 @EN_GATES
 def test_a_candidate_less_certain_than_tolerated_is_not_passed(gate):
-    """Three times the reference, and so uncertain that both claims hold."""
+    """Three times the reference, and so uncertain that both bounds hold."""
     worst = gate.max_candidate_uncertainty
     for size, expected in ((0.99 * worst, Verdict.PASS), (1.01 * worst, Verdict.INCONCLUSIVE)):
         tables = changed(gate, "fem", "u_num", lambda table, size=size: size * table["value"])
@@ -155,6 +156,13 @@ def test_the_uncertainty_tolerated_is_two_to_three_times_the_largest_committed(g
     mine = table[(table["quantity"] == gate.quantity) & (table["model"] == gate.candidate)]
     largest = (mine["u_num"] / mine["reference_value"].abs()).max()
     assert 2.0 * largest <= gate.max_candidate_uncertainty <= 3.5 * largest
+
+
+@EN_GATES
+def test_the_worst_case_stated_is_that_of_the_committed_agreement(gate):
+    table = pd.read_csv(ROOT / BASELINE / "references_agreement.csv")
+    found = table.loc[(table["quantity"] == gate.quantity) & (table["model"] == gate.candidate), "en"]
+    assert gate.worst_measured == pytest.approx(found[found.abs().idxmax()], rel=0.05)
 
 
 @EVERY_GATE

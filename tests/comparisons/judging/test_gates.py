@@ -1,14 +1,17 @@
-"""Gates as data: what is read, what is refused, and that the standing ones are fit to be cited."""
+"""Gates: files that are read, files that are refused, and the standing gates."""
 
+import json
 import math
 import re
+from dataclasses import fields
+from importlib.resources import files
 
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.judging.gates import GIVEN, gates_text, load_gates, of_tier
+from comparisons.judging.gates import GIVEN, METRICS, Gate, gates_text, load_gates, of_tier
 from comparisons.registry import MODELS
-from comparisons.runs.cases import Case, Grid, grids
+from comparisons.runs.cases import TIERS, Case, Grid, grids
 
 GATE = """
 [[gate]]
@@ -60,30 +63,34 @@ def test_a_range_of_poissons_ratio_does_not_select_a_case_without_one():
     assert [gate.selects(grid, Case(2, 0, 1, nu)) for nu in (None, 0.0, 0.3)] == [False, True, True]
 
 
-def test_the_reference_may_be_asked_elsewhere():
+def test_the_reference_may_be_taken_at_other_parameters():
     (gate,) = load_gates(GATE + "reference_at = { k = 1, nu = 0.25 }")
     assert gate.reference_case(Case(2, 0.95, 0.5)) == Case(2, 1, 0.5, 0.25)
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "says"),
+    ("old", "new", "sentence"),
     [
-        ("min_cases = 3", "min_cases = 3\nminimum = 3", "minimum missing or unknown"),
-        ("min_cases = 3", "", "min_cases missing or unknown"),
+        ("min_cases = 3", "min_cases = 3\nminimum = 3", "unknown key 'minimum'; known are id, "),
+        ("min_cases = 3", "", "min_cases missing; a gate has id, "),
         ("min_cases = 3", "min_cases = 0", "a gate without cases shows nothing"),
-        ("min_cases = 3", 'min_cases = "3"', "wrong type"),
-        ("min_cases = 3", "min_cases = true", "wrong type"),
+        ("min_cases = 3", 'min_cases = "3"', "min_cases = '3' must be an integer"),
+        ("min_cases = 3", "min_cases = true", "min_cases = true must be an integer"),
         ("A-GATE", "a gate", "capitals"),
         ('"jkr"', '"hertz"', "unknown candidate 'hertz'"),
         ('"fscm"', '"given"', "unknown reference 'given'"),
-        ('"rel"', '"relative"', "metric = 'relative'"),
+        (
+            '"rel"',
+            '"relative"',
+            "metric = 'relative' must be one of rel, abs, range-relative, en, curve: did you",
+        ),
         ('"rel"', '"curve"', "unknown quantity"),
         ("pull_off_force", "pull_off", "unknown quantity"),
         ("pull_off_force", "force_curve", "unknown quantity"),
-        ('"derived"', '"guessed"', "basis = 'guessed'"),
+        ('"derived"', '"guessed"', "basis = 'guessed' must be one of derived, published, measured"),
         ('"derived"', '"measured"', "states its worst_measured"),
         ("min_cases = 3", "min_cases = 3\nworst_measured = 0.1", "states its worst_measured"),
-        ('"quick"', '"slow"', "tier = 'slow'"),
+        ('"quick"', '"slow"', "tier = 'slow' must be one of quick, full"),
         ("lower = -0.1", "lower = 0.2", "admit nothing"),
         ("lower = -0.1\nupper = 0.1", "lower = -inf\nupper = inf", "one must be finite"),
         ("lower = -0.1", "lower = nan", "admit nothing"),
@@ -92,18 +99,22 @@ def test_the_reference_may_be_asked_elsewhere():
         ("1e-6", "inf", "positive"),
         ("n = [1, 2]", "n = [2, 1]", "[low, high]"),
         ("n = [1, 2]", "n = 1", "[low, high]"),
-        ("n = [1, 2]", "m = [1, 2]", "may restrict"),
-        ("min_cases = 3", 'min_cases = 3\nnot_applicable = "pass"', "not_applicable = 'pass'"),
-        ("[[gate]]", "[[gates]]", "nothing else"),
-        ("[[gate]]", "[gate]", "nothing else"),
+        ("n = [1, 2]", "m = [1, 2]", "cases: unknown key 'm': did you mean mu?"),
+        (
+            "min_cases = 3",
+            'min_cases = 3\nnot_applicable = "pass"',
+            "'pass' must be one of error, leave-out",
+        ),
+        ("[[gate]]", "[[gates]]", "unknown key 'gates': did you mean gate?"),
+        ("[[gate]]", "[gate]", "must be [[gate]] tables"),
         ("[[gate]]", "[[gate]", "is not TOML: "),
         ("[[gate]]", "x = " + "[" * 5000 + "]" * 5000 + "\n[[gate]]", "nested too deeply"),
-        ('tags = ["blue"]', 'tags = [["blue"]]', "must be names"),
-        ('tags = ["blue"]', "tags = []", "must be names"),
+        ('tags = ["blue"]', 'tags = [["blue"]]', "cases.tags must be a list of at least one name; it holds ['blue']"),
+        ('tags = ["blue"]', "tags = []", "cases.tags = [] must be a list of at least one name"),
         ("n = [1, 2]", "n = [true, true]", "[low, high]"),
-        ("lower = -0.1", "lower = -1" + "0" * 400, "wrong type"),
+        ("lower = -0.1", "lower = -1" + "0" * 400, "must be a number, or -inf for no limit"),
         ("min_cases = 3", 'min_cases = 3\nreference_at = { k = "1" }', "must be a number"),
-        ("min_cases = 3", "min_cases = 3\nreference_at = { k = nan }", "must be a number"),
+        ("min_cases = 3", "min_cases = 3\nreference_at = { k = nan }", "reference_at.k = nan must be a finite number"),
         ('metric = "rel"', 'metric = "en"', "the metric en needs max_candidate_uncertainty"),
         ('metric = "rel"', 'metric = "en"\nmax_candidate_uncertainty = 1', "must be below 1 with the metric en"),
         ("1e-6", "1e-6\nmax_candidate_uncertainty = 0", "max_candidate_uncertainty = 0 must be positive"),
@@ -143,20 +154,29 @@ def test_the_reference_may_be_asked_elsewhere():
         ),
         ("A-GATE", "A-GATE\\n", r"gate 1 (id = 'A-GATE\n')"),
         ("A-GATE", "A-\\u001b[31mGATE", r"gate 1 (id = 'A-\x1b[31mGATE')"),
-        ("min_cases = 3", 'min_cases = 3\n"\\u001b[31m" = 1', r"'\x1b[31m' missing or unknown"),
-        ("[[gate]]", '"\\u001b[31m" = 1\n[[gate]]', r"not '\x1b[31m', gate"),
+        ("min_cases = 3", 'min_cases = 3\n"\\u001b[31m" = 1', r"unknown key '\x1b[31m'; known are id, "),
+        ("[[gate]]", '"\\u001b[31m" = 1\n[[gate]]', r"unknown key '\x1b[31m'; known are gate, grounds"),
         ("A-GATE", "\u0391-GATE", "capitals"),
+        ("min_cases = 3", "min_case = 3", "unknown key 'min_case': did you mean min_cases?"),
+        ('"jkr"', '"jrk"', "unknown candidate 'jrk': did you mean jkr?"),
+        ("pull_off_force", "pulloff_force", "unknown quantity of the metric rel 'pulloff_force': did you mean"),
+        ('"A limit."', '"A limit."\nshared_grounds = "x"', "either grounds, one sentence, or shared_grounds"),
+        ('grounds = "A limit."', "", "either grounds, one sentence, or shared_grounds"),
+        ('grounds = "A limit."', 'shared_grounds = "none"', "unknown shared grounds 'none'"),
+        ("[[gate]]", '[grounds]\nspare = "A limit."\n[[gate]]', "no gate has the shared grounds spare"),
+        ("[[gate]]", "[grounds]\nspare = 1\n[[gate]]", "grounds.spare = 1 must be one sentence"),
+        ("[[gate]]", '[grounds]\nspare = " "\n[[gate]]', "spare = ' ' is empty"),
     ],
 )
-def test_what_is_wrong_is_refused_and_named(old, new, says, tmp_path, capsys):
+def test_what_is_wrong_is_refused_and_named(old, new, sentence, tmp_path, capsys):
     text = GATE.replace(old, new)
-    with pytest.raises(ValueError, match=re.escape(says)):
+    with pytest.raises(ValueError, match=re.escape(sentence)):
         load_gates(text)
     (tmp_path / "gates.toml").write_text(text)
     assert main(["run", "--gates", str(tmp_path / "gates.toml"), "--out", str(tmp_path / "out")]) == 2
     shown = capsys.readouterr()
     assert shown.err.count("\n") == 1
-    assert says in shown.err
+    assert sentence in shown.err
     assert shown.err.rstrip("\n").isprintable()
 
 
@@ -199,6 +219,20 @@ def test_a_file_of_another_shape_is_refused_by_its_name(text, tmp_path, capsys):
     assert "mine.toml" in shown.err
 
 
+def test_several_gates_share_their_grounds():
+    text = '[grounds]\nlimit = "A limit\\nof Eq. 51."\n' + GATE + GATE.replace("A-GATE", "B-GATE")
+    for gate in load_gates(text.replace('grounds = "A limit."', 'shared_grounds = "limit"')):
+        assert gate.grounds == "A limit of Eq. 51."
+
+
+def test_the_schema_names_the_metrics_and_tiers_of_the_code():
+    schema = json.loads(files("comparisons.data").joinpath("gates.schema.json").read_text(encoding="utf-8"))
+    entries = schema["properties"]["gate"]["items"]["properties"]
+    assert entries["metric"]["enum"] == list(METRICS)
+    assert entries["tier"]["enum"] == list(TIERS)
+    assert entries.keys() - {"shared_grounds"} == {field.name for field in fields(Gate)}
+
+
 def test_two_gates_of_one_id_are_refused():
     with pytest.raises(ValueError, match="A-GATE is there twice"):
         load_gates(GATE + GATE)
@@ -218,9 +252,9 @@ def test_there_are_enough_standing_gates():
 
 @pytest.mark.parametrize("gate", STANDING, ids=lambda gate: gate.id)
 def test_a_standing_gate_is_fit_to_be_cited(gate):
-    assert gate.requirement.endswith(".")
+    for text in (gate.requirement, gate.grounds, gate.expected_failure or "."):
+        assert text.endswith(".")
     assert gate.candidate in {*MODELS, GIVEN}
-    assert gate.grounds
     if gate.worst_measured is not None:
         assert gate.lower <= gate.worst_measured <= gate.upper
     declared = {

@@ -1,4 +1,4 @@
-"""The standing gates on the committed results: they pass, and every one of them can fail.
+"""Standing gates on the committed results: all pass, and every one can fail.
 
 For each gate a deliberately wrong candidate or an uncertain reference is made out of the committed results.
 The mistakes are those people make: a factor, a sign, a wrong exponent, n and k swapped, a row lost, a NaN.
@@ -16,12 +16,13 @@ import pytest
 from comparisons.baseline import BASELINE, drift, read_baseline
 from comparisons.cli.main import main
 from comparisons.cli.options import case_of
-from comparisons.curve_quantities import SHAPES
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import GIVEN, gates_text, load_gates, of_tier
-from comparisons.judging.judge import judge, relevant
+from comparisons.judging.judge import judge
+from comparisons.judging.selection import relevant
 from comparisons.judging.summary import summarise
 from comparisons.output.verdicts import command
+from comparisons.quantities import CURVES as CURVE_QUANTITIES
 from comparisons.runs.cases import grids
 from comparisons.runs.rows import frame
 from comparisons.runs.tasks import evaluate_task, plan
@@ -38,7 +39,7 @@ def verdict(gate, rows=ROWS, curves=CURVES):
 
 
 def where(table, gate, model, at=None):
-    """The rows of a gate's model in its cases, or at the parameters where the gate asks its reference."""
+    """The rows of a gate's model in its cases, or at the parameters where the gate takes its reference."""
     chosen = (table["model"] == model) & (table["quantity"] == gate.quantity)
     for name, limits in gate.cases.items():
         if name != "tags":
@@ -47,7 +48,7 @@ def where(table, gate, model, at=None):
 
 
 def shapeless(gate):
-    return gate.quantity not in SHAPES
+    return gate.quantity not in CURVE_QUANTITIES
 
 
 @EVERY_GATE
@@ -70,12 +71,12 @@ def test_they_are_enough():
     assert roll_up(judged["verdict"]) == "XFAIL"
 
 
-def test_the_command_that_is_shown_asks_what_the_gate_is_about(monkeypatch):
+def test_the_command_that_is_shown_computes_the_case_of_the_gate(monkeypatch):
     """Of every gate of every tier, in the first and last case of each of its grids."""
-    asked = []
+    called = []
     for name in ("solve", "curve"):
         monkeypatch.setattr(
-            f"comparisons.cli.commands.{name}.call", lambda args, name=name: asked.append((name, args)) or 0
+            f"comparisons.cli.commands.{name}.call", lambda args, name=name: called.append((name, args)) or 0
         )
     for gate, grid in product(load_gates(gates_text()), grids("full")):
         cases = [case for case in grid.cases if gate.selects(grid, case) and gate.quantity in grid.quantities]
@@ -83,12 +84,12 @@ def test_the_command_that_is_shown_asks_what_the_gate_is_about(monkeypatch):
             candidate = "jkr" if gate.candidate == GIVEN else gate.candidate
             row = pd.Series({"candidate": candidate, "quantity": gate.quantity, "nu": None, **case.parameters})
             assert main(shlex.split(command(row, {}))[1:]) == 0
-            name, args = asked[-1]
-            assert name == ("curve" if gate.quantity in SHAPES else "solve")
+            name, args = called[-1]
+            assert name == ("curve" if gate.quantity in CURVE_QUANTITIES else "solve")
             assert (args.model, args.quantity) == ([candidate] if name == "curve" else candidate, gate.quantity)
             assert case_of(args) == case
-    assert {args.quantity for name, args in asked if name == "curve"} == set(SHAPES)
-    assert any(args.nu is not None for _, args in asked)
+    assert {args.quantity for name, args in called if name == "curve"} == set(CURVE_QUANTITIES)
+    assert any(args.nu is not None for _, args in called)
 
 
 def changed(gate, change):
@@ -145,10 +146,10 @@ def test_an_expected_failure_that_passes_is_reported(gate):
     """The candidate is given the error in the middle of the limits."""
     rows = ROWS.copy()
     mine = where(rows, gate, gate.candidate)
-    truth = ROWS[ROWS["model"] == gate.reference].set_index(["quantity", "n", "k", "mu"])["value"]
+    of_reference = ROWS[ROWS["model"] == gate.reference].set_index(["quantity", "n", "k", "mu"])["value"]
     keys = pd.MultiIndex.from_frame(rows.loc[mine, ["quantity", "n", "k", "mu"]])
     middle = 0.0 if math.isinf(gate.lower) else 0.5 * (gate.lower + gate.upper)
-    rows.loc[mine, "value"] = truth.loc[keys].to_numpy() * (1.0 + middle)
+    rows.loc[mine, "value"] = of_reference.loc[keys].to_numpy() * (1.0 + middle)
     assert verdict(gate, rows) == Verdict.XPASS
 
 
@@ -231,12 +232,14 @@ def test_the_gate_for_given_models_lets_the_right_pass_and_the_wrong_fail():
 def test_a_right_model_of_one_shape_and_gradient_is_judged_and_what_it_leaves_out_is_counted():
     (gate,) = (gate for gate in ALL if gate.candidate == GIVEN)
     grid = [grid for grid in GRIDS if grid.id == "transition"]
-    truth = ROWS[ROWS["model"] == "fscm"]
-    asked = {task.key[1:5] for task in plan(grid, ["fscm"])}
-    truth = truth[[key in asked for key in truth[["quantity", "n", "k", "mu"]].itertuples(index=False, name=None)]]
-    covers = (truth["n"] == 2) & (truth["k"] == 0) & (truth["mu"] >= 1.5)
-    mine = truth.assign(model="mine", status=covers.map({True: "ok", False: "not-applicable"}))
-    judged = summarise(judge([gate], grid, pd.concat([truth, mine]), CURVES, ["mine"]))
+    of_reference = ROWS[ROWS["model"] == "fscm"]
+    planned = {task.key[1:5] for task in plan(grid, ["fscm"])}
+    of_reference = of_reference[
+        [key in planned for key in of_reference[["quantity", "n", "k", "mu"]].itertuples(index=False, name=None)]
+    ]
+    covers = (of_reference["n"] == 2) & (of_reference["k"] == 0) & (of_reference["mu"] >= 1.5)
+    mine = of_reference.assign(model="mine", status=covers.map({True: "ok", False: "not-applicable"}))
+    judged = summarise(judge([gate], grid, pd.concat([of_reference, mine]), CURVES, ["mine"]))
     assert judged[["verdict", "cases", "skipped"]].to_numpy().tolist() == [["PASS", 4, len(mine) - 4]]
 
 
@@ -247,8 +250,8 @@ def test_the_code_computes_what_is_committed():
     }
     slow = {"fem", "fscm", "fscm-stieltjes-400"}
     tasks = plan(GRIDS)
-    assert {task.key[:5] for task in tasks if task.quantity not in SHAPES} == stored
-    chosen = [t for t in tasks if t.model not in slow and t.quantity not in SHAPES][::7]
+    assert {task.key[:5] for task in tasks if task.quantity not in CURVE_QUANTITIES} == stored
+    chosen = [t for t in tasks if t.model not in slow and t.quantity not in CURVE_QUANTITIES][::7]
     chosen += [
         t for t in tasks if t.model == "fscm" and t.quantity == "pull_off_force" and t.case.n == 5 and t.case.k == 0.2
     ][::4]
@@ -262,7 +265,11 @@ def test_the_code_computes_what_is_committed():
 
 @pytest.mark.heavy
 def test_the_finite_elements_compute_what_is_committed():
-    chosen = [task for task in plan(GRIDS) if task.model == "fem" and task.case.n == 5 and task.quantity not in SHAPES]
+    chosen = [
+        task
+        for task in plan(GRIDS)
+        if task.model == "fem" and task.case.n == 5 and task.quantity not in CURVE_QUANTITIES
+    ]
     found = drift(ROWS, frame(evaluate_task(task) for task in chosen))
     assert found.empty, found.to_string()
 

@@ -1,4 +1,4 @@
-"""The contract of every closed form: an answer with a bound, or a reason."""
+"""The contract of every closed form: a value with a bound, or a reason."""
 
 from __future__ import annotations
 
@@ -7,25 +7,19 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from comparisons import create, registry
 from comparisons.model import Model, NotApplicable, Result
-from comparisons.models.bradley import Bradley
 from comparisons.models.closed_form import ClosedForm, monomial
-from comparisons.models.dmt import DMT
-from comparisons.models.jkr import JKR
-from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
-from comparisons.models.semi_rigid import SemiRigid
 from comparisons.quantities import QUANTITIES
 from fscm.laws import LennardJones93
 from fscm.problem import Problem
 
-MODELS = {
-    "jkr": JKR,
-    "md-original": MaugisDugdaleOriginal,
-    "md-improved": MaugisDugdaleImproved,
-    "dmt": DMT,
-    "bradley": Bradley,
-    "semi-rigid": SemiRigid,
-}
+#: Every closed form of the registry, also one that is new.
+MODELS = {name: type(create(name)) for name in registry.MODELS if isinstance(create(name), ClosedForm)}
+
+
+def test_closed_forms_are_found() -> None:
+    assert MODELS.keys() >= {"jkr", "md-original", "md-improved", "dmt", "bradley", "semi-rigid"}
 
 
 @pytest.fixture(params=MODELS)
@@ -41,7 +35,7 @@ def test_names(model: ClosedForm) -> None:
 
 
 @pytest.mark.parametrize("quantity", QUANTITIES)
-def test_every_quantity_is_answered_or_refused_with_a_sentence(model: ClosedForm, quantity: str) -> None:
+def test_every_quantity_has_a_value_or_a_reason(model: ClosedForm, quantity: str) -> None:
     problem = Problem(2, 0.4, 5.0)  # at a small Tabor number some models lose their folds
     if not hasattr(model, quantity):
         with pytest.raises(NotApplicable, match=rf"^{model.name} does not define {quantity}: \w[^\n]+$"):
@@ -95,7 +89,7 @@ def test_curves_are_consistent(model: ClosedForm) -> None:
 
 
 def test_monomial_bound_covers_the_condition_of_a_large_exponent() -> None:
-    """1 + eps to the power 1e6 moves by 1e6 eps: the bound says so."""
+    """1 + eps to the power 1e6 moves by 1e6 eps, and so does the bound."""
     result = monomial((1.5, 1e3), (1.5, -1e3))
     assert abs(result.value - 1.0) <= result.u_num
     assert result.u_num > 1e-13

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 import fem_reference
-from comparisons.curve_quantities import SHAPES, near
 from comparisons.models.fem_model import FiniteElements, _audited
 from comparisons.models.fscm_model import FullSelfConsistent
 from comparisons.numerics.curve_distance import curve_distance
+from comparisons.quantities import CURVES
+from comparisons.quantities.points import near
 from fscm.problem import Problem
 
 PROBLEM = Problem(n=2, k=0.4, mu=0.5)
@@ -30,7 +31,7 @@ def test_gap_and_pressure_at_pull_off_are_those_of_the_integral_equation():
 
 def test_both_shapes_are_cut_at_the_same_gap():
     model = FullSelfConsistent()
-    pressure, gap = (SHAPES[name].ask(model, PROBLEM) for name in ("pull_off_pressure", "pull_off_gap"))
+    pressure, gap = (CURVES[name].evaluate(model, PROBLEM) for name in ("pull_off_pressure", "pull_off_gap"))
     assert pressure.x == gap.x
     assert max(gap.y) <= 10 < max(model.pull_off_profile(PROBLEM).gap)
     # The gap determines the pressure (Eq. 9).

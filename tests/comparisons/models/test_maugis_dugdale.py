@@ -207,9 +207,9 @@ def test_error_bounds_hold_against_many_digits(n: float, k: float, mu: float) ->
             delta * scale.displacement,
             printed_state(n, k, Lambda, w0)[0] * scale.displacement,
         )
-        for quantity, truth in zip(EVENTS, exact, strict=False):
+        for quantity, reference in zip(EVENTS, exact, strict=False):
             result = model.evaluate(problem, quantity)
-            assert abs(float(result.value - truth)) <= result.u_num, quantity
+            assert abs(float(result.value - reference)) <= result.u_num, quantity
             assert result.u_num < 1e-10 * (1.0 + abs(result.value)), quantity
 
 

@@ -1,4 +1,4 @@
-"""The adapters to the two references: their answers, their units, their refusals."""
+"""The adapters to the two references: results, units, exceptions."""
 
 import pytest
 
@@ -50,16 +50,16 @@ def test_a_solver_that_does_not_converge_has_failed(monkeypatch, solver):
 
 
 @pytest.mark.parametrize("quantity", fem_reference.QUANTITIES)
-def test_the_finite_elements_are_asked_for_the_same_tabor_number_and_answer_in_the_same_unit(monkeypatch, quantity):
+def test_the_finite_elements_get_the_same_tabor_number_and_return_the_same_unit(monkeypatch, quantity):
     seen = {}
 
-    def one_unit(body, asked):
+    def one_unit(body, quantity_name):
         solid, punch, law = body.solid, body.punch, body.law
         physical = PhysicalProblem(
             solid.E0, solid.c0, solid.k, solid.nu, punch.Q, punch.n, law.work_of_adhesion, law.z0
         )
-        seen.update(mu=physical.tabor_number, nu=solid.nu, quantity=asked)
-        unit = physical.scales[QUANTITIES[asked].kind]
+        seen.update(mu=physical.tabor_number, nu=solid.nu, quantity=quantity_name)
+        unit = physical.scales[QUANTITIES[quantity_name].scale]
         return fem_reference.Solution(
             2.5 * unit, 0.5 * unit, 9, 8, 7e-16, 0.6, 5.0, (1.05, 0.85, 0.69), (2.5 * unit,) * 3
         )

@@ -1,4 +1,4 @@
-"""The adapter of the Stieltjes scheme: what it says of its path is what the path does."""
+"""The adapter of the Stieltjes scheme: its quantities are those of its path."""
 
 import re
 

@@ -1,12 +1,13 @@
-"""Figures show the data they were given, and the same data give the same file."""
+"""Figures show their data, and the same data give the same file."""
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from comparisons.model import Curve
-from comparisons.output.figures import force_curve, kappa
+from comparisons.output.figures import curves, kappa
+from comparisons.output.figures.registry import FIGURES, figures_of
 from comparisons.output.style import FORMATS, save
+from comparisons.quantities import CURVES, Points
 
 
 def errors():
@@ -44,15 +45,29 @@ def test_fig_16b_of_nothing_is_empty():
     assert len(kappa.draw(errors().iloc[:0]).axes) == 2
 
 
+def drawn(**curves_of):
+    points = {name: Points(x.tolist(), y.tolist(), 0.0) for name, (x, y) in curves_of.items()}
+    return curves.draw(points, CURVES["force_curve"], "n = 2")
+
+
 def test_force_curves_are_named():
     x = np.linspace(-1, 1, 5)
-    figure = force_curve.draw({"a": Curve(x, x**2), "b": Curve(x, x)}, "n = 2")
+    figure = drawn(a=(x, x**2), b=(x, x))
     assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == ["a", "b"]
+    first, second = figure.axes[0].get_lines()[:2]
+    assert (first.get_color(), first.get_linestyle()) != (second.get_color(), second.get_linestyle())
+
+
+def test_a_figure_without_rows_is_not_drawn():
+    others = errors().assign(model="jkr")
+    assert [stem for stem, _ in figures_of({"kappa": errors(), "curves": pd.DataFrame()})] == ["fig16b_kappa"]
+    assert list(figures_of({"kappa": others})) == []
+    assert len({figure.stem for figure in FIGURES}) == len(FIGURES)
 
 
 def test_force_curves_are_shown_where_the_surfaces_pull():
     x = np.linspace(-50, 50, 1001)
-    axes = force_curve.draw({"a": Curve(x, np.where(x > 0, x**2, 0) - 2 * np.exp(-(x**2)))}, "").axes[0]
+    axes = drawn(a=(x, np.where(x > 0, x**2, 0) - 2 * np.exp(-(x**2)))).axes[0]
     assert axes.get_ylim() == (-2.3, 2.0)
     left, right = axes.get_xlim()
     assert -5 < left < -1.5

@@ -1,4 +1,4 @@
-"""What people paste: digits, Markdown, LaTeX, JUnit XML, files."""
+"""Texts and files of verdicts: digits, Markdown, LaTeX, JUnit XML."""
 
 import math
 from functools import partial
@@ -8,6 +8,7 @@ import pandas as pd
 import pytest
 
 from comparisons.data.file_names import VERDICT_FILES
+from comparisons.judging.summary import summarise
 from comparisons.numerics.number_text import exact, limits_text, short
 from comparisons.output.junit import junit
 from comparisons.output.latex import latex
@@ -38,7 +39,7 @@ JUDGED = pd.DataFrame(
     [
         ROW,
         ROW | {"mu": 5.0, "verdict": "FAIL", "error": 0.2},
-        ROW | {"gate": "TWO", "verdict": "XFAIL", "reason": "known & <published>"},
+        ROW | {"gate": "TWO", "verdict": "XFAIL", "reason": "known & <printed>"},
         ROW
         | {
             "gate": "TWO",
@@ -108,9 +109,9 @@ def test_limits_are_shown_with_the_digits_they_were_declared_with(lower, upper):
     low, high = limits_text(lower, upper).split(" to ")
     assert (float(low), float(high)) == (lower, upper)
     judged = JUDGED.assign(lower=lower, upper=upper)
-    assert set(matrix(judged, {})["limits"]) == {f"{exact(lower)} to {exact(upper)}"}
-    assert f"| {low} to {high} |" in markdown(matrix(judged, {}), "Verdicts")
-    assert f"{low} to {high} \\\\" in latex(matrix(judged, {})[["gate", "limits"]], "Verdicts")
+    assert set(matrix(summarise(judged), {})["limits"]) == {f"{exact(lower)} to {exact(upper)}"}
+    assert f"| {low} to {high} |" in markdown(matrix(summarise(judged), {}), "Verdicts")
+    assert f"{low} to {high} \\\\" in latex(matrix(summarise(judged), {})[["gate", "limits"]], "Verdicts")
     root = ElementTree.fromstring(junit(judged, partial(command, specs={})))
     texts = [case[0].text for case in root.findall(".//testcase")]
     assert all(f"limits {low} to {high}" in text for text in texts)
@@ -176,7 +177,7 @@ def test_the_command_of_a_row():
 
 
 def test_the_matrix_is_worst_first():
-    shown = matrix(JUDGED, {})
+    shown = matrix(summarise(JUDGED), {})
     assert shown["verdict"].tolist() == ["ERROR", "FAIL", "INCONCLUSIVE", "XFAIL"]
     assert shown["cases"].tolist() == ["0", "2", "1", "1 (1 n/a)"]
 
@@ -186,3 +187,6 @@ def test_the_files(tmp_path):
     assert {path.name for path in tmp_path.iterdir()} == set(VERDICT_FILES)
     again = pd.read_parquet(tmp_path / "verdicts.parquet")
     assert again["verdict"].tolist() == JUDGED["verdict"].tolist()
+    summary = pd.read_parquet(tmp_path / "summary.parquet")
+    assert summary.columns.tolist() == summarise(JUDGED).columns.tolist()
+    assert summary["verdict"].tolist() == ["ERROR", "FAIL", "INCONCLUSIVE", "XFAIL"]

@@ -1,4 +1,4 @@
-"""The speed comparison measures what it says."""
+"""Ratios and measurements of the speed comparison."""
 
 import pytest
 
@@ -13,7 +13,7 @@ def test_ratios_are_of_the_baseline_to_the_accurate_model(toys):
         for name in ("exact", "ten-percent")
     )
     table = compare(accurate, baseline).set_index("")
-    # The baseline is at least 0.2 - u_num from the truth, the accurate model at most u_num.
+    # The baseline is at least 0.2 - u_num from the reference, the accurate model at most u_num.
     assert table.loc["error (bound for the accurate model)", "ratio"] == pytest.approx((0.2 - 1e-9) / 1e-9)
     assert table.loc["seconds", "ratio"] == baseline.row.seconds / accurate.row.seconds
 

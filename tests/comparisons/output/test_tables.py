@@ -1,4 +1,4 @@
-"""Relative errors, their uncertainty, and the verdict on published digits."""
+"""Relative errors, their uncertainty, and the verdict on printed digits."""
 
 import io
 import math
@@ -80,7 +80,7 @@ def test_u_kappa_bounds_what_the_true_values_can_give(value, reference, u, u_ref
     [
         ("6.7", 0.0674, 1e-6, "agrees"),
         ("6.7", -0.0666, 1e-6, "agrees"),
-        ("6.7", 0.0676, 1e-6, "cut off"),
+        ("6.7", 0.0676, 1e-6, "agrees if truncated"),
         ("6.7", 0.0681, 1e-6, "differs"),
         ("6.7", 0.0664, 1e-6, "differs"),
         ("6.7", 0.06749, 1e-3, "undecided"),
@@ -90,11 +90,11 @@ def test_u_kappa_bounds_what_the_true_values_can_give(value, reference, u, u_ref
         ("65.0", 0.6512, 1e-6, "differs"),
     ],
 )
-def test_verdict_is_on_the_published_digits(percent, kappa, u, verdict):
+def test_verdict_is_on_the_printed_digits(percent, kappa, u, verdict):
     assert PaperValue("", "", "", percent, "%").verdict(100 * abs(kappa), 100 * u) == verdict
 
 
-def test_the_published_maxima_are_those_of_the_paper():
+def test_the_paper_values_of_the_maxima():
     table = {(p.model, p.n): p.text for p in paper_values("largest_relative_error")}
     assert table == {
         ("md-original", 1): "65.0",
@@ -126,6 +126,7 @@ def test_one_row_a_case_for_reading():
     rows = [stored("ref", 1, 2.0, 1e-9), stored("a", 1, 2.2), stored("b", 1, 1.8)]
     shown, formats = by_case(relative_error(pd.DataFrame(rows), "ref"))
     assert shown[["a", "b"]].to_numpy().tolist() == [[pytest.approx(10), pytest.approx(-10)]]
+    assert shown["reference"].tolist() == ["2.0000000000(10)"]
     assert set(formats) <= set(shown)
 
 
@@ -134,7 +135,7 @@ def test_statuses_are_counted_by_model():
     assert statuses(rows).to_dict("list") == {"model": ["a", "b"], "failed": [0, 1], "ok": [2, 0]}
 
 
-def test_text_from_outside_is_not_markup():
+def test_external_text_is_not_markup():
     stream = io.StringIO()
     table = pd.DataFrame({"reason": ["[bold]k in [0, 1]"], "x": [math.nan], "y": [0.5]})
     Console(file=stream, width=80).print(rich_table(table, "t", {"y": ".3f"}))
@@ -151,7 +152,7 @@ def test_maxima_for_reading_keep_their_sign_and_their_place():
     assert wide[["k = 0", "k = 0.4"]].to_numpy().tolist() == [[pytest.approx(-10)] * 2]
     stated, _ = beside_paper_values(maxima)
     assert stated[["n", "k", "kappa", "paper_percent", "verdict"]].to_numpy().tolist() == [
-        [2, 0.4, pytest.approx(-10), "0.73", "differs"]
+        [2, 0.4, "-10.00000(5)", "0.73", "differs"]
     ]
 
 

@@ -1,4 +1,4 @@
-"""The tables of a figure, from tasks made here."""
+"""Tables of a figure, from tasks that are made here."""
 
 import pytest
 

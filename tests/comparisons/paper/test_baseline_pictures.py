@@ -1,4 +1,4 @@
-"""The published tables give pictures with nothing cut off, their panels lettered in order."""
+"""Pictures drawn from the committed tables: nothing extends beyond the page, and panels are lettered in order."""
 
 from pathlib import Path
 from string import ascii_lowercase

@@ -1,4 +1,4 @@
-"""The cache makes each call once, keeps the answers, and goes on where it was stopped."""
+"""The cache computes each task once, keeps the results, and continues after an interruption."""
 
 import json
 import math
@@ -41,19 +41,19 @@ def nothing_made():
 
 def test_each_call_is_made_once(tmp_path):
     tasks = [CachedCall.of(double, 1), CachedCall.of(double, 2.5), CachedCall.of(double, 1)]
-    answers, made = work(tmp_path / "j", tasks)
+    results, made = work(tmp_path / "j", tasks)
     assert made == tasks[:2]
     assert MADE == [1, 2.5]
-    assert answers[CachedCall.of(double, 2.5)] == {"value": 5.0, "name": "double"}
+    assert results[CachedCall.of(double, 2.5)] == {"value": 5.0, "name": "double"}
 
 
-def test_answers_are_read_again(tmp_path):
+def test_results_are_read_again(tmp_path):
     work(tmp_path / "j", [CachedCall.of(double, 1), CachedCall.of(fail, 3)])
-    answers, made = work(tmp_path / "j", [CachedCall.of(double, 1), CachedCall.of(double, 2), CachedCall.of(fail, 3)])
+    results, made = work(tmp_path / "j", [CachedCall.of(double, 1), CachedCall.of(double, 2), CachedCall.of(fail, 3)])
     assert made == [CachedCall.of(double, 2)]
-    assert answers[CachedCall.of(double, 1)] == {"value": 2, "name": "double"}
+    assert results[CachedCall.of(double, 1)] == {"value": 2, "name": "double"}
     with pytest.raises(ComputationFailed, match="3 does not converge"):
-        answers[CachedCall.of(fail, 3)]
+        results[CachedCall.of(fail, 3)]
 
 
 def test_a_torn_line_is_computed_again(tmp_path):
@@ -70,11 +70,11 @@ def test_a_torn_line_is_computed_again(tmp_path):
 
 
 @pytest.mark.parametrize("function", [refuse, fail])
-def test_a_failure_is_an_answer_that_raises(tmp_path, function):
-    answers, _ = work(tmp_path / "j", [CachedCall.of(function, 3), CachedCall.of(double, 1)])
-    assert answers[CachedCall.of(double, 1)]["value"] == 2
+def test_a_failure_is_a_result_that_raises(tmp_path, function):
+    results, _ = work(tmp_path / "j", [CachedCall.of(function, 3), CachedCall.of(double, 1)])
+    assert results[CachedCall.of(double, 1)]["value"] == 2
     with pytest.raises(ComputationFailed, match=rf"{function.__name__}\(3\): 3 "):
-        answers[CachedCall.of(function, 3)]
+        results[CachedCall.of(function, 3)]
 
 
 def test_nan_is_refused(tmp_path):
@@ -89,7 +89,7 @@ def test_what_is_no_journal_is_refused(tmp_path, text):
         CallCache(tmp_path / "j", "a")
 
 
-def test_answers_of_other_code_are_refused(tmp_path):
+def test_results_of_other_code_are_refused(tmp_path):
     work(tmp_path / "j", [])
     with pytest.raises(ValueError, match="another version"):
         CallCache(tmp_path / "j", "b")
@@ -97,6 +97,6 @@ def test_answers_of_other_code_are_refused(tmp_path):
 
 def test_calls_on_two_processes(tmp_path):
     tasks = [CachedCall("math:hypot", (3.0 * i, 4.0 * i)) for i in range(1, 5)]
-    answers, made = work(tmp_path / "j", tasks, jobs=2)
+    results, made = work(tmp_path / "j", tasks, jobs=2)
     assert set(made) == set(tasks)
-    assert [answers[call] for call in tasks] == [5.0, 10.0, 15.0, 20.0]
+    assert [results[call] for call in tasks] == [5.0, 10.0, 15.0, 20.0]

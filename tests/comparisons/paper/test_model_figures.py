@@ -20,10 +20,12 @@ def test_chi_of_the_paraboloid_is_a_third_of_the_gradient(tables_of):
     sphere = tables[""][tables[""]["n"] == 2.0]
     np.testing.assert_allclose(sphere["chi"], sphere["k"] / 3, atol=1e-14)
     assert (tables[""].groupby("n")["chi"].first() == 0.0).all()
-    inside = tables["largest"].merge(tables["regions"], how="cross").query("n_from < n < n_to")
-    outside = tables["largest"].merge(tables["regions"].agg({"n_from": "min", "n_to": "max"}).to_frame().T, how="cross")
-    assert inside["chi_max"].max() < 0.1
-    assert outside.query("n < n_from or n > n_to")["chi_max"].min() > 0.1
+    within = tables["largest"].merge(tables["regions"], how="cross").query("n_from < n < n_to")
+    everywhere = tables["largest"].merge(
+        tables["regions"].agg({"n_from": "min", "n_to": "max"}).to_frame().T, how="cross"
+    )
+    assert within["chi_max"].max() < 0.1
+    assert everywhere.query("n < n_from or n > n_to")["chi_max"].min() > 0.1
     for n, largest, k in tables["largest"].iloc[::40].to_numpy():
         assert largest == pytest.approx(chi(n, k), rel=1e-12)
         assert largest >= max(chi(n, 0.37), chi(n, 0.8))
@@ -115,7 +117,7 @@ def test_surfaces_touch_inside_a_and_part_by_the_work_of_adhesion_at_c(tables_of
 
 
 def test_the_height_of_the_surface_is_what_the_pressure_lifts(tables_of):
-    """-w(r) of the FSCM by Eqs. 5 and 6 from the pressure in the table, outside the contact where F is regular."""
+    """-w(r) of the FSCM by Eqs. 5 and 6 from the pressure in the table, beyond the contact where F is regular."""
     table = tables_of(surface_models.SURFACE_MODELS)[""]
     fscm = table[table["model"] == "fscm"]
     k, M = 0.4, 2.0

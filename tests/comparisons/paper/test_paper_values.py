@@ -1,4 +1,4 @@
-"""The gate on published numbers: these have every digit. And that a cause is said only as computed."""
+"""Verdicts on paper values: most have every printed digit, and a cause is stated only as computed."""
 
 from pathlib import Path
 
@@ -6,9 +6,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from comparisons.baseline import PAPER_BASELINE
 from comparisons.data.paper_values import PaperValue, paper_values
 from comparisons.numerics.number_text import short
+from comparisons.paper.baseline import PAPER_BASELINE
 from comparisons.paper.cache import CallCache
 from comparisons.paper.figures.gradient_effect import insensitive_regions, largest_chi
 from comparisons.paper.values import comparison
@@ -17,41 +17,44 @@ from comparisons.paper.values.comparison import cause, judged, readable
 from comparisons.registry import create
 from comparisons.runs.cases import Case
 
+FOLDER = Path(__file__).parents[3] / PAPER_BASELINE
 DIRECT = [number for number in paper_values() if number.name in comparison._DIRECT]
 
 
 @pytest.fixture(scope="module")
-def answers(tmp_path_factory):
+def results(tmp_path_factory):
     cache = CallCache(tmp_path_factory.mktemp("numbers") / "tasks.jsonl", "test")
     list(cache.work(map(comparison._critical, paper_values("critical_tabor_number")), 1))
     return cache.results
 
 
-@pytest.mark.parametrize("claim", DIRECT, ids=lambda claim: f"{claim.name}-{claim.n}-{claim.k}")
-def test_closed_forms_agree_to_every_published_digit(claim, answers):
-    row = judged(claim, answers, [])
+@pytest.mark.parametrize(
+    "paper_value", DIRECT, ids=lambda paper_value: f"{paper_value.name}-{paper_value.n}-{paper_value.k}"
+)
+def test_closed_forms_agree_to_every_printed_digit(paper_value, results):
+    row = judged(paper_value, results, [])
     assert (row["verdict"], row["cause"]) == ("agrees", "")
     assert row["u"] < 1e-13 * abs(row["computed"])
 
 
-def test_critical_tabor_numbers_agree_to_every_published_digit(answers):
-    rows = [judged(claim, answers, []) for claim in paper_values("critical_tabor_number")]
-    assert [(row["published"], row["verdict"]) for row in rows] == [
+def test_critical_tabor_numbers_agree_to_every_printed_digit(results):
+    rows = [judged(paper_value, results, []) for paper_value in paper_values("critical_tabor_number")]
+    assert [(row["printed"], row["verdict"]) for row in rows] == [
         (text, "agrees") for text in ("0.70", "0.75", "0.78", "0.78")
     ]
 
 
-@pytest.mark.parametrize("claim", paper_values("largest_chi"), ids=lambda claim: str(claim.n))
-def test_chi_has_every_published_digit(claim):
-    expected = "cut off" if claim.n == 1.5 else "agrees"
-    assert claim.verdict(100 * largest_chi(claim.n)[0], 1e-11) == expected
+@pytest.mark.parametrize("paper_value", paper_values("largest_chi"), ids=lambda paper_value: str(paper_value.n))
+def test_chi_has_every_printed_digit(paper_value):
+    expected = "agrees if truncated" if paper_value.n == 1.5 else "agrees"
+    assert paper_value.verdict(100 * largest_chi(paper_value.n)[0], 1e-11) == expected
 
 
 @pytest.mark.parametrize(
-    ("model", "mu", "verdict"), [("md-original", 0.246, "cut off"), ("md-improved", 0.836, "agrees")]
+    ("model", "mu", "verdict"), [("md-original", 0.246, "agrees if truncated"), ("md-improved", 0.836, "agrees")]
 )
-def test_largest_errors_of_the_flattest_punch_have_every_published_digit(model, mu, verdict):
-    (claim,) = [c for c in paper_values("largest_relative_error") if (c.model, c.n) == (model, 5.0)]
+def test_largest_errors_of_the_flattest_punch_have_every_printed_digit(model, mu, verdict):
+    (paper_value,) = [c for c in paper_values("largest_relative_error") if (c.model, c.n) == (model, 5.0)]
     kappa = []
     for place in (0.9 * mu, mu, 1.1 * mu):
         force = {
@@ -60,14 +63,14 @@ def test_largest_errors_of_the_flattest_punch_have_every_published_digit(model, 
         }
         kappa.append(100 * (force[model] / force["fscm"] - 1))
     assert kappa[1] == max(kappa)
-    assert claim.verdict(kappa[1], 1e-4) == verdict
+    assert paper_value.verdict(kappa[1], 1e-4) == verdict
 
 
-CLAIM = PaperValue("largest_relative_error", "", "error", "1.7", "%", model="m", n=1.5, k=0.4)
+PRINTED = PaperValue("largest_relative_error", "", "error", "1.7", "%", model="m", n=1.5, k=0.4)
 
 
 def repeated(ingredient, value, stated=True):
-    return Repeated(CLAIM, ingredient, value, 1e-6, 1.0, stated)
+    return Repeated(PRINTED, ingredient, value, 1e-6, 1.0, stated)
 
 
 def test_no_cause_is_sought_where_the_digits_agree():
@@ -75,7 +78,7 @@ def test_no_cause_is_sought_where_the_digits_agree():
 
 
 @pytest.mark.parametrize(
-    ("others", "words"),
+    ("others", "expected"),
     [
         ([repeated("cut", -1.71), repeated("grid", 1.72, False)], "reproduced by cut (1.71)"),
         (
@@ -89,7 +92,7 @@ def test_no_cause_is_sought_where_the_digits_agree():
         ),
         (
             [repeated("cut", -1.6), repeated("grid", -1.77, False)],
-            "nothing the paper states gives it; these do: grid (1.77, cut off); cut alone gives 1.6",
+            "nothing the paper states gives it; these do: grid (1.77, agrees if truncated); cut alone gives 1.6",
         ),
         (
             [repeated("cut", -1.6), repeated("grid", -1.9, False)],
@@ -97,8 +100,8 @@ def test_no_cause_is_sought_where_the_digits_agree():
         ),
     ],
 )
-def test_a_cause_is_an_ingredient_that_gives_the_published_digits(others, words):
-    assert cause([repeated("converged", -1.8354), *others]) == words
+def test_a_cause_is_an_ingredient_that_gives_the_printed_digits(others, expected):
+    assert cause([repeated("converged", -1.8354), *others]) == expected
 
 
 def test_causes_tell_what_each_ingredient_shifts():
@@ -107,8 +110,8 @@ def test_causes_tell_what_each_ingredient_shifts():
     assert table["verdict"].tolist() == ["differs", "differs"]
 
 
-def test_for_reading_a_number_keeps_the_digits_its_uncertainty_leaves(answers):
-    rows = [judged(claim, answers, []) for claim in paper_values("critical_tabor_number")]
+def test_for_reading_a_number_keeps_the_digits_its_uncertainty_leaves(results):
+    rows = [judged(paper_value, results, []) for paper_value in paper_values("critical_tabor_number")]
     shown = readable(pd.DataFrame(rows))
     assert shown["case"].tolist()[1] == "n = 2, k = 0.2"
     assert shown["computed"].tolist()[0] == short(rows[0]["computed"], 5e-10)
@@ -116,34 +119,66 @@ def test_for_reading_a_number_keeps_the_digits_its_uncertainty_leaves(answers):
 
 def test_one_end_of_the_regions_differs():
     ends = insensitive_regions()
-    verdicts = [claim.verdict(end, 1e-9) for claim, end in zip(paper_values("insensitive_region"), ends, strict=True)]
-    assert verdicts == ["agrees", "cut off", "agrees", "differs"]
-    # A gradient exponent that stops short of the Gibson limit moves it to the published digits, but not far short:
-    # then the end before it leaves its own.
+    verdicts = [
+        paper_value.verdict(end, 1e-9)
+        for paper_value, end in zip(paper_values("insensitive_region"), ends, strict=True)
+    ]
+    assert verdicts == ["agrees", "agrees if truncated", "agrees", "differs"]
+    # A gradient exponent that stops short of the Gibson limit gives the last end its printed digits; farther from 1 the
+    # end before it loses its own.
     short_of_one = [
-        [claim.verdict(end, 1e-9) for claim, end in zip(paper_values("insensitive_region"), ends, strict=True)]
+        [
+            paper_value.verdict(end, 1e-9)
+            for paper_value, end in zip(paper_values("insensitive_region"), ends, strict=True)
+        ]
         for ends in (insensitive_regions(0.9995), insensitive_regions(0.999))
     ]
-    assert short_of_one == [["agrees", "cut off", "agrees", "agrees"], ["agrees", "cut off", "differs", "cut off"]]
+    assert short_of_one == [
+        ["agrees", "agrees if truncated", "agrees", "agrees"],
+        ["agrees", "agrees if truncated", "differs", "agrees if truncated"],
+    ]
 
 
-def test_the_readme_counts_the_verdicts_that_are_committed():
-    root = Path(__file__).parents[3]
-    counts = pd.read_csv(root / PAPER_BASELINE / "paper_values.csv")["verdict"].value_counts().to_dict()
-    assert counts == {"agrees": 24, "cut off": 4, "differs": 6}
-    readme = (root / "README.md").read_text()
-    assert "Of 34 numbers 24 agree to the printed digits, and four more if the paper cut digits off" in readme
-    assert "Six differ.\nFour of these" in readme
+def committed(name):
+    return pd.read_csv(FOLDER / f"{name}.csv", dtype={"printed": str}).fillna({"model": "", "unit": "", "cause": ""})
+
+
+def test_the_committed_verdicts_are_counted():
+    counts = committed("paper_values")["verdict"].value_counts().to_dict()
+    assert counts == {"agrees": 24, "agrees if truncated": 4, "differs": 6}
+
+
+def test_the_committed_texts_are_those_of_the_committed_table():
+    texts = comparison.PAPER_VALUES.texts({"": committed("paper_values")})
+    assert set(texts) == {".md", ".tex"}
+    for suffix, text in texts.items():
+        assert (FOLDER / f"paper_values{suffix}").read_text(encoding="utf-8") == text
+
+
+def test_the_committed_causes_follow_from_the_committed_repetitions():
+    repetitions = committed("paper_values_causes")
+    for row in committed("paper_values").itertuples():
+        of_value = [
+            Repeated(paper_value_of(again), again.ingredient, again.computed, again.u, again.mu, again.stated_in_paper)
+            for again in repetitions.itertuples()
+            if (again.quantity, again.model, again.printed) == (row.quantity, row.model, row.printed)
+            and np.array_equal([again.n, again.k], [row.n, row.k], equal_nan=True)
+        ]
+        assert (cause(of_value) if of_value else "") == row.cause
+
+
+def paper_value_of(row):
+    """The paper value of a row of a committed table."""
+    (found,) = [
+        paper_value
+        for paper_value in paper_values()
+        if (paper_value.quantity, paper_value.model, paper_value.text) == (row.quantity, row.model, row.printed)
+        and np.array_equal([paper_value.n, paper_value.k], [row.n, row.k], equal_nan=True)
+    ]
+    return found
 
 
 @pytest.mark.parametrize("name", ["paper_values", "paper_values_causes"])
 def test_the_verdicts_committed_are_those_on_the_values_committed(name):
-    table = pd.read_csv(Path(__file__).parents[3] / PAPER_BASELINE / f"{name}.csv", dtype={"published": str})
-    for row in table.fillna({"model": ""}).itertuples():
-        (claim,) = [
-            claim
-            for claim in paper_values()
-            if (claim.quantity, claim.model, claim.text) == (row.quantity, row.model, row.published)
-            and np.array_equal([claim.n, claim.k], [row.n, row.k], equal_nan=True)
-        ]
-        assert claim.verdict(abs(row.computed), row.u) == row.verdict
+    for row in committed(name).itertuples():
+        assert paper_value_of(row).verdict(abs(row.computed), row.u) == row.verdict

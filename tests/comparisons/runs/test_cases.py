@@ -1,6 +1,7 @@
 """Cases as data: what is read, what is refused."""
 
 import math
+import re
 from itertools import pairwise
 
 import pytest
@@ -30,24 +31,24 @@ def test_a_grid_is_the_sorted_product_without_duplicates():
 @pytest.mark.parametrize(
     ("old", "new", "sentence"),
     [
-        ("title", "titel", "titel, title missing or unknown"),
-        ('tier = "quick"', 'tier = "slow"', "unknown tier 'slow'"),
+        ("title", "titel", "grid a: unknown key 'titel': did you mean title?"),
+        ('tier = "quick"', 'tier = "slow"', "tier = 'slow' must be one of quick, full"),
         ('"bradley"', '"bradly"', "unknown model 'bradly'"),
         ('"pull_off_force"', '"pull_off"', "unknown quantity 'pull_off'"),
-        ("mu = [1, 0.5, 1.0]", "mu = []", "at least one entry"),
-        ("mu = [1, 0.5, 1.0]", "mu = 1", "at least one entry"),
+        ("mu = [1, 0.5, 1.0]", "mu = []", "mu = [] must be a list of at least one number"),
+        ("mu = [1, 0.5, 1.0]", "mu = 1", "mu = 1 must be a list of at least one number"),
         ("k = [0, 0.4]", "k = [0, 1.4]", "k = 1.4"),
-        ("[[grid]]", "[[grids]]", "nothing else"),
+        ("[[grid]]", "[[grids]]", "unknown key 'grids': did you mean grid?"),
         ("[[grid]]", "[grid", "Expected"),
     ],
 )
 def test_a_wrong_grid_is_refused_with_a_reason(old, new, sentence):
-    with pytest.raises(ValueError, match=sentence.replace("[", r"\[")):
+    with pytest.raises(ValueError, match=re.escape(sentence)):
         load_grids(GRID.replace(old, new))
 
 
 def test_ids_are_unique():
-    with pytest.raises(ValueError, match="its own"):
+    with pytest.raises(ValueError, match="must be unique"):
         load_grids(GRID + GRID)
 
 

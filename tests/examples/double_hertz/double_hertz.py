@@ -30,7 +30,7 @@ import math
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
-from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
+from comparisons import ComputationFailed, Curve, NotApplicable, Result
 
 STRENGTH = 16.0 * math.sqrt(3.0) / 27.0
 
@@ -43,7 +43,7 @@ _CONTACT_ONLY = "the equations hold in contact only, and the gap is zero there"
 
 
 class DoubleHertz:
-    """What fscm-bench asks for: four texts, `evaluate`, and if there is one `curve`."""
+    """The contract of fscm-bench: four texts, `evaluate`, and `curve` if the model has one."""
 
     name = "double-hertz"
     version = "1.0"
@@ -55,15 +55,15 @@ class DoubleHertz:
 
     def evaluate(self, problem, quantity):
         """Return the quantity as a Result, or raise NotApplicable."""
-        answer = {
+        method = {
             "pull_off_force": lambda states: -states.least("load")[1],
             "pull_off_displacement": lambda states: states.at(states.least("load")[0])[0],
             "jump_out_displacement": lambda states: states.fold(),
             "zero_load_displacement": lambda states: states.zero_load(),
         }.get(quantity)
-        if answer is None:
+        if method is None:
             raise NotApplicable(_CONTACT_ONLY)
-        value = float(answer(States(problem)))
+        value = float(method(States(problem)))
         # A minimum is flat: its place is only known to the root of what its value is known to.
         relative = 1e-6 if quantity == "pull_off_displacement" else 1e-10
         return Result(value, u_num=relative * max(1.0, problem.mu))

@@ -19,7 +19,7 @@ const Plots = (() => {
     });
     // All tools are there before the plot is drawn: Bokeh fails when several are added to a plot on the page.
     const hovers = SIDES.map((attachment) => new Bokeh.HoverTool({
-      renderers: [], attachment, line_policy: "nearest", tooltips: [["model", "@name"], ["", "@says"]],
+      renderers: [], attachment, line_policy: "nearest", tooltips: [["model", "@name"], ["", "@hover"]],
     }));
     drawn.add_tools(box, ...hovers);
     // A finger scrolls the page past the plot; the buttons zoom.
@@ -46,16 +46,16 @@ const Plots = (() => {
     return Bokeh.Plotting.show(drawn, canvas);
   }
 
-  // The series of a choice, made when it is first looked at: a sweep has hundreds.
+  // The series of a choice, made when it is first shown: a sweep has hundreds.
   function layersOf(one, group) {
     if (group in one.layers) return one.layers[group];
     const { plot, drawn } = one;
     const layers = [];
     for (const series of plot.series.filter((any) => any.group === group)) {
-      const [colour, dash, marker] = DATA.looks[series.model];
+      const [colour, dash, marker, broad] = DATA.model_styles[series.model];
       const data = {
         x: series.x, y: series.y, low: series.low ?? series.y, high: series.high ?? series.y,
-        says: series.says, name: series.x.map(() => series.label),
+        hover: series.hover, name: series.x.map(() => series.label),
       };
       const source = new Bokeh.ColumnDataSource({ data });
       const renderers = [];
@@ -63,7 +63,7 @@ const Plots = (() => {
         renderers.push(drawn.varea({ field: "x" }, { field: "low" }, { field: "high" }, { source, fill_color: colour, fill_alpha: 0.2 }));
       }
       if (plot.mark !== "points") {
-        const below = plot.mark === "line" && series.model === "fscm";
+        const below = plot.mark === "line" && broad;
         renderers.push(drawn.line({ field: "x" }, { field: "y" }, {
           source, line_color: colour, line_dash: dash, line_width: below ? 3.5 : 2, line_alpha: below ? 0.45 : 1,
         }));
@@ -101,7 +101,7 @@ const Plots = (() => {
     one.hovers.forEach((hover, side) => {
       hover.renderers = pointed.filter((_, index) => index % SIDES.length === side);
     });
-    if (one.shown.length) look(one, one.plot.views[group] ?? whole(one));
+    if (one.shown.length) setView(one, one.plot.views[group] ?? whole(one));
   }
 
   // The view of everything that is visible, with a margin.
@@ -119,7 +119,7 @@ const Plots = (() => {
     return [...span(shown.flatMap((series) => series.x), one.plot.x_scale), ...span(y, one.plot.y_scale)];
   }
 
-  function look(one, [x0, x1, y0, y1]) {
+  function setView(one, [x0, x1, y0, y1]) {
     one.drawn.x_range.setv({ start: x0, end: x1 });
     one.drawn.y_range.setv({ start: y0, end: y1 });
   }
@@ -128,10 +128,10 @@ const Plots = (() => {
 
   function move(one, how) {
     if (how === "reset") return choose(one);
-    if (how === "all") return look(one, whole(one));
+    if (how === "all") return setView(one, whole(one));
     const [dx, dy, factor] = STEPS[how];
     const { x_range, y_range } = one.drawn;
-    return look(one, [...shifted(x_range, one.plot.x_scale, dx, factor), ...shifted(y_range, one.plot.y_scale, dy, factor)]);
+    return setView(one, [...shifted(x_range, one.plot.x_scale, dx, factor), ...shifted(y_range, one.plot.y_scale, dy, factor)]);
   }
 
   function shifted(range, scale, shift, factor) {
@@ -144,7 +144,7 @@ const Plots = (() => {
   Bokeh.set_log_level("warn");
   const ready = Promise.all(DATA.plots.map(make)).then(() => { document.documentElement.dataset.plots = "drawn"; });
 
-  // What a reader sees of an axis, for tests and for the curious: Plots.range("plot-kappa").
+  // The visible part of both axes, for tests: Plots.range("plot-kappa").
   function range(id) {
     const { x_range, y_range } = made[id].drawn;
     return [x_range.start, x_range.end, y_range.start, y_range.end];

@@ -53,8 +53,9 @@ const Tables = (() => {
     }
     if (kind === "verdict") {
       const badge = document.createElement("span");
-      badge.className = `verdict v-${text.toLowerCase()}`;
-      badge.textContent = `${DATA.symbols[text]} ${text}`;
+      const [symbol, className] = DATA.verdicts[text];
+      badge.className = `verdict ${className}`;
+      badge.textContent = `${symbol} ${text}`;
       made.append(badge);
     } else made.textContent = text;
     if (more) {

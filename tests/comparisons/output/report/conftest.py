@@ -1,4 +1,4 @@
-"""A small run folder, written by the store's own functions, in which everything from outside is hostile."""
+"""A small run folder, written by the functions that a run uses, in which every external text is hostile."""
 
 import math
 import sys
@@ -123,7 +123,7 @@ def write_run(folder: Path) -> Path:
     write_table(largest(kappa), folder / "largest_kappa")
     specs = {IMAGE: SPEC, SCRIPT: "plain.py:Model"}
     write_verdicts(folder, pd.DataFrame(VERDICTS), load_gates(gates_text()), specs)
-    said = {"version": LINE, "citation": f"{IMAGE} {LINE}", "domain": SCRIPT}
+    described = {"version": LINE, "citation": f"{IMAGE} {LINE}", "domain": SCRIPT}
     write_record(
         environment()
         | {
@@ -142,7 +142,7 @@ def write_run(folder: Path) -> Path:
             "started": "2026-01-01T00:00:00+00:00",
             "finished": "2026-01-01T00:00:09+00:00",
             "seconds": {"run": 9.0, "by_model": {"fscm": 8.5}},
-            "models": {SCRIPT: said, IMAGE: said},
+            "models": {SCRIPT: described, IMAGE: described},
             "rows": {"all": len(every), "resumed": 0, "ok": len(every)},
             "cases_sha256": "0" * 64,
             "gates_sha256": "f" * 64,

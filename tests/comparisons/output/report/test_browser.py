@@ -1,6 +1,6 @@
-"""The page in a real browser: headless Chromium with everything it would ask the network for recorded.
+"""The page in a real browser: headless Chromium that records every network request.
 
-Skipped where there is no Chromium with its driver, unless FSCM_BENCH_BROWSER=required says that there must be.
+Skipped where there is no Chromium with its driver, unless FSCM_BENCH_BROWSER=required makes them necessary.
 """
 
 import base64
@@ -21,8 +21,8 @@ def requests(browser):
 
 def test_it_opens_without_an_error_and_without_the_network(browser, page, hostile):
     show(browser, page, *DESKTOP)
-    said = [entry for entry in browser.get_log("browser") if entry["level"] not in {"INFO", "DEBUG"}]
-    assert said == []
+    messages = [entry for entry in browser.get_log("browser") if entry["level"] not in {"INFO", "DEBUG"}]
+    assert messages == []
     assert {url for url in requests(browser) if not url.startswith("data:")} == {page.as_uri()}
     assert browser.title == "fscm-bench report: ERROR"
     assert browser.execute_script("return window.hostile") is None
@@ -101,7 +101,7 @@ def test_numbers_shown_are_numbers_stored(opened, run_folder):
     ):
         shown = [float(text) if text else np.nan for text in cells(opened, table, label)]
         np.testing.assert_array_equal(shown, tables[source][column])
-    # A series is drawn when its choice is first looked at: look at every one.
+    # A series is drawn when its choice is first shown: show every one.
     script = """
       const looked = (selects) => {
         if (selects.length === 0) return;
@@ -250,9 +250,9 @@ def test_it_is_accessible(browser, page, measures):
 
 def test_it_prints_with_everything_unfolded(opened):
     opened.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
-    look = "return Array.from(document.querySelectorAll(arguments[0]), (e) => e.checkVisibility())"
-    assert set(opened.execute_script(look, ".controls")) == {False}
-    assert set(opened.execute_script(look, ".canvas")) == {True}
+    visible = "return Array.from(document.querySelectorAll(arguments[0]), (e) => e.checkVisibility())"
+    assert set(opened.execute_script(visible, ".controls")) == {False}
+    assert set(opened.execute_script(visible, ".canvas")) == {True}
     opened.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
     opened.execute_script("""
       window.printed = [];

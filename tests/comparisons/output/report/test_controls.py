@@ -2,7 +2,7 @@
 
 from functools import partial
 
-from comparisons.curve_quantities import SHAPES
+from comparisons.quantities import CURVES
 
 from .browsing import click, find, package, tips, wait
 
@@ -24,12 +24,12 @@ POINTS = """
   const share = (v, a, b, scale) => (scale === "log" ? Math.log(v / a) / Math.log(b / a) : (v - a) / (b - a));
   return plot.series.filter((series) => series.group === group).map((series) => {
     const places = series.x.map((x, index) => ({
-      label: series.label, says: series.says[index],
+      label: series.label, hover: series.hover[index],
       across: share(x, x0, x1, plot.x_scale), up: share(series.y[index], y0, y1, plot.y_scale),
     })).filter(({ across, up }) => Math.min(across, up) > 0.02 && Math.max(across, up) < 0.98);
-    const { label, says, across, up } = places[Math.floor(places.length / 2)];
+    const { label, hover, across, up } = places[Math.floor(places.length / 2)];
     const [right, down] = [left + width * across - box.width / 2, top + height * (1 - up) - box.height / 2];
-    return [label, says, Math.round(right), Math.round(down)];
+    return [label, hover, Math.round(right), Math.round(down)];
   });
 """
 
@@ -52,9 +52,9 @@ def point(browser, plot, right, down):
     actions.move_to_element_with_offset(canvas, right + 3, down).move_by_offset(-3, 0).perform()
 
 
-def shows(browser, label, says):
+def shows(browser, label, hover):
     text = tips(browser)
-    return label in text and says in text
+    return label in text and hover in text
 
 
 def messages(browser):
@@ -62,29 +62,29 @@ def messages(browser):
 
 
 def test_every_curve_that_is_stored_is_drawn(opened):
-    assert {f"plot-{name.replace('_', '-')}" for name in SHAPES} <= set(plots(opened))
+    assert {f"plot-{name.replace('_', '-')}" for name in CURVES} <= set(plots(opened))
 
 
 def test_values_are_read_off_after_every_choice(opened):
-    looked = 0
+    read_off = 0
     # Twice: a choice that is made again must be as good as the first.
     for _ in range(2):
         for plot in plots(opened):
             for group in choices(opened, plot):
                 opened.execute_script(CHOOSE, plot, group.split("|") if plot == "plot-kappa" else [group])
-                for label, says, right, down in opened.execute_script(POINTS, plot, group):
+                for label, hover, right, down in opened.execute_script(POINTS, plot, group):
                     point(opened, plot, right, down)
-                    wait(partial(shows, opened, label, says))
-                    looked += 1
-    assert looked >= 2 * (4 * 2 + 2 + 1 + 2)
+                    wait(partial(shows, opened, label, hover))
+                    read_off += 1
+    assert read_off >= 2 * (4 * 2 + 2 + 1 + 2)
     assert messages(opened) == []
 
 
 def test_a_model_that_is_switched_off_is_not_read_off(opened):
     (one, other) = opened.execute_script(POINTS, "plot-pull-off-gap", "2|0.4|1")
-    for label, says, right, down in (one, other):
+    for label, hover, right, down in (one, other):
         point(opened, "plot-pull-off-gap", right, down)
-        wait(partial(shows, opened, label, says))
+        wait(partial(shows, opened, label, hover))
     click(opened, find(opened, "#plot-pull-off-gap .models input"))
     (_, again) = opened.execute_script(POINTS, "plot-pull-off-gap", "2|0.4|1")
     point(opened, "plot-pull-off-gap", *again[2:])

@@ -1,4 +1,4 @@
-"""The model of a page: what it says is what is stored, in the right order, and a broken folder is refused."""
+"""The content of a page is what is stored, in the right order, and a broken folder is refused."""
 
 import json
 import math
@@ -10,10 +10,10 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.output.report.model_style import model_styles
 from comparisons.output.report.page import make_page
 from comparisons.output.report.stored_run import read_folder
 from comparisons.output.report.table import Cell, Column, Row, Table, table_tex, without_empty
+from comparisons.output.style import model_styles
 from comparisons.runs.csv_format import csv_text
 
 
@@ -111,7 +111,8 @@ def test_limits_have_the_digits_they_were_declared_with(stored):
         (-0.651, -0.64951, "-0.651 to -0.64951"),
         (-math.inf, 1.23456789e-9, "≤ 1.23456789e-09"),
     ):
-        page = make_page(replace(stored, verdicts=stored.verdicts.assign(lower=lower, upper=upper)))
+        verdicts, summary = (table.assign(lower=lower, upper=upper) for table in (stored.verdicts, stored.summary))
+        page = make_page(replace(stored, verdicts=verdicts, summary=summary))
         for name in ("matrix", "offenders", "verdicts"):
             assert {cell.text for cell in column(page.tables[name], "limits of E")} == {text}
 
@@ -179,21 +180,47 @@ def test_a_column_without_anything_is_left_out():
     assert without_empty(Table("t", "c", columns, [])).columns == columns
 
 
-def test_ours_look_the_same_on_every_page_and_no_two_alike():
+def test_our_models_have_one_style_on_every_page_and_no_two_share_one():
     alone, together = model_styles(["jkr"]), model_styles(["jkr", "fscm", "fem", "mine", "theirs", "dmt"])
     assert alone["jkr"] == together["jkr"]
-    assert len({(look.colour, look.marker) for look in together.values()}) == len(together)
+    assert len({(style.colour, style.marker) for style in together.values()}) == len(together)
 
 
 def test_a_run_without_verdicts_errors_or_curves_has_a_page(run_folder, tmp_path, hostile):
     folder = shutil.copytree(run_folder, tmp_path / "run")
-    for name in ("verdicts", "kappa", "largest_kappa", "curves"):
+    for name in ("verdicts", "summary", "kappa", "largest_kappa", "curves"):
         pd.read_parquet(folder / f"{name}.parquet").head(0).to_parquet(folder / f"{name}.parquet")
     hostile.seal(folder)
     page = make_page(read_folder(folder))
     assert page.verdict == "ERROR"
     assert "No gate was evaluated" in page.summary
     assert main(["report", str(folder)]) == 0
+
+
+def test_a_sweep_has_a_page_without_verdicts(run_folder, tmp_path, hostile):
+    folder = shutil.copytree(run_folder, tmp_path / "sweep")
+    for name in ("verdicts", "summary", "gates", "largest_kappa"):
+        for suffix in ("csv", "parquet"):
+            (folder / f"{name}.{suffix}").unlink()
+    hostile.seal(folder)
+    page = make_page(read_folder(folder))
+    assert (page.verdict, page.counts) == ("", [])
+    assert page.meaning.startswith("Nothing was judged")
+    assert not {"matrix", "offenders", "verdicts"} & set(page.tables)
+    assert not {"verdicts.csv", "verdicts.tex", "offenders.tex"} & set(page.files)
+    assert texts(page.tables["kappa"], "value") == texts(make_page(read_folder(run_folder)).tables["kappa"], "value")
+    assert main(["report", str(folder)]) == 0
+    text = (folder / "report.html").read_text(encoding="utf-8")
+    assert "<h1>Nothing was judged</h1>" in text
+    assert 'id="gates"' not in text
+
+
+def test_the_matrix_is_the_stored_summary(run_folder, tmp_path, hostile):
+    folder = shutil.copytree(run_folder, tmp_path / "run")
+    summary = pd.read_parquet(folder / "summary.parquet")
+    summary.assign(reference="stored").to_parquet(folder / "summary.parquet")
+    hostile.seal(folder)
+    assert set(texts(make_page(read_folder(folder)).tables["matrix"], "reference")) == {"stored"}
 
 
 def test_a_folder_judged_before_gates_were_stored_has_a_page(run_folder, tmp_path):
@@ -213,7 +240,8 @@ def test_the_command_writes_the_page_where_it_is_asked_to(run_folder, tmp_path, 
 
 
 @pytest.mark.parametrize(
-    "lost", ["run.json", *(f"{n}.parquet" for n in ("results", "curves", "verdicts", "kappa", "largest_kappa"))]
+    "lost",
+    ["run.json", *(f"{n}.parquet" for n in ("results", "curves", "verdicts", "summary", "kappa", "largest_kappa"))],
 )
 @pytest.mark.parametrize("how", ["missing", "broken"])
 def test_a_folder_that_is_no_whole_run_is_wrong_input(run_folder, tmp_path, capsys, lost, how):
@@ -229,21 +257,21 @@ def test_a_folder_that_is_no_whole_run_is_wrong_input(run_folder, tmp_path, caps
 
 
 @pytest.mark.parametrize(
-    ("change", "says"),
+    ("change", "message"),
     [
         (lambda table: table.drop(columns="upper"), "has no column upper"),
         (lambda table: table.assign(error="much"), "column error that is no number"),
         (lambda table: table.assign(verdict="FINE"), "unknown verdict 'FINE'"),
     ],
 )
-def test_a_table_that_was_tampered_with_is_wrong_input(run_folder, tmp_path, capsys, hostile, change, says):
+def test_a_table_that_was_tampered_with_is_wrong_input(run_folder, tmp_path, capsys, hostile, change, message):
     folder = shutil.copytree(run_folder, tmp_path / "run")
     change(pd.read_parquet(folder / "verdicts.parquet")).to_parquet(folder / "verdicts.parquet")
     assert main(["report", str(folder)]) == 2
     assert "verdicts.parquet was changed after it was written" in capsys.readouterr().err
     hostile.seal(folder)
     assert main(["report", str(folder)]) == 2
-    assert says in capsys.readouterr().err
+    assert message in capsys.readouterr().err
 
 
 def test_the_parts_of_the_computations_are_on_the_page(page, stored):

@@ -1,4 +1,4 @@
-"""The page as text: one file, the same every time, and nothing from outside is taken for HTML or script."""
+"""The page as text: one file, the same every time, and no external text is taken for HTML or script."""
 
 import base64
 import hashlib
@@ -60,7 +60,7 @@ def test_the_same_folder_gives_the_same_bytes(run_folder, text, hostile, tmp_pat
         assert out.read_text(encoding="utf-8") == text
 
 
-def test_nothing_from_outside_is_an_element(elements):
+def test_no_external_text_is_an_element(elements):
     tags = {tag for tag, _ in elements.found}
     assert "img" not in tags
     assert "b" not in {tag for tag, attributes in elements.found if attributes}

@@ -1,4 +1,4 @@
-"""Figs. 4 and 6: the families fold above the critical Tabor number, and order themselves as the paper says."""
+"""Figs. 4 and 6: families that fold above the critical Tabor number, in the order of the paper."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ def family(tables_of):
             "x",
             "x",
             lambda: force_curves._tasks(cases),
-            lambda answers: force_curves._tables(cases, answers),
+            lambda results: force_curves._tables(cases, results),
             None,
         )
         return tables_of(figure)[""]
@@ -51,6 +51,6 @@ def test_a_curve_that_is_refused_is_named(family):
     assert table[table["n"] == 0.6]["load"].isna().all()
 
 
-def test_the_plates_ask_for_every_curve():
+def test_the_figures_have_every_curve():
     assert len(force_curves.OVER_TABOR_NUMBERS.tasks()) == 28
     assert len(force_curves.OVER_GRADIENTS.tasks()) == 10

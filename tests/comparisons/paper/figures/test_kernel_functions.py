@@ -24,8 +24,8 @@ def test_the_slope_is_the_derivative(k):
 @pytest.mark.parametrize("k", [0.0, 0.4, 0.8, 1.0])
 def test_psi_is_phi_less_the_power(k):
     found = as_arrays(k)
-    inside = _RATIOS > 0
-    assert found["psi"][inside] == pytest.approx((found["phi"] - _RATIOS ** (1 - k))[inside], abs=1e-13)
+    positive = _RATIOS > 0
+    assert found["psi"][positive] == pytest.approx((found["phi"] - _RATIOS ** (1 - k))[positive], abs=1e-13)
 
 
 def test_the_gibson_limit_is_the_limit():

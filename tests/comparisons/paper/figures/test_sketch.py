@@ -1,4 +1,4 @@
-"""Fig. 1 is drawn without data, and what it draws can be: the punch nowhere enters the body."""
+"""Fig. 1: drawn without data, and the punch does not enter the body."""
 
 import numpy as np
 

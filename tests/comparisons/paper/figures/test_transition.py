@@ -1,4 +1,4 @@
-"""Fig. 10: the pull-off force goes from Bradley to JKR."""
+"""Fig. 10: pull-off force from Bradley to JKR."""
 
 import pytest
 
@@ -13,7 +13,7 @@ def test_both_limits(tables_of, monkeypatch):
     force = table.set_index(["model", "n", "k", "mu"])["value"]
     assert (table["status"] == "ok").all()
     for n, rigid in ((2.0, 2.0), (5.0, 1.669)):
-        # PaperValue (Eq. 56).
+        # Printed in the paper (Eq. 56).
         assert round(force["bradley", n, 0.0, 0.01], 3) == rigid
         assert force["fscm", n, 0.4, 0.01] == pytest.approx(rigid, rel=2e-3)
         # Within 1 % of JKR at mu = 10, and not yet at 1.
@@ -24,6 +24,6 @@ def test_both_limits(tables_of, monkeypatch):
     assert [force["fscm", 2.0, 1.0, mu] for mu in (0.01, 1.0, 10.0)] == pytest.approx([2, 2, 2], rel=1e-11)
 
 
-def test_every_case_is_asked_once():
+def test_every_case_is_computed_once():
     tasks = transition.TRANSITION.tasks()
     assert len(tasks) == len(set(tasks)) == 4 * 5 * 16 + 4 * 5 * 2 + 4 * 2

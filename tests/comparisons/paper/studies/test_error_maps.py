@@ -52,7 +52,7 @@ def test_a_jump_that_is_not_there_has_no_error(few):
     assert "no jump" in row["reason"]
 
 
-def test_dmt_need_not_be_asked():
+def test_dmt_has_the_force_of_bradley():
     """Its cohesive stress is chosen so that it has Bradley's pull-off force (Eq. 74)."""
     for n in (0.8, 1.5, 8.0):
         assert quantity("dmt", "pull_off_force", n, 0.4, 1.0)["value"] == pytest.approx(
@@ -98,7 +98,7 @@ def test_the_map_of_a_jump_begins_at_the_critical_tabor_number():
         assert not path.contains_points([(2.0, 0.70), (2.0, 0.72), (2.0, 0.75)]).any()
 
 
-def test_the_stored_jumps_begin_where_the_stored_critical_tabor_number_says():
+def test_the_stored_jumps_begin_at_the_stored_critical_tabor_number():
     jumps, onset = (pd.read_csv(BASELINE / f"error_maps_jumps{end}.csv") for end in ("", "_onset"))
     both = jumps.merge(onset[["n", "k", "model", "critical"]], on=["n", "k", "model"], validate="many_to_one")
     assert len(both) == len(jumps)
@@ -136,13 +136,13 @@ def test_bands_are_bracketed_and_not_too_precise():
     assert found["at_mu"].eq(10.0).all()
 
 
-def test_two_ranges_are_two_rows_and_none_is_one_without_numbers():
+def test_two_ranges_are_two_rows_and_no_range_is_a_row_without_numbers():
     found = bands(table_of([0.0, 0.03, 0.0]))
     assert found.groupby("limit").size().to_dict() == {0.01: 2, 0.02: 2, 0.05: 1}
     never = bands(table_of([0.6, 0.5, 0.4]))
     assert len(never) == 3
     assert never["mu_from"].isna().all()
-    # A jump across zero between points outside the limit is not a range.
+    # A change of sign between points beyond the limit is not a range.
     assert bands(table_of([0.2, -0.2, 0.2]))["mu_from"].isna().all()
 
 

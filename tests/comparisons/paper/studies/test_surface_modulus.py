@@ -32,9 +32,9 @@ def test_tabor_number_of_the_uniform_solid(k, mu, depth):
 
 
 def test_an_offset_does_nothing_to_a_uniform_solid():
-    answer = with_skin("pull-off", 0.0, 1.0, 30.0)
+    found = with_skin("pull-off", 0.0, 1.0, 30.0)
     for name in ("pull_off_force", "pull_off_displacement"):
-        value, u_num = answer[name]
+        value, u_num = found[name]
         exact = quantity("fscm", name, 2.0, 0.0, 1.0)["value"]
         assert abs(value - exact) <= u_num < 1e-5
 
@@ -48,13 +48,13 @@ def test_a_thick_skin_is_a_uniform_solid():
     assert 1e-5 < value - limit < 5e-5
 
 
-def test_no_jumps_are_said_to_be_none():
-    answer = with_skin("jump-out", 0.4, 1.0, 3.0)
-    assert set(answer) == {"reason"}
-    assert "too stiff" in answer["reason"]
+def test_without_jumps_there_is_a_reason():
+    found = with_skin("jump-out", 0.4, 1.0, 3.0)
+    assert set(found) == {"reason"}
+    assert "too stiff" in found["reason"]
 
 
-def test_the_answer_does_not_depend_on_where_the_exterior_begins(monkeypatch):
+def test_the_result_does_not_depend_on_where_the_exterior_begins(monkeypatch):
     found = {}
     for reach in (0.5, 64.0, 256.0):
         monkeypatch.setattr(fem_reference._contact.mesh_choice, "HOMOGENEOUS_DEPTH", reach)
@@ -114,7 +114,7 @@ def test_rates_of_both_limits():
     assert limits(series(u_num=0.1))["rate"].isna().all()
 
 
-def test_depths_that_matter():
+def test_depths_that_change_a_quantity():
     table = thresholds(series()).set_index("change")
     assert table.loc[0.01, ["below", "above"]].tolist() == [1e-3, 1e-2]
     assert table.loc[0.01, "depth"] == pytest.approx(0.02 ** (1 / 0.6), rel=0.03)
@@ -129,7 +129,7 @@ def test_a_change_below_the_thinnest_skin_follows_the_law_of_thin_skins():
     assert math.isnan(table.loc[0.01, "depth"])
 
 
-def test_a_quantity_that_ends_is_absent_and_says_why():
+def test_a_quantity_that_ends_has_no_value_and_a_reason():
     (sample,) = [s for s in series() if s.depth == 0.1]
     ended = Sample(**{f: getattr(sample, f) for f in sample.__slots__} | {"elements": None, "reason": "too stiff"})
     table = samples([sample, ended])

@@ -20,7 +20,7 @@ def test_between_the_points_the_curve_is_the_model(n):
     assert curve.error < 1e-8
 
 
-def test_a_series_that_is_too_short_says_so():
+def test_a_series_that_is_too_short_has_a_large_error():
     kink = np.maximum(np.array(tabor_numbers(40)), 0.7)
     curve = TaborCurve.through(kink)
     mu = np.geomspace(*RANGE, 999)

@@ -1,8 +1,7 @@
-"""The published scheme taken apart: what is left out against closed forms and against the scheme itself."""
+"""The ingredients of the Stieltjes scheme: neglected traction against closed forms and against the scheme itself."""
 
 import pytest
 
-from comparisons.paper.values import scheme_ingredients
 from comparisons.paper.values.scheme_ingredients import HEIGHTS, exact_force, sampled_force, scheme_force
 from comparisons.registry import create
 from comparisons.runs.cases import Case
@@ -24,14 +23,13 @@ def test_what_a_stiff_sphere_loses_beyond_the_domain():
 
 
 @pytest.mark.parametrize(("n", "mu"), [(1.0, 0.236), (2.0, 0.668)])
-def test_the_scheme_tends_to_the_converged_force_without_what_is_beyond(n, mu, monkeypatch):
-    """Two routes to the truncated force: leaving out a part of the exact one, and the published sums."""
+def test_the_scheme_tends_to_the_converged_force_without_what_is_beyond(n, mu):
+    """Two routes to the truncated force: the exact one without a part, and the sums of the scheme."""
     found = exact_force(n, 0.4, mu)
     truncated = found["force"] - found["beyond"][0]
     errors = []
     for segments in (300, 600):
-        monkeypatch.setattr(scheme_ingredients, "SEGMENTS", segments)
-        errors.append(scheme_force(n, 0.4, mu)["force"] - truncated)
+        errors.append(scheme_force(n, 0.4, mu, segments)["force"] - truncated)
     # Second order: what is left after extrapolation is a small part of the error of the finer mesh.
     assert abs(errors[1] + (errors[1] - errors[0]) / 3) < 0.15 * abs(errors[1]) + 1e-5
     assert 3.0 < errors[0] / errors[1] < 5.0
@@ -41,9 +39,7 @@ def test_the_scheme_tends_to_the_converged_force_without_what_is_beyond(n, mu, m
 def test_the_scheme_is_its_own_model():
     """The stationary load found from the accurate surface is that of the path followed from afar."""
     followed = create("fscm-stieltjes-400").evaluate(Case(2.0, 0.4, 0.5).problem(), "pull_off_force").value
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(scheme_ingredients, "SEGMENTS", 400)
-        direct = scheme_force(2.0, 0.4, 0.5)
+    direct = scheme_force(2.0, 0.4, 0.5, segments=400)
     assert direct["force"] == pytest.approx(followed, abs=direct["u_num"] + 1e-7)
 
 

@@ -1,0 +1,109 @@
+"""Stored results of a run, by model, quantity and case."""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Hashable
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from comparisons.judging.decision import Verdict
+
+__all__ = ["Key", "StoredResults", "UnusableResult", "stored_curves", "stored_numbers"]
+
+#: Model, quantity, n, k, mu and nu.
+Key = tuple[str, str, float, float, float, float | None]
+
+_KEY = {"model", "quantity", "n", "k", "mu", "nu"}
+
+
+class UnusableResult(Exception):
+    """A result that cannot be judged; holds the verdict it leads to and why."""
+
+    def __init__(self, verdict: Verdict, reason: str) -> None:
+        super().__init__(reason)
+        self.verdict, self.reason = verdict, reason
+
+
+class StoredResults:
+    """The rows of a table of results, by their keys.
+
+    Parameters
+    ----------
+    table : DataFrame or None
+        None is a table without rows.
+    needed : set of str
+        Columns without which nothing can be judged.
+
+    Attributes
+    ----------
+    missing_columns : list of str
+    rows : dict
+        Key -> rows, more than one only for the points of a curve.
+    """
+
+    def __init__(self, table: pd.DataFrame | None, needed: set[str]) -> None:
+        table = pd.DataFrame(columns=sorted(needed)) if table is None else table
+        self.missing_columns = sorted(needed - set(table.columns))
+        self.rows: dict[Key, list[dict[Hashable, Any]]] = defaultdict(list)
+        for row in [] if self.missing_columns else table[sorted(needed)].to_dict("records"):
+            nu = None if row["nu"] is None or pd.isna(row["nu"]) else float(row["nu"])
+            self.rows[row["model"], row["quantity"], row["n"], row["k"], row["mu"], nu].append(row)
+
+    def number(self, key: Key) -> tuple[float, float]:
+        """Return a value and its u_num.
+
+        Raises
+        ------
+        UnusableResult
+            If there is no such row or more than one, or the two are not finite numbers.
+        """
+        rows = self._usable(key)
+        if len(rows) > 1:
+            raise UnusableResult(Verdict.ERROR, f"{key[0]} has {len(rows)} rows")
+        value, u_num = (_real(rows[0][name]) for name in ("value", "u_num"))
+        if not (math.isfinite(value) and math.isfinite(u_num) and u_num >= 0.0):
+            raise UnusableResult(Verdict.ERROR, f"{key[0]} has the value {value:g} +- {u_num:g}")
+        return value, u_num
+
+    def points(self, key: Key) -> tuple[np.ndarray, np.ndarray, float]:
+        """Return the points of a curve and the bound on their distance from it.
+
+        Raises
+        ------
+        UnusableResult
+            If there is no such curve, or it has no finite bound.
+        """
+        table = pd.DataFrame(self._usable(key))
+        u = float(table["u_distance"].max(skipna=False))
+        if not (math.isfinite(u) and u >= 0.0):
+            raise UnusableResult(Verdict.ERROR, f"{key[0]} states the uncertainty {u:g} of its curve")
+        return table["x"].to_numpy(float), table["y"].to_numpy(float), u
+
+    def _usable(self, key: Key) -> list[dict[Hashable, Any]]:
+        rows = self.rows.get(key, [])
+        if not rows:
+            raise UnusableResult(Verdict.ERROR, f"{key[0]} has no row")
+        first = rows[0]
+        if first["status"] == "not-applicable":
+            raise UnusableResult(Verdict.NOT_APPLICABLE, f"{key[0]}: {first['reason']}")
+        if first["status"] != "ok":
+            raise UnusableResult(Verdict.ERROR, f"{key[0]}: {first['status']}: {first['reason']}")
+        return rows
+
+
+def stored_numbers(table: pd.DataFrame) -> StoredResults:
+    """Return the rows of a table of scalars."""
+    return StoredResults(table, _KEY | {"value", "u_num", "status", "reason"})
+
+
+def stored_curves(table: pd.DataFrame | None) -> StoredResults:
+    """Return the points of a table of curves."""
+    return StoredResults(table, _KEY | {"x", "y", "u_distance", "status", "reason"})
+
+
+def _real(value: float | None) -> float:
+    return math.nan if value is None else float(value)

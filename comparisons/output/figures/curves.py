@@ -1,0 +1,79 @@
+"""A curve or field of several models in one picture (as Figs. 3(b) and 13)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from comparisons.output.style import model_styles, styled
+from comparisons.quantities import CurveQuantity, Kind, Points
+
+__all__ = ["draw", "tension_view"]
+
+#: Where the load is below this share of the pull-off force, a curve approaches the axis and ends the picture.
+_FAINT = 0.02
+
+
+def draw(points: dict[str, Points], quantity: CurveQuantity, title: str) -> Figure:
+    """Draw the points of every model, the equilibrium path only where the surfaces pull.
+
+    Parameters
+    ----------
+    points : dict of str to Points
+        By model name.
+    quantity : CurveQuantity
+        A row of `comparisons.quantities.CURVES`.
+    title : str
+        Which problem it is.
+
+    Examples
+    --------
+    >>> from comparisons.quantities import CURVES
+    >>> figure = draw({"a": Points([0.0, 1.0], [1.0, 1.5], 0.0)}, CURVES["pull_off_gap"], "n = 2")
+    >>> figure.axes[0].get_ylabel()
+    'gap at pull-off $H / z_0$'
+    """
+    styles = model_styles(points)
+    with styled():
+        figure = Figure(figsize=(5.0, 3.8), layout="constrained")
+        axes = figure.subplots()
+        for name, curve in points.items():
+            axes.plot(curve.x, curve.y, label=name, **styles[name].arguments)
+        axes.axhline(0, color="0.4", lw=0.8)
+        axes.set_xlabel(quantity.x.figure_label)
+        axes.set_ylabel(quantity.y.signed_figure_label)
+        axes.set_title(title)
+        _set_limits(axes, quantity, points)
+        if points:
+            axes.legend()
+    return figure
+
+
+def _set_limits(axes: Axes, quantity: CurveQuantity, points: dict[str, Points]) -> None:
+    if quantity.kind is Kind.FIELD:
+        axes.set_xlim(left=0.0)
+        return
+    view = tension_view((curve.x, curve.y) for curve in points.values())
+    if view:
+        axes.set_xlim(*view[:2])
+        axes.set_ylim(*view[2:])
+
+
+def tension_view(curves: Iterable[tuple[list[float], list[float]]]) -> list[float] | None:
+    """Return the limits [x0, x1, y0, y1] of the tension, and of as much compression; None without tension.
+
+    Examples
+    --------
+    >>> tension_view([([0.0, 1.0, 2.0, 9.0], [-0.5, -1.0, 0.5, 40.0])])
+    [-0.1, 2.1, -1.15, 1.0]
+    """
+    pairs = [(np.array(x), np.array(y)) for x, y in curves]
+    deepest = min((float(load.min()) for _, load in pairs), default=0.0)
+    if deepest >= 0.0:
+        return None
+    shown = np.concatenate([x[(abs(load) > -_FAINT * deepest) & (load < -deepest)] for x, load in pairs])
+    margin = 0.05 * float(np.ptp(shown))
+    return [float(shown.min()) - margin, float(shown.max()) + margin, 1.15 * deepest, -deepest]

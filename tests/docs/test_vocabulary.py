@@ -1,0 +1,63 @@
+"""Words that the glossary replaces: none is left in code, docs and tests."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+GLOSSARY = ROOT / "docs" / "ARCHITECTURE.md"
+SUFFIXES = {".py", ".md", ".toml", ".json", ".html", ".js", ".css", ".in", ".cff"}
+#: The glossary itself, and the record of what was renamed.
+EXEMPT = {GLOSSARY, ROOT / "CHANGELOG.md", Path(__file__).resolve()}
+
+
+def replaced_words() -> list[str]:
+    """The first column of the glossary's table."""
+    _, _, section = GLOSSARY.read_text(encoding="utf-8").partition("## Glossary")
+    rows = [line.split("|")[1] for line in section.splitlines() if line.startswith("| `")]
+    return [word for row in rows for word in re.findall(r"`([^`]+)`", row)]
+
+
+def pattern(word: str) -> re.Pattern[str]:
+    """Whole words, but not Python's `ast.walk`; a capital or an underscore makes it a name, whose case counts."""
+    is_name = word != word.lower() or "_" in word
+    return re.compile(rf"(?<!\w)(?<!\bast\.){re.escape(word)}(?!\w)", 0 if is_name else re.IGNORECASE)
+
+
+def texts() -> dict[Path, str]:
+    folders = [ROOT / name for name in ("fscm", "fem_reference", "comparisons", "docs", "tests")]
+    files = [path for folder in folders for path in folder.rglob("*") if path.suffix in SUFFIXES]
+    files += [path for path in ROOT.glob("*.*") if path.suffix in SUFFIXES]
+    return {path: path.read_text(encoding="utf-8") for path in files if path not in EXEMPT}
+
+
+def test_the_glossary_is_read():
+    assert {"plate", "rung", "Look", "door_of"} <= set(replaced_words())
+
+
+@pytest.mark.parametrize("word", replaced_words())
+def test_a_replaced_word_is_not_used(word):
+    found = [
+        f"{path.relative_to(ROOT)}:{number}: {line.strip()[:80]}"
+        for path, text in texts().items()
+        for number, line in enumerate(text.splitlines(), start=1)
+        if pattern(word).search(line)
+    ]
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    ("word", "line", "counts"),
+    [
+        ("rung", "a rung of it", True),
+        ("rung", "wrung", False),
+        ("plate", "Plate 3", True),
+        ("Look", "class Look:", True),
+        ("Look", "look it up", False),
+        ("own_gates", "own_gates(text)", True),
+        ("own_gates", "my_own_gates", False),
+    ],
+)
+def test_whole_words_count(word, line, counts):
+    assert bool(pattern(word).search(line)) is counts

@@ -1,0 +1,99 @@
+"""The table of quantities, several quantities at once, and the accuracy of paths and fields."""
+
+import ast
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import fscm
+from fscm import Analysis, NoSuchEvent, Problem, Solution, profile, solve, solve_together, trace
+from fscm.gibson.solid import _QUANTITIES as GIBSON_QUANTITIES
+from fscm.quantities import TABLE
+
+# A stiff solid, which does not jump, and a soft one.
+STIFF, SOFT = Problem(2, 0, 0.1), Problem(2, 0.4, 1.0)
+PATH_QUANTITIES = [name for name, row in TABLE.items() if row.needs]
+# Modules that define quantities: the table, and the same for the Gibson solid.
+DEFINING = ("quantities.py", "solid.py")
+
+
+def test_every_quantity_needs_known_events() -> None:
+    assert tuple(TABLE) == fscm.QUANTITIES
+    for row in TABLE.values():
+        assert set(row.needs) <= set(fscm.EVENTS)
+        assert row.kind in {"force", "displacement", "gap", "energy", "number"}
+
+
+def test_the_gibson_solid_has_the_same_quantities() -> None:
+    assert set(GIBSON_QUANTITIES) == set(TABLE)
+
+
+def test_no_other_module_knows_a_quantity_by_name() -> None:
+    found = []
+    for path in sorted(Path(fscm.__file__).parent.rglob("*.py")):
+        if path.name not in DEFINING:
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.Constant) and node.value in fscm.QUANTITIES:
+                    found.append((path.name, node.value))
+    # `__all__` of the module with the function of that name.
+    assert found == [("critical.py", "critical_tabor_number")]
+
+
+def test_quantities_of_one_path_together_are_those_alone() -> None:
+    found = solve_together(SOFT, reversed(PATH_QUANTITIES))
+    assert list(found) == PATH_QUANTITIES[::-1]
+    for name in ("jump_out_gap", "hysteresis_energy"):
+        solution = found[name]
+        assert isinstance(solution, Solution)
+        assert solution.value == solve(SOFT, name).value
+
+
+@pytest.mark.parametrize("problem", [STIFF, Problem(2, 1, 0.3)], ids=["graded", "Gibson"])
+def test_a_quantity_that_does_not_exist_is_returned_as_the_exception(problem: Problem) -> None:
+    found = solve_together(problem, PATH_QUANTITIES)
+    missing = {name for name, solution in found.items() if isinstance(solution, NoSuchEvent)}
+    assert missing == {name for name in PATH_QUANTITIES if name.startswith("jump") or name == "hysteresis_energy"}
+    assert found["pull_off_force"].value > 0
+
+
+@pytest.mark.parametrize("problem", [STIFF, Problem(2, 1, 0.3)], ids=["graded", "Gibson"])
+def test_an_unknown_quantity_or_accuracy_is_refused_before_anything_is_computed(problem: Problem) -> None:
+    with pytest.raises(ValueError, match="unknown quantity 'weight'; known are pull_off_force"):
+        solve_together(problem, ["pull_off_force", "weight"])
+    with pytest.raises(ValueError, match="unknown accuracy 'best'; it is a relative error or one of quick"):
+        solve(problem, "pull_off_force", accuracy="best")
+
+
+def test_unknown_events_are_refused_with_the_known_names() -> None:
+    model = Analysis(STIFF)
+    for name in ("nonsense", "jump_in_gap"):
+        with pytest.raises(
+            ValueError, match=f"unknown event '{name}'; known are pull_off, jump_in, jump_out, zero_load"
+        ):
+            model.event(name)
+    with pytest.raises(ValueError, match="unknown jump 'pull_off'; known are jump_in, jump_out"):
+        model.landing("pull_off")
+
+
+def test_the_critical_tabor_number_by_an_analysis_is_that_by_solve() -> None:
+    by_analysis = Analysis(SOFT, "quick").solution("critical_tabor_number")
+    by_solve = solve(SOFT, "critical_tabor_number", "quick")
+    assert by_analysis.value == by_solve.value
+    assert abs(by_solve.value - solve(SOFT, "critical_tabor_number").value) <= by_solve.u_num
+
+
+def test_paths_and_fields_are_as_accurate_as_requested() -> None:
+    coarse, fine = (trace(SOFT, accuracy) for accuracy in (1e-6, 1e-9))
+    assert fine.u_load < 0.1 * coarse.u_load
+    assert abs(coarse.load.min() - fine.load.min()) <= coarse.u_load + fine.u_load
+    coarse, fine = (profile(SOFT, "zero_load", accuracy) for accuracy in (1e-6, 1e-9))
+    assert coarse.radius.size < fine.radius.size
+    near = coarse.radius < 3.0
+    between = np.interp(coarse.radius[near], fine.radius, fine.gap)
+    np.testing.assert_allclose(coarse.gap[near], between, atol=1e-2)  # linear between the nodes of the finer mesh
+
+
+def test_the_package_exports_what_it_lists() -> None:
+    assert sorted(fscm.__all__, key=str.lower) == sorted(set(fscm.__all__), key=str.lower)
+    assert all(hasattr(fscm, name) for name in fscm.__all__)
