@@ -10,7 +10,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.console import Console
 
-from comparisons.baseline import PAPER_BASELINE
 from comparisons.data.paper_values import PaperValue, paper_values
 from comparisons.judging.gates import load_gates
 from comparisons.judging.judge import judge
@@ -23,6 +22,7 @@ from comparisons.output.tables import (
     rich_table,
     statuses,
 )
+from comparisons.paper.baseline import PAPER_BASELINE
 from comparisons.paper.cache import CachedCall
 from comparisons.paper.studies.error_grid import errors, errors_at
 from comparisons.runs.cases import Case, Grid
