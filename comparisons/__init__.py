@@ -44,7 +44,7 @@ _EXPORTS = {
     "Case": "comparisons.runs.cases",
     "evaluate": "comparisons.runs.tasks",
     "errors": "comparisons.pipeline.errors",
-    "run": "comparisons.pipeline.runs",
+    "run": "comparisons.pipeline.run",
     "judge": "comparisons.judging.judge",
     "judge_folder": "comparisons.pipeline.judgement",
 }

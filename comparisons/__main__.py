@@ -1,6 +1,8 @@
-"""Start of the console script: an exception while everything is still being imported is one sentence too."""
+"""Entry point of ``fscm-bench`` and of ``python -m comparisons``."""
 
 from __future__ import annotations
+
+import sys
 
 from comparisons.console.exit_status import guarded
 
@@ -13,7 +15,11 @@ def main() -> int:
 
 
 def _command() -> int:
-    # Imported here: it takes seconds, in which somebody may change their mind.
+    # Imported here: an interruption during the import, which takes seconds, is one sentence as well.
     from comparisons.cli.main import main as command
 
     return command()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

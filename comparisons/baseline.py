@@ -16,13 +16,18 @@ import math
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
 from comparisons.console.exit_status import guarded
+from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA_FIGURE, LARGEST_KAPPA, REFERENCES, RESULTS
 from comparisons.paper import baseline as paper_baseline
+from comparisons.runs.atomic_files import atomic
+from comparisons.runs.csv_format import csv_text, plain_text
+from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import check_files, read_record
-from comparisons.runs.tables import atomic, csv_text, plain_text, read_table
+from comparisons.runs.tables import read_table
 
 __all__ = [
     "BASELINE",
@@ -38,13 +43,16 @@ BASELINE = Path("results", "baseline")
 _KEY = ["model", "quantity", "n", "k", "mu", "nu"]
 # Without the columns that depend on the machine or on the work done (seconds, iterations, residual).
 _TABLES = {
-    "quick.csv": ("results.parquet", [*_KEY, "value", "u_num", "status", "reason"]),
-    "curves.csv": ("curves.parquet", [*_KEY, "point", "x", "y", "u_distance", "status", "reason"]),
+    "quick.csv": (f"{RESULTS}.parquet", [*_KEY, "value", "u_num", "status", "reason"]),
+    "curves.csv": (f"{CURVES}.parquet", [*_KEY, "point", "x", "y", "u_distance", "status", "reason"]),
 }
 #: Files that are copied, by tier: the committed name, and the name in the folder of the run.
 _COPIES = {
-    "quick": {name: name for name in ("largest_kappa.csv", "fig16b_kappa.png", "fig16b_kappa.pdf", "references.png")},
-    "full": {f"references_agreement.{suffix}": f"agreement.{suffix}" for suffix in ("csv", "png")},
+    "quick": {
+        name: name
+        for name in (f"{LARGEST_KAPPA}.csv", f"{KAPPA_FIGURE}.png", f"{KAPPA_FIGURE}.pdf", f"{REFERENCES}.png")
+    },
+    "full": {f"references_agreement.{suffix}": f"{AGREEMENT}.{suffix}" for suffix in ("csv", "png")},
 }
 _TEXTS = ("model", "quantity", "status", "reason")
 
@@ -55,20 +63,18 @@ def renew(folder: Path, target: Path = BASELINE) -> list[Path]:
     Raises
     ------
     ValueError
-        If it is no finished run, lacks a file, was changed, or has other models than the standing ones; nothing is
-        changed then.
+        If it is no finished run, lacks a file, was changed, or has other models or cases than the standing ones;
+        nothing is changed then.
     """
-    record = read_record(folder / "run.json")
+    record = read_record(RunFolder(folder).record)
     check_files(record, folder)
-    arguments = record["arguments"]
-    if arguments["model"] is not None:
-        raise ValueError(
-            f"{folder} has the models {', '.join(arguments['model'])} only: the baseline needs a run without --model"
-        )
-    tables = _TABLES if arguments["tier"] == "quick" else {}
+    tier, models = _tier(record, folder), record["arguments"]["model"]
+    if models is not None:
+        raise ValueError(f"{folder} has the models {', '.join(models)} only: the baseline needs a run without --model")
+    tables = _TABLES if tier == "quick" else {}
     texts = {name: csv_text(read_table(folder / source)[columns]) for name, (source, columns) in tables.items()}
     contents = {name: text.encode() for name, text in texts.items()}
-    for name, source in _COPIES[arguments["tier"]].items():
+    for name, source in _COPIES[tier].items():
         if not (folder / source).exists():
             raise ValueError(f"{folder} lacks {source}: renew the baseline from the folder of a finished run")
         contents[name] = (folder / source).read_bytes()
@@ -77,6 +83,14 @@ def renew(folder: Path, target: Path = BASELINE) -> list[Path]:
         with atomic(target / name) as file:
             file.write(content)
     return [target / name for name in contents]
+
+
+def _tier(record: dict[str, Any], folder: Path) -> str:
+    """Return the tier of a run."""
+    tier = record["arguments"].get("tier")
+    if tier is None:
+        raise ValueError(f"{folder} is not the folder of a run of the standing cases: give one of `fscm-bench run`")
+    return str(tier)
 
 
 def read_baseline(target: Path = BASELINE) -> tuple[pd.DataFrame, pd.DataFrame]:
@@ -134,12 +148,12 @@ def check(folder: Path) -> pd.DataFrame:
     ValueError
         If it is no finished run of that tier, or a file of it was changed.
     """
-    record = read_record(folder / "run.json")
+    record = read_record(RunFolder(folder).record)
     check_files(record, folder)
-    tier = record["arguments"]["tier"]
+    tier = _tier(record, folder)
     if tier != "quick":
         raise ValueError(f"{folder} is a run of the {tier} tier; the committed results are of the quick tier")
-    return drift(read_baseline()[0], read_table(folder / "results.parquet"))
+    return drift(read_baseline()[0], read_table(RunFolder(folder).parquet(RunFolder(folder).results)))
 
 
 def main(arguments: Sequence[str]) -> int:

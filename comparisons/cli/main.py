@@ -1,4 +1,4 @@
-"""The command line: parses, calls the command, turns what went wrong into one sentence and an exit status.
+"""The command line: its parser, the call of a command, and the exit status.
 
 Results go to stdout, progress and messages to stderr.  Exit status: 0 done and every gate passes, 1 a gate
 fails, 2 wrong input, 3 a gate is inconclusive, 4 a computation or an output failed (as on a full disk), a gate is in
@@ -39,7 +39,7 @@ _COMMANDS = (run, judge, report, paper, sweep, solve, curve, fem, listing, check
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser that says what is wrong in one sentence, without the usage."""
+    """A parser whose errors are one sentence, without the usage."""
 
     def error(self, message: str) -> NoReturn:
         raise ValueError(f"{message}; see {self.prog} --help")

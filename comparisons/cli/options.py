@@ -1,15 +1,17 @@
-"""Parts that several commands share: exit statuses, the arguments of a case, the output console."""
+"""Parts that several commands share: exit statuses, arguments, the output console."""
 
 from __future__ import annotations
 
 import argparse
 import sys
+from pathlib import Path
 from typing import Any, NoReturn
 
 from rich.console import Console
 
 from comparisons.console.exit_status import FAILED, FAILS, INCONCLUSIVE, OK, WRONG_INPUT, writing_stdout
 from comparisons.runs.cases import Case
+from comparisons.runs.workers import usable_cores
 
 __all__ = [
     "FAILED",
@@ -19,12 +21,15 @@ __all__ = [
     "OK",
     "WRONG_INPUT",
     "add_case",
+    "add_jobs",
+    "add_out",
+    "add_retry_failed",
     "case_of",
     "number",
     "output",
 ]
 
-#: What a SPEC is, where one is asked for.
+#: Help for a SPEC.
 MODEL_SPEC = "a name (fscm-bench list models), FILE.py:CLASS, or a folder with a model.toml"
 
 #: Columns of a table when stdout is no terminal, where rich would assume 80 and break the lines.
@@ -67,6 +72,30 @@ def add_case(parser: argparse.ArgumentParser, required: bool = True) -> None:
         ("--mu", "generalised Tabor number (Eq. 29), > 0"),
     ):
         parser.add_argument(name, type=number, required=required, help=meaning)
+
+
+def add_jobs(parser: argparse.ArgumentParser) -> None:
+    """Declare the number of processes."""
+    parser.add_argument("--jobs", metavar="N", type=int, default=usable_cores(), help="processes (default: one a core)")
+
+
+def add_out(parser: argparse.ArgumentParser) -> None:
+    """Declare the folder for the results."""
+    parser.add_argument(
+        "--out",
+        metavar="DIR",
+        type=Path,
+        help="folder for the results (default: results/runs/TIME); resumed if it has some",
+    )
+
+
+def add_retry_failed(parser: argparse.ArgumentParser) -> None:
+    """Declare the option that computes stored failures again."""
+    parser.add_argument(
+        "--retry-failed",
+        action="store_true",
+        help="compute stored failures again (those of external models always are)",
+    )
 
 
 def case_of(args: argparse.Namespace) -> Case:

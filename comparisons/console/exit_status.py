@@ -1,4 +1,4 @@
-"""Exit statuses, and the one sentence on stderr for each way in which a command can end early.
+"""Exit statuses, and the sentence on stderr for each way in which a command can end early.
 
 Only the standard library is imported here, so that the first module of the program can use it.
 """
@@ -37,7 +37,7 @@ OK, FAILS, WRONG_INPUT, INCONCLUSIVE, FAILED = 0, 1, 2, 3, 4
 #: 128 and the number of the signal, as shells have it.
 _INTERRUPTED, _BROKEN_PIPE, _TERMINATED = 130, 141, 143
 
-#: The environment variable that asks for the traceback of an error.
+#: The environment variable that shows the traceback of an error.
 TRACEBACK = "FSCM_BENCH_TRACEBACK"
 
 
@@ -157,7 +157,7 @@ def _explained(error: Exception) -> tuple[int, str]:
 
 @contextmanager
 def _terminable() -> Iterator[None]:
-    """Raise `Terminated` at SIGTERM, unless this process was told to ignore it or handles it already."""
+    """Raise `Terminated` at SIGTERM, unless this process ignores it or handles it already."""
     main = threading.current_thread() is threading.main_thread()
     if not (main and signal.getsignal(signal.SIGTERM) is signal.SIG_DFL):
         yield
@@ -177,7 +177,7 @@ def _terminate(number: int, frame: object) -> None:
 
 
 def _say(program: str, sentence: str) -> None:
-    """Write on stderr, without control characters; if that fails too, the exit status alone says it."""
+    """Write on stderr, without control characters; if that fails too, only the exit status is left."""
     safe = "".join(
         character if character.isprintable() or character == "\n" else ascii(character)[1:-1] for character in sentence
     )

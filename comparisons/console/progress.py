@@ -1,4 +1,4 @@
-"""What a person sees on stderr: messages, and on a terminal a bar while waiting."""
+"""Messages on stderr, and on a terminal a progress bar."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def waiting(description: str) -> Iterator[None]:
 
 @contextmanager
 def counting(description: str, total: int) -> Iterator[Callable[[], None]]:
-    """Show how many of `total` computations are done; call what this gives when one more is."""
+    """Show how many of `total` computations are done; call the returned function when one more is done."""
     with _bar(MofNCompleteColumn(), TimeElapsedColumn(), TimeRemainingColumn()) as bar:
         task = bar.add_task(description, total=total)
         yield lambda: bar.advance(task)

@@ -15,6 +15,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from comparisons.data.file_names import JOURNAL, RECORD
 from comparisons.external.scratch import PREFIX
 from comparisons.external.text_rules import one_line
 from comparisons.model import ComputationFailed
@@ -27,7 +28,7 @@ MOST_FILES, MOST_BYTES = 200, 20_000_000
 _MOST_DECLARED, _MOST_DECLARED_BYTES = 10_000, 2_000_000_000
 
 #: A folder with one of them holds the results of a run, which change during a run.
-_OF_A_RUN = ("run.json", "journal.jsonl")
+_OF_A_RUN = (RECORD, JOURNAL)
 _SITES = ("site-packages", "dist-packages")
 _NOT_ENTERED = ("__pycache__", "results", "node_modules", *_SITES)
 _NOT_READ = (".pyc", ".log", "~")

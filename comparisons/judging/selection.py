@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from pathlib import Path
 
 from comparisons.console.progress import log
 from comparisons.judging.gates import GIVEN, Gate, load_gates, of_tier
@@ -71,13 +70,13 @@ def _not_computed(gate: Gate, grids: Sequence[Grid], models: Sequence[str]) -> s
 
 
 def load_user_gates(
-    text: str, path: Path, tier: str, chosen: Sequence[Grid], models: Sequence[str] | None
+    text: str, source: str, tier: str, chosen: Sequence[Grid], models: Sequence[str] | None
 ) -> list[Gate]:
     """Return the gates of a user's file that a run can judge, and log how many it leaves out.
 
     Parameters
     ----------
-    text, path
+    text, source : str
         Of the file.
     tier : str
         Of the run.
@@ -91,11 +90,11 @@ def load_user_gates(
     ValueError
         If a gate is wrong or needs a model that is not computed; one sentence names it.
     """
-    every = load_gates(text, models or (), str(path))
+    every = load_gates(text, models or (), source)
     gates = of_tier(every, tier)
     others = skipped_gates(gates, chosen, models)
     if others:
-        log(f"{len(others)} of {len(every)} gates of {path} are left out: their candidate is not given to this run")
+        log(f"{len(others)} of {len(every)} gates of {source} are left out: their candidate is not given to this run")
     if len(gates) < len(every):
-        log(f"{len(every) - len(gates)} of {len(every)} gates of {path} are left out: they are of the tier full")
+        log(f"{len(every) - len(gates)} of {len(every)} gates of {source} are left out: they are of the tier full")
     return gates

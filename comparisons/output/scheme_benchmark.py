@@ -14,8 +14,8 @@ from pathlib import Path
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
-from comparisons.runs.tables import Row
-from comparisons.runs.tasks import Task, answer
+from comparisons.runs.rows import Row
+from comparisons.runs.tasks import Task, evaluate_task
 
 __all__ = ["Measurement", "compare", "measure"]
 
@@ -45,7 +45,7 @@ def measure(task: Task) -> Measurement:
 
 def _measured(task: Task) -> Measurement:
     with threadpool_limits(1):
-        return Measurement(answer(task), _peak_memory())
+        return Measurement(evaluate_task(task), _peak_memory())
 
 
 def _peak_memory() -> float | None:

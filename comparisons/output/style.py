@@ -16,7 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.judging.decision import Verdict
-from comparisons.runs.tables import atomic
+from comparisons.runs.atomic_files import atomic
 
 __all__ = [
     "COLOURS",

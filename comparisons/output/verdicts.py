@@ -16,22 +16,17 @@ from comparisons.output.junit import junit
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
 from comparisons.quantities import CURVES
-from comparisons.runs.tables import atomic, write_table
+from comparisons.runs.atomic_files import atomic
+from comparisons.runs.folder import RunFolder
+from comparisons.runs.tables import write_table
 
 __all__ = [
-    "FILES",
     "GATE_COLUMNS",
     "command",
     "matrix",
     "worst_cases",
     "write_verdicts",
 ]
-
-#: What `write_verdicts` writes.
-FILES = (
-    *("verdicts.csv", "verdicts.parquet", "verdicts.md", "verdicts.tex", "junit.xml"),
-    *("gates.csv", "gates.parquet", "summary.csv", "summary.parquet"),
-)
 
 #: What is stored of each gate beside its verdicts: what was required, in which unit, and on what grounds.
 GATE_COLUMNS = ("id", "requirement", "metric", "basis", "grounds")
@@ -114,22 +109,25 @@ def write_verdicts(folder: Path, judged: pd.DataFrame, gates: list[Gate], specs:
     The summary by gate, and what the gates required, go beside them as CSV and Parquet: a gates file may change
     later.
     """
+    files = RunFolder(folder)
     stored = judged.assign(verdict=judged["verdict"].map(str))
-    write_table(stored, folder / "verdicts")
+    write_table(stored, files.verdicts)
     required = [[str(getattr(gate, name)) for name in GATE_COLUMNS] for gate in gates]
-    write_table(pd.DataFrame(required, columns=list(GATE_COLUMNS), dtype=str), folder / "gates")
+    write_table(pd.DataFrame(required, columns=list(GATE_COLUMNS), dtype=str), files.gates)
     summary = summarise(judged)
-    write_table(summary.assign(verdict=summary["verdict"].map(str)), folder / "summary")
+    write_table(summary.assign(verdict=summary["verdict"].map(str)), files.summary)
     shown = matrix(summary, specs)
     requirement = {gate.id: gate.requirement for gate in gates}
     page = markdown(shown.assign(requirement=[requirement.get(id, "") for id in shown["gate"]]), "Verdicts")
     texts = {
-        "verdicts.md": page,
-        "verdicts.tex": latex(worst_cases(summary), "Verdicts of fscm-bench, worst first, each in its worst case"),
+        files.verdicts_markdown: page,
+        files.verdicts_latex: latex(
+            worst_cases(summary), "Verdicts of fscm-bench, worst first, each in its worst case"
+        ),
     }
-    for name, text in texts.items():
-        with atomic(folder / name) as file:
+    for path, text in texts.items():
+        with atomic(path) as file:
             file.write(text.encode())
-    with atomic(folder / "junit.xml") as file:
+    with atomic(files.junit) as file:
         file.write(junit(judged, partial(command, specs=specs)))
     return page

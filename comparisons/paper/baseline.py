@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from comparisons.paper.registry import paper_figures
-from comparisons.runs.tables import atomic
+from comparisons.runs.atomic_files import atomic
 
 __all__ = ["PAPER_BASELINE", "changes", "check", "has_figures", "renew"]
 

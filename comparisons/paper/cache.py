@@ -1,6 +1,7 @@
-"""Calls of functions by name, made once, on every core, their answers kept on disk.
+"""Cache of function calls: each is made once, on every core, and its result is kept on disk.
 
-An interrupted run loses no finished call: the journal gains a line as each ends, and the same folder goes on.
+An interrupted command loses no finished call: each is in a journal as soon as it ends, and the next command with the
+same folder continues.
 """
 
 from __future__ import annotations
@@ -13,15 +14,15 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.model import ComputationFailed, NotApplicable
-from comparisons.runs.journal import Journal
+from comparisons.runs.part_journal import PartJournal
 from comparisons.runs.workers import each
 
-__all__ = ["CallCache", "Results", "Task"]
+__all__ = ["CachedCall", "CallCache", "Results"]
 
 
 @dataclass(frozen=True, slots=True)
-class Task:
-    """A function of a module, by name, and the numbers and words it is called with.
+class CachedCall:
+    """A call of a function: the name of the function, and its arguments.
 
     The function must depend on its arguments alone and return what JSON can hold: finite numbers, texts, None,
     lists and dictionaries of them.  It may raise as a model does.
@@ -31,14 +32,14 @@ class Task:
     arguments: tuple[float | str, ...]
 
     @classmethod
-    def of(cls, function: Callable[..., Any], *arguments: float | str) -> Task:
+    def of(cls, function: Callable[..., Any], *arguments: float | str) -> CachedCall:
         """Return the call `function(*arguments)`, not made yet.
 
         Examples
         --------
         >>> from math import hypot
-        >>> Task.of(hypot, 3, 4)
-        Task(function='math:hypot', arguments=(3, 4))
+        >>> CachedCall.of(hypot, 3, 4)
+        CachedCall(function='math:hypot', arguments=(3, 4))
         """
         return cls(f"{function.__module__}:{function.__qualname__}", arguments)
 
@@ -50,80 +51,82 @@ class Task:
 
 @dataclass(frozen=True, slots=True)
 class _Outcome:
-    call: Task
-    answer: Any = None
+    call: CachedCall
+    result: Any = None
     failure: str | None = None
     #: The failure is a refusal (`NotApplicable`), which another attempt does not change.
     refused: bool = False
 
 
 def _read(line: dict[str, Any]) -> _Outcome:
-    return _Outcome(Task(line["function"], tuple(line["arguments"])), line["answer"], line["failure"], line["refused"])
+    return _Outcome(
+        CachedCall(line["function"], tuple(line["arguments"])), line["result"], line["failure"], line["refused"]
+    )
 
 
 def _written(outcome: _Outcome) -> dict[str, Any]:
     return asdict(outcome.call) | {
-        "answer": outcome.answer,
+        "result": outcome.result,
         "failure": outcome.failure,
         "refused": outcome.refused,
     }
 
 
-def _make(call: Task) -> _Outcome:
+def _make(call: CachedCall) -> _Outcome:
     module, _, name = call.function.partition(":")
     try:
-        return _Outcome(call, answer=getattr(import_module(module), name)(*call.arguments))
+        return _Outcome(call, result=getattr(import_module(module), name)(*call.arguments))
     except (ComputationFailed, NotApplicable) as error:
         return _Outcome(call, failure=str(error), refused=isinstance(error, NotApplicable))
 
 
 class Results:
-    """What the tasks returned, by call."""
+    """Results of calls."""
 
     def __init__(self) -> None:
-        self._outcomes: dict[Task, _Outcome] = {}
+        self._outcomes: dict[CachedCall, _Outcome] = {}
 
     def add(self, outcome: _Outcome) -> None:
         """Keep one."""
         self._outcomes[outcome.call] = outcome
 
-    def remove(self, call: Task) -> None:
+    def remove(self, call: CachedCall) -> None:
         """Remove one."""
         del self._outcomes[call]
 
-    def failed(self, call: Task) -> bool:
+    def failed(self, call: CachedCall) -> bool:
         """Whether the function raised `ComputationFailed`, or returned a dictionary with the status ``"failed"``."""
         outcome = self._outcomes[call]
         if outcome.failure is not None:
             return not outcome.refused
-        return isinstance(outcome.answer, dict) and outcome.answer.get("status") == "failed"
+        return isinstance(outcome.result, dict) and outcome.result.get("status") == "failed"
 
-    def __contains__(self, call: Task) -> bool:
+    def __contains__(self, call: CachedCall) -> bool:
         return call in self._outcomes
 
-    def __getitem__(self, call: Task) -> Any:
-        """Return the answer to a call.
+    def __getitem__(self, call: CachedCall) -> Any:
+        """Return the result of a call.
 
         Raises
         ------
         ComputationFailed
-            If the function did not return one; the message is its reason.
+            If the function raised an exception; the message is its reason.
         """
         outcome = self._outcomes[call]
         if outcome.failure is not None:
             raise ComputationFailed(f"{call.words}: {outcome.failure}")
-        return outcome.answer
+        return outcome.result
 
 
 class CallCache:
-    """Makes tasks and keeps their answers in a journal.
+    """Function calls with their results in a journal.
 
     Parameters
     ----------
     path : Path
         The journal; made when it does not exist.
     fingerprint : str
-        Identifies the code.  A journal of other code is refused: its answers may differ.
+        Identifies the code.  A journal of other code is refused: its results may differ.
 
     Raises
     ------
@@ -132,37 +135,42 @@ class CallCache:
     """
 
     def __init__(self, path: Path, fingerprint: str) -> None:
-        self._journal = Journal(path, fingerprint, _read, _written)
-        self.answers = Results()
-        for outcome in self._journal.entries:
-            self.answers.add(outcome)
+        self._journal = PartJournal(path, fingerprint, _read, _written)
+        self.results = Results()
+        for outcome in self._journal.items:
+            self.results.add(outcome)
 
-    def failed(self, tasks: Iterable[Task]) -> list[Task]:
-        """Return those tasks whose stored answer is that they failed, each once, in the order given."""
-        return [call for call in dict.fromkeys(tasks) if call in self.answers and self.answers.failed(call)]
+    def failed(self, calls: Iterable[CachedCall]) -> list[CachedCall]:
+        """Return the calls that are stored as failures, each once, in their order."""
+        return [call for call in dict.fromkeys(calls) if call in self.results and self.results.failed(call)]
 
-    def forget(self, tasks: Iterable[Task]) -> None:
-        """Remove stored answers: the tasks are made again."""
-        unwanted = set(tasks)
+    def forget(self, calls: Iterable[CachedCall]) -> None:
+        """Remove stored results: the calls are made again."""
+        unwanted = set(calls)
         self._journal.drop(lambda outcome: outcome.call in unwanted)
         for call in unwanted:
-            self.answers.remove(call)
+            self.results.remove(call)
 
-    def missing(self, tasks: Iterable[Task]) -> list[Task]:
-        """Return those tasks that have no answer yet, each once, in the order given."""
-        return [call for call in dict.fromkeys(tasks) if call not in self.answers]
+    def parts_of(self, calls: Iterable[CachedCall]) -> list[dict[str, Any]]:
+        """Return the parts that made calls, in order, as the record of a run holds them."""
+        used = set(calls)
+        return self._journal.parts(lambda outcome: outcome.call in used)
 
-    def work(self, tasks: Iterable[Task], jobs: int) -> Generator[Task]:
-        """Make the tasks that have no answer yet, on `jobs` processes; yield each as it is answered.
+    def missing(self, calls: Iterable[CachedCall]) -> list[CachedCall]:
+        """Return the calls that have no result yet, each once, in their order."""
+        return [call for call in dict.fromkeys(calls) if call not in self.results]
+
+    def work(self, calls: Iterable[CachedCall], jobs: int) -> Generator[CachedCall]:
+        """Make the calls that have no result yet, on `jobs` processes; yield each as soon as it ends.
 
         Raises
         ------
         ValueError
-            If an answer cannot be kept, as one that holds a NaN.
+            If a result cannot be kept, as one that holds a NaN.
         """
-        with closing(each(_make, self.missing(tasks), jobs)) as outcomes:
+        with closing(each(_make, self.missing(calls), jobs)) as outcomes:
             for outcome in outcomes:
                 self._journal.add(outcome)
-                # Results fresh and read again must be the same, so that a resumed run writes the same files.
-                self.answers.add(outcome)
+                # New results and stored results must be the same, so that a resumed run writes the same files.
+                self.results.add(outcome)
                 yield outcome.call

@@ -11,8 +11,9 @@ from matplotlib.figure import Figure
 from rich.table import Table
 
 from comparisons.output.style import save
-from comparisons.paper.cache import Results, Task
-from comparisons.runs.tables import atomic, csv_text
+from comparisons.paper.cache import CachedCall, Results
+from comparisons.runs.atomic_files import atomic
+from comparisons.runs.csv_format import csv_text
 
 __all__ = ["PaperFigure", "Tables", "write"]
 
@@ -53,7 +54,7 @@ class PaperFigure:
     name: str
     stem: str
     title: str
-    tasks: Callable[[], Sequence[Task]]
+    tasks: Callable[[], Sequence[CachedCall]]
     tables: Callable[[Results], Tables]
     draw: Callable[[Tables], Figure] | None
     texts: Callable[[Tables], dict[str, str]] | None = None

@@ -1,6 +1,6 @@
-"""The tasks that paper_figures share: what a model answers, as JSON, whether or not it answers.
+"""Functions that the figures of the paper call: the result of a model as JSON, or its refusal or failure.
 
-A refusal is an answer here: a figure leaves the point out or writes its status, and the others are not lost.
+A refusal is a result here: a figure leaves the point out or writes its status, and the other points are not lost.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ Json = dict[str, Any]
 
 
 def quantity(model: str, name: str, n: float, k: float, mu: float) -> Json:
-    """Ask a model for a quantity.
+    """Evaluate a quantity by a model.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def quantity(model: str, name: str, n: float, k: float, mu: float) -> Json:
     Returns
     -------
     dict
-        ``value`` and ``u_num`` (float, or None without an answer), ``status`` ("ok", "not-applicable" or "failed")
+        ``value`` and ``u_num`` (float, or None without a result), ``status`` ("ok", "not-applicable" or "failed")
         and ``reason`` (a sentence, empty if ok).
 
     Examples
@@ -45,7 +45,7 @@ def quantity(model: str, name: str, n: float, k: float, mu: float) -> Json:
     >>> quantity("bradley", "jump_in_gap", 2, 0.4, 1)["status"]
     'not-applicable'
     """
-    return {"value": None, "u_num": None} | _asked(lambda: _quantity(model, name, Case(n, k, mu)))
+    return {"value": None, "u_num": None} | _with_status(lambda: _quantity(model, name, Case(n, k, mu)))
 
 
 def _quantity(model: str, name: str, case: Case) -> Json:
@@ -54,29 +54,29 @@ def _quantity(model: str, name: str, case: Case) -> Json:
 
 
 def curve(model: str, n: float, k: float, mu: float) -> Json:
-    """Ask a model for its force-displacement curve, from far away into contact.
+    """Trace the force-displacement curve of a model, from far away into contact.
 
     Returns
     -------
     dict
         ``status`` and ``reason`` as of `quantity`; if ok also ``displacement`` and ``load`` (lists of floats),
-        ``u_displacement`` and ``u_load`` (bounds on the numerical error of each), and ``columns``: what else the
-        model knows at each point, by name, as ``central_gap`` (lists, None where it is not defined).
+        ``u_displacement`` and ``u_load`` (bounds on the numerical error of each), and ``columns``: what else
+        the model has at each point, by name, as ``central_gap`` (lists, None where it is not defined).
 
     Examples
     --------
-    >>> answer = curve("jkr", 2, 0.4, 1)
-    >>> answer["status"], answer["displacement"][0], sorted(answer["columns"])
+    >>> found = curve("jkr", 2, 0.4, 1)
+    >>> found["status"], found["displacement"][0], sorted(found["columns"])
     ('ok', 0.0, ['contact_radius'])
     """
-    return _asked(lambda: _curve(model, Case(n, k, mu)))
+    return _with_status(lambda: _curve(model, Case(n, k, mu)))
 
 
 def _curve(model: str, case: Case) -> Json:
-    asked = create(model)
-    if not isinstance(asked, HasCurve):
+    tracing = create(model)
+    if not isinstance(tracing, HasCurve):
         raise NotApplicable(f"{model} has no force-displacement curve")
-    found = asked.curve(case.problem())
+    found = tracing.curve(case.problem())
     return {
         "displacement": _numbers(found.displacement),
         "load": _numbers(found.load),
@@ -87,7 +87,7 @@ def _curve(model: str, case: Case) -> Json:
 
 
 def profile(model: str, n: float, k: float, mu: float) -> Json:
-    """Ask a model for the surface where P is smallest, out to the gap `FARTHEST_GAP`.
+    """Return the surface of a model where P is smallest, out to the gap `FARTHEST_GAP`.
 
     Returns
     -------
@@ -101,14 +101,14 @@ def profile(model: str, n: float, k: float, mu: float) -> Json:
     >>> profile("bradley", 2, 0.4, 1)["reason"]
     'bradley has no profile at pull-off'
     """
-    return _asked(lambda: _profile(model, Case(n, k, mu)))
+    return _with_status(lambda: _profile(model, Case(n, k, mu)))
 
 
 def _profile(model: str, case: Case) -> Json:
-    asked = create(model)
-    if not isinstance(asked, HasProfile):
+    tracing = create(model)
+    if not isinstance(tracing, HasProfile):
         raise NotApplicable(f"{model} has no profile at pull-off")
-    found = asked.pull_off_profile(case.problem())
+    found = tracing.pull_off_profile(case.problem())
     near = found.gap <= FARTHEST_GAP
     shapes: Mapping[str, NDArray[np.float64]] = {
         "radius": found.radius,
@@ -118,9 +118,9 @@ def _profile(model: str, case: Case) -> Json:
     return {name: _numbers(values[near]) for name, values in shapes.items()} | {"u_distance": float(found.u_distance)}
 
 
-def _asked(question: Callable[[], Json]) -> Json:
+def _with_status(function: Callable[[], Json]) -> Json:
     try:
-        return {"status": "ok", "reason": "", **question()}
+        return {"status": "ok", "reason": "", **function()}
     except NotApplicable as refusal:
         return {"status": "not-applicable", "reason": str(refusal)}
     except (ComputationFailed, ValueError) as failure:

@@ -1,8 +1,7 @@
-"""Computations of a command: what is stored is not computed again, and an interruption loses nothing."""
+"""Computation of the tasks of a folder: a stored row is not computed again, and an interruption loses nothing."""
 
 from __future__ import annotations
 
-import argparse
 from collections import Counter
 from collections.abc import Mapping
 from concurrent.futures import BrokenExecutor
@@ -15,47 +14,20 @@ from typing import Any
 
 from comparisons.console.progress import counting, log
 from comparisons.model import ComputationFailed
+from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.journal import alone_in
 from comparisons.runs.reevaluation import evaluate_again
 from comparisons.runs.row_journal import RowJournal
-from comparisons.runs.tables import Row, prepare_folder
+from comparisons.runs.rows import Row
 from comparisons.runs.tasks import Task, compute
-from comparisons.runs.workers import usable_cores
 
 __all__ = [
     "Completed",
-    "add_jobs",
-    "add_out",
-    "add_retry_failed",
     "checked_jobs",
     "complete",
     "folder_for",
-    "say_failures_used",
+    "log_failures_used",
 ]
-
-
-def add_jobs(parser: argparse.ArgumentParser) -> None:
-    """Declare the number of processes."""
-    parser.add_argument("--jobs", metavar="N", type=int, default=usable_cores(), help="processes (default: one a core)")
-
-
-def add_out(parser: argparse.ArgumentParser) -> None:
-    """Declare the folder for the results."""
-    parser.add_argument(
-        "--out",
-        metavar="DIR",
-        type=Path,
-        help="folder for the results (default: results/runs/TIME); resumed if it has some",
-    )
-
-
-def add_retry_failed(parser: argparse.ArgumentParser) -> None:
-    """Declare the option that computes stored failures again."""
-    parser.add_argument(
-        "--retry-failed",
-        action="store_true",
-        help="compute stored failures again (those of external models always are)",
-    )
 
 
 def checked_jobs(jobs: int) -> int:
@@ -72,7 +44,7 @@ def folder_for(out: Path | None, started: datetime) -> Path:
 
 @dataclass(frozen=True, slots=True)
 class Completed:
-    """Rows of all tasks of a command, and where they come from.
+    """Rows of all tasks of a run, and their origin.
 
     Attributes
     ----------
@@ -80,9 +52,9 @@ class Completed:
     resumed : int
         How many of them were stored.
     parts : list of dict
-        The commands that computed them, as ``run.json`` holds them.
+        The commands that computed them, as the record of the run holds them.
     evaluated_again : dict or None
-        What was evaluated again before stored rows of external models were used, as ``run.json`` holds it.
+        What was evaluated again before stored rows of external models were used, as the record holds it.
     """
 
     rows: list[Row]
@@ -116,7 +88,7 @@ def complete(tasks: list[Task], folder: Path, jobs: int, retry_failed: bool = Fa
         If a worker process dies.
     """
     wanted = {task.key: task for task in tasks}
-    versions = {task.model: task.outside.version for task in tasks if task.outside}
+    versions = {task.model: task.external.version for task in tasks if task.external}
 
     def usable(row: Row) -> bool:
         return row.key in wanted and versions.get(row.model, row.model_version) == row.model_version
@@ -125,10 +97,10 @@ def complete(tasks: list[Task], folder: Path, jobs: int, retry_failed: bool = Fa
         journal = RowJournal(folder)
         journal.drop(lambda row: usable(row) and row.status == "failed" and (retry_failed or row.model in versions))
         try:
-            external = {wanted[row.key]: row for row in journal.rows if usable(row) and row.model in versions}
+            external = {wanted[row.key]: row for row in journal.items if usable(row) and row.model in versions}
             evaluated_again = _checked(external, journal, jobs) if external else None
-            stored = [row for row in journal.rows if usable(row)]
-            say_failures_used(Counter(row.model for row in stored if row.status == "failed"))
+            stored = [row for row in journal.items if usable(row)]
+            log_failures_used(Counter(row.model for row in stored if row.status == "failed"))
             known = {row.key for row in stored}
             missing = [task for task in tasks if task.key not in known]
             log(f"{len(missing)} computations on {jobs} processes" + (f", {len(known)} are stored" if known else ""))
@@ -141,12 +113,12 @@ def complete(tasks: list[Task], folder: Path, jobs: int, retry_failed: bool = Fa
             raise
         except BrokenExecutor:
             raise ComputationFailed(f"a worker process died (out of memory?); {_safe(journal, folder)}") from None
-        rows = [row for row in journal.rows if usable(row)]
-        return Completed(rows, len(stored), journal.parts(rows), evaluated_again)
+        rows = [row for row in journal.items if usable(row)]
+        return Completed(rows, len(stored), journal.parts_of(rows), evaluated_again)
 
 
 def _checked(stored: dict[Task, Row], journal: RowJournal, jobs: int) -> dict[str, Any]:
-    """Evaluate a few stored tasks again, and drop the rows of each model that gives something else now."""
+    """Evaluate a few stored tasks again, and drop the rows of each model whose results have changed."""
     seed = SystemRandom().randrange(2**32)
     found = evaluate_again(stored, seed, jobs)
     for model, again in found.items():
@@ -158,8 +130,8 @@ def _checked(stored: dict[Task, Row], journal: RowJournal, jobs: int) -> dict[st
     return {"seed": seed, "models": {model: again.as_json() for model, again in found.items()}}
 
 
-def say_failures_used(failures: Mapping[str, int]) -> None:
-    """Say in one sentence how many stored failures are used, by the name of what failed."""
+def log_failures_used(failures: Mapping[str, int]) -> None:
+    """Write in one sentence how many stored failures are used, by the names of the models or functions."""
     if failures:
         log(
             f"{sum(failures.values())} stored failures of {', '.join(sorted(failures))} are used; "
@@ -168,4 +140,4 @@ def say_failures_used(failures: Mapping[str, int]) -> None:
 
 
 def _safe(journal: RowJournal, folder: Path) -> str:
-    return f"{len(journal.rows)} finished computations are safe; go on with --out {folder}"
+    return f"{len(journal.items)} finished computations are safe; go on with --out {folder}"

@@ -1,4 +1,4 @@
-"""Where numbers come from: versions, commit, machine.
+"""Origin of the numbers: versions, commit, machine.
 
 The commit is only stated when the code that runs is, byte for byte, the code in a git work tree: beside the
 packages (an editable install or a clone) or where pip installed them from.  If pip installed them from a git address,

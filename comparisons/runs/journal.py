@@ -1,6 +1,6 @@
 """Journal of finished computations: a file with a line of JSON for each, written as soon as it exists.
 
-An interrupted command loses nothing that was finished: given the same folder, it goes on from its journal.  Every line
+An interrupted command loses nothing that was finished: with the same folder it continues from its journal.  Every line
 has a checksum; a damaged line is dropped and what it held is computed again.
 """
 
@@ -17,8 +17,9 @@ from typing import Any, Generic, TypeVar
 from filelock import FileLock, Timeout
 
 from comparisons.console.progress import log
+from comparisons.runs.atomic_files import atomic, writing
 from comparisons.runs.environment import differences
-from comparisons.runs.tables import atomic, writing
+from comparisons.runs.folder import RunFolder
 
 __all__ = ["Journal", "alone_in"]
 
@@ -169,9 +170,9 @@ def alone_in(folder: Path) -> Iterator[None]:
     ValueError
         If another process is.
     OSError
-        If the folder's file `.lock` cannot be opened, as that of another user; one sentence says why.
+        If the lock file of the folder cannot be opened, as that of another user; one sentence gives the reason.
     """
-    path = folder / ".lock"
+    path = RunFolder(folder).lock
     # Not `blocking=False`, which filelock 3.13 does not know; one attempt is the same.
     lock = FileLock(path, timeout=0)
     try:

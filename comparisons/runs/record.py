@@ -1,6 +1,6 @@
-"""Record of a run (``run.json``): where its numbers come from, and the checksums of its files.
+"""Record of a run (``run.json``): the origin of its numbers, and the checksums of its files.
 
-Written and read through the same JSON Schema (``run.schema.json``), so that what is missing is found when the
+Written and read through the same JSON Schema (``run.schema.json``), so that a missing entry is found when the
 record is written and not years later.  The record has a checksum of its own.
 """
 
@@ -10,7 +10,7 @@ import json
 from collections.abc import Collection
 from functools import lru_cache
 from hashlib import sha256
-from importlib.resources import files
+from importlib.resources import files as package_files
 from pathlib import Path
 from typing import Any
 
@@ -18,29 +18,19 @@ from jsonschema import Draft202012Validator
 from jsonschema.exceptions import best_match
 
 from comparisons.console.progress import log
+from comparisons.data.file_names import RECORD, RUN_FILES
+from comparisons.runs.atomic_files import write_json
 from comparisons.runs.environment import differences, fingerprint
-from comparisons.runs.tables import write_json
 
-__all__ = ["FILES", "FORMAT", "check_files", "read_record", "warn_of_other_code", "write_record"]
+__all__ = ["FORMAT", "check_files", "read_record", "warn_of_other_code", "write_record"]
 
 #: Version of the schema.
-FORMAT = 3
-
-#: Files of a run that have a checksum in its record, as far as they exist.
-FILES = (
-    *(
-        f"{table}.{suffix}"
-        for table in ("results", "curves", "kappa", "largest_kappa", "agreement", "verdicts", "gates", "summary")
-        for suffix in ("csv", "parquet")
-    ),
-    *(f"{figure}.{suffix}" for figure in ("fig16b_kappa", "agreement", "references") for suffix in ("png", "pdf")),
-    *("gates.toml", "verdicts.md", "verdicts.tex", "junit.xml"),
-)
+FORMAT = 4
 
 
 @lru_cache(maxsize=1)
 def _validator() -> Draft202012Validator:
-    schema = json.loads(files("comparisons.data").joinpath("run.schema.json").read_text(encoding="utf-8"))
+    schema = json.loads(package_files("comparisons.data").joinpath("run.schema.json").read_text(encoding="utf-8"))
     Draft202012Validator.check_schema(schema)
     return Draft202012Validator(schema)
 
@@ -50,15 +40,23 @@ def _problem(content: object) -> str | None:
     return None if error is None else f"{error.json_path}: {error.message}"
 
 
-def write_record(content: dict[str, Any], path: Path) -> None:
-    """Write a record with the checksums of the files beside it (`FILES`), atomically.
+def write_record(content: dict[str, Any], path: Path, files: Collection[str] = RUN_FILES) -> None:
+    """Write a record with the checksums of the files beside it, atomically.
+
+    Parameters
+    ----------
+    content : dict
+        All but the checksums.
+    path : Path
+    files : collection of str
+        Names of the files that get a checksum, as far as they exist.
 
     Raises
     ------
     RuntimeError
-        If it is not of the form that the schema asks for: a defect of the code that made it.
+        If it does not fit the schema: a defect of the code that made it.
     """
-    sums = {name: _sum_of(path.parent / name) for name in FILES if (path.parent / name).is_file()}
+    sums = {name: _sum_of(path.parent / name) for name in files if (path.parent / name).is_file()}
     content = content | {"files": sums}
     content["sha256"] = _own_sum(content)
     if problem := _problem(content):
@@ -72,7 +70,7 @@ def read_record(path: Path) -> dict[str, Any]:
     Raises
     ------
     ValueError
-        If there is none, it is not of the form that the schema asks for, or its own checksum is not that of its
+        If there is none, it does not fit the schema, or its own checksum is not that of its
         content; one sentence says which.
     """
     try:
@@ -118,11 +116,13 @@ def check_files(record: dict[str, Any], folder: Path, written_again: Collection[
     for name, stated in record["files"].items():
         path = folder / name
         if name not in written_again and path.is_file() and _sum_of(path) != stated:
-            raise ValueError(_changed(path, f"write it again by fscm-bench run with --out {folder}"))
+            raise ValueError(
+                _changed(path, f"write it again by fscm-bench {record['command_name']} with --out {folder}")
+            )
 
 
 def warn_of_other_code(record: dict[str, Any], folder: Path) -> bool:
-    """Say in one sentence if the results of a folder were computed by other code; return whether they were."""
+    """Write in one sentence if the results of a folder were computed by other code; return whether they were."""
     changed = differences(record["package"]["fingerprint"], fingerprint())
     if changed:
         log(f"the results in {folder} were computed by another version of the code, of NumPy or of SciPy ({changed})")
@@ -130,7 +130,7 @@ def warn_of_other_code(record: dict[str, Any], folder: Path) -> bool:
 
 
 def _changed(path: Path, remedy: str) -> str:
-    return f"{path} was changed after it was written (its SHA-256 is not the one in run.json): {remedy}"
+    return f"{path} was changed after it was written (its SHA-256 is not the one in {RECORD}): {remedy}"
 
 
 def _sum_of(path: Path) -> str:

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.runs.tables import Row
+from comparisons.runs.rows import Row
 from comparisons.runs.tasks import Task, compute
 
 __all__ = ["AT_MOST", "Reevaluation", "chosen", "evaluate_again", "same"]
@@ -25,13 +25,13 @@ AT_MOST = 3
 
 @dataclass(frozen=True, slots=True)
 class Reevaluation:
-    """Tasks of a model that were evaluated again, and the first that differs, in words (empty: none does)."""
+    """Tasks of a model that were evaluated again, and a text about the first that differs (empty if none does)."""
 
     tasks: list[Task]
     difference: str
 
     def as_json(self) -> dict[str, Any]:
-        """Return what ``run.json`` holds of it."""
+        """Return its form in the record of the run."""
         tasks = [
             {"quantity": task.quantity, "n": task.case.n, "k": task.case.k, "mu": task.case.mu, "nu": task.case.nu}
             for task in self.tasks

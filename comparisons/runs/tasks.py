@@ -1,7 +1,7 @@
-"""The computations of a run: which questions are asked, and asking them on every core.
+"""Tasks of a run: which evaluations it needs, and their computation on every core.
 
-A `Task` is one question to one model; `answer` turns it into a stored `Row` whatever happens, so that a model
-which fails costs its own rows and nothing else.
+A `Task` is one evaluation of one model.  `evaluate_task` returns its `Row` whatever happens: a model that fails costs
+its own rows and nothing else.
 """
 
 from __future__ import annotations
@@ -18,29 +18,29 @@ from comparisons.model import ComputationFailed, Model, NotApplicable, Result
 from comparisons.quantities import ALL_QUANTITIES, Points
 from comparisons.registry import ExternalIdentity, create, depends_on_poisson_ratio
 from comparisons.runs.cases import Case, Grid
-from comparisons.runs.tables import Row
+from comparisons.runs.rows import Row
 from comparisons.runs.workers import each
 
-__all__ = ["Task", "answer", "case_for", "compute", "evaluate", "plan"]
+__all__ = ["Task", "case_for", "compute", "evaluate", "evaluate_task", "plan"]
 
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """One question to one model, by names only: cheap to send to another process."""
+    """One evaluation of one model, by names only: cheap to send to another process."""
 
     model: str
     quantity: str
     case: Case
-    outside: ExternalIdentity | None = None
+    external: ExternalIdentity | None = None
 
     @property
     def key(self) -> tuple[str, str, float, float, float, float | None]:
-        """The key of the row that answers it."""
+        """The key of its row."""
         return self.model, self.quantity, self.case.n, self.case.k, self.case.mu, self.case.nu
 
 
 def case_for(model: str, case: Case) -> Case:
-    """Return the case as a model is asked: without Poisson's ratio if that makes no difference to it.
+    """Return the case as a model gets it: without Poisson's ratio if that makes no difference to it.
 
     Examples
     --------
@@ -51,9 +51,9 @@ def case_for(model: str, case: Case) -> Case:
 
 
 def plan(
-    grids: Iterable[Grid], models: list[str] | None = None, outside: Mapping[str, ExternalIdentity] | None = None
+    grids: Iterable[Grid], models: list[str] | None = None, external: Mapping[str, ExternalIdentity] | None = None
 ) -> list[Task]:
-    """Return every question once: the reference and the candidates of each grid, in all its cases.
+    """Return every task once: the reference and the candidates of each grid, in all its cases.
 
     Parameters
     ----------
@@ -61,16 +61,16 @@ def plan(
         What to compute.
     models : list of str, optional
         Names of candidates that take the place of those each grid names; the reference is always computed.
-    outside : dict of str to ExternalIdentity, optional
-        Those of them that are not ours (see `comparisons.registry.identify`).
+    external : dict of str to ExternalIdentity, optional
+        Those of them that are external (see `comparisons.registry.identify`).
 
     Returns
     -------
     list of Task
-        Largest Tabor numbers first: they take longest, and a core that starts one last would finish alone.
+        Largest Tabor numbers first: they take longest, and one that starts last would keep one core busy alone.
     """
     tasks = {
-        Task(model, quantity, case_for(model, case), (outside or {}).get(model))
+        Task(model, quantity, case_for(model, case), (external or {}).get(model))
         for grid in grids
         for model in {grid.reference, *(models or grid.models)}
         for quantity in grid.quantities
@@ -80,7 +80,7 @@ def plan(
 
 
 def evaluate(model: Model, quantity: str, case: Case) -> Row:
-    """Ask a model and return its row.
+    """Evaluate a model and return the row.
 
     Raises
     ------
@@ -102,7 +102,7 @@ def evaluate(model: Model, quantity: str, case: Case) -> Row:
     except ValueError:
         raise
     except Exception as error:
-        # A defect of the model: its row says where, the other models go on.
+        # A defect of the model: its row gives the place, and the other models are computed.
         place = extract_tb(error.__traceback__)[-1].name
         return _row(
             model,
@@ -153,20 +153,20 @@ def _row(
     )
 
 
-def answer(task: Task) -> Row:
-    """Answer a task, whatever happens: among many cases, one that its model refuses is a failed row."""
+def evaluate_task(task: Task) -> Row:
+    """Return the row of a task, whatever happens: a case that its model refuses as inadmissible is a failed row."""
     started = time.perf_counter()
-    model = task.outside or create(task.model, task.case.nu)
+    model = task.external or create(task.model, task.case.nu)
     try:
         if isinstance(model, ExternalIdentity):
-            return _ask_outside(model, task)
+            return _evaluate_external(model, task)
         return evaluate(model, task.quantity, task.case)
     except ValueError as refusal:
         return _row(model, task.quantity, task.case, started, status="failed", reason=str(refusal))
 
 
-def _ask_outside(first: ExternalIdentity, task: Task) -> Row:
-    """Ask a model from outside; if it is not what it was when the run opened it, the row says so and is that one's."""
+def _evaluate_external(first: ExternalIdentity, task: Task) -> Row:
+    """Evaluate an external model; the row has failed if the model is not what it was at the start of the run."""
     started = time.perf_counter()
     model = create(first.spec, task.case.nu)
     if (model.name, model.version) != (first.name, first.version):
@@ -176,16 +176,16 @@ def _ask_outside(first: ExternalIdentity, task: Task) -> Row:
 
 
 def _batches(tasks: list[Task]) -> list[list[Task]]:
-    """Questions about one case to one model go to one process, where the solver finds its meshes again."""
+    """Tasks of one model in one case go to one process, where the solver finds its meshes again."""
     return [list(batch) for _, batch in groupby(tasks, key=lambda task: (task.model, task.case))]
 
 
-def _answer_all(batch: list[Task]) -> list[Row]:
-    return [answer(task) for task in batch]
+def _evaluate_batch(batch: list[Task]) -> list[Row]:
+    return [evaluate_task(task) for task in batch]
 
 
 def compute(tasks: list[Task], jobs: int) -> Generator[Row]:
-    """Answer tasks on `jobs` processes and yield each row as it is finished.
+    """Evaluate tasks on `jobs` processes and yield each row as it is finished.
 
     Closing the iterator (`contextlib.closing`) before its end drops what has not begun.
 
@@ -194,6 +194,6 @@ def compute(tasks: list[Task], jobs: int) -> Generator[Row]:
     RuntimeError
         If a worker process dies (`concurrent.futures.BrokenExecutor`), as one short of memory does.
     """
-    with closing(each(_answer_all, _batches(tasks), jobs)) as answers:
-        for rows in answers:
+    with closing(each(_evaluate_batch, _batches(tasks), jobs)) as batches:
+        for rows in batches:
             yield from rows

@@ -1,4 +1,4 @@
-"""Work on every core: one function for many items, in processes that end with their parent."""
+"""Worker processes: one function for many items, in processes that end with their parent."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from threadpoolctl import threadpool_limits
 __all__ = ["each", "usable_cores"]
 
 Item = TypeVar("Item")
-Answer = TypeVar("Answer")
+Output = TypeVar("Output")
 
 
 def usable_cores() -> int:
@@ -25,7 +25,7 @@ def usable_cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def each(function: Callable[[Item], Answer], items: Sequence[Item], jobs: int) -> Generator[Answer]:
+def each(function: Callable[[Item], Output], items: Sequence[Item], jobs: int) -> Generator[Output]:
     """Yield `function(item)` for every item, as each is finished, on `jobs` processes.
 
     Closing the generator (`contextlib.closing`) before its end drops what has not begun.
@@ -35,7 +35,7 @@ def each(function: Callable[[Item], Answer], items: Sequence[Item], jobs: int) -
     function : callable
         Importable by its name.
     items : sequence
-        What it is called with, the longest work first: a core that starts it last would finish alone.
+        What it is called with, the longest work first: if it starts last, the other cores wait for it.
     jobs : int
         Number of processes; 1 works in this one.
 
@@ -58,11 +58,11 @@ def each(function: Callable[[Item], Answer], items: Sequence[Item], jobs: int) -
 
 
 def _start_worker() -> None:
-    """Prepare a worker: one thread (the cores are taken by the workers), and no life after the parent's."""
+    """Prepare a worker: one thread, since the workers use all cores, and an end as soon as the parent ends."""
     # Only libraries that are loaded can be limited: this loads the linear algebra of both NumPy and SciPy.
     import_module("scipy.linalg")
     threadpool_limits(1)
-    # Ctrl-C reaches the whole process group: end at once, without a traceback; the parent has the last word.
+    # Ctrl-C reaches the whole process group: end at once, without a traceback; the parent writes the message.
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
     parent = parent_process()

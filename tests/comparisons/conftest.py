@@ -1,4 +1,4 @@
-"""Models made for tests: one of each kind of answer, and a small grid to run them on."""
+"""Models made for tests: one of each kind of result, and a small grid to run them on."""
 
 import os
 import shutil
@@ -16,33 +16,33 @@ from comparisons.runs.cases import load_grids
 
 
 class Toy:
-    """Answers `answer(problem)`; an answer that is an exception is raised."""
+    """A model with the value `value(problem)`; a value that is an exception is raised."""
 
     version = "7"
     citation = "none"
     domain = "tests"
 
-    def __init__(self, name, answer):
+    def __init__(self, name, value):
         self.name = name
-        self._answer = answer
+        self._function = value
 
-    def _give(self, problem):
-        answer = self._answer(problem)
-        if isinstance(answer, BaseException):
-            raise answer
-        return answer
+    def _value(self, problem):
+        value = self._function(problem)
+        if isinstance(value, BaseException):
+            raise value
+        return value
 
     def evaluate(self, problem, quantity):
-        return Result(value=self._give(problem), u_num=1e-9, size=3, iterations=2, residual=1e-12)
+        return Result(value=self._value(problem), u_num=1e-9, size=3, iterations=2, residual=1e-12)
 
     def curve(self, problem):
-        self._give(problem)
+        self._value(problem)
         grid = np.linspace(-1.0, 1.0, 3)
         return Curve(displacement=grid, load=-grid, columns={"central_gap": -grid})
 
 
-ANSWERS = {
-    "truth": lambda problem: 2.0,
+VALUES = {
+    "exact": lambda problem: 2.0,
     "ten-percent": lambda problem: 2.2,
     "twelve-percent": lambda problem: 2.24,
     "absurd": lambda problem: 1e20 if problem.k == 0 else -1.7e308,
@@ -60,11 +60,11 @@ ANSWERS = {
 def toys(monkeypatch):
     """Register the toy models for the length of a test."""
     module = ModuleType("toy_models")
-    for name, answer in ANSWERS.items():
-        setattr(module, name.replace("-", "_"), lambda name=name, answer=answer: Toy(name, answer))
+    for name, value in VALUES.items():
+        setattr(module, name.replace("-", "_"), lambda name=name, value=value: Toy(name, value))
         monkeypatch.setitem(MODELS, name, f"toy_models:{name.replace('-', '_')}")
     monkeypatch.setitem(sys.modules, "toy_models", module)
-    return SimpleNamespace(names=list(ANSWERS))
+    return SimpleNamespace(names=list(VALUES))
 
 
 GRID = """
@@ -72,7 +72,7 @@ GRID = """
 id = "toys"
 title = "Four cases"
 tier = "quick"
-reference = "truth"
+reference = "exact"
 models = ["ten-percent", "refuses"]
 quantities = ["pull_off_force"]
 n = [2]
@@ -87,7 +87,7 @@ id = "TEN-PERCENT"
 requirement = "The error is ten percent."
 quantity = "pull_off_force"
 candidate = "ten-percent"
-reference = "truth"
+reference = "exact"
 cases = { mu = [0.1, 1] }
 metric = "rel"
 lower = 0.09
@@ -102,12 +102,9 @@ tier = "quick"
 
 @pytest.fixture
 def small_grid(toys, monkeypatch):
-    """Make `fscm-bench run` compute four cases of toy models and judge them by one gate, given here."""
-    for command in ("run", "judge"):
-        monkeypatch.setattr(f"comparisons.cli.commands.{command}.grids", lambda tier: load_grids(GRID))
-        monkeypatch.setattr(
-            f"comparisons.cli.commands.{command}.gates_text", lambda path: gates_text(path) if path else GATES
-        )
+    """Make `fscm-bench run` compute four cases of toy models and judge them by one gate."""
+    monkeypatch.setattr("comparisons.pipeline.inputs.grids", lambda tier: load_grids(GRID))
+    monkeypatch.setattr("comparisons.pipeline.inputs.gates_text", lambda path: gates_text(path) if path else GATES)
     return GATES
 
 
@@ -136,8 +133,8 @@ def typeset(tmp_path):
         (tmp_path / "table.tex").write_text(document, encoding="utf-8")
         order = [program, "-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape", "table.tex"]
         done = subprocess.run(order, cwd=tmp_path, capture_output=True, check=False, stdin=subprocess.DEVNULL)
-        said = done.stdout.decode(errors="replace")
-        assert done.returncode == 0, said[-2000:]
+        message = done.stdout.decode(errors="replace")
+        assert done.returncode == 0, message[-2000:]
         assert "Missing character" not in (tmp_path / "table.log").read_text(errors="replace")
         assert (tmp_path / "table.pdf").stat().st_size > 1000
 

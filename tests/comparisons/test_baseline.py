@@ -11,7 +11,8 @@ from comparisons.baseline import BASELINE, main, renew
 from comparisons.numerics.bounds import combined
 from comparisons.runs.environment import computing_environment, environment
 from comparisons.runs.record import read_record, write_record
-from comparisons.runs.tables import Row, curve_frame, frame, write_curves, write_results
+from comparisons.runs.rows import Row, curve_frame, frame
+from comparisons.runs.tables import write_curves, write_results
 
 COMMITTED = Path(__file__).parents[2] / BASELINE
 FROM_QUICK = {
@@ -63,9 +64,18 @@ def made_up(folder, tier, model=None):
             (folder / f"{name}.{suffix}").write_text(f"{name} of the {tier} run")
     for name in ("largest_kappa", "agreement"):
         (folder / f"{name}.csv").write_text(f"{name} of the {tier} run")
-    arguments = {"tier": tier, "model": model, "outside": {}, "gates": None, "jobs": 2, "out": str(folder)}
+    arguments = {
+        "tier": tier,
+        "model": model,
+        "grid": None,
+        "external": {},
+        "gates": None,
+        "jobs": 2,
+        "out": str(folder),
+    }
     record = {
-        "format": 3,
+        "format": 4,
+        "command_name": "run",
         "arguments": arguments,
         "command": ["fscm-bench", "run"],
         "started": "2026-01-01T00:00:00+00:00",

@@ -1,4 +1,4 @@
-"""``fscm-bench check-model``: does a model from outside keep the contract, and if not, what is wrong."""
+"""``fscm-bench check-model``: check that an external model keeps the contract."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["add", "call"]
 def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the arguments."""
     parser = parsers.add_parser(
-        "check-model", help="check that a model from outside keeps the contract", description=__doc__
+        "check-model", help="check that an external model keeps the contract", description=__doc__
     )
     parser.add_argument(
         "spec",

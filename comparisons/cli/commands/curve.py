@@ -14,8 +14,9 @@ from comparisons.output.figures import curves
 from comparisons.output.style import picture_path, save
 from comparisons.quantities import CURVES, Points
 from comparisons.registry import create, identify
+from comparisons.runs.atomic_files import atomic, writable_file
 from comparisons.runs.cases import Case
-from comparisons.runs.tables import atomic, csv_text, writable_file
+from comparisons.runs.csv_format import csv_text
 
 __all__ = ["add", "call"]
 
@@ -43,8 +44,8 @@ def call(args: argparse.Namespace) -> int:
     """Trace, write, draw; return the exit status."""
     case = case_of(args)
     # All that can be wrong with the request is found out before anything is computed.
-    names, outside = identify(args.model)
-    models = {name: create(outside[name].spec if name in outside else name, case.nu) for name in names}
+    names, external = identify(args.model)
+    models = {name: create(external[name].spec if name in external else name, case.nu) for name in names}
     if args.csv:
         writable_file(args.csv)
     if args.plot:

@@ -1,4 +1,4 @@
-"""``fscm-bench fem``: the finite elements inside: fields for ParaView, a picture, the verification tables."""
+"""``fscm-bench fem``: the finite elements: fields for ParaView, a picture, the verification tables."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.models.fem_model import FiniteElements
 from comparisons.output.style import picture_path, save
 from comparisons.output.tables import rich_table
-from comparisons.runs.tables import writable_file, writing
+from comparisons.runs.atomic_files import writable_file, writing
 from fem_reference import export
 from fem_reference.verification import FULL_STUDY, QUICK_STUDY, elastic_checks, solver_table
 
@@ -55,7 +55,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def call(args: argparse.Namespace) -> int:
-    """Compute what is asked; return the exit status."""
+    """Compute, write and print; return the exit status."""
     if not (args.vtu or args.plot or args.verify or args.solver):
         raise ValueError("nothing to do: give --vtu FILE, --plot FILE, --verify or --solver")
     status = _fields(args) if args.vtu or args.plot else OK
@@ -82,7 +82,7 @@ def _fields(args: argparse.Namespace) -> int:
     case = case_of(args)
     if args.vtu:
         if args.vtu.suffix != ".vtu":
-            raise ValueError(f"--vtu {args.vtu} does not end in .vtu, by which ParaView knows the format")
+            raise ValueError(f"--vtu {args.vtu} does not end in .vtu, by which ParaView recognises the format")
         writable_file(args.vtu)
     if args.plot:
         writable_file(picture_path(args.plot))

@@ -1,4 +1,4 @@
-"""``fscm-bench list``: what there is to ask for."""
+"""``fscm-bench list``: the models, quantities, cases or gates."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def call(args: argparse.Namespace) -> int:
 def _models() -> pd.DataFrame:
     columns = ("name", "version", "domain", "citation")
     ours = pd.DataFrame([[getattr(create(name), column) for column in columns] for name in MODELS])
-    # What an installed package says of its model is in its code, which is not run for a list.
+    # The domain of an installed model is in its code, which is not run for a list.
     theirs = pd.DataFrame([[name, version, f"installed by {package}", ""] for name, package, version in installed()])
     return pd.concat([ours, theirs], ignore_index=True).set_axis(list(columns), axis="columns")
 

@@ -1,4 +1,4 @@
-"""``fscm-bench report``: write the folder of a run as one HTML page that needs nothing from outside."""
+"""``fscm-bench report``: write the folder of a run as one HTML page that needs no other file."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from comparisons.console.progress import log
 from comparisons.output.report.page import make_page
 from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
-from comparisons.runs.tables import atomic, writable_file
+from comparisons.runs.atomic_files import atomic, writable_file
+from comparisons.runs.folder import RunFolder
 
 __all__ = ["add", "call"]
 
@@ -26,7 +27,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 def call(args: argparse.Namespace) -> int:
     """Read, lay out and write; return the exit status."""
     stored = read_folder(args.folder)
-    path = writable_file(args.out or args.folder / "report.html")
+    path = writable_file(args.out or RunFolder(args.folder).report)
     text = render(make_page(stored))
     with atomic(path) as file:
         file.write(text.encode())

@@ -10,7 +10,8 @@ from comparisons.console.progress import waiting
 from comparisons.numerics.number_text import case_text, short
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
-from comparisons.runs.tables import Row, csv_text, frame
+from comparisons.runs.csv_format import csv_text
+from comparisons.runs.rows import Row, frame
 from comparisons.runs.tasks import evaluate
 
 __all__ = ["add", "call"]
@@ -40,8 +41,8 @@ def call(args: argparse.Namespace) -> int:
 
 
 def _case(row: Row) -> dict[str, float]:
-    given = {"n": row.n, "k": row.k, "mu": row.mu}
-    return given if row.nu is None else {**given, "nu": row.nu}
+    parameters = {"n": row.n, "k": row.k, "mu": row.mu}
+    return parameters if row.nu is None else {**parameters, "nu": row.nu}
 
 
 def _json(row: Row) -> str:

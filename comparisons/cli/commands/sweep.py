@@ -3,21 +3,14 @@
 from __future__ import annotations
 
 import argparse
-from datetime import UTC, datetime
 from pathlib import Path
 
-import pandas as pd
-
-from comparisons.cli.options import FAILED, OK, output
+from comparisons.cli.commands.run import print_kappa
+from comparisons.cli.options import FAILED, OK, add_jobs, add_out, add_retry_failed, output
 from comparisons.console.progress import log
 from comparisons.model import ComputationFailed
-from comparisons.output.tables import by_case, relative_error, rich_table, statuses
-from comparisons.quantities import CURVES
-from comparisons.registry import identify
-from comparisons.runs.cases import TIERS, Grid, load_grids
-from comparisons.runs.computation import add_jobs, add_out, add_retry_failed, checked_jobs, complete, folder_for
-from comparisons.runs.tables import curve_frame, frame, write_curves, write_results, write_table
-from comparisons.runs.tasks import plan
+from comparisons.output.tables import rich_table, statuses
+from comparisons.pipeline.run import run
 
 __all__ = ["add", "call"]
 
@@ -29,7 +22,11 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "file", metavar="FILE", type=Path, help="[[grid]] tables as in comparisons/data/cases.toml, without a tier"
     )
     parser.add_argument(
-        "--model", metavar="SPEC", nargs="+", action="extend", help="ask these models instead of those each grid names"
+        "--model",
+        metavar="SPEC",
+        nargs="+",
+        action="extend",
+        help="compare these models instead of those each grid names",
     )
     add_jobs(parser)
     add_out(parser)
@@ -39,41 +36,14 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def call(args: argparse.Namespace) -> int:
     """Compute what is missing, write and print; return the exit status."""
-    jobs = checked_jobs(args.jobs)
-    names, outside = identify(args.model or [])
-    chosen = _grids(args.file)
-    tasks = plan(chosen, names or None, outside)
-    folder = folder_for(args.out, datetime.now(UTC))
     try:
-        rows = complete(tasks, folder, jobs, args.retry_failed).rows
+        finished = run(args.file, models=args.model, folder=args.out, jobs=args.jobs, retry_failed=args.retry_failed)
     except ComputationFailed as failure:
         log(str(failure))
         return FAILED
-    table = frame(row for row in rows if row.quantity not in CURVES)
-    write_results(table, folder / "results")
-    write_curves(curve_frame(row for row in rows if row.quantity in CURVES), folder / "curves")
-    kappa = pd.concat(
-        [relative_error(table, reference) for reference in sorted({grid.reference for grid in chosen})],
-        ignore_index=True,
-    )
-    write_table(kappa, folder / "kappa")
-    console = output()
-    for (quantity, reference), group in kappa.groupby(["quantity", "reference"]):
-        shown, formats = by_case(group)
-        title = f"{quantity} of {reference} with its u_num, and kappa of each model in percent"
-        console.print(rich_table(shown, title, formats))
-    for row in rows:
-        if row.status == "failed":
-            log(f"{row.model}: {row.quantity} at n = {row.n:g}, k = {row.k:g}, mu = {row.mu:g}: {row.reason}")
-    console.print(rich_table(statuses(table), "computations"))
-    log(f"results are in {folder}")
-    return FAILED if any(row.status == "failed" for row in rows) else OK
-
-
-def _grids(path: Path) -> list[Grid]:
-    try:
-        return load_grids(path.read_text(encoding="utf-8"), tier=TIERS[0], source=str(path))
-    except OSError as error:
-        raise ValueError(f"the file {path} cannot be read ({error.strerror})") from None
-    except UnicodeDecodeError:
-        raise ValueError(f"the file {path} is not UTF-8 text") from None
+    print_kappa(finished.tables.kappa)
+    for row in finished.failures:
+        log(f"{row.model}: {row.quantity} at n = {row.n:g}, k = {row.k:g}, mu = {row.mu:g}: {row.reason}")
+    output().print(rich_table(statuses(finished.tables.results), "computations"))
+    log(f"results are in {finished.folder}")
+    return FAILED if finished.failures else OK

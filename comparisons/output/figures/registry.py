@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import pandas as pd
 from matplotlib.figure import Figure
 
+from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA, KAPPA_FIGURE, REFERENCES
 from comparisons.output.figures import agreement, kappa, references
 
 __all__ = ["FIGURES", "RunFigure", "figures_of"]
@@ -36,9 +37,9 @@ class RunFigure:
 
 
 FIGURES = (
-    RunFigure("fig16b_kappa", "kappa", kappa.draw, kappa.shown),
-    RunFigure("agreement", "agreement", agreement.draw),
-    RunFigure("references", "curves", references.draw),
+    RunFigure(KAPPA_FIGURE, KAPPA, kappa.draw, kappa.shown),
+    RunFigure(AGREEMENT, AGREEMENT, agreement.draw),
+    RunFigure(REFERENCES, CURVES, references.draw),
 )
 
 

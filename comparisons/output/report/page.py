@@ -14,7 +14,7 @@ from comparisons.output.report.stored_run import Stored
 from comparisons.output.report.table import Table, table_tex
 from comparisons.output.style import ModelStyle, model_styles
 from comparisons.output.verdicts import worst_cases
-from comparisons.runs.tables import csv_text
+from comparisons.runs.csv_format import csv_text
 
 __all__ = ["Page", "make_page"]
 
@@ -78,7 +78,7 @@ def make_page(stored: Stored) -> Page:
     stored : Stored
         As `comparisons.output.report.stored_run.read_folder` returns it.
     """
-    specs = stored.record["arguments"]["outside"]
+    specs = stored.record["arguments"]["external"]
     curves = plots.curves(stored)
     of_verdicts = [
         verdict_tables.matrix(stored),

@@ -9,11 +9,14 @@ from typing import Any
 
 import pandas as pd
 
+from comparisons.data.file_names import CURVES, KAPPA, LARGEST_KAPPA, RESULTS, SUMMARY, VERDICTS
 from comparisons.judging.decision import Verdict
 from comparisons.judging.judge import Judged
 from comparisons.output.verdicts import GATE_COLUMNS
+from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import check_files, read_record, warn_of_other_code
-from comparisons.runs.tables import COLUMNS, CURVE_COLUMNS, read_table
+from comparisons.runs.rows import COLUMNS, CURVE_COLUMNS
+from comparisons.runs.tables import read_table
 
 __all__ = ["Stored", "read_folder"]
 
@@ -25,15 +28,15 @@ _LARGEST = ("quantity", "model", "n", "k", "cases", "mu", "at_end", "kappa", "u_
 
 #: Table -> its columns.
 _TABLES: dict[str, Sequence[str]] = {
-    "results": COLUMNS.names,
-    "curves": CURVE_COLUMNS.names,
-    "kappa": _KAPPA,
+    RESULTS: COLUMNS.names,
+    CURVES: CURVE_COLUMNS.names,
+    KAPPA: _KAPPA,
 }
 #: Tables of what is judged, which a sweep does not have.
 _JUDGED: dict[str, Sequence[str]] = {
-    "verdicts": Judged.__slots__,
-    "summary": (*Judged.__slots__, "cases", "skipped"),
-    "largest_kappa": _LARGEST,
+    VERDICTS: Judged.__slots__,
+    SUMMARY: (*Judged.__slots__, "cases", "skipped"),
+    LARGEST_KAPPA: _LARGEST,
 }
 
 #: Columns of texts, and of yes or no; every other one holds numbers.
@@ -80,30 +83,31 @@ def read_folder(folder: Path) -> Stored:
     ValueError
         If there is neither, or a file of it is broken or was changed; one sentence says which and how.
     """
-    record = read_record(folder / "run.json")
+    files = RunFolder(folder)
+    record = read_record(files.record)
     check_files(record, folder)
     warn_of_other_code(record, folder)
     tables = {name: _table(folder / f"{name}.parquet", columns) for name, columns in _TABLES.items()}
-    judged = _has(folder, record, "verdicts") or _has(folder, record, "summary")
+    judged = _has(folder, record, VERDICTS) or _has(folder, record, SUMMARY)
     tables |= {
         name: _table(folder / f"{name}.parquet", columns)
         if judged or _has(folder, record, name)
         else pd.DataFrame(columns=list(columns))
         for name, columns in _JUDGED.items()
     }
-    gates = folder / "gates.parquet"
-    for name in ("verdicts", "summary"):
+    gates = files.parquet(files.gates)
+    for name in (VERDICTS, SUMMARY):
         unknown = sorted(set(tables[name]["verdict"]) - {str(verdict) for verdict in Verdict})
         if unknown:
             raise ValueError(f"{folder / f'{name}.parquet'} has the unknown verdict {unknown[0]!r}")
     return Stored(
         record,
-        tables["results"],
-        tables["curves"],
-        tables["kappa"],
-        tables["verdicts"],
-        tables["summary"],
-        tables["largest_kappa"],
+        tables[RESULTS],
+        tables[CURVES],
+        tables[KAPPA],
+        tables[VERDICTS],
+        tables[SUMMARY],
+        tables[LARGEST_KAPPA],
         _table(gates, GATE_COLUMNS, words=set(GATE_COLUMNS)) if gates.exists() else None,
         judged,
     )

@@ -9,7 +9,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from comparisons.output.style import MODEL_LINES, MODEL_NAMES, lettered, styled
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.tasks import curve
 
@@ -21,11 +21,11 @@ _K, _MU = 0.4, 1.0
 _FAINT = 0.04
 
 
-def _task(model: str, n: float) -> Task:
-    return Task.of(curve, model, n, _K, _MU)
+def _task(model: str, n: float) -> CachedCall:
+    return CachedCall.of(curve, model, n, _K, _MU)
 
 
-def _tasks() -> Sequence[Task]:
+def _tasks() -> Sequence[CachedCall]:
     return [_task(model, n) for model in MODEL_LINES for n in _SHAPES]
 
 

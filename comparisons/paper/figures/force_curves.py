@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.output.style import COLOURS, LINES, lettered, styled
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.tasks import curve
 
@@ -32,15 +32,15 @@ _RANGES_4 = {
 _RANGES_6 = {0.5: ((-4.0, 1.5), (-2.15, 0.8)), 1.0: ((-4.0, 2.5), (-2.15, 0.8))}
 
 
-def _tasks(cases: Iterable[tuple[float, float, float]]) -> Sequence[Task]:
+def _tasks(cases: Iterable[tuple[float, float, float]]) -> Sequence[CachedCall]:
     # The cone and large Tabor numbers take longest.
-    return [Task.of(curve, "fscm", *case) for case in sorted(cases, key=lambda case: (case[0], -case[2]))]
+    return [CachedCall.of(curve, "fscm", *case) for case in sorted(cases, key=lambda case: (case[0], -case[2]))]
 
 
 def _tables(cases: Iterable[tuple[float, float, float]], results: Results) -> Tables:
     parts = []
     for n, k, mu in cases:
-        found = results[Task.of(curve, "fscm", n, k, mu)]
+        found = results[CachedCall.of(curve, "fscm", n, k, mu)]
         if found["status"] == "ok":
             points = {name: found[name] for name in ("displacement", "u_displacement", "load", "u_load")}
             parts.append(pd.DataFrame({"n": n, "k": k, "mu": mu, "status": "ok"} | points))

@@ -11,7 +11,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from comparisons.models.jkr import JKR
 from comparisons.output.style import COLOURS, LINES, lettered, styled
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.runs.cases import Case
 
@@ -86,15 +86,19 @@ def over_shapes() -> list[tuple[float, float]]:
     return [largest_chi(float(n)) for n in _SHAPE_INDICES]
 
 
-def _tasks() -> Sequence[Task]:
-    return [Task.of(over_shapes), Task.of(insensitive_regions), *(Task.of(over_gradients, n) for n in _SHAPES)]
+def _tasks() -> Sequence[CachedCall]:
+    return [
+        CachedCall.of(over_shapes),
+        CachedCall.of(insensitive_regions),
+        *(CachedCall.of(over_gradients, n) for n in _SHAPES),
+    ]
 
 
 def _tables(results: Results) -> Tables:
-    parts = [pd.DataFrame({"n": n, "k": _GRADIENTS, "chi": results[Task.of(over_gradients, n)]}) for n in _SHAPES]
-    largest = pd.DataFrame(results[Task.of(over_shapes)], columns=["chi_max", "k_of_chi_max"])
+    parts = [pd.DataFrame({"n": n, "k": _GRADIENTS, "chi": results[CachedCall.of(over_gradients, n)]}) for n in _SHAPES]
+    largest = pd.DataFrame(results[CachedCall.of(over_shapes)], columns=["chi_max", "k_of_chi_max"])
     largest.insert(0, "n", _SHAPE_INDICES)
-    ends = results[Task.of(insensitive_regions)]
+    ends = results[CachedCall.of(insensitive_regions)]
     regions = pd.DataFrame({"limit": _LIMIT, "n_from": ends[::2], "n_to": ends[1::2]})
     return {"": pd.concat(parts, ignore_index=True), "largest": largest, "regions": regions}
 

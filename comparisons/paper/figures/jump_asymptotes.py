@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from comparisons.models.semi_rigid import jump_in_coefficient
 from comparisons.output.style import COLOURS, LINES, MARKERS, lettered, styled
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.figures.jumps import TABOR_NUMBERS, jumps, near_critical
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.tasks import quantity
@@ -64,24 +64,24 @@ def coefficients(n: float) -> list[dict[str, float]]:
     ]
 
 
-def _tasks() -> Sequence[Task]:
+def _tasks() -> Sequence[CachedCall]:
     return [
-        Task.of(near_critical, _N, _K),
-        *(Task.of(jumps, _N, _K, mu) for mu in reversed(TABOR_NUMBERS)),
-        Task.of(asymptotes, _N, _K),
-        *(Task.of(coefficients, n) for n in _SHAPES),
+        CachedCall.of(near_critical, _N, _K),
+        *(CachedCall.of(jumps, _N, _K, mu) for mu in reversed(TABOR_NUMBERS)),
+        CachedCall.of(asymptotes, _N, _K),
+        *(CachedCall.of(coefficients, n) for n in _SHAPES),
     ]
 
 
 def _tables(results: Results) -> Tables:
     # Where the two jumps part, then evenly.
-    first = results[Task.of(near_critical, _N, _K)]["jumps"][0]
-    computed = [first, *({"mu": mu} | results[Task.of(jumps, _N, _K, mu)] for mu in TABOR_NUMBERS)]
+    first = results[CachedCall.of(near_critical, _N, _K)]["jumps"][0]
+    computed = [first, *({"mu": mu} | results[CachedCall.of(jumps, _N, _K, mu)] for mu in TABOR_NUMBERS)]
     computed_columns = ["mu", *(f"{u}{name}" for name in _MODELS for u in ("", "u_"))]
     fscm = pd.DataFrame(computed)[computed_columns].sort_values("mu")
-    closed = pd.DataFrame(results[Task.of(asymptotes, _N, _K)])
+    closed = pd.DataFrame(results[CachedCall.of(asymptotes, _N, _K)])
     displacements = pd.concat([fscm.assign(model="fscm"), closed.assign(model="asymptote")], ignore_index=True)
-    constants = [pd.DataFrame(results[Task.of(coefficients, n)]).assign(n=n) for n in _SHAPES]
+    constants = [pd.DataFrame(results[CachedCall.of(coefficients, n)]).assign(n=n) for n in _SHAPES]
     return {
         "displacements": displacements[["model", *computed_columns]].assign(n=_N, k=_K),
         "coefficients": pd.concat(constants, ignore_index=True)[["n", "k", "C_in", "C_out"]],

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from comparisons.models.solver import translated
 from comparisons.output.style import COLOURS, LINES, lettered, styled
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from fscm import Analysis, NoSuchEvent, NotConverged, solve
 from fscm.problem import Problem
@@ -77,17 +77,17 @@ def near_critical(n: float, k: float) -> dict[str, Any]:
     return {"mu": float(critical.value), "u_mu": float(critical.u_num), "jumps": found}
 
 
-def _tasks() -> Sequence[Task]:
-    far = [Task.of(jumps, 2.0, k, mu) for mu in reversed(TABOR_NUMBERS) for k in _GRADIENTS]
-    return [Task.of(near_critical, 2.0, k) for k in _GRADIENTS] + far
+def _tasks() -> Sequence[CachedCall]:
+    far = [CachedCall.of(jumps, 2.0, k, mu) for mu in reversed(TABOR_NUMBERS) for k in _GRADIENTS]
+    return [CachedCall.of(near_critical, 2.0, k) for k in _GRADIENTS] + far
 
 
 def _tables(results: Results) -> Tables:
     rows, critical = [], []
     for k in _GRADIENTS:
-        near = results[Task.of(near_critical, 2.0, k)]
+        near = results[CachedCall.of(near_critical, 2.0, k)]
         critical.append({"n": 2.0, "k": k, "mu": near["mu"], "u_mu": near["u_mu"]})
-        far = [{"mu": mu} | results[Task.of(jumps, 2.0, k, mu)] for mu in TABOR_NUMBERS]
+        far = [{"mu": mu} | results[CachedCall.of(jumps, 2.0, k, mu)] for mu in TABOR_NUMBERS]
         rows += [{"n": 2.0, "k": k} | row for row in [*near["jumps"], *far]]
     table = pd.DataFrame(rows).sort_values(["k", "mu"], ignore_index=True)
     return {"": table, "critical": pd.DataFrame(critical)}

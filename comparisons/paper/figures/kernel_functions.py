@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 import fscm
 from comparisons.output.style import COLOURS, LINES, lettered, styled
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 
 __all__ = ["KERNEL_FUNCTIONS", "values"]
@@ -51,12 +51,12 @@ def values(k: float) -> dict[str, list[float | None]]:
     }
 
 
-def _tasks() -> Sequence[Task]:
-    return [Task.of(values, k) for k in _GRADIENTS]
+def _tasks() -> Sequence[CachedCall]:
+    return [CachedCall.of(values, k) for k in _GRADIENTS]
 
 
 def _tables(results: Results) -> Tables:
-    parts = [pd.DataFrame({"k": k, "s": _RATIOS} | results[Task.of(values, k)]).astype(float) for k in _GRADIENTS]
+    parts = [pd.DataFrame({"k": k, "s": _RATIOS} | results[CachedCall.of(values, k)]).astype(float) for k in _GRADIENTS]
     return {"": pd.concat(parts, ignore_index=True)}
 
 

@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 from comparisons.output.figures import kappa as kappa_figure
 from comparisons.output.style import COLOURS, MARKERS, MODEL_NAMES, lettered, styled
 from comparisons.output.tables import relative_error
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.tasks import quantity
 
@@ -34,16 +34,16 @@ _STYLES: dict[str, dict[str, Any]] = {
 _MU = r"Tabor number $\mu$"
 
 
-def _task(model: str, n: float, mu: float) -> Task:
-    return Task.of(quantity, model, "pull_off_force", n, _K, mu)
+def _task(model: str, n: float, mu: float) -> CachedCall:
+    return CachedCall.of(quantity, model, "pull_off_force", n, _K, mu)
 
 
-def _tasks() -> Sequence[Task]:
+def _tasks() -> Sequence[CachedCall]:
     # The largest Tabor numbers take longest.
     return [_task(model, n, mu) for mu in reversed(TABOR_NUMBERS) for n in _SHAPES for model in _MODELS]
 
 
-def _limits(name: str) -> Callable[[], Sequence[Task]]:
+def _limits(name: str) -> Callable[[], Sequence[CachedCall]]:
     return lambda: [*_tasks(), *(_task(name, n, mu) for n in _SHAPES for mu in TABOR_NUMBERS)]
 
 

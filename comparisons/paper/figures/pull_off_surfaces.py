@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from comparisons.models.gibson_limit import gibson_profile
 from comparisons.models.solver import translated
 from comparisons.output.style import COLOURS, LINES, lettered, styled
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from fscm import Analysis, NoSuchEvent, NotConverged, solve
 from fscm.problem import Problem
@@ -96,14 +96,14 @@ def _gibson(problem: Problem) -> dict[str, Any]:
     return columns
 
 
-def _tasks(cases: Iterable[tuple[float, float, float]]) -> Sequence[Task]:
-    return [Task.of(surface, *case) for case in sorted(cases, key=lambda case: -case[2])]
+def _tasks(cases: Iterable[tuple[float, float, float]]) -> Sequence[CachedCall]:
+    return [CachedCall.of(surface, *case) for case in sorted(cases, key=lambda case: -case[2])]
 
 
 def _tables(cases: Iterable[tuple[float, float, float]], results: Results) -> Tables:
     parts = []
     for n, k, mu in cases:
-        part = pd.DataFrame({"n": n, "k": k, "mu": mu} | results[Task.of(surface, n, k, mu)])
+        part = pd.DataFrame({"n": n, "k": k, "mu": mu} | results[CachedCall.of(surface, n, k, mu)])
         parts.append(part.assign(punch=part["radius"] ** n / n - part["displacement"]))
     return {"": pd.concat(parts, ignore_index=True)}
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from comparisons.models.solver import translated
 from comparisons.output.style import COLOURS, MODEL_NAMES, lettered, styled
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.tasks import curve, quantity
 from fscm import Analysis, NoSuchEvent, NotConverged
@@ -21,8 +21,8 @@ from fscm.solution import FLOOR, SAFETY, EventPair, State
 __all__ = ["S_CURVE", "named_points"]
 
 _CASE = (2.0, 0.4, 3.0)
-_CURVE, _JKR = Task.of(curve, "fscm", *_CASE), Task.of(curve, "jkr", *_CASE)
-_ENERGY = Task.of(quantity, "fscm", "hysteresis_energy", *_CASE)
+_CURVE, _JKR = CachedCall.of(curve, "fscm", *_CASE), CachedCall.of(curve, "jkr", *_CASE)
+_ENERGY = CachedCall.of(quantity, "fscm", "hysteresis_energy", *_CASE)
 
 _COORDINATES: dict[str, Callable[[State], float]] = {
     "central_gap": lambda state: state.central_gap,
@@ -78,8 +78,8 @@ def _coordinates(pair: EventPair) -> dict[str, float]:
     return found
 
 
-def _tasks() -> Sequence[Task]:
-    return [_CURVE, Task.of(named_points, *_CASE), _ENERGY, _JKR]
+def _tasks() -> Sequence[CachedCall]:
+    return [_CURVE, CachedCall.of(named_points, *_CASE), _ENERGY, _JKR]
 
 
 def _tables(results: Results) -> Tables:
@@ -90,7 +90,7 @@ def _tables(results: Results) -> Tables:
         # The coordinate along the path, at which displacement and load are uncertain; JKR has none.
         gaps = {"central_gap": found["columns"].get("central_gap", np.nan)}
         parts.append(pd.DataFrame({"model": model} | gaps | columns))
-    points = pd.DataFrame.from_dict(results[Task.of(named_points, *_CASE)], orient="index").rename_axis("name")
+    points = pd.DataFrame.from_dict(results[CachedCall.of(named_points, *_CASE)], orient="index").rename_axis("name")
     return {
         "curves": pd.concat(parts, ignore_index=True),
         "points": points.reset_index(),

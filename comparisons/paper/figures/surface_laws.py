@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.output.style import COLOURS, MODEL_LINES, lettered, styled
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from fscm.laws import LennardJones93
 
@@ -29,8 +29,8 @@ def stresses() -> list[float]:
     return [eta(float(n)) for n in _SHAPES]
 
 
-def _tasks() -> Sequence[Task]:
-    return [Task.of(stresses)]
+def _tasks() -> Sequence[CachedCall]:
+    return [CachedCall.of(stresses)]
 
 
 def dugdale(stress: float) -> pd.DataFrame:
@@ -47,7 +47,7 @@ def dugdale(stress: float) -> pd.DataFrame:
 
 def _tables(results: Results) -> Tables:
     limits = pd.DataFrame({"n": [math.inf], "eta": [eta(math.inf)]})
-    stress = pd.DataFrame({"n": _SHAPES, "eta": results[Task.of(stresses)]})
+    stress = pd.DataFrame({"n": _SHAPES, "eta": results[CachedCall.of(stresses)]})
     exact = pd.DataFrame({"gap": _GAPS, "pressure": LennardJones93().traction(_GAPS)})
     laws = {"fscm": exact, "md-original": dugdale(THEORETICAL_STRENGTH), "md-improved": dugdale(eta(_DRAWN))}
     parts = [law.assign(model=model)[["model", "gap", "pressure"]] for model, law in laws.items()]

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
 from comparisons.output.style import MODEL_LINES, MODEL_NAMES, lettered, styled
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.tasks import profile, quantity
 from comparisons.runs.cases import Case
@@ -54,12 +54,12 @@ def cohesive_surface(model: str, n: float, k: float, mu: float) -> dict[str, Any
     }
 
 
-_FSCM = Task.of(profile, "fscm", _N, _K, _MU)
-_FSCM_DISPLACEMENT = Task.of(quantity, "fscm", "pull_off_displacement", _N, _K, _MU)
-_MD = {model: Task.of(cohesive_surface, model, _N, _K, _MU) for model in _COHESIVE}
+_FSCM = CachedCall.of(profile, "fscm", _N, _K, _MU)
+_FSCM_DISPLACEMENT = CachedCall.of(quantity, "fscm", "pull_off_displacement", _N, _K, _MU)
+_MD = {model: CachedCall.of(cohesive_surface, model, _N, _K, _MU) for model in _COHESIVE}
 
 
-def _tasks() -> Sequence[Task]:
+def _tasks() -> Sequence[CachedCall]:
     return [_FSCM, _FSCM_DISPLACEMENT, *_MD.values()]
 
 

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from scipy.interpolate import CubicSpline
 
 from comparisons.output.style import COLOURS, LINES, MODEL_NAMES, lettered, styled
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.tasks import quantity
 
@@ -46,11 +46,11 @@ def _cases() -> list[tuple[str, float, float, float]]:
     return [*fscm, *jkr, *(("bradley", n, 0.0, mu) for n in _SHAPES for mu in _ENDS)]
 
 
-def _task(case: tuple[str, float, float, float]) -> Task:
-    return Task.of(quantity, case[0], "pull_off_force", *case[1:])
+def _task(case: tuple[str, float, float, float]) -> CachedCall:
+    return CachedCall.of(quantity, case[0], "pull_off_force", *case[1:])
 
 
-def _tasks() -> Sequence[Task]:
+def _tasks() -> Sequence[CachedCall]:
     return [_task(case) for case in sorted(_cases(), key=lambda case: (case[1], -case[3]))]
 
 

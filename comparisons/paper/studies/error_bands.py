@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from comparisons.models.semi_rigid import jump_in_coefficient
 from comparisons.output.style import COLOURS, LINES, MARKERS, lettered, styled
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.studies.error_grid import CANDIDATES, all_cases, errors, tasks
 
@@ -165,7 +165,7 @@ def coefficients(table: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def _tasks() -> Sequence[Task]:
+def _tasks() -> Sequence[CachedCall]:
     return tasks(all_cases() + _SOFT)
 
 

@@ -14,7 +14,7 @@ import pandas as pd
 
 from comparisons.model import ComputationFailed
 from comparisons.numerics.kappa import relative_difference, relative_uncertainty
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.tasks import quantity
 
 __all__ = [
@@ -87,9 +87,9 @@ def errors_at(n: float, k: float, mu: float) -> dict[str, dict[str, Any]]:
     }
 
 
-def tasks(cases: Iterable[Case]) -> Sequence[Task]:
+def tasks(cases: Iterable[Case]) -> Sequence[CachedCall]:
     """Return the tasks of these cases; soft, sharp and steep ones take longest."""
-    return [Task.of(errors_at, *case) for case in sorted(cases, key=lambda case: (-case[2], case[0], -case[1]))]
+    return [CachedCall.of(errors_at, *case) for case in sorted(cases, key=lambda case: (-case[2], case[0], -case[1]))]
 
 
 def errors(results: Results, cases: Iterable[Case], quantities: Iterable[str]) -> pd.DataFrame:
@@ -103,7 +103,7 @@ def errors(results: Results, cases: Iterable[Case], quantities: Iterable[str]) -
     """
     rows = []
     for case in cases:
-        found = results[Task.of(errors_at, *case)]
+        found = results[CachedCall.of(errors_at, *case)]
         for name in quantities:
             for model in CANDIDATES[name]:
                 key = {"n": case[0], "k": case[1], "mu": case[2], "quantity": name, "model": model}
@@ -146,9 +146,9 @@ def jump_onset(n: float, k: float) -> dict[str, Any]:
     return {"critical": critical["value"], "u_critical": critical["u_num"], "mu": mu, "found": errors_at(n, k, mu)}
 
 
-def onset_calls(cases: Iterable[Case]) -> Sequence[Task]:
+def onset_calls(cases: Iterable[Case]) -> Sequence[CachedCall]:
     """Return a call of `jump_onset` for each shape index and gradient exponent; sharp shapes take longest."""
-    return [Task.of(jump_onset, n, k) for n, k in sorted({(n, k) for n, k, _ in cases})]
+    return [CachedCall.of(jump_onset, n, k) for n, k in sorted({(n, k) for n, k, _ in cases})]
 
 
 def onset_errors(results: Results, cases: Iterable[Case], shown: Sequence[tuple[str, str]]) -> pd.DataFrame:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from comparisons.output.figures.contour_labels import label_lines
 from comparisons.output.style import lettered, styled
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.studies.error_grid import (
     GRADIENT_SLICES,
@@ -56,15 +56,15 @@ _JUMPS = (("jump_in_displacement", "semi-rigid", "jump-in"), ("jump_out_displace
 _JUMP_NAMES = tuple(name for name, _, _ in _JUMPS)
 
 
-def _shape_tasks() -> Sequence[Task]:
+def _shape_tasks() -> Sequence[CachedCall]:
     return tasks(shape_cases())
 
 
-def _gradient_tasks() -> Sequence[Task]:
+def _gradient_tasks() -> Sequence[CachedCall]:
     return tasks(gradient_cases())
 
 
-def _jump_tasks() -> Sequence[Task]:
+def _jump_tasks() -> Sequence[CachedCall]:
     cases = dict.fromkeys(shape_cases() + gradient_cases())
     return [*onset_calls(cases), *tasks(cases)]
 

@@ -20,7 +20,7 @@ from typing import Any
 
 import fem_reference
 from comparisons.model import ComputationFailed
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.studies.surface_modulus_figure import draw
 from comparisons.paper.studies.surface_modulus_tables import Sample, limits, samples, thresholds
@@ -138,26 +138,26 @@ def _kind(name: str) -> str:
     return QUANTITIES[name].scale if name in QUANTITIES else "energy"
 
 
-def _reference(name: str, k: float, mu: float) -> Task:
-    return Task.of(quantity, "fscm", name, _N, k, mu)
+def _reference(name: str, k: float, mu: float) -> CachedCall:
+    return CachedCall.of(quantity, "fscm", name, _N, k, mu)
 
 
-def _uniform(name: str, k: float, mu: float, depth: float) -> Task:
+def _uniform(name: str, k: float, mu: float, depth: float) -> CachedCall:
     return _reference(name, 0.0, homogeneous_tabor_number(k, mu, depth))
 
 
-def _tasks() -> Sequence[Task]:
+def _tasks() -> Sequence[CachedCall]:
     cases = [(k, mu, depth) for (k, mu), depths in _SERIES.items() for depth in depths]
     # The sharper the edge and the thinner the skin, the longer it takes.
     cases.sort(key=lambda case: (-case[1], case[2], -case[0]))
-    elements = [Task.of(with_skin, event, *case) for case in cases for event in _EVENTS]
+    elements = [CachedCall.of(with_skin, event, *case) for case in cases for event in _EVENTS]
     graded = [_reference(name, k, mu) for k, mu in _SERIES for name in _REPORTED]
     uniform = [_uniform(name, *case) for case in cases if case[2] >= _THICK for name in _REPORTED]
     return elements + graded + uniform
 
 
 def _sample(results: Results, k: float, mu: float, depth: float, name: str) -> Sample:
-    parts = {event: results[Task.of(with_skin, event, k, mu, depth)] for event in _EVENTS}
+    parts = {event: results[CachedCall.of(with_skin, event, k, mu, depth)] for event in _EVENTS}
     known = {key: value for part in parts.values() for key, value in part.items() if key != "reason"}
     pieces = ("jump_in_energy", "jump_out_energy") if name == "hysteresis_energy" else (name,)
     reason = (

@@ -18,7 +18,7 @@ from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_events import CohesiveEvents
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.figures.gradient_effect import insensitive_regions, largest_chi
 from comparisons.paper.studies.tabor_curve import RANGE, Extreme, TaborCurve, crossing, largest_error, tabor_numbers
 from comparisons.paper.values import scheme_ingredients as scheme
@@ -79,8 +79,8 @@ def _printed_stress(paper_value: PaperValue) -> float:
     return next(number.value for number in paper_values("eta") if number.n == paper_value.n)
 
 
-def _forces(paper_value: PaperValue, stress: float) -> Task:
-    return Task.of(cohesive_forces, paper_value.n, _K, stress)
+def _forces(paper_value: PaperValue, stress: float) -> CachedCall:
+    return CachedCall.of(cohesive_forces, paper_value.n, _K, stress)
 
 
 def _at_places() -> Iterator[tuple[float, float, float]]:
@@ -88,15 +88,15 @@ def _at_places() -> Iterator[tuple[float, float, float]]:
         yield n, _K, mu
 
 
-def tasks() -> Sequence[Task]:
+def tasks() -> Sequence[CachedCall]:
     """Return the tasks that `repeated` needs, the longest first."""
     errors = paper_values("largest_relative_error")
-    found = [Task.of(scheme.scheme_force, *place) for place in _at_places()]
-    found += [Task.of(scheme.sampled_force, *place) for place in _at_places()]
-    found += [Task.of(insensitive_regions, up_to) for up_to in (1.0, *_SHORT_OF_GIBSON)]
+    found = [CachedCall.of(scheme.scheme_force, *place) for place in _at_places()]
+    found += [CachedCall.of(scheme.sampled_force, *place) for place in _at_places()]
+    found += [CachedCall.of(insensitive_regions, up_to) for up_to in (1.0, *_SHORT_OF_GIBSON)]
     for n in sorted({error.n for error in errors}):
-        found += [Task.of(scheme.exact_force, n, _K, mu) for mu in tabor_numbers(_EXACT_DEGREE)]
-    found += [Task.of(scheme.exact_force, *place) for place in _at_places()]
+        found += [CachedCall.of(scheme.exact_force, n, _K, mu) for mu in tabor_numbers(_EXACT_DEGREE)]
+    found += [CachedCall.of(scheme.exact_force, *place) for place in _at_places()]
     found += [_forces(error, stress(error)) for error in errors for stress in (_exact_stress, _printed_stress)]
     found += [_forces(error, _JIN_STRESS) for error in errors if error.model == "md-original"]
     return list(dict.fromkeys(found))
@@ -142,7 +142,7 @@ def repeated(results: Results) -> list[Repeated]:
             rows.append(Repeated(paper_value, ingredient, largest, CHI_ROUNDING, stated=up_to == 1.0))
     for paper_value in paper_values("insensitive_region"):
         for up_to, ingredient in ranges.items():
-            end = results[Task.of(insensitive_regions, up_to)][paper_value.index]
+            end = results[CachedCall.of(insensitive_regions, up_to)][paper_value.index]
             rows.append(Repeated(paper_value, ingredient, end, REGION_ROUNDING, stated=up_to == 1.0))
     return rows
 
@@ -170,8 +170,11 @@ def _errors(paper_value: PaperValue, results: Results) -> Iterator[Repeated]:
     # The rest needs one Tabor number only: kappa is stationary there, or it is the end of the range.
     mu = _PLACES[paper_value.model, paper_value.n]
     place = paper_value.n, _K, mu
-    full, coarse = results[Task.of(scheme.exact_force, *place)], results[Task.of(scheme.scheme_force, *place)]
-    steps = results[Task.of(scheme.sampled_force, *place)]
+    full, coarse = (
+        results[CachedCall.of(scheme.exact_force, *place)],
+        results[CachedCall.of(scheme.scheme_force, *place)],
+    )
+    steps = results[CachedCall.of(scheme.sampled_force, *place)]
     mesh = coarse["force"] - (full["force"] - full["beyond"][0])
     yield row(f"N = {scheme.SEGMENTS} segments", _single(model, full["force"] + mesh, coarse["u_num"], mu))
     yield row(f"{nothing_beyond}; N = {scheme.SEGMENTS} segments", _single(model, coarse["force"], coarse["u_num"], mu))
@@ -204,7 +207,7 @@ def _single(model: TaborCurve, force: float, u: float, mu: float) -> Extreme:
 
 def _exact_curves(n: float, results: Results) -> tuple[TaborCurve, list[TaborCurve]]:
     """Return the converged force over mu, and those without what is beyond each height."""
-    found = [results[Task.of(scheme.exact_force, n, _K, mu)] for mu in tabor_numbers(_EXACT_DEGREE)]
+    found = [results[CachedCall.of(scheme.exact_force, n, _K, mu)] for mu in tabor_numbers(_EXACT_DEGREE)]
     force = np.array([point["force"] for point in found])
     beyond = np.array([point["beyond"] for point in found])
     numerical = max(point["u_num"] / point["force"] for point in found)

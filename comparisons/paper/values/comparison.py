@@ -18,7 +18,7 @@ from comparisons.numerics.number_text import LEAST_SHOWN, value_text
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
 from comparisons.output.tables import rich_table
-from comparisons.paper.cache import Results, Task
+from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.tasks import quantity
 from comparisons.paper.values.causes import Repeated, frame, repeated, tasks
@@ -34,12 +34,12 @@ _SHAPES = (1.0, 1.5, 2.0, 5.0)
 _ROUNDING = 64.0 * EPS
 
 
-def _critical(paper_value: PaperValue) -> Task:
+def _critical(paper_value: PaperValue) -> CachedCall:
     # The Tabor number of the case is not used.
-    return Task.of(quantity, "fscm", "critical_tabor_number", paper_value.n, paper_value.k, 1.0)
+    return CachedCall.of(quantity, "fscm", "critical_tabor_number", paper_value.n, paper_value.k, 1.0)
 
 
-def _tasks() -> Sequence[Task]:
+def _tasks() -> Sequence[CachedCall]:
     return [*map(_critical, paper_values("critical_tabor_number")), *tasks()]
 
 

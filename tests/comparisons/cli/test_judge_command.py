@@ -1,4 +1,4 @@
-"""What a run says about its gates, and judging it again: exit statuses and files."""
+"""Verdicts of a run and of a folder that is judged again: exit statuses and files."""
 
 import json
 import random
@@ -8,11 +8,10 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
+from comparisons.data.file_names import RUN_FILES, VERDICT_FILES
 from comparisons.output.report.page import make_page
 from comparisons.output.report.stored_run import read_folder
-from comparisons.output.verdicts import FILES
 from comparisons.runs.environment import fingerprint
-from comparisons.runs.record import FILES as WITH_CHECKSUM
 from comparisons.runs.record import read_record, write_record
 
 
@@ -38,14 +37,14 @@ def gates(text, tmp_path, *changes):
 
 
 def test_judging_again_gives_the_same_and_computes_nothing(folder, monkeypatch, capsys):
-    before = {name: (folder / name).read_bytes() for name in FILES}
+    before = {name: (folder / name).read_bytes() for name in VERDICT_FILES}
     monkeypatch.setattr("comparisons.registry.create", None)
-    monkeypatch.setattr("comparisons.runs.tasks.answer", None)
+    monkeypatch.setattr("comparisons.runs.tasks.evaluate_task", None)
     shown = []
     for _ in range(2):
         assert main(["judge", str(folder)]) == 0
         shown.append(capsys.readouterr().out)
-        assert {name: (folder / name).read_bytes() for name in FILES} == before
+        assert {name: (folder / name).read_bytes() for name in VERDICT_FILES} == before
     assert shown[0] == shown[1]
     assert "TEN-PERCENT" in shown[0]
     assert "fscm-bench solve --model ten-percent --quantity pull_off_force --n 2 --k 0" in shown[0]
@@ -81,7 +80,7 @@ def test_the_exit_status_is_the_verdict(small_grid, tmp_path, capsys, changes, s
     assert main([*arguments, *gates(small_grid, tmp_path, *changes)]) == status
     shown = capsys.readouterr()
     assert verdict in shown.out or "no gate was evaluated" in shown.err
-    # Status 4 is explained where the program says what went wrong.
+    # Status 4 is explained on stderr.
     assert ("a gate is in error: TEN-PERCENT of " in shown.err) == (verdict == "ERROR" and "no gate" not in shown.err)
     if command == "run":
         assert json.loads((tmp_path / "run" / "run.json").read_text())["verdicts"]["all"] == verdict
@@ -107,7 +106,7 @@ def test_a_run_is_judged_again_by_the_gates_it_was_made_with(small_grid, tmp_pat
     other = small_grid.replace("TEN-PERCENT", "OTHER").replace('"ten-percent"', '"refuses"')
     rules = gates(small_grid + other * bool(models), tmp_path, ("upper = 0.11", "upper = 0.095"))
     assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), *models, *rules]) == 1
-    before = {name: (tmp_path / "run" / name).read_bytes() for name in (*FILES, "run.json", "gates.toml")}
+    before = {name: (tmp_path / "run" / name).read_bytes() for name in (*VERDICT_FILES, "run.json", "gates.toml")}
     (tmp_path / "gates.toml").unlink()
     capsys.readouterr()
     assert main(["judge", str(tmp_path / "run")]) == 1
@@ -117,11 +116,9 @@ def test_a_run_is_judged_again_by_the_gates_it_was_made_with(small_grid, tmp_pat
 
 def test_standing_gates_of_models_that_were_not_given_do_not_matter(small_grid, tmp_path, capsys, monkeypatch):
     rival = small_grid.replace("TEN-PERCENT", "OTHER") + 'rival = "twelve-percent"\n'
-    for command in ("run", "judge"):
-        monkeypatch.setattr(
-            f"comparisons.cli.commands.{command}.gates_text",
-            lambda path: path.read_text() if path else small_grid + rival,
-        )
+    monkeypatch.setattr(
+        "comparisons.pipeline.inputs.gates_text", lambda path: path.read_text() if path else small_grid + rival
+    )
     assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run"), "--model", "ten-percent"]) == 0
     assert main(["judge", str(tmp_path / "run")]) == 0
     assert "left out" not in capsys.readouterr().err
@@ -167,7 +164,7 @@ def test_a_gate_whose_rival_is_not_computed_is_refused_and_adding_it_helps(
     out[-1:] = ["ten-percent", "twelve-percent"]
     out[out.index("--out") + 1] = str(tmp_path / "both")
     assert main(["run", *out, *rules]) == 0
-    # The rival is not asked by how much it exceeds itself.
+    # The rival is not compared with itself.
     assert "PASS: 1 gates, 4 cases PASS" in capsys.readouterr().out
     assert main(["judge", str(tmp_path / "both"), *rules]) == 0
 
@@ -182,9 +179,9 @@ def test_gates_that_are_left_out_are_counted(small_grid, tmp_path, capsys, comma
     if command == "judge":
         capsys.readouterr()
         assert main(["judge", str(tmp_path / "run"), *rules]) == 0
-    told = capsys.readouterr().err
-    assert re.search("1 of 3 gates of .*gates.toml are left out: their candidate is not given", told)
-    assert re.search("1 of 3 gates of .*gates.toml are left out: they are of the tier full", told)
+    message = capsys.readouterr().err
+    assert re.search("1 of 3 gates of .*gates.toml are left out: their candidate is not given", message)
+    assert re.search("1 of 3 gates of .*gates.toml are left out: they are of the tier full", message)
 
 
 def test_a_gate_for_given_models_is_counted_when_none_is_given(small_grid, tmp_path, capsys):
@@ -199,10 +196,10 @@ def test_results_spoilt_after_the_run_are_an_error(folder, capsys):
     seal(folder)
     assert main(["judge", str(folder)]) == 4
     assert "no column u_num" in capsys.readouterr().out
-    table[table["model"] != "truth"].to_parquet(folder / "results.parquet")
+    table[table["model"] != "exact"].to_parquet(folder / "results.parquet")
     seal(folder)
     assert main(["judge", str(folder)]) == 4
-    assert "truth has no row" in capsys.readouterr().out
+    assert "exact has no row" in capsys.readouterr().out
 
 
 def test_absurd_but_finite_values_are_judged_and_reported(small_grid, tmp_path, capsys):
@@ -232,21 +229,21 @@ def test_no_flipped_bit_of_any_stored_file_is_judged_in_silence(folder, capsys):
         for _ in range(FLIPS):
             (folder / name).write_bytes(flipped(whole[name], chosen))
             statuses = main(["judge", str(folder)]), main(["report", str(folder)])
-            said = capsys.readouterr().err
+            message = capsys.readouterr().err
             if name == "journal.jsonl":  # Neither command reads it.
                 assert statuses == (0, 0)
-            elif name in FILES:  # These the judge writes again.
+            elif name in VERDICT_FILES:  # These the judge writes again.
                 assert statuses == (0, 0)
                 assert (folder / name).read_bytes() == whole[name]
             else:
                 assert statuses == (2, 2), name
-                assert said.count("\n") == 2
-                assert name in said
+                assert message.count("\n") == 2
+                assert name in message
             (folder / name).write_bytes(whole[name])
             (folder / "run.json").write_bytes(whole["run.json"])
 
 
-@pytest.mark.parametrize("name", [name for name in FILES if name in WITH_CHECKSUM])
+@pytest.mark.parametrize("name", [name for name in VERDICT_FILES if name in RUN_FILES])
 def test_verdicts_that_were_changed_are_not_reported(folder, capsys, name):
     with (folder / name).open("ab") as file:
         file.write(b" ")

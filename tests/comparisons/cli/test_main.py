@@ -30,12 +30,12 @@ def test_json_is_one_object_on_stdout_and_nothing_else(capsys):
     shown = capsys.readouterr()
     assert shown.err == ""
     assert shown.out.count("\n") == 1
-    answer = json.loads(shown.out)
-    assert list(answer) == ["model", "quantity", "case", "value", "u_num", "status", "unit", "seconds"]
-    assert answer["case"] == {"n": 2.0, "k": 0.4, "mu": 1.0}
-    assert answer["value"] == pytest.approx(1.7, abs=1e-12)  # (k + 3) / 2, Eq. 57 at n = 2
-    assert answer["status"] == "ok"
-    assert answer["unit"] == "pi Q^(2/n) dgamma z0^(2/n-1)"
+    content = json.loads(shown.out)
+    assert list(content) == ["model", "quantity", "case", "value", "u_num", "status", "unit", "seconds"]
+    assert content["case"] == {"n": 2.0, "k": 0.4, "mu": 1.0}
+    assert content["value"] == pytest.approx(1.7, abs=1e-12)  # (k + 3) / 2, Eq. 57 at n = 2
+    assert content["status"] == "ok"
+    assert content["unit"] == "pi Q^(2/n) dgamma z0^(2/n-1)"
 
 
 def test_poissons_ratio_is_part_of_the_case_when_given(capsys):
@@ -44,7 +44,7 @@ def test_poissons_ratio_is_part_of_the_case_when_given(capsys):
 
 
 def test_text_shows_the_digits_the_uncertainty_leaves(toys, capsys):
-    assert solve("truth") == 0
+    assert solve("exact") == 0
     assert "-P_c = 2.0000000000(10) pi Q^(2/n)" in capsys.readouterr().out
 
 
@@ -77,9 +77,9 @@ def test_a_failed_computation_has_status_4_and_no_value(toys, capsys, model, for
     assert "failed" in shown.out
     assert "Traceback" not in shown.out + shown.err
     if form == "json":
-        answer = json.loads(shown.out)
-        assert (answer["value"], answer["u_num"], answer["status"]) == (None, None, "failed")
-        assert answer["reason"]
+        content = json.loads(shown.out)
+        assert (content["value"], content["u_num"], content["status"]) == (None, None, "failed")
+        assert content["reason"]
 
 
 def with_case(n="2", k="0.4", mu="1", nu="0.3"):
@@ -101,7 +101,7 @@ def with_case(n="2", k="0.4", mu="1", nu="0.3"):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
+    ("arguments", "sentence"),
     [
         *[(with_case(n=n), "(0, inf)") for n in ("0", "-1", "-1e-3", "nan", "inf", "-inf")],
         *[(with_case(k=k), "[0, 1]") for k in ("-0.1", "-1e-9", "1.0001", "nan", "inf")],
@@ -125,13 +125,13 @@ def with_case(n="2", k="0.4", mu="1", nu="0.3"):
         ([], "COMMAND"),
     ],
 )
-def test_wrong_input_gets_one_sentence_and_status_2(capsys, arguments, says):
+def test_wrong_input_gets_one_sentence_and_status_2(capsys, arguments, sentence):
     assert main(arguments) == 2
     shown = capsys.readouterr()
     assert shown.out == ""
     assert shown.err.startswith("fscm-bench: ")
     assert shown.err.count("\n") == 1
-    assert says in shown.err
+    assert sentence in shown.err
 
 
 def test_input_a_model_refuses_has_status_2(toys, capsys):
@@ -207,18 +207,20 @@ def test_curve_asks_for_the_surface_at_pull_off(tmp_path, monkeypatch, capsys, q
 
 
 def test_curve_hands_on_poissons_ratio(toys, monkeypatch):
-    asked = []
-    monkeypatch.setattr("comparisons.cli.commands.curve.create", lambda name, nu: asked.append(nu) or create(name, nu))
-    assert main(["curve", "--model", "truth", *CASE, "--nu", "0.25"]) == 0
-    assert asked == [0.25]
-    assert main(["curve", "--model", "truth", *CASE, "--nu", "0.5"]) == 2
+    created = []
+    monkeypatch.setattr(
+        "comparisons.cli.commands.curve.create", lambda name, nu: created.append(nu) or create(name, nu)
+    )
+    assert main(["curve", "--model", "exact", *CASE, "--nu", "0.25"]) == 0
+    assert created == [0.25]
+    assert main(["curve", "--model", "exact", *CASE, "--nu", "0.5"]) == 2
 
 
 @pytest.mark.parametrize(("model", "status"), [("refuses", 0), ("fails", 4)])
 def test_a_model_without_a_curve_does_not_stop_the_others(toys, capsys, model, status):
-    assert main(["curve", "--model", model, "truth", *CASE]) == status
+    assert main(["curve", "--model", model, "exact", *CASE]) == status
     shown = capsys.readouterr()
-    assert set(pd.read_csv(io.StringIO(shown.out))["model"]) == {"truth"}
+    assert set(pd.read_csv(io.StringIO(shown.out))["model"]) == {"exact"}
     assert model in shown.err
 
 

@@ -7,11 +7,11 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.output.verdicts import FILES as VERDICTS
+from comparisons.data.file_names import VERDICT_FILES
 from comparisons.runs import computation as computing
 from comparisons.runs.cases import Case, load_grids
 from comparisons.runs.journal import Journal
-from comparisons.runs.tasks import Task, answer, compute, plan
+from comparisons.runs.tasks import Task, compute, evaluate_task, plan
 
 FILES = {
     "journal.jsonl",
@@ -25,7 +25,7 @@ FILES = {
     "gates.toml",
     "curves.csv",
     "curves.parquet",
-    *VERDICTS,
+    *VERDICT_FILES,
 }
 
 STANDING = """
@@ -72,7 +72,8 @@ def test_the_record_says_where_the_numbers_come_from(small_grid, tmp_path):
     assert record["arguments"] == {
         "tier": "full",
         "model": None,
-        "outside": {},
+        "grid": None,
+        "external": {},
         "gates": None,
         "jobs": 1,
         "out": str(tmp_path),
@@ -82,12 +83,12 @@ def test_the_record_says_where_the_numbers_come_from(small_grid, tmp_path):
     assert {"cpu", "cores", "system"} <= record["machine"].keys()
     assert all(library["threads"] == 1 for library in record["blas"])
     assert record["started"] <= record["finished"]
-    assert set(record["seconds"]["by_model"]) == {"truth", "ten-percent", "refuses"}
+    assert set(record["seconds"]["by_model"]) == {"exact", "ten-percent", "refuses"}
 
 
 def test_the_figure_and_numbers_of_the_paper_are_shown_where_there_are_some(tmp_path, monkeypatch, capsys):
     grid = STANDING.replace('"jkr"', '"md-improved"').replace("1.5, 2", "2")
-    monkeypatch.setattr("comparisons.cli.commands.run.grids", lambda tier: load_grids(grid))
+    monkeypatch.setattr("comparisons.pipeline.inputs.grids", lambda tier: load_grids(grid))
     run(tmp_path)
     assert (tmp_path / "fig16b_kappa.png").exists()
     assert "beside the published" in capsys.readouterr().out
@@ -177,7 +178,7 @@ def test_processes_give_the_rows_of_one_process():
 
 
 def test_a_row_names_the_case_and_the_work(toys):
-    row = answer(Task("truth", "pull_off_force", Case(2, 0.4, 1, 0.25)))
+    row = evaluate_task(Task("exact", "pull_off_force", Case(2, 0.4, 1, 0.25)))
     assert (row.n, row.k, row.mu, row.nu) == (2, 0.4, 1, 0.25)
     assert (row.value, row.u_num, row.size, row.iterations, row.residual) == (2.0, 1e-9, 3, 2, 1e-12)
     assert (row.model_version, row.unit, row.status, row.reason) == (

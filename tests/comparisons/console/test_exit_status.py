@@ -18,8 +18,9 @@ from comparisons.cli.main import main
 from comparisons.console.exit_status import FAILED, TRACEBACK, WRONG_INPUT, Terminated, guarded
 from comparisons.output.markdown import to_step_summary
 from comparisons.output.style import FORMATS, save
+from comparisons.runs.atomic_files import write_json
 from comparisons.runs.journal import Journal, alone_in
-from comparisons.runs.tables import write_json, write_table
+from comparisons.runs.tables import write_table
 
 SOLVE = '["solve", "--model", "jkr", "--quantity", "pull_off_force", "--n", "2", "--k", "0.4", "--mu", "1"]'
 ROOT = Path(__file__).resolve().parents[3]
@@ -35,7 +36,7 @@ def raising(error):
 
 
 @pytest.mark.parametrize(
-    ("error", "status", "says"),
+    ("error", "status", "sentence"),
     [
         (ValueError("n = 0 is outside (0, 300]"), WRONG_INPUT, "n = 0 is outside (0, 300]"),
         (KeyError("x"), FAILED, "internal error: KeyError: 'x'; please report it"),
@@ -48,12 +49,12 @@ def raising(error):
         (Terminated(), 143, "terminated"),
     ],
 )
-def test_an_exception_is_a_sentence_and_a_status(capsys, monkeypatch, error, status, says):
+def test_an_exception_is_a_sentence_and_a_status(capsys, monkeypatch, error, status, sentence):
     monkeypatch.delenv(TRACEBACK, raising=False)
     assert guarded(raising(error)) == status
     shown = capsys.readouterr()
     assert shown.out == ""
-    assert shown.err.startswith(f"fscm-bench: {says}")
+    assert shown.err.startswith(f"fscm-bench: {sentence}")
     assert shown.err.count("\n") == 1
     assert "Traceback" not in shown.err
 
@@ -91,18 +92,18 @@ def program(*, redirected, command='["list", "quantities"]', environment=None):
 @pytest.mark.parametrize("unbuffered", ["", "1"])
 @pytest.mark.parametrize("command", ['["list", "quantities"]', '["--help"]', SOLVE])
 def test_a_full_standard_output(command, unbuffered):
-    status, _, said = program(redirected="> /dev/full", command=command, environment={"PYTHONUNBUFFERED": unbuffered})
+    status, _, shown = program(redirected="> /dev/full", command=command, environment={"PYTHONUNBUFFERED": unbuffered})
     assert status == FAILED
-    assert said.startswith("fscm-bench: the standard output ")
-    assert said.endswith(f" cannot be written ({os.strerror(errno.ENOSPC)})\n")
-    assert said.count("\n") == 1
+    assert shown.startswith("fscm-bench: the standard output ")
+    assert shown.endswith(f" cannot be written ({os.strerror(errno.ENOSPC)})\n")
+    assert shown.count("\n") == 1
 
 
 def test_a_closed_standard_output():
-    status, _, said = program(redirected=">&-")
+    status, _, shown = program(redirected=">&-")
     assert status == FAILED
-    assert said.startswith("fscm-bench: the standard output is closed")
-    assert said.count("\n") == 1
+    assert shown.startswith("fscm-bench: the standard output is closed")
+    assert shown.count("\n") == 1
 
 
 @pytest.mark.parametrize("redirected", ["2>&-", pytest.param("2> /dev/full", marks=needs_full_device)])
@@ -114,17 +115,17 @@ def test_messages_that_cannot_be_written_change_no_status(redirected, command, s
 
 
 @pytest.mark.parametrize(
-    ("command", "says"),
+    ("command", "sentence"),
     [
         ('["solve", "--help"]', "usage: "),
         ('["list", "models"]', "md-improved"),
         (SOLVE, "1.7000"),
     ],
 )
-def test_python_without_docstrings(command, says):
-    status, shown, said = program(redirected="", command=command, environment={"PYTHONOPTIMIZE": "2"})
-    assert (status, said) == (0, "")
-    assert says in shown
+def test_python_without_docstrings(command, sentence):
+    status, shown, errors = program(redirected="", command=command, environment={"PYTHONOPTIMIZE": "2"})
+    assert (status, errors) == (0, "")
+    assert sentence in shown
 
 
 SLOW = """
@@ -161,8 +162,8 @@ def test_sigterm_ends_the_command_and_its_worker_processes(tmp_path):
         while len(list(started.iterdir())) < 2 and process.poll() is None:
             threading.Event().wait(0.05)
         process.send_signal(signal.SIGTERM)
-        said = process.stderr.read()
-    assert (process.returncode, said) == (143, "fscm-bench: terminated\n")
+        shown = process.stderr.read()
+    assert (process.returncode, shown) == (143, "fscm-bench: terminated\n")
     for file in started.iterdir():
         with pytest.raises(ProcessLookupError):
             os.kill(int(file.name), 0)
@@ -184,7 +185,7 @@ def full_disk(monkeypatch):
         os.close(handle)
         return open("/dev/full", mode)
 
-    monkeypatch.setattr("comparisons.runs.tables.os.fdopen", fdopen)
+    monkeypatch.setattr("comparisons.runs.atomic_files.os.fdopen", fdopen)
 
 
 def figure():
@@ -213,7 +214,7 @@ def test_a_full_disk_ends_in_a_sentence_that_names_the_file(full_disk, tmp_path,
 def test_a_full_disk_while_results_are_written_has_status_4(toys, full_disk, tmp_path, capsys):
     csv = tmp_path / "curve.csv"
     case = ["--n", "2", "--k", "0.4", "--mu", "1"]
-    assert main(["curve", "--model", "truth", *case, "--csv", str(csv)]) == FAILED
+    assert main(["curve", "--model", "exact", *case, "--csv", str(csv)]) == FAILED
     assert capsys.readouterr().err == f"fscm-bench: the file {csv} cannot be written ({os.strerror(errno.ENOSPC)})\n"
 
 
@@ -234,13 +235,13 @@ def test_a_summary_page_that_cannot_be_written_is_found_before_computing(
     small_grid, tmp_path, monkeypatch, capsys, arguments
 ):
     computed = []
-    monkeypatch.setattr("comparisons.cli.commands.run.complete", computed.append)
+    monkeypatch.setattr("comparisons.pipeline.run.complete", computed.append)
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(tmp_path))
     folder = ["--out", str(tmp_path / "out")] if arguments[0] == "run" else [str(tmp_path / "out")]
     assert main([*arguments, *folder]) == FAILED
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1
-    assert f"the file {tmp_path}, which the environment variable GITHUB_STEP_SUMMARY names, cannot be written" in said
+    shown = capsys.readouterr().err
+    assert shown.count("\n") == 1
+    assert f"the file {tmp_path}, which the environment variable GITHUB_STEP_SUMMARY names, cannot be written" in shown
     assert computed == []
 
 
@@ -266,9 +267,9 @@ def test_a_lock_of_another_user(tmp_path, monkeypatch):
 def test_a_lock_that_cannot_be_opened_has_status_4(small_grid, tmp_path, capsys):
     (tmp_path / ".lock").mkdir()
     assert main(["run", "--jobs", "1", "--out", str(tmp_path)]) == FAILED
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1
-    assert f"the file {tmp_path / '.lock'}, which keeps two processes" in said
+    shown = capsys.readouterr().err
+    assert shown.count("\n") == 1
+    assert f"the file {tmp_path / '.lock'}, which keeps two processes" in shown
 
 
 def loop(path):
@@ -277,9 +278,7 @@ def loop(path):
     return path
 
 
-@pytest.mark.parametrize(
-    "spec", ["folder", "folder/model.toml", "{loop}", "file.py:Model", "~nobody-of-this-name/model"]
-)
+@pytest.mark.parametrize("spec", ["folder", "folder/model.toml", "{loop}", "file.py:Model", "~no-such-user/model"])
 def test_a_model_in_a_loop_of_symbolic_links_is_wrong_input(tmp_path, capsys, spec):
     loop(tmp_path / "folder" / "model.toml")
     loop(tmp_path / "file.py")

@@ -2,9 +2,10 @@
 
 import pytest
 
-from comparisons.cli.commands import judge, run
 from comparisons.cli.main import main
 from comparisons.external.model_source import close_models
+from comparisons.pipeline import inputs
+from comparisons.pipeline.run import _described
 from comparisons.registry import identify
 from comparisons.runs.cases import load_grids
 from comparisons.runs.record import read_record
@@ -49,8 +50,7 @@ def once(write_model, tmp_path, tmp_path_factory, monkeypatch, capsys):
 
     The data are not in the folder of the model, whose digest would show the change.
     """
-    for command in (run, judge):
-        monkeypatch.setattr(command, "grids", lambda tier: load_grids(GRID))
+    monkeypatch.setattr(inputs, "grids", lambda tier: load_grids(GRID))
     (tmp_path / "gates.toml").write_text(GATE)
     data = tmp_path_factory.mktemp("elsewhere") / "data.txt"
     options = ["--jobs", "1", "--out", str(tmp_path / "out"), "--gates", str(tmp_path / "gates.toml")]
@@ -128,7 +128,7 @@ class Hashed:
 
 def test_what_was_hashed_is_in_the_record(write_model):
     names, models = identify([write_model("return Result(2.0, 0.0)")])
-    assert run._described(set(names), {name: Hashed(model) for name, model in models.items()}) == {
+    assert _described(set(names), {name: Hashed(model) for name, model in models.items()}) == {
         "stranger": {
             "version": models["stranger"].version,
             "citation": "A. Author",

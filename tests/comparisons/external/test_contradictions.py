@@ -3,12 +3,12 @@
 import pandas as pd
 import pytest
 
-from comparisons.cli.commands import run
 from comparisons.cli.main import main
 from comparisons.external.model_source import close_models
+from comparisons.pipeline import inputs
 from comparisons.registry import ExternalIdentity, create, identify
 from comparisons.runs.cases import Case, load_grids
-from comparisons.runs.tasks import Task, answer, evaluate
+from comparisons.runs.tasks import Task, evaluate, evaluate_task
 
 from .test_hostile_models import CASE, GOOD, GRID
 
@@ -22,7 +22,7 @@ BY_PROCESS = [
 
 @pytest.mark.parametrize("more", BY_PROCESS)
 def test_a_run_goes_on_with_a_model_that_names_itself_by_its_process(write_model, tmp_path, monkeypatch, more):
-    monkeypatch.setattr(run, "grids", lambda tier: load_grids(GRID))
+    monkeypatch.setattr(inputs, "grids", lambda tier: load_grids(GRID))
     out = tmp_path / "out"
     specs = [write_model(GOOD, name="good"), write_model(GOOD, more=more)]
     # With two processes each of them opens the model again.
@@ -45,7 +45,7 @@ def test_a_row_is_of_the_model_that_the_run_opened(write_model, more):
     spec = write_model(GOOD, more=more)
     (name,), external = identify([spec])
     close_models()
-    row = answer(Task(name, "pull_off_force", CASE, external[name]))
+    row = evaluate_task(Task(name, "pull_off_force", CASE, external[name]))
     assert (row.model, row.model_version) == (name, external[name].version)
     assert (row.status, row.value) == ("failed", None)
     assert row.reason.endswith(f"in a later process, and was {name} {external[name].version}")
@@ -54,7 +54,7 @@ def test_a_row_is_of_the_model_that_the_run_opened(write_model, more):
 @pytest.mark.parametrize("more", ["name = 'jkr' if len(sys.argv) else ''", "name = '<b>'"])
 def test_one_that_takes_a_name_it_may_not_have_fails_too(write_model, more):
     first = ExternalIdentity("stranger", "1 (0)", write_model(GOOD, more=more), "A. Author", "tests")
-    row = answer(Task("stranger", "pull_off_force", CASE, first))
+    row = evaluate_task(Task("stranger", "pull_off_force", CASE, first))
     assert (row.model, row.model_version, row.status) == ("stranger", "1 (0)", "failed")
 
 

@@ -10,12 +10,12 @@ from types import SimpleNamespace
 import pandas as pd
 import pytest
 
-from comparisons.cli.commands import run
 from comparisons.cli.main import main
 from comparisons.external.child import PATIENCE
 from comparisons.external.model_source import source_of
 from comparisons.external.process_model import ExternalModel, connect
 from comparisons.external.text_rules import model_name
+from comparisons.pipeline import inputs
 from comparisons.registry import create
 from comparisons.runs.cases import Case, load_grids
 from comparisons.runs.tasks import evaluate
@@ -287,7 +287,7 @@ mu = [1]
 
 
 def test_a_run_completes_the_others_and_its_files_are_its_own(write_model, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(run, "grids", lambda tier: load_grids(GRID))
+    monkeypatch.setattr(inputs, "grids", lambda tier: load_grids(GRID))
     monkeypatch.setenv("FSCM_BENCH_TIME_LIMIT", "0.5")
     out = tmp_path / "out"
     vandal = f"for file in Path({str(out)!r}).iterdir():\n    file.write_text('mine')\n    file.chmod(0o777)\n" + GOOD

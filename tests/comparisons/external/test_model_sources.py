@@ -9,10 +9,10 @@ import sys
 
 import pytest
 
-from comparisons.cli.commands import judge, run
 from comparisons.cli.main import main
 from comparisons.external.model_source import close_models
 from comparisons.model import HasCurve, Model
+from comparisons.pipeline import inputs
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
 from comparisons.runs.cases import Case, load_grids
@@ -104,11 +104,16 @@ def gates(tmp_path):
     return str(path)
 
 
+<<<<<<< HEAD
 def test_all_sources_give_the_same_rows_and_verdicts(
     data_source, installed_example, gates, tmp_path, monkeypatch, capsys
 ):
     for command in (run, judge):
         monkeypatch.setattr(command, "grids", lambda tier: load_grids(GRID))
+=======
+def test_all_doors_give_the_same_rows_and_verdicts(data_door, installed_example, gates, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(inputs, "grids", lambda tier: load_grids(GRID))
+>>>>>>> x2
     tables, verdicts = [], []
     for number, spec in enumerate((installed_example, FILE_SOURCE, data_source)):
         out = tmp_path / str(number)
@@ -165,7 +170,7 @@ def test_its_curve_is_drawn_beside_ours(installed_example, capsys):
 
 
 def test_a_run_goes_on_and_notices_that_a_model_changed(write_model, gates, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(run, "grids", lambda tier: load_grids(GRID))
+    monkeypatch.setattr(inputs, "grids", lambda tier: load_grids(GRID))
     out = tmp_path / "out"
 
     def once(body):

@@ -24,8 +24,8 @@ from comparisons.judging.summary import summarise
 from comparisons.output.verdicts import command
 from comparisons.quantities import CURVES as CURVE_QUANTITIES
 from comparisons.runs.cases import grids
-from comparisons.runs.tables import frame
-from comparisons.runs.tasks import answer, plan
+from comparisons.runs.rows import frame
+from comparisons.runs.tasks import evaluate_task, plan
 
 GRIDS = grids("quick")
 ALL = of_tier(load_gates(gates_text()), "quick")
@@ -259,7 +259,7 @@ def test_the_code_computes_what_is_committed():
     # Soft: the path has shallow folds, of which the first is the jump.
     chosen += [t for t in tasks if t.model == "fscm" and t.quantity == "jump_in_displacement" and t.case.mu == 5]
     chosen += [t for t in tasks if t.model == "fscm-stieltjes-400"][:1]
-    found = drift(ROWS, frame(answer(task) for task in chosen))
+    found = drift(ROWS, frame(evaluate_task(task) for task in chosen))
     assert found.empty, found.to_string()
 
 
@@ -270,7 +270,7 @@ def test_the_finite_elements_compute_what_is_committed():
         for task in plan(GRIDS)
         if task.model == "fem" and task.case.n == 5 and task.quantity not in CURVE_QUANTITIES
     ]
-    found = drift(ROWS, frame(answer(task) for task in chosen))
+    found = drift(ROWS, frame(evaluate_task(task) for task in chosen))
     assert found.empty, found.to_string()
 
 

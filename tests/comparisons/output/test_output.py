@@ -7,12 +7,13 @@ from xml.etree import ElementTree
 import pandas as pd
 import pytest
 
+from comparisons.data.file_names import VERDICT_FILES
 from comparisons.judging.summary import summarise
 from comparisons.numerics.number_text import exact, limits_text, short
 from comparisons.output.junit import junit
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown, to_step_summary
-from comparisons.output.verdicts import FILES, command, matrix, write_verdicts
+from comparisons.output.verdicts import command, matrix, write_verdicts
 
 ROW = {
     "gate": "ONE",
@@ -183,7 +184,7 @@ def test_the_matrix_is_worst_first():
 
 def test_the_files(tmp_path):
     write_verdicts(tmp_path, JUDGED, [], {})
-    assert {path.name for path in tmp_path.iterdir()} == set(FILES)
+    assert {path.name for path in tmp_path.iterdir()} == set(VERDICT_FILES)
     again = pd.read_parquet(tmp_path / "verdicts.parquet")
     assert again["verdict"].tolist() == JUDGED["verdict"].tolist()
     summary = pd.read_parquet(tmp_path / "summary.parquet")

@@ -10,7 +10,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.console import Console
 
-from comparisons.baseline import PAPER_BASELINE
 from comparisons.data.paper_values import PaperValue, paper_values
 from comparisons.judging.gates import load_gates
 from comparisons.judging.judge import judge
@@ -23,7 +22,8 @@ from comparisons.output.tables import (
     rich_table,
     statuses,
 )
-from comparisons.paper.cache import Task
+from comparisons.paper.baseline import PAPER_BASELINE
+from comparisons.paper.cache import CachedCall
 from comparisons.paper.studies.error_grid import errors, errors_at
 from comparisons.runs.cases import Case, Grid
 
@@ -166,7 +166,7 @@ def test_one_sign_of_kappa_in_tables_gates_and_error_maps(value, reference):
     grid = Grid("g", "", "quick", "fscm", ("jkr",), ("jump_out_displacement",), (Case(1.0, 0.4, 1),))
     (gate,) = load_gates(GATE)
     (judged,) = judge([gate], [grid], rows.assign(reason=""))["error"]
-    call = Task.of(errors_at, 1.0, 0.4, 1)
+    call = CachedCall.of(errors_at, 1.0, 0.4, 1)
     found = {row["model"]: {"value": row["value"], "u_num": 1e-9, "reason": ""} for row in rows.to_dict("records")}
     others = dict.fromkeys(("md-improved", "md-original"), found["jkr"])
     (mapped, *_) = errors(

@@ -12,6 +12,6 @@ def tables_of(tmp_path_factory):
     def tables(figure):
         cache = CallCache(tmp_path_factory.mktemp("paper") / "tasks.jsonl", "test")
         list(cache.work(figure.tasks(), 1))
-        return figure.tables(cache.answers)
+        return figure.tables(cache.results)
 
     return tables

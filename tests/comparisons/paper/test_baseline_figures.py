@@ -13,7 +13,7 @@ import pytest
 from comparisons.baseline import main
 from comparisons.paper.baseline import PAPER_BASELINE, changes, check, renew
 from comparisons.paper.registry import NAMES, paper_figures
-from comparisons.runs.tables import csv_text
+from comparisons.runs.csv_format import csv_text
 
 FOLDER = Path(__file__).parents[3] / PAPER_BASELINE
 #: Figures of closed forms, which take seconds; the others take minutes.

@@ -6,7 +6,7 @@ import math
 import pytest
 
 from comparisons.model import ComputationFailed, NotApplicable
-from comparisons.paper.cache import CallCache, Task
+from comparisons.paper.cache import CachedCall, CallCache
 
 MADE = []
 
@@ -31,7 +31,7 @@ def not_a_number(x):
 def work(path, tasks, fingerprint="a", jobs=1):
     cache = CallCache(path, fingerprint)
     made = list(cache.work(tasks, jobs))
-    return cache.answers, made
+    return cache.results, made
 
 
 @pytest.fixture(autouse=True)
@@ -40,43 +40,46 @@ def nothing_made():
 
 
 def test_each_call_is_made_once(tmp_path):
-    tasks = [Task.of(double, 1), Task.of(double, 2.5), Task.of(double, 1)]
+    tasks = [CachedCall.of(double, 1), CachedCall.of(double, 2.5), CachedCall.of(double, 1)]
     results, made = work(tmp_path / "j", tasks)
     assert made == tasks[:2]
     assert MADE == [1, 2.5]
-    assert results[Task.of(double, 2.5)] == {"value": 5.0, "name": "double"}
+    assert results[CachedCall.of(double, 2.5)] == {"value": 5.0, "name": "double"}
 
 
 def test_results_are_read_again(tmp_path):
-    work(tmp_path / "j", [Task.of(double, 1), Task.of(fail, 3)])
-    results, made = work(tmp_path / "j", [Task.of(double, 1), Task.of(double, 2), Task.of(fail, 3)])
-    assert made == [Task.of(double, 2)]
-    assert results[Task.of(double, 1)] == {"value": 2, "name": "double"}
+    work(tmp_path / "j", [CachedCall.of(double, 1), CachedCall.of(fail, 3)])
+    results, made = work(tmp_path / "j", [CachedCall.of(double, 1), CachedCall.of(double, 2), CachedCall.of(fail, 3)])
+    assert made == [CachedCall.of(double, 2)]
+    assert results[CachedCall.of(double, 1)] == {"value": 2, "name": "double"}
     with pytest.raises(ComputationFailed, match="3 does not converge"):
-        results[Task.of(fail, 3)]
+        results[CachedCall.of(fail, 3)]
 
 
 def test_a_torn_line_is_computed_again(tmp_path):
     path = tmp_path / "j"
-    work(path, [Task.of(double, 1), Task.of(double, 2)])
+    work(path, [CachedCall.of(double, 1), CachedCall.of(double, 2)])
     text = path.read_text()
     path.write_text(text[:-7])
-    _, made = work(path, [Task.of(double, 1), Task.of(double, 2)])
-    assert made == [Task.of(double, 2)]
-    assert path.read_text() == text
+    _, made = work(path, [CachedCall.of(double, 1), CachedCall.of(double, 2)])
+    assert made == [CachedCall.of(double, 2)]
+    # The same entries; only the seconds of the last one are others.
+    lines, before = path.read_text().splitlines(), text.splitlines()
+    assert lines[:-1] == before[:-1]
+    assert json.loads(lines[-1])["entry"]["item"] == json.loads(before[-1])["entry"]["item"]
 
 
 @pytest.mark.parametrize("function", [refuse, fail])
 def test_a_failure_is_a_result_that_raises(tmp_path, function):
-    results, _ = work(tmp_path / "j", [Task.of(function, 3), Task.of(double, 1)])
-    assert results[Task.of(double, 1)]["value"] == 2
+    results, _ = work(tmp_path / "j", [CachedCall.of(function, 3), CachedCall.of(double, 1)])
+    assert results[CachedCall.of(double, 1)]["value"] == 2
     with pytest.raises(ComputationFailed, match=rf"{function.__name__}\(3\): 3 "):
-        results[Task.of(function, 3)]
+        results[CachedCall.of(function, 3)]
 
 
 def test_nan_is_refused(tmp_path):
     with pytest.raises(ValueError, match="JSON"):
-        work(tmp_path / "j", [Task.of(not_a_number, 1)])
+        work(tmp_path / "j", [CachedCall.of(not_a_number, 1)])
 
 
 @pytest.mark.parametrize("text", ["no json\n", "[1]\n", json.dumps({"fingerprint": "a"}) + "\n{}\n"])
@@ -93,7 +96,7 @@ def test_results_of_other_code_are_refused(tmp_path):
 
 
 def test_calls_on_two_processes(tmp_path):
-    tasks = [Task("math:hypot", (3.0 * i, 4.0 * i)) for i in range(1, 5)]
+    tasks = [CachedCall("math:hypot", (3.0 * i, 4.0 * i)) for i in range(1, 5)]
     results, made = work(tmp_path / "j", tasks, jobs=2)
     assert set(made) == set(tasks)
     assert [results[call] for call in tasks] == [5.0, 10.0, 15.0, 20.0]

@@ -59,7 +59,7 @@ def pull_off(tmp_path_factory):
         patch.setattr(pull_off_models, "_SHAPES", (1.0, 2.0))
         cache = CallCache(tmp_path_factory.mktemp("pull_off") / "tasks.jsonl", "test")
         list(cache.work([call for figure in paper_figures for call in figure.tasks()], 1))
-        yield [figure.tables(cache.answers) for figure in paper_figures]
+        yield [figure.tables(cache.results) for figure in paper_figures]
 
 
 def test_pull_off_forces_tend_to_both_limits(pull_off):

@@ -25,7 +25,7 @@ DIRECT = [number for number in paper_values() if number.name in comparison._DIRE
 def results(tmp_path_factory):
     cache = CallCache(tmp_path_factory.mktemp("numbers") / "tasks.jsonl", "test")
     list(cache.work(map(comparison._critical, paper_values("critical_tabor_number")), 1))
-    return cache.answers
+    return cache.results
 
 
 @pytest.mark.parametrize(

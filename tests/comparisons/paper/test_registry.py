@@ -8,7 +8,7 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.model import ComputationFailed
 from comparisons.paper import registry
-from comparisons.paper.cache import Task
+from comparisons.paper.cache import CachedCall
 from comparisons.paper.paper_figure import PaperFigure
 from comparisons.paper.registry import FOLDERS, NAMES, paper_figures
 
@@ -20,7 +20,9 @@ def fail(x):
     raise ComputationFailed(f"{x} does not converge")
 
 
-FAILING = PaperFigure("99", "failing", "", lambda: [Task.of(fail, 1)], lambda results: results[Task.of(fail, 1)], None)
+FAILING = PaperFigure(
+    "99", "failing", "", lambda: [CachedCall.of(fail, 1)], lambda results: results[CachedCall.of(fail, 1)], None
+)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -86,7 +88,7 @@ def test_two_runs_give_the_same_bytes(tmp_path):
 
 
 def test_a_failed_task_leaves_out_its_own_figure_only(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("comparisons.cli.commands.paper.paper_figures", lambda names: [FAILING, *paper_figures(names)])
+    monkeypatch.setattr("comparisons.pipeline.figures.paper_figures", lambda names: [FAILING, *paper_figures(names)])
     assert main(["paper", "--figure", "2", "--jobs", "1", "--out", str(tmp_path)]) == 4
     printed = capsys.readouterr()
     assert "does not converge" in printed.err
@@ -96,7 +98,7 @@ def test_a_failed_task_leaves_out_its_own_figure_only(tmp_path, capsys, monkeypa
 
 
 def test_a_stored_failure_is_used_and_reported_and_computed_again_on_request(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("comparisons.cli.commands.paper.paper_figures", lambda names: [FAILING])
+    monkeypatch.setattr("comparisons.pipeline.figures.paper_figures", lambda names: [FAILING])
     arguments = ["paper", "--jobs", "1", "--out", str(tmp_path)]
     assert main(arguments) == 4
     assert "stored failures" not in capsys.readouterr().err

@@ -1,4 +1,4 @@
-"""What a run says of its origin is true."""
+"""The origin of a run in its record."""
 
 import base64
 import hashlib
@@ -67,7 +67,9 @@ def test_the_fingerprint_has_the_versions_that_numbers_depend_on(monkeypatch):
     assert provenance.code_digest() in before
     for name in ("numpy", "scipy"):
         with monkeypatch.context() as patch:
-            patch.setattr(provenance, "version", lambda asked, name=name: "0.0" if asked == name else version(asked))
+            patch.setattr(
+                provenance, "version", lambda package, name=name: "0.0" if package == name else version(package)
+            )
             assert provenance.fingerprint() != before
             assert f"{version(name)}, now " in provenance.differences(before, provenance.fingerprint())
     assert provenance.differences(before, before) == ""

@@ -76,7 +76,7 @@ def test_a_flipped_bit_never_changes_an_entry(path, capsys):
     first = journal(path)
     for entry in ENTRIES:
         first.add(entry)
-    whole, chosen, said = path.read_bytes(), random.Random(SEED), 0
+    whole, chosen, messages = path.read_bytes(), random.Random(SEED), 0
     for _ in range(FLIPS):
         damaged = bytearray(whole)
         damaged[chosen.randrange(len(whole))] ^= 1 << chosen.randrange(8)
@@ -85,13 +85,13 @@ def test_a_flipped_bit_never_changes_an_entry(path, capsys):
         # In the order of the file; what is missing is computed again.
         assert entries == [entry for entry in ENTRIES if entry in entries]
         assert len(entries) >= len(ENTRIES) - 2
-        told = "damaged lines" in capsys.readouterr().err
+        message = "damaged lines" in capsys.readouterr().err
         # The end of the last line is that of a line that was cut.
-        assert told or entries == ENTRIES or damaged[-1] != whole[-1]
-        said += told
+        assert message or entries == ENTRIES or damaged[-1] != whole[-1]
+        messages += message
         assert journal(path).entries == entries
         assert capsys.readouterr().err == ""
-    assert said > 0.9 * FLIPS
+    assert messages > 0.9 * FLIPS
 
 
 def test_damage_to_the_first_line_alone_loses_no_entry(path, capsys):

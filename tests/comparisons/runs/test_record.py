@@ -8,8 +8,17 @@ from comparisons.runs.environment import computing_environment, environment
 from comparisons.runs.record import read_record, write_record
 
 GOOD = {
-    "format": 3,
-    "arguments": {"tier": "quick", "model": None, "outside": {}, "gates": None, "jobs": 2, "out": "x"},
+    "format": 4,
+    "command_name": "run",
+    "arguments": {
+        "tier": "quick",
+        "grid": None,
+        "model": None,
+        "external": {},
+        "gates": None,
+        "jobs": 2,
+        "out": "x",
+    },
     "command": ["fscm-bench", "run"],
     "started": "2026-01-01T00:00:00+00:00",
     "finished": "2026-01-01T00:00:09+00:00",
@@ -39,7 +48,7 @@ def test_what_is_written_is_read(good, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("change", "says"),
+    ("change", "sentence"),
     [
         ({"format": 1}, "format"),
         ({"parts": [{"started": "2026-01-01T00:00:00+00:00"}]}, "parts"),
@@ -50,13 +59,13 @@ def test_what_is_written_is_read(good, tmp_path):
         ({"arguments": {"tier": "quick"}}, "arguments"),
     ],
 )
-def test_what_does_not_fit_is_neither_written_nor_read(good, tmp_path, change, says):
+def test_what_does_not_fit_is_neither_written_nor_read(good, tmp_path, change, sentence):
     path = tmp_path / "run.json"
-    with pytest.raises(RuntimeError, match=says):
+    with pytest.raises(RuntimeError, match=sentence):
         write_record(good | change, path)
     assert not path.exists()
     path.write_text(json.dumps({"files": {}, "sha256": "0" * 64} | good | change))
-    with pytest.raises(ValueError, match=says):
+    with pytest.raises(ValueError, match=sentence):
         read_record(path)
 
 

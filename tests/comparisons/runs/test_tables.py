@@ -11,18 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from comparisons.runs.tables import (
-    COLUMNS,
-    Row,
-    atomic,
-    csv_text,
-    frame,
-    plain_text,
-    prepare_folder,
-    writable_file,
-    write_json,
-    write_results,
-)
+from comparisons.runs.atomic_files import atomic, prepare_folder, writable_file, write_json
+from comparisons.runs.csv_format import csv_text, plain_text
+from comparisons.runs.rows import COLUMNS, Row, frame
+from comparisons.runs.tables import write_results
 
 
 def row(model="jkr", mu=1.0, value=1.5, **other):

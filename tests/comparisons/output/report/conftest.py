@@ -15,7 +15,8 @@ from comparisons.output.tables import largest, relative_error
 from comparisons.output.verdicts import write_verdicts
 from comparisons.runs.environment import computing_environment, environment
 from comparisons.runs.record import read_record, write_record
-from comparisons.runs.tables import Row, curve_frame, frame, write_curves, write_results, write_table
+from comparisons.runs.rows import Row, curve_frame, frame
+from comparisons.runs.tables import write_curves, write_results, write_table
 
 from .browsing import ARGUMENTS, DESKTOP, PATIENCE, package, programs, show
 
@@ -126,11 +127,13 @@ def write_run(folder: Path) -> Path:
     write_record(
         environment()
         | {
-            "format": 3,
+            "format": 4,
+            "command_name": "run",
             "arguments": {
                 "tier": "quick",
                 "model": [IMAGE, SCRIPT],
-                "outside": specs,
+                "grid": None,
+                "external": specs,
                 "gates": None,
                 "jobs": 2,
                 "out": LINE,

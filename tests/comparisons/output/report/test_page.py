@@ -14,7 +14,7 @@ from comparisons.output.report.page import make_page
 from comparisons.output.report.stored_run import read_folder
 from comparisons.output.report.table import Cell, Column, Row, Table, table_tex, without_empty
 from comparisons.output.style import model_styles
-from comparisons.runs.tables import csv_text
+from comparisons.runs.csv_format import csv_text
 
 
 @pytest.fixture(scope="module")
@@ -286,6 +286,6 @@ def test_a_folder_that_is_not_there(tmp_path, capsys):
 def test_the_models_of_a_run_are_described_in_its_record(small_grid, tmp_path):
     assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run")]) == 0
     record = json.loads((tmp_path / "run" / "run.json").read_text())
-    assert record["models"]["truth"] == {"version": "7", "citation": "none", "domain": "tests"}
+    assert record["models"]["exact"] == {"version": "7", "citation": "none", "domain": "tests"}
     assert main(["report", str(tmp_path / "run")]) == 0
     assert csv_text(pd.read_parquet(tmp_path / "run" / "verdicts.parquet")).count("TEN-PERCENT") == 4

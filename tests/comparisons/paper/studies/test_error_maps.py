@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from comparisons.models.bradley import rigid_pull_off
-from comparisons.paper.cache import CallCache, Task
+from comparisons.paper.cache import CachedCall, CallCache
 from comparisons.paper.studies.error_bands import bands, coefficients, rates
 from comparisons.paper.studies.error_grid import (
     CANDIDATES,
@@ -31,7 +31,7 @@ def few(tmp_path_factory):
     cases = [(1.0, 0.4, 0.01), (2.0, 0.4, 1.0), (2.0, 0.0, 5.0)]
     cache = CallCache(tmp_path_factory.mktemp("grid") / "tasks.jsonl", "test")
     list(cache.work(tasks(cases), 1))
-    return errors(cache.answers, cases, CANDIDATES).set_index(["quantity", "model", "n", "mu"])
+    return errors(cache.results, cases, CANDIDATES).set_index(["quantity", "model", "n", "mu"])
 
 
 def test_errors_are_relative_to_known_forces(few):
@@ -65,7 +65,7 @@ def test_the_maps_share_their_calls():
     needed = set(ERROR_MAPS_JUMPS.tasks())
     assert {call.arguments for call in needed if call.function.endswith(":errors_at")} == set(all_cases())
     assert needed >= set(onset_calls(all_cases()))
-    assert Task.of(errors_at, 2.0, 0.4, TABOR[0]) in ERROR_MAPS_JUMPS.tasks()
+    assert CachedCall.of(errors_at, 2.0, 0.4, TABOR[0]) in ERROR_MAPS_JUMPS.tasks()
 
 
 def test_the_map_is_where_it_is_labelled():
@@ -111,7 +111,7 @@ def test_the_onset_is_just_above_the_critical_tabor_number(tmp_path):
     cache = CallCache(tmp_path / "tasks.jsonl", "test")
     list(cache.work(onset_calls([(2.0, 0.0, 1.0), (2.0, 0.0, 5.0)]), 1))
     shown = [("jump_in_displacement", "semi-rigid"), ("jump_out_displacement", "jkr")]
-    table = onset_errors(cache.answers, [(2.0, 0.0, 1.0)], shown)
+    table = onset_errors(cache.results, [(2.0, 0.0, 1.0)], shown)
     assert table["critical"].to_numpy() == pytest.approx(0.69721461, abs=1e-8)
     assert table["mu"].to_numpy() == pytest.approx(1.001 * 0.69721461, abs=1e-8)
     # Where the jumps merge the full model has one displacement for both.

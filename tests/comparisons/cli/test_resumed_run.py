@@ -8,13 +8,13 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.model import ComputationFailed
-from comparisons.paper.cache import Call, CallCache
+from comparisons.paper.cache import CachedCall, CallCache
 from comparisons.runs import computation as computing
-from comparisons.runs import reevaluation, row_journal
+from comparisons.runs import part_journal, reevaluation, row_journal
 from comparisons.runs.cases import Case
 from comparisons.runs.record import read_record
 from comparisons.runs.tables import read_table
-from comparisons.runs.tasks import Task, answer, compute
+from comparisons.runs.tasks import Task, compute, evaluate_task
 
 from .test_run import interrupt_after, run
 
@@ -23,32 +23,32 @@ def test_stored_failures_are_used_and_this_is_said(small_grid, tmp_path, capsys)
     assert run(tmp_path, "--model", "ten-percent", "fails") == 4
     assert "stored failures" not in capsys.readouterr().err
     assert run(tmp_path, "--model", "ten-percent", "fails") == 4
-    said = capsys.readouterr().err
-    assert "0 computations" in said
-    assert "4 stored failures of fails are used; --retry-failed computes them again" in said
+    message = capsys.readouterr().err
+    assert "0 computations" in message
+    assert "4 stored failures of fails are used; --retry-failed computes them again" in message
 
 
 def test_stored_failures_are_computed_again_when_it_is_asked_for(small_grid, tmp_path, monkeypatch, capsys):
     assert run(tmp_path, "--model", "ten-percent", "fails") == 4
-    asked = []
+    computed = []
 
     def counted(tasks, jobs):
-        asked.extend(task.model for task in tasks)
+        computed.extend(task.model for task in tasks)
         return compute(tasks, jobs)
 
     monkeypatch.setattr(computing, "compute", counted)
     assert run(tmp_path, "--model", "ten-percent", "fails", "--retry-failed") == 4
-    assert asked == ["fails"] * 4
-    said = capsys.readouterr().err
-    assert "4 computations on 1 processes, 8 are stored" in said
-    assert "stored failures" not in said
+    assert computed == ["fails"] * 4
+    message = capsys.readouterr().err
+    assert "4 computations on 1 processes, 8 are stored" in message
+    assert "stored failures" not in message
     table = read_table(tmp_path / "results.parquet")
     assert not table.duplicated(["model", "quantity", "n", "k", "mu"]).any()
 
 
 def test_a_sweep_retries_too(toys, tmp_path, capsys):
     (tmp_path / "grid.toml").write_text(
-        '[[grid]]\nid = "mine"\ntitle = "Mine"\nreference = "truth"\nmodels = ["fails"]\n'
+        '[[grid]]\nid = "mine"\ntitle = "Mine"\nreference = "exact"\nmodels = ["fails"]\n'
         'quantities = ["pull_off_force"]\nn = [2]\nk = [0]\nmu = [1, 2]\n'
     )
     arguments = ["sweep", str(tmp_path / "grid.toml"), "--jobs", "1", "--out", str(tmp_path / "out")]
@@ -63,8 +63,8 @@ def fail(x):
     raise ComputationFailed("not enough iterations")
 
 
-def test_a_workshop_knows_its_failures_and_forgets_them(tmp_path):
-    calls = [Call.of(fail, 1), Call.of(abs, -2)]
+def test_a_cache_knows_its_failures_and_forgets_them(tmp_path):
+    calls = [CachedCall.of(fail, 1), CachedCall.of(abs, -2)]
     list(CallCache(tmp_path / "calls", "x").work(calls, 1))
     stored = CallCache(tmp_path / "calls", "x")
     assert stored.failed(calls) == calls[:1]
@@ -73,11 +73,11 @@ def test_a_workshop_knows_its_failures_and_forgets_them(tmp_path):
 
 
 def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path, monkeypatch, capsys):
-    here = row_journal.computing_environment()
+    here = part_journal.computing_environment()
     there = here | {"python": "3.99.0", "cpu": "another"}
     with monkeypatch.context() as patch:
         patch.setattr(computing, "compute", interrupt_after(5, BrokenProcessPool))
-        patch.setattr(row_journal, "computing_environment", lambda: there)
+        patch.setattr(part_journal, "computing_environment", lambda: there)
         assert run(tmp_path) == 4
     assert run(tmp_path) == 0
     record = read_record(tmp_path / "run.json")
@@ -106,9 +106,9 @@ def test_a_row_whose_line_is_damaged_is_computed_again(small_grid, tmp_path, cap
     journal.write_text("".join(lines))
     capsys.readouterr()
     assert run(tmp_path) == 0
-    said = capsys.readouterr().err
-    assert "damaged lines (1)" in said
-    assert "1 computations on 1 processes, 11 are stored" in said
+    message = capsys.readouterr().err
+    assert "damaged lines (1)" in message
+    assert "1 computations on 1 processes, 11 are stored" in message
     assert (tmp_path / "results.csv").read_bytes() == whole
 
 
@@ -118,9 +118,9 @@ def test_results_with_another_numpy_are_refused_and_it_is_said_which(small_grid,
     monkeypatch.setattr(row_journal, "fingerprint", lambda: now.replace("NumPy ", "NumPy 0."))
     capsys.readouterr()
     assert run(tmp_path) == 2
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1
-    assert "another version of the code, of NumPy or of SciPy (NumPy " in said
+    message = capsys.readouterr().err
+    assert message.count("\n") == 1
+    assert "another version of the code, of NumPy or of SciPy (NumPy " in message
 
 
 @pytest.mark.parametrize(
@@ -133,7 +133,7 @@ def test_results_with_another_numpy_are_refused_and_it_is_said_which(small_grid,
     ],
 )
 def test_rows_agree_within_both_uncertainties(toys, change, agree):
-    row = answer(Task("truth", "pull_off_force", Case(2, 0, 1)))
+    row = evaluate_task(Task("exact", "pull_off_force", Case(2, 0, 1)))
     assert reevaluation.same(row, replace(row, **change)) == agree
 
 
@@ -147,6 +147,6 @@ def test_rows_agree_within_both_uncertainties(toys, change, agree):
     ],
 )
 def test_curves_agree_point_by_point(toys, points, agree):
-    row = answer(Task("truth", "pull_off_force", Case(2, 0, 1)))
+    row = evaluate_task(Task("exact", "pull_off_force", Case(2, 0, 1)))
     stored = replace(row, value=None, u_num=None, points=([0.0, 2.0], [1.0, 5.0], 1e-3))
     assert reevaluation.same(stored, replace(stored, points=points)) == agree

@@ -1,0 +1,63 @@
+"""Names of the files in the folder of a run; `comparisons.runs.folder` makes paths of them."""
+
+from __future__ import annotations
+
+__all__ = [
+    "AGREEMENT",
+    "CALLS",
+    "CURVES",
+    "FIGURES",
+    "GATES",
+    "GATES_TEXT",
+    "GRID_TEXT",
+    "JOURNAL",
+    "JUNIT",
+    "KAPPA",
+    "KAPPA_FIGURE",
+    "LARGEST_KAPPA",
+    "LOCK",
+    "RECORD",
+    "REFERENCES",
+    "REPORT",
+    "RESULTS",
+    "RUN_FILES",
+    "SUMMARY",
+    "TABLES",
+    "VERDICTS",
+    "VERDICTS_LATEX",
+    "VERDICTS_MARKDOWN",
+    "VERDICT_FILES",
+    "VERDICT_TABLES",
+]
+
+#: The record of the run, the journals of its rows and of the function calls of the paper, and the lock.
+RECORD, JOURNAL, CALLS, LOCK = "run.json", "journal.jsonl", "calls.jsonl", ".lock"
+
+#: Copies of the gates and of the grids of the run, whose own files may change.
+GATES_TEXT, GRID_TEXT = "gates.toml", "grid.toml"
+
+#: Tables: each is written as CSV and as Parquet.
+RESULTS, CURVES, KAPPA, LARGEST_KAPPA, AGREEMENT = "results", "curves", "kappa", "largest_kappa", "agreement"
+VERDICTS, GATES, SUMMARY = "verdicts", "gates", "summary"
+VERDICT_TABLES = (VERDICTS, GATES, SUMMARY)
+TABLES = (RESULTS, CURVES, KAPPA, LARGEST_KAPPA, AGREEMENT, *VERDICT_TABLES)
+
+#: Pictures: each is written as PNG and as PDF.
+KAPPA_FIGURE, REFERENCES = "fig16b_kappa", "references"
+FIGURES = (KAPPA_FIGURE, AGREEMENT, REFERENCES)
+
+VERDICTS_MARKDOWN, VERDICTS_LATEX, JUNIT, REPORT = "verdicts.md", "verdicts.tex", "junit.xml", "report.html"
+
+#: What is written when a run is judged.
+VERDICT_FILES = (
+    *(f"{table}.{suffix}" for table in VERDICT_TABLES for suffix in ("csv", "parquet")),
+    *(VERDICTS_MARKDOWN, VERDICTS_LATEX, JUNIT),
+)
+
+#: Files of a run that have a checksum in its record, as far as they exist.
+RUN_FILES = (
+    *(f"{table}.{suffix}" for table in TABLES if table not in VERDICT_TABLES for suffix in ("csv", "parquet")),
+    *(f"{figure}.{suffix}" for figure in FIGURES for suffix in ("png", "pdf")),
+    *(GATES_TEXT, GRID_TEXT),
+    *VERDICT_FILES,
+)

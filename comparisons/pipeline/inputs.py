@@ -1,0 +1,130 @@
+"""Inputs of a run: its cases and its gates, read and checked before anything is computed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path
+
+from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
+from comparisons.judging.selection import load_user_gates
+from comparisons.runs.cases import TIERS, Grid, cases_text, grids, grids_for, load_grids
+
+__all__ = ["Cases", "Gates", "load_cases", "read_gates"]
+
+#: The name of a text that is in no file, for messages and for the record.
+_TEXT = "a text"
+
+
+@dataclass(frozen=True, slots=True)
+class Cases:
+    """The grids of a run.
+
+    Attributes
+    ----------
+    grids : list of Grid
+    tier : str or None
+        Of the standing cases; None if the grids are others.
+    text : str
+        The TOML text that declares them.
+    source : str or None
+        The file of the text; None for the standing cases.
+    """
+
+    grids: list[Grid]
+    tier: str | None
+    text: str
+    source: str | None
+
+    @property
+    def sha256(self) -> str:
+        """The checksum of the text."""
+        return sha256(self.text.encode()).hexdigest()
+
+    @property
+    def tier_of_gates(self) -> str:
+        """The tier up to which gates are used: without standing cases, all of them."""
+        return self.tier or TIERS[-1]
+
+
+@dataclass(frozen=True, slots=True)
+class Gates:
+    """The gates of a run: those that are judged, and the text of all of them with its file (None: the standing one)."""
+
+    gates: list[Gate]
+    text: str
+    source: str | None
+
+    @property
+    def sha256(self) -> str:
+        """The checksum of the text."""
+        return sha256(self.text.encode()).hexdigest()
+
+
+def load_cases(cases: str | Path, models: Sequence[str] | None) -> Cases:
+    """Return the grids of a run.
+
+    Parameters
+    ----------
+    cases : str or Path
+        A tier of the standing cases, the path of a file of grids, or the text of such a file.
+    models : sequence of str or None
+        Models in place of those each grid names; the standing cases are then without those of verification.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be read, or a grid is not admissible.
+
+    Examples
+    --------
+    >>> load_cases("quick", None).tier
+    'quick'
+    """
+    if isinstance(cases, str) and cases in TIERS:
+        return Cases(grids_for(grids(cases), models), cases, cases_text(), None)
+    if isinstance(cases, str) and "\n" not in cases:
+        raise ValueError(
+            f"the cases {cases!r} are neither a tier ({', '.join(TIERS)}) nor the text of [[grid]] tables; "
+            "a file is given as a pathlib.Path"
+        )
+    source = str(cases) if isinstance(cases, Path) else _TEXT
+    text = _read(cases) if isinstance(cases, Path) else cases
+    return Cases(load_grids(text, tier=TIERS[0], source=source), None, text, source)
+
+
+def read_gates(
+    gates: str | Path | None, cases: Cases, models: Sequence[str] | None, *, standing: bool = False
+) -> Gates:
+    """Return the gates of a run.
+
+    Parameters
+    ----------
+    gates : str, Path or None
+        The path of a gates file, or the text of one; None for the standing gates.
+    cases : Cases
+    models : sequence of str or None
+        Models in place of those each grid names.
+    standing : bool
+        Whether the file is a copy of the standing gates: gates about models that are not computed are then usual.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be read, a gate is not admissible, or a gate needs a model that is not computed.
+    """
+    text = gates if isinstance(gates, str) else gates_text(gates)
+    if gates is None or standing:
+        return Gates(of_tier(load_gates(text), cases.tier_of_gates), text, None)
+    source = str(gates) if isinstance(gates, Path) else _TEXT
+    return Gates(load_user_gates(text, source, cases.tier_of_gates, cases.grids, models), text, source)
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise ValueError(f"the file {path} cannot be read ({error.strerror})") from None
+    except UnicodeDecodeError:
+        raise ValueError(f"the file {path} is not UTF-8 text") from None

@@ -1,0 +1,96 @@
+"""Tables and pictures of a run, made of its rows and written into its folder."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import pandas as pd
+
+from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA
+from comparisons.output.figures.registry import figures_of
+from comparisons.output.style import save
+from comparisons.output.tables import agreement, largest, relative_error
+from comparisons.pipeline.inputs import Cases
+from comparisons.quantities import CURVES as CURVE_QUANTITIES
+from comparisons.runs.cases import VERIFICATION
+from comparisons.runs.folder import RunFolder
+from comparisons.runs.rows import Row, curve_frame, frame
+from comparisons.runs.tables import write_curves, write_results, write_table
+from comparisons.runs.tasks import plan
+
+__all__ = ["RunTables", "make_tables", "write_pictures", "write_tables"]
+
+#: The two references, which are compared whenever a run has both.
+REFERENCE, SECOND_REFERENCE = "fscm", "fem"
+
+
+@dataclass(frozen=True, slots=True)
+class RunTables:
+    """Tables of a run.
+
+    Attributes
+    ----------
+    results, curves : DataFrame
+        The rows, with the columns of `comparisons.runs.rows`.
+    kappa : DataFrame
+        Relative errors, as of `comparisons.output.tables.relative_error`.
+    largest : DataFrame
+        The largest of them, as of `comparisons.output.tables.largest`.
+    agreement : DataFrame
+        Differences of the two references; empty unless the run has both.
+    """
+
+    results: pd.DataFrame
+    curves: pd.DataFrame
+    kappa: pd.DataFrame
+    largest: pd.DataFrame
+    agreement: pd.DataFrame
+
+
+def make_tables(rows: Sequence[Row], cases: Cases, models: list[str] | None) -> RunTables:
+    """Return the tables of a run.
+
+    Parameters
+    ----------
+    rows : sequence of Row
+    cases : Cases
+    models : list of str or None
+        Models in place of those each grid names.
+    """
+    results = frame(row for row in rows if row.quantity not in CURVE_QUANTITIES)
+    curves = curve_frame(row for row in rows if row.quantity in CURVE_QUANTITIES)
+    kappa = _kappa(results, cases, models)
+    return RunTables(results, curves, kappa, largest(kappa), agreement(results, SECOND_REFERENCE, REFERENCE))
+
+
+def _kappa(results: pd.DataFrame, cases: Cases, models: list[str] | None) -> pd.DataFrame:
+    """Return the relative errors over the grids that are not for the verification of the references."""
+    chosen = [grid for grid in cases.grids if cases.tier is None or VERIFICATION not in grid.tags]
+    tables = []
+    for reference in sorted({grid.reference for grid in chosen}):
+        keys = {task.key for task in plan((grid for grid in chosen if grid.reference == reference), models)}
+        of_grids = [
+            (*row[:5], None if pd.isna(row[5]) else row[5]) in keys
+            for row in results[["model", "quantity", "n", "k", "mu", "nu"]].itertuples(index=False)
+        ]
+        tables.append(relative_error(results[of_grids], reference))
+    return pd.concat(tables, ignore_index=True)
+
+
+def write_tables(tables: RunTables, folder: RunFolder) -> None:
+    """Write the tables as CSV and Parquet."""
+    write_results(tables.results, folder.results)
+    write_curves(tables.curves, folder.curves)
+    write_table(tables.kappa, folder.kappa)
+    write_table(tables.largest, folder.largest_kappa)
+    if not tables.agreement.empty:
+        write_table(tables.agreement, folder.agreement)
+
+
+def write_pictures(tables: RunTables, folder: RunFolder) -> None:
+    """Draw the pictures of the standing cases, as far as there are rows for them."""
+    shown = {KAPPA: tables.kappa, AGREEMENT: tables.agreement, CURVES: tables.curves}
+    for name, figure in figures_of(shown):
+        for path in folder.figure(name):
+            save(figure, path)

@@ -1,0 +1,76 @@
+"""Tables as CSV text that gives every number back exactly and that a spreadsheet does not evaluate."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import pandas as pd
+
+__all__ = ["csv_text", "plain_text"]
+
+_PARAMETERS = ("n", "k", "mu", "nu")
+
+#: Start of a text that a spreadsheet evaluates, or that `csv_text` has marked already: both get an apostrophe, so that
+#: `plain_text` can take away one.
+_FORMULA = re.compile(r"'*[=+\-@\t]")
+
+
+def csv_text(table: pd.DataFrame) -> str:
+    """Return a table as CSV with 17 significant digits, which give every double back exactly.
+
+    The parameters of a case are written as short as they can be exactly: 0.4, not 0.40000000000000002.  A text that a
+    spreadsheet would evaluate as a formula gets an apostrophe before it; `plain_text` takes it away.
+
+    Examples
+    --------
+    >>> print(csv_text(pd.DataFrame({"mu": [0.4], "value": [0.4], "reason": ["=1+1"]})), end="")
+    mu,value,reason
+    0.4,0.40000000000000002,'=1+1
+    """
+    table = _without_formulas(table)
+    short = {
+        name: table[name].map(lambda x: "" if pd.isna(x) else repr(float(x)).removesuffix(".0"))
+        for name in _PARAMETERS
+        if name in table
+    }
+    return table.assign(**short).to_csv(index=False, float_format="%.17g", lineterminator="\n")
+
+
+def plain_text(cell: str) -> str:
+    """Return the text that `csv_text` wrote as a cell.
+
+    Examples
+    --------
+    >>> plain_text("'=1+1"), plain_text("-0.5"), plain_text("it's")
+    ('=1+1', '-0.5', "it's")
+    """
+    return cell[1:] if cell.startswith("'") and _FORMULA.match(cell[1:].lstrip()) else cell
+
+
+def _without_formulas(table: pd.DataFrame) -> pd.DataFrame:
+    changed = {}
+    for name in table.columns.difference(_PARAMETERS, sort=False):
+        if not pd.api.types.is_numeric_dtype(table[name]):
+            cells = [_cell(value) for value in table[name]]
+            # A column without formulas keeps its type, on which the digits of its numbers depend.
+            if any(cell is not value for cell, value in zip(cells, table[name], strict=True)):
+                changed[name] = pd.Series(cells, index=table.index, dtype=object)
+    # Models may name columns of their curves.
+    return table.assign(**changed).rename(columns=_cell)
+
+
+def _cell(value: Any) -> Any:
+    if not isinstance(value, str):
+        return value
+    # The CSV writer does not quote a carriage return, at which readers begin another row.
+    text = value.replace("\r", " ") if "\r" in value else value
+    return f"'{text}" if _FORMULA.match(text.lstrip()) and not _is_number(text) else text
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

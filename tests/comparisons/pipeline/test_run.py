@@ -1,0 +1,164 @@
+"""A run, a sweep and the figures of the paper as functions: one folder, one record."""
+
+import re
+import subprocess
+import sys
+
+import pandas as pd
+import pytest
+
+import comparisons
+from comparisons.cli.main import main
+from comparisons.data.file_names import RUN_FILES, VERDICT_FILES
+from comparisons.judging.summary import summarise
+from comparisons.pipeline.figures import make_figures
+from comparisons.pipeline.judgement import judge_folder
+from comparisons.pipeline.run import run
+from comparisons.runs.record import check_files, read_record
+from comparisons.runs.tables import read_table
+
+GRID = """
+[[grid]]
+id = "mine"
+title = "Mine"
+reference = "exact"
+models = ["ten-percent", "refuses"]
+quantities = ["pull_off_force"]
+n = [2]
+k = [0, 0.4]
+mu = [0.1, 1]
+"""
+
+
+def names(folder):
+    return {path.name for path in folder.iterdir()}
+
+
+def test_the_function_and_the_command_write_the_same_files(small_grid, tmp_path):
+    finished = run("quick", folder=tmp_path / "function")
+    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "command")]) == 0
+    assert str(finished.verdict) == "PASS"
+    assert finished.counts == {"all": 12, "resumed": 0, "ok": 8, "not-applicable": 4}
+    assert finished.failures == ()
+    assert names(tmp_path / "function") == names(tmp_path / "command")
+    for name in set(RUN_FILES) & names(tmp_path / "function") - {"results.parquet"}:
+        assert (tmp_path / "function" / name).read_bytes() == (tmp_path / "command" / name).read_bytes(), name
+
+
+def test_nothing_is_printed(small_grid, tmp_path, capsys):
+    run("quick", folder=tmp_path)
+    judge_folder(tmp_path)
+    assert capsys.readouterr().out == ""
+
+
+def test_the_summary_by_gate_is_stored(small_grid, tmp_path):
+    judgement = run("quick", folder=tmp_path).judgement
+    stored = read_table(tmp_path / "summary.parquet")
+    made = summarise(judgement.verdicts)
+    assert stored[["gate", "candidate", "cases"]].to_dict() == made[["gate", "candidate", "cases"]].to_dict()
+    assert stored["verdict"].tolist() == ["PASS"]
+    assert pd.read_csv(tmp_path / "summary.csv")["gate"].tolist() == ["TEN-PERCENT"]
+
+
+def test_a_sweep_has_the_record_of_a_run_and_no_verdicts(toys, tmp_path):
+    (tmp_path / "mine.toml").write_text(GRID)
+    out = tmp_path / "out"
+    assert main(["sweep", str(tmp_path / "mine.toml"), "--jobs", "1", "--out", str(out)]) == 0
+    record = read_record(out / "run.json")
+    assert record["command_name"] == "sweep"
+    assert record["arguments"]["tier"] is None
+    assert record["arguments"]["grid"] == str(tmp_path / "mine.toml")
+    assert (out / "grid.toml").read_text() == GRID
+    assert record["verdicts"] == {}
+    assert record["parts"][0]["computations"] == 12
+    assert names(out) == {*record["files"], "run.json", "journal.jsonl", ".lock"}
+    assert not names(out) & {*VERDICT_FILES, "gates.toml"}
+    check_files(record, out)
+
+
+def test_a_sweep_after_a_run_leaves_no_verdicts_of_the_run(small_grid, tmp_path):
+    run("quick", folder=tmp_path)
+    assert set(VERDICT_FILES) <= names(tmp_path)
+    run(GRID, folder=tmp_path)
+    assert not names(tmp_path) & {*VERDICT_FILES, "gates.toml"}
+    assert run("quick", folder=tmp_path).counts["resumed"] == 12
+    assert set(VERDICT_FILES) <= names(tmp_path)
+    assert "grid.toml" not in names(tmp_path)
+
+
+def test_a_grid_file_of_the_user_is_not_replaced(toys, tmp_path):
+    (tmp_path / "grid.toml").write_text("# mine")
+    with pytest.raises(ValueError, match=r"grid\.toml is not of a run"):
+        run(GRID, folder=tmp_path)
+    assert (tmp_path / "grid.toml").read_text() == "# mine"
+
+
+def test_own_grids_can_be_judged_at_once_and_later(small_grid, tmp_path, capsys):
+    finished = run(GRID, small_grid, folder=tmp_path / "once")
+    assert str(finished.verdict) == "PASS"
+    assert read_record(tmp_path / "once" / "run.json")["command_name"] == "run"
+    run(GRID, folder=tmp_path / "later")
+    assert main(["judge", str(tmp_path / "later")]) == 2
+    assert "a sweep, which has no gates" in capsys.readouterr().err
+    (tmp_path / "gates.toml").write_text(small_grid.replace("upper = 0.11", "upper = 0.095"))
+    assert main(["judge", str(tmp_path / "later"), "--gates", str(tmp_path / "gates.toml")]) == 1
+    assert read_record(tmp_path / "later" / "run.json")["command_name"] == "run"
+    assert main(["judge", str(tmp_path / "later")]) == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ({"cases": "quik"}, "the cases 'quik' are neither a tier"),
+        ({"cases": GRID, "gates": "[[gate"}, "a text is not TOML"),
+        ({"cases": GRID, "models": ["nonesuch"]}, "unknown model"),
+        ({"cases": GRID, "jobs": 0}, "0 is outside 1, 2, ..."),
+    ],
+)
+def test_wrong_arguments_are_refused_before_anything_is_written(toys, tmp_path, arguments, sentence):
+    with pytest.raises(ValueError, match=re.escape(sentence)):
+        run(**arguments, folder=tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_failures_are_listed(toys, tmp_path):
+    finished = run(GRID, models=["fails"], folder=tmp_path)
+    assert [row.model for row in finished.failures] == ["fails"] * 4
+    assert finished.counts["failed"] == 4
+    assert finished.verdict is None
+
+
+def test_the_figures_of_the_paper_have_a_record(tmp_path):
+    finished = make_figures(["2"], tmp_path)
+    assert finished.failures == {}
+    record = read_record(tmp_path / "run.json")
+    assert record["command_name"] == "paper"
+    assert record["arguments"] == {"figure": ["2"], "jobs": 1, "out": str(tmp_path)}
+    assert set(record["files"]) == {path.name for path in finished.figures[0].files}
+    assert sum(part["computations"] for part in record["parts"]) == record["rows"]["all"]
+    make_figures(["2"], tmp_path)
+    assert read_record(tmp_path / "run.json")["rows"]["resumed"] == record["rows"]["all"]
+    with pytest.raises(ValueError, match="figures of the paper, which no gate judges"):
+        judge_folder(tmp_path)
+    (tmp_path / "fig02_kernel_functions.csv").write_text("changed")
+    with pytest.raises(ValueError, match="write it again by fscm-bench paper"):
+        check_files(record, tmp_path)
+
+
+def test_names_are_exported_and_the_import_is_light():
+    assert all(getattr(comparisons, name) is not None for name in comparisons.__all__)
+    assert set(comparisons.__all__) <= set(dir(comparisons))
+    with pytest.raises(AttributeError, match="no attribute 'nonesuch'"):
+        _ = comparisons.nonesuch
+    code = "import sys, comparisons; print('pandas' in sys.modules, 'numpy' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "False False\n"
+
+
+def test_the_package_runs_as_a_module():
+    command = [sys.executable, "-m", "comparisons"]
+    done = subprocess.run([*command, "--version"], capture_output=True, text=True, check=True)
+    assert done.stdout.startswith("fscm-bench ")
+    done = subprocess.run([*command, "list"], capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
