@@ -23,13 +23,8 @@ __all__ = ["TIERS", "VERIFICATION", "Case", "Grid", "cases_text", "grids", "grid
 #: A tier holds its own grids and those of every tier before it.
 TIERS = ("quick", "full")
 
-<<<<<<< HEAD
-#: Grids with this tag are about the references themselves.  They are not computed for the models that a user names, and
-#: are not in the tables of errors.
-=======
 #: Grids with this tag verify the references themselves.  A run with --model does not compute them, and they are not in
 #: its tables of errors.
->>>>>>> x2
 VERIFICATION = "verification"
 
 
@@ -76,11 +71,7 @@ class Case:
 
     @property
     def parameters(self) -> dict[str, float]:
-<<<<<<< HEAD
-        """The parameters that are not None, by name."""
-=======
         """The parameters by name, without Poisson's ratio if it is None."""
->>>>>>> x2
         parameters = {"n": self.n, "k": self.k, "mu": self.mu}
         return parameters if self.nu is None else {**parameters, "nu": self.nu}
 
@@ -107,11 +98,7 @@ class Grid:
     models : tuple of str
         The candidates.
     quantities : tuple of str
-<<<<<<< HEAD
-        What every model computes.
-=======
         Quantities that every model computes.
->>>>>>> x2
     cases : tuple of Case
         Sorted, without duplicates.
     tags : tuple of str

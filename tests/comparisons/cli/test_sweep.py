@@ -33,10 +33,7 @@ def test_the_errors_of_every_model(tmp_path, capsys):
     assert jkr["value"].tolist() == pytest.approx([1.5, 1.5, 1.7, 1.7])
     rows = read_table(tmp_path / "out" / "results.parquet")
     assert (rows.loc[rows["quantity"] == "jump_in_displacement", "status"] == "not-applicable").all()
-<<<<<<< HEAD
-=======
     # The title of a narrow table is broken into lines.
->>>>>>> x2
     assert "kappa of each model" in " ".join(capsys.readouterr().out.split())
 
 

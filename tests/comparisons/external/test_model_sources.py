@@ -104,16 +104,10 @@ def gates(tmp_path):
     return str(path)
 
 
-<<<<<<< HEAD
 def test_all_sources_give_the_same_rows_and_verdicts(
     data_source, installed_example, gates, tmp_path, monkeypatch, capsys
 ):
-    for command in (run, judge):
-        monkeypatch.setattr(command, "grids", lambda tier: load_grids(GRID))
-=======
-def test_all_doors_give_the_same_rows_and_verdicts(data_door, installed_example, gates, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(inputs, "grids", lambda tier: load_grids(GRID))
->>>>>>> x2
     tables, verdicts = [], []
     for number, spec in enumerate((installed_example, FILE_SOURCE, data_source)):
         out = tmp_path / str(number)
