@@ -20,9 +20,9 @@ def replaced_words() -> list[str]:
 
 
 def pattern(word: str) -> re.Pattern[str]:
-    """Whole words, but not Python's `ast.walk`; a capital or an underscore makes it a name, whose case counts."""
+    """Whole words, but not `ast.walk` and `os.walk`; a capital or an underscore makes it a name, whose case counts."""
     is_name = word != word.lower() or "_" in word
-    return re.compile(rf"(?<!\w)(?<!\bast\.){re.escape(word)}(?!\w)", 0 if is_name else re.IGNORECASE)
+    return re.compile(rf"(?<!\w)(?<!\bast\.)(?<!\bos\.){re.escape(word)}(?!\w)", 0 if is_name else re.IGNORECASE)
 
 
 def texts() -> dict[Path, str]:
