@@ -21,14 +21,14 @@ ALLOWED = {
     # Shows what is inside the finite elements: fields, checks, solver table.
     "comparisons.cli.commands.fem": ("fem_reference", "fscm.problem", "fscm.punch", "fscm.laws"),
     # Shows the functions inside the FSCM.
-    "comparisons.paper.figures.kernel_functions": ("fscm",),
+    "comparisons.paper.figures.fig02_kernel_functions": ("fscm",),
     # A solid that is no power law has no dimensionless problem.
     "comparisons.paper.studies.surface_modulus": ("fscm.physical", "fscm.problem", "fem_reference"),
     # The landing of a jump and the surface at pull-off are no quantities of a model.
-    "comparisons.paper.figures.s_curve": ("fscm",),
-    "comparisons.paper.figures.pull_off_surfaces": ("fscm",),
+    "comparisons.paper.figures.fig03_s_curve": ("fscm",),
+    "comparisons.paper.figures.fig05_07_pull_off_surfaces": ("fscm",),
     # Both jumps of one path, at every Tabor number, in half the time of two computations.
-    "comparisons.paper.figures.jumps": ("fscm",),
+    "comparisons.paper.figures.fig08_jumps": ("fscm",),
     # Changes one ingredient of the Stieltjes scheme at a time.
     "comparisons.paper.values.scheme_ingredients": ("fscm",),
     # Only the adapters know the solvers.

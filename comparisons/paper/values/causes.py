@@ -19,7 +19,7 @@ from comparisons.models.cohesive_events import CohesiveEvents
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.figures.gradient_effect import insensitive_regions, largest_chi
+from comparisons.paper.figures.fig11_gradient_effect import insensitive_regions, largest_chi
 from comparisons.paper.studies.tabor_curve import RANGE, Extreme, TaborCurve, crossing, largest_error, tabor_numbers
 from comparisons.paper.values import scheme_ingredients as scheme
 

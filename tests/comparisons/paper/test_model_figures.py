@@ -7,9 +7,11 @@ from scipy.special import hyp2f1
 
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.paper.cache import CallCache
-from comparisons.paper.figures import force_curve_models, pull_off_models, surface_models
-from comparisons.paper.figures.gradient_effect import GRADIENT_EFFECT, chi
-from comparisons.paper.figures.surface_laws import SURFACE_LAWS, dugdale
+from comparisons.paper.figures import fig13_force_curve_models as force_curve_models
+from comparisons.paper.figures import fig14_16_pull_off_models as pull_off_models
+from comparisons.paper.figures import fig17_surface_models as surface_models
+from comparisons.paper.figures.fig11_gradient_effect import GRADIENT_EFFECT, chi
+from comparisons.paper.figures.fig12_surface_laws import SURFACE_LAWS, dugdale
 from comparisons.registry import create
 from comparisons.runs.cases import Case
 

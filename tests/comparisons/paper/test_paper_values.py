@@ -10,7 +10,7 @@ from comparisons.data.paper_values import PaperValue, paper_values
 from comparisons.numerics.number_text import short
 from comparisons.paper.baseline import PAPER_BASELINE
 from comparisons.paper.cache import CallCache
-from comparisons.paper.figures.gradient_effect import insensitive_regions, largest_chi
+from comparisons.paper.figures.fig11_gradient_effect import insensitive_regions, largest_chi
 from comparisons.paper.values import comparison
 from comparisons.paper.values.causes import Repeated, frame
 from comparisons.paper.values.comparison import cause, judged, readable

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from comparisons.paper.figures import force_curves
+from comparisons.paper.figures import fig04_06_force_curves as force_curves
 from comparisons.paper.paper_figure import PaperFigure
 
 

@@ -5,8 +5,8 @@ import math
 import pytest
 
 from comparisons.model import NotApplicable
-from comparisons.paper.figures.jump_asymptotes import asymptotes, coefficients
-from comparisons.paper.figures.jumps import jumps, near_critical
+from comparisons.paper.figures.fig08_jumps import jumps, near_critical
+from comparisons.paper.figures.fig09_jump_asymptotes import asymptotes, coefficients
 from comparisons.registry import create
 from fscm.problem import Problem
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from comparisons.paper.figures.kernel_functions import _RATIOS, values
+from comparisons.paper.figures.fig02_kernel_functions import _RATIOS, values
 
 
 def as_arrays(k):

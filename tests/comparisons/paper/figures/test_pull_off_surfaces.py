@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from comparisons.paper.figures.pull_off_surfaces import surface
+from comparisons.paper.figures.fig05_07_pull_off_surfaces import surface
 from comparisons.registry import create
 from fscm.problem import Problem
 

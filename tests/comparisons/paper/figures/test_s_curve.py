@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from comparisons.paper.figures import s_curve
+from comparisons.paper.figures import fig03_s_curve as s_curve
 from comparisons.registry import create
 from fscm.problem import Problem
 

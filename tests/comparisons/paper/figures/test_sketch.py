@@ -3,7 +3,7 @@
 import numpy as np
 
 from comparisons.paper.cache import Results
-from comparisons.paper.figures.sketch import SKETCH, _punch, _surface
+from comparisons.paper.figures.fig01_sketch import SKETCH, _punch, _surface
 from comparisons.paper.paper_figure import write
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from comparisons.paper.figures import transition
+from comparisons.paper.figures import fig10_transition as transition
 
 
 def test_both_limits(tables_of, monkeypatch):

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from comparisons.models.semi_rigid import jump_in_coefficient
 from comparisons.output.style import COLOURS, LINES, MARKERS, lettered, styled
 from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.figures.jumps import TABOR_NUMBERS, jumps, near_critical
+from comparisons.paper.figures.fig08_jumps import TABOR_NUMBERS, jumps, near_critical
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.tasks import quantity
 
