@@ -74,6 +74,8 @@ def test_a_sweep_has_the_record_of_a_run_and_no_verdicts(toys, tmp_path):
     assert names(out) == {*record["files"], "run.json", "journal.jsonl", ".lock"}
     assert not names(out) & {*VERDICT_FILES, "gates.toml"}
     check_files(record, out)
+    assert main(["report", str(out)]) == 0
+    assert "report.html" in names(out)
 
 
 def test_a_sweep_after_a_run_leaves_no_verdicts_of_the_run(small_grid, tmp_path):
