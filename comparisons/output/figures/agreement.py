@@ -44,7 +44,7 @@ def draw(agreement: pd.DataFrame) -> Figure:
         for axes in panels.flat[max(len(quantities) - columns, 0) : len(quantities)]:
             axes.set_xlabel(r"Tabor number $\mu$")
         figure.supylabel("difference (force and energy: relative; else in $z_0$)", fontsize=9)
-        figure.suptitle(f"Difference of {pair} (points), and the uncertainty both claim together (dashes)")
+        figure.suptitle(f"Difference of {pair} (points), and the sum of their bounds (dashes)")
         handles, labels = panels.flat[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
     return figure
