@@ -33,7 +33,7 @@ def _beyond(contact, state):
 def _start(full, contact, state):
     """The elastic response to 0.97 of the pressure of a condensed solution."""
     gap = np.interp(full.s, contact.compliance.trace.s, contact.gap(state.y))
-    return 0.97 * full.under_pressure(full.law.traction(gap), state.size)
+    return 0.97 * full.under_pressure(full.law.traction(gap), full.factor(state.size))
 
 
 @pytest.mark.parametrize(("n", "k"), [(2.0, 0.4), (1.0, 0.0)])
