@@ -121,6 +121,11 @@ class PathEvents:
         return self._at_displacement(self.jump_in.state.displacement, last=True)
 
     @cached_property
+    def separated(self) -> Point:
+        """The point where the jump out of contact ends."""
+        return self._at_displacement(self.jump_out.state.displacement, last=False)
+
+    @cached_property
     def jump_in_loss(self) -> float:
         """Energy lost by the jump into contact."""
         return _energy(self.jump_in) - _energy(self.landing)
@@ -128,7 +133,7 @@ class PathEvents:
     @cached_property
     def jump_out_loss(self) -> float:
         """Energy lost by the jump out of contact."""
-        return _energy(self.jump_out) - _energy(self._at_displacement(self.jump_out.state.displacement, last=False))
+        return _energy(self.jump_out) - _energy(self.separated)
 
     def _at_displacement(self, delta: float, last: bool) -> Point:
         """Return the first or the last point where the displacement rises through a value."""
