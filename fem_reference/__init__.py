@@ -16,6 +16,7 @@ from fem_reference.quantities import LOSSES, QUANTITIES
 from fem_reference.solid import CustomSolid, Solid
 from fem_reference.solution import Solution, solve, solve_together
 from fem_reference.states import EVENTS, EquilibriumPath, RadialField, event_state, profile, trace
+from fem_reference.uncondensed import solve_uncondensed
 
 __all__ = [
     "ACCURACIES",
@@ -43,5 +44,6 @@ __all__ = [
     "profile",
     "solve",
     "solve_together",
+    "solve_uncondensed",
     "trace",
 ]

@@ -4,15 +4,50 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, Protocol
 
-from fem_reference._contact.events import LANDING, PathEvents
+from fem_reference._contact.events import LANDING
+from fem_reference._contact.path import Point
 
 __all__ = ["LOSSES", "QUANTITIES", "TABLE", "Quantity", "quantity_named"]
 
 GAP_ORDER = 2.0
 """Declared order of the central gap at jump-out, in contact: the stress under the tip of a cone is singular, which
 decides it, not the element (measured worst error / u_num with the element's order: 1.15 at n = 1, k = 0.6, mu = 3)."""
+
+
+class Events(Protocol):
+    """Points of a path at its events, and the energies that the jumps lose."""
+
+    @property
+    def pull_off(self) -> Point:
+        """The deepest minimum of the load along the path."""
+        ...
+
+    @property
+    def jump_in(self) -> Point:
+        """The first fold on approach."""
+        ...
+
+    @property
+    def jump_out(self) -> Point:
+        """The lowest fold."""
+        ...
+
+    @property
+    def zero_load(self) -> Point:
+        """The point in contact without load."""
+        ...
+
+    @property
+    def jump_in_loss(self) -> float:
+        """Energy lost by the jump into contact."""
+        ...
+
+    @property
+    def jump_out_loss(self) -> float:
+        """Energy lost by the jump out of contact."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +67,7 @@ class Quantity:
     """
 
     events: tuple[str, ...]
-    functional: Callable[[PathEvents], float]
+    functional: Callable[[Events], float]
     kind: Literal["force", "length", "energy"]
     order: float | None = None
 

@@ -95,6 +95,11 @@ class Contact:
         r, w, H = self._tail(y)
         return 2.0 * math.pi * (inside + float(w * r @ self.law.traction(H)))
 
+    def load_beyond(self, y: Array) -> float:
+        """Part of the load beyond the mesh."""
+        r, w, H = self._tail(y)
+        return 2.0 * math.pi * float(w * r @ self.law.traction(H))
+
     def load_gradient(self, y: Array) -> Array:
         """Return the derivative of the load with respect to y, shape (m + 2,)."""
         trace, c = self.compliance.trace, float(y[-1])

@@ -1,7 +1,7 @@
 """Events of the equilibrium path, as roots of exact sensitivities.
 
-A sign change of dP, d(delta) or P between two neighbouring points brackets an event, and Brent's method on the
-derivative from the bordered solve finds it to rounding.  No event is interpolated between points.
+A sign change of dP, d(delta) or P between two neighbouring points of the completed path brackets an event, and Brent's
+method on the derivative from the bordered solve finds it to rounding.  No event is interpolated between points.
 """
 
 from __future__ import annotations
@@ -12,7 +12,8 @@ from itertools import pairwise
 
 from scipy.optimize import brentq
 
-from fem_reference._contact.path import Point, continuation
+from fem_reference._contact.completeness import complete_path
+from fem_reference._contact.path import Point, point_at
 from fem_reference.errors import NoSuchEvent
 
 __all__ = ["EVENTS", "LANDING", "PathEvents", "beyond_pull_off"]
@@ -40,12 +41,23 @@ class PathEvents:
 
     Parameters
     ----------
-    points : sequence of Point
-        As `fem_reference._contact.path.traced` returns them.
+    samples : sequence of Point
+        As `fem_reference._contact.tracing.traced` returns them.
     """
 
-    def __init__(self, points: Sequence[Point]) -> None:
-        self.points = points
+    def __init__(self, samples: Sequence[Point]) -> None:
+        self.samples = samples
+
+    @cached_property
+    def points(self) -> Sequence[Point]:
+        """The samples, with others where a pair of turning points could be between two.
+
+        Raises
+        ------
+        NotConverged
+            If such a pair cannot be excluded.
+        """
+        return tuple(complete_path(self.samples))
 
     def at(self, event: str) -> Point:
         """Return the state at an event.
@@ -70,43 +82,48 @@ class PathEvents:
     @cached_property
     def pull_off(self) -> Point:
         """The deepest minimum of the load along the path."""
-        minima = [_root(pair, lambda p: p.load_rate) for pair in self._pairs(lambda p: p.load_rate, True)]
+        minima = [_root(pair, _load_rate) for pair in _sign_changes(self.points, _load_rate, rising=True)]
         if not minima:
             raise NoSuchEvent("the load has no minimum along the path")
         return min(minima, key=lambda p: p.state.load)
 
     @cached_property
     def _folds(self) -> tuple[list[Pair], list[Pair]]:
-        """Brackets of the maxima and the minima of the displacement."""
-        maxima = self._pairs(lambda p: p.displacement_rate, False)
-        minima = self._pairs(lambda p: p.displacement_rate, True)
+        """Brackets of every maximum and every minimum of the displacement, in the order of the path."""
+        maxima = _sign_changes(self.points, _displacement_rate, rising=False)
+        minima = _sign_changes(self.points, _displacement_rate, rising=True)
         if not maxima or not minima:
             raise NoSuchEvent("the displacement rises all along the path: this solid is too stiff for jumps")
         return maxima, minima
 
     @cached_property
     def jump_in(self) -> Point:
-        """The fold where displacement control jumps into contact."""
-        return _root(self._folds[0][0], lambda p: p.displacement_rate)
+        """The first fold on approach, where displacement control jumps into contact."""
+        return _root(self._folds[0][0], _displacement_rate)
 
     @cached_property
     def jump_out(self) -> Point:
-        """The fold where displacement control jumps out of contact."""
-        minima = [_root(pair, lambda p: p.displacement_rate) for pair in self._folds[1]]
+        """The lowest fold, the last on retreat, where displacement control jumps out of contact."""
+        minima = [_root(pair, _displacement_rate) for pair in self._folds[1]]
         return min(minima, key=lambda p: p.state.displacement)
 
     @cached_property
     def zero_load(self) -> Point:
         """The point in contact where the load changes from tension to compression."""
-        pairs = self._pairs(lambda p: p.state.load, True)
-        if not pairs:
+        found = _rise_through(self.points, _load, _load_rate, 0.0, last=True)
+        if found is None:
             raise NoSuchEvent("the load does not become compressive on the path")
-        return _root(pairs[-1], lambda p: p.state.load)
+        return found
 
     @cached_property
     def landing(self) -> Point:
         """The point in contact where the jump into contact ends."""
         return self._at_displacement(self.jump_in.state.displacement, last=True)
+
+    @cached_property
+    def separated(self) -> Point:
+        """The point where the jump out of contact ends."""
+        return self._at_displacement(self.jump_out.state.displacement, last=False)
 
     @cached_property
     def jump_in_loss(self) -> float:
@@ -116,25 +133,68 @@ class PathEvents:
     @cached_property
     def jump_out_loss(self) -> float:
         """Energy lost by the jump out of contact."""
-        return _energy(self.jump_out) - _energy(self._at_displacement(self.jump_out.state.displacement, last=False))
+        return _energy(self.jump_out) - _energy(self.separated)
 
     def _at_displacement(self, delta: float, last: bool) -> Point:
-        """Return the first or the last point of the path at a displacement."""
-        pairs = self._pairs(lambda p: p.state.displacement - delta, True)
-        if not pairs:
+        """Return the first or the last point where the displacement rises through a value."""
+        found = _rise_through(self.points, _displacement, _displacement_rate, delta, last)
+        if found is None:
             raise NoSuchEvent(f"the path does not reach the displacement {delta:.6g} on both branches")
-        return _root(pairs[-1 if last else 0], lambda p: p.state.displacement - delta)
+        return found
 
-    def _pairs(self, sign: Callable[[Point], float], rising: bool) -> list[Pair]:
-        """Neighbours on one branch between which `sign` changes from negative to positive (or back)."""
-        pairs = []
-        for a, b in pairwise(self.points):
-            if a.branch is not b.branch:
-                continue
-            before, after = (sign(a), sign(b)) if rising else (-sign(a), -sign(b))
-            if before < 0 <= after:
-                pairs.append((a, b))
-        return pairs
+
+def _load(point: Point) -> float:
+    return point.state.load
+
+
+def _load_rate(point: Point) -> float:
+    return point.load_rate
+
+
+def _displacement(point: Point) -> float:
+    return point.state.displacement
+
+
+def _displacement_rate(point: Point) -> float:
+    return point.displacement_rate
+
+
+def _neighbours(points: Sequence[Point]) -> list[Pair]:
+    """Neighbours on one branch."""
+    return [(a, b) for a, b in pairwise(points) if a.branch is b.branch]
+
+
+def _sign_changes(points: Sequence[Point], sign: Callable[[Point], float], rising: bool) -> list[Pair]:
+    """Neighbours between which `sign` changes from negative to positive (or back)."""
+    factor = 1.0 if rising else -1.0
+    return [(a, b) for a, b in _neighbours(points) if factor * sign(a) < 0 <= factor * sign(b)]
+
+
+def _rise_through(
+    points: Sequence[Point], value: Callable[[Point], float], rate: Callable[[Point], float], level: float, last: bool
+) -> Point | None:
+    """Find the first or the last point of a complete path where a value rises through a level.
+
+    Between two neighbours is one turning point at most; where it may reach the level, it is located too.
+    """
+
+    def excess(point: Point) -> float:
+        return value(point) - level
+
+    pairs = _neighbours(points)
+    for a, b in reversed(pairs) if last else pairs:
+        before, after = excess(a), excess(b)
+        if before < 0 <= after:
+            return _root((a, b), excess)
+        if last and before >= 0 and after >= 0 and rate(a) < 0 <= rate(b):
+            lowest = _root((a, b), rate)
+            if excess(lowest) < 0:
+                return _root((lowest, b), excess)
+        if not last and before < 0 and after < 0 and rate(a) > 0 >= rate(b):
+            highest = _root((a, b), rate)
+            if excess(highest) >= 0:
+                return _root((a, highest), excess)
+    return None
 
 
 def _root(pair: Pair, function: Callable[[Point], float]) -> Point:
@@ -144,8 +204,7 @@ def _root(pair: Pair, function: Callable[[Point], float]) -> Point:
     def value(parameter: float) -> float:
         if parameter not in known:
             nearest = min(known.values(), key=lambda p: abs(p.parameter - parameter))
-            step = parameter - nearest.parameter
-            *_, known[parameter] = continuation(nearest, step, parameter)
+            known[parameter] = point_at(nearest, parameter)
         return function(known[parameter])
 
     scale = max(abs(pair[0].parameter), abs(pair[1].parameter))

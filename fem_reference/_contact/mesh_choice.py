@@ -15,7 +15,8 @@ import numpy as np
 
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.events import PathEvents, beyond_pull_off
-from fem_reference._contact.path import EDGE_RISE, edge_width, traced
+from fem_reference._contact.path import EDGE_RISE, edge_width
+from fem_reference._contact.tracing import traced
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import Level, finer_levels
@@ -147,7 +148,7 @@ class MeshChoice:
                     raise
                 spec = narrower
                 continue
-            points = path.points
+            points = path.samples
             if not any(beyond_pull_off(event) for event in events):
                 # Beyond the pull-off the edge is sharper relative to its radius, but that part is not needed.
                 deepest = min(range(len(points)), key=lambda i: points[i].state.load)

@@ -36,6 +36,7 @@ __all__ = [
     "edge_width",
     "equilibrium_points",
     "first_edge_radius",
+    "point_at",
 ]
 
 
@@ -140,6 +141,12 @@ def continuation(point: Point, step: float, stop: float) -> Iterator[Point]:
         yield point
 
 
+def point_at(nearest: Point, parameter: float) -> Point:
+    """Return the point of a branch at a parameter, continued from a point near it."""
+    *_, point = continuation(nearest, parameter - nearest.parameter, parameter)
+    return point
+
+
 def approach_branch(contact: Contact) -> Iterator[Point]:
     """Trace the branch of the central gap from far away to the first contact edge."""
     length = contact.law.length
@@ -212,19 +219,3 @@ def equilibrium_points(contact: Contact) -> Iterator[Point]:
         yield point
     if point is not None:
         yield from contact_branch(point, 1e3 * radius_at_height(contact.punch, contact.law.length))
-
-
-def traced(contact: Contact) -> list[Point]:
-    """Trace the path until the load is compressive again and every fold lies behind."""
-    points: list[Point] = []
-    greatest = -float("inf")
-    for point in equilibrium_points(contact):
-        points.append(point)
-        if point.branch.touching:
-            settled = point.state.load > 0 and point.displacement_rate > 0 and point.load_rate > 0
-            # After a jump-in, the contact branch at the displacement of the jump belongs to the hysteresis cycle.
-            if settled and point.state.displacement >= greatest:
-                break
-        elif point.displacement_rate > 0:
-            greatest = max(greatest, point.state.displacement)
-    return points

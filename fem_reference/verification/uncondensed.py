@@ -1,28 +1,22 @@
 """Uncondensed contact model, which keeps every displacement: a check of the condensed path.
 
-On the mesh in units of the edge radius c the equations are K u / factor(c) = F(u, delta, c), with K the
-stiffness of E = z^k and the load vector and its tangent assembled by scikit-fem on the surface facets at the
-deformed gap H = -delta + f(c s) + u_z.  Newton with the exact tangent is bordered by the edge control; its
-linear systems are solved by GMRES with the elastic preconditioner.  The model shares mesh, elements and exterior with
-the condensed path, but neither its factorisation nor its quadrature matrices.
+Newton with the exact tangent is bordered by the edge control; its linear systems are solved by GMRES with the elastic
+preconditioner.  The model shares mesh, elements and exterior with the condensed path, but neither its factorisation
+nor its quadrature matrices.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.linalg import LinearOperator
-from skfem import BilinearForm, FacetBasis, LinearForm
 
-from fem_reference._elastic.assembly import HalfSpace, assemble_half_space
+from fem_reference._contact.full_system import FullSystem
+from fem_reference._elastic.assembly import assemble_half_space
 from fem_reference._elastic.dof_ordering import line_unknowns
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference._linear.linear_solver import solve_bordered, solve_cg
-from fem_reference._linear.preconditioner import ElasticPreconditioner
+from fem_reference._linear.linear_solver import solve_bordered
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
 from fem_reference.laws import SurfaceLaw
@@ -59,16 +53,6 @@ ROOT_STEPS = 20
 """Secant steps allowed to find the pull-off."""
 
 
-@LinearForm
-def _pressure(v: Any, w: Any) -> Any:
-    return w.pressure * w.x[0] * v
-
-
-@BilinearForm
-def _pressure_change(u: Any, v: Any, w: Any) -> Any:
-    return w.change * w.x[0] * u * v
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class FullState:
     """An equilibrium at the size c, with the gap of peak tension at the edge node.
@@ -96,7 +80,7 @@ class FullState:
     displacement_rate: float
 
 
-class FullContact:
+class FullContact(FullSystem):
     """Punch, surface law and the whole meshed half-space.
 
     Parameters
@@ -114,60 +98,18 @@ class FullContact:
     """
 
     def __init__(self, modulus: PowerLawModulus, nu: float, punch: Punch, law: SurfaceLaw, spec: MeshSpec) -> None:
-        self.modulus, self.punch, self.law = modulus, punch, law
-        self.half_space: HalfSpace = assemble_half_space(
-            spec.grid(), PowerLawModulus(1.0, 1.0, modulus.k), nu, spec.order
-        )
-        self.preconditioner = ElasticPreconditioner(self.half_space)
+        self.modulus = modulus
+        unit = PowerLawModulus(1.0, 1.0, modulus.k)
+        super().__init__(assemble_half_space(spec.grid(), unit, nu, spec.order), punch, law)
         basis = self.half_space.basis
-        mesh = basis.mesh
-        x, w = np.polynomial.legendre.leggauss(2 * spec.order + 2)
-        top = np.flatnonzero((mesh.p[1][mesh.facets] == 0).all(axis=0))
-        self.facets = FacetBasis(mesh, basis.elem, facets=top, quadrature=((0.5 * (x + 1.0))[None, :], 0.5 * w))
-        self.s: Array = np.asarray(self.facets.global_coordinates())[0]
+        nodes = basis.mesh.p[0][basis.mesh.p[1] == 0]
         line = line_unknowns(basis, 1, 0.0)
-        nodes = mesh.p[0][mesh.p[1] == 0]
         self.edge = int(2 * line[int(np.argmin(abs(np.sort(nodes) - 1.0)))] + 1)
 
     def factor(self, c: float) -> float:
         """c^(1-k) c0^k / E0, the compliance at size c."""
         law = self.modulus
         return c ** (1.0 - law.k) * law.c0**law.k / law.E0
-
-    def gap(self, u: Array, delta: float, c: float) -> Array:
-        """H at the facet Gauss points."""
-        return -delta + self.punch.height(c * self.s) + np.asarray(self.facets.interpolate(u[1::2]))
-
-    def _loads(self, u: Array, delta: float, c: float) -> tuple[Array, sparse.csr_array, Array, Array]:
-        """Load vector, its derivatives with respect to u, delta and c (free rows, scaled)."""
-        H = self.gap(u, delta, c)
-        change = self.law.slope(H)
-        rise = self.s * self.punch.slope(c * self.s)
-        vectors = [
-            np.asarray(_pressure.assemble(self.facets, pressure=values))
-            for values in (self.law.traction(H), -change, change * rise)
-        ]
-        tangent = _pressure_change.assemble(self.facets, change=change).tocoo()
-        size = u.size
-        full = sparse.coo_array((tangent.data, (2 * tangent.row + 1, 2 * tangent.col + 1)), shape=(size, size)).tocsr()
-        free, D = self.half_space.free, sparse.diags_array(self.preconditioner.scale)
-        reduced = []
-        for vector in vectors:
-            full_vector = np.zeros(size)
-            full_vector[1::2] = vector
-            reduced.append(self.preconditioner.scale * full_vector[free])
-        return reduced[0], (D @ full[free][:, free] @ D).tocsr(), reduced[1], reduced[2]
-
-    def under_pressure(self, pressure: Array, c: float) -> Array:
-        """Return the displacement under a pressure at the facet Gauss points, to start Newton from."""
-        load = np.zeros(self.half_space.matrix.shape[0])
-        load[1::2] = np.asarray(_pressure.assemble(self.facets, pressure=pressure))
-        return self.factor(c) * solve_cg(self.half_space, load, self.preconditioner).solution
-
-    def load(self, u: Array, delta: float, c: float) -> float:
-        """P on the mesh (compression positive)."""
-        p = self.law.traction(self.gap(u, delta, c))
-        return 2.0 * math.pi * c**2 * float(np.sum(p * self.s * self.facets.dx))
 
     def equilibrium(self, u: Array, delta: float, c: float) -> FullState:
         """Solve at the size c from a starting point.
@@ -185,12 +127,12 @@ class FullContact:
         edge_row = scale * edge_row[free]
         krylov = 0
         for step_count in range(NEWTON_STEPS):
-            F, T, F_delta, F_c = self._loads(u, delta, c)
+            F, T, F_delta, F_c = self.loads(u, delta, c)
             stiff = 1.0 / self.factor(c)
             v = u[free] / scale
             residual = stiff * (A @ v) - F
             control = u[self.edge] - delta + float(self.punch.height(np.array(c))) - self.law.peak_gap
-            operator = self._bordered(A * stiff - T, F_delta, edge_row)
+            operator = self.bordered(A * stiff - T, F_delta, edge_row)
             step, count = solve_bordered(
                 operator, np.append(residual, control), self.preconditioner, self.factor(c), LINEAR_TOLERANCE
             )
@@ -240,14 +182,6 @@ class FullContact:
         """Solve at a neighbouring size from the tangent prediction."""
         u = state.u + shift * state.u_rate
         return self.equilibrium(u, state.displacement + shift * state.displacement_rate, state.size + shift)
-
-    def _bordered(self, tangent: sparse.csr_array, F_delta: Array, edge_row: Array) -> LinearOperator:
-        def apply(x: Array) -> Array:
-            x = np.ravel(x)
-            return np.append(tangent @ x[:-1] - F_delta * x[-1], edge_row @ x[:-1] - x[-1])
-
-        size = F_delta.size + 1
-        return LinearOperator((size, size), apply, dtype=float)
 
     def _load_rate(self, u: Array, delta: float, c: float, du: Array, ddelta: float) -> float:
         H = self.gap(u, delta, c)

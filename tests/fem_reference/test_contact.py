@@ -8,7 +8,8 @@ from fem_reference._contact.controls import CentralGap, EdgeGap, EdgeRadius, Gap
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.mesh_choice import MeshChoice
 from fem_reference._contact.newton import newton
-from fem_reference._contact.path import Branch, continuation, traced
+from fem_reference._contact.path import Branch, continuation
+from fem_reference._contact.tracing import traced
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import level_for

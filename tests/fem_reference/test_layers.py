@@ -15,7 +15,7 @@ LAYERS = (
     ("_elastic",),
     ("_linear",),
     ("_contact",),
-    ("quantities", "solution", "states", "export"),
+    ("quantities", "solution", "states", "export", "uncondensed"),
     ("verification",),
 )
 MODULES = [path for path in sorted(ROOT.rglob("*.py")) if path != ROOT / "__init__.py"]

@@ -1,0 +1,125 @@
+"""Completeness of a traced path: samples so close that no pair of turning points of delta or P is between two.
+
+The parameter, delta, P and the derivatives of both are known at each sample.  `fem_reference._contact.hermite` decides
+from them, and from the neighbours on the same branch, how many turning points an interval has.  A sample is inserted
+where it cannot decide, and between two turning points; then a change of sign of the derivative marks each of them.
+What is assumed: the fourth derivative inside an interval is at most twice the one that its neighbours show.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import groupby, pairwise
+
+from fem_reference._contact.hermite import Interval, Sample
+from fem_reference._contact.path import Point, point_at
+from fem_reference.errors import NotConverged
+
+__all__ = ["complete_path", "displacement_range"]
+
+SMALLEST_CHANGE = 1e-9
+"""Change of delta in lengths of the law, and of P in units of its largest tension, below which two turning points are
+not told from none: ten times the rounding of a state."""
+
+ROUNDS = 14
+"""Largest number of passes over the path; each halves the intervals that are undecided."""
+
+
+def _displacement(point: Point) -> Sample:
+    return Sample(point.parameter, point.state.displacement, point.state.displacement_rate)
+
+
+def _load(point: Point) -> Sample:
+    return Sample(point.parameter, point.state.load, point.state.load_rate)
+
+
+def _intervals(points: Sequence[Point], sample: Callable[[Point], Sample]) -> list[Interval]:
+    """Intervals between neighbours of one branch."""
+    samples = [sample(point) for point in points]
+    return [
+        Interval(a, b, [*samples[max(i - 1, 0) : i], *samples[i + 2 : i + 3]])
+        for i, (a, b) in enumerate(pairwise(samples))
+    ]
+
+
+def displacement_range(points: Sequence[Point]) -> tuple[float, float]:
+    """Return the smallest and the largest displacement along a part of one branch, between its samples as well.
+
+    Parameters
+    ----------
+    points : sequence of Point
+        Neighbours on one branch, at least one.
+    """
+    found = [interval.range() for interval in _intervals(points, _displacement)]
+    end = points[-1].state.displacement
+    return min([end, *(low for low, _ in found)]), max([end, *(high for _, high in found)])
+
+
+def _missing(interval: Interval, tolerance: float) -> float | None:
+    """Return where a sample is needed, or None."""
+    middle = 0.5 * (interval.first.parameter + interval.second.parameter)
+    if not interval.decided(tolerance):
+        return middle
+    turns = interval.turns()
+    if len(turns) == 2:
+        rise = abs(interval.value_at(turns[1]) - interval.value_at(turns[0]))
+        return 0.5 * float(turns[0] + turns[1]) if rise > tolerance else None
+    return None
+
+
+def complete_path(points: Sequence[Point]) -> list[Point]:
+    """Insert samples until a pair of turning points of delta or P between two neighbours is excluded.
+
+    Parameters
+    ----------
+    points : sequence of Point
+        A path, as `fem_reference._contact.tracing.traced` returns it.
+
+    Returns
+    -------
+    list of Point
+        The samples with those inserted, in the order of the path.
+
+    Raises
+    ------
+    NotConverged
+        If that needs more than `ROUNDS` passes, or if the path turns back where the branches meet.
+    """
+    length = points[0].branch.contact.law.length
+    scale = max(abs(min(point.state.load for point in points)), 1e-300)
+    tests = ((_displacement, SMALLEST_CHANGE * length), (_load, SMALLEST_CHANGE * scale))
+    branches = [list(group) for _, group in groupby(points, key=lambda point: id(point.branch))]
+    for before, after in pairwise(branches):
+        a, b = before[-1], after[0]
+        turn = a.load_rate * b.load_rate / scale**2 + a.displacement_rate * b.displacement_rate / length**2
+        if turn < 0.0:
+            raise NotConverged(
+                f"the path turns back at delta = {a.state.displacement:.6g}, where the contact edge is formed; refine "
+                "the mesh at the edge"
+            )
+    return [point for branch in branches for point in _complete_branch(branch, tests)]
+
+
+def _complete_branch(points: list[Point], tests: Sequence[tuple[Callable[[Point], Sample], float]]) -> list[Point]:
+    """Insert samples in one branch."""
+    for _ in range(ROUNDS):
+        places: dict[int, float] = {}
+        for sample, tolerance in tests:
+            for i, interval in enumerate(_intervals(points, sample)):
+                place = _missing(interval, tolerance)
+                if place is not None:
+                    places.setdefault(i, place)
+        if not places:
+            return points
+        refined: list[Point] = []
+        for i, point in enumerate(points):
+            refined.append(point)
+            if i in places:
+                nearest = min(points[i : i + 2], key=lambda end: abs(end.parameter - places[i]))
+                refined.append(point_at(nearest, places[i]))
+        points = refined
+    at = points[min(places)].state.displacement
+    raise NotConverged(
+        f"near delta = {at:.6g} it cannot be decided whether the path has a pair of turning points, although "
+        f"{len(points)} samples were taken; refine the mesh at the edge"
+    )

@@ -1,0 +1,104 @@
+"""Uncondensed contact equations: every displacement of the mesh, with the traction as facet forms.
+
+On a mesh in units of the size c the equations are K u / factor(c) = F(u, delta, c), with K the stiffness and the load
+vector and its tangent assembled by scikit-fem on the surface facets at the gap H = -delta + f(c s) + u_z.  Linear
+systems are solved by conjugate gradients and GMRES with the elastic preconditioner, whose coarse level is pyamg's.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import LinearOperator
+from skfem import BilinearForm, FacetBasis, LinearForm
+
+from fem_reference._elastic.assembly import HalfSpace
+from fem_reference._linear.linear_solver import TOLERANCE, solve_cg
+from fem_reference._linear.preconditioner import ElasticPreconditioner
+from fem_reference._typing import Array
+from fem_reference.laws import SurfaceLaw
+from fem_reference.punch import Punch
+
+__all__ = ["FullSystem"]
+
+
+@LinearForm
+def _pressure(v: Any, w: Any) -> Any:
+    return w.pressure * w.x[0] * v
+
+
+@BilinearForm
+def _pressure_change(u: Any, v: Any, w: Any) -> Any:
+    return w.change * w.x[0] * u * v
+
+
+class FullSystem:
+    """Punch, surface law and the whole meshed half-space.
+
+    Parameters
+    ----------
+    half_space : HalfSpace
+        On a mesh in units of the size c.
+    punch : Punch
+        Shape.
+    law : SurfaceLaw
+        Surface law.
+    """
+
+    def __init__(self, half_space: HalfSpace, punch: Punch, law: SurfaceLaw) -> None:
+        self.half_space, self.punch, self.law = half_space, punch, law
+        self.preconditioner = ElasticPreconditioner(half_space)
+        basis = half_space.basis
+        mesh = basis.mesh
+        x, w = np.polynomial.legendre.leggauss(2 * half_space.body.order + 2)
+        top = np.flatnonzero((mesh.p[1][mesh.facets] == 0).all(axis=0))
+        self.facets = FacetBasis(mesh, basis.elem, facets=top, quadrature=((0.5 * (x + 1.0))[None, :], 0.5 * w))
+        self.s: Array = np.asarray(self.facets.global_coordinates())[0]
+
+    def gap(self, u: Array, delta: float, c: float) -> Array:
+        """H at the facet Gauss points."""
+        return -delta + self.punch.height(c * self.s) + np.asarray(self.facets.interpolate(u[1::2]))
+
+    def loads(self, u: Array, delta: float, c: float) -> tuple[Array, sparse.csr_array, Array, Array]:
+        """Load vector, its derivatives with respect to u, delta and c (free rows, scaled)."""
+        H = self.gap(u, delta, c)
+        change = self.law.slope(H)
+        rise = self.s * self.punch.slope(c * self.s)
+        vectors = [
+            np.asarray(_pressure.assemble(self.facets, pressure=values))
+            for values in (self.law.traction(H), -change, change * rise)
+        ]
+        tangent = _pressure_change.assemble(self.facets, change=change).tocoo()
+        size = u.size
+        full = sparse.coo_array((tangent.data, (2 * tangent.row + 1, 2 * tangent.col + 1)), shape=(size, size)).tocsr()
+        free, D = self.half_space.free, sparse.diags_array(self.preconditioner.scale)
+        reduced = []
+        for vector in vectors:
+            full_vector = np.zeros(size)
+            full_vector[1::2] = vector
+            reduced.append(self.preconditioner.scale * full_vector[free])
+        return reduced[0], (D @ full[free][:, free] @ D).tocsr(), reduced[1], reduced[2]
+
+    def under_pressure(self, pressure: Array, factor: float, tolerance: float = TOLERANCE) -> Array:
+        """Return the displacement under a pressure at the facet Gauss points, to start Newton from."""
+        load = np.zeros(self.half_space.matrix.shape[0])
+        load[1::2] = np.asarray(_pressure.assemble(self.facets, pressure=pressure))
+        return factor * solve_cg(self.half_space, load, self.preconditioner, tolerance).solution
+
+    def load(self, u: Array, delta: float, c: float) -> float:
+        """P on the mesh (compression positive)."""
+        p = self.law.traction(self.gap(u, delta, c))
+        return 2.0 * math.pi * c**2 * float(np.sum(p * self.s * self.facets.dx))
+
+    def bordered(self, tangent: sparse.csr_array, F_delta: Array, edge_row: Array) -> LinearOperator:
+        """Tangent on the scaled free rows, bordered by one control whose derivative with respect to delta is -1."""
+
+        def apply(x: Array) -> Array:
+            x = np.ravel(x)
+            return np.append(tangent @ x[:-1] - F_delta * x[-1], edge_row @ x[:-1] - x[-1])
+
+        size = F_delta.size + 1
+        return LinearOperator((size, size), apply, dtype=float)
