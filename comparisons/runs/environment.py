@@ -40,8 +40,17 @@ def package_version() -> str:
 
 
 def code_digest(root: Path | None = None) -> str:
-    """Return the SHA-256 of the packages' Python and TOML files under `root` (by default, those that run)."""
-    root = root or _running_root()
+    """Return the SHA-256 of the packages' Python and TOML files under `root` (by default, those that run).
+
+    Raises
+    ------
+    RuntimeError
+        If the packages that run are not there: the digest would be that of no file, and equal for every version.
+    """
+    if root is None:
+        root = _running_root()
+        if missing := [package for package in _PACKAGES if not (root / package / "__init__.py").is_file()]:
+            raise RuntimeError(f"the code of {', '.join(missing)} is not in {root}, so that its digest is unknown")
     digest = hashlib.sha256()
     for package in _PACKAGES:
         for path in sorted((root / package).rglob("*")):
@@ -119,7 +128,7 @@ def environment() -> dict[str, Any]:
 
 
 def _running_root() -> Path:
-    return Path(__file__).resolve().parent.parent
+    return Path(__file__).resolve().parents[2]
 
 
 def _commit() -> dict[str, Any]:

@@ -3,11 +3,16 @@
 import base64
 import hashlib
 import json
+import shutil
 import subprocess
 from importlib.metadata import PathDistribution, version
+from pathlib import Path
 
 import pytest
 
+import comparisons
+import fem_reference
+import fscm
 from comparisons.runs import environment as provenance
 
 PACKAGES = ("fscm", "fem_reference", "comparisons")
@@ -16,6 +21,7 @@ PACKAGES = ("fscm", "fem_reference", "comparisons")
 def tree(root):
     for package in PACKAGES:
         (root / package).mkdir(parents=True)
+        (root / package / "__init__.py").touch()
         (root / package / "a.py").write_text("x = 1\n")
     return root
 
@@ -37,6 +43,23 @@ def test_the_digest_moves_with_content_and_names_and_nothing_else(tmp_path):
     renamed = provenance.code_digest(root)
     (root / "fscm" / "b.py").write_text("x = 2\n")
     assert len({before, renamed, provenance.code_digest(root)}) == 3
+
+
+def test_the_digest_is_that_of_the_three_packages_that_run(tmp_path):
+    nothing = provenance.code_digest(tmp_path)
+    assert nothing == hashlib.sha256().hexdigest() != provenance.code_digest()
+    for package in (comparisons, fem_reference, fscm):
+        name = package.__name__
+        shutil.copytree(Path(package.__file__).parent, tmp_path / name)
+    assert provenance.code_digest(tmp_path) == provenance.code_digest()
+
+
+def test_code_that_is_not_found_has_no_digest(tmp_path, monkeypatch):
+    tree(tmp_path)
+    (tmp_path / "fscm" / "__init__.py").unlink()
+    monkeypatch.setattr(provenance, "_running_root", lambda: tmp_path)
+    with pytest.raises(RuntimeError, match="the code of fscm is not in "):
+        provenance.code_digest()
 
 
 def test_the_commit_is_stated_only_of_the_code_that_runs(tmp_path, monkeypatch):
@@ -79,6 +102,13 @@ COMMIT = "0123456789abcdef0123456789abcdef01234567"
 URL = "https://example.org/fscm-bench"
 
 
+def recorded(root):
+    for name in ("a.py", "__init__.py"):
+        code = (root / "fscm" / name).read_bytes()
+        digest = base64.urlsafe_b64encode(hashlib.sha256(code).digest()).decode().rstrip("=")
+        yield f"{name},sha256={digest},{len(code)}"
+
+
 @pytest.fixture
 def installed(tmp_path, monkeypatch):
     """An installed distribution as pip makes one, with a function that writes its direct_url.json."""
@@ -86,9 +116,7 @@ def installed(tmp_path, monkeypatch):
     folder = root / "fscm_bench-1.dist-info"
     folder.mkdir()
     (folder / "METADATA").write_text("Metadata-Version: 2.1\nName: fscm-bench\nVersion: 1\n")
-    code = (root / "fscm" / "a.py").read_bytes()
-    digest = "sha256=" + base64.urlsafe_b64encode(hashlib.sha256(code).digest()).decode().rstrip("=")
-    (folder / "RECORD").write_text("".join(f"{package}/a.py,{digest},6\n" for package in PACKAGES))
+    (folder / "RECORD").write_text("".join(f"{package}/{line}\n" for package in PACKAGES for line in recorded(root)))
     monkeypatch.setattr(provenance, "_running_root", lambda: root)
     monkeypatch.setattr(provenance, "distribution", lambda name: PathDistribution(folder))
 
