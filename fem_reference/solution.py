@@ -37,6 +37,8 @@ class Solution:
         Wall-clock time of everything.
     observed_order : float
         Order of convergence in the mesh density over the three meshes.
+    declared_order : float
+        Order beyond which the observed one is not used: that of the quantity, or else of the elements.
     densities, values : tuple of float
         The meshes, coarse to fine, and the quantity on each.
     """
@@ -48,6 +50,7 @@ class Solution:
     residual: float
     seconds: float
     observed_order: float
+    declared_order: float
     densities: tuple[float, float, float]
     values: tuple[float, float, float]
 
@@ -158,7 +161,8 @@ def _solution(row: Quantity, paths: list[PathEvents], level: Level, length: floa
     coarse, medium, fine = (row.functional(path) for path in paths)
     ratio = math.sqrt(level.densities[0] / level.densities[2])
     scale = max(abs(fine), length) if row.kind == "length" else abs(fine)
-    outcome = three_meshes((coarse, medium, fine), ratio, row.order or level.order, scale)
+    declared = row.order or level.order
+    outcome = three_meshes((coarse, medium, fine), ratio, declared, scale)
     point = paths[-1].at(row.events[0])
     return Solution(
         outcome.value,
@@ -168,6 +172,7 @@ def _solution(row: Quantity, paths: list[PathEvents], level: Level, length: floa
         point.state.residual,
         time.perf_counter() - begin,
         outcome.observed_order,
+        float(declared),
         level.densities,
         (coarse, medium, fine),
     )

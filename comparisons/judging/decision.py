@@ -1,8 +1,8 @@
-"""Verdicts on an error and its bound, after ASME V&V 20.
+"""Verdicts PASS, FAIL and INCONCLUSIVE on an error and its bound, after ASME V&V 20.
 
 With the error E of a candidate and the bound U of `comparisons.numerics.bounds`, the exact error is in
 [E - U, E + U].  A gate passes if all of this interval is within its limits, fails if none of it is, and is inconclusive
-otherwise.
+otherwise.  A pass becomes inconclusive where an uncertainty is larger than the gate admits.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from enum import StrEnum
 
 from comparisons.numerics.number_text import exact
 
-__all__ = ["Verdict", "crossing", "decide", "expecting_failure", "roll_up"]
+__all__ = ["Verdict", "crossing", "decide", "expecting_failure", "requiring_certainty", "roll_up"]
 
 
 class Verdict(StrEnum):
@@ -61,6 +61,26 @@ def decide(error: float, uncertainty: float, lower: float, upper: float) -> Verd
     return Verdict.INCONCLUSIVE
 
 
+def requiring_certainty(verdict: Verdict, uncertainties: Iterable[tuple[float, float | None]]) -> Verdict:
+    """Return INCONCLUSIVE for a pass with an uncertainty above its limit; any other verdict is unchanged.
+
+    Parameters
+    ----------
+    verdict : Verdict
+        As of `decide`.
+    uncertainties : iterable of (float, float or None)
+        Each with its largest admissible value; None for no limit.
+
+    Examples
+    --------
+    >>> [str(requiring_certainty(Verdict.PASS, [(1e-3, limit)])) for limit in (1e-2, 1e-4, None)]
+    ['PASS', 'INCONCLUSIVE', 'PASS']
+    """
+    if verdict is Verdict.PASS and any(limit is not None and u > limit for u, limit in uncertainties):
+        return Verdict.INCONCLUSIVE
+    return verdict
+
+
 def crossing(error: float, uncertainty: float, lower: float, upper: float, shares: Mapping[str, float]) -> str:
     """Return why an error is inconclusive: the limits that its interval reaches across, and whose uncertainty it is.
 
@@ -86,7 +106,7 @@ def crossing(error: float, uncertainty: float, lower: float, upper: float, share
 
 
 def expecting_failure(verdict: Verdict) -> Verdict:
-    """Translate the verdict of a gate that is declared to fail: a pass is then as bad as news can be.
+    """Return the verdict of a gate that is declared to fail: XFAIL for a failure, XPASS for a pass.
 
     Examples
     --------

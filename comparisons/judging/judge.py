@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass, replace
 
 import pandas as pd
 
-from comparisons.judging.decision import Verdict, crossing, decide, expecting_failure
+from comparisons.judging.decision import Verdict, crossing, decide, expecting_failure, requiring_certainty
 from comparisons.judging.gates import Gate
 from comparisons.judging.metrics import CaseError, case_error, reference_range
 from comparisons.judging.selection import relevant
@@ -137,23 +137,31 @@ def _judge_case(gate: Gate, case: Case, results: StoredResults, scale: float) ->
     elif verdict is Verdict.INCONCLUSIVE:
         shares = {f"the {role} {getattr(gate, role)}": u for role, u in found.shares.items()}
         reason = crossing(found.error, found.uncertainty, gate.lower, gate.upper, shares)
-    elif verdict is Verdict.PASS and (reason := _too_uncertain(gate, found)):
-        verdict = Verdict.INCONCLUSIVE
+    else:
+        limited = _limited_uncertainties(gate, found)
+        certain = requiring_certainty(verdict, [(u, limit) for _, u, limit in limited])
+        if certain is not verdict:
+            verdict, reason = certain, _too_uncertain(gate, limited)
     if gate.expected_failure:
         verdict = expecting_failure(verdict)
         reason = reason or gate.expected_failure
     return replace(one, **found.facts, error=found.error, uncertainty=found.uncertainty, verdict=verdict, reason=reason)
 
 
-def _too_uncertain(gate: Gate, found: CaseError) -> str:
-    """Return whose uncertainty is larger than the gate tolerates, with the numbers; nothing if none is."""
+def _limited_uncertainties(gate: Gate, found: CaseError) -> list[tuple[str, float, float | None]]:
+    """Return the role of each model, its uncertainty, and the largest one that the gate tolerates."""
+    return [
+        ("candidate", found.u_candidate, gate.max_candidate_uncertainty),
+        ("reference", found.u_reference, gate.max_reference_uncertainty),
+    ]
+
+
+def _too_uncertain(gate: Gate, limited: Sequence[tuple[str, float, float | None]]) -> str:
+    """Return whose uncertainty is larger than the gate tolerates, with the numbers."""
     unit = " of the reference's value" if gate.metric in ("rel", "en") else ""
     too_large = [
         f"u of the {role} {getattr(gate, role)} is {u:.6g}{unit}; the gate tolerates {exact(limit)}"
-        for role, u, limit in (
-            ("candidate", found.u_candidate, gate.max_candidate_uncertainty),
-            ("reference", found.u_reference, gate.max_reference_uncertainty),
-        )
+        for role, u, limit in limited
         if limit is not None and u > limit
     ]
     return "; ".join(too_large)

@@ -15,7 +15,7 @@ import fem_reference
 from comparisons.model import Curve, NotApplicable, RadialField, Result
 from comparisons.models.solver import result_of, translated
 from comparisons.numerics.curve_distance import mesh_difference
-from comparisons.numerics.grid_convergence import declared_order, three_grids
+from comparisons.numerics.grid_convergence import three_grids
 from comparisons.quantities import QUANTITIES
 from comparisons.quantities.points import near
 from fem_reference import export
@@ -69,7 +69,7 @@ class FiniteElements:
         physical, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             solution = fem_reference.solve(body, quantity)
-        return result_of(_audited(solution, quantity), unit=physical.scales[QUANTITIES[quantity].scale])
+        return result_of(_audited(solution), unit=physical.scales[QUANTITIES[quantity].scale])
 
     def curve(self, problem: Problem) -> Curve:
         """Return the equilibrium path from far away into compression."""
@@ -155,9 +155,9 @@ class FiniteElements:
         )
 
 
-def _audited(solution: fem_reference.Solution, quantity: str) -> fem_reference.Solution:
+def _audited(solution: fem_reference.Solution) -> fem_reference.Solution:
     """Return the solution with the larger of two bounds: the solver's own, and that of the three-grid procedure."""
-    family = three_grids(solution.densities, solution.values, declared_order(FiniteElements.name, quantity))
+    family = three_grids(solution.densities, solution.values, solution.declared_order)
     return replace(solution, u_num=max(solution.u_num, family.u_num))
 
 

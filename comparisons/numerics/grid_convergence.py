@@ -17,13 +17,11 @@ from scipy.optimize import brentq
 
 __all__ = [
     "CAUTIOUS_SAFETY",
-    "DECLARED_ORDERS",
     "LOWEST_ORDER",
     "NOISE",
     "SAFETY",
     "GridConvergence",
     "checked",
-    "declared_order",
     "three_grids",
 ]
 
@@ -39,46 +37,6 @@ _SAME_RATIO = 1e-12
 _LARGEST_POWER = 200.0
 #: Differences below this many roundings of the value are noise: they have no order.
 NOISE = 16.0 * 2.0**-52
-
-#: Model -> quantity -> order in the width of the segments.  The Stieltjes scheme is a midpoint sum: 2, measured 1.9 to
-#: 2.1 on 100 to 400 segments where the edge is wider than a segment.  The finite elements are of degree 6 on meshes
-#: that resolve the edge; their quantities converge faster (measured 7 to 15), which is not relied on.
-DECLARED_ORDERS: dict[str, dict[str, float]] = {
-    "fem": dict.fromkeys(
-        (
-            "pull_off_force",
-            "pull_off_displacement",
-            "jump_in_displacement",
-            "jump_out_displacement",
-            "zero_load_displacement",
-            "hysteresis_energy",
-            "jump_in_gap",
-        ),
-        6.0,
-    )
-    # Just before jump-out the punch is in contact, and under the tip of a cone the stress is singular.
-    | {"jump_out_gap": 2.0},
-    "fscm-stieltjes": dict.fromkeys(("pull_off_force", "pull_off_displacement", "zero_load_displacement"), 2.0),
-}
-
-
-def declared_order(model: str, quantity: str) -> float:
-    """Return the declared order of a quantity.
-
-    Raises
-    ------
-    ValueError
-        If none is declared.
-
-    Examples
-    --------
-    >>> declared_order("fscm-stieltjes", "pull_off_force")
-    2.0
-    """
-    try:
-        return DECLARED_ORDERS[model][quantity]
-    except KeyError:
-        raise ValueError(f"no order of convergence is declared for {quantity} of {model}") from None
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ import fem_reference
 from comparisons.models.fem_model import FiniteElements, _audited
 from comparisons.models.fscm_model import FullSelfConsistent
 from comparisons.numerics.curve_distance import curve_distance
-from comparisons.quantities import CURVES
+from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.quantities.points import near
 from fscm.problem import Problem
 
@@ -39,9 +39,19 @@ def test_both_shapes_are_cut_at_the_same_gap():
 
 
 def test_a_bound_its_own_meshes_do_not_bear_out_is_raised():
-    solution = fem_reference.Solution(1.0, 1e-9, 100, 3, 1e-12, 0.1, 6.0, (1.05, 0.85, 0.69), (1.01, 1.003, 1.0))
-    raised = _audited(solution, "pull_off_force")
+    solution = fem_reference.Solution(1.0, 1e-9, 100, 3, 1e-12, 0.1, 6.0, 6.0, (1.05, 0.85, 0.69), (1.01, 1.003, 1.0))
+    raised = _audited(solution)
     assert raised.u_num > 1e-3
     assert replace(raised, u_num=1e-9) == solution
     kept = replace(solution, values=(1.0 + 3e-12, 1.0 + 1e-12, 1.0))
-    assert _audited(kept, "pull_off_force") == kept
+    assert _audited(kept) == kept
+
+
+def test_the_bound_takes_the_order_that_the_solution_declares(monkeypatch):
+    """So a quantity that is new in the table of the elements has a bound without an entry in the adapter."""
+    solution = fem_reference.Solution(1.0, 1e-9, 100, 3, 1e-12, 0.1, 6.0, 6.0, (1.05, 0.85, 0.69), (1.01, 1.003, 1.0))
+    assert _audited(replace(solution, declared_order=2.0)).u_num > 2.0 * _audited(solution).u_num
+    monkeypatch.setattr(fem_reference, "QUANTITIES", (*fem_reference.QUANTITIES, "pull_off_central_gap"))
+    monkeypatch.setattr(fem_reference, "solve", lambda body, quantity: solution)
+    monkeypatch.setitem(QUANTITIES, "pull_off_central_gap", QUANTITIES["jump_in_gap"])
+    assert FiniteElements().evaluate(PROBLEM, "pull_off_central_gap").u_num > 0.0

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from comparisons.models.stieltjes_model import StieltjesModel
-from comparisons.numerics.grid_convergence import declared_order, three_grids
+from comparisons.numerics.grid_convergence import three_grids
 from comparisons.numerics.least_squares import least_squares
 from fscm.problem import Problem
 
@@ -118,7 +118,8 @@ def test_the_bound_of_a_low_order_scheme_holds_against_a_finer_grid(quantity):
     reference = StieltjesModel(800).evaluate(problem, quantity).value
     segments = (50, 100, 200)
     values = [StieltjesModel(m).evaluate(problem, quantity).value for m in segments]
-    found = three_grids([1 / m for m in segments], values, declared_order("fscm-stieltjes", quantity))
+    # The scheme is a midpoint sum: 2, measured 1.9 to 2.1 where the edge is wider than a segment.
+    found = three_grids([1 / m for m in segments], values, declared=2)
     assert abs(found.value - reference) <= found.u_num <= 3 * abs(found.value - reference)
     assert found.observed_order == pytest.approx(2, abs=0.2)
 
@@ -137,11 +138,6 @@ def test_the_bound_of_a_low_order_scheme_holds_against_a_finer_grid(quantity):
 def test_wrong_input(sizes, values, why):
     with pytest.raises(ValueError, match=why):
         three_grids(sizes, values, declared=2)
-
-
-def test_an_undeclared_order_is_an_error():
-    with pytest.raises(ValueError, match="no order"):
-        declared_order("jkr", "pull_off_force")
 
 
 def test_the_order_of_unequal_ratios_solves_the_equation_of_celik_et_al():
