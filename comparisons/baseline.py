@@ -1,4 +1,4 @@
-"""Baseline: the committed results, numbers as CSV with 17 digits, so that a change shows.
+"""Baseline: the committed results, as CSV with 17 digits so that every change is visible.
 
 ``python -m comparisons.baseline FOLDER`` renews them from the folder of a finished ``fscm-bench run`` or ``fscm-bench
 paper``.  A run of the quick tier gives the results, the curves, the largest errors and their pictures.  A run of the

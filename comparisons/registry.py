@@ -172,7 +172,7 @@ def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, ExternalIdentit
     for spec in dict.fromkeys(specs):
         model = create(spec)
         if model.name in names:
-            raise ValueError(f"two models are called {model.name}: each needs its own name")
+            raise ValueError(f"two models have the name {model.name}: each needs its own name")
         names.append(model.name)
         if spec not in MODELS:
             hashed = str(getattr(model, "hashed", ""))
@@ -189,5 +189,7 @@ def _external_model(spec: str, poisson_ratio: float | None) -> Model:
         raise ValueError(f"unknown model: {error}; the models are {', '.join(MODELS)}") from None
     model = load_model(spec, poisson_ratio)
     if model.name in MODELS:
-        raise ValueError(f"the external model {model.name} has the same name as one of ours; it needs its own")
+        raise ValueError(
+            f"the name {model.name} of the external model belongs to a model of fscm-bench: choose another name"
+        )
     return model

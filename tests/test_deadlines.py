@@ -1,4 +1,4 @@
-"""No test fails because a machine is busy."""
+"""Independence of the tests from the speed of the machine."""
 
 from hypothesis import settings
 

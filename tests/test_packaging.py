@@ -1,4 +1,4 @@
-"""What is imported is declared, and the source distribution has every file of the repository."""
+"""Packaging: declared dependencies, and a complete source distribution."""
 
 import ast
 import re

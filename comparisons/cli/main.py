@@ -52,7 +52,7 @@ class _Parser(argparse.ArgumentParser):
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="fscm-bench",
-        description="How wrong is a model of adhesive contact of graded materials, and how sure are we?",
+        description="How wrong is a model of adhesive contact of graded materials, and how certain is that error?",
         epilog="Exit status: 0 done and every gate passes, 1 a gate fails, 2 wrong input, 3 inconclusive, "
         "4 a computation or an output failed, a gate is in error, or no gate was evaluated.",
     )

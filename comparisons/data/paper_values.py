@@ -1,4 +1,4 @@
-"""Numbers that a paper prints, and whether a computed one has their digits.
+"""Numbers printed in a paper, and the comparison of computed numbers with their digits.
 
 `paper_values.toml` holds them as text, so that the number of digits is known.
 """

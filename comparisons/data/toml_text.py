@@ -1,4 +1,4 @@
-"""Reading of TOML text, with one sentence that names the file for what is wrong."""
+"""Reader of TOML text, with one sentence for an error that names the file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Check of the tables of a TOML file by a JSON Schema, with one sentence for what is wrong.
+"""Check of the tables of a TOML file by a JSON Schema, with one sentence for an error.
 
 A schema here states for each key what is admissible in its `description`, as the end of a sentence that begins with
 "must be", and for each table what it is in its `title` ("a gate").  Numbers may be infinite or NaN, as in TOML.

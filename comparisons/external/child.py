@@ -1,4 +1,4 @@
-"""The parent's side of a child process: requests with a time limit, and an end to everything it started."""
+"""Child process of an external model: requests with a time limit, and the end of all that it started."""
 
 from __future__ import annotations
 

@@ -110,7 +110,7 @@ def _submission(folder: Path) -> Submission:
     if digest != manifest["sha256"].lower():
         raise ValueError(
             f"{file} has the SHA-256 {digest}, but {MANIFEST} states {manifest['sha256']}: "
-            "one of them is not the author's"
+            "one of the two files was changed"
         )
     covered = covered_cases(manifest["covers"], _lines(content))
     check_units(manifest["units"], {key[0] for key in covered})
@@ -129,7 +129,7 @@ def _bytes(folder: Path, name: str, largest: int) -> bytes:
     except RuntimeError:  # Python 3.11 and 3.12; a later one finds no file below
         raise ValueError(f"{name} is a loop of symbolic links") from None
     if not is_inside:
-        raise ValueError(f"{name} leads out of the folder")
+        raise ValueError(f"{name} is not in the folder of {MANIFEST}")
     if not path.is_file():
         raise ValueError(f"there is no file {name}")
     if path.stat().st_size > largest:

@@ -50,7 +50,7 @@ class Limits:
     def __post_init__(self) -> None:
         for name, value in ((_TIME, self.seconds), (_MEMORY, self.megabytes)):
             if not 0 < value < 1e9:
-                raise ValueError(f"{name} = {value:g} is outside (0, 1e9): it is a limit of what is used")
+                raise ValueError(f"{name} = {value:g} is outside (0, 1e9): a limit is positive and finite")
 
     @classmethod
     def of_environment(cls) -> Limits:

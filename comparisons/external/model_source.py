@@ -60,7 +60,7 @@ def source_of(spec: str) -> dict[str, Any]:
         if not path.is_file():
             raise ValueError(f"there is no file {one_line(file, 200)}")
         if not attribute.isidentifier():
-            raise ValueError(f"{one_line(spec, 200)}: what follows the colon must be the name of a class")
+            raise ValueError(f"{one_line(spec, 200)}: the text after the colon must be the name of a class")
         return {"kind": "file", "file": str(path), "attribute": attribute}
     folder = Path(os.path.expanduser(spec))
     if folder.name == MANIFEST:

@@ -82,7 +82,7 @@ def write_template(folder: Path, reserved: Collection[str] = ()) -> tuple[list[P
 def _unusable(name: str, module: str, cls: str, reserved: Collection[str]) -> str:
     """Return why a package of that name would not work; nothing if it would."""
     if module in {model.replace("-", "_") for model in reserved}:
-        return "is that of one of our own models"
+        return "is that of a model of fscm-bench"
     if not name[-1].isalnum():
         return "ends in a sign: no package can be installed under it"
     if not module.isidentifier():

@@ -1,4 +1,4 @@
-"""Program of the child process: it loads one external model and evaluates it, one JSON object a line.
+"""Program of the child process, which loads one external model and evaluates it, one JSON object a line.
 
 Requests come on what was stdin; replies go to a descriptor of their own.  Before any code of the model runs,
 stdin, stdout and stderr are redirected to the null device, so a model may print what it likes.
@@ -174,7 +174,9 @@ def _count(name: str, value: object) -> int:
     """Return a count, as the stored tables have it."""
     number = int(_real(name, value))
     if not 0 <= number < LARGEST_COUNT:
-        raise ComputationFailed(f"the model gave {_kind(value)} as {name}, which is outside [0, 2^63): it counts")
+        raise ComputationFailed(
+            f"the model gave {_kind(value)} as {name}, which is outside [0, 2^63): it is a number of steps or unknowns"
+        )
     return number
 
 

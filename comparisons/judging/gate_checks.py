@@ -42,7 +42,7 @@ def plain_text(key: str, text: str, where: str) -> str:
     for character in text:
         if character not in "\t\r\n" and unicodedata.category(character) in _HIDDEN:
             raise ValueError(
-                f"{where}: {key} holds the character {character!a}, which a terminal may obey instead of showing; "
+                f"{where}: {key} holds the character {character!a}, which a terminal may take for a command; "
                 "use printable characters"
             )
     if not text.strip():
@@ -137,14 +137,12 @@ def _check_worst_measured(gate: Gate, where: str) -> None:
         return
     limits = f"the limits {exact(gate.lower)} to {exact(gate.upper)}"
     if not math.isfinite(worst):
-        raise ValueError(
-            f"{where}: worst_measured = {exact(worst)} must be a finite number: it is an error that was seen"
-        )
+        raise ValueError(f"{where}: worst_measured = {exact(worst)} must be a finite number: it is a measured error")
     inside = gate.lower <= worst <= gate.upper
     if not inside and gate.expected_failure is None:
         raise ValueError(
-            f"{where}: worst_measured = {exact(worst)} is not within {limits}: the gate would fail what it was set by; "
-            "correct one of them, or state expected_failure"
+            f"{where}: worst_measured = {exact(worst)} is not within {limits}: the gate would fail in the case "
+            "that set its limits; correct one of them, or state expected_failure"
         )
     if inside and gate.expected_failure is not None:
         raise ValueError(

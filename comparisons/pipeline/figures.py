@@ -1,4 +1,4 @@
-"""The figures of the paper as a function: compute what is missing, write tables, pictures and the record."""
+"""Function for the figures of the paper: their computation, tables, pictures and record."""
 
 from __future__ import annotations
 
@@ -127,12 +127,12 @@ def _computed(calls: list[CachedCall], folder: RunFolder, jobs: int, retry_faile
                 for _ in done:
                     advance()
     except KeyboardInterrupt:
-        log(f"what is finished is kept in {folder.path}; the same command goes on")
+        log(f"finished computations are kept in {folder.path}; repeat the command to continue")
         raise
     except BrokenExecutor:
         raise ComputationFailed(
-            f"a worker process died (out of memory?); what is finished is kept in {folder.path}; "
-            "the same command goes on"
+            f"a worker process ended early, perhaps for lack of memory; "
+            f"finished computations are kept in {folder.path}; repeat the command to continue"
         ) from None
     return cache, len(missing)
 

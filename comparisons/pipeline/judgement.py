@@ -102,10 +102,13 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
     chosen = read_gates(source, cases, models, standing=standing)
     results, curves = (read_table(stored.parquet(stem)) for stem in (stored.results, stored.curves))
     if cases.sha256 != record["cases_sha256"]:
-        log(f"the cases have changed since {folder} was computed; judged by those of today")
+        log(f"the cases have changed since {folder} was computed; it is judged by the present cases")
     label = "the standing gates" if source is None else str(source)
     own = chosen.sha256 == record.get("gates_sha256")
-    log(f"judged by {label}, " + ("the gates of the run" if own else f"not by the gates {folder} was run with"))
+    log(
+        f"judged by {label}, "
+        + ("which are the gates of the run" if own else f"which are not the gates of the run {folder}")
+    )
     if name == "sweep":
         with atomic(stored.gates_text) as file:
             file.write(chosen.text.encode())

@@ -1,4 +1,4 @@
-"""Content of the record that every command leaves in its folder."""
+"""Content of the record that every command writes into its folder."""
 
 from __future__ import annotations
 

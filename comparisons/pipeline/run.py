@@ -1,4 +1,4 @@
-"""The run as a function: compute what is missing, write tables, judge, write verdicts and the record."""
+"""Function for a whole run: its computation, tables, verdicts and record."""
 
 from __future__ import annotations
 
@@ -170,7 +170,9 @@ def _texts(folder: RunFolder, cases: Cases, gates: Gates | None) -> dict[Path, s
         texts[folder.grid_text] = cases.text
     for path, text in texts.items():
         if path.exists() and not folder.journal.exists() and path.read_bytes() != text.encode():
-            raise ValueError(f"{path} is not of a run, which would replace it; choose another folder with --out")
+            raise ValueError(
+                f"{path} was not written by a run, and a run would replace it; choose another folder with --out"
+            )
     return texts
 
 

@@ -112,7 +112,9 @@ def complete(tasks: list[Task], folder: Path, jobs: int, retry_failed: bool = Fa
             log(_safe(journal, folder))
             raise
         except BrokenExecutor:
-            raise ComputationFailed(f"a worker process died (out of memory?); {_safe(journal, folder)}") from None
+            raise ComputationFailed(
+                f"a worker process ended early, perhaps for lack of memory; {_safe(journal, folder)}"
+            ) from None
         rows = [row for row in journal.items if usable(row)]
         return Completed(rows, len(stored), journal.parts_of(rows), evaluated_again)
 

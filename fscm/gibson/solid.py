@@ -1,4 +1,4 @@
-"""Self-consistent model of the Gibson solid, k = 1 and nu = 1/2, where it is algebra and solved exactly.
+"""Self-consistent model of the Gibson solid, k = 1 and nu = 1/2, in closed algebraic form.
 
 For k -> 1 the primitive Phi_k is a step, and the surface moves only where it is pressed, w = M p with
 M = 2 mu^2.  With u = f(r) - delta, Eq. 28 reads

@@ -1,4 +1,4 @@
-"""The registry of quantities: one row each, and everything else reads it."""
+"""Registry of quantities: one row each."""
 
 import ast
 from collections.abc import Iterable

@@ -1,4 +1,4 @@
-"""The registry finds the models of its folder, and every one keeps the contract of `comparisons.model`."""
+"""Registry of the models of its folder, and the contract that each of them keeps."""
 
 import subprocess
 import sys

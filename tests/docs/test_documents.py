@@ -1,4 +1,4 @@
-"""Documents: examples and code blocks run, commands parse, links resolve, formulas hold."""
+"""Documents: examples, code blocks, commands, links and formulas."""
 
 import re
 import shlex

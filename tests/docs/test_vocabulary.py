@@ -1,4 +1,4 @@
-"""Words that the glossary replaces: none is left in code, docs and tests."""
+"""Words that the glossary replaces, in code, docs and tests."""
 
 import re
 from pathlib import Path

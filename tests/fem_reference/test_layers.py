@@ -1,4 +1,4 @@
-"""Order of the folders of fem_reference: what solves does not import what verifies."""
+"""Order of the folders of fem_reference: verification after the solver."""
 
 import ast
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The stated uncertainty against a separate, much finer reference, on a random sample of the whole box.
+"""Stated uncertainty against a separate, much finer reference, on a random sample of the whole box.
 
 The reference uses other panels (order 18, tolerance 1e-9 against order 12, 1e-7), another coarse path (so that
 the meshes are split in other places) and a domain that ends ten times farther out.

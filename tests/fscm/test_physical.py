@@ -1,4 +1,4 @@
-"""Physical units: Eqs. 1, 7, 29-31, and that no choice of units moves a dimensionless number."""
+"""Physical units: Eqs. 1, 7, 29-31, and the independence of the choice of units."""
 
 import math
 import pickle

@@ -1,4 +1,4 @@
-"""The dimensionless problem: what it accepts, what it refuses and why."""
+"""The dimensionless problem: accepted input, refused input, and the reasons."""
 
 import math
 import pickle

@@ -1,4 +1,4 @@
-"""Punch shapes: closed forms, derivatives, promises that are checked."""
+"""Punch shapes: closed forms, derivatives, checked properties."""
 
 import math
 import pickle

@@ -1,4 +1,4 @@
-"""The Stieltjes scheme: its equations literally, its order, its honest uncertainty, its typed failures."""
+"""The Stieltjes scheme: its equations, its order, its uncertainty, its exceptions."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Laws from data: recovered from samples of closed forms, smooth, consistent, refused when no law."""
+"""Laws from data: recovered closed forms, smoothness, consistency, refused data."""
 
 import math
 import pickle

@@ -1,1 +1,1 @@
-"""One module a command of the command line: `add` declares its arguments, `call` carries it out."""
+"""Commands of the command line, one module each: `add` declares the arguments, `call` runs the command."""

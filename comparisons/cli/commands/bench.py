@@ -21,7 +21,7 @@ _FORMATS = {ACCURATE: ".9g", BASELINE: ".9g", "ratio": ".0f"}
 def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the arguments: there are none."""
     parser = parsers.add_parser(
-        "bench", help="speed, memory and error beside the paper's own scheme", description=__doc__
+        "bench", help="measure time, memory and error beside the paper's own scheme", description=__doc__
     )
     parser.set_defaults(call=call)
 

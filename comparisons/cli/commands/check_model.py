@@ -1,4 +1,4 @@
-"""``fscm-bench check-model``: check that an external model keeps the contract."""
+"""``fscm-bench check-model``: checks that an external model keeps the contract."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 def call(args: argparse.Namespace) -> int:
     """Examine and print; return 4 if a computation failed, 1 if something is wrong, else 0."""
     if args.spec in MODELS:
-        raise ValueError(f"{args.spec} is one of our own models; its tests are in tests/comparisons/models")
+        raise ValueError(f"{args.spec} is a model of fscm-bench; its tests are in tests/comparisons/models")
     model = load_model(args.spec)
     if model.name in MODELS:
-        raise ValueError(f"the model calls itself {model.name}, which is one of ours: it needs its own name")
+        raise ValueError(f"the name {model.name} belongs to a model of fscm-bench: choose another name")
     with waiting(f"checking {model.name}"):
         findings = examine(model)
     width = max(len(finding.status) for finding in findings)

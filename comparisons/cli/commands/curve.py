@@ -23,7 +23,9 @@ __all__ = ["add", "call"]
 
 def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser("curve", help="force-displacement curves as CSV and as a plot", description=__doc__)
+    parser = parsers.add_parser(
+        "curve", help="compute curves or surfaces at pull-off, as CSV and as a plot", description=__doc__
+    )
     parser.add_argument(
         "--model",
         metavar="SPEC",

@@ -1,4 +1,4 @@
-"""``fscm-bench fem``: the finite elements: fields for ParaView, a picture, the verification tables."""
+"""``fscm-bench fem``: fields, a picture, verification and the linear solver of the finite elements."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the arguments."""
     parser = parsers.add_parser(
         "fem",
-        help="fields of the finite elements (vtu, picture), their verification and solver table",
+        help="write fields of the finite elements (vtu, picture), print their verification and solver tables",
         description=__doc__,
     )
     add_case(parser, required=False)

@@ -1,4 +1,4 @@
-"""``fscm-bench judge``: judge the stored results of a run again, by its own gates or others."""
+"""``fscm-bench judge``: a new judgement of the stored results of a run, by its own gates or others."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ __all__ = ["add", "call"]
 
 def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser("list", help="the models, quantities, cases or gates there are", description=__doc__)
+    parser = parsers.add_parser("list", help="list the models, quantities, cases or gates", description=__doc__)
     parser.add_argument("what", choices=_TABLES)
     parser.set_defaults(call=call)
 

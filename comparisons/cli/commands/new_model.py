@@ -1,4 +1,4 @@
-"""``fscm-bench new-model``: write a package with a model that works, a test and a workflow that gates it."""
+"""``fscm-bench new-model``: a new package with a working model, a test and a CI workflow."""
 
 from __future__ import annotations
 

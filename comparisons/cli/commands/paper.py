@@ -1,4 +1,4 @@
-"""``fscm-bench paper``: compute every figure of the paper again, its data beside it."""
+"""``fscm-bench paper``: every figure of the paper, computed again, with its data."""
 
 from __future__ import annotations
 
@@ -17,9 +17,7 @@ __all__ = ["add", "call"]
 
 def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser(
-        "paper", help="the figures and numbers of the paper, computed again", description=__doc__
-    )
+    parser = parsers.add_parser("paper", help="compute the figures and numbers of the paper again", description=__doc__)
     parser.add_argument(
         "--figure", metavar="N", nargs="+", action="extend", help=f"only these of {', '.join(NAMES)} (default: all)"
     )

@@ -1,4 +1,4 @@
-"""``fscm-bench report``: write the folder of a run as one HTML page that needs no other file."""
+"""``fscm-bench report``: the folder of a run as one HTML page that needs no other file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``fscm-bench run``: compute the standing cases, judge them, and write verdicts, tables and figures."""
+"""``fscm-bench run``: the standing cases, computed and judged, with verdicts, tables and figures."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ __all__ = ["add", "call"]
 
 def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser("solve", help="one quantity of one problem by one model", description=__doc__)
+    parser = parsers.add_parser("solve", help="compute one quantity of one problem by one model", description=__doc__)
     parser.add_argument("--model", metavar="SPEC", required=True, help=MODEL_SPEC)
     parser.add_argument("--quantity", metavar="NAME", required=True, help="see: fscm-bench list quantities")
     add_case(parser)

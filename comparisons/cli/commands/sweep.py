@@ -1,4 +1,4 @@
-"""``fscm-bench sweep``: compute grids of one's own, with the errors of every model; nothing is judged."""
+"""``fscm-bench sweep``: grids of your own, computed with the errors of every model, without gates."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Effect of a non-zero surface modulus, E = E0 ((z + z_s) / c0)^k, by finite elements; the paper leaves it open.
+"""Effect of a non-zero surface modulus, E = E0 ((z + z_s) / c0)^k, by finite elements; not in the paper.
 
 E0, c0, k, Poisson's ratio, the sphere (n = 2) and the surface law are fixed, so that only the modulus of the skin
 changes: it is E0 (z_s / c0)^k at the surface instead of zero, and hardly changes at depths z >> z_s.  The material is

@@ -89,7 +89,7 @@ def test_the_exit_status_is_the_verdict(small_grid, tmp_path, capsys, changes, s
 def test_other_gates_than_those_of_the_run_are_named_and_the_record_agrees(folder, small_grid, tmp_path, capsys):
     finished = read_record(folder / "run.json")
     assert main(["judge", str(folder), *gates(small_grid, tmp_path, ("upper = 0.11", "upper = 0.095"))]) == 1
-    assert re.search("judged by .*gates.toml, not by the gates .* was run with", capsys.readouterr().err)
+    assert re.search("judged by .*gates.toml, which are not the gates of the run", capsys.readouterr().err)
     record = read_record(folder / "run.json")
     assert record["verdicts"] == {"all": "FAIL", "FAIL": 4}
     assert record["judged_again"]["gates"] == str(tmp_path / "gates.toml")
@@ -129,7 +129,7 @@ def test_a_gates_file_of_somebodys_own_is_not_replaced(small_grid, tmp_path, cap
     text = (tmp_path / "gates.toml").read_text()
     out = ["run", "--jobs", "1", "--out", str(tmp_path)]
     assert main(out) == 2
-    assert "gates.toml is not of a run" in capsys.readouterr().err
+    assert "gates.toml was not written by a run" in capsys.readouterr().err
     assert main([*out, *rules]) == 0
     assert (tmp_path / "gates.toml").read_text() == text
     assert main(out) == 0

@@ -1,4 +1,4 @@
-"""A sweep computes grids of one's own: the numbers, the errors, what is refused."""
+"""Sweeps over grids of the user: numbers, errors, refused input."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What the paper prints as numbers: all of it is there, and formulas are judged as formulas."""
+"""Numbers printed in the paper: complete, and formulas judged as formulas."""
 
 from collections import Counter
 

@@ -1,4 +1,4 @@
-"""An external model whose numbers have changed, though its version has not, is computed again."""
+"""External models whose numbers changed under the same version."""
 
 import pytest
 

@@ -92,7 +92,7 @@ def test_a_failed_computation_has_status_4(write_model, capsys, body, sentence):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "sentence"), [(["jkr"], "one of our own"), (["nowhere"], "no installed package")]
+    ("arguments", "sentence"), [(["jkr"], "is a model of fscm-bench"), (["nowhere"], "no installed package")]
 )
 def test_what_cannot_be_checked_is_wrong_input(capsys, arguments, sentence):
     assert main(["check-model", *arguments]) == 2

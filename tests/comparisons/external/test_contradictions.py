@@ -1,4 +1,4 @@
-"""A model that is not in a later process what it was in the first: its rows fail, each with that reason."""
+"""Models that differ between two processes: failed rows, each with the reason."""
 
 import pandas as pd
 import pytest

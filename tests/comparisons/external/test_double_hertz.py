@@ -1,4 +1,4 @@
-"""The example is itself right: against its authors' equations, two limits and a direct integration."""
+"""The example model against its authors' equations, two limits and a direct integration."""
 
 import math
 from importlib.util import module_from_spec, spec_from_file_location

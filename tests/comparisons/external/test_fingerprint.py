@@ -1,4 +1,4 @@
-"""A model's version changes with every file its numbers can depend on, and with no file that a run writes."""
+"""Version of a model: changed by every file that its numbers depend on, and by no file that a run writes."""
 
 import os
 

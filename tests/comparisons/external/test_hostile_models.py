@@ -236,7 +236,7 @@ def test_a_name_that_could_do_harm_is_refused(name, sentence):
         model_name(name)
 
 
-@pytest.mark.parametrize(("name", "sentence"), [("<b>bold</b>", "letters, digits"), ("jkr", "one of ours")])
+@pytest.mark.parametrize(("name", "sentence"), [("<b>bold</b>", "letters, digits"), ("jkr", "a model of fscm-bench")])
 def test_a_model_with_such_a_name_is_wrong_input(write_model, capsys, name, sentence):
     spec = write_model(GOOD, more=f"name = {name!r}")
     assert main(["solve", "--model", spec, "--quantity", "pull_off_force", "--n", "2", "--k", "0", "--mu", "1"]) == 2

@@ -1,4 +1,4 @@
-"""Where the kernel has Landlock, a model writes in its scratch folder and nowhere else."""
+"""Landlock: writing in the scratch folder of a model, and nowhere else."""
 
 import subprocess
 import sys

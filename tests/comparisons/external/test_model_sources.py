@@ -1,4 +1,4 @@
-"""One model from three sources (package, file, data) has the same results, and is treated as our own models are."""
+"""One model from three sources (package, file, data), with the same results."""
 
 import csv
 import hashlib
@@ -186,7 +186,7 @@ def test_a_run_goes_on_and_notices_that_a_model_changed(write_model, gates, tmp_
 
 def test_two_models_of_one_name_are_refused(write_model, data_source, capsys):
     assert main(["run", "--model", FILE_SOURCE, data_source]) == 2
-    assert "two models are called double-hertz" in capsys.readouterr().err
+    assert "two models have the name double-hertz" in capsys.readouterr().err
 
 
 @pytest.mark.heavy

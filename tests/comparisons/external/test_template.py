@@ -1,4 +1,4 @@
-"""What `new-model` writes works as it is: installed, checked, tested, and gated by its workflow."""
+"""Template of `new-model`: installed, checked, tested, and gated by its workflow."""
 
 import re
 import subprocess
@@ -101,10 +101,10 @@ def test_the_workflow_ends_with_the_status_of_the_run(package, tmp_path, status)
         ("<b>", "letters, digits"),
         ("3d", "begins with a digit"),
         ("given", "gates"),
-        ("fscm", "one of our own models"),
-        ("jkr", "one of our own models"),
-        ("md-improved", "one of our own models"),
-        ("MD.improved", "one of our own models"),
+        ("fscm", "a model of fscm-bench"),
+        ("jkr", "a model of fscm-bench"),
+        ("md-improved", "a model of fscm-bench"),
+        ("MD.improved", "a model of fscm-bench"),
         ("comparisons", "hides another"),
         ("fem-reference", "hides another"),
         ("Json", "hides another"),

@@ -1,4 +1,4 @@
-"""The judge on results made by hand: what is missing, doubled, lost or uncertain never passes."""
+"""The judge on results made by hand: missing, doubled, lost or uncertain ones."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Standing gates on the committed results: all pass, and every one can fail.
+"""Standing gates on the committed results: verdicts, and the ability of each gate to fail.
 
 For each gate a deliberately wrong candidate or an uncertain reference is made out of the committed results.
 The mistakes are those people make: a factor, a sign, a wrong exponent, n and k swapped, a row lost, a NaN.

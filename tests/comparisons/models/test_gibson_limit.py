@@ -1,4 +1,4 @@
-"""At k = 1 curve and surface follow from algebra: closed forms of the paraboloid, and the events of the solver."""
+"""The limit k = 1: closed forms of the paraboloid, and the events of the solver."""
 
 import numpy as np
 import pytest

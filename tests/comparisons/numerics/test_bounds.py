@@ -1,4 +1,4 @@
-"""Bounds that add: no pair of exact values within two bounds is farther apart than the combined bound allows."""
+"""Combined bounds: no pair of exact values within two bounds is farther apart."""
 
 from itertools import product
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Figures show their data, and the same data give the same file."""
+"""Figures: their data, and the same file from the same data."""
 
 import numpy as np
 import pandas as pd

@@ -1,4 +1,4 @@
-"""The committed figures: every figure is there, and its numbers are those that the code computes.
+"""Committed figures: all of them, with the numbers that the code computes.
 
 Figures whose tables follow equilibrium paths are not compared: the solver places the points.  The curves of the quick
 tier are compared through their gates.

@@ -1,4 +1,4 @@
-"""The cache computes each task once, keeps the results, and continues after an interruption."""
+"""Cache of finished tasks: one computation each, stored results, continuation after an interruption."""
 
 import json
 import math

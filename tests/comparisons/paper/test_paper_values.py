@@ -1,4 +1,4 @@
-"""Verdicts on paper values: most have every printed digit, and a cause is stated only as computed."""
+"""Verdicts on paper values, and the causes of the differences."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The registry finds every figure; the command makes them, continues, and reports failures."""
+"""Registry of the figures, and the command that computes them."""
 
 from importlib import import_module
 from pkgutil import iter_modules

@@ -90,7 +90,7 @@ def test_a_sweep_after_a_run_leaves_no_verdicts_of_the_run(small_grid, tmp_path)
 
 def test_a_grid_file_of_the_user_is_not_replaced(toys, tmp_path):
     (tmp_path / "grid.toml").write_text("# mine")
-    with pytest.raises(ValueError, match=r"grid\.toml is not of a run"):
+    with pytest.raises(ValueError, match=r"grid\.toml was not written by a run"):
         run(GRID, folder=tmp_path)
     assert (tmp_path / "grid.toml").read_text() == "# mine"
 

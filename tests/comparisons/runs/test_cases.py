@@ -1,4 +1,4 @@
-"""Cases as data: what is read, what is refused."""
+"""Cases as data: accepted and refused files."""
 
 import math
 import re

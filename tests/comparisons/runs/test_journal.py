@@ -1,4 +1,4 @@
-"""The journal gives back what was added, forgets what was torn, and refuses what is none or of other code."""
+"""Journal: stored entries, torn lines, and refused files."""
 
 import os
 import random

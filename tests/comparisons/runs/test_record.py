@@ -1,4 +1,4 @@
-"""The record of a run fits its schema, or is neither written nor read."""
+"""Record of a run: written and read only if it fits its schema."""
 
 import json
 

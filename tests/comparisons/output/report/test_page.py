@@ -1,4 +1,4 @@
-"""The content of a page is what is stored, in the right order, and a broken folder is refused."""
+"""Content of a page: the stored results in the right order, and the refusal of a broken folder."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""The page as text: one file, the same every time, and no external text is taken for HTML or script."""
+"""The page as text: one file, always the same, with every external text escaped."""
 
 import base64
 import hashlib

@@ -1,4 +1,4 @@
-"""Fig. 2: the derivative is that of Phi, and k = 1 is the limit of k -> 1."""
+"""Fig. 2: the derivative of Phi, and the limit k -> 1."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Figs. 5 and 7: gap, pressure and deformation at pull-off belong together, for k < 1 and in the Gibson limit."""
+"""Figs. 5 and 7: gap, pressure and deformation at pull-off, for k < 1 and in the Gibson limit."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Fig. 3: the named points are on the curve, and the area they bound is the energy that is lost."""
+"""Fig. 3: named points on the curve, and the lost energy as the area between them."""
 
 import numpy as np
 import pytest

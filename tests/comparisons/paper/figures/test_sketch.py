@@ -1,4 +1,4 @@
-"""Fig. 1: drawn without data, and the punch does not enter the body."""
+"""Fig. 1: a sketch without data."""
 
 import numpy as np
 
