@@ -19,7 +19,7 @@ from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.problem import Problem
 
-__all__ = ["fit", "indicator", "initial_mesh", "rescaled_mesh"]
+__all__ = ["end_radius", "fit", "indicator", "initial_mesh", "rescaled_mesh"]
 
 # A pair of panels is merged when the merged panel would still be this much below the tolerance.
 _MERGE_MARGIN = 0.02
@@ -35,7 +35,7 @@ _MAX_ROUNDS = 60
 _ALGEBRAIC = 30.0
 
 
-def _end_radius(problem: Problem, end_height: float) -> float:
+def end_radius(problem: Problem, end_height: float) -> float:
     """A radius with f >= `end_height`, found by doubling."""
     r = 1.0
     while problem.punch.height(np.array([r]))[0] < end_height:
@@ -58,7 +58,7 @@ def _extended(breaks: Array, end: float) -> Array:
 
 def initial_mesh(problem: Problem, order: int, end_height: float) -> PanelMesh:
     """A coarse mesh for the separated punch, scale 1, with a break at s = 1 and an end where f >= `end_height`."""
-    return PanelMesh(_extended(np.array([0.0, 0.5, 1.0, 2.0]), _end_radius(problem, end_height)), order)
+    return PanelMesh(_extended(np.array([0.0, 0.5, 1.0, 2.0]), end_radius(problem, end_height)), order)
 
 
 def rescaled_mesh(
@@ -72,7 +72,7 @@ def rescaled_mesh(
         # A break too close to s = 1 gives way to it.
         drop = [j for j in (i - 1, i) if j > 0 and abs(breaks[j] - 1.0) < 0.2 * length]
         breaks = np.sort(np.append(np.delete(breaks, drop), 1.0))
-    return PanelMesh(_extended(breaks, max(_end_radius(problem, end_height) / new_scale, 4.0)), mesh.order)
+    return PanelMesh(_extended(breaks, max(end_radius(problem, end_height) / new_scale, 4.0)), mesh.order)
 
 
 def _weights(state: State, starts: Array, lengths: Array) -> Array:
