@@ -14,8 +14,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from fscm._adaptivity import on_mesh
-from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of
+from fscm._adaptivity import fit, on_mesh
+from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rates_of
+from fscm._continuation import moved
 from fscm._equilibrium import State
 from fscm._newton import newton
 from fscm._panels import PanelMesh
@@ -28,10 +29,18 @@ _MARGIN = 2.0
 # Times that an interval is halved, and the change of load or displacement that may then hide in it, relative to
 # 1 + |f|: below the error of the meshes of the path.
 _HALVINGS, _NEGLIGIBLE = 12, 1e-7
+# Newton error beside the error of the mesh, and the smallest step to a middle, in units of its distance.
+_NEWTON_MARGIN, _SMALLEST = 0.01, 1e-3
 
 
-def completed(points: list[Point]) -> list[Point]:
+def completed(points: list[Point], tolerance: float) -> list[Point]:
     """The points of a path, with others between those that hide turning points of load or displacement.
+
+    Parameters
+    ----------
+    points : list of Point
+    tolerance : float
+        Resolution of the pressure on the path (see `fscm._adaptivity`).
 
     Raises
     ------
@@ -42,7 +51,7 @@ def completed(points: list[Point]) -> list[Point]:
     found = [points[0]]
     for a, b in pairwise(points):
         if a.stretch == b.stretch and _may_hide_any(a, b):
-            between = _parts(*_on_common_mesh(a, b, arc), arc, _HALVINGS)
+            between = _parts(*_on_common_mesh(a, b, arc), arc, tolerance, _HALVINGS)
             counts = [sum(_turns(p, q, name) for p, q in pairwise(between)) for name in _RATES]
             if counts != [_turns(a, b, name) for name in _RATES]:
                 found += between[1:-1]
@@ -137,7 +146,29 @@ def _middle(a: Point, b: Point, arc: ArcLength) -> Point:
     return _point(newton(guess, parameter_control(guess, parameter)), a, arc)
 
 
-def _parts(a: Point, b: Point, arc: ArcLength, halvings: int) -> list[Point]:
+def _reached_middle(a: Point, b: Point, arc: ArcLength, tolerance: float) -> Point:
+    """The state halfway, in steps from the first point with the mesh refined on the way."""
+    state, rates = a.state, a.rates.scaled(1.0 / _parameter_rate(a))
+    middle = 0.5 * (parameter_of(a.state) + parameter_of(b.state))
+    step = middle - parameter_of(state)
+    while parameter_of(state) != middle:
+        x = parameter_of(state)
+        target = middle if abs(step) >= abs(middle - x) * (1.0 - 1e-9) else x + step
+        try:
+            new = moved(state, rates, target, _NEWTON_MARGIN * tolerance)
+            state = fit(new, parameter_control(new, target), tolerance)
+        except NotConverged:
+            step *= 0.5
+            if abs(step) < _SMALLEST * abs(middle - parameter_of(a.state)):
+                raise
+            continue
+        if target == middle:
+            break
+        rates = rates_of(state)
+    return _point(state, a, arc)
+
+
+def _parts(a: Point, b: Point, arc: ArcLength, tolerance: float, halvings: int) -> list[Point]:
     """Points from a to b between which nothing can hide."""
     if not _may_hide_any(a, b):
         return [a, b]
@@ -150,5 +181,12 @@ def _parts(a: Point, b: Point, arc: ArcLength, halvings: int) -> list[Point]:
                     f"delta = {a.state.displacement:.6g}, P = {a.state.load:.6g}"
                 )
         return [a, b]
-    middle = _middle(a, b, arc)
-    return [*_parts(a, middle, arc, halvings - 1)[:-1], *_parts(middle, b, arc, halvings - 1)]
+    try:
+        middle = _middle(a, b, arc)
+        halves = (a, middle), (middle, b)
+    except NotConverged:
+        # The mesh of the two ends does not resolve the edge between them.
+        middle = _reached_middle(a, b, arc, tolerance)
+        halves = _on_common_mesh(a, middle, arc), _on_common_mesh(middle, b, arc)
+    first, last = (_parts(*half, arc, tolerance, halvings - 1) for half in halves)
+    return [*first[:-1], *last]

@@ -118,7 +118,8 @@ def trace(
         return end(state)
 
     points = completed(
-        path_until(problem, *meshes.curve, ended, "its end", _MAX_POINTS, longest_step, start, meshes.end_height)
+        path_until(problem, *meshes.curve, ended, "its end", _MAX_POINTS, longest_step, start, meshes.end_height),
+        meshes.curve.tolerance,
     )
     states, folds = _with_events(points)
     if max_load is not None and max_load <= 0.0:

@@ -134,7 +134,7 @@ def equilibria(problem: Problem, control: str, value: float, accuracy: Accuracy 
     points = path_until(problem, *meshes.path, ended, end, start_gap=start_gap, end_height=meshes.end_height)
     fold = _FOLDS[control]
     found: list[EquilibriumState] = []
-    for a, b in pairwise(completed(points)):
+    for a, b in pairwise(completed(points, meshes.path.tolerance)):
         if a.stretch != b.stretch:
             continue
         near = _near_extreme(a, b, condition, fold, meshes)
