@@ -151,7 +151,12 @@ def fit(state: State, control: Control, tolerance: float, coarsen: bool = False)
         # A new mesh costs a solve: it is worth that for panels that lack, or for many that are too many.
         if not middles.size and drop.size < _WORTH_MERGING * len(breaks):
             return replace(state, iterations=iterations)
-        mesh = PanelMesh(np.sort(np.concatenate([np.delete(breaks, drop), middles])), state.disc.mesh.order)
+        breaks = np.sort(np.concatenate([np.delete(breaks, drop), middles]))
+        if np.any(np.diff(breaks) <= 0.0):
+            raise NotConverged(
+                "the contact edge is narrower than the rounding of its radius: no panel resolves the pressure there"
+            )
+        mesh = PanelMesh(breaks, state.disc.mesh.order)
         state = newton(on_mesh(state, mesh), control, step_tolerance)
         iterations += state.iterations
     raise NotConverged(f"the mesh was refined {_MAX_ROUNDS} times without resolving the pressure to {tolerance:.0e}")

@@ -44,6 +44,9 @@ _LARGEST_TURN, _BLIND_STEP = 0.85, 0.02
 # the path may then run flat through several shallow folds, over which the tangent hardly turns.  Measured: n = 2,
 # k = 0.6, mu = 3 has three folds within 0.015 of displacement, and steps of 0.5 missed the first two.
 _FLAT_SHARE, _FLAT_STEP = 0.5, 0.1
+# The width of the cohesive edge is (1.03 M)^(-1/(1-k)) for the 9-3 law; decimal logarithm of the narrowest that is
+# tried: a contact radius has 16 digits, and a law that is ten times less steep has an edge that is as much wider.
+_EDGE, _NARROWEST = 1.03, -20.0
 # The edge is followed from where the central gap has fallen below the gap of largest tension by this fraction
 # of that gap's distance to the singular gap: nearer to it the edge radius is a poor variable (it starts as a
 # root).
@@ -99,6 +102,16 @@ def _edge_elsewhere(state: State, hand_over: float) -> bool:
     return float(np.min(state.gap[state.disc.mesh.nodes > 1.0])) < hand_over
 
 
+def _check_edge(problem: Problem) -> None:
+    """Refuse a cohesive edge, of the width (1.03 M)^(-1/(1-k)), that is far below the rounding of any radius."""
+    log_width = -math.log10(_EDGE * problem.compliance) / (1.0 - problem.k)
+    if log_width < _NARROWEST:
+        raise NotConverged(
+            f"the contact edge of {problem} is about 10^{log_width:.0f} wide, below the rounding of its radius: "
+            f"k = {problem.k:g} is too close to 1, the Gibson solid, at this Tabor number"
+        )
+
+
 def _start_gap(problem: Problem) -> float:
     """A central gap beyond the far branch at jump-out: JKR's C_out mu is at most sqrt(2 pi) mu (Eq. 55)."""
     return 3.0 + 3.0 * problem.mu
@@ -138,6 +151,7 @@ def equilibrium_path(
     NotConverged
         When the step becomes too small.
     """
+    _check_edge(problem)
     arc = ArcLength.of(problem)
     state = _far_state(problem, _start_gap(problem) if start_gap is None else start_gap, order, tolerance, end_height)
     peak, singular = problem.law.peak_gap, problem.law.singular_gap

@@ -141,6 +141,22 @@ class State:
         """Bound on the error of the closed tail, on load and displacement."""
         return tail_uncertainty(self.disc.problem, self.end, self.displacement, self.tail)
 
+    @property
+    def axis_uncertainty(self) -> float:
+        """Bound on the error of the deformation on the axis, hence of the central gap, on this mesh.
+
+        The pressure follows r^n at the tip, so that its Legendre coefficients of degree l on the innermost panel fall
+        like l^(-2n-1): those from the order q on sum to the last one times q / (2 n).
+        """
+        d, mesh = self.disc, self.disc.mesh
+        last = float(np.max(np.abs(mesh.modes(self.pressure)[0, -2:])))
+        r = self.radius[:2]
+        f = d.problem.punch.height(r)
+        # A flat tip counts as a linear one, the least favourable of those that do not rise like r^n, n < 1.
+        exponent = math.log(f[1] / f[0]) / math.log(r[1] / r[0]) if f[1] > f[0] > 0.0 else 1.0
+        omitted = mesh.order / (2.0 * exponent)
+        return d.stiffness_scale(self.scale) * float(mesh.lengths[0]) ** (1.0 - d.problem.k) * last * omitted
+
     @cached_property
     def energy(self) -> float:
         """Elastic plus surface energy, unit pi Q^(2/n) dgamma z0^(2/n); its change is P d(delta).
