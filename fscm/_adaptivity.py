@@ -19,12 +19,14 @@ from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.problem import Problem
 
-__all__ = ["end_radius", "fit", "indicator", "initial_mesh", "rescaled_mesh"]
+__all__ = ["STEEP", "end_radius", "fit", "indicator", "initial_mesh", "rescaled_mesh"]
 
 # A pair of panels is merged when the merged panel would still be this much below the tolerance.
 _MERGE_MARGIN = 0.02
 # Merged panels reach at most this many times as far from the axis as they start.
 _LARGEST_RATIO = 8.0
+# On a punch of larger growth the gap rises by at most this factor over a panel of the first mesh.
+STEEP, _RISE = 10.0, 64.0
 # Share of superfluous breaks from which a mesh is made anew for their sake.
 _WORTH_MERGING = 0.2
 # Newton error beside the error of the mesh.
@@ -58,7 +60,14 @@ def _extended(breaks: Array, end: float) -> Array:
 
 def initial_mesh(problem: Problem, order: int, end_height: float) -> PanelMesh:
     """A coarse mesh for the separated punch, scale 1, with a break at s = 1 and an end where f >= `end_height`."""
-    return PanelMesh(_extended(np.array([0.0, 0.5, 1.0, 2.0]), end_radius(problem, end_height)), order)
+    breaks = _extended(np.array([0.0, 0.5, 1.0, 2.0]), end_radius(problem, end_height))
+    while problem.punch.growth > STEEP:
+        f = problem.punch.height(breaks)
+        bad = np.flatnonzero(f[1:] > _RISE * np.maximum(f[:-1], 1.0))
+        if not bad.size:
+            break
+        breaks = np.sort(np.concatenate([breaks, 0.5 * (breaks[bad] + breaks[bad + 1])]))
+    return PanelMesh(breaks, order)
 
 
 def rescaled_mesh(
@@ -120,8 +129,14 @@ def _superfluous(state: State, tolerance: float) -> NDArray[np.intp]:
 
 def on_mesh(state: State, mesh: PanelMesh) -> State:
     """The state interpolated to another mesh at the same scale: a guess, not an equilibrium."""
-    disc = Discretisation(state.disc.problem, mesh, state.disc)
-    return State(disc, state.scale, state.disc.mesh.transfer(state.gap, mesh), state.displacement, state.follows_edge)
+    problem = state.disc.problem
+    disc = Discretisation(problem, mesh, state.disc)
+    if problem.punch.growth <= STEEP:
+        gap = state.disc.mesh.transfer(state.gap, mesh)
+    else:  # the deformation is smooth where the shape is not resolved
+        shape = problem.punch.height
+        gap = state.disc.mesh.transfer(state.gap - shape(state.radius), mesh) + shape(state.scale * mesh.nodes)
+    return State(disc, state.scale, gap, state.displacement, state.follows_edge)
 
 
 def fit(state: State, control: Control, tolerance: float, coarsen: bool = False) -> State:

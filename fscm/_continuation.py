@@ -17,7 +17,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import brentq
 
-from fscm._adaptivity import end_radius, fit, initial_mesh, rescaled_mesh
+from fscm._adaptivity import STEEP, end_radius, fit, initial_mesh, rescaled_mesh
 from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of
 from fscm._equilibrium import Control, Discretisation, Rates, State
 from fscm._meshes import Meshes
@@ -90,8 +90,12 @@ def _follow_edge(state: State, end_height: float) -> State:
     ratio = brentq(lambda s: mesh.evaluate(state.gap, np.array([s]))[0] - target, low, mesh.nodes[outer + 1])
     new = rescaled_mesh(problem, mesh, state.scale, state.scale * ratio, end_height)
     known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
-    gap = mesh.evaluate(state.gap, known)
-    gap += problem.punch.height(state.scale * ratio * new.nodes) - problem.punch.height(state.scale * known)
+    shape = problem.punch.height
+    if problem.punch.growth <= STEEP:
+        gap = mesh.evaluate(state.gap, known)
+        gap += shape(state.scale * ratio * new.nodes) - shape(state.scale * known)
+    else:
+        gap = mesh.evaluate(state.gap - shape(state.radius), known) + shape(state.scale * ratio * new.nodes)
     return State(Discretisation(problem, new), state.scale * ratio, gap, state.displacement, True)
 
 

@@ -62,3 +62,11 @@ def test_the_bound_of_the_gap_at_jump_in_has_a_margin(n: float, k: float, mu: fl
 def test_an_edge_below_rounding_is_refused_at_once_with_the_cause() -> None:
     with pytest.raises(NotConverged, match=r"edge of .* is about 10\^-314 wide, below the rounding"):
         solve(Problem(2, 0.999, 1.0), "pull_off_force")
+
+
+@pytest.mark.parametrize(("k", "mu"), [(0.0, 1.0), (0.4, 1.0), (0.0, 0.05)])
+def test_a_punch_of_shape_index_30_is_solved(k: float, mu: float) -> None:
+    """The first mesh sees how steeply the punch rises."""
+    problem = Problem(30, k, mu)
+    solution = solve(problem, "pull_off_force")
+    assert abs(solution.value - _finer(problem).solution("pull_off_force").value) <= solution.u_num < 1e-9
