@@ -13,20 +13,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fscm._equilibrium import Control, Discretisation, State
-from fscm._newton import STEP_TOLERANCE, newton
+from fscm._newton import STEEP, STEP_TOLERANCE, newton
 from fscm._panels import PanelMesh
 from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.problem import Problem
 
-__all__ = ["STEEP", "end_radius", "fit", "indicator", "initial_mesh", "rescaled_mesh"]
+__all__ = ["end_radius", "fit", "indicator", "initial_mesh", "rescaled_mesh"]
 
 # A pair of panels is merged when the merged panel would still be this much below the tolerance.
 _MERGE_MARGIN = 0.02
 # Merged panels reach at most this many times as far from the axis as they start.
 _LARGEST_RATIO = 8.0
-# On a punch of larger growth the gap rises by at most this factor over a panel of the first mesh.
-STEEP, _RISE = 10.0, 64.0
+# On a steep punch the gap rises by at most this factor over a panel of the first mesh.
+_RISE = 64.0
 # Share of superfluous breaks from which a mesh is made anew for their sake.
 _WORTH_MERGING = 0.2
 # Newton error beside the error of the mesh.

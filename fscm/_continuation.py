@@ -17,11 +17,11 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import brentq
 
-from fscm._adaptivity import STEEP, end_radius, fit, initial_mesh, rescaled_mesh
+from fscm._adaptivity import end_radius, fit, initial_mesh, rescaled_mesh
 from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of
 from fscm._equilibrium import Control, Discretisation, Rates, State
 from fscm._meshes import Meshes
-from fscm._newton import STEP_TOLERANCE, newton
+from fscm._newton import STEEP, STEP_TOLERANCE, moved_gap, newton
 from fscm._path_end import PathEnd, radius_of_compression
 from fscm.errors import NotConverged
 from fscm.problem import Problem
@@ -57,7 +57,7 @@ def _predicted(state: State, rates: Rates, step: float) -> State:
     return replace(
         state,
         scale=state.scale * math.exp(step * rates.log_scale),
-        gap=state.gap + step * rates.gap,
+        gap=moved_gap(state, step * rates.gap, step * rates.log_scale),
         displacement=state.displacement + step * rates.displacement,
     )
 

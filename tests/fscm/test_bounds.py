@@ -64,9 +64,9 @@ def test_an_edge_below_rounding_is_refused_at_once_with_the_cause() -> None:
         solve(Problem(2, 0.999, 1.0), "pull_off_force")
 
 
-@pytest.mark.parametrize(("k", "mu"), [(0.0, 1.0), (0.4, 1.0), (0.0, 0.05)])
-def test_a_punch_of_shape_index_30_is_solved(k: float, mu: float) -> None:
-    """The first mesh sees how steeply the punch rises."""
-    problem = Problem(30, k, mu)
+@pytest.mark.parametrize(("n", "k", "mu"), [(30.0, 0.0, 1.0), (30.0, 0.4, 1.0), (30.0, 0.0, 0.05), (50.0, 0.0, 1.0)])
+def test_a_flat_punch_is_solved(n: float, k: float, mu: float) -> None:
+    """The first mesh sees how steeply the punch rises, and each step moves its shape exactly."""
+    problem = Problem(n, k, mu)
     solution = solve(problem, "pull_off_force")
     assert abs(solution.value - _finer(problem).solution("pull_off_force").value) <= solution.u_num < 1e-9
