@@ -181,7 +181,7 @@ def _solved(coarse: State, condition: events.Condition, meshes: Meshes) -> Equil
         float(state.central_gap),
         float(state.displacement),
         float(state.load),
-        float(SAFETY * difference + FLOOR * scale + state.tail_uncertainty + state.axis_uncertainty),
+        float(SAFETY * difference + FLOOR * scale + state.tail_uncertainty),
         radial_field(state),
     )
 
