@@ -168,6 +168,16 @@ def _reached_middle(a: Point, b: Point, arc: ArcLength, tolerance: float) -> Poi
     return _point(state, a, arc)
 
 
+def _resolved_middle(a: Point, b: Point, arc: ArcLength, tolerance: float) -> Point:
+    """The state halfway, on the mesh of the ends when that resolves it, else on a finer one."""
+    try:
+        state = _middle(a, b, arc).state
+        state = fit(state, parameter_control(state, parameter_of(state)), tolerance)
+    except NotConverged:
+        return _reached_middle(a, b, arc, tolerance)
+    return _point(state, a, arc)
+
+
 def _parts(a: Point, b: Point, arc: ArcLength, tolerance: float, halvings: int) -> list[Point]:
     """Points from a to b between which nothing can hide."""
     if not _may_hide_any(a, b):
@@ -181,12 +191,10 @@ def _parts(a: Point, b: Point, arc: ArcLength, tolerance: float, halvings: int) 
                     f"delta = {a.state.displacement:.6g}, P = {a.state.load:.6g}"
                 )
         return [a, b]
-    try:
-        middle = _middle(a, b, arc)
-        halves = (a, middle), (middle, b)
-    except NotConverged:
-        # The mesh of the two ends does not resolve the edge between them.
-        middle = _reached_middle(a, b, arc, tolerance)
+    middle = _resolved_middle(a, b, arc, tolerance)
+    halves = (a, middle), (middle, b)
+    if middle.state.disc is not a.state.disc:
+        # The mesh of the two ends does not resolve the edge between them; it would pin the edge, and turn falsely.
         halves = _on_common_mesh(a, middle, arc), _on_common_mesh(middle, b, arc)
     first, last = (_parts(*half, arc, tolerance, halvings - 1) for half in halves)
     return [*first[:-1], *last]
