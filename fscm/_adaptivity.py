@@ -13,18 +13,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fscm._equilibrium import Control, Discretisation, State
-from fscm._newton import STEP_TOLERANCE, newton
+from fscm._newton import STEEP, STEP_TOLERANCE, newton
 from fscm._panels import PanelMesh
 from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.problem import Problem
 
-__all__ = ["fit", "indicator", "initial_mesh", "rescaled_mesh"]
+__all__ = ["end_radius", "fit", "indicator", "initial_mesh", "rescaled_mesh"]
 
 # A pair of panels is merged when the merged panel would still be this much below the tolerance.
 _MERGE_MARGIN = 0.02
 # Merged panels reach at most this many times as far from the axis as they start.
 _LARGEST_RATIO = 8.0
+# On a steep punch the gap rises by at most this factor over a panel of the first mesh.
+_RISE = 64.0
 # Share of superfluous breaks from which a mesh is made anew for their sake.
 _WORTH_MERGING = 0.2
 # Newton error beside the error of the mesh.
@@ -35,7 +37,7 @@ _MAX_ROUNDS = 60
 _ALGEBRAIC = 30.0
 
 
-def _end_radius(problem: Problem, end_height: float) -> float:
+def end_radius(problem: Problem, end_height: float) -> float:
     """A radius with f >= `end_height`, found by doubling."""
     r = 1.0
     while problem.punch.height(np.array([r]))[0] < end_height:
@@ -58,7 +60,14 @@ def _extended(breaks: Array, end: float) -> Array:
 
 def initial_mesh(problem: Problem, order: int, end_height: float) -> PanelMesh:
     """A coarse mesh for the separated punch, scale 1, with a break at s = 1 and an end where f >= `end_height`."""
-    return PanelMesh(_extended(np.array([0.0, 0.5, 1.0, 2.0]), _end_radius(problem, end_height)), order)
+    breaks = _extended(np.array([0.0, 0.5, 1.0, 2.0]), end_radius(problem, end_height))
+    while problem.punch.growth > STEEP:
+        f = problem.punch.height(breaks)
+        bad = np.flatnonzero(f[1:] > _RISE * np.maximum(f[:-1], 1.0))
+        if not bad.size:
+            break
+        breaks = np.sort(np.concatenate([breaks, 0.5 * (breaks[bad] + breaks[bad + 1])]))
+    return PanelMesh(breaks, order)
 
 
 def rescaled_mesh(
@@ -72,7 +81,7 @@ def rescaled_mesh(
         # A break too close to s = 1 gives way to it.
         drop = [j for j in (i - 1, i) if j > 0 and abs(breaks[j] - 1.0) < 0.2 * length]
         breaks = np.sort(np.append(np.delete(breaks, drop), 1.0))
-    return PanelMesh(_extended(breaks, max(_end_radius(problem, end_height) / new_scale, 4.0)), mesh.order)
+    return PanelMesh(_extended(breaks, max(end_radius(problem, end_height) / new_scale, 4.0)), mesh.order)
 
 
 def _weights(state: State, starts: Array, lengths: Array) -> Array:
@@ -120,8 +129,14 @@ def _superfluous(state: State, tolerance: float) -> NDArray[np.intp]:
 
 def on_mesh(state: State, mesh: PanelMesh) -> State:
     """The state interpolated to another mesh at the same scale: a guess, not an equilibrium."""
-    disc = Discretisation(state.disc.problem, mesh, state.disc)
-    return State(disc, state.scale, state.disc.mesh.transfer(state.gap, mesh), state.displacement, state.follows_edge)
+    problem = state.disc.problem
+    disc = Discretisation(problem, mesh, state.disc)
+    if problem.punch.growth <= STEEP:
+        gap = state.disc.mesh.transfer(state.gap, mesh)
+    else:  # the deformation is smooth where the shape is not resolved
+        shape = problem.punch.height
+        gap = state.disc.mesh.transfer(state.gap - shape(state.radius), mesh) + shape(state.scale * mesh.nodes)
+    return State(disc, state.scale, gap, state.displacement, state.follows_edge)
 
 
 def fit(state: State, control: Control, tolerance: float, coarsen: bool = False) -> State:
@@ -151,7 +166,12 @@ def fit(state: State, control: Control, tolerance: float, coarsen: bool = False)
         # A new mesh costs a solve: it is worth that for panels that lack, or for many that are too many.
         if not middles.size and drop.size < _WORTH_MERGING * len(breaks):
             return replace(state, iterations=iterations)
-        mesh = PanelMesh(np.sort(np.concatenate([np.delete(breaks, drop), middles])), state.disc.mesh.order)
+        breaks = np.sort(np.concatenate([np.delete(breaks, drop), middles]))
+        if np.any(np.diff(breaks) <= 0.0):
+            raise NotConverged(
+                "the contact edge is narrower than the rounding of its radius: no panel resolves the pressure there"
+            )
+        mesh = PanelMesh(breaks, state.disc.mesh.order)
         state = newton(on_mesh(state, mesh), control, step_tolerance)
         iterations += state.iterations
     raise NotConverged(f"the mesh was refined {_MAX_ROUNDS} times without resolving the pressure to {tolerance:.0e}")

@@ -8,16 +8,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from fscm._equilibrium import Control, Rates, State
+from fscm.problem import Problem
 
 __all__ = ["ArcLength", "Point", "parameter_control", "parameter_of", "rates_of"]
 
 
 @dataclass(frozen=True)
 class Point:
-    """A state on the path and its unit tangent in arc length, oriented from separation into contact."""
+    """A state on the path and its unit tangent in arc length, oriented from separation into contact.
+
+    The points of one `stretch` share the continuation parameter and the place to which the mesh is fixed.
+    """
 
     state: State
     rates: Rates
+    stretch: int = 0
 
 
 @dataclass(frozen=True)
@@ -26,6 +31,11 @@ class ArcLength:
 
     displacement_in_contact: float
     load: float
+
+    @classmethod
+    def of(cls, problem: Problem) -> ArcLength:
+        """Units of a problem, from the sizes of displacement and load in the two limits."""
+        return cls(1.0 + problem.mu, 2.0 * max(1.0, problem.mu ** ((2.0 - problem.n) / problem.n)))
 
     def parameter_unit(self, state: State) -> float:
         """Unit of the continuation parameter: 1 for log c, the distance to the singular gap for the central gap."""

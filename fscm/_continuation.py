@@ -1,10 +1,11 @@
 """The equilibrium path from far separation through both folds into contact.
 
-The path has two stretches.  While the punch is apart the scale is fixed and the central gap is the continuation
+The path has two stretches or more.  While the punch is apart the scale is fixed and the central gap is the continuation
 parameter.  Once the central gap has passed the gap of largest tension, the mesh is scaled so that this gap sits at
 s = 1: the mesh follows the edge, and log c is the parameter.  On both, steps are taken in arc length in the space of
 the parameter, delta and P, so folds in any of them are passed.  In the moving mesh the solution changes slowly
-however sharp the edge is.
+however sharp the edge is.  When the gap farther out falls below the gap of largest tension as well, as around a tall
+asperity, another stretch begins, which follows that edge.
 """
 
 from __future__ import annotations
@@ -16,15 +17,16 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import brentq
 
-from fscm._adaptivity import fit, initial_mesh, rescaled_mesh
+from fscm._adaptivity import end_radius, fit, initial_mesh, rescaled_mesh
 from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of
 from fscm._equilibrium import Control, Discretisation, Rates, State
 from fscm._meshes import Meshes
-from fscm._newton import STEP_TOLERANCE, newton
+from fscm._newton import STEEP, STEP_TOLERANCE, moved_gap, newton
+from fscm._path_end import PathEnd, radius_of_compression
 from fscm.errors import NotConverged
 from fscm.problem import Problem
 
-__all__ = ["MAX_POINTS", "bracketing_path", "equilibrium_path", "moved", "path_until"]
+__all__ = ["MAX_POINTS", "bracketing_path", "equilibrium_path", "moved", "path_end", "path_until"]
 
 # Measured: at most 80 points of a bracketing path for k up to 0.8, but 790 and 1060 at n = 2, k = 0.9, mu = 1 and 2,
 # where the nucleus of contact grows in small steps.  Each keeps its matrices: 2 MB on such meshes.
@@ -42,6 +44,9 @@ _LARGEST_TURN, _BLIND_STEP = 0.85, 0.02
 # the path may then run flat through several shallow folds, over which the tangent hardly turns.  Measured: n = 2,
 # k = 0.6, mu = 3 has three folds within 0.015 of displacement, and steps of 0.5 missed the first two.
 _FLAT_SHARE, _FLAT_STEP = 0.5, 0.1
+# The width of the cohesive edge is (1.03 M)^(-1/(1-k)) for the 9-3 law; decimal logarithm of the narrowest that is
+# tried: a contact radius has 16 digits, and a law that is ten times less steep has an edge that is as much wider.
+_EDGE, _NARROWEST = 1.03, -20.0
 # The edge is followed from where the central gap has fallen below the gap of largest tension by this fraction
 # of that gap's distance to the singular gap: nearer to it the edge radius is a poor variable (it starts as a
 # root).
@@ -52,7 +57,7 @@ def _predicted(state: State, rates: Rates, step: float) -> State:
     return replace(
         state,
         scale=state.scale * math.exp(step * rates.log_scale),
-        gap=state.gap + step * rates.gap,
+        gap=moved_gap(state, step * rates.gap, step * rates.log_scale),
         displacement=state.displacement + step * rates.displacement,
     )
 
@@ -85,9 +90,30 @@ def _follow_edge(state: State, end_height: float) -> State:
     ratio = brentq(lambda s: mesh.evaluate(state.gap, np.array([s]))[0] - target, low, mesh.nodes[outer + 1])
     new = rescaled_mesh(problem, mesh, state.scale, state.scale * ratio, end_height)
     known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
-    gap = mesh.evaluate(state.gap, known)
-    gap += problem.punch.height(state.scale * ratio * new.nodes) - problem.punch.height(state.scale * known)
+    shape = problem.punch.height
+    if problem.punch.growth <= STEEP:
+        gap = mesh.evaluate(state.gap, known)
+        gap += shape(state.scale * ratio * new.nodes) - shape(state.scale * known)
+    else:
+        gap = mesh.evaluate(state.gap - shape(state.radius), known) + shape(state.scale * ratio * new.nodes)
     return State(Discretisation(problem, new), state.scale * ratio, gap, state.displacement, True)
+
+
+def _edge_elsewhere(state: State, hand_over: float) -> bool:
+    """Whether the outermost contact edge is not the one that the mesh follows."""
+    if not state.follows_edge:
+        return state.central_gap < hand_over
+    return float(np.min(state.gap[state.disc.mesh.nodes > 1.0])) < hand_over
+
+
+def _check_edge(problem: Problem) -> None:
+    """Refuse a cohesive edge, of the width (1.03 M)^(-1/(1-k)), that is far below the rounding of any radius."""
+    log_width = -math.log10(_EDGE * problem.compliance) / (1.0 - problem.k)
+    if log_width < _NARROWEST:
+        raise NotConverged(
+            f"the contact edge of {problem} is about 10^{log_width:.0f} wide, below the rounding of its radius: "
+            f"k = {problem.k:g} is too close to 1, the Gibson solid, at this Tabor number"
+        )
 
 
 def _start_gap(problem: Problem) -> float:
@@ -122,14 +148,15 @@ def equilibrium_path(
     Yields
     ------
     Point
-        At the change of mesh the same state is given twice, before and after.
+        At the change of stretch the same state is given twice, before and after.
 
     Raises
     ------
     NotConverged
         When the step becomes too small.
     """
-    arc = ArcLength(1.0 + problem.mu, 2.0 * max(1.0, problem.mu ** ((2.0 - problem.n) / problem.n)))
+    _check_edge(problem)
+    arc = ArcLength.of(problem)
     state = _far_state(problem, _start_gap(problem) if start_gap is None else start_gap, order, tolerance, end_height)
     peak, singular = problem.law.peak_gap, problem.law.singular_gap
     hand_over = peak - _HAND_OVER * (peak - singular)
@@ -138,11 +165,11 @@ def equilibrium_path(
     while True:
         yield point
         state = point.state
-        if not state.follows_edge and state.central_gap < hand_over:
+        if _edge_elsewhere(state, hand_over):
             guess = _follow_edge(state, end_height)
             control = parameter_control(guess, parameter_of(guess))
             state = fit(newton(guess, control), control, tolerance)
-            point = Point(state, arc.tangent(state))
+            point = Point(state, arc.tangent(state), point.stretch + 1)
             continue
         if not state.follows_edge and abs(point.rates.displacement) < _FLAT_SHARE * arc.displacement_unit(state):
             step = min(step, _FLAT_STEP)
@@ -152,7 +179,7 @@ def equilibrium_path(
                 new = newton(_predicted(state, point.rates, step), control, _NEWTON_MARGIN * tolerance)
                 used = new.iterations
                 new = fit(new, control, tolerance, coarsen=True)
-                after = Point(new, arc.tangent(new))
+                after = Point(new, arc.tangent(new), point.stretch)
                 if step > _BLIND_STEP and arc.turn(point, after) < _LARGEST_TURN:
                     step *= _SHORTER
                     continue
@@ -213,10 +240,10 @@ def path_until(
 
 def bracketing_path(problem: Problem, meshes: Meshes) -> list[Point]:
     """The coarse path from far separation to a compressive load, which brackets every event."""
-    return path_until(
-        problem,
-        *meshes.path,
-        lambda state: state.follows_edge and state.load > 0.0,
-        "a compressive load",
-        end_height=meshes.end_height,
-    )
+    end = path_end(problem, meshes.end_height)
+    return path_until(problem, *meshes.path, end, "a compressive load", end_height=meshes.end_height)
+
+
+def path_end(problem: Problem, end_height: float) -> PathEnd:
+    """The end of a path behind which no state carries tension; for one path only, since it keeps its largest delta."""
+    return PathEnd(radius_of_compression(problem, end_radius(problem, end_height)))

@@ -138,8 +138,24 @@ class State:
 
     @property
     def tail_uncertainty(self) -> float:
-        """Bound on the error of the closed tail, on the load."""
-        return tail_uncertainty(self.disc.problem, self.end, self.displacement, self.tail.load)
+        """Bound on the error of the closed tail, on load and displacement."""
+        return tail_uncertainty(self.disc.problem, self.end, self.displacement, self.tail)
+
+    @property
+    def axis_uncertainty(self) -> float:
+        """Bound on the error of the deformation on the axis, hence of the central gap, on this mesh.
+
+        The pressure follows r^n at the tip, so that its Legendre coefficients of degree l on the innermost panel fall
+        like l^(-2n-1): those from the order q on sum to the last one times q / (2 n).
+        """
+        d, mesh = self.disc, self.disc.mesh
+        last = float(np.max(np.abs(mesh.modes(self.pressure)[0, -2:])))
+        r = self.radius[:2]
+        f = d.problem.punch.height(r)
+        # A flat tip counts as a linear one, the least favourable of those that do not rise like r^n, n < 1.
+        exponent = math.log(f[1] / f[0]) / math.log(r[1] / r[0]) if f[1] > f[0] > 0.0 else 1.0
+        omitted = mesh.order / (2.0 * exponent)
+        return d.stiffness_scale(self.scale) * float(mesh.lengths[0]) ** (1.0 - d.problem.k) * last * omitted
 
     @cached_property
     def energy(self) -> float:
@@ -204,7 +220,7 @@ class Linearisation:
         J = self.matrix[:N, :N]
         np.multiply(d.matrix, -K * slope, out=J)
         J[np.arange(N), np.arange(N)] += 1.0
-        self.matrix[:N, N] = 1.0
+        self.matrix[:N, N] = 1.0 - s.tail.displacement_slope
         self.matrix[:N, N + 1] = self.scale_column
         self.matrix[N, :] = 0.0
         if s.follows_edge:
@@ -226,7 +242,8 @@ class Linearisation:
         N = len(rhs) - 2
         row = self.matrix[N + 1]
         row[:N] = control.gap * self.axis_gap_row + control.load * self.load_row
-        row[N] = control.displacement - control.gap
+        tail = self.state.tail
+        row[N] = control.displacement - control.gap * (1.0 - tail.displacement_slope) + control.load * tail.load_slope
         row[N + 1] = control.log_scale + control.gap * self.axis_gap_scale + control.load * self.load_scale
         # dgesv directly: the rows differ by many orders of magnitude on purpose, which partial pivoting does
         # not mind, while the condition estimate of the wrapper does.
@@ -253,10 +270,11 @@ class Linearisation:
         rhs[N + 1] = 1.0
         x = self.solve(control, rhs)
         dH, dd, dc = x[:N], float(x[N]), float(x[N + 1])
+        tail = self.state.tail
         return Rates(
             dH,
             dd,
             dc,
-            float(self.axis_gap_row @ dH) - dd + self.axis_gap_scale * dc,
-            float(self.load_row @ dH) + self.load_scale * dc,
+            float(self.axis_gap_row @ dH) - (1.0 - tail.displacement_slope) * dd + self.axis_gap_scale * dc,
+            float(self.load_row @ dH) + tail.load_slope * dd + self.load_scale * dc,
         )

@@ -23,6 +23,7 @@ from fscm.errors import NotConverged
 __all__ = [
     "Condition",
     "brackets",
+    "crossings",
     "displacement_fold",
     "load_fold",
     "locate",
@@ -62,11 +63,40 @@ def brackets(points: Sequence[Point], condition: Condition, rising: bool) -> lis
     """Neighbouring points between which the condition turns positive (`rising`) or negative."""
     found = []
     for a, b in pairwise(points):
-        if a.state.follows_edge != b.state.follows_edge:
+        if a.stretch != b.stretch:
             continue  # the same state on two meshes
         before, after = condition(a.state, a.rates), condition(b.state, b.rates)
         if (before < 0.0 <= after) if rising else (before >= 0.0 > after):
             found.append((a, b))
+    return found
+
+
+def crossings(points: Sequence[Point], condition: Condition, fold: Condition) -> list[Bracket]:
+    """Neighbouring states between which the condition passes zero, in the order of the path.
+
+    Parameters
+    ----------
+    points : sequence of Point
+        Between neighbours the condition has at most one extreme (see `fscm._completeness`).
+    condition : callable
+        State, Rates -> float; a functional less a value.
+    fold : callable
+        Its derivative: zero at an extreme.
+    """
+    found: list[Bracket] = []
+    for a, b in pairwise(points):
+        if a.stretch != b.stretch:
+            continue
+        before, after = condition(a.state, a.rates), condition(b.state, b.rates)
+        if (before < 0.0) != (after < 0.0):
+            found.append((a, b))
+        elif before * fold(a.state, a.rates) < 0.0 and before * fold(b.state, b.rates) > 0.0:
+            # The condition tends to zero from both ends: its extreme decides.
+            extreme = locate(a, b, fold)
+            rates = rates_of(extreme)
+            if (condition(extreme, rates) < 0.0) != (before < 0.0):
+                at = Point(extreme, rates, a.stretch)
+                found += [(a, at), (at, b)]
     return found
 
 
@@ -113,7 +143,7 @@ def slowest(points: Sequence[Point]) -> tuple[Point, Point, Point, float]:
     i = min(range(1, len(points) - 1), key=lambda j: points[j].rates.displacement)
     # Two steps to either side, on each stretch of its own when the mesh changes among them.
     near = points[max(i - 2, 0) : i + 3]
-    stretches = [[p for p in near if p.state.follows_edge == follows] for follows in (False, True)]
+    stretches = [[p for p in near if p.stretch == one] for one in sorted({p.stretch for p in near})]
     found = [_least_rate(part[0], part[-1]) for part in stretches if len(part) > 1]
     return min(found, key=lambda result: result[3])
 
@@ -128,7 +158,7 @@ def _least_rate(a: Point, b: Point) -> tuple[Point, Point, Point, float]:
         options={"xatol": 1e-5 * (between.high - between.low)},
     )
     state, rates = between(float(best.x))
-    return a, Point(state, rates.scaled(orientation)), b, float(best.fun)
+    return a, Point(state, rates.scaled(orientation), a.stretch), b, float(best.fun)
 
 
 def refined(state: State, order: int, tolerance: float) -> State:

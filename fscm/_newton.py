@@ -7,9 +7,13 @@ import math
 import numpy as np
 
 from fscm._equilibrium import Control, Linearisation, State
+from fscm._typing import Array
 from fscm.errors import NotConverged
 
-__all__ = ["STEP_TOLERANCE", "newton"]
+__all__ = ["STEEP", "STEP_TOLERANCE", "moved_gap", "newton"]
+
+# Growth of a punch above which its height is no linear function of log c within a step: it is then moved exactly.
+STEEP = 10.0
 
 # Newton stops when the last step changes no gap by more than this, relative to 1 + |H|; the step after it
 # would be at rounding level, since convergence is quadratic.
@@ -25,6 +29,32 @@ _LARGEST_GROWTH = 0.7
 _SMALLEST_DAMPING = 1e-3
 # A step that changes a gap by this factor is no correction any more, and the next ones would overflow.
 _DIVERGED = 1e6
+
+
+def moved_gap(state: State, change: Array, log_scale: float) -> Array:
+    """Gaps after a linear change at a change of log c, with the exact shape in place of its slope for a steep punch."""
+    punch, r = state.disc.problem.punch, state.radius
+    if punch.growth <= STEEP or log_scale == 0.0:
+        return state.gap + change
+    exact = punch.height(r * math.exp(log_scale)) - punch.height(r)
+    return state.gap + (change - r * punch.slope(r) * log_scale) + exact
+
+
+def _largest_damping(state: State, dH: Array, log_scale: float) -> float:
+    """Largest part of a step, at most 1, that keeps the gaps away from the singular one."""
+    floor = state.disc.problem.law.singular_gap
+    clearance = state.gap - floor
+    least = np.maximum(_SHRINK * clearance, _LOWEST * -floor)
+    if state.disc.problem.punch.growth > STEEP and log_scale != 0.0:
+        damping = min(1.0, _LARGEST_GROWTH / abs(log_scale))
+        while damping > _SMALLEST_DAMPING and np.any(
+            moved_gap(state, damping * dH, damping * log_scale) - floor < np.minimum(least, clearance)
+        ):
+            damping *= 0.5
+        return damping
+    with np.errstate(divide="ignore", invalid="ignore"):
+        limit = np.where(dH < 0.0, (clearance - least) / -dH, np.inf)
+    return float(min(1.0, max(limit.min(), 0.0)))
 
 
 def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) -> State:
@@ -48,8 +78,6 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) ->
     NotConverged
         After too many iterations, or when a gap is driven towards the singular gap.
     """
-    law = guess.disc.problem.law
-    floor = law.singular_gap
     state = guess
     for iteration in range(1, _MAX_ITERATIONS + 1):
         system = Linearisation(state)
@@ -59,16 +87,14 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) ->
         step = -system.solve(control, rhs)
         N = len(state.gap)
         dH = step[:N]
-        clearance = state.gap - floor
-        with np.errstate(divide="ignore", invalid="ignore"):
-            limit = np.where(dH < 0.0, (clearance - np.maximum(_SHRINK * clearance, _LOWEST * -floor)) / -dH, np.inf)
-        damping = float(min(1.0, max(limit.min(), 0.0), _LARGEST_GROWTH / max(abs(step[N + 1]), 1e-300)))
+        log_scale = float(step[N + 1])
+        damping = min(_largest_damping(state, dH, log_scale), _LARGEST_GROWTH / max(abs(log_scale), 1e-300))
         if damping < _SMALLEST_DAMPING:
             raise NotConverged("Newton is driven into the singular gap of the surface law; take a smaller step")
         state = State(
             state.disc,
-            state.scale * math.exp(damping * step[N + 1]),
-            state.gap + damping * dH,
+            state.scale * math.exp(damping * log_scale),
+            moved_gap(state, damping * dH, damping * log_scale),
             state.displacement + damping * float(step[N]),
             state.follows_edge,
             iteration,

@@ -15,23 +15,28 @@ from fscm.problem import Problem
 
 __all__ = ["Tail", "tail_energy", "tail_of", "tail_uncertainty"]
 
+# Beyond this multiple of the end radius the tail carries too little for the shape to matter.
+_FARTHER = 4.0
+
 
 @dataclass(frozen=True)
 class Tail:
-    """Load and displacement from radii beyond the mesh, and their derivatives by log c.
+    """Load and displacement from radii beyond the mesh, and their exact derivatives.
 
     Attributes
     ----------
-    load, load_rate : float
-        Part of P, dimensionless (unit of Eq. 31).
-    displacement, displacement_rate : float
-        Part of w, in z0, the same at every radius of the mesh.
+    load, load_rate, load_slope : float
+        Part of P, dimensionless (unit of Eq. 31); its derivatives by log c and by delta.
+    displacement, displacement_rate, displacement_slope : float
+        Part of w, in z0, the same at every radius of the mesh; its derivatives by log c and by delta.
     """
 
     load: float
     displacement: float
     load_rate: float
     displacement_rate: float
+    load_slope: float
+    displacement_slope: float
 
 
 def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
@@ -47,35 +52,50 @@ def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
     """
     C, m = problem.law.decay
     if C == 0.0:
-        return Tail(0.0, 0.0, 0.0, 0.0)
+        return Tail(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     F = _height(problem, T)
     g, k = problem.punch.growth, problem.k
     e = (-displacement - problem.law.singular_gap) / F
     strength = C * F**-m
 
-    def integral(power: float) -> float:  # of t^{power-1} p from T on, over -C F^-m T^power
-        return 1.0 / (m * g - power) - m * e / ((m + 1.0) * g - power)
+    def powers(power: float) -> tuple[float, float, float]:
+        """-int of t^(power-1) p from T on, over C F^-m T^power; its derivatives by log T and by delta."""
+        first, second = 1.0 / (m * g - power), m / ((m + 1.0) * g - power)
+        # e falls like 1/F, hence like T^-g.
+        return first - e * second, (power - m * g) * (first - e * second) + g * e * second, second / F
 
-    load = -2.0 * strength * T**2 * integral(2.0)
-    w = -problem.compliance * (1.0 - k) * strength * T ** (1.0 - k) * integral(1.0 - k)
-    return Tail(load, w, (2.0 - m * g) * load, (1.0 - k - m * g) * w)
+    load_factor = -2.0 * strength * T**2
+    w_factor = -problem.compliance * (1.0 - k) * strength * T ** (1.0 - k)
+    (load, load_rate, load_slope), (w, w_rate, w_slope) = powers(2.0), powers(1.0 - k)
+    return Tail(
+        load_factor * load,
+        w_factor * w,
+        load_factor * load_rate,
+        w_factor * w_rate,
+        load_factor * load_slope,
+        w_factor * w_slope,
+    )
 
 
-def tail_uncertainty(problem: Problem, T: float, displacement: float, load: float) -> float:
-    """Bound on the error of the closed tail, on its load: the next term of its expansion.
+def tail_uncertainty(problem: Problem, T: float, displacement: float, tail: Tail) -> float:
+    """Bound on the error of the closed tail, on its load and on its displacement, whichever is larger.
+
+    It is the next term of the expansion, and what the shape deviates from a power between T and 4 T.
 
     Parameters
     ----------
     problem, T, displacement
         As for `tail_of`.
-    load : float
-        Its load.
+    tail : Tail
+        At that radius and displacement.
     """
     C, m = problem.law.decay
     if C == 0.0:
         return 0.0
-    e = (-displacement - problem.law.singular_gap) / _height(problem, T)
-    return 0.5 * m * (m + 1.0) * e * e * abs(load)
+    F = _height(problem, T)
+    e = (-displacement - problem.law.singular_gap) / F
+    deviation = abs(_height(problem, _FARTHER * T) / (F * _FARTHER**problem.punch.growth) - 1.0)
+    return (0.5 * m * (m + 1.0) * e * e + m * deviation) * max(abs(tail.load), abs(tail.displacement))
 
 
 def tail_energy(problem: Problem, T: float, displacement: float) -> float:

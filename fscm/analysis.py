@@ -9,16 +9,21 @@ from functools import cached_property
 
 from fscm import _events as events
 from fscm._arc_length import Point
+from fscm._completeness import completed
 from fscm._continuation import bracketing_path
 from fscm._events import Bracket, Condition
 from fscm._meshes import Accuracy, Meshes
 from fscm._threads import one_thread
 from fscm.errors import NoSuchEvent, NotConverged
+from fscm.folds import Fold, folds_of
 from fscm.problem import Problem
 from fscm.quantities import quantity_named
 from fscm.solution import EventPair, Solution
 
 __all__ = ["EVENTS", "Analysis"]
+
+# Minima of the load that differ by less than this, relative to 1 + |P|, are compared on the finest mesh.
+_NEAR = 1e-2
 
 
 class Analysis:
@@ -56,8 +61,23 @@ class Analysis:
     @cached_property
     @one_thread()
     def points(self) -> list[Point]:
-        """The coarse path from far separation to a compressive load."""
-        return bracketing_path(self.problem, self.meshes)
+        """The coarse path from far separation to its end; no turning point of load or displacement is left out."""
+        return completed(bracketing_path(self.problem, self.meshes), self.meshes.path.tolerance)
+
+    @cached_property
+    @one_thread()
+    def folds(self) -> tuple[Fold, ...]:
+        """All turning points of load and displacement, in the order of the path, to the accuracy of the coarse path.
+
+        Examples
+        --------
+        >>> for fold in Analysis(Problem(n=2, k=0.4, mu=1.0)).folds:
+        ...     print(fold.quantity, "maximum" if fold.maximum else "minimum", round(fold.displacement, 2))
+        displacement maximum -1.56
+        displacement minimum -1.62
+        load minimum -0.41
+        """
+        return folds_of(self.points)
 
     @cached_property
     def _folds(self) -> tuple[Bracket, Bracket]:
@@ -78,10 +98,17 @@ class Analysis:
         minima = events.brackets(self.points, events.load_fold, rising=True)
         if not minima:
             raise NotConverged(f"no minimum of the load was found on the path of {self.problem}")
-        return min(minima, key=lambda pair: min(p.state.load for p in pair))
+        if len(minima) == 1:
+            return minima[0]
+        located = [(events.locate(*pair, events.load_fold), pair) for pair in minima]
+        least = min(state.load for state, _ in located)
+        near = [(state, pair) for state, pair in located if state.load - least < _NEAR * (1.0 + abs(least))]
+        if len(near) > 1:  # the coarse path does not tell which of them is the deepest
+            near = [(events.sharpen(state, events.load_fold, *self.meshes.value), pair) for state, pair in near]
+        return min(near, key=lambda found: found[0].load)[1]
 
     def _last_zero_load(self) -> Bracket:
-        return events.brackets(self.points, events.zero_load, rising=True)[-1]
+        return events.crossings(self.points, events.zero_load, events.load_fold)[-1]
 
     @one_thread()
     def event(self, name: str) -> EventPair:
@@ -131,6 +158,11 @@ class Analysis:
 
         condition = at(fold.value.displacement)
         crossings = events.brackets(self.points, condition, rising=True)
+        if not crossings:
+            raise NotConverged(
+                f"the path of {self.problem} does not reach the displacement {fold.value.displacement:.6g}, "
+                f"at which the {event.replace('_', '-')} lands"
+            )
         coarse = events.locate(*crossings[_LANDINGS[event]], condition)
         check = events.sharpen(coarse, at(fold.check.displacement), *self.meshes.check)
         return EventPair(check, events.sharpen(check, at(fold.value.displacement), *self.meshes.value))

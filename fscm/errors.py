@@ -11,9 +11,9 @@ class NotConverged(RuntimeError):
     Examples
     --------
     >>> from fscm import Problem, solve
-    >>> solve(Problem(n=300, k=0, mu=1), "pull_off_force")
+    >>> solve(Problem(n=2, k=0.999, mu=1), "pull_off_force")
     Traceback (most recent call last):
-    fscm.errors.NotConverged: Newton did not converge ...
+    fscm.errors.NotConverged: the contact edge of ... is about 10^-314 wide, below the rounding of its radius: ...
     """
 
 

@@ -2,8 +2,8 @@
 
 Under displacement control an approaching punch follows the path to the jump-in fold, lands on the contact
 branch at the same displacement and goes on; on retreat it leaves at the jump-out fold and lands on the far
-branch.  The area between is the hysteresis energy.  Under load control the contact branch is left at the
-pull-off point.
+branch.  A punch with asperities may jump several times.  The area between is the hysteresis energy.  Under load
+control the contact branch is left at the pull-off point.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class Cycle:
     loading, unloading : ndarray, shape (2, m)
         Rows delta and P.  A jump is two consecutive columns of equal delta.
     jump_in, jump_out : ndarray, shape (2, 2), or None
-        Columns before and after the jump.
+        Columns before and after the first jump.
 
     Examples
     --------
@@ -44,14 +44,16 @@ class Cycle:
     jump_out: Array | None
 
 
-def _at(path: EquilibriumPath, displacement: float, first: int, last: int) -> Array:
-    """Column (delta, P) interpolated on a stretch of the path where delta rises."""
-    load = PchipInterpolator(path.displacement[first:last], path.load[first:last])(displacement)
-    return np.array([[displacement], [float(load)]])
-
-
 def displacement_cycle(path: EquilibriumPath) -> Cycle:
     """The cycle under displacement control.
+
+    A jump lands on the rising part of the path that is farthest in contact (on approach) or farthest apart (on retreat)
+    among those that have its displacement.
+
+    Raises
+    ------
+    ValueError
+        When a jump lands beyond one of the ends of the path.
 
     Examples
     --------
@@ -61,29 +63,59 @@ def displacement_cycle(path: EquilibriumPath) -> Cycle:
     >>> bool(cycle.jump_in[0, 0] > cycle.jump_out[0, 0])
     True
     """
-    d = path.displacement
-    curve = np.array([d, path.load])
-    rising = np.diff(d) > 0.0
-    if rising.all():
+    curve = np.array([path.displacement, path.load])
+    if np.all(np.diff(path.displacement) > 0.0):
         return Cycle(curve, curve[:, ::-1], None, None)
-    top = int(np.argmin(rising))  # first fold on approach
-    bottom = len(d) - 1 - int(np.argmin(rising[::-1]))  # last fold: first on retreat
-    landing_in = _at(path, d[top], bottom, len(d))
-    landing_out = _at(path, d[bottom], 0, top + 1)
-    after_in = bottom + int(np.searchsorted(d[bottom:], d[top]))
-    before_out = int(np.searchsorted(d[: top + 1], d[bottom]))
-    loading = np.hstack([curve[:, : top + 1], landing_in, curve[:, after_in:]])
-    unloading = np.hstack([curve[:, : bottom - 1 : -1], landing_out, curve[:, before_out - 1 :: -1]])
-    return Cycle(
-        loading,
-        unloading,
-        np.hstack([curve[:, [top]], landing_in]),
-        np.hstack([curve[:, [bottom]], landing_out]),
-    )
+    loading, jump_in = _recorded(curve, "the displacement of jump-in", "max_load")
+    # A retreat is an approach of the curve turned by half a circle.
+    turned, jump = _recorded(-curve[:, ::-1], "the displacement of jump-out", "start_gap")
+    return Cycle(loading, -turned, jump_in, None if jump is None else -jump)
+
+
+def _recorded(curve: Array, event: str, argument: str) -> tuple[Array, Array | None]:
+    """Columns of the curve that are recorded while the displacement rises, and the first jump."""
+    d = curve[0]
+    rising = np.diff(d) > 0.0
+    stretches: list[Array] = []
+    jump, i = None, 0
+    while True:
+        falls = np.flatnonzero(~rising[i:])
+        if not falls.size:
+            return np.hstack([*stretches, curve[:, i:]]), jump
+        top = i + int(falls[0])
+        after = np.flatnonzero((d[top:-1] <= d[top]) & (d[top + 1 :] > d[top]))
+        if not after.size:
+            end = d[-1] if argument == "max_load" else -d[-1]
+            level = d[top] if argument == "max_load" else -d[top]
+            raise ValueError(
+                f"the path ends at delta = {end:.6g} and does not contain {event}, {level:.6g}, on the other branch: "
+                f"trace it with a larger {argument}"
+            )
+        last = top + int(after[-1])
+        landing = _at(curve, d[top], last)
+        stretches += [curve[:, i : top + 1], landing]
+        jump = np.hstack([curve[:, [top]], landing]) if jump is None else jump
+        i = last + 1
+
+
+def _at(curve: Array, displacement: float, column: int) -> Array:
+    """Column (delta, P) between a column and the next, interpolated on the part where delta rises around them."""
+    first, last = column, column + 2
+    while first > 0 and curve[0, first - 1] < curve[0, first]:
+        first -= 1
+    while last < curve.shape[1] and curve[0, last] > curve[0, last - 1]:
+        last += 1
+    load = PchipInterpolator(*curve[:, first:last])(displacement)
+    return np.array([[displacement], [float(load)]])
 
 
 def load_controlled_retreat(path: EquilibriumPath) -> Array:
     """Columns (delta, P), shape (2, m), of a retreat under load control: from the path's end to pull-off.
+
+    Raises
+    ------
+    ValueError
+        When the path ends before pull-off: its last load is its smallest.
 
     Examples
     --------
@@ -94,4 +126,6 @@ def load_controlled_retreat(path: EquilibriumPath) -> Array:
            [ 1. , -2. ]])
     """
     lowest = int(np.argmin(path.load))
+    if lowest == len(path.load) - 1:
+        raise ValueError(f"the path ends at its smallest load, {path.load[-1]:.6g}, before pull-off: trace it farther")
     return np.array([path.displacement, path.load])[:, : lowest - 1 : -1] if lowest else np.empty((2, 0))

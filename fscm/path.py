@@ -9,12 +9,14 @@ import numpy as np
 
 from fscm import _events as events
 from fscm._arc_length import Point, parameter_of
-from fscm._continuation import path_until
+from fscm._completeness import completed
+from fscm._continuation import path_end, path_until
 from fscm._equilibrium import State
 from fscm._events import refined
 from fscm._meshes import Accuracy, Meshes
 from fscm._threads import one_thread
 from fscm._typing import Array
+from fscm.folds import Fold, fold_at, folds_between
 from fscm.problem import Problem
 from fscm.solution import SAFETY
 
@@ -41,6 +43,8 @@ class EquilibriumPath:
         Radius where the tension is largest; nan while the central gap is above the gap of largest tension.
     u_displacement, u_load : float
         Numerical uncertainty of every delta and P.
+    folds : tuple of Fold
+        All turning points of load and displacement, in the order of the path.
 
     Examples
     --------
@@ -59,6 +63,7 @@ class EquilibriumPath:
     edge_radius: Array
     u_displacement: float
     u_load: float
+    folds: tuple[Fold, ...] = ()
 
 
 @one_thread()
@@ -80,7 +85,8 @@ def trace(
         Relative error that is requested, or its name (see `solve`); `u_displacement` and `u_load` bound the error
         that was reached.
     max_load : float, optional
-        The path ends in contact at this load; by default where the compression equals the largest tension.
+        The path ends in contact at this load, after the deepest pull-off; by default where the compression equals
+        the largest tension.  A punch that is no power law is followed until no later state can carry tension.
     start_gap : float, optional
         Central gap at the far end; by default 10 + 5 mu.
     longest_step : float
@@ -89,6 +95,8 @@ def trace(
 
     Raises
     ------
+    ValueError
+        When `max_load` is below the load at pull-off.
     NotConverged
         When the path cannot be followed to the end.
 
@@ -100,15 +108,23 @@ def trace(
     """
     meshes = Meshes.of(accuracy)
     start = 10.0 + 5.0 * problem.mu if start_gap is None else start_gap
+    end = path_end(problem, meshes.end_height)
     lowest = 0.0
 
     def ended(state: State) -> bool:
         nonlocal lowest
         lowest = min(lowest, state.load)
-        return state.follows_edge and state.load > (-lowest if max_load is None else max_load)
+        end.load = -lowest if max_load is None else max(max_load, 0.0)
+        return end(state)
 
-    points = path_until(problem, *meshes.curve, ended, "its end", _MAX_POINTS, longest_step, start, meshes.end_height)
-    states = _with_events(points)
+    points = completed(
+        path_until(problem, *meshes.curve, ended, "its end", _MAX_POINTS, longest_step, start, meshes.end_height),
+        meshes.curve.tolerance,
+    )
+    states, folds = _with_events(points)
+    if max_load is not None and max_load <= 0.0:
+        states = _up_to(states, max_load)
+        folds = [fold for fold in folds if any(fold[0] is state for state in states)]
     checks = [(state, refined(state, *meshes.curve_check)) for state in states[::_CHECK_EVERY]]
     return EquilibriumPath(
         np.array([s.central_gap for s in states]),
@@ -118,22 +134,33 @@ def trace(
         np.array([s.scale if s.follows_edge else np.nan for s in states]),
         float(SAFETY * max(abs(fine.displacement - s.displacement) for s, fine in checks)),
         float(SAFETY * max(abs(fine.load - s.load) for s, fine in checks)),
+        tuple(fold_at(*fold) for fold in folds),
     )
 
 
-def _with_events(points: list[Point]) -> list[State]:
-    """States of the path with the folds and the zero of the load put in, each state once."""
-    states = [points[0].state]
+def _up_to(states: list[State], load: float) -> list[State]:
+    """States up to the first one beyond the deepest pull-off whose load is above a tensile load."""
+    lowest = min(range(len(states)), key=lambda i: states[i].load)
+    if load < states[lowest].load:
+        raise ValueError(
+            f"max_load = {load:g} is outside [{states[lowest].load:g}, inf): "
+            "the path has no smaller load than the one at pull-off"
+        )
+    return states[: next(i for i in range(lowest, len(states)) if states[i].load > load) + 1]
+
+
+def _with_events(points: list[Point]) -> tuple[list[State], list[tuple[State, str, bool]]]:
+    """States of the path with the folds and the zero of the load put in, each state once; and the folds alone."""
+    states, folds = [points[0].state], []
     for a, b in pairwise(points):
-        if a.state.follows_edge != b.state.follows_edge:
+        if a.stretch != b.stretch:
             states[-1] = b.state  # the same state on the mesh that follows the edge
             continue
-        between = [
-            events.locate(a, b, condition)
-            for condition in (events.load_fold, events.displacement_fold, events.zero_load)
-            if condition(a.state, a.rates) * condition(b.state, b.rates) < 0.0
-        ]
+        between = folds_between(a, b)
+        folds += between
+        zeros = events.crossings([a, b], events.zero_load, events.load_fold)
+        added = [fold[0] for fold in between] + [events.locate(*bracket, events.zero_load) for bracket in zeros]
         direction = 1.0 if a.state.follows_edge else -1.0
-        states += sorted(between, key=lambda state: direction * parameter_of(state))
+        states += sorted(added, key=lambda state: direction * parameter_of(state))
         states.append(b.state)
-    return states
+    return states, folds

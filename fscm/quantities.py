@@ -66,7 +66,10 @@ class AtEvent(Quantity):
         def compute(analysis: Analysis) -> Solution:
             pair = analysis.event(event)
             # Load and displacement share their error (that of the work of adhesion), so the larger stands for both.
-            return solution_of(functional(pair.value), pair.difference(functional, _load, _displacement), [pair])
+            difference = pair.difference(functional, _load, _displacement)
+            # Two meshes may share the innermost panel, whose error is that of the central gap alone.
+            axis = pair.value.axis_uncertainty if functional is _central_gap else 0.0
+            return solution_of(functional(pair.value), difference, [pair], axis)
 
         for name, value in (("kind", kind), ("needs", (event,)), ("compute", compute), ("functional", functional)):
             object.__setattr__(self, name, value)

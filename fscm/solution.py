@@ -65,12 +65,12 @@ class EventPair:
         return max(abs(f(self.value) - f(self.check)) for f in functionals)
 
 
-def solution_of(value: float, difference: float, pairs: list[EventPair]) -> Solution:
-    """Solution with the uncertainty of a difference between two meshes; the time is left to the caller."""
+def solution_of(value: float, difference: float, pairs: list[EventPair], shared: float = 0.0) -> Solution:
+    """Solution with the uncertainty of a difference between two meshes, and of what both share."""
     tail = max(pair.value.tail_uncertainty for pair in pairs)
     return Solution(
         float(value),
-        float(SAFETY * difference + FLOOR * (1.0 + abs(value)) + tail),
+        float(SAFETY * difference + FLOOR * (1.0 + abs(value)) + tail + shared),
         max(len(pair.value.gap) for pair in pairs) + 2,
         sum(pair.check.iterations + pair.value.iterations for pair in pairs),
         max(pair.value.residual for pair in pairs),

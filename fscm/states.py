@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 from fscm import _events as events
-from fscm._continuation import path_until
+from fscm._arc_length import Point, parameter_of, rates_of
+from fscm._completeness import completed
+from fscm._continuation import path_end, path_until
 from fscm._equilibrium import State
 from fscm._meshes import Accuracy, Meshes
 from fscm._threads import one_thread
@@ -23,6 +26,16 @@ _FUNCTIONALS: dict[str, Callable[[State], float]] = {
     "displacement": lambda state: state.displacement,
     "load": lambda state: state.load,
 }
+# Zero where the control is extreme along the path.
+_FOLDS: dict[str, events.Condition] = {
+    "central_gap": lambda state, rates: rates.central_gap,
+    "displacement": events.displacement_fold,
+    "load": events.load_fold,
+}
+# An extreme this close to the value, relative to 1 + |value|, is solved for on the finest mesh first.
+_NEAR = 1e-2
+# Step of the continuation parameter for the curvature at an extreme.
+_SPACING = 1e-4
 
 
 @dataclass(frozen=True)
@@ -110,21 +123,56 @@ def equilibria(problem: Problem, control: str, value: float, accuracy: Accuracy 
 
     # Rising along the path: displacement and, in contact, load; the central gap falls.
     direction = -1.0 if control == "central_gap" else 1.0
+    meshes = Meshes.of(accuracy)
+    complete = path_end(problem, meshes.end_height)
 
     def ended(state: State) -> bool:
-        return state.follows_edge and state.load > 0.0 and direction * condition(state, None) > 0.0
+        return complete(state) and direction * condition(state, None) > 0.0
 
-    meshes = Meshes.of(accuracy)
     start_gap = 10.0 + 5.0 * problem.mu + (0.0 if control == "load" else 2.0 * abs(value))
     end = f"the {control} {value:g}"
     points = path_until(problem, *meshes.path, ended, end, start_gap=start_gap, end_height=meshes.end_height)
-    found = [bracket for rising in (True, False) for bracket in events.brackets(points, condition, rising)]
-    found.sort(key=lambda bracket: next(i for i, p in enumerate(points) if p is bracket[0]))
-    return [_solved(bracket, condition, meshes) for bracket in found]
+    fold = _FOLDS[control]
+    found: list[EquilibriumState] = []
+    for a, b in pairwise(completed(points, meshes.path.tolerance)):
+        if a.stretch != b.stretch:
+            continue
+        near = _near_extreme(a, b, condition, fold, meshes)
+        if near is None:
+            near = [events.locate(*bracket, condition) for bracket in events.crossings([a, b], condition, fold)]
+        found += [_solved(coarse, condition, meshes) for coarse in near]
+    return found
 
 
-def _solved(bracket: events.Bracket, condition: events.Condition, meshes: Meshes) -> EquilibriumState:
-    coarse = events.locate(*bracket, condition)
+def _near_extreme(
+    a: Point, b: Point, condition: events.Condition, fold: events.Condition, meshes: Meshes
+) -> list[State] | None:
+    """States next to an extreme that is so close to the value that the coarse path does not decide; else None."""
+    before, after = fold(a.state, a.rates), fold(b.state, b.rates)
+    ends = condition(a.state, a.rates), condition(b.state, b.rates)
+    if before * after >= 0.0 or ends[0] * ends[1] < 0.0 or before * ends[0] > 0.0:
+        return None
+    coarse = events.locate(a, b, fold)
+    missing = condition(coarse, rates_of(coarse))
+    if abs(missing) > _NEAR * (1.0 + max(abs(x) for x in ends)):
+        return None
+    extreme = events.sharpen(coarse, fold, *meshes.value)
+    rates = rates_of(extreme)
+    missing = condition(extreme, rates)
+    if (missing < 0.0) == (ends[0] < 0.0) and missing != 0.0:
+        return []
+    # A parabola: the condition is `missing` at its vertex and 0 at the distance of the two states.
+    x = parameter_of(extreme)
+    beside = events.moved(extreme, rates, x + _SPACING)
+    curvature = fold(beside, rates_of(beside)) / _SPACING
+    distance = math.sqrt(2.0 * abs(missing / curvature))
+    if distance < _SPACING**2:
+        return [extreme]
+    along = 1.0 if extreme.follows_edge else -1.0
+    return [events.moved(extreme, rates, x + side * along * distance) for side in (-1.0, 1.0)]
+
+
+def _solved(coarse: State, condition: events.Condition, meshes: Meshes) -> EquilibriumState:
     pair = EventPair(*(events.sharpen(coarse, condition, *mesh) for mesh in (meshes.check, meshes.value)))
     state = pair.value
     difference = pair.difference(*_FUNCTIONALS.values())

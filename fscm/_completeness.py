@@ -1,0 +1,200 @@
+r"""Test whether turning points of load or displacement can hide between neighbouring points of the path.
+
+At both points the value f (load or displacement) and its exact rate by the continuation parameter x are known.  They
+fix a cubic, whose rate is the straight line between the two rates plus a bulge 4 B t (1 - t), t from 0 to 1.  What is
+assumed: the rate lies within twice the bulge of that line.  When a rate inside that band has more turning points than
+the signs at its ends tell, both states are solved again on one mesh, and points are put between them until none has.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from fscm._adaptivity import fit, on_mesh
+from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rates_of
+from fscm._continuation import moved
+from fscm._equilibrium import State
+from fscm._newton import newton
+from fscm._panels import PanelMesh
+from fscm.errors import NotConverged
+
+__all__ = ["completed", "may_hide"]
+
+# The bulge of the cubic is wrong by the fourth derivative of f, which the factor stands for.
+_MARGIN = 2.0
+# Times that an interval is halved, and the change of load or displacement that may then hide in it, relative to
+# 1 + |f|: below the error of the meshes of the path.
+_HALVINGS, _NEGLIGIBLE = 12, 1e-7
+# Newton error beside the error of the mesh, and the smallest step to a middle, in units of its distance.
+_NEWTON_MARGIN, _SMALLEST = 0.01, 1e-3
+
+
+def completed(points: list[Point], tolerance: float) -> list[Point]:
+    """The points of a path, with others between those that hide turning points of load or displacement.
+
+    Parameters
+    ----------
+    points : list of Point
+    tolerance : float
+        Resolution of the pressure on the path (see `fscm._adaptivity`).
+
+    Raises
+    ------
+    NotConverged
+        When it stays undecided whether turning points hide.
+    """
+    arc = ArcLength.of(points[0].state.disc.problem)
+    found = [points[0]]
+    for a, b in pairwise(points):
+        if a.stretch == b.stretch and _may_hide_any(a, b):
+            between = _parts(*_on_common_mesh(a, b, arc), arc, tolerance, _HALVINGS)
+            counts = [sum(_turns(p, q, name) for p, q in pairwise(between)) for name in _RATES]
+            if counts != [_turns(a, b, name) for name in _RATES]:
+                found += between[1:-1]
+        found.append(b)
+    return found
+
+
+_RATES = ("load", "displacement")
+
+
+def _parameter_rate(point: Point) -> float:
+    return point.rates.log_scale if point.state.follows_edge else point.rates.central_gap
+
+
+def _rate(point: Point, name: str) -> float:
+    """Derivative of load or displacement by the continuation parameter."""
+    return float(getattr(point.rates, name) / _parameter_rate(point))
+
+
+def _turns(a: Point, b: Point, name: str) -> bool:
+    return _rate(a, name) * _rate(b, name) < 0.0
+
+
+def may_hide(length: float, change: float, first: float, last: float) -> bool:
+    """Whether more turning points than the signs of the two rates tell may lie between two points.
+
+    Parameters
+    ----------
+    length : float
+        Of the interval of the continuation parameter, with its sign.
+    change : float
+        Of load or displacement.
+    first, last : float
+        Rates at the two points.
+
+    Examples
+    --------
+    A straight line has no turning point; x^3 - 0.1 x has two, between rates of 2.9 at its ends:
+
+    >>> may_hide(1.0, 1.0, 1.0, 1.0), may_hide(2.0, 1.8, 2.9, 2.9)
+    (False, True)
+    """
+    bulge = 4.0 * _MARGIN * 1.5 * abs(change / length - 0.5 * (first + last))
+    if first * last <= 0.0:
+        return abs(last - first) < bulge
+    a, b = abs(first), abs(last)
+    if abs(b - a) >= bulge:
+        return False
+    t = 0.5 * (1.0 - (b - a) / bulge)
+    return a + (b - a) * t - bulge * t * (1.0 - t) <= 0.0
+
+
+def _length(a: Point, b: Point) -> float:
+    return parameter_of(b.state) - parameter_of(a.state)
+
+
+def _change(a: Point, b: Point, name: str) -> float:
+    return float(getattr(b.state, name) - getattr(a.state, name))
+
+
+def _may_hide_any(a: Point, b: Point) -> bool:
+    return any(may_hide(_length(a, b), _change(a, b, name), _rate(a, name), _rate(b, name)) for name in _RATES)
+
+
+def _on_common_mesh(a: Point, b: Point, arc: ArcLength) -> tuple[Point, Point]:
+    """The two points on the mesh with the breaks of both, so that their difference is free of mesh errors."""
+    breaks = np.union1d(a.state.disc.mesh.breaks, b.state.disc.mesh.breaks)
+    mesh = PanelMesh(breaks, a.state.disc.mesh.order)
+    first = on_mesh(a.state, mesh)
+    states = first, replace(on_mesh(b.state, mesh), disc=first.disc)
+    solved = [newton(state, parameter_control(state, parameter_of(state))) for state in states]
+    return _point(solved[0], a, arc), _point(solved[1], a, arc)
+
+
+def _point(state: State, like: Point, arc: ArcLength) -> Point:
+    return Point(state, arc.tangent(state), like.stretch)
+
+
+def _middle(a: Point, b: Point, arc: ArcLength) -> Point:
+    """The state halfway in the continuation parameter, from the cubic through both ends."""
+    x = _length(a, b)
+
+    first, last = (1.0 / _parameter_rate(point) for point in (a, b))
+    guess = replace(
+        a.state,
+        scale=math.sqrt(a.state.scale * b.state.scale),
+        gap=0.5 * (a.state.gap + b.state.gap) + x / 8.0 * (first * a.rates.gap - last * b.rates.gap),
+        displacement=0.5 * (a.state.displacement + b.state.displacement)
+        + x / 8.0 * (first * a.rates.displacement - last * b.rates.displacement),
+    )
+    parameter = 0.5 * (parameter_of(a.state) + parameter_of(b.state))
+    return _point(newton(guess, parameter_control(guess, parameter)), a, arc)
+
+
+def _reached_middle(a: Point, b: Point, arc: ArcLength, tolerance: float) -> Point:
+    """The state halfway, in steps from the first point with the mesh refined on the way."""
+    state, rates = a.state, a.rates.scaled(1.0 / _parameter_rate(a))
+    middle = 0.5 * (parameter_of(a.state) + parameter_of(b.state))
+    step = middle - parameter_of(state)
+    while parameter_of(state) != middle:
+        x = parameter_of(state)
+        target = middle if abs(step) >= abs(middle - x) * (1.0 - 1e-9) else x + step
+        try:
+            new = moved(state, rates, target, _NEWTON_MARGIN * tolerance)
+            state = fit(new, parameter_control(new, target), tolerance)
+        except NotConverged:
+            step *= 0.5
+            if abs(step) < _SMALLEST * abs(middle - parameter_of(a.state)):
+                raise
+            continue
+        if target == middle:
+            break
+        rates = rates_of(state)
+    return _point(state, a, arc)
+
+
+def _resolved_middle(a: Point, b: Point, arc: ArcLength, tolerance: float) -> Point:
+    """The state halfway, on the mesh of the ends when that resolves it, else on a finer one."""
+    try:
+        state = _middle(a, b, arc).state
+        state = fit(state, parameter_control(state, parameter_of(state)), tolerance)
+    except NotConverged:
+        return _reached_middle(a, b, arc, tolerance)
+    return _point(state, a, arc)
+
+
+def _parts(a: Point, b: Point, arc: ArcLength, tolerance: float, halvings: int) -> list[Point]:
+    """Points from a to b between which nothing can hide."""
+    if not _may_hide_any(a, b):
+        return [a, b]
+    if halvings == 0:
+        for name in _RATES:
+            bulge = 1.5 * _MARGIN * abs(_change(a, b, name) - 0.5 * _length(a, b) * (_rate(a, name) + _rate(b, name)))
+            if bulge > _NEGLIGIBLE * (1.0 + abs(getattr(a.state, name))):
+                raise NotConverged(
+                    f"the path of {a.state.disc.problem} may hide turning points of the {name} near "
+                    f"delta = {a.state.displacement:.6g}, P = {a.state.load:.6g}"
+                )
+        return [a, b]
+    middle = _resolved_middle(a, b, arc, tolerance)
+    halves = (a, middle), (middle, b)
+    if middle.state.disc is not a.state.disc:
+        # The mesh of the two ends does not resolve the edge between them; it would pin the edge, and turn falsely.
+        halves = _on_common_mesh(a, middle, arc), _on_common_mesh(middle, b, arc)
+    first, last = (_parts(*half, arc, tolerance, halvings - 1) for half in halves)
+    return [*first[:-1], *last]

@@ -1,0 +1,68 @@
+"""Turning points of load and displacement on the equilibrium path."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from fscm import _events as events
+from fscm._arc_length import Point, parameter_of
+from fscm._equilibrium import State
+
+__all__ = ["Fold", "fold_at", "folds_between", "folds_of"]
+
+_FOLDS = {"load": events.load_fold, "displacement": events.displacement_fold}
+
+
+@dataclass(frozen=True)
+class Fold:
+    """One turning point of the path; dimensionless.
+
+    Attributes
+    ----------
+    quantity : str
+        "load" or "displacement": what turns.
+    maximum : bool
+        Whether it is a maximum.
+    central_gap, displacement, load : float
+    edge_radius : float
+        Radius where the tension is largest; nan before contact.
+
+    Examples
+    --------
+    >>> from fscm import Analysis, Problem
+    >>> [fold.quantity for fold in Analysis(Problem(n=2, k=0.4, mu=0.3)).folds]
+    ['load']
+    """
+
+    quantity: str
+    maximum: bool
+    central_gap: float
+    displacement: float
+    load: float
+    edge_radius: float
+
+
+def fold_at(state: State, quantity: str, maximum: bool) -> Fold:
+    """The fold at a state."""
+    edge = state.scale if state.follows_edge else np.nan
+    return Fold(quantity, maximum, float(state.central_gap), float(state.displacement), float(state.load), float(edge))
+
+
+def folds_between(a: Point, b: Point) -> list[tuple[State, str, bool]]:
+    """State, quantity, and whether it is a maximum, of the folds between neighbouring points of one stretch."""
+    found = []
+    for quantity, condition in _FOLDS.items():
+        before, after = condition(a.state, a.rates), condition(b.state, b.rates)
+        if before * after < 0.0:
+            found.append((events.locate(a, b, condition), quantity, before > 0.0))
+    direction = 1.0 if a.state.follows_edge else -1.0
+    return sorted(found, key=lambda item: direction * parameter_of(item[0]))
+
+
+def folds_of(points: Sequence[Point]) -> tuple[Fold, ...]:
+    """The folds of a path that is complete (see `fscm._completeness`)."""
+    return tuple(fold_at(*fold) for a, b in pairwise(points) if a.stretch == b.stretch for fold in folds_between(a, b))

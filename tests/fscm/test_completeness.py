@@ -1,0 +1,192 @@
+"""Completeness of the path: hidden turning points, its end, the list of folds, states next to a fold."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from fscm import Analysis, Problem, displacement_cycle, equilibria, trace
+from fscm._completeness import completed, may_hide
+from fscm._continuation import equilibrium_path, path_until
+from fscm._path_end import least_later_loads, radius_of_compression
+from fscm.custom_punch import CustomPunch
+from fscm.experiment import load_controlled_retreat
+from fscm.path import EquilibriumPath
+from fscm.punch import PowerSum
+
+ASPERITY = Problem(2, 0, 0.3, punch=CustomPunch(lambda r: -8 * np.expm1(-(r**2)) + r**2 / 50, growth=2))
+
+
+@pytest.fixture(scope="module")
+def asperity() -> Analysis:
+    return Analysis(ASPERITY)
+
+
+def test_the_path_goes_on_behind_a_tall_asperity(asperity: Analysis) -> None:
+    """The plain around the asperity of 8 z0 adheres after the first compressive load; value of a finer path."""
+    solution = asperity.solution("pull_off_force")
+    assert solution.value == pytest.approx(36.50212035, abs=1e-8)
+    assert solution.u_num < 1e-7
+    minima = [fold.load for fold in asperity.folds if fold.quantity == "load" and not fold.maximum]
+    assert minima == pytest.approx([-0.96158840, -36.50212035], abs=1e-4)
+
+
+def test_the_path_behind_an_asperity_is_passed_once(asperity: Analysis) -> None:
+    """The edge jumps from the asperity to the plain; no state comes twice, and delta and P turn only at true folds."""
+    turns = [fold for fold in asperity.folds if fold.quantity == "displacement"]
+    assert [fold.maximum for fold in turns] == [True, False]
+    assert turns[0].displacement == pytest.approx(7.27959, abs=1e-4)
+    assert turns[1].displacement == pytest.approx(7.06167, abs=1e-4)
+    # Neither the load nor the displacement is stationary where the mesh changes over to another edge.
+    for a, b in pairwise(asperity.points):
+        if a.stretch != b.stretch:
+            assert b.state.load == pytest.approx(a.state.load, rel=1e-4)
+            assert b.state.displacement == pytest.approx(a.state.displacement, rel=1e-4)
+
+
+def test_the_bound_on_later_loads_contains_the_soft_and_the_rigid_limit() -> None:
+    """A paraboloid with no more than a trace of another power: JKR -1.5 and Bradley -2 lie above the bound."""
+    for mu in (0.05, 1.0, 5.0):
+        problem = Problem(2, 0, mu, punch=PowerSum([0.5, 1e-12], [2, 4]))
+        radii, loads = least_later_loads(problem, 1000.0)
+        assert loads.min() < -2.0
+        c = radii[-1]
+        # Hertz and JKR, with C = 4 / (pi M), and the tension of a gap region that begins with the largest tension.
+        C, law = 4 / (math.pi * problem.compliance), problem.law
+        tension = 2 * float(-law.energy(law.peak_gap) - law.traction(law.peak_gap) * law.peak_gap)
+        expected = 2 / 3 * C * c**3 - 2 * math.sqrt(C) * c**1.5 - 2 * tension
+        assert loads[-1] == pytest.approx(expected, rel=1e-2, abs=0.2)
+        assert 0.0 < radius_of_compression(problem, 1000.0) < 20.0
+    assert radius_of_compression(Problem(2, 0, 1.0), 1000.0) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("change", "first", "last", "hides"),
+    [(1.0, 1.0, 1.0, False), (-0.1, 1.0, 1.0, True), (0.0, 1.0, -1.0, False), (1.0, 0.01, -0.01, True)],
+)
+def test_what_may_hide(change: float, first: float, last: float, hides: bool) -> None:
+    assert may_hide(1.0, change, first, last) is hides
+    assert may_hide(-1.0, change, -first, -last) is hides
+
+
+def test_steps_over_a_pair_of_folds_are_found() -> None:
+    """A path with all points near its two folds left out is completed again."""
+    points = Analysis(Problem(2, 0.4, 1.0)).points
+    turn = [i for i, (a, b) in enumerate(pairwise(points)) if a.rates.displacement * b.rates.displacement < 0.0]
+    # The folds of this problem lie on two stretches; those of k = 0.6, mu = 3 on one.
+    assert len(turn) == 2
+    full = Analysis(Problem(2, 0.6, 3.0)).points
+    signs = [point.rates.displacement > 0.0 for point in full]
+    down = signs.index(False)
+    up = down + signs[down:].index(True)
+    assert full[down - 1].stretch == full[up].stretch
+    found = completed([*full[:down], *full[up:]], 1e-4)
+    assert sum(p.rates.displacement < 0.0 for p in found) > sum(p.rates.displacement < 0.0 for p in full[up:])
+
+
+def test_the_folds_of_a_path_are_those_of_one_with_short_steps() -> None:
+    problem = Problem(2, 0.6, 3.0)
+    points = path_until(
+        problem, 10, 1e-4, lambda state: state.follows_edge and state.load > 0.0, "the end", longest_step=0.02
+    )
+    brute = [
+        name
+        for a, b in pairwise(points)
+        for name in ("load", "displacement")
+        if a.stretch == b.stretch and getattr(a.rates, name) * getattr(b.rates, name) < 0.0
+    ]
+    found = [fold.quantity for fold in Analysis(problem).folds]
+    assert sorted(found) == sorted(brute)
+    assert len(found) == 13
+
+
+@pytest.mark.parametrize(
+    ("control", "value", "number"),
+    [
+        ("load", -1.78, 2),
+        ("load", -1.788481, 2),
+        ("load", -1.788482, 0),
+        ("displacement", -1.557018, 3),
+        ("displacement", -1.5569179, 3),
+        ("displacement", -1.55691789, 1),
+        ("displacement", -1.61733, 3),
+        ("displacement", -1.6174, 1),
+    ],
+)
+def test_states_next_to_a_fold_are_all_found(control: str, value: float, number: int) -> None:
+    """Two crossings between neighbouring points of the coarse path do not cancel, however close to the fold."""
+    states = equilibria(Problem(2, 0.4, 1.0), control, value)
+    assert len(states) == number
+    assert [getattr(state, control) for state in states] == pytest.approx([value] * number, abs=1e-9)
+    gaps = [state.central_gap for state in states]
+    assert gaps == sorted(gaps, reverse=True)
+    assert len({round(gap, 6) for gap in gaps}) == number
+
+
+def test_a_path_lists_its_folds() -> None:
+    path = trace(Problem(2, 0.4, 1.0))
+    assert [(fold.quantity, fold.maximum) for fold in path.folds] == [
+        ("displacement", True),
+        ("displacement", False),
+        ("load", False),
+    ]
+    assert path.folds[-1].load == path.load.min()
+    assert math.isnan(path.folds[0].edge_radius)
+    assert path.folds[-1].edge_radius > 1.0
+
+
+def test_a_landing_that_the_path_does_not_contain_is_told() -> None:
+    """It was extrapolated to -0.761; the true load is -0.084."""
+    problem = Problem(2, 0.4, 3.0)
+    with pytest.raises(ValueError, match=r"ends at delta = -3\.658.* does not contain .*jump-out.* larger start_gap"):
+        displacement_cycle(trace(problem, start_gap=3.0))
+    cycle = displacement_cycle(trace(problem))
+    assert cycle.jump_out is not None
+    assert cycle.jump_out[1, 1] == pytest.approx(-0.0840, abs=2e-4)
+
+
+def test_a_tensile_end_comes_after_pull_off() -> None:
+    problem = Problem(2, 0.4, 3.0)
+    path = trace(problem, max_load=-0.5)
+    assert path.load[-2] <= -0.5 < path.load[-1] < 0.0
+    assert path.load.min() == pytest.approx(trace(problem).load.min(), abs=1e-7)
+    assert load_controlled_retreat(path)[1, -1] == path.load.min()
+    with pytest.raises(ValueError, match="max_load = -5 is outside"):
+        trace(problem, max_load=-5.0)
+
+
+def test_a_retreat_needs_a_path_beyond_pull_off() -> None:
+    path = trace(Problem(2, 0.4, 0.3))
+    cut = int(np.argmin(path.load)) + 1
+    short = type(path)(*(getattr(path, name)[:cut] for name in _ARRAYS), path.u_displacement, path.u_load)
+    with pytest.raises(ValueError, match="before pull-off"):
+        load_controlled_retreat(short)
+
+
+_ARRAYS = ("central_gap", "displacement", "load", "energy", "edge_radius")
+
+
+def test_two_jumps_on_one_approach() -> None:
+    """The cycle of a curve that turns four times: each jump lands on the next branch that has its displacement."""
+    displacement = np.array([-9.0, -5.0, -6.0, -2.0, 1.0, 0.0, 3.0])
+    load = np.array([0.0, -1.0, -2.0, -1.0, 0.0, -5.0, 2.0])
+    blank = np.zeros(7)
+    cycle = displacement_cycle(EquilibriumPath(blank, displacement, load, blank, blank, 0.0, 0.0))
+    assert cycle.loading[0].tolist() == [-9.0, -5.0, -5.0, -2.0, 1.0, 1.0, 3.0]
+    assert cycle.unloading[0].tolist() == [3.0, 0.0, 0.0, -2.0, -6.0, -6.0, -9.0]
+    assert cycle.jump_in is not None
+    assert cycle.jump_out is not None
+    assert cycle.jump_in[0].tolist() == [-5.0, -5.0]
+    assert cycle.jump_out[0].tolist() == [0.0, 0.0]
+    assert cycle.jump_out[1, 0] == -5.0 < cycle.jump_out[1, 1]
+
+
+def test_a_path_without_end_is_cut_by_its_stretches() -> None:
+    """The stretch of a point tells its continuation parameter: 0 apart, 1 in contact of a power law."""
+    stretches = []
+    for point in equilibrium_path(Problem(2, 0.4, 1.0), 8, 1e-3):
+        stretches.append((point.stretch, point.state.follows_edge))
+        if point.state.follows_edge and point.state.load > 0.0:
+            break
+    assert set(stretches) == {(0, False), (1, True)}
