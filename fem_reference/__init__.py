@@ -18,6 +18,16 @@ from fem_reference.solution import Solution, solve, solve_together
 from fem_reference.states import EVENTS, EquilibriumPath, RadialField, event_state, profile, trace
 from fem_reference.uncondensed import solve_uncondensed
 
+#: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
+LAYERS = (
+    ("_typing", "_threads", "errors", "modulus", "punch", "laws", "solid", "problem", "accuracy"),
+    ("_elastic",),
+    ("_linear",),
+    ("_contact",),
+    ("quantities", "solution", "states", "export", "uncondensed"),
+    ("verification",),
+)
+
 __all__ = [
     "ACCURACIES",
     "EVENTS",

@@ -22,6 +22,20 @@ from fscm.solve import QUANTITIES, solve, solve_together
 from fscm.states import EquilibriumState, RadialField, equilibria, profile
 from fscm.tabulated_law import TabulatedLaw
 
+#: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
+LAYERS = (
+    ("errors", "_typing", "_threads", "_validation", "_response_factor"),
+    ("laws", "tabulated_law", "punch", "custom_punch"),
+    ("problem", "physical"),
+    ("_meshes", "_kernel", "_panels", "_deformation", "_tail"),
+    ("_equilibrium", "solution"),
+    ("_newton", "_arc_length", "_path_end", "_adaptivity", "_continuation"),
+    ("_events", "_completeness", "folds"),
+    ("path", "critical", "quantities", "analysis"),
+    ("gibson", "stieltjes"),
+    ("experiment", "states", "solve"),
+)
+
 __all__ = [
     "ACCURACIES",
     "EVENTS",

@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 
 import comparisons
+import fem_reference
+import fscm
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = ("fscm", "fem_reference", "comparisons")
@@ -44,8 +46,11 @@ ALLOWED = {
     ),
 }
 
-#: First layer to last: the folders and modules of `comparisons`, as the package itself lists them.
-LAYERS = tuple(tuple(f"comparisons.{name}" for name in layer) for layer in comparisons.LAYERS)
+#: First layer to last: the folders and modules of each package, as the package itself lists them.
+LAYERS = {
+    package.__name__: tuple(tuple(f"{package.__name__}.{name}" for name in layer) for layer in package.LAYERS)
+    for package in (fscm, fem_reference, comparisons)
+}
 
 
 def modules() -> dict[str, Path]:
@@ -106,13 +111,26 @@ def test_packages_import_only_what_they_may(name):
 
 
 def layer(name: str) -> int:
-    return next(index for index, starts in enumerate(LAYERS) if within(name, starts))
+    """Index of the layer of a module in its package."""
+    return next(index for index, starts in enumerate(LAYERS[name.split(".")[0]]) if within(name, starts))
 
 
-@pytest.mark.parametrize("name", [name for name in modules() if name.startswith("comparisons.")])
-def test_nothing_upstream_imports_downstream(name):
-    own = [module for module in ours(name, modules()[name]) if module.startswith("comparisons.")]
+@pytest.mark.parametrize("name", [name for name in modules() if "." in name])
+def test_a_module_imports_from_its_own_layer_or_those_before_it(name):
+    own = [module for module in ours(name, modules()[name]) if module.startswith(name.split(".")[0] + ".")]
     assert [module for module in own if layer(module) > layer(name)] == []
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_every_name_of_the_layers_exists(package):
+    listed = [name for names in LAYERS[package] for name in names]
+    assert sorted(listed) == sorted(
+        {".".join(name.split(".")[:2]) for name in modules() if name.startswith(f"{package}.")}
+    )
+
+
+def test_the_solver_does_not_load_the_verification():
+    assert not any("verification" in module for module in ours("fem_reference", modules()["fem_reference"]))
 
 
 @pytest.mark.parametrize(
