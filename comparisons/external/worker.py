@@ -35,6 +35,8 @@ __all__ = ["main"]
 _OURS = Path(__file__).resolve().parent.parent
 _LARGEST_CURVE = 1_000_000
 _COUNTS = ("size", "iterations")
+#: Attributes that every model has.
+_TEXTS = ("name", "version", "citation", "domain")
 
 
 def main(replies: int) -> None:
@@ -107,6 +109,13 @@ def _load(source: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
         installed = [Path(str(path.locate())).resolve() for path in files or ()]
     model = made() if callable(made) else made
     cls = made if isinstance(made, type) else type(model)
+    if missing := [name for name in _TEXTS if not hasattr(model, name)]:
+        raise ComputationFailed(f"the model has no {', '.join(missing)}; it needs {', '.join(_TEXTS)}")
+    limits = getattr(model, "limits", ())
+    if not isinstance(limits, tuple | list | set | frozenset):
+        raise ComputationFailed(
+            f'limits = {_kind(limits)} is not a tuple of texts such as ("jkr",): it names where the model is exact'
+        )
     state = fingerprint(
         (module, cls.__module__),
         getattr(model, "files", ()),
@@ -115,8 +124,8 @@ def _load(source: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
     )
     reply = {
         "status": "ok",
-        **{name: str(getattr(model, name)) for name in ("name", "version", "citation", "domain")},
-        "limits": [str(limit) for limit in getattr(model, "limits", ())],
+        **{name: str(getattr(model, name)) for name in _TEXTS},
+        "limits": [str(limit) for limit in limits],
         "curve": callable(getattr(model, "curve", None)),
         "physical": isinstance(model, PhysicalModel),
         "digest": state.digest,

@@ -52,6 +52,8 @@ def call(args: argparse.Namespace) -> int:
         writable_file(args.csv)
     if args.plot:
         writable_file(picture_path(args.plot))
+    if args.csv and args.plot and args.csv.resolve() == args.plot.resolve():
+        raise ValueError(f"--csv and --plot are both {args.plot}: one would replace the other; give two files")
     found, status = _evaluated(models, args.quantity, case)
     table = _table(found, args.quantity)
     if args.csv:

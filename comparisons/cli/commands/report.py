@@ -7,6 +7,7 @@ from pathlib import Path
 
 from comparisons.cli.options import OK
 from comparisons.console.progress import log
+from comparisons.data.file_names import CALLS, JOURNAL, LOCK, RECORD, RUN_FILES
 from comparisons.output.report.page import make_page
 from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
@@ -27,9 +28,18 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 def call(args: argparse.Namespace) -> int:
     """Read, lay out and write; return the exit status."""
     stored = read_folder(args.folder)
-    path = writable_file(args.out or RunFolder(args.folder).report)
+    path = _page_path(args.folder, args.out)
     text = render(make_page(stored))
     with atomic(path) as file:
         file.write(text.encode())
     log(f"the report is {path}")
     return OK
+
+
+def _page_path(folder: Path, out: Path | None) -> Path:
+    """Return where the page goes, which is no other file of the run."""
+    path = writable_file(out or RunFolder(folder).report)
+    for name in (RECORD, JOURNAL, CALLS, LOCK, *RUN_FILES):
+        if path.resolve() == (folder / name).resolve():
+            raise ValueError(f"--out {path} is a file of the run, which the page would replace; choose another file")
+    return path

@@ -283,6 +283,15 @@ def test_a_folder_that_is_no_finished_run_is_wrong_input(folder, lost, capsys):
     assert re.search(r"not the folder of a finished run", capsys.readouterr().err)
 
 
+@pytest.mark.parametrize("name", ["run.json", "journal.jsonl", "results.csv", "gates.toml", "link.html"])
+def test_a_report_replaces_no_file_of_the_run(folder, capsys, name):
+    (folder / "link.html").symlink_to("run.json")
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    assert main(["report", str(folder), "--out", str(folder / name)]) == 2
+    assert f"--out {folder / name} is a file of the run" in capsys.readouterr().err
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
 def test_a_file_that_is_no_parquet_is_wrong_input(folder, capsys):
     (folder / "results.parquet").write_text("nonsense")
     seal(folder)

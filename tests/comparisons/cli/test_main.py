@@ -186,6 +186,13 @@ def test_curve_goes_to_files(tmp_path, capsys):
     assert files[1].read_bytes().startswith(b"\x89PNG")
 
 
+def test_points_and_plot_of_a_curve_are_two_files(tmp_path, capsys):
+    one = str(tmp_path / "curve.png")
+    assert main(["curve", "--model", "jkr", *CASE, "--csv", one, "--plot", one]) == 2
+    assert "one would replace the other" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize(("quantity", "y"), [("pull_off_pressure", "pressure"), ("pull_off_gap", "gap")])
 def test_curve_asks_for_the_surface_at_pull_off(tmp_path, monkeypatch, capsys, quantity, y):
     drawn = []

@@ -231,3 +231,22 @@ def test_a_folder_with_predictions_and_an_installed_model_of_its_name_are_told_a
     with pytest.raises(ValueError, match=f"name the folder ./{installed_example}"):
         create(installed_example)
     assert create(f"./{installed_example}").name == "measured"
+
+
+@pytest.mark.parametrize(
+    ("attributes", "sentence"),
+    [
+        (
+            "name = 'mine'; citation = domain = 'x'",
+            "the model has no version; it needs name, version, citation, domain",
+        ),
+        ("name = version = 'mine'", "the model has no citation, domain; it needs name, version, citation, domain"),
+        ("name = version = citation = domain = 'a'; limits = 'jkr'", "limits = str 'jkr' is not a tuple of texts"),
+        ("name = version = citation = domain = 'a'; limits = 5", "limits = int 5 is not a tuple of texts"),
+    ],
+)
+def test_a_model_without_an_attribute_is_refused_with_its_name(tmp_path, capsys, attributes, sentence):
+    file = tmp_path / "mine.py"
+    file.write_text(f"class Mine:\n    {attributes}\n    def evaluate(self, problem, quantity): pass\n")
+    assert main(["check-model", f"{file}:Mine"]) == 2
+    assert capsys.readouterr().err.startswith(f"fscm-bench: the model {file}:Mine cannot be loaded: {sentence}")
