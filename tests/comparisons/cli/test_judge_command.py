@@ -110,7 +110,7 @@ def test_a_run_is_judged_again_by_the_gates_it_was_made_with(small_grid, tmp_pat
     (tmp_path / "gates.toml").unlink()
     capsys.readouterr()
     assert main(["judge", str(tmp_path / "run")]) == 1
-    assert "run/gates.toml, the gates of the run" in capsys.readouterr().err
+    assert "run/gates.toml, which are the gates of the run" in capsys.readouterr().err
     assert {name: (tmp_path / "run" / name).read_bytes() for name in before} == before
 
 
