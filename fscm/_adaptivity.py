@@ -136,7 +136,7 @@ def on_mesh(state: State, mesh: PanelMesh) -> State:
     else:  # the deformation is smooth where the shape is not resolved
         shape = problem.punch.height
         gap = state.disc.mesh.transfer(state.gap - shape(state.radius), mesh) + shape(state.scale * mesh.nodes)
-    return State(disc, state.scale, gap, state.displacement, state.follows_edge)
+    return State(disc, state.scale, gap, state.displacement, state.follows_edge, turned=state.turned)
 
 
 def fit(state: State, control: Control, tolerance: float, coarsen: bool = False) -> State:

@@ -15,7 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from fscm._adaptivity import fit, on_mesh
-from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rates_of
+from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of, rates_of
 from fscm._continuation import moved
 from fscm._equilibrium import State
 from fscm._newton import newton
@@ -63,7 +63,7 @@ _RATES = ("load", "displacement")
 
 
 def _parameter_rate(point: Point) -> float:
-    return point.rates.log_scale if point.state.follows_edge else point.rates.central_gap
+    return rate_of(point.rates, point.state.parameter)
 
 
 def _rate(point: Point, name: str) -> float:

@@ -22,9 +22,10 @@ from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of
 from fscm._equilibrium import Control, Discretisation, Rates, State
 from fscm._meshes import Meshes
 from fscm._newton import STEEP, STEP_TOLERANCE, moved_gap, newton
-from fscm._path_end import PathEnd, radius_of_compression
+from fscm._path_end import PathEnd, depth, displacement_of_compression
 from fscm.errors import NotConverged
 from fscm.problem import Problem
+from fscm.punch import PowerPunch
 
 __all__ = ["MAX_POINTS", "bracketing_path", "equilibrium_path", "moved", "path_end", "path_until"]
 
@@ -47,6 +48,10 @@ _FLAT_SHARE, _FLAT_STEP = 0.5, 0.1
 # The width of the cohesive edge is (1.03 M)^(-1/(1-k)) for the 9-3 law; decimal logarithm of the narrowest that is
 # tried: a contact radius has 16 digits, and a law that is ten times less steep has an edge that is as much wider.
 _EDGE, _NARROWEST = 1.03, -20.0
+# Largest deviation from the trapezoidal rule, relative to the distance of a gap to the singular gap.
+_SURPRISE = 0.5
+# Where its parameter turns, the path goes on in another one, until that one makes up less than this share of the tangent.
+_LEAST_SHARE = 0.3
 # The edge is followed from where the central gap has fallen below the gap of largest tension by this fraction
 # of that gap's distance to the singular gap: nearer to it the edge radius is a poor variable (it starts as a
 # root).
@@ -102,8 +107,36 @@ def _follow_edge(state: State, end_height: float) -> State:
 def _edge_elsewhere(state: State, hand_over: float) -> bool:
     """Whether the outermost contact edge is not the one that the mesh follows."""
     if not state.follows_edge:
-        return state.central_gap < hand_over
+        return min(state.central_gap, float(np.min(state.gap))) < hand_over
     return float(np.min(state.gap[state.disc.mesh.nodes > 1.0])) < hand_over
+
+
+def _turned(arc: ArcLength, point: Point) -> Point:
+    """The same state, from which the path goes on in the parameter that now changes most, because its own turns."""
+    shares = {name: share for name, share in arc.shares(point).items() if name != point.state.parameter}
+    name = max(shares, key=lambda other: abs(shares[other]))
+    state = replace(point.state, turned=(name, math.copysign(1.0, shares[name])))
+    return Point(state, arc.tangent(state), point.stretch + 1)
+
+
+def _jumped(a: Point, b: Point, step: float) -> bool:
+    """Whether the gaps have changed by much more than their rates at both ends tell: then b is on another branch."""
+    mesh, other = a.state.disc.mesh, b.state.disc.mesh
+    known = np.minimum(other.nodes, mesh.breaks[-1])
+    before, rate = mesh.evaluate(a.state.gap, known), mesh.evaluate(a.rates.gap, known)
+    surprise = b.state.gap - before - 0.5 * step * (rate + b.rates.gap)
+    clearance = b.state.gap - a.state.disc.problem.law.singular_gap
+    return bool(np.max(np.abs(surprise) / clearance) > _SURPRISE)
+
+
+def _joined(arc: ArcLength, before: Point, state: State) -> Point:
+    """The state that follows another edge, with load and displacement changing in the same sense as before."""
+    point = Point(state, arc.tangent(state), before.stretch + 1)
+    old, new = arc.shares(before), arc.shares(point)
+    if sum(old[name] * new[name] for name in ("displacement", "load")) >= 0.0:
+        return point
+    state = replace(state, turned=("log_scale", -1.0))
+    return Point(state, arc.tangent(state), before.stretch + 1)
 
 
 def _check_edge(problem: Problem) -> None:
@@ -141,7 +174,7 @@ def equilibrium_path(
     longest_step : float
         Longest step of arc length, dimensionless.
     start_gap : float, optional
-        Central gap of the first state.
+        Gap of the first state at the lowest point of the punch, which is its center unless the tip is concave.
     end_height : float
         Height of the punch at which the mesh ends.
 
@@ -157,7 +190,9 @@ def equilibrium_path(
     """
     _check_edge(problem)
     arc = ArcLength.of(problem)
-    state = _far_state(problem, _start_gap(problem) if start_gap is None else start_gap, order, tolerance, end_height)
+    gap = _start_gap(problem) if start_gap is None else start_gap
+    gap += depth(problem, end_radius(problem, end_height))
+    state = _far_state(problem, gap, order, tolerance, end_height)
     peak, singular = problem.law.peak_gap, problem.law.singular_gap
     hand_over = peak - _HAND_OVER * (peak - singular)
     step = min(_FIRST_STEP, longest_step)
@@ -169,8 +204,12 @@ def equilibrium_path(
             guess = _follow_edge(state, end_height)
             control = parameter_control(guess, parameter_of(guess))
             state = fit(newton(guess, control), control, tolerance)
-            point = Point(state, arc.tangent(state), point.stretch + 1)
+            point = _joined(arc, point, state)
             continue
+        if state.turned and abs(arc.shares(point).get(state.parameter, 0.0)) < _LEAST_SHARE:
+            point = _turned(arc, point)
+            state = point.state
+            yield point
         if not state.follows_edge and abs(point.rates.displacement) < _FLAT_SHARE * arc.displacement_unit(state):
             step = min(step, _FLAT_STEP)
         while True:
@@ -180,6 +219,12 @@ def equilibrium_path(
                 used = new.iterations
                 new = fit(new, control, tolerance, coarsen=True)
                 after = Point(new, arc.tangent(new), point.stretch)
+                if not isinstance(problem.punch, PowerPunch) and _jumped(point, after, step):
+                    raise NotConverged("Newton converged to a state that the tangent does not lead to")
+                if arc.turn(point, after) < -_LARGEST_TURN:  # the path goes on smoothly, its parameter does not
+                    point = after = _turned(arc, point)
+                    used = new.iterations
+                    break
                 if step > _BLIND_STEP and arc.turn(point, after) < _LARGEST_TURN:
                     step *= _SHORTER
                     continue
@@ -246,4 +291,10 @@ def bracketing_path(problem: Problem, meshes: Meshes) -> list[Point]:
 
 def path_end(problem: Problem, end_height: float) -> PathEnd:
     """The end of a path behind which no state carries tension; for one path only, since it keeps its largest delta."""
-    return PathEnd(radius_of_compression(problem, end_radius(problem, end_height)))
+    displacement = displacement_of_compression(problem, end_radius(problem, end_height))
+    if displacement == math.inf:
+        raise NotConverged(
+            f"of the path of {problem} it cannot be told where its last tension is: "
+            "up to the largest displacement that is examined, the attraction can still exceed the compression"
+        )
+    return PathEnd(displacement)

@@ -86,6 +86,9 @@ class State:
         Of the Newton solve that produced it.
     follows_edge : bool
         The anchor: H(s=1) is the edge gap (True) or the scale is fixed (False).
+    turned : tuple of str and float, optional
+        Continuation parameter and its sign along the path, where they are not the usual ones: log c rising when the
+        mesh follows the edge, else the central gap falling.
     """
 
     disc: Discretisation
@@ -95,6 +98,17 @@ class State:
     follows_edge: bool
     iterations: int = 0
     residual: float = 0.0
+    turned: tuple[str, float] | None = None
+
+    @property
+    def parameter(self) -> str:
+        """Name of the continuation parameter: "gap", "log_scale", "displacement" or "load"."""
+        return self.turned[0] if self.turned else "log_scale" if self.follows_edge else "gap"
+
+    @property
+    def sense(self) -> float:
+        """Whether the continuation parameter rises (1) or falls (-1) along the path."""
+        return self.turned[1] if self.turned else 1.0 if self.follows_edge else -1.0
 
     @cached_property
     def radius(self) -> Array:

@@ -99,6 +99,7 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) ->
             state.follows_edge,
             iteration,
             float(np.max(np.abs(rhs[:N]) / (1.0 + np.abs(state.gap)))),
+            state.turned,
         )
         change = float(np.max(np.abs(dH) / (1.0 + np.abs(state.gap))))
         if not math.isfinite(change) or change > _DIVERGED:
