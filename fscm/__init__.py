@@ -13,6 +13,7 @@ from fscm.custom_punch import CustomPunch
 from fscm.errors import NoSuchEvent, NotConverged
 from fscm.experiment import Cycle, displacement_cycle, load_controlled_retreat
 from fscm.laws import LennardJones93, Mie, SurfaceLaw
+from fscm.measured_punch import MeasuredPunch
 from fscm.path import EquilibriumPath, trace
 from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
@@ -25,7 +26,7 @@ from fscm.tabulated_law import TabulatedLaw
 #: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
 LAYERS = (
     ("errors", "_typing", "_threads", "_validation", "_response_factor"),
-    ("laws", "tabulated_law", "punch", "custom_punch"),
+    ("laws", "tabulated_law", "punch", "custom_punch", "measured_punch"),
     ("problem", "physical"),
     ("_meshes", "_kernel", "_panels", "_deformation", "_tail"),
     ("_equilibrium", "solution"),
@@ -46,6 +47,7 @@ __all__ = [
     "EquilibriumPath",
     "EquilibriumState",
     "LennardJones93",
+    "MeasuredPunch",
     "Mie",
     "NoSuchEvent",
     "NotConverged",

@@ -17,11 +17,12 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import brentq
 
-from fscm._adaptivity import end_radius, fit, initial_mesh, rescaled_mesh
-from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of
+from fscm._adaptivity import at_kinks, end_radius, fit, initial_mesh, rescaled_mesh
+from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of
 from fscm._equilibrium import Control, Discretisation, Rates, State
 from fscm._meshes import Meshes
-from fscm._newton import STEEP, STEP_TOLERANCE, moved_gap, newton
+from fscm._newton import STEP_TOLERANCE, moved_gap, moves_exactly, newton
+from fscm._panels import PanelMesh
 from fscm._path_end import PathEnd, depth, displacement_of_compression
 from fscm.errors import NotConverged
 from fscm.problem import Problem
@@ -41,6 +42,8 @@ _LONGER, _SHORTER, _RETRY = 1.4, 0.7, 0.4
 # A step over which the tangent turns by more than this cosine is taken again, shorter: a fold pair turns
 # the path twice and must not be stepped over.  Steps below _BLIND_STEP are taken whatever the turn.
 _LARGEST_TURN, _BLIND_STEP = 0.85, 0.02
+# The same for any punch but a power law: a cavity that snaps shut turns the path within 0.01 (measured).
+_BLIND_STEP_OF_ASPERITIES = 0.002
 # Before contact, once the displacement makes up less than this share of the tangent, steps are at most this long:
 # the path may then run flat through several shallow folds, over which the tangent hardly turns.  Measured: n = 2,
 # k = 0.6, mu = 3 has three folds within 0.015 of displacement, and steps of 0.5 missed the first two.
@@ -50,8 +53,13 @@ _FLAT_SHARE, _FLAT_STEP = 0.5, 0.1
 _EDGE, _NARROWEST = 1.03, -20.0
 # Largest deviation from the trapezoidal rule, relative to the distance of a gap to the singular gap.
 _SURPRISE = 0.5
-# Where its parameter turns, the path goes on in another one, until that one makes up less than this share of the tangent.
+# The gaps within this multiple of the edge radius tell the sense of the path.
+_NEAR_EDGE = 2.0
+# Where its parameter turns, the path goes on in another one, until that one makes up less than this share of the
+# tangent.
 _LEAST_SHARE = 0.3
+# Share of the tangent from which on it is prescribed, not the arc length, where the mesh moves with kinks.
+_GIVEN_SHARE = 0.05
 # The edge is followed from where the central gap has fallen below the gap of largest tension by this fraction
 # of that gap's distance to the singular gap: nearer to it the edge radius is a poor variable (it starts as a
 # root).
@@ -59,10 +67,28 @@ _HAND_OVER = 0.05
 
 
 def _predicted(state: State, rates: Rates, step: float) -> State:
+    problem = state.disc.problem
+    if step * rates.log_scale != 0.0 and getattr(problem.punch, "kinks", ()):
+        return _predicted_with_kinks(state, rates, step)
     return replace(
         state,
         scale=state.scale * math.exp(step * rates.log_scale),
         gap=moved_gap(state, step * rates.gap, step * rates.log_scale),
+        displacement=state.displacement + step * rates.displacement,
+    )
+
+
+def _predicted_with_kinks(state: State, rates: Rates, step: float) -> State:
+    """The same, on a mesh with its breaks where the kinks are at the new scale."""
+    problem, old, log_scale = state.disc.problem, state.disc.mesh, step * rates.log_scale
+    scale, shape = state.scale * math.exp(log_scale), problem.punch.height
+    smooth = moved_gap(state, step * rates.gap, log_scale) - shape(state.radius * math.exp(log_scale))
+    mesh = PanelMesh(at_kinks(problem, old.breaks, state.scale, scale), old.order)
+    return replace(
+        state,
+        disc=Discretisation(problem, mesh, state.disc),
+        scale=scale,
+        gap=old.transfer(smooth, mesh) + shape(scale * mesh.nodes),
         displacement=state.displacement + step * rates.displacement,
     )
 
@@ -96,7 +122,7 @@ def _follow_edge(state: State, end_height: float) -> State:
     new = rescaled_mesh(problem, mesh, state.scale, state.scale * ratio, end_height)
     known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
     shape = problem.punch.height
-    if problem.punch.growth <= STEEP:
+    if not moves_exactly(problem.punch):
         gap = mesh.evaluate(state.gap, known)
         gap += shape(state.scale * ratio * new.nodes) - shape(state.scale * known)
     else:
@@ -111,22 +137,31 @@ def _edge_elsewhere(state: State, hand_over: float) -> bool:
     return float(np.min(state.gap[state.disc.mesh.nodes > 1.0])) < hand_over
 
 
-def _turned(arc: ArcLength, point: Point) -> Point:
-    """The same state, from which the path goes on in the parameter that now changes most, because its own turns."""
+def _turned(arc: ArcLength, point: Point, name: str | None = None) -> Point:
+    """The same state, from which the path goes on in the named parameter, or in the other one that changes most."""
     shares = {name: share for name, share in arc.shares(point).items() if name != point.state.parameter}
-    name = max(shares, key=lambda other: abs(shares[other]))
+    name = name or max(shares, key=lambda other: abs(shares[other]))
     state = replace(point.state, turned=(name, math.copysign(1.0, shares[name])))
     return Point(state, arc.tangent(state), point.stretch + 1)
 
 
-def _jumped(a: Point, b: Point, step: float) -> bool:
-    """Whether the gaps have changed by much more than their rates at both ends tell: then b is on another branch."""
+def _checked_sense(a: Point, b: Point, step: float, same: bool | None) -> bool:
+    """Whether the gaps go on changing in the same sense; NotConverged when b is on another branch.
+
+    Near a sharp turn of the path, the gaps inside the contact tell its sense when load and displacement do not.
+    """
     mesh, other = a.state.disc.mesh, b.state.disc.mesh
     known = np.minimum(other.nodes, mesh.breaks[-1])
     before, rate = mesh.evaluate(a.state.gap, known), mesh.evaluate(a.rates.gap, known)
-    surprise = b.state.gap - before - 0.5 * step * (rate + b.rates.gap)
     clearance = b.state.gap - a.state.disc.problem.law.singular_gap
-    return bool(np.max(np.abs(surprise) / clearance) > _SURPRISE)
+    near = other.nodes < _NEAR_EDGE
+    product = other.weights * other.nodes * rate * b.rates.gap / clearance**2
+    if same is None:
+        same = bool(np.sum(product[near]) >= 0.0)
+    surprise = b.state.gap - before - 0.5 * step * (rate + (1.0 if same else -1.0) * b.rates.gap)
+    if np.max(np.abs(surprise) / clearance) > _SURPRISE:
+        raise NotConverged("Newton converged to a state that the tangent does not lead to")
+    return same
 
 
 def _joined(arc: ArcLength, before: Point, state: State) -> Point:
@@ -195,6 +230,9 @@ def equilibrium_path(
     state = _far_state(problem, gap, order, tolerance, end_height)
     peak, singular = problem.law.peak_gap, problem.law.singular_gap
     hand_over = peak - _HAND_OVER * (peak - singular)
+    kinked = bool(getattr(problem.punch, "kinks", ()))
+    least_share = _GIVEN_SHARE if kinked else _LEAST_SHARE
+    shortest = _BLIND_STEP if isinstance(problem.punch, PowerPunch) else _BLIND_STEP_OF_ASPERITIES
     step = min(_FIRST_STEP, longest_step)
     point = Point(state, arc.tangent(state))
     while True:
@@ -206,28 +244,35 @@ def equilibrium_path(
             state = fit(newton(guess, control), control, tolerance)
             point = _joined(arc, point, state)
             continue
-        if state.turned and abs(arc.shares(point).get(state.parameter, 0.0)) < _LEAST_SHARE:
-            point = _turned(arc, point)
+        shares = arc.shares(point)
+        usual = "log_scale" if state.follows_edge else "gap"
+        # With the scale given, no node passes a kink during an iteration.
+        kept = usual if kinked and abs(shares[usual]) > _GIVEN_SHARE else state.parameter
+        if state.turned and (kept != state.parameter or abs(shares.get(kept, 0.0)) < least_share):
+            point = _turned(arc, point, kept if kept != state.parameter else None)
             state = point.state
             yield point
         if not state.follows_edge and abs(point.rates.displacement) < _FLAT_SHARE * arc.displacement_unit(state):
             step = min(step, _FLAT_STEP)
         while True:
+            guess = _predicted(state, point.rates, step)
             control = arc.control(state, point.rates, step)
+            if kinked and state.parameter == usual and abs(shares[usual]) > _GIVEN_SHARE:
+                control = parameter_control(guess, parameter_of(state) + step * rate_of(point.rates, state.parameter))
             try:
-                new = newton(_predicted(state, point.rates, step), control, _NEWTON_MARGIN * tolerance)
+                new = newton(guess, control, _NEWTON_MARGIN * tolerance)
                 used = new.iterations
                 new = fit(new, control, tolerance, coarsen=True)
                 after = Point(new, arc.tangent(new), point.stretch)
-                if not isinstance(problem.punch, PowerPunch) and _jumped(point, after, step):
-                    raise NotConverged("Newton converged to a state that the tangent does not lead to")
-                if arc.turn(point, after) < -_LARGEST_TURN:  # the path goes on smoothly, its parameter does not
-                    point = after = _turned(arc, point)
-                    used = new.iterations
-                    break
-                if step > _BLIND_STEP and arc.turn(point, after) < _LARGEST_TURN:
+                turn, blind = arc.turn(point, after), step <= shortest
+                if abs(turn) < _LARGEST_TURN and not blind:
                     step *= _SHORTER
                     continue
+                same = turn >= 0.0
+                if not isinstance(problem.punch, PowerPunch):
+                    same = _checked_sense(point, after, step, same if abs(turn) >= _LARGEST_TURN else None)
+                if not same:  # the path goes on, but its parameter turns
+                    after = _turned(arc, point)
                 break
             except NotConverged as error:
                 step *= _RETRY

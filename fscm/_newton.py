@@ -9,8 +9,9 @@ import numpy as np
 from fscm._equilibrium import Control, Linearisation, State
 from fscm._typing import Array
 from fscm.errors import NotConverged
+from fscm.punch import PunchShape
 
-__all__ = ["STEEP", "STEP_TOLERANCE", "moved_gap", "newton"]
+__all__ = ["STEEP", "STEP_TOLERANCE", "moved_gap", "moves_exactly", "newton"]
 
 # Growth of a punch above which its height is no linear function of log c within a step: it is then moved exactly.
 STEEP = 10.0
@@ -31,10 +32,15 @@ _SMALLEST_DAMPING = 1e-3
 _DIVERGED = 1e6
 
 
+def moves_exactly(punch: PunchShape) -> bool:
+    """Whether the height of a punch is no linear function of log c within a step: it is steep, or has kinks."""
+    return punch.growth > STEEP or bool(getattr(punch, "kinks", ()))
+
+
 def moved_gap(state: State, change: Array, log_scale: float) -> Array:
     """Gaps after a linear change at a change of log c, with the exact shape in place of its slope for a steep punch."""
     punch, r = state.disc.problem.punch, state.radius
-    if punch.growth <= STEEP or log_scale == 0.0:
+    if not moves_exactly(punch) or log_scale == 0.0:
         return state.gap + change
     exact = punch.height(r * math.exp(log_scale)) - punch.height(r)
     return state.gap + (change - r * punch.slope(r) * log_scale) + exact
@@ -45,7 +51,7 @@ def _largest_damping(state: State, dH: Array, log_scale: float) -> float:
     floor = state.disc.problem.law.singular_gap
     clearance = state.gap - floor
     least = np.maximum(_SHRINK * clearance, _LOWEST * -floor)
-    if state.disc.problem.punch.growth > STEEP and log_scale != 0.0:
+    if moves_exactly(state.disc.problem.punch) and log_scale != 0.0:
         damping = min(1.0, _LARGEST_GROWTH / abs(log_scale))
         while damping > _SMALLEST_DAMPING and np.any(
             moved_gap(state, damping * dH, damping * log_scale) - floor < np.minimum(least, clearance)
