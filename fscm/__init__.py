@@ -25,7 +25,7 @@ from fscm.tabulated_law import TabulatedLaw
 
 #: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
 LAYERS = (
-    ("errors", "_typing", "_threads", "_validation", "_response_factor"),
+    ("errors", "_typing", "_threads", "_validation", "_response_factor", "_smoothed_table"),
     ("laws", "tabulated_law", "punch", "custom_punch", "measured_punch"),
     ("problem", "physical"),
     ("_meshes", "_kernel", "_panels", "_deformation", "_tail"),

@@ -141,17 +141,50 @@ class Analysis:
             raise ValueError(f"unknown event {name!r}; known are {', '.join(_EVENTS)}")
         if name not in self._pairs:
             bracket, condition = _EVENTS[name]
-            coarse = events.locate(*bracket(self), condition)
-            check = events.sharpen(coarse, condition, *self.meshes.check)
-            self._pairs[name] = EventPair(check, events.sharpen(check, condition, *self.meshes.value))
+            self._pairs[name] = self._pair(bracket(self), condition)
         return self._pairs[name]
+
+    def _pair(self, bracket: Bracket, condition: Condition) -> EventPair:
+        coarse = events.locate(*bracket, condition)
+        check = events.sharpen(coarse, condition, *self.meshes.check)
+        return EventPair(check, events.sharpen(check, condition, *self.meshes.value))
 
     @one_thread()
     def landing(self, event: str) -> EventPair:
         """Where a jump ("jump_in" or "jump_out") under displacement control lands: on the other branch."""
         if event not in _LANDINGS:
             raise ValueError(f"unknown jump {event!r}; known are {', '.join(_LANDINGS)}")
+        return self._landing(event, self.event(event))[0]
+
+    @one_thread()
+    def jumps(self, event: str) -> list[tuple[EventPair, EventPair]]:
+        """Every jump of an approach ("jump_in") or a retreat ("jump_out") under displacement control.
+
+        Returns
+        -------
+        list of (EventPair, EventPair)
+            The fold and the landing of each, in their order.  A punch with asperities may jump several times.
+        """
         fold = self.event(event)
+        landing, place = self._landing(event, fold)
+        found, places = [(fold, landing)], {id(point): i for i, point in enumerate(self.points)}
+        approach = event == "jump_in"
+        folds = events.brackets(self.points, events.displacement_fold, rising=not approach)
+        while True:
+            # On from the landing: into contact on approach, towards separation on retreat.
+            here = places[id(place[0])]
+            folds = [pair for pair in folds if (places[id(pair[0])] >= here if approach else places[id(pair[0])] <= here)]
+            if not folds:
+                return found
+            bracket = folds.pop(0 if approach else -1)
+            fold = self._pair(bracket, events.displacement_fold)
+            landing, place = self._landing(event, fold)
+            if (places[id(place[0])] <= places[id(bracket[0])]) == approach:
+                raise NotConverged(f"the path of {self.problem} ends before the landing of a {event.replace('_', '-')}")
+            found.append((fold, landing))
+
+    def _landing(self, event: str, fold: EventPair) -> tuple[EventPair, Bracket]:
+        """State in which a jump from a fold lands, and its bracket on the path."""
 
         def at(displacement: float) -> Condition:
             return lambda state, rates: state.displacement - displacement
@@ -163,9 +196,10 @@ class Analysis:
                 f"the path of {self.problem} does not reach the displacement {fold.value.displacement:.6g}, "
                 f"at which the {event.replace('_', '-')} lands"
             )
-        coarse = events.locate(*crossings[_LANDINGS[event]], condition)
+        place = crossings[_LANDINGS[event]]
+        coarse = events.locate(*place, condition)
         check = events.sharpen(coarse, at(fold.check.displacement), *self.meshes.check)
-        return EventPair(check, events.sharpen(check, at(fold.value.displacement), *self.meshes.value))
+        return EventPair(check, events.sharpen(check, at(fold.value.displacement), *self.meshes.value)), place
 
     @one_thread()
     def solution(self, quantity: str) -> Solution:
@@ -177,7 +211,22 @@ class Analysis:
         """
         row = quantity_named(quantity)
         start = time.perf_counter()
-        return replace(row.compute(self), seconds=time.perf_counter() - start)
+        found = row.compute(self)
+        if self._alternatives:
+            # What the smoothing of a law changes is as uncertain as its data.
+            change = max(abs(other.solution(quantity).value - found.value) for other in self._alternatives)
+            found = replace(found, u_num=found.u_num + change)
+        return replace(found, seconds=time.perf_counter() - start)
+
+    @cached_property
+    def _alternatives(self) -> list[Analysis]:
+        """The problem with the other laws that the data of a smoothed one allow."""
+        found = []
+        for law in getattr(self.problem.law, "alternatives", ()):
+            other = Analysis(replace(self.problem, law=law), self.meshes)
+            other._alternatives = []
+            found.append(other)
+        return found
 
 
 # Bracket and condition of each event.

@@ -97,17 +97,14 @@ def _energy(state: State) -> float:
 
 
 def _hysteresis_energy(analysis: Analysis) -> Solution:
-    """Energy lost in the two jumps: by how much the energy drops at constant displacement."""
-    pairs = [
-        analysis.event("jump_in"),
-        analysis.landing("jump_in"),
-        analysis.event("jump_out"),
-        analysis.landing("jump_out"),
-    ]
-    a, a_landing, b, b_landing = (pair.value.energy for pair in pairs)
-    # The four errors may cancel by accident, so their sizes are added.
-    difference = sum(pair.difference(_energy) for pair in pairs)
-    return solution_of(a - a_landing + b - b_landing, difference, pairs)
+    """Energy lost in all jumps of a cycle: by how much the energy drops at constant displacement."""
+    jumps = [*analysis.jumps("jump_in"), *analysis.jumps("jump_out")]
+    pairs = [pair for jump in jumps for pair in jump]
+    lost = 0.0
+    for fold, landing in jumps:
+        lost = lost + fold.value.energy - landing.value.energy
+    # The errors may cancel by accident, so their sizes are added.
+    return solution_of(lost, sum(pair.difference(_energy) for pair in pairs), pairs)
 
 
 TABLE: dict[str, Quantity] = {
