@@ -30,7 +30,7 @@ LAYERS = (
     ("problem", "physical"),
     ("_meshes", "_kernel", "_panels", "_deformation", "_tail"),
     ("_equilibrium", "solution"),
-    ("_newton", "_arc_length", "_path_end", "_adaptivity", "_continuation"),
+    ("_newton", "_arc_length", "_path_end", "_adaptivity", "_branches", "_continuation"),
     ("_events", "_completeness", "folds"),
     ("path", "critical", "quantities", "analysis"),
     ("gibson", "stieltjes"),

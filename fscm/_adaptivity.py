@@ -18,6 +18,7 @@ from fscm._panels import PanelMesh
 from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.problem import Problem
+from fscm.punch import kinks_of
 
 __all__ = ["at_kinks", "end_radius", "fit", "indicator", "initial_mesh", "rescaled_mesh"]
 
@@ -76,14 +77,15 @@ def initial_mesh(problem: Problem, order: int, end_height: float) -> PanelMesh:
 
 def at_kinks(problem: Problem, breaks: Array, old_scale: float, new_scale: float) -> Array:
     """Breaks that are moved from the kinks of the punch at one scale to those at another; or put there."""
-    kinks = np.array(getattr(problem.punch, "kinks", ()))
+    kinks = np.array(kinks_of(problem.punch))
     if not kinks.size:
         return breaks
     for s in kinks / old_scale:
         i = int(np.argmin(np.abs(breaks - s)))
-        if 0 < i < len(breaks) - 1 and breaks[i] != 1.0:
-            if abs(breaks[i] - s) < _NEAR_KINK * min(breaks[i] - breaks[i - 1], breaks[i + 1] - breaks[i]):
-                breaks = np.delete(breaks, i)
+        if not 0 < i < len(breaks) - 1 or breaks[i] == 1.0:
+            continue
+        if abs(breaks[i] - s) < _NEAR_KINK * min(breaks[i] - breaks[i - 1], breaks[i + 1] - breaks[i]):
+            breaks = np.delete(breaks, i)
     new = kinks / new_scale
     fixed = np.array([0.0, 1.0, breaks[-1]])
     new = new[(new < breaks[-1]) & (np.min(np.abs(new[:, None] - fixed), axis=1) > _SLIVER)]
@@ -95,7 +97,7 @@ def at_kinks(problem: Problem, breaks: Array, old_scale: float, new_scale: float
 
 def _off_kinks(state: State) -> float:
     """Largest distance of a kink in the mesh to the next break."""
-    kinks = np.array(getattr(state.disc.problem.punch, "kinks", ())) / state.scale
+    kinks = np.array(kinks_of(state.disc.problem.punch)) / state.scale
     breaks = state.disc.mesh.breaks
     kinks = kinks[kinks < breaks[-1]]
     return float(np.max(np.min(np.abs(kinks[:, None] - breaks), axis=1))) if kinks.size else 0.0

@@ -21,6 +21,7 @@ from fscm._equilibrium import State
 from fscm._newton import newton
 from fscm._panels import PanelMesh
 from fscm.errors import NotConverged
+from fscm.punch import kinks_of
 
 __all__ = ["completed", "may_hide"]
 
@@ -134,7 +135,7 @@ def _on_common_mesh(a: Point, b: Point, arc: ArcLength) -> tuple[Point, Point]:
 
 
 def _kinked(point: Point) -> bool:
-    return bool(getattr(point.state.disc.problem.punch, "kinks", ()))
+    return bool(kinks_of(point.state.disc.problem.punch))
 
 
 def _resolved(point: Point, arc: ArcLength) -> Point:

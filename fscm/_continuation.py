@@ -12,21 +12,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 
-import numpy as np
-from scipy.optimize import brentq
-
-from fscm._adaptivity import at_kinks, end_radius, fit, initial_mesh, rescaled_mesh
+from fscm._adaptivity import end_radius, fit, initial_mesh
 from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of
+from fscm._branches import checked_sense, edge_elsewhere, follow_edge, joined, predicted, turned
 from fscm._equilibrium import Control, Discretisation, Rates, State
 from fscm._meshes import Meshes
-from fscm._newton import STEP_TOLERANCE, moved_gap, moves_exactly, newton
-from fscm._panels import PanelMesh
+from fscm._newton import STEP_TOLERANCE, newton
 from fscm._path_end import PathEnd, depth, displacement_of_compression
 from fscm.errors import NotConverged
 from fscm.problem import Problem
-from fscm.punch import PowerPunch
+from fscm.punch import PowerPunch, kinks_of
 
 __all__ = ["MAX_POINTS", "bracketing_path", "equilibrium_path", "moved", "path_end", "path_until"]
 
@@ -51,10 +47,6 @@ _FLAT_SHARE, _FLAT_STEP = 0.5, 0.1
 # The width of the cohesive edge is (1.03 M)^(-1/(1-k)) for the 9-3 law; decimal logarithm of the narrowest that is
 # tried: a contact radius has 16 digits, and a law that is ten times less steep has an edge that is as much wider.
 _EDGE, _NARROWEST = 1.03, -20.0
-# Largest deviation from the trapezoidal rule, relative to the distance of a gap to the singular gap.
-_SURPRISE = 0.5
-# The gaps within this multiple of the edge radius tell the sense of the path.
-_NEAR_EDGE = 2.0
 # Where its parameter turns, the path goes on in another one, until that one makes up less than this share of the
 # tangent.
 _LEAST_SHARE = 0.3
@@ -66,33 +58,6 @@ _GIVEN_SHARE = 0.05
 _HAND_OVER = 0.05
 
 
-def _predicted(state: State, rates: Rates, step: float) -> State:
-    problem = state.disc.problem
-    if step * rates.log_scale != 0.0 and getattr(problem.punch, "kinks", ()):
-        return _predicted_with_kinks(state, rates, step)
-    return replace(
-        state,
-        scale=state.scale * math.exp(step * rates.log_scale),
-        gap=moved_gap(state, step * rates.gap, step * rates.log_scale),
-        displacement=state.displacement + step * rates.displacement,
-    )
-
-
-def _predicted_with_kinks(state: State, rates: Rates, step: float) -> State:
-    """The same, on a mesh with its breaks where the kinks are at the new scale."""
-    problem, old, log_scale = state.disc.problem, state.disc.mesh, step * rates.log_scale
-    scale, shape = state.scale * math.exp(log_scale), problem.punch.height
-    smooth = moved_gap(state, step * rates.gap, log_scale) - shape(state.radius * math.exp(log_scale))
-    mesh = PanelMesh(at_kinks(problem, old.breaks, state.scale, scale), old.order)
-    return replace(
-        state,
-        disc=Discretisation(problem, mesh, state.disc),
-        scale=scale,
-        gap=old.transfer(smooth, mesh) + shape(scale * mesh.nodes),
-        displacement=state.displacement + step * rates.displacement,
-    )
-
-
 def moved(state: State, rates: Rates, value: float, tolerance: float = STEP_TOLERANCE) -> State:
     """Equilibrium at another value of the continuation parameter, from the tangent predictor.
 
@@ -101,7 +66,7 @@ def moved(state: State, rates: Rates, value: float, tolerance: float = STEP_TOLE
     NotConverged
         When Newton's method fails.
     """
-    return newton(_predicted(state, rates, value - parameter_of(state)), parameter_control(state, value), tolerance)
+    return newton(predicted(state, rates, value - parameter_of(state)), parameter_control(state, value), tolerance)
 
 
 def _far_state(problem: Problem, central_gap: float, order: int, tolerance: float, end_height: float) -> State:
@@ -110,68 +75,6 @@ def _far_state(problem: Problem, central_gap: float, order: int, tolerance: floa
     gap = central_gap + problem.punch.height(disc.mesh.nodes)
     control = Control(central_gap, gap=1.0)
     return fit(newton(State(disc, 1.0, gap, -central_gap, False), control), control, tolerance)
-
-
-def _follow_edge(state: State, end_height: float) -> State:
-    """Guess on a mesh scaled so that the outermost gap of largest tension sits at s = 1."""
-    problem, mesh = state.disc.problem, state.disc.mesh
-    target = problem.law.peak_gap
-    outer = int(np.flatnonzero(state.gap < target)[-1]) if np.any(state.gap < target) else -1
-    low = 0.0 if outer < 0 else float(mesh.nodes[outer])
-    ratio = brentq(lambda s: mesh.evaluate(state.gap, np.array([s]))[0] - target, low, mesh.nodes[outer + 1])
-    new = rescaled_mesh(problem, mesh, state.scale, state.scale * ratio, end_height)
-    known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
-    shape = problem.punch.height
-    if not moves_exactly(problem.punch):
-        gap = mesh.evaluate(state.gap, known)
-        gap += shape(state.scale * ratio * new.nodes) - shape(state.scale * known)
-    else:
-        gap = mesh.evaluate(state.gap - shape(state.radius), known) + shape(state.scale * ratio * new.nodes)
-    return State(Discretisation(problem, new), state.scale * ratio, gap, state.displacement, True)
-
-
-def _edge_elsewhere(state: State, hand_over: float) -> bool:
-    """Whether the outermost contact edge is not the one that the mesh follows."""
-    if not state.follows_edge:
-        return min(state.central_gap, float(np.min(state.gap))) < hand_over
-    return float(np.min(state.gap[state.disc.mesh.nodes > 1.0])) < hand_over
-
-
-def _turned(arc: ArcLength, point: Point, name: str | None = None) -> Point:
-    """The same state, from which the path goes on in the named parameter, or in the other one that changes most."""
-    shares = {name: share for name, share in arc.shares(point).items() if name != point.state.parameter}
-    name = name or max(shares, key=lambda other: abs(shares[other]))
-    state = replace(point.state, turned=(name, math.copysign(1.0, shares[name])))
-    return Point(state, arc.tangent(state), point.stretch + 1)
-
-
-def _checked_sense(a: Point, b: Point, step: float, same: bool | None) -> bool:
-    """Whether the gaps go on changing in the same sense; NotConverged when b is on another branch.
-
-    Near a sharp turn of the path, the gaps inside the contact tell its sense when load and displacement do not.
-    """
-    mesh, other = a.state.disc.mesh, b.state.disc.mesh
-    known = np.minimum(other.nodes, mesh.breaks[-1])
-    before, rate = mesh.evaluate(a.state.gap, known), mesh.evaluate(a.rates.gap, known)
-    clearance = b.state.gap - a.state.disc.problem.law.singular_gap
-    near = other.nodes < _NEAR_EDGE
-    product = other.weights * other.nodes * rate * b.rates.gap / clearance**2
-    if same is None:
-        same = bool(np.sum(product[near]) >= 0.0)
-    surprise = b.state.gap - before - 0.5 * step * (rate + (1.0 if same else -1.0) * b.rates.gap)
-    if np.max(np.abs(surprise) / clearance) > _SURPRISE:
-        raise NotConverged("Newton converged to a state that the tangent does not lead to")
-    return same
-
-
-def _joined(arc: ArcLength, before: Point, state: State) -> Point:
-    """The state that follows another edge, with load and displacement changing in the same sense as before."""
-    point = Point(state, arc.tangent(state), before.stretch + 1)
-    old, new = arc.shares(before), arc.shares(point)
-    if sum(old[name] * new[name] for name in ("displacement", "load")) >= 0.0:
-        return point
-    state = replace(state, turned=("log_scale", -1.0))
-    return Point(state, arc.tangent(state), before.stretch + 1)
 
 
 def _check_edge(problem: Problem) -> None:
@@ -230,7 +133,7 @@ def equilibrium_path(
     state = _far_state(problem, gap, order, tolerance, end_height)
     peak, singular = problem.law.peak_gap, problem.law.singular_gap
     hand_over = peak - _HAND_OVER * (peak - singular)
-    kinked = bool(getattr(problem.punch, "kinks", ()))
+    kinked = bool(kinks_of(problem.punch))
     least_share = _GIVEN_SHARE if kinked else _LEAST_SHARE
     shortest = _BLIND_STEP if isinstance(problem.punch, PowerPunch) else _BLIND_STEP_OF_ASPERITIES
     step = min(_FIRST_STEP, longest_step)
@@ -238,24 +141,24 @@ def equilibrium_path(
     while True:
         yield point
         state = point.state
-        if _edge_elsewhere(state, hand_over):
-            guess = _follow_edge(state, end_height)
+        if edge_elsewhere(state, hand_over):
+            guess = follow_edge(state, end_height)
             control = parameter_control(guess, parameter_of(guess))
             state = fit(newton(guess, control), control, tolerance)
-            point = _joined(arc, point, state)
+            point = joined(arc, point, state)
             continue
         shares = arc.shares(point)
         usual = "log_scale" if state.follows_edge else "gap"
         # With the scale given, no node passes a kink during an iteration.
         kept = usual if kinked and abs(shares[usual]) > _GIVEN_SHARE else state.parameter
         if state.turned and (kept != state.parameter or abs(shares.get(kept, 0.0)) < least_share):
-            point = _turned(arc, point, kept if kept != state.parameter else None)
+            point = turned(arc, point, kept if kept != state.parameter else None)
             state = point.state
             yield point
         if not state.follows_edge and abs(point.rates.displacement) < _FLAT_SHARE * arc.displacement_unit(state):
             step = min(step, _FLAT_STEP)
         while True:
-            guess = _predicted(state, point.rates, step)
+            guess = predicted(state, point.rates, step)
             control = arc.control(state, point.rates, step)
             if kinked and state.parameter == usual and abs(shares[usual]) > _GIVEN_SHARE:
                 control = parameter_control(guess, parameter_of(state) + step * rate_of(point.rates, state.parameter))
@@ -270,9 +173,9 @@ def equilibrium_path(
                     continue
                 same = turn >= 0.0
                 if not isinstance(problem.punch, PowerPunch):
-                    same = _checked_sense(point, after, step, same if abs(turn) >= _LARGEST_TURN else None)
+                    same = checked_sense(point, after, step, same if abs(turn) >= _LARGEST_TURN else None)
                 if not same:  # the path goes on, but its parameter turns
-                    after = _turned(arc, point)
+                    after = turned(arc, point)
                 break
             except NotConverged as error:
                 step *= _RETRY

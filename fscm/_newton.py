@@ -9,7 +9,7 @@ import numpy as np
 from fscm._equilibrium import Control, Linearisation, State
 from fscm._typing import Array
 from fscm.errors import NotConverged
-from fscm.punch import PunchShape
+from fscm.punch import PunchShape, kinks_of
 
 __all__ = ["STEEP", "STEP_TOLERANCE", "moved_gap", "moves_exactly", "newton"]
 
@@ -34,7 +34,7 @@ _DIVERGED = 1e6
 
 def moves_exactly(punch: PunchShape) -> bool:
     """Whether the height of a punch is no linear function of log c within a step: it is steep, or has kinks."""
-    return punch.growth > STEEP or bool(getattr(punch, "kinks", ()))
+    return punch.growth > STEEP or bool(kinks_of(punch))
 
 
 def moved_gap(state: State, change: Array, log_scale: float) -> Array:

@@ -173,7 +173,9 @@ class Analysis:
         while True:
             # On from the landing: into contact on approach, towards separation on retreat.
             here = places[id(place[0])]
-            folds = [pair for pair in folds if (places[id(pair[0])] >= here if approach else places[id(pair[0])] <= here)]
+            folds = [
+                pair for pair in folds if (places[id(pair[0])] >= here if approach else places[id(pair[0])] <= here)
+            ]
             if not folds:
                 return found
             bracket = folds.pop(0 if approach else -1)

@@ -124,7 +124,7 @@ class TabulatedLaw:
 
     @property
     def alternatives(self) -> tuple[TabulatedLaw, ...]:
-        """Laws that the data allow as well: half and twice the smoothing, and every other point; none without smoothing.
+        """Laws that the data allow as well: half and twice the smoothing, every other point; none without smoothing.
 
         Examples
         --------

@@ -37,7 +37,9 @@ def test_the_table_has_every_punch_once_and_none_is_silently_wrong() -> None:
             assert float(row["pull_off_force"]) == pytest.approx(float(row["brute_force"]), rel=BRUTE_FORCE)
 
 
-@pytest.mark.parametrize("number", [*LIGHT, *(pytest.param(i, marks=pytest.mark.heavy) for i in range(COUNT) if i not in LIGHT)])
+@pytest.mark.parametrize(
+    "number", [*LIGHT, *(pytest.param(i, marks=pytest.mark.heavy) for i in range(COUNT) if i not in LIGHT)]
+)
 def test_the_outcome_is_that_of_the_table(number: int) -> None:
     row = table()[number]
     status, force, _ = outcome(random_punch(number))
@@ -46,7 +48,9 @@ def test_the_outcome_is_that_of_the_table(number: int) -> None:
         assert force == pytest.approx(float(row["pull_off_force"]), rel=1e-6)
 
 
-@pytest.mark.parametrize("number", [0, pytest.param(2, marks=pytest.mark.heavy), pytest.param(10, marks=pytest.mark.heavy)])
+@pytest.mark.parametrize(
+    "number", [0, pytest.param(2, marks=pytest.mark.heavy), pytest.param(10, marks=pytest.mark.heavy)]
+)
 def test_a_path_on_a_fixed_mesh_from_the_other_end_has_the_same_least_load(number: int) -> None:
     case = random_punch(number)
     _, force, _ = outcome(case)
