@@ -1,7 +1,7 @@
 r"""End of the equilibrium path: where no later state can carry tension.
 
-A power-law punch has one minimum of the load on its contact branch, and its path ends at the first compressive load.
-Any other punch may have asperities.  There the load of every state of displacement delta has a lower bound.  Let q be
+A punch without asperities, such as a power law, has one minimum of the load on its contact branch, and its path ends at
+the first compressive load.  It is one on which r f' does not decrease.  Any other may have asperities.  There the load of every state of displacement delta has a lower bound.  Let q be
 the pressure of a flat punch of radius a that is pressed in by one length.  It lifts the surface by 1 below the flat
 punch and by phi < 1 outside.  With the reciprocity of q and p, H > s (the singular gap) and Eq. 4,
 
@@ -35,6 +35,8 @@ _RADII, _EVERY = 3000, 24
 _FIRST_RADIUS = 1e-7
 # Largest displacement, in units of the height of the punch at the last radius: far enough from it for the closed tail.
 _LARGEST = 1e-2
+# Relative decrease of r f' that is rounding: a slope by differences has an error of 1e-11 of f / r.
+_LEVEL = 1e-6
 # Ratio of the displacements that are tried.
 _RATIO = 1.05
 # Iterations for the deformation by tension; it decreases from one to the next, so that each of them is a bound.
@@ -78,8 +80,14 @@ def depth(problem: Problem, end: float) -> float:
     return -min(0.0, float(np.min(problem.punch.height(_radii(end)))))
 
 
+def _has_asperities(problem: Problem, end: float) -> bool:
+    r = _radii(end)[1:]
+    rising = r * problem.punch.slope(r)
+    return bool(np.any(np.diff(rising) < -_LEVEL * np.abs(rising[1:])) or rising[0] < 0.0)
+
+
 def displacement_of_compression(problem: Problem, end: float) -> float:
-    """Displacement from which on no state carries tension; -inf for a power law, which needs no such bound.
+    """Displacement from which on no state carries tension; -inf without asperities, where no such bound is needed.
 
     Parameters
     ----------
@@ -92,7 +100,7 @@ def displacement_of_compression(problem: Problem, end: float) -> float:
     float
         Infinite when the bound is not positive at the largest displacement that is examined.
     """
-    if isinstance(problem.punch, PowerPunch):
+    if isinstance(problem.punch, PowerPunch) or not _has_asperities(problem, end):
         return -math.inf
     bound = LeastLoad(problem, end)
     largest = _LARGEST * float(problem.punch.height(np.array([end]))[0])

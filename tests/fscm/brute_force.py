@@ -25,12 +25,20 @@ _STEP, _SMALLEST, _STEPS = 0.1, 1e-5, 1500
 class BruteForce:
     """Loads of the equilibrium path of a problem; `width` is the length of the panels up to the radius `fine`."""
 
-    def __init__(self, problem: Problem, width: float, fine: float) -> None:
+    def __init__(
+        self,
+        problem: Problem,
+        width: float,
+        fine: float,
+        order: int = _ORDER,
+        most: int = _MOST,
+        height: float = _HEIGHT,
+    ) -> None:
         self.problem = problem
         end = fine
-        while problem.punch.height(np.array([end]))[0] < _HEIGHT:
+        while problem.punch.height(np.array([end]))[0] < height:
             end *= 1.3
-        width = max(width, fine * _ORDER / _MOST)
+        width = max(width, fine * order / most)
         breaks = list(np.linspace(0.0, fine, math.ceil(fine / width) + 1))
         step = breaks[1]
         while breaks[-1] < end:
@@ -38,7 +46,7 @@ class BruteForce:
             breaks.append(breaks[-1] + step)
         breaks = np.union1d(breaks, [r for r in getattr(problem.punch, "kinks", ()) if r < breaks[-1]])
         breaks = breaks[np.append(True, np.diff(breaks) > 1e-9)]
-        mesh = PanelMesh(breaks, _ORDER)
+        mesh = PanelMesh(breaks, order)
         self.response = problem.compliance * (1.0 - problem.k) * response_matrix(kernel_of(problem.k), mesh)
         self.area = 2.0 * mesh.weights * mesh.nodes
         self.height = problem.punch.height(mesh.nodes)

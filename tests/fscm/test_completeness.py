@@ -14,7 +14,7 @@ from fscm.custom_punch import CustomPunch
 from fscm.errors import NotConverged
 from fscm.experiment import load_controlled_retreat
 from fscm.path import EquilibriumPath
-from fscm.punch import PowerSum
+from fscm.punch import PowerSum, RoundedCone
 
 ASPERITY = Problem(2, 0, 0.3, punch=CustomPunch(lambda r: -8 * np.expm1(-(r**2)) + r**2 / 50, growth=2))
 
@@ -62,6 +62,8 @@ def test_no_state_is_below_the_least_load_of_its_displacement(k: float, mu: floa
 def test_the_least_load_tends_to_that_without_adhesion() -> None:
     """Under a flat punch of the best radius a paraboloid without adhesion carries 1/sqrt(2) of Hertz."""
     problem = Problem(2, 0, 0.02, punch=PowerSum([0.5, 1e-12], [2, 4]))
+    # Without asperities no bound is needed, however slowly the punch rises.
+    assert displacement_of_compression(Problem(1, 0, 2.0, punch=RoundedCone(1.0)), 1e6) == -math.inf
     displacement = 100.0
     C = 4 / (math.pi * problem.compliance)
     # The best radius is a^2 = delta + s, the load C (2/3) a (delta + s); less the tension around.

@@ -7,7 +7,10 @@ import numpy as np
 import pytest
 
 from fscm.custom_punch import CustomPunch
-from fscm.punch import PowerPunch, PowerSum, PunchShape, RoundedCone
+from fscm.measured_punch import MeasuredPunch
+from fscm.problem import Problem
+from fscm.punch import PowerPunch, PowerSum, PunchShape, RoundedCone, kinks_of
+from fscm.solve import solve
 
 RADII = np.array([1e-3, 0.1, 0.5, 1.0, 2.0, 30.0, 1e3])
 
@@ -143,3 +146,63 @@ def test_profiles_are_values():
         assert pickle.loads(pickle.dumps(shape)) == shape
         assert hash(pickle.loads(pickle.dumps(shape))) == hash(shape)
     assert PowerPunch(2) == PowerPunch(np.float64(2.0))
+
+
+def test_a_measured_profile_is_its_segments_and_a_power():
+    punch = MeasuredPunch([0, 1, 2, 3], [0, 0.5, 1.0, 3.0], growth=3)
+    assert isinstance(punch, PunchShape)
+    r = np.array([0.0, 0.5, 1.5, 2.5, 3.0, 6.0])
+    np.testing.assert_allclose(punch.height(r), [0.0, 0.25, 0.75, 2.0, 3.0, 24.0])
+    np.testing.assert_allclose(punch.slope(r), [0.5, 0.5, 0.5, 2.0, 3.0, 12.0])
+    # The slope does not jump at 1.
+    assert punch.kinks == kinks_of(punch) == (2.0, 3.0)
+    assert pickle.loads(pickle.dumps(punch)) == punch
+    assert hash(pickle.loads(pickle.dumps(punch))) == hash(punch)
+
+
+def test_a_straight_profile_is_a_cone():
+    table = MeasuredPunch([0.0, 1.0, 2.5], [0.0, 1.0, 2.5], growth=1)
+    assert table.kinks == ()
+    force = solve(Problem(1, 0, 0.5, punch=table), "pull_off_force").value
+    assert force == pytest.approx(solve(Problem(1, 0, 0.5), "pull_off_force").value, rel=1e-11)
+
+
+def test_a_profile_with_kinks_is_the_limit_of_rounded_ones():
+    """The slope rises from 0.5 to 2 at r = 1; rounded over w there, the force deviates by the second order of w."""
+
+    def rounded(w):
+        def f(r):
+            return 1.25 * r + 0.75 * (np.hypot(r - 1.0, w) - math.hypot(1.0, w))
+
+        return CustomPunch(f, 1.0)
+
+    kinked = MeasuredPunch([0.0, 1.0, 2.0], [0.0, 0.5, 2.5], growth=1.25)
+    assert len(kinked.kinks) == 2
+    problem = Problem(1, 0, 0.3, punch=MeasuredPunch([0.0, 1.0, 1e3], [0.0, 0.5, 0.5 + 2.0 * 999.0], growth=1.0))
+    solution = solve(problem, "pull_off_force")
+    errors = [
+        abs(solve(Problem(1, 0, 0.3, punch=rounded(w)), "pull_off_force").value - solution.value) for w in (0.1, 0.05)
+    ]
+    assert errors[1] < 1e-2
+    assert 2.0 < errors[0] / errors[1] < 6.0
+
+
+@pytest.mark.parametrize(
+    ("radii", "heights", "growth", "reason"),
+    [
+        ([0.0, 1.0], [0.0], 2, "no profile"),
+        ([0.0], [0.0], 2, "no profile"),
+        ([0.1, 1.0], [0.0, 1.0], 2, "measured from the tip"),
+        ([0.0, 1.0], [0.5, 1.0], 2, "measured from the tip"),
+        ([0.0, 1.0, 1.0], [0.0, 1.0, 2.0], 2, "increase"),
+        ([0.0, 1.0], [0.0, -1.0], 2, "must grow"),
+        ([0.0, 1.0], [0.0, 1.0], 0, "must grow"),
+        ([0.0, math.nan], [0.0, 1.0], 2, "finite"),
+        (["0", "1"], [0.0, 1.0], 2, "finite"),
+        ([[0.0], [1.0, 2.0]], [0.0, 1.0], 2, "real numbers"),
+    ],
+)
+def test_what_is_no_profile_is_refused(radii, heights, growth, reason):
+    with pytest.raises(ValueError, match=reason) as caught:
+        MeasuredPunch(radii, heights, growth)
+    assert "\n" not in str(caught.value)
