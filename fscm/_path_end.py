@@ -1,9 +1,10 @@
 r"""End of the equilibrium path: where no later state can carry tension.
 
 A punch without asperities, such as a power law, has one minimum of the load on its contact branch, and its path ends at
-the first compressive load.  It is one on which r f' does not decrease.  Any other may have asperities.  There the load of every state of displacement delta has a lower bound.  Let q be
-the pressure of a flat punch of radius a that is pressed in by one length.  It lifts the surface by 1 below the flat
-punch and by phi < 1 outside.  With the reciprocity of q and p, H > s (the singular gap) and Eq. 4,
+the first compressive load.  It is one on which r f' does not decrease.  Any other may have asperities.  There the load
+of every state of displacement delta has a lower bound.  Let q be the pressure of a flat punch of radius a that is
+pressed in by one length.  It lifts the surface by 1 below the flat punch and by phi < 1 outside.  With the reciprocity
+of q and p, H > s (the singular gap) and Eq. 4,
 
     P >= C_a (delta + s - <f>) - int_a^oo t(f - delta - W) (1 - phi) 2 r dr       for every a.
 
