@@ -68,7 +68,7 @@ def _state(problem: Problem, central_gap: float) -> State:
     return state._state
 
 
-def _plane_spectrum(state: State, points: int, count: int) -> np.ndarray:
+def _plane_spectrum(state: State, points: int) -> np.ndarray:
     """Largest eigenvalues of sqrt(p') K sqrt(p') on a square grid in the plane, where no mode is known.
 
     The point force acts at a distance; at its own point the kernel has the weight that makes the sum over the grid
@@ -96,7 +96,7 @@ def _plane_spectrum(state: State, points: int, count: int) -> np.ndarray:
 
     operator = LinearOperator((points**2, points**2), matvec=product, dtype=float)
     start = np.random.default_rng(1).random(points**2)
-    return np.sort(eigsh(operator, k=count, which="LA", v0=start, tol=1e-7, return_eigenvectors=False))[::-1]
+    return np.sort(eigsh(operator, k=12, which="LA", v0=start, tol=1e-7, return_eigenvectors=False))[::-1]
 
 
 @pytest.mark.parametrize("k", [0.0, 0.4])
@@ -104,14 +104,12 @@ def test_modes_against_two_dimensions(k: float) -> None:
     """Before contact p' > 0 everywhere: the spectrum in the plane is that of m = 0 once and of every m > 0 twice."""
     state = _state(Problem(2, k, 1.0), 0.9)
     modes = np.concatenate([np.repeat(1.0 - margins(state, m, 3), 1 if m == 0 else 2) for m in range(6)])
-    count = 9
+    count = 6  # m = 0, 1, 1, 0, 2, 2; the spectrum of the grid falls slowly behind them
     expected = np.sort(modes)[::-1][:count]
-    coarse, fine = (np.max(np.abs(_plane_spectrum(state, points, count) - expected)) for points in (64, 128))
-    assert fine < PLANE_ERROR
-    assert fine < 0.5 * coarse
-
-
-PLANE_ERROR = 1e-3
+    coarse, fine = (np.max(np.abs(_plane_spectrum(state, points)[:count] - expected)) for points in (128, 256))
+    # Measured 4e-4 (k = 0.4) and 5e-5 (k = 0); of third order.
+    assert fine < 1e-3
+    assert fine < 0.25 * coarse
 
 
 def test_modes_become_one_in_the_limit_of_a_gibson_solid() -> None:
@@ -143,7 +141,13 @@ def test_margin_is_zero_at_the_folds_of_the_displacement(n: float, k: float, mu:
 
 
 @pytest.mark.parametrize(
-    ("n", "k", "mu", "folds"), [(2.0, 0.4, 0.3, 1), (2.0, 0.4, 1.0, 3), (5.0, 0.2, 2.0, 5), (2.0, 0.6, 3.0, 13)]
+    ("n", "k", "mu", "folds"),
+    [
+        (2.0, 0.4, 0.3, 1),
+        (2.0, 0.4, 1.0, 3),
+        (5.0, 0.2, 2.0, 5),
+        pytest.param(2.0, 0.6, 3.0, 13, marks=pytest.mark.heavy),
+    ],
 )
 def test_marks_change_at_folds_and_agree_with_eigenvalues(n: float, k: float, mu: float, folds: int) -> None:
     """The marks of the path come from the folds, those of a state from eigenvalues: same in every section."""
@@ -179,6 +183,7 @@ def test_a_path_that_begins_behind_a_fold() -> None:
     assert path.stable_under_displacement[-1]
 
 
+@pytest.mark.heavy
 def test_a_punch_with_an_asperity() -> None:
     """More folds than two: the path ends stable, and each stable branch ends in a fold of the displacement."""
     punch = CustomPunch(lambda r: -4.0 * np.expm1(-(r**2)) + r**2 / 50.0, growth=2)
@@ -191,7 +196,7 @@ def test_a_punch_with_an_asperity() -> None:
         assert np.all(run > 0.0) or np.all(run < 0.0)
 
 
-@settings(max_examples=12, derandomize=True)
+@settings(max_examples=6, derandomize=True)
 @given(
     n=st.floats(1.0, 6.0),
     k=st.floats(0.0, 0.8),
