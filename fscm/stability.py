@@ -59,8 +59,8 @@ class Stability:
     >>> from fscm import Problem, equilibria
     >>> for state in equilibria(Problem(n=2, k=0, mu=1.0), "load", -1.5):
     ...     print(round(state.displacement, 2), state.stable_under_displacement, state.stable_under_load)
-    -1.43 True False
-    0.01 True True
+    -1.48 True False
+    -0.07 True True
     """
 
     margins: tuple[float, ...]

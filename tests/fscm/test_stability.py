@@ -11,7 +11,7 @@ from numpy.polynomial import legendre
 from scipy.fft import irfft2, rfft2
 from scipy.sparse.linalg import LinearOperator, eigsh
 
-from fscm import Analysis, CustomPunch, NoSuchEvent, Problem, equilibria, trace
+from fscm import Analysis, CustomPunch, NoSuchEvent, Problem, displacement_cycle, equilibria, trace
 from fscm._azimuthal_kernel import azimuthal_kernel
 from fscm._deformation import response_matrix
 from fscm._equilibrium import State
@@ -166,6 +166,18 @@ def test_marks_change_at_folds_and_agree_with_eigenvalues(n: float, k: float, mu
             (state,) = equilibria(problem, "central_gap", float(path.central_gap[middle]))
             assert state.stable_under_displacement == path.stable_under_displacement[middle]
             assert state.stable_under_load == path.stable_under_load[middle]
+
+
+@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.4, 1.0), (8.0, 0.5, 3.0)])
+def test_a_cycle_has_stable_states_only(n: float, k: float, mu: float) -> None:
+    """Approach and retreat visit every stable state of a power-law punch, and no unstable one but the folds."""
+    path = trace(Problem(n, k, mu))
+    cycle = displacement_cycle(path)
+    stable = set(zip(path.displacement, path.load, path.stable_under_displacement, strict=True))
+    visited = {(d, P) for record in (cycle.loading, cycle.unloading) for d, P in record.T}
+    assert {(d, P) for d, P, held in stable if held} <= visited
+    unstable = {(d, P) for d, P, held in stable if not held} & visited
+    assert unstable == {tuple(jump[:, 0]) for jump in (cycle.jump_in, cycle.jump_out)}
 
 
 def test_several_states_at_one_displacement_or_load() -> None:
