@@ -65,6 +65,19 @@ class TailContact(Contact):
         vertices[: self._last + 1] = 1.0
         return Contact.residual(self, y) - self._shift(y) * vertices
 
+    def load_gradient(self, y: Array) -> Array:
+        """Return the derivative of the load with respect to y, shape (m + 2,)."""
+        g = Contact.load_gradient(self, y)
+        trace, c, power = self.compliance.trace, float(y[-1]), 1.0 + self.depth_exponent
+        R, end = trace.extent * c, float(y[self._last])
+        r, weight, H = self._tail(y)
+        change = float((weight * r * (R / r) ** power) @ self.law.slope(H))
+        edge = float(self.punch.height(np.array(R)) - y[-2])
+        dropped = float(self.law.traction(np.array(edge + end)) - self.law.traction(np.array(edge)))
+        g[self._last] += 2.0 * math.pi * change
+        g[-1] += 2.0 * math.pi * (change * end * power / c - R * trace.extent * dropped)
+        return g
+
     def energy(self, y: Array) -> float:
         """Elastic plus surface energy, with the elastic energy of the displacement beyond the mesh."""
         r, weight, H = self._tail(y)

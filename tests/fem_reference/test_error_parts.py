@@ -147,6 +147,18 @@ def test_tail_is_that_of_a_longer_mesh():
     assert abs(corrected - complete) < 0.2 * abs(plain - complete)
 
 
+def test_tail_has_the_derivative_of_its_load():
+    plain = _contact(replace(SPEC, extent=16.0))
+    contact = TailContact(plain.punch, plain.law, plain.compliance, 0.3)
+    y = np.concatenate([np.full(contact.unknowns, 0.1), [-0.5, 1.5]])
+    h = 1e-6
+    for index in (0, int(contact.compliance.trace.nodes.size) - 1, -2, -1):
+        step = np.zeros(y.size)
+        step[index] = h
+        slope = (contact.load(y + step) - contact.load(y - step)) / (2 * h)
+        assert contact.load_gradient(y)[index] == pytest.approx(slope, rel=1e-6, abs=1e-9)
+
+
 @pytest.mark.parametrize("feature", FEATURES)
 def test_variant_changes_one_feature(feature):
     plain, other = SPEC.grid(), variant(SPEC, feature).grid()
