@@ -10,7 +10,18 @@ import numpy as np
 import pytest
 
 import fem_reference
-from fem_reference import LennardJones, NotConverged, PowerPunch, Problem, Solid, Solution, solve, solve_together
+from fem_reference import (
+    CustomModulus,
+    CustomSolid,
+    LennardJones,
+    NotConverged,
+    PowerPunch,
+    Problem,
+    Solid,
+    Solution,
+    solve,
+    solve_together,
+)
 from fem_reference._contact import error_parts
 from fem_reference._contact.error_parts import PARTS, events_on_meshes
 from fem_reference._contact.mesh_choice import chosen
@@ -21,6 +32,11 @@ from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import FEATURES, variant
 from fem_reference.quantities import TABLE
 from fem_reference.verification.reference_solutions import surface_constant
+
+
+def _coated(z):
+    return 1.0 + 10.0 * np.exp(-z / 2.0)
+
 
 SPEC = MeshSpec(0.0625, 0.01, 64.0, 1.4, 4, 0.05)
 
@@ -101,6 +117,20 @@ def test_a_part_responds_to_its_cause(part, change):
 def test_mesh_part_falls_with_the_accuracy():
     parts = [solve(_problem(0.0, 0.3), "pull_off_force", accuracy).parts["mesh"] for accuracy in ("quick", "default")]
     assert 0.0 < parts[1] < 0.3 * parts[0]
+
+
+def test_a_coated_solid_on_a_larger_interior_stays_within_its_part():
+    """E = 1 + 10 exp(-z/2): how far the mesh reaches decides the displacement, and only a longer mesh shows it."""
+    solid = CustomSolid(CustomModulus(_coated, 0.0, 0.0, surface_depth=2.0), 0.3)
+    problem = Problem(solid, PowerPunch(5.0, 1.0), LennardJones(1.0, 1.0))
+    solution = solve(problem, "pull_off_displacement", "quick")
+    choice, spec, size = chosen(problem, ("pull_off",), "quick")
+    larger = replace(spec, density=choice.level.densities[-1], extent=4.0 * spec.extent)
+    reference = ResolvedEvents(events_on_meshes(choice, spec, size).path, choice.contact(larger, size)).pull_off
+    change = abs(reference.state.displacement - solution.value)
+    mesh = solution.parts["mesh"] + solution.parts["first layer"]
+    assert change <= solution.parts["interior and exterior"] + mesh
+    assert solution.u_num < 1e-3
 
 
 def test_apex_part_responds_to_a_tip():
