@@ -19,6 +19,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+import numpy as np
+
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.mesh_choice import MeshChoice
@@ -141,32 +143,33 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
         If the path on the finest mesh cannot be traced.
     """
     _, middle, finest = choice.level.densities
-    path = choice.traced(replace(spec, density=finest), size)
-    fine = path.samples[0].branch.contact
-    medium = replace(spec, density=middle)
-    degree = spec.order - 1
+    medium, fine = replace(spec, density=middle), replace(spec, density=finest)
+    coarse = choice.traced(spec, size).samples[0].branch.contact
     other = size
     placements: tuple[float, ...] = (-1.0, 1.0)
-    if isinstance(fine.compliance, FixedCompliance):
+    if isinstance(coarse.compliance, FixedCompliance):
         # Another placement of the edge needs another mesh here: that of the other degree.
-        trace = fine.compliance.trace
-        other = size * (0.5 + 0.5 * float(trace.nodes[trace.edge + 1]))
+        r = fine.grid().r
+        other = size * (0.5 + 0.5 * float(r[np.argmin(abs(r - 1.0)) + 1]))
         placements = ()
     plain = replace(spec, order=spec.order - FEATURE_DEGREES)
-
-    def on(mesh: MeshSpec, radius: float = size) -> ResolvedEvents:
-        return ResolvedEvents(path, choice.contact(mesh, radius))
-
+    middle_contact = choice.contact(medium, size)
+    lower_degree = choice.contact(replace(medium, order=spec.order - 1), other)
+    base = choice.contact(plain, size)
+    features = {feature: choice.contact(variant(plain, feature), size) for feature in FEATURES}
+    # The finest mesh is the last: it is used next.
+    path = choice.traced(fine, size)
+    contact = path.samples[0].branch.contact
     return EventsOnMeshes(
         path,
-        ResolvedEvents(path, choice.traced(spec, size).samples[0].branch.contact),
-        on(medium),
-        on(replace(medium, order=degree), other),
-        on(plain),
-        {feature: on(variant(plain, feature)) for feature in FEATURES},
-        tuple(ResolvedEvents(path, fine, placement) for placement in placements),
-        ResolvedEvents(path, _with_tail(fine, choice)),
-        ResolvedEvents(path, _rounded(fine)),
+        ResolvedEvents(path, coarse),
+        ResolvedEvents(path, middle_contact),
+        ResolvedEvents(path, lower_degree),
+        ResolvedEvents(path, base),
+        {feature: ResolvedEvents(path, other_contact) for feature, other_contact in features.items()},
+        tuple(ResolvedEvents(path, contact, placement) for placement in placements),
+        ResolvedEvents(path, _with_tail(contact, choice)),
+        ResolvedEvents(path, _rounded(contact)),
         math.sqrt(choice.level.densities[0] / finest),
     )
 
