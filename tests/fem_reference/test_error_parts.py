@@ -69,7 +69,8 @@ def test_parts_add_up(quantity):
     solution = _found()[quantity]
     assert tuple(solution.parts) == PARTS
     assert all(0.0 <= part < math.inf for part in solution.parts.values())
-    assert math.fsum(solution.parts.values()) == solution.u_num > 0.0
+    assert math.fsum(solution.parts.values()) == pytest.approx(solution.u_num, rel=1e-12)
+    assert solution.u_num > 0.0
 
 
 @pytest.mark.parametrize("quantity", TABLE)
