@@ -16,7 +16,6 @@ from fem_reference.quantities import LOSSES, QUANTITIES
 from fem_reference.solid import CustomSolid, Solid
 from fem_reference.solution import Solution, solve, solve_together
 from fem_reference.states import EVENTS, EquilibriumPath, RadialField, event_state, profile, trace
-from fem_reference.uncondensed import solve_uncondensed
 
 #: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
 LAYERS = (
@@ -24,7 +23,7 @@ LAYERS = (
     ("_elastic",),
     ("_linear",),
     ("_contact",),
-    ("quantities", "solution", "states", "export", "uncondensed"),
+    ("quantities", "solution", "states", "export"),
     ("verification",),
 )
 
@@ -54,6 +53,5 @@ __all__ = [
     "profile",
     "solve",
     "solve_together",
-    "solve_uncondensed",
     "trace",
 ]

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.uncertainty import three_meshes
+from fem_reference._contact.uncondensed import UncondensedValue, uncondensed_events
 from fem_reference._threads import one_thread
 from fem_reference.accuracy import Level
 from fem_reference.errors import NoSuchEvent
@@ -30,9 +31,9 @@ class Solution:
     size : int
         Unknowns of the finest finite-element mesh.
     iterations : int
-        Newton steps along the path on the finest mesh.
+        Conjugate-gradient iterations with pyamg for all displacements of the finest mesh at the events.
     residual : float
-        Residual of the equilibrium at the event, in lengths of the surface law.
+        Residual of the whole nonlinear system there, relative to the traction.
     seconds : float
         Wall-clock time of everything.
     observed_order : float
@@ -40,7 +41,10 @@ class Solution:
     declared_order : float
         Order beyond which the observed one is not used: that of the quantity, or else of the elements.
     densities, values : tuple of float
-        The meshes, coarse to fine, and the quantity on each.
+        The meshes, coarse to fine, and the quantity on each, from the condensed paths.
+    parts : mapping of str to float
+        Causes of the error and the share of each in `u_num`; "algebra" is the distance of `value` from the condensed
+        one, plus what conjugate gradients leave.
     """
 
     value: float
@@ -53,6 +57,19 @@ class Solution:
     declared_order: float
     densities: tuple[float, float, float]
     values: tuple[float, float, float]
+    parts: Mapping[str, float] = field(default_factory=dict, hash=False)
+
+    def with_whole_system(self, whole: UncondensedValue) -> Solution:
+        """Return the solution with the value of the whole system, whose algebraic error is added to the bound."""
+        parts = {**self.parts, "algebra": self.parts.get("algebra", 0.0) + whole.algebra}
+        return replace(
+            self,
+            value=whole.value,
+            u_num=self.u_num + whole.algebra,
+            parts=parts,
+            iterations=whole.iterations,
+            residual=whole.residual,
+        )
 
 
 def solve(problem: Problem, quantity: str, accuracy: float | str = "default") -> Solution:
@@ -150,29 +167,37 @@ def solve_together(
         for name, row in rows.items():
             if name not in found:
                 try:
-                    found[name] = _solution(row, paths, choice.level, problem.law.length, begin)
+                    found[name] = _solution(row, paths, choice.level, problem.law.length)
                 except NoSuchEvent as reason:
                     found[name] = reason.with_traceback(None)
+        # All events of the whole system are columns of one linear system.
+        events = uncondensed_events(choice, replace(spec, density=densities[-1]), size)
+        solved = {name: solution for name, solution in found.items() if isinstance(solution, Solution)}
+        events.prepare(rows[name].functional for name in solved)
+        seconds = time.perf_counter() - begin
+        for name, solution in solved.items():
+            whole = events.value(rows[name].functional)
+            found[name] = replace(solution.with_whole_system(whole), seconds=seconds)
     return {name: found[name] for name in rows}
 
 
-def _solution(row: Quantity, paths: list[PathEvents], level: Level, length: float, begin: float) -> Solution:
+def _solution(row: Quantity, paths: list[PathEvents], level: Level, length: float) -> Solution:
     """Evaluate a quantity on three paths; `length` measures a length near zero."""
     coarse, medium, fine = (row.functional(path) for path in paths)
     ratio = math.sqrt(level.densities[0] / level.densities[2])
     scale = max(abs(fine), length) if row.kind == "length" else abs(fine)
     declared = row.order or level.order
     outcome = three_meshes((coarse, medium, fine), ratio, declared, scale)
-    point = paths[-1].at(row.events[0])
     return Solution(
         outcome.value,
         outcome.u_num,
-        point.branch.contact.compliance.unknowns,
-        sum(p.state.iterations for p in paths[-1].points),
-        point.state.residual,
-        time.perf_counter() - begin,
+        paths[-1].at(row.events[0]).branch.contact.compliance.unknowns,
+        0,
+        0.0,
+        0.0,
         outcome.observed_order,
         float(declared),
         level.densities,
         (coarse, medium, fine),
+        {"mesh": outcome.u_num},
     )
