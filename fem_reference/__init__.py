@@ -2,8 +2,8 @@
 
 Physical quantities in any consistent units: a half-space with Young's modulus E(z) and Poisson ratio nu, a
 rigid punch f(r), a surface law p(H).  The solid is meshed with high-order elements and closed by the exact
-stiffness of the infinite exterior, condensed to its surface, and brought into equilibrium with the surface
-law.
+stiffness of the infinite exterior.  Condensed to its surface it follows the path of equilibria; at an event every
+displacement of the mesh is solved with pyamg.
 """
 
 from fem_reference.accuracy import ACCURACIES

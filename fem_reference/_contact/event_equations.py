@@ -1,6 +1,6 @@
 """Equations of one event, whose unknowns are an equilibrium, its rate along the path, and the parameter.
 
-The displacement under the traction comes from whoever solves the elastic system; the tangent is that of the condensed
+The displacement under the traction is given: another module solves the elastic system.  The tangent is that of the condensed
 system, which decides how fast the steps fall but not where they end.
 """
 

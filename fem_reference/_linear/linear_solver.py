@@ -40,7 +40,8 @@ class LinearResult:
     solution : ndarray, shape (2 N,) or (2 N, q)
         Displacement, zero on the fixed rows.
     error : ndarray, like `solution`
-        Last step of conjugate gradients, several times the error that is left; zero for the direct solve.
+        Last step of conjugate gradients, several times the error that is left, plus the preconditioner applied to the
+        last residual, which has that of rounding; zero for the direct solve.
     iterations : int
         Krylov iterations (0 for the direct solve).
     residual : float
@@ -66,6 +67,7 @@ def solve_cg(
     tolerance: float = TOLERANCE,
     iterations: int = ITERATIONS,
     start: Array | None = None,
+    rounding: float = 0.0,
 ) -> LinearResult:
     """Solve A u = load by preconditioned conjugate gradients, for one or several loads.
 
@@ -86,6 +88,9 @@ def solve_cg(
         Iterations allowed.
     start : ndarray, like `load`, optional
         Displacement to begin with; zero by default.
+    rounding : float
+        Residual that rounding may leave, larger than the tolerance: the iteration ends at the tolerance by its own
+        recursion, and the residual recomputed at the end is only refused above this one.
 
     Returns
     -------
@@ -126,14 +131,15 @@ def solve_cg(
         left = preconditioner(r)
         residual = float(np.sqrt(_ratio(_products(r, left), norm)).max())
     seconds = time.perf_counter() - begin
-    if not residual <= tolerance:
+    largest = max(tolerance, rounding)
+    if not residual <= largest:
         raise NotConverged(
             f"conjugate gradients reached a residual of {residual:.1e} in {count} iterations, not "
-            f"{tolerance:.1e}; allow more iterations, or use the direct solver"
+            f"{largest:.1e}; allow more iterations, or use the direct solver"
         )
     return LinearResult(
         _expand(half_space, scale * x).reshape(load.shape),
-        _expand(half_space, scale * last).reshape(load.shape),
+        _expand(half_space, scale * (last + left)).reshape(load.shape),
         count,
         residual,
         seconds,

@@ -163,9 +163,10 @@ def test_what_conjugate_gradients_leave_is_known(soft_path, soft_system, monkeyp
         assert abs(whole.value - right) <= estimate, name
 
 
-@pytest.mark.parametrize("tolerance", ["LINEAR_TOLERANCE", "NEWTON_TOLERANCE", "RESIDUAL_TOLERANCE"])
+@pytest.mark.parametrize("tolerance", ["ROUNDING", "NEWTON_TOLERANCE", "RESIDUAL_TOLERANCE"])
 def test_a_missed_tolerance_is_no_number(soft_path, soft_system, monkeypatch, tolerance):
     monkeypatch.setattr(uncondensed, tolerance, 1e-25)
+    monkeypatch.setattr(uncondensed, "LINEAR_TOLERANCE", 1e-25 if tolerance == "ROUNDING" else 1e-11)
     events = UncondensedEvents(soft_path, lambda: soft_system)
     with pytest.raises(NotConverged, match=r"conjugate gradients|Newton steps|nonlinear system"):
         events.value(TABLE["pull_off_force"].functional)
