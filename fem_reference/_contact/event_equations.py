@@ -1,7 +1,7 @@
 """Equations of one event, whose unknowns are an equilibrium, its rate along the path, and the parameter.
 
-The displacement under the traction is given: another module solves the elastic system.  The tangent is that of the condensed
-system, which decides how fast the steps fall but not where they end.
+The displacement under the traction is given: another module solves the elastic system.  The tangent is that of the
+condensed system, which decides how fast the steps fall but not where they end.
 """
 
 from __future__ import annotations
