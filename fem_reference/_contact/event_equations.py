@@ -126,12 +126,12 @@ class EventEquations:
         contact, c = self.contact, float(self.y[-1])
         factor, factor_slope = contact.compliance.factor(c), contact.compliance.factor_slope(c)
         K = self._tangent()
-        self.y = self.y - linalg.solve(K, defect - _padded(factor * w), check_finite=False)
+        self.y = self.y - _solved(K, defect - _padded(factor * w))
         if w_rate is not None and defect_rate is not None:
             under = factor * w_rate + factor_slope * self.rate[-1] * w
             moved = self._tangent()
             defect_rate = defect_rate - _padded(under) + (moved - K) @ self.rate
-            self.rate = self.rate - linalg.solve(moved, defect_rate, check_finite=False)
+            self.rate = self.rate - _solved(moved, defect_rate)
         move = -self._excess(events) / self._slope
         self.parameter += move
         self.y = self.y + move * self.rate
@@ -164,6 +164,11 @@ class EventEquations:
         if self.name == "pull_off":
             return (near.load_rate - state.load_rate) / step
         return (near.displacement_rate - state.displacement_rate) / step
+
+
+def _solved(matrix: Array, b: Array) -> Array:
+    """Solve a linear system; a step too large to be sensible is the caller's to refuse."""
+    return np.asarray(linalg.lu_solve(linalg.lu_factor(matrix, check_finite=False), b, check_finite=False))
 
 
 def _padded(w: Array) -> Array:

@@ -155,6 +155,7 @@ def test_what_conjugate_gradients_leave_is_known(soft_path, soft_system, monkeyp
     """With a coarse tolerance the estimate alone, without the distance from the condensed value, covers the error."""
     monkeypatch.setattr(uncondensed, "LINEAR_TOLERANCE", 1e-5)
     monkeypatch.setattr(uncondensed, "NEWTON_TOLERANCE", 1e-2)
+    monkeypatch.setattr(uncondensed, "ROUNDING_STEP", 1e-2)
     monkeypatch.setattr(uncondensed, "RESIDUAL_TOLERANCE", 1e-2)
     events = UncondensedEvents(soft_path, lambda: soft_system)
     for name, row in TABLE.items():
@@ -163,7 +164,7 @@ def test_what_conjugate_gradients_leave_is_known(soft_path, soft_system, monkeyp
         assert abs(whole.value - right) <= estimate, name
 
 
-@pytest.mark.parametrize("tolerance", ["ROUNDING", "NEWTON_TOLERANCE", "RESIDUAL_TOLERANCE"])
+@pytest.mark.parametrize("tolerance", ["ROUNDING", "ROUNDING_STEP", "RESIDUAL_TOLERANCE"])
 def test_a_missed_tolerance_is_no_number(soft_path, soft_system, monkeypatch, tolerance):
     monkeypatch.setattr(uncondensed, tolerance, 1e-25)
     monkeypatch.setattr(uncondensed, "LINEAR_TOLERANCE", 1e-25 if tolerance == "ROUNDING" else 1e-11)
