@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.special import betainc
+import scipy
 
 from fscm._equilibrium import State
 from fscm._typing import Array
@@ -178,5 +178,5 @@ class LeastLoad:
         mean = self.heights[0] + (-np.diff(left, axis=1) @ slopes) / a ** (1.0 + k)
         with np.errstate(divide="ignore"):
             ratio = np.minimum(a[:, None] ** 2 / squares[1:], 1.0)
-        phi = betainc(0.5 * (1.0 + k), 0.5 * (1.0 - k), ratio)
+        phi = scipy.special.betainc(0.5 * (1.0 + k), 0.5 * (1.0 - k), ratio)
         return C * a ** (1.0 + k), mean, (1.0 - phi) * np.diff(squares)

@@ -7,8 +7,7 @@ quintic spline that leaves the points by no more than their stated error.
 from __future__ import annotations
 
 import numpy as np
-from scipy.interpolate import UnivariateSpline
-from scipy.optimize import least_squares
+import scipy
 
 from fscm._typing import Array
 
@@ -47,12 +46,12 @@ def smoothed_table(gap: Array, p: Array, error: float) -> tuple[Array, Array]:
     wall = min(zero - 1.0, gap[0] - 0.1 * (zero - gap[0]))
     first = [wall, np.log(zero - wall), np.log(2.6 * tension), *np.log(_EXPONENTS)]
     upper = [gap[0], np.inf, np.inf, *np.log(_LARGEST)]
-    x = least_squares(
+    x = scipy.optimize.least_squares(
         lambda x: (powers(x, gap) - p) / weight, first, bounds=(-np.inf, upper), x_scale="jac", max_nfev=_EVALUATIONS
     ).x
     weight = error * powers(x, gap, 1.0)
     # The sum of the squares of N errors of size 1 is N.
-    rest = UnivariateSpline(np.log(gap - x[0]), (p - powers(x, gap)) / weight, k=5, s=len(gap))
+    rest = scipy.interpolate.UnivariateSpline(np.log(gap - x[0]), (p - powers(x, gap)) / weight, k=5, s=len(gap))
     at = np.exp(np.linspace(np.log(gap[0] - x[0]), np.log(gap[-1] - x[0]), _POINTS)) + x[0]
     at[0], at[-1] = gap[0], gap[-1]
     return at, powers(x, at) + rest(np.log(at - x[0])) * error * powers(x, at, 1.0)
