@@ -16,7 +16,7 @@ SHALLOW, DEEP = (1e-14, 1e-12), (1e6, 1e8)
 
 SURFACE_TOLERANCE = 1e-3
 """Largest difference of the surface exponent from the one measured.  The chart of the first layer has z^(1-k) for the
-declared k (measured for E = z^m declared with exponent 0, change of the pull-off force: see the tests)."""
+declared k (measured with an exponent that is 1e-3 too small: the pull-off force moves by 1e-8)."""
 
 DEPTH_TOLERANCE = 0.02
 """Largest difference of the exponent at depth, which many moduli approach slowly.  The mesh is extended until the
