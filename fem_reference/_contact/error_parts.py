@@ -168,7 +168,9 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
         placements = ()
     plain = replace(spec, order=spec.order - FEATURE_DEGREES)
     middle_contact = choice.contact(medium, size)
-    lower_degree = choice.contact(replace(medium, order=spec.order - 1), other)
+    # The interfaces of the modulus keep their depths.
+    moved = replace(medium, order=spec.order - 1, scales=medium.scales.scaled(other / size))
+    lower_degree = choice.contact(moved, other)
     base = choice.contact(plain, size)
     features = {feature: choice.contact(variant(plain, feature), size) for feature in FEATURES}
     # The finest mesh is the last: it is used next.
