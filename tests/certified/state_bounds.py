@@ -1,0 +1,151 @@
+"""Proof that an equilibrium is near an approximate one, by comparison; bounds on its load and on two derivatives.
+
+Let Pi* be the approximate traction, W* = T Pi* - rho the approximate state, D = Pi* - N(W*), and v = T Phi > 0 with
+Phi - f v >= omega > 0 on [-1, 1] for every slope f of N in the tube abs(W - W*) <= R.
+
+Comparison.  If e = T g with a continuous g = f e + q, where f is a mean of slopes of the tube at each point, and
+    abs(q) <= kappa omega, then abs(e) <= kappa v.  Otherwise let m > 0 be the maximum of (abs(e) - kappa v) / v, taken
+    at s0 with e(s0) > 0, say.  Then y = (kappa + m) v - e >= 0 vanishes at s0.  exp(-t / T) multiplies P_l by
+    exp(-t (2 l + 1) / (M L)); its kernel is the Poisson kernel, which is positive.  So exp(-t / T) y >= 0, and its
+    derivative at t = 0 in s0, which is -(kappa + m) Phi + g, is not negative.  But it equals
+    -(kappa + m) (Phi - f v) + q <= -(kappa + m) omega + kappa omega < 0.
+Existence.  Outside the tube continue N linearly with its slope a at W*.  1 - T a is invertible by the comparison with
+    q = 0, and the rest is bounded: e = (1 - T a)^-1 T (bounded continuous function of e) has a solution (Schauder).
+    Here e = W - T Pi* = W - W* - rho is T (f e + f rho - D): abs(e) <= kappa v if abs(f rho) + abs(D) <= kappa omega.
+    If kappa v + abs(rho) < R, W is in the tube and a solution of the equation itself.
+Uniqueness in the tube and smoothness in delta.  The comparison with q = 0: the difference of two solutions is 0, and
+    1 - T f is invertible at a solution.
+Load.  P = (2 L / M) W(s = -1), so it differs from the load of Pi* by at most (2 L / M) kappa v(s = -1).
+
+The two derivatives in delta solve linear equations X = T (f X + g) with the slope f at the solution: the same
+comparison bounds their errors.  Two functions v are used: one for a defect that is spread evenly, one for a defect that
+is large where the law is steep.  The proof never uses that e is a function of s alone: in the tube no equilibrium
+without axial symmetry exists either.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import reduce
+
+from flint import arb, ctx
+
+from tests.certified.approximate_states import ApproximateStates
+from tests.certified.panel_bounds import NotProved, PanelBounds
+from tests.certified.panel_functions import BITS
+from tests.certified.sphere_form import at_infinity
+
+__all__ = ["StateEnclosure", "enclose"]
+
+
+@dataclass(frozen=True)
+class StateEnclosure:
+    """Balls of the load and its derivatives for every displacement within `eta`; distance to the approximate state."""
+
+    eta: arb
+    distance: arb
+    load: arb
+    first: arb
+    second: arb
+
+
+@dataclass(frozen=True)
+class _Slopes:
+    """Upper bounds in the tube on one panel: abs(N_W) / sigma, abs(N_WW) / sigma^2, abs(N_WWW) / sigma^3."""
+
+    first: arb
+    second: arb
+    third: arb
+
+
+def _largest(values: Iterable[arb]) -> arb:
+    return reduce(lambda a, b: a.max(b), values).upper()
+
+
+def _slopes(bounds: PanelBounds, eta: arb, radius: arb) -> _Slopes:
+    x, top = bounds.sigma, bounds.sigma.upper()
+    n = bounds.gap + arb(0, (top**3 * radius + top**2 * eta).upper())
+    if not n > 0:
+        raise NotProved(f"the gap is not positive in the whole tube at sigma = {x.str(5)}")
+    return _Slopes(
+        first=abs(8 * (x**5 / n**4 - 3 * x**17 / n**10)).upper(),
+        second=abs(8 * (30 * x**19 / n**11 - 4 * x**7 / n**5)).upper(),
+        third=abs(8 * (20 * x**9 / n**6 - 330 * x**21 / n**12)).upper(),
+    )
+
+
+class _Comparison:
+    """The factors kappa of the two functions v, and what follows from them."""
+
+    def __init__(self, states: ApproximateStates, bounds: list[PanelBounds], loss: list[arb]) -> None:
+        self.states, self.bounds = states, bounds
+        self.omega = [
+            [(s - change * v).lower() for s, v in zip(b.surplus, b.comparison, strict=True)]
+            for b, change in zip(bounds, loss, strict=True)
+        ]
+        if not all(w > 0 for row in self.omega for w in row):
+            raise NotProved("Phi - f v is not positive in the whole tube")
+
+    def kappa(self, even: list[arb], steep: list[arb]) -> tuple[arb, ...]:
+        """Factors whose sum covers the sum of two parts of a defect."""
+        return tuple(
+            _largest(d / row[i] for d, row in zip(part, self.omega, strict=True))
+            for i, part in enumerate((even, steep))
+        )
+
+    def errors(self, kappa: tuple[arb, ...]) -> list[arb]:
+        """Bound on the error on each panel."""
+        return [sum((k * v for k, v in zip(kappa, b.comparison, strict=True)), arb(0)).upper() for b in self.bounds]
+
+    def load(self, series: list[arb], kappa: tuple[arb, ...]) -> arb:
+        """Load of a series with the radius that the comparison gives."""
+        form = self.states.form
+        ends = [at_infinity(form.deformed(Phi)) for Phi in self.states.comparison]
+        error = 2 * form.length / form.compliance() * sum((k * v for k, v in zip(kappa, ends, strict=True)), arb(0))
+        return form.load(series) + arb(0, error.abs_upper())
+
+
+def enclose(states: ApproximateStates, bounds: list[PanelBounds], eta: arb, radius: arb) -> StateEnclosure:
+    """Prove one equilibrium in the tube of `radius` for every displacement within `eta`, and bound its load.
+
+    Raises
+    ------
+    NotProved
+        If the comparison fails in this tube, or the state may leave it.
+    """
+    with ctx.workprec(BITS):
+        slopes = [_slopes(b, eta, radius) for b in bounds]
+        tops = [b.sigma.upper() for b in bounds]
+        loss = [s.second * x * (x * radius + eta) for s, x in zip(slopes, tops, strict=True)]
+        comparison = _Comparison(states, bounds, loss)
+        highest, squared = (abs(states.far) * bound for bound in states.form.cubic_remainder())
+        rho = [highest.min(squared / x**2) if (x := b.sigma.lower()) > 0 else highest for b in bounds]
+        kappa = comparison.kappa(
+            [b.defects[0] for b in bounds],
+            [(eta + x * r) * s.first for s, x, r in zip(slopes, tops, rho, strict=True)],
+        )
+        e = [error + r for error, r in zip(comparison.errors(kappa), rho, strict=True)]
+        if not all(error < radius for error in e):
+            raise NotProved(f"the state may leave the tube: {_largest(e).str(3)} against the radius {radius.str(3)}")
+
+        shifts = [x * error + eta for x, error in zip(tops, e, strict=True)]
+        rows = list(zip(bounds, slopes, tops, shifts, strict=True))
+        kappa1 = comparison.kappa(
+            [b.defects[1] for b in bounds], [s.second * shift * b.rate for b, s, _, shift in rows]
+        )
+        e1 = comparison.errors(kappa1)
+        kappa2 = comparison.kappa(
+            [b.defects[2] for b in bounds],
+            [
+                s.second * x * (shift * b.second + error * (2 * b.rate + x * error)) + s.third * shift * b.rate**2
+                for (b, s, x, shift), error in zip(rows, e1, strict=True)
+            ],
+        )
+        return StateEnclosure(
+            eta=eta,
+            distance=_largest(e),
+            load=comparison.load(states.traction, kappa) + states.far * states.form.cubic_load(),
+            first=comparison.load(states.first, kappa1),
+            second=comparison.load(states.second, kappa2),
+        )
