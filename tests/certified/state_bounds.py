@@ -1,7 +1,8 @@
 """Proof that an equilibrium is near an approximate one, by comparison; bounds on its load and on two derivatives.
 
-Let Pi* be the approximate traction, W* = T Pi* - rho the approximate state, D = Pi* - N(W*), and v = T Phi > 0 with
-Phi - f v >= omega > 0 on [-1, 1] for every slope f of N in the tube abs(W - W*) <= R.
+Let Pi* be the approximate traction at the displacement delta* + t, abs(t) <= eta: a quadratic polynomial in t.  Let
+W* = T Pi* - rho be the approximate state, D = Pi* - N(W*), and v = T Phi > 0 with Phi - f v >= omega > 0 on [-1, 1] for
+every slope f of N in the tube abs(W - W*) <= R.
 
 Comparison.  If e = T g with a continuous g = f e + q, where f is a mean of slopes of the tube at each point, and
     abs(q) <= kappa omega, then abs(e) <= kappa v.  Otherwise let m > 0 be the maximum of (abs(e) - kappa v) / v, taken
@@ -41,9 +42,8 @@ __all__ = ["StateEnclosure", "enclose"]
 
 @dataclass(frozen=True)
 class StateEnclosure:
-    """Balls of the load and its derivatives for every displacement within `eta`; distance to the approximate state."""
+    """Balls of P, P' and P'' for every displacement within `eta`; greatest distance to the approximate state."""
 
-    eta: arb
     distance: arb
     load: arb
     first: arb
@@ -63,9 +63,10 @@ def _largest(values: Iterable[arb]) -> arb:
     return reduce(lambda a, b: a.max(b), values).upper()
 
 
-def _slopes(bounds: PanelBounds, eta: arb, radius: arb) -> _Slopes:
+def _slopes(bounds: PanelBounds, move: arb, radius: arb) -> _Slopes:
+    """Bounds where 1 + H moves by `move` along the approximate states, and then by the tube."""
     x, top = bounds.sigma, bounds.sigma.upper()
-    n = bounds.gap + arb(0, (top**3 * radius + top**2 * eta).upper())
+    n = bounds.gap + arb(0, (top**3 * radius + top**2 * move).upper())
     if not n > 0:
         raise NotProved(f"the gap is not positive in the whole tube at sigma = {x.str(5)}")
     return _Slopes(
@@ -98,12 +99,12 @@ class _Comparison:
         """Bound on the error on each panel."""
         return [sum((k * v for k, v in zip(kappa, b.comparison, strict=True)), arb(0)).upper() for b in self.bounds]
 
-    def load(self, series: list[arb], kappa: tuple[arb, ...]) -> arb:
-        """Load of a series with the radius that the comparison gives."""
+    def load_error(self, kappa: tuple[arb, ...]) -> arb:
+        """Ball about zero of the error of the load."""
         form = self.states.form
         ends = [at_infinity(form.deformed(Phi)) for Phi in self.states.comparison]
         error = 2 * form.length / form.compliance() * sum((k * v for k, v in zip(kappa, ends, strict=True)), arb(0))
-        return form.load(series) + arb(0, error.abs_upper())
+        return arb(0, error.abs_upper())
 
 
 def enclose(states: ApproximateStates, bounds: list[PanelBounds], eta: arb, radius: arb) -> StateEnclosure:
@@ -115,37 +116,46 @@ def enclose(states: ApproximateStates, bounds: list[PanelBounds], eta: arb, radi
         If the comparison fails in this tube, or the state may leave it.
     """
     with ctx.workprec(BITS):
-        slopes = [_slopes(b, eta, radius) for b in bounds]
         tops = [b.sigma.upper() for b in bounds]
-        loss = [s.second * x * (x * radius + eta) for s, x in zip(slopes, tops, strict=True)]
+        # Greatest change of 1 + H along the approximate states, and the greatest abs(d (1 + H) / d delta).
+        moves = [eta * b.rate + eta**2 * x * b.second / 2 for b, x in zip(bounds, tops, strict=True)]
+        rates = [b.rate + eta * x * b.second for b, x in zip(bounds, tops, strict=True)]
+        slopes = [_slopes(b, move, radius) for b, move in zip(bounds, moves, strict=True)]
+        loss = [s.second * x * (x * radius + move) for s, x, move in zip(slopes, tops, moves, strict=True)]
         comparison = _Comparison(states, bounds, loss)
+        rows = list(zip(slopes, tops, rates, [b.second for b in bounds], strict=True))
+        d0, d1, d2 = ([b.defects[i] for b in bounds] for i in range(3))
+        # Third derivative of D along the approximate states: D and its derivatives follow by Taylor's formula.
+        d3 = [s.third * rate**3 + 3 * s.second * x * rate * second for s, x, rate, second in rows]
+
         highest, squared = (abs(states.far) * bound for bound in states.form.cubic_remainder())
         rho = [highest.min(squared / x**2) if (x := b.sigma.lower()) > 0 else highest for b in bounds]
         kappa = comparison.kappa(
-            [b.defects[0] for b in bounds],
-            [(eta + x * r) * s.first for s, x, r in zip(slopes, tops, rho, strict=True)],
+            [a + eta * b + eta**2 * c / 2 for a, b, c in zip(d0, d1, d2, strict=True)],
+            [eta**3 * d / 6 + x * r * s.first for (s, x, _, _), d, r in zip(rows, d3, rho, strict=True)],
         )
         e = [error + r for error, r in zip(comparison.errors(kappa), rho, strict=True)]
         if not all(error < radius for error in e):
             raise NotProved(f"the state may leave the tube: {_largest(e).str(3)} against the radius {radius.str(3)}")
 
-        shifts = [x * error + eta for x, error in zip(tops, e, strict=True)]
-        rows = list(zip(bounds, slopes, tops, shifts, strict=True))
         kappa1 = comparison.kappa(
-            [b.defects[1] for b in bounds], [s.second * shift * b.rate for b, s, _, shift in rows]
+            [b + eta * c for b, c in zip(d1, d2, strict=True)],
+            [eta**2 * d / 2 + s.second * x * f * rate for (s, x, rate, _), d, f in zip(rows, d3, e, strict=True)],
         )
         e1 = comparison.errors(kappa1)
         kappa2 = comparison.kappa(
-            [b.defects[2] for b in bounds],
+            d2,
             [
-                s.second * x * (shift * b.second + error * (2 * b.rate + x * error)) + s.third * shift * b.rate**2
-                for (b, s, x, shift), error in zip(rows, e1, strict=True)
+                eta * d + s.second * x * (x * f * second + f1 * (2 * rate + x * f1)) + s.third * x * f * rate**2
+                for (s, x, rate, second), d, f, f1 in zip(rows, d3, e, e1, strict=True)
             ],
         )
+        form, t = states.form, arb(0, eta)
+        P = form.load(states.traction) + states.far * form.cubic_load()
+        P1, P2 = form.load(states.first), form.load(states.second)
         return StateEnclosure(
-            eta=eta,
             distance=_largest(e),
-            load=comparison.load(states.traction, kappa) + states.far * states.form.cubic_load(),
-            first=comparison.load(states.first, kappa1),
-            second=comparison.load(states.second, kappa2),
+            load=P + t * P1 + t * t * P2 / 2 + comparison.load_error(kappa),
+            first=P1 + t * P2 + comparison.load_error(kappa1),
+            second=P2 + comparison.load_error(kappa2),
         )
