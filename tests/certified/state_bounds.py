@@ -19,9 +19,9 @@ Uniqueness in the tube and smoothness in delta.  The comparison with q = 0: the 
 Load.  P = (2 L / M) W(s = -1), so it differs from the load of Pi* by at most (2 L / M) kappa v(s = -1).
 
 The two derivatives in delta solve linear equations X = T (f X + g) with the slope f at the solution: the same
-comparison bounds their errors.  Two functions v are used: one for a defect that is spread evenly, one for a defect that
-is large where the law is steep.  The proof never uses that e is a function of s alone: in the tube no equilibrium
-without axial symmetry exists either.
+comparison bounds their errors.  Two functions v are used, one for a defect that is spread evenly, one for a defect that
+is large where the law is steep: kappa v and kappa omega are then sums of two terms.  The proof never uses that e is a
+function of s alone: in the tube no equilibrium without axial symmetry exists either.
 """
 
 from __future__ import annotations
@@ -65,14 +65,22 @@ def _largest(values: Iterable[arb]) -> arb:
 
 def _slopes(bounds: PanelBounds, move: arb, radius: arb) -> _Slopes:
     """Bounds where 1 + H moves by `move` along the approximate states, and then by the tube."""
-    x, top = bounds.sigma, bounds.sigma.upper()
-    n = bounds.gap + arb(0, (top**3 * radius + top**2 * move).upper())
-    if not n > 0:
-        raise NotProved(f"the gap is not positive in the whole tube at sigma = {x.str(5)}")
+    low, top = bounds.sigma.lower().max(arb(0)), bounds.sigma.upper()
+    width = top * top * (top * radius + move)
+    narrow, wide = (bounds.gap.lower() - width).lower(), (bounds.gap.upper() + width).upper()
+    if not narrow > 0:
+        raise NotProved(f"the gap is not positive in the whole tube at sigma = {bounds.sigma.str(5)}")
+
+    def difference(a: int, i: int, j: int, b: int, k: int, m: int) -> arb:
+        """Upper bound on 8 abs(a sigma^i / gap^j - b sigma^k / gap^m), by the ends: a ball of a power may contain 0."""
+        first = a * low**i / wide**j, a * top**i / narrow**j
+        second = b * low**k / wide**m, b * top**k / narrow**m
+        return (8 * (first[1] - second[0]).max(second[1] - first[0])).upper()
+
     return _Slopes(
-        first=abs(8 * (x**5 / n**4 - 3 * x**17 / n**10)).upper(),
-        second=abs(8 * (30 * x**19 / n**11 - 4 * x**7 / n**5)).upper(),
-        third=abs(8 * (20 * x**9 / n**6 - 330 * x**21 / n**12)).upper(),
+        first=difference(1, 5, 4, 3, 17, 10),
+        second=difference(30, 19, 11, 4, 7, 5),
+        third=difference(20, 9, 6, 330, 21, 12),
     )
 
 
