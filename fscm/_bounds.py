@@ -101,9 +101,10 @@ class EventErrors:
     def _rates_around(self) -> tuple[Rates, Rates]:
         return self._at(-_CURVATURE_STEP)[1], self._at(_CURVATURE_STEP)[1]
 
-    def controlled(self, functional: str, control: str) -> Errors:
-        """Errors at a fixed value of the control ("load", "displacement" or "central_gap")."""
-        return self._here.errors(functional, control)
+    def controlled(self, functional: str, control: str, value: float | None = None) -> Errors:
+        """Errors at a value of a control, or of the continuation parameter; None for the value the state has."""
+        missed = 0.0 if value is None else getattr(self.state, control) - value
+        return self._here.errors(functional, control, missed)
 
     def derivatives(self, functional: str) -> tuple[float, float, float]:
         """First three derivatives of a functional by the continuation parameter."""
@@ -132,13 +133,13 @@ class EventErrors:
         factor = root_shift(size, curvature, third) * abs(curvature) / size if size else 1.0
         return bounds(here.plus(rate, -getattr(self.rates, functional) / curvature), factor)
 
-    def prescribed(self, functional: str, control: str) -> Parts:
+    def prescribed(self, functional: str, control: str, value: float) -> Parts:
         """Bounds on the error of a functional at a prescribed value of a control, also next to its extreme."""
         free = bounds(self.controlled(control, self.parameter))
         slope, curvature, _ = self.derivatives(control)
         if 4.0 * abs(curvature) * free.total <= slope * slope:
             factor = root_shift(free.total, slope, curvature) * abs(slope) / free.total if free.total else 1.0
-            return bounds(self.controlled(functional, control), factor)
+            return bounds(self.controlled(functional, control, value), factor)
         # The error of the control reaches its extreme: the square root of it moves the state.
         shift = root_shift(free.total, slope, curvature)
         first, second, _ = self.derivatives(functional)

@@ -111,13 +111,15 @@ class Defect:
         self._panels = len(own.lengths)
         self._edge = max(int(np.searchsorted(own.breaks, 1.0)) - 1, 0)
 
-    def errors(self, functional: str, control: str) -> Errors:
+    def errors(self, functional: str, control: str, missed: float = 0.0) -> Errors:
         """Errors of "load", "displacement", "central_gap" or "energy" at a fixed value of a control.
 
         Parameters
         ----------
         functional, control : str
             The control may also be "log_scale".
+        missed : float
+            The state's value of the control less the prescribed one, which rounding leaves.
         """
         y = lu_solve(self._factor(control), self._gradient(functional), trans=1, check_finite=False)
         N = self.fine.disc.mesh.size
@@ -127,7 +129,8 @@ class Defect:
         if self.fine.follows_edge:
             mesh[self._edge] += anchor * self._system.anchor
         tail, domain = self._behind(adjoint, border, functional, control)
-        return Errors(mesh, tail, domain, self._rounding(adjoint, border, functional, control))
+        rounding = self._rounding(adjoint, border, functional, control) + abs(border * missed)
+        return Errors(mesh, tail, domain, rounding)
 
     def _by_panel(self, values: Array) -> Array:
         return np.asarray(np.bincount(self._owner, values, minlength=self._panels), float)

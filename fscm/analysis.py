@@ -166,7 +166,7 @@ class Analysis:
         if (event, functional) not in self._parts:
             errors, extremal = self._errors(event), _EXTREMAL[event]
             self._parts[event, functional] = (
-                bounds(errors.controlled(functional, "load"))
+                bounds(errors.controlled(functional, "load", 0.0))
                 if extremal is None
                 else errors.at_extreme(functional, extremal)
             )

@@ -152,7 +152,7 @@ def equilibria(problem: Problem, control: str, value: float, accuracy: Accuracy 
         near = _near_extreme(a, b, condition, fold, meshes)
         if near is None:
             near = [events.locate(*bracket, condition) for bracket in events.crossings([a, b], condition, fold)]
-        found += [_solved(coarse, control, condition, meshes) for coarse in near]
+        found += [_solved(coarse, control, value, condition, meshes) for coarse in near]
     return found
 
 
@@ -184,10 +184,10 @@ def _near_extreme(
     return [events.moved(extreme, rates, x + side * along * distance) for side in (-1.0, 1.0)]
 
 
-def _solved(coarse: State, control: str, condition: events.Condition, meshes: Meshes) -> EquilibriumState:
+def _solved(coarse: State, control: str, value: float, condition: events.Condition, meshes: Meshes) -> EquilibriumState:
     state = events.sharpen(coarse, condition, *meshes.value)
     errors = EventErrors(state)
-    parts = {name: errors.prescribed(name, control) for name in _FUNCTIONALS}
+    parts = {name: errors.prescribed(name, control, value) for name in _FUNCTIONALS}
     return EquilibriumState(
         float(state.central_gap),
         float(state.displacement),
