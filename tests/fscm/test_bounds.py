@@ -266,7 +266,7 @@ def test_parts_of_a_sum() -> None:
 
 
 def test_the_gap_at_a_fold_includes_the_place_of_the_fold() -> None:
-    """At jump-in the gap is the parameter itself, without an error where it is fixed: the fold's place has all of it."""
+    """At jump-in the gap is the parameter itself, exact where it is fixed: the fold's place has all of the error."""
     model = Analysis(Problem(2.0, 0.4, 1.0))
     errors = EventErrors(model.event("jump_in").value)
     assert errors.parameter == "central_gap"

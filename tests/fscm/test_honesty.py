@@ -72,8 +72,8 @@ def test_pull_off_force_is_accurate_and_honest(part: int) -> None:
     assert max(ratios) < LARGEST
 
 
-# Limits of the bound over the error.  Measured on `wide_sample(712, 60, 1e-4)`, all quantities: median 2.7, largest 1216
-# (a displacement at pull-off whose panels cancel), least 1.97 where the mesh dominates.  The tests use other seeds.
+# Limits of the bound over the error.  Measured on `wide_sample(712, 60, 1e-4)`, all quantities: median 2.7, largest
+# 1216 (a displacement at pull-off whose panels cancel), least 1.97 where the mesh dominates; the tests use other seeds.
 MEDIAN, LARGEST = 1e3, 1e5
 WIDE = 12
 
