@@ -160,7 +160,7 @@ class Analysis:
         Examples
         --------
         >>> parts = Analysis(Problem(n=2, k=0.4, mu=1.0)).parts("pull_off", "load")
-        >>> bool(parts.total < 1e-10)
+        >>> parts.total < 1e-10
         True
         """
         if (event, functional) not in self._parts:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import pairwise
 
 from fscm import _events as events
@@ -19,6 +20,7 @@ from fscm._typing import Array
 from fscm.analysis import Analysis
 from fscm.problem import Problem
 from fscm.solution import Parts
+from fscm.stability import Stability, stability_of
 
 __all__ = ["EquilibriumState", "RadialField", "equilibria", "profile", "radial_field"]
 
@@ -76,11 +78,15 @@ class EquilibriumState:
         Bounds on the error of each of the three, by name and cause: ``parts["load"]["mesh"]``.  That of the control
         bounds how well its value is met.
 
+    Only a stable state can be held in an experiment, so that an unstable branch is never reached.
+
     Examples
     --------
     >>> (state,) = equilibria(Problem(n=2, k=0.4, mu=1.0), "central_gap", 0.5)
     >>> abs(state.central_gap - 0.5) <= state.u_num < 1e-9
     True
+    >>> state.stable_under_displacement, state.stable_under_load      # after the jump-in, before pull-off
+    (False, False)
     """
 
     central_gap: float
@@ -89,6 +95,23 @@ class EquilibriumState:
     u_num: float
     profile: RadialField
     parts: Mapping[str, Parts]
+    _state: State = field(repr=False, compare=False)
+
+    @cached_property
+    @one_thread()
+    def stability(self) -> Stability:
+        """Stability against cos(m theta), m = 0, ..., 4, computed when it is asked for."""
+        return stability_of(self._state)
+
+    @property
+    def stable_under_displacement(self) -> bool:
+        """Whether the state can be held at its displacement; the punch cannot tilt or shift."""
+        return self.stability.under_displacement
+
+    @property
+    def stable_under_load(self) -> bool:
+        """Whether the state can be held at its load; the punch can move along its axis only."""
+        return self.stability.under_load
 
 
 @one_thread()
@@ -195,6 +218,7 @@ def _solved(coarse: State, control: str, value: float, condition: events.Conditi
         max(each.total for each in parts.values()),
         radial_field(state),
         parts,
+        state,
     )
 
 
