@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import lu_factor, lu_solve
+import scipy
 
 from fscm._equilibrium import Discretisation, Linearisation, State
 from fscm._kernel import kernel_of
@@ -121,7 +121,7 @@ class Defect:
         missed : float
             The state's value of the control less the prescribed one, which rounding leaves.
         """
-        y = lu_solve(self._factor(control), self._gradient(functional), trans=1, check_finite=False)
+        y = scipy.linalg.lu_solve(self._factor(control), self._gradient(functional), trans=1, check_finite=False)
         N = self.fine.disc.mesh.size
         adjoint, anchor, border = y[:N], float(y[N]), float(y[N + 1])
         mesh = self._by_panel(adjoint * self._gap_error - self._backwards(adjoint) * self._pressure_error)
@@ -139,7 +139,7 @@ class Defect:
         if control not in self._factors:
             matrix = self._system.matrix
             matrix[-1] = self._gradient(control)
-            self._factors[control] = lu_factor(matrix, check_finite=False)
+            self._factors[control] = scipy.linalg.lu_factor(matrix, check_finite=False)
         return self._factors[control]
 
     @cached_property
@@ -254,9 +254,9 @@ class Defect:
         lu = self._factor(control)
         right = np.zeros(len(self._area) + 2)
         right[-1] = 1.0
-        tangent = np.abs(lu_solve(lu, right, check_finite=False))
+        tangent = np.abs(scipy.linalg.lu_solve(lu, right, check_finite=False))
         gradient = self._gradient(functional)
-        adjoint = np.abs(lu_solve(lu, gradient, trans=1, check_finite=False))
+        adjoint = np.abs(scipy.linalg.lu_solve(lu, gradient, trans=1, check_finite=False))
         matrix = np.abs(self._system.matrix)
         matrix[-1] = np.abs(self._gradient(control))
         return _ROUNDOFF * _ENTRY * float(adjoint @ (matrix @ tangent) + np.abs(gradient) @ tangent)
