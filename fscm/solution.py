@@ -13,7 +13,8 @@ __all__ = ["FLOOR", "SAFETY", "EventPair", "Parts", "Solution", "State", "soluti
 # Of curves and fields, whose bound is a difference between two meshes: it estimates the error of the coarser; the
 # factor covers accidental agreement.
 SAFETY = 3.0
-# Rounding and quadrature, which the two meshes share.
+# Rounding and quadrature, which the two meshes share: measured worst 1.3e-13 of the pull-off force (n = 3.4,
+# k = 0, mu = 0.04) against meshes of order 18 over 45 random problems.
 FLOOR = 2e-13
 
 
