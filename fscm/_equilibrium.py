@@ -23,7 +23,7 @@ import scipy
 from fscm._deformation import axis_row, response_matrix
 from fscm._kernel import kernel_of
 from fscm._panels import PanelMesh
-from fscm._tail import Tail, tail_energy, tail_of, tail_uncertainty
+from fscm._tail import Tail, tail_energy, tail_of
 from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.problem import Problem
@@ -135,27 +135,6 @@ class State:
         mesh = self.disc.mesh
         area = 2.0 * self.scale**2 * mesh.weights * mesh.nodes
         return float(area @ self.pressure) + self.tail.load
-
-    @property
-    def tail_uncertainty(self) -> float:
-        """Bound on the error of the closed tail, on load and displacement."""
-        return tail_uncertainty(self.disc.problem, self.end, self.displacement, self.tail)
-
-    @property
-    def axis_uncertainty(self) -> float:
-        """Bound on the error of the deformation on the axis, hence of the central gap, on this mesh.
-
-        The pressure follows r^n at the tip, so that its Legendre coefficients of degree l on the innermost panel fall
-        like l^(-2n-1): those from the order q on sum to the last one times q / (2 n).
-        """
-        d, mesh = self.disc, self.disc.mesh
-        last = float(np.max(np.abs(mesh.modes(self.pressure)[0, -2:])))
-        r = self.radius[:2]
-        f = d.problem.punch.height(r)
-        # A flat tip counts as a linear one, the least favourable of those that do not rise like r^n, n < 1.
-        exponent = math.log(f[1] / f[0]) / math.log(r[1] / r[0]) if f[1] > f[0] > 0.0 else 1.0
-        omitted = mesh.order / (2.0 * exponent)
-        return d.stiffness_scale(self.scale) * float(mesh.lengths[0]) ** (1.0 - d.problem.k) * last * omitted
 
     @cached_property
     def energy(self) -> float:

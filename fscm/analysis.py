@@ -5,12 +5,14 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 
 from fscm import _events as events
 from fscm._arc_length import Point
+from fscm._bounds import EventErrors, bounds, energy_of_jump
 from fscm._completeness import completed
 from fscm._continuation import bracketing_path
+from fscm._defect import Errors
 from fscm._events import Bracket, Condition
 from fscm._meshes import Accuracy, Meshes
 from fscm._threads import one_thread
@@ -18,7 +20,7 @@ from fscm.errors import NoSuchEvent, NotConverged
 from fscm.folds import Fold, folds_of
 from fscm.problem import Problem
 from fscm.quantities import quantity_named
-from fscm.solution import EventPair, Solution
+from fscm.solution import EventPair, Parts, Solution
 
 __all__ = ["EVENTS", "Analysis"]
 
@@ -57,6 +59,11 @@ class Analysis:
         self.problem = problem
         self.meshes = Meshes.of(accuracy)
         self._pairs: dict[str, EventPair] = {}
+        self._landings: dict[str, EventPair] = {}
+        self._parts: dict[tuple[str, str], Parts] = {}
+        # The finer mesh of one event at a time: it holds several square matrices.
+        self._last: tuple[str, EventErrors] | None = None
+        self._jumps: dict[str, tuple[Errors, Errors]] = {}
 
     @cached_property
     @one_thread()
@@ -112,7 +119,7 @@ class Analysis:
 
     @one_thread()
     def event(self, name: str) -> EventPair:
-        """The state at one of `EVENTS`, on two meshes.
+        """The state at one of `EVENTS`, on the value mesh, and on the check mesh when that is read.
 
         Parameters
         ----------
@@ -142,15 +149,57 @@ class Analysis:
         if name not in self._pairs:
             bracket, condition = _EVENTS[name]
             coarse = events.locate(*bracket(self), condition)
-            check = events.sharpen(coarse, condition, *self.meshes.check)
-            self._pairs[name] = EventPair(check, events.sharpen(check, condition, *self.meshes.value))
+            check = partial(events.sharpen, coarse, condition, *self.meshes.check)
+            self._pairs[name] = EventPair(events.sharpen(coarse, condition, *self.meshes.value), check)
         return self._pairs[name]
+
+    @one_thread()
+    def parts(self, event: str, functional: str) -> Parts:
+        """Bounds on the error of "load", "displacement" or "central_gap" at an event.
+
+        Examples
+        --------
+        >>> parts = Analysis(Problem(n=2, k=0.4, mu=1.0)).parts("pull_off", "load")
+        >>> parts.total < 1e-10
+        True
+        """
+        if (event, functional) not in self._parts:
+            errors, extremal = self._errors(event), _EXTREMAL[event]
+            self._parts[event, functional] = (
+                bounds(errors.controlled(functional, "load", 0.0))
+                if extremal is None
+                else errors.at_extreme(functional, extremal)
+            )
+        return self._parts[event, functional]
+
+    def _errors(self, event: str) -> EventErrors:
+        if self._last is None or self._last[0] != event:
+            errors = EventErrors(self.event(event).value)
+            self._last = event, errors
+            if event in _LANDINGS:
+                self._jumps[event] = errors.at_fold()
+        return self._last[1]
+
+    @one_thread()
+    def jump_parts(self, jump: str) -> Parts:
+        """Bounds on the error of the energy that is lost in a jump.
+
+        Examples
+        --------
+        >>> Analysis(Problem(n=2, k=0.4, mu=1.0)).jump_parts("jump_in").total < 1e-8
+        True
+        """
+        if jump not in self._jumps:
+            self._errors(jump)
+        return energy_of_jump(*self._jumps[jump], self.landing(jump).value)
 
     @one_thread()
     def landing(self, event: str) -> EventPair:
         """Where a jump ("jump_in" or "jump_out") under displacement control lands: on the other branch."""
         if event not in _LANDINGS:
             raise ValueError(f"unknown jump {event!r}; known are {', '.join(_LANDINGS)}")
+        if event in self._landings:
+            return self._landings[event]
         fold = self.event(event)
 
         def at(displacement: float) -> Condition:
@@ -164,8 +213,11 @@ class Analysis:
                 f"at which the {event.replace('_', '-')} lands"
             )
         coarse = events.locate(*crossings[_LANDINGS[event]], condition)
-        check = events.sharpen(coarse, at(fold.check.displacement), *self.meshes.check)
-        return EventPair(check, events.sharpen(check, at(fold.value.displacement), *self.meshes.value))
+        value = events.sharpen(coarse, condition, *self.meshes.value)
+        self._landings[event] = EventPair(
+            value, lambda: events.sharpen(coarse, at(fold.check.displacement), *self.meshes.check)
+        )
+        return self._landings[event]
 
     @one_thread()
     def solution(self, quantity: str) -> Solution:
@@ -187,6 +239,8 @@ _EVENTS: dict[str, tuple[Callable[[Analysis], Bracket], Condition]] = {
     "jump_out": (lambda analysis: analysis._folds[1], events.displacement_fold),
     "zero_load": (Analysis._last_zero_load, events.zero_load),
 }
+# The functional that is extreme at an event; none: the load is prescribed.
+_EXTREMAL = {"pull_off": "load", "jump_in": "displacement", "jump_out": "displacement", "zero_load": None}
 # Where a jump lands among the points of the path with the displacement of its fold: on the last or on the first branch.
 _LANDINGS = {"jump_in": -1, "jump_out": 0}
 
