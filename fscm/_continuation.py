@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import brentq
@@ -21,7 +20,7 @@ from fscm._adaptivity import end_radius, fit, initial_mesh, rescaled_mesh
 from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of
 from fscm._equilibrium import Control, Discretisation, Rates, State
 from fscm._meshes import Meshes
-from fscm._newton import STEEP, STEP_TOLERANCE, moved_gap, newton
+from fscm._newton import STEP_TOLERANCE, newton, shifted
 from fscm._path_end import PathEnd, radius_of_compression
 from fscm.errors import NotConverged
 from fscm.problem import Problem
@@ -54,12 +53,7 @@ _HAND_OVER = 0.05
 
 
 def _predicted(state: State, rates: Rates, step: float) -> State:
-    return replace(
-        state,
-        scale=state.scale * math.exp(step * rates.log_scale),
-        gap=moved_gap(state, step * rates.gap, step * rates.log_scale),
-        displacement=state.displacement + step * rates.displacement,
-    )
+    return shifted(state, rates.gap, rates.displacement, rates.log_scale, step)
 
 
 def moved(state: State, rates: Rates, value: float, tolerance: float = STEP_TOLERANCE) -> State:
@@ -76,9 +70,11 @@ def moved(state: State, rates: Rates, value: float, tolerance: float = STEP_TOLE
 def _far_state(problem: Problem, central_gap: float, order: int, tolerance: float, end_height: float) -> State:
     """Equilibrium at a large central gap, from the rigid solution."""
     disc = Discretisation(problem, initial_mesh(problem, order, end_height))
-    gap = central_gap + problem.punch.height(disc.mesh.nodes)
+    gap = central_gap + disc.height(disc.mesh.nodes)
     control = Control(central_gap, gap=1.0)
-    return fit(newton(State(disc, 1.0, gap, -central_gap, False), control), control, tolerance)
+    lift = np.zeros(disc.mesh.size) if disc.steep else None
+    guess = State(disc, 1.0, gap, -central_gap, False, lift=lift)
+    return fit(newton(guess, control), control, tolerance)
 
 
 def _follow_edge(state: State, end_height: float) -> State:
@@ -90,13 +86,12 @@ def _follow_edge(state: State, end_height: float) -> State:
     ratio = brentq(lambda s: mesh.evaluate(state.gap, np.array([s]))[0] - target, low, mesh.nodes[outer + 1])
     new = rescaled_mesh(problem, mesh, state.scale, state.scale * ratio, end_height)
     known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
+    disc, scale = Discretisation(problem, new), state.scale * ratio
+    if state.lift is not None:
+        return State.lifted(disc, scale, mesh.evaluate(state.lift, known), state.displacement, True)
     shape = problem.punch.height
-    if problem.punch.growth <= STEEP:
-        gap = mesh.evaluate(state.gap, known)
-        gap += shape(state.scale * ratio * new.nodes) - shape(state.scale * known)
-    else:
-        gap = mesh.evaluate(state.gap - shape(state.radius), known) + shape(state.scale * ratio * new.nodes)
-    return State(Discretisation(problem, new), state.scale * ratio, gap, state.displacement, True)
+    gap = mesh.evaluate(state.gap, known) + (shape(scale * new.nodes) - shape(state.scale * known))
+    return State(disc, scale, gap, state.displacement, True)
 
 
 def _edge_elsewhere(state: State, hand_over: float) -> bool:

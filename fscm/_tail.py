@@ -17,6 +17,8 @@ __all__ = ["Tail", "tail_energy", "tail_of", "tail_uncertainty"]
 
 # Beyond this multiple of the end radius the tail carries too little for the shape to matter.
 _FARTHER = 4.0
+# Height from which on the tail is zero: the tension there is below 1e-60 for m > 1.
+_ZERO = 1e60
 
 
 @dataclass(frozen=True)
@@ -51,9 +53,9 @@ def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
         delta, in z0; w is neglected there beside it.
     """
     C, m = problem.law.decay
-    if C == 0.0:
-        return Tail(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     F = _height(problem, T)
+    if C == 0.0 or F > _ZERO:
+        return Tail(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     g, k = problem.punch.growth, problem.k
     e = (-displacement - problem.law.singular_gap) / F
     strength = C * F**-m
@@ -90,9 +92,9 @@ def tail_uncertainty(problem: Problem, T: float, displacement: float, tail: Tail
         At that radius and displacement.
     """
     C, m = problem.law.decay
-    if C == 0.0:
-        return 0.0
     F = _height(problem, T)
+    if C == 0.0 or F > _ZERO:
+        return 0.0
     e = (-displacement - problem.law.singular_gap) / F
     deviation = abs(_height(problem, _FARTHER * T) / (F * _FARTHER**problem.punch.growth) - 1.0)
     return (0.5 * m * (m + 1.0) * e * e + m * deviation) * max(abs(tail.load), abs(tail.displacement))
@@ -109,9 +111,9 @@ def tail_energy(problem: Problem, T: float, displacement: float) -> float:
         As for `tail_of`.
     """
     C, m = problem.law.decay
-    if C == 0.0:
-        return 0.0
     F = _height(problem, T)
+    if C == 0.0 or F > _ZERO:
+        return 0.0
     g = problem.punch.growth
     excess = (m - 1.0) * g - 2.0
     leading = -math.log(T) if excess == 0.0 else 1.0 / excess
