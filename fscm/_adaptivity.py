@@ -134,9 +134,9 @@ def on_mesh(state: State, mesh: PanelMesh) -> State:
     disc = Discretisation(problem, mesh, state.disc)
     if state.lift is not None:
         lift = state.disc.mesh.transfer(state.lift, mesh)
-        return State.lifted(disc, state.scale, lift, state.displacement, state.follows_edge)
+        return State.lifted(disc, state.scale, lift, state.displacement, state.follows_edge, state.edge_gap)
     gap = state.disc.mesh.transfer(state.gap, mesh)
-    return State(disc, state.scale, gap, state.displacement, state.follows_edge)
+    return State(disc, state.scale, gap, state.displacement, state.follows_edge, edge_gap=state.edge_gap)
 
 
 def fit(state: State, control: Control, tolerance: float, coarsen: bool = False) -> State:

@@ -150,8 +150,8 @@ def _middle(a: Point, b: Point, arc: ArcLength) -> Point:
         if a.state.follows_edge:  # the gap at the edge, which the punch of the mean log c does not leave in place
             disc = a.state.disc
             edge = float(disc.height(np.array([scale]))[0] + disc.edge @ lift)
-            displacement = edge - disc.problem.law.peak_gap
-        guess = State.lifted(a.state.disc, scale, lift, displacement, a.state.follows_edge)
+            displacement = edge - a.state.gap_at_edge
+        guess = State.lifted(a.state.disc, scale, lift, displacement, a.state.follows_edge, a.state.edge_gap)
     parameter = 0.5 * (parameter_of(a.state) + parameter_of(b.state))
     return _point(newton(guess, parameter_control(guess, parameter)), a, arc)
 

@@ -112,6 +112,8 @@ class State:
         Of the Newton solve that produced it.
     lift : ndarray, shape (N,), optional
         Deformation w from which the gaps of a steep punch follow.
+    edge_gap : float, optional
+        Gap at s = 1 when the mesh follows the edge; by default the one of largest tension.
     """
 
     disc: Discretisation
@@ -122,6 +124,7 @@ class State:
     iterations: int = 0
     residual: float = 0.0
     lift: Array | None = None
+    edge_gap: float | None = None
 
     @classmethod
     def lifted(
@@ -131,12 +134,16 @@ class State:
         lift: Array,
         displacement: float,
         follows_edge: bool,
-        iterations: int = 0,
-        residual: float = 0.0,
+        edge_gap: float | None = None,
     ) -> State:
         """The state of a steep punch from its deformation."""
         gap = disc.height(scale * disc.mesh.nodes) - displacement + lift
-        return cls(disc, scale, gap, displacement, follows_edge, iterations, residual, lift)
+        return cls(disc, scale, gap, displacement, follows_edge, lift=lift, edge_gap=edge_gap)
+
+    @property
+    def gap_at_edge(self) -> float:
+        """Gap at s = 1 when the mesh follows the edge."""
+        return self.disc.problem.law.peak_gap if self.edge_gap is None else self.edge_gap
 
     @cached_property
     def radius(self) -> Array:
@@ -270,7 +277,7 @@ class Linearisation:
         self.matrix[N, :] = 0.0
         if s.follows_edge:
             self.matrix[N, :N] = d.edge
-            self.anchor = float(d.edge @ s.gap) - problem.law.peak_gap
+            self.anchor = float(d.edge @ s.gap) - s.gap_at_edge
         else:
             self.matrix[N, N + 1] = 1.0
             self.anchor = 0.0
@@ -295,7 +302,7 @@ class Linearisation:
         self.matrix[:N, N + 1] = self.scale_column
         if s.follows_edge:
             edge = np.array([s.scale])
-            self.anchor = float(d.height(edge)[0] - s.displacement + d.edge @ lift) - d.problem.law.peak_gap
+            self.anchor = float(d.height(edge)[0] - s.displacement + d.edge @ lift) - s.gap_at_edge
             self.matrix[N, N], self.matrix[N, N + 1] = -1.0, float(d.rise(edge)[0])
         self.load_slope -= float(self.load_row.sum())
         self.load_scale += float(self.load_row @ rise)

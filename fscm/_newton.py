@@ -58,8 +58,10 @@ def shifted(state: State, gap: Array, displacement: float, log_scale: float, fac
     scale = _moved_scale(state, factor * log_scale)
     displacement = state.displacement + factor * displacement
     if state.lift is None:
-        return State(state.disc, scale, state.gap + factor * gap, displacement, state.follows_edge)
-    return State.lifted(state.disc, scale, state.lift + factor * gap, displacement, state.follows_edge)
+        moved = state.gap + factor * gap
+        return State(state.disc, scale, moved, displacement, state.follows_edge, edge_gap=state.edge_gap)
+    lift = state.lift + factor * gap
+    return State.lifted(state.disc, scale, lift, displacement, state.follows_edge, state.edge_gap)
 
 
 def _largest_damping(state: State, step: Array) -> float:

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
-from fscm import Analysis, LennardJones93, NoSuchEvent, Problem, equilibria, profile, solve, trace
+from fscm import Analysis, LennardJones93, NoSuchEvent, NotConverged, Problem, equilibria, profile, solve, trace
 from fscm._arc_length import parameter_of, rates_of
 from fscm._completeness import completed
 from fscm._continuation import equilibrium_path, moved, path_end, path_until
@@ -179,3 +179,22 @@ def test_a_punch_near_the_least_shape_index_is_followed_in_steps_of_its_load() -
     assert len(analysis.points) < 250
     assert abs(solution.value - 206.46053308) < 1e-7  # from finer meshes and eight times smaller steps
     assert solution.u_num < 1e-8
+
+
+@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.9, 2.0), (2.0, 0.95, 1.0), (5.0, 0.95, 1.0)])
+def test_the_edge_of_a_small_nucleus_is_followed(n: float, k: float, mu: float) -> None:
+    """It is up to 1e-8 wide and its own gap is above that of largest tension: the fixed mesh needed 1e3 steps."""
+    analysis = Analysis(Problem(n, k, mu))
+    solution = analysis.solution("pull_off_force")
+    assert len(analysis.points) < 150
+    gibson = solve(Problem(n, 1.0, mu), "pull_off_force").value
+    other = solve(Problem(n, 2.0 * k - 1.0, mu), "pull_off_force").value
+    # Between the values at 1 and at twice the distance from 1, near their middle: measured worst 6e-3 off.
+    assert abs(solution.value - 0.5 * (gibson + other)) < 2e-2
+    assert solution.u_num < 1e-7
+
+
+@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.0, 1e6), (2.0, 0.98, 1.0), (2.0, 0.95, 2.0)])
+def test_an_edge_too_narrow_is_refused_with_the_largest_tabor_number(n: float, k: float, mu: float) -> None:
+    with pytest.raises(NotConverged, match="the largest Tabor number at n = 2, k = .* is mu = "):
+        solve(Problem(n, k, mu), "pull_off_force")
