@@ -27,8 +27,8 @@ from fscm.problem import Problem
 
 __all__ = ["MAX_POINTS", "bracketing_path", "equilibrium_path", "moved", "path_end", "path_until"]
 
-# Measured: at most 80 points of a bracketing path for n >= 1, but 300 to 750 at n = 0.67.  Each keeps its matrices: 2 MB
-# on such meshes.
+# Measured: at most 120 points of a bracketing path for n >= 1, but 300 to 750 at n = 0.67.  Each keeps its matrices:
+# 2 MB on such meshes.
 MAX_POINTS = 1500
 _FIRST_STEP = 0.25
 _SMALLEST_STEP = 1e-6

@@ -196,5 +196,5 @@ def test_the_edge_of_a_small_nucleus_is_followed(n: float, k: float, mu: float) 
 
 @pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.0, 1e6), (2.0, 0.98, 1.0), (2.0, 0.95, 2.0)])
 def test_an_edge_too_narrow_is_refused_with_the_largest_tabor_number(n: float, k: float, mu: float) -> None:
-    with pytest.raises(NotConverged, match="the largest Tabor number at n = 2, k = .* is mu = "):
+    with pytest.raises(NotConverged, match=r"the largest Tabor number at n = 2, k = .* is mu = "):
         solve(Problem(n, k, mu), "pull_off_force")
