@@ -104,7 +104,8 @@ class Curve:
     load : ndarray, shape (m,)
         P / (pi Q^(2/n) dgamma z0^(2/n - 1)), tension negative.
     columns : dict of str to ndarray, shape (m,)
-        Further values on the path, e.g. ``central_gap``, ``contact_radius``, ``cohesive_radius``.
+        Further values on the path, e.g. ``central_gap``, ``contact_radius``, ``cohesive_radius``; 1 in
+        ``stable_under_displacement`` and ``stable_under_load`` where the state can be held, else 0.
     u_distance : float
         Bound on the numerical distance of the points from the exact curve, as a fraction of its ranges.
 

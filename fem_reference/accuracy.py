@@ -9,7 +9,7 @@ __all__ = ["ACCURACIES", "Level", "finer_levels", "level_for"]
 
 ACCURACIES = {"quick": 1e-6, "default": 1e-7, "fine": 1e-8}
 """Names of accuracies.  Measured for n = 2 and the 9-3 law: the pull-off force has these relative errors.  The bound
-`u_num` is larger: a safety factor, and a floor of 2e-7 for what all meshes share, belong to it."""
+`u_num` is larger: it is the sum of what other meshes show."""
 
 LARGEST = 1.0
 """Accuracies are below it: a relative error of one leaves no digit."""

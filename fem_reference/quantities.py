@@ -12,8 +12,9 @@ from fem_reference._contact.path import Point
 __all__ = ["LOSSES", "QUANTITIES", "TABLE", "Quantity", "quantity_named"]
 
 GAP_ORDER = 2.0
-"""Declared order of the central gap at jump-out, in contact: the stress under the tip of a cone is singular, which
-decides it, not the element (measured worst error / u_num with the element's order: 1.15 at n = 1, k = 0.6, mu = 3)."""
+"""Declared order of the central gap at jump-out, in contact: under the tip of a cone the pressure has a kink, the
+displacement a term r^2 log r (r^(2-k) in a graded solid, whose size falls with that of the contact edge), and that
+decides it, not the degree of the element."""
 
 
 class Events(Protocol):

@@ -1,15 +1,14 @@
-"""Solutions: quantities of a contact problem, with their uncertainty from three meshes."""
+"""Solutions: quantities of a contact problem, with a bound of their error in parts."""
 
 from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 
-from fem_reference._contact.events import PathEvents
+from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
 from fem_reference._contact.mesh_choice import chosen
-from fem_reference._contact.uncertainty import three_meshes
 from fem_reference._threads import one_thread
 from fem_reference.accuracy import Level
 from fem_reference.errors import NoSuchEvent
@@ -26,7 +25,7 @@ class Solution:
     Attributes
     ----------
     value, u_num : float
-        The quantity and a bound on its numerical error.
+        The quantity and a bound on its numerical error, the sum of `parts`.
     size : int
         Unknowns of the finest finite-element mesh.
     iterations : int
@@ -41,6 +40,10 @@ class Solution:
         Order beyond which the observed one is not used: that of the quantity, or else of the elements.
     densities, values : tuple of float
         The meshes, coarse to fine, and the quantity on each.
+    parts : mapping of str to float
+        Causes of the error and the share of each in `u_num`: "mesh" (density and degree), "first layer", "interior and
+        exterior" (extent of the mesh), "edge" (placement of the contact edge, size of the elements at the apex), "tail"
+        (displacement that the mesh leaves out) and "algebra" (rounding).
     """
 
     value: float
@@ -53,10 +56,37 @@ class Solution:
     declared_order: float
     densities: tuple[float, float, float]
     values: tuple[float, float, float]
+    parts: Mapping[str, float] = field(default_factory=dict, hash=False)
+
+    def with_part(self, name: str, error: float) -> Solution:
+        """Return the solution with an error added to a part, and to the bound.
+
+        Parameters
+        ----------
+        name : str
+            Of a part, or of a new one.
+        error : float
+            Non-negative and finite.
+
+        Raises
+        ------
+        ValueError
+            If the error is negative or not finite.
+
+        Examples
+        --------
+        >>> solution = Solution(1.0, 3e-9, 100, 3, 0.0, 0.1, 6.0, 6.0, (1.0, 0.8, 0.6), (1.0, 1.0, 1.0), {"mesh": 3e-9})
+        >>> solution.with_part("algebra", 1e-9).parts
+        {'mesh': 3e-09, 'algebra': 1e-09}
+        """
+        if not 0.0 <= error < math.inf:
+            raise ValueError(f"error {error} of the part {name!r} is outside [0, inf): it is added to a bound")
+        parts = {**self.parts, name: self.parts.get(name, 0.0) + error}
+        return replace(self, u_num=self.u_num + error, parts=parts)
 
 
 def solve(problem: Problem, quantity: str, accuracy: float | str = "default") -> Solution:
-    """Compute one quantity with its numerical uncertainty from three meshes.
+    """Compute one quantity with a bound of its numerical error.
 
     Parameters
     ----------
@@ -145,34 +175,31 @@ def solve_together(
                 break
         else:
             return found
-        densities = choice.level.densities
-        paths = [choice.traced(replace(spec, density=density), size) for density in densities]
+        meshes = events_on_meshes(choice, spec, size)
         for name, row in rows.items():
             if name not in found:
                 try:
-                    found[name] = _solution(row, paths, choice.level, problem.law.length, begin)
+                    found[name] = _solution(row, meshes, choice.level, begin)
                 except NoSuchEvent as reason:
                     found[name] = reason.with_traceback(None)
     return {name: found[name] for name in rows}
 
 
-def _solution(row: Quantity, paths: list[PathEvents], level: Level, length: float, begin: float) -> Solution:
-    """Evaluate a quantity on three paths; `length` measures a length near zero."""
-    coarse, medium, fine = (row.functional(path) for path in paths)
-    ratio = math.sqrt(level.densities[0] / level.densities[2])
-    scale = max(abs(fine), length) if row.kind == "length" else abs(fine)
+def _solution(row: Quantity, meshes: EventsOnMeshes, level: Level, begin: float) -> Solution:
+    """Evaluate a quantity on all meshes."""
     declared = row.order or level.order
-    outcome = three_meshes((coarse, medium, fine), ratio, declared, scale)
-    point = paths[-1].at(row.events[0])
+    estimate = meshes.estimate(row.functional, declared)
+    point = meshes.path.at(row.events[0])
     return Solution(
-        outcome.value,
-        outcome.u_num,
+        estimate.values[-1],
+        math.fsum(estimate.parts.values()),
         point.branch.contact.compliance.unknowns,
-        sum(p.state.iterations for p in paths[-1].points),
+        sum(p.state.iterations for p in meshes.path.points),
         point.state.residual,
         time.perf_counter() - begin,
-        outcome.observed_order,
+        estimate.convergence.observed_order,
         float(declared),
         level.densities,
-        (coarse, medium, fine),
+        estimate.values,
+        estimate.parts,
     )

@@ -19,6 +19,7 @@ from fscm.problem import Problem
 from fscm.punch import PowerPunch, PowerSum, PunchShape, RoundedCone
 from fscm.solution import Solution
 from fscm.solve import QUANTITIES, solve, solve_together
+from fscm.stability import Stability
 from fscm.states import EquilibriumState, RadialField, equilibria, profile
 from fscm.tabulated_law import TabulatedLaw
 
@@ -27,10 +28,10 @@ LAYERS = (
     ("errors", "_typing", "_threads", "_validation", "_response_factor"),
     ("laws", "tabulated_law", "punch", "custom_punch"),
     ("problem", "physical"),
-    ("_meshes", "_kernel", "_panels", "_deformation", "_tail"),
+    ("_meshes", "_kernel", "_azimuthal_kernel", "_panels", "_deformation", "_tail"),
     ("_equilibrium", "solution"),
     ("_newton", "_arc_length", "_path_end", "_adaptivity", "_continuation"),
-    ("_events", "_completeness", "folds"),
+    ("_events", "_completeness", "folds", "stability"),
     ("path", "critical", "quantities", "analysis"),
     ("gibson", "stieltjes"),
     ("experiment", "states", "solve"),
@@ -59,6 +60,7 @@ __all__ = [
     "RadialField",
     "RoundedCone",
     "Solution",
+    "Stability",
     "SurfaceLaw",
     "TabulatedLaw",
     "displacement_cycle",

@@ -14,7 +14,7 @@ import math
 from collections.abc import Callable, Iterator
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from fscm._adaptivity import end_radius, fit, initial_mesh, rescaled_mesh
 from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of
@@ -114,7 +114,9 @@ def _follow_edge(state: State, end_height: float, edge_gap: float | None = None)
     target = problem.law.peak_gap if edge_gap is None else edge_gap
     outer = int(np.flatnonzero(state.gap < target)[-1]) if np.any(state.gap < target) else -1
     low = 0.0 if outer < 0 else float(mesh.nodes[outer])
-    ratio = brentq(lambda s: mesh.evaluate(state.gap, np.array([s]))[0] - target, low, mesh.nodes[outer + 1])
+    ratio = scipy.optimize.brentq(
+        lambda s: mesh.evaluate(state.gap, np.array([s]))[0] - target, low, mesh.nodes[outer + 1]
+    )
     new = rescaled_mesh(problem, mesh, state.scale, state.scale * ratio, end_height)
     known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
     disc, scale = Discretisation(problem, new), state.scale * ratio
@@ -144,7 +146,7 @@ def _check_edge(problem: Problem) -> None:
     """Refuse a cohesive edge that is too narrow beside the rounding of its radius."""
     log_mu = math.log10(problem.mu)
     if _log_width(problem, log_mu) < _NARROWEST:
-        largest = brentq(lambda x: _log_width(problem, x) - _NARROWEST, -400.0, log_mu)
+        largest = scipy.optimize.brentq(lambda x: _log_width(problem, x) - _NARROWEST, -400.0, log_mu)
         raise NotConverged(
             f"the contact edge of {problem} is about 10^{_log_width(problem, log_mu):.0f} wide, below the rounding of "
             f"its radius: the largest Tabor number at n = {problem.n:g}, k = {problem.k:g} is mu = {10.0**largest:.3g}"

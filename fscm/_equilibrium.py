@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg.lapack import dgesv
+import scipy
 
 from fscm._deformation import axis_row, response_matrix
 from fscm._kernel import kernel_of
@@ -318,7 +318,7 @@ class Linearisation:
         row[N + 1] = control.log_scale + control.gap * self.axis_gap_scale + control.load * self.load_scale
         # dgesv directly: the rows differ by many orders of magnitude on purpose, which partial pivoting does
         # not mind, while the condition estimate of the wrapper does.
-        *_, x, info = dgesv(self.matrix, rhs)
+        *_, x, info = scipy.linalg.lapack.dgesv(self.matrix, rhs)
         if info != 0:
             raise NotConverged("Newton met a singular tangent; use another control")
         return x

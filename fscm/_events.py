@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from scipy.optimize import brentq, minimize_scalar
+import scipy
 
 from fscm._adaptivity import fit, on_mesh
 from fscm._arc_length import Point, parameter_control, parameter_of, rates_of
@@ -124,7 +124,7 @@ class _Between:
 def locate(a: Point, b: Point, condition: Condition) -> State:
     """Root of the condition between two neighbouring points, on their coarse mesh."""
     between = _Between(a, b)
-    root = brentq(
+    root = scipy.optimize.brentq(
         lambda x: condition(*between(x)), between.low, between.high, xtol=_COARSE_PARAMETER_TOLERANCE, rtol=1e-12
     )
     return between(root)[0]
@@ -151,7 +151,7 @@ def slowest(points: Sequence[Point]) -> tuple[Point, Point, Point, float]:
 def _least_rate(a: Point, b: Point) -> tuple[Point, Point, Point, float]:
     between = _Between(a, b)
     orientation = 1.0 if a.state.follows_edge else -1.0
-    best = minimize_scalar(
+    best = scipy.optimize.minimize_scalar(
         lambda x: orientation * between(x)[1].displacement,
         bounds=(between.low, between.high),
         method="bounded",

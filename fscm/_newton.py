@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from fscm._equilibrium import Control, Linearisation, State
 from fscm._typing import Array
@@ -50,7 +50,7 @@ def _moved_scale(state: State, log_scale: float) -> float:
     low = start if log_scale > 0.0 else high - beyond(high)
     if beyond(low) >= 0.0 or beyond(high) <= 0.0:  # the same to rounding
         return math.exp(high)
-    return math.exp(brentq(beyond, low, high, xtol=1e-15, rtol=1e-15))
+    return math.exp(scipy.optimize.brentq(beyond, low, high, xtol=1e-15, rtol=1e-15))
 
 
 def shifted(state: State, gap: Array, displacement: float, log_scale: float, factor: float = 1.0) -> State:

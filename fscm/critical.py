@@ -10,7 +10,7 @@ import math
 import time
 from dataclasses import replace
 
-from scipy.optimize import brentq
+import scipy
 
 from fscm._arc_length import parameter_control, parameter_of, rates_of
 from fscm._continuation import bracketing_path, moved
@@ -56,7 +56,7 @@ def _coarse_root(problem: Problem, meshes: Meshes) -> State:
         low, high = low - math.log(_WIDEN), low
         if low < -math.log(_WIDEST):
             raise NoSuchEvent(f"jumps persist down to mu = {1 / _WIDEST:.3g} at n = {problem.n}, k = {problem.k}")
-    root = brentq(rate, low, high, xtol=_COARSE_ROOT_TOLERANCE)
+    root = scipy.optimize.brentq(rate, low, high, xtol=_COARSE_ROOT_TOLERANCE)
     return states[min(states, key=lambda x: abs(x - root))]
 
 

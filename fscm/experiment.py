@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from fscm._typing import Array
 from fscm.path import EquilibriumPath
@@ -105,7 +105,7 @@ def _at(curve: Array, displacement: float, column: int) -> Array:
         first -= 1
     while last < curve.shape[1] and curve[0, last] > curve[0, last - 1]:
         last += 1
-    load = PchipInterpolator(*curve[:, first:last])(displacement)
+    load = scipy.interpolate.PchipInterpolator(*curve[:, first:last])(displacement)
     return np.array([[displacement], [float(load)]])
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fscm import _events as events
 from fscm._arc_length import Point, parameter_of
@@ -19,8 +21,11 @@ from fscm._typing import Array
 from fscm.folds import Fold, fold_at, folds_between
 from fscm.problem import Problem
 from fscm.solution import SAFETY
+from fscm.stability import stable_sections
 
 __all__ = ["EquilibriumPath", "trace"]
+
+Mask: TypeAlias = NDArray[np.bool_]
 
 # Curves are drawn and integrated: their points are closer than those of the path that brackets events.
 _LONGEST_STEP = 0.15
@@ -45,6 +50,9 @@ class EquilibriumPath:
         Numerical uncertainty of every delta and P.
     folds : tuple of Fold
         All turning points of load and displacement, in the order of the path.
+    stable_under_displacement, stable_under_load : ndarray of bool
+        Whether the state can be held when its displacement, or its load, is prescribed; False at the folds where this
+        ends.  See `fscm.stability`.
 
     Examples
     --------
@@ -64,6 +72,8 @@ class EquilibriumPath:
     u_displacement: float
     u_load: float
     folds: tuple[Fold, ...] = ()
+    stable_under_displacement: Mask = field(default_factory=lambda: np.empty(0, np.bool_))
+    stable_under_load: Mask = field(default_factory=lambda: np.empty(0, np.bool_))
 
 
 @one_thread()
@@ -135,7 +145,21 @@ def trace(
         float(SAFETY * max(abs(fine.displacement - s.displacement) for s, fine in checks)),
         float(SAFETY * max(abs(fine.load - s.load) for s, fine in checks)),
         tuple(fold_at(*fold) for fold in folds),
+        *_stable(points[0], states, folds),
     )
+
+
+def _stable(first: Point, states: list[State], folds: list[tuple[State, str, bool]]) -> tuple[Mask, Mask]:
+    """Whether each state is stable under displacement and under load; a fold is so if both of its sections are."""
+    sections = stable_sections(first, [quantity for _, quantity, _ in folds])
+    marks = np.empty((2, len(states)), np.bool_)
+    number = 0
+    for i, state in enumerate(states):
+        before = number
+        while number < len(folds) and folds[number][0] is state:
+            number += 1
+        marks[:, i] = np.logical_and.reduce(sections[before : number + 1])
+    return marks[0], marks[1]
 
 
 def _up_to(states: list[State], load: float) -> list[State]:

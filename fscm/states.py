@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import pairwise
 
 from fscm import _events as events
@@ -18,6 +19,7 @@ from fscm._typing import Array
 from fscm.analysis import Analysis
 from fscm.problem import Problem
 from fscm.solution import FLOOR, SAFETY, EventPair
+from fscm.stability import Stability, stability_of
 
 __all__ = ["EquilibriumState", "RadialField", "equilibria", "profile", "radial_field"]
 
@@ -65,11 +67,15 @@ class RadialField:
 class EquilibriumState:
     """One equilibrium state, dimensionless; `u_num` bounds the error of each of the three numbers.
 
+    Only a stable state can be held in an experiment, so that an unstable branch is never reached.
+
     Examples
     --------
     >>> (state,) = equilibria(Problem(n=2, k=0.4, mu=1.0), "central_gap", 0.5)
     >>> abs(state.central_gap - 0.5) <= state.u_num < 1e-9
     True
+    >>> state.stable_under_displacement, state.stable_under_load      # after the jump-in, before pull-off
+    (False, False)
     """
 
     central_gap: float
@@ -77,6 +83,23 @@ class EquilibriumState:
     load: float
     u_num: float
     profile: RadialField
+    _state: State = field(repr=False, compare=False)
+
+    @cached_property
+    @one_thread()
+    def stability(self) -> Stability:
+        """Stability against cos(m theta), m = 0, ..., 4, computed when it is asked for."""
+        return stability_of(self._state)
+
+    @property
+    def stable_under_displacement(self) -> bool:
+        """Whether the state can be held at its displacement; the punch cannot tilt or shift."""
+        return self.stability.under_displacement
+
+    @property
+    def stable_under_load(self) -> bool:
+        """Whether the state can be held at its load; the punch can move along its axis only."""
+        return self.stability.under_load
 
 
 @one_thread()
@@ -183,6 +206,7 @@ def _solved(coarse: State, condition: events.Condition, meshes: Meshes) -> Equil
         float(state.load),
         float(SAFETY * difference + FLOOR * scale + state.tail_uncertainty),
         radial_field(state),
+        state,
     )
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PPoly, make_interp_spline
+import scipy
 
 from fscm._typing import Array
 from fscm._validation import real_number
@@ -66,8 +66,8 @@ class TabulatedLaw:
     tail_exponent: float | None = None
     equilibrium_gap: float = field(init=False, compare=False)
     work_of_adhesion: float = field(init=False, compare=False)
-    _spline: PPoly = field(init=False, compare=False)
-    _integral: PPoly = field(init=False, compare=False)
+    _spline: scipy.interpolate.PPoly = field(init=False, compare=False)
+    _integral: scipy.interpolate.PPoly = field(init=False, compare=False)
     _peak: float = field(init=False, compare=False)
     _wall: tuple[float, float, float] = field(init=False, compare=False)
     _tail: tuple[float, float, float] = field(init=False, compare=False)
@@ -90,7 +90,7 @@ class TabulatedLaw:
         adhesion = float(_tail_derivative(gap[-1], tail, -1) - spline.integrate(equilibrium, gap[-1]))
         if not adhesion > 0.0:
             raise ValueError(f"the work of adhesion of the data is {adhesion:g}, outside (0, inf): no net attraction")
-        normalised = PPoly(spline.c / adhesion, spline.x - equilibrium)
+        normalised = scipy.interpolate.PPoly(spline.c / adhesion, spline.x - equilibrium)
         values = {
             "gaps": tuple(gap.tolist()),
             "tractions": tuple(p.tolist()),
@@ -154,11 +154,11 @@ class TabulatedLaw:
         return np.where(first > H, below, np.where(last < H, beyond, inside))
 
 
-def _quintic(gap: Array, p: Array, *ends: tuple[float, float]) -> PPoly:
+def _quintic(gap: Array, p: Array, *ends: tuple[float, float]) -> scipy.interpolate.PPoly:
     """Quintic spline through the points, with (slope, curvature) at both ends or not-a-knot there."""
     conditions: Any = tuple([(1, slope), (2, curvature)] for slope, curvature in ends) or None
-    spline = make_interp_spline(gap, p, k=5, bc_type=conditions)
-    return PPoly.from_spline((spline.t, spline.c, spline.k))
+    spline = scipy.interpolate.make_interp_spline(gap, p, k=5, bc_type=conditions)
+    return scipy.interpolate.PPoly.from_spline((spline.t, spline.c, spline.k))
 
 
 def _power(x: Array | float, exponent: float, order: int) -> Array | float:
@@ -260,7 +260,7 @@ def _fitted_tail(gap: Array, p: Array, wall: float, exponent: float | None) -> t
     return float(tension[-1] * (gap[-1] - t) ** m), m, t
 
 
-def _checked_shape(spline: PPoly, gap: Array, p: Array) -> float:
+def _checked_shape(spline: scipy.interpolate.PPoly, gap: Array, p: Array) -> float:
     """Return the gap of the largest tension; refuse a spline with waves that the data do not have."""
     extrema = spline.derivative().roots(discontinuity=False, extrapolate=False)
     extrema = extrema[(extrema > gap[0]) & (extrema < gap[-1])]

@@ -12,30 +12,29 @@ import argparse
 import logging
 import sys
 from collections.abc import Sequence
+from importlib import import_module
 from typing import Any, NoReturn
 
-from threadpoolctl import threadpool_limits
-
-from comparisons.cli.commands import (
-    bench,
-    check_model,
-    curve,
-    fem,
-    judge,
-    listing,
-    new_model,
-    paper,
-    report,
-    run,
-    solve,
-    sweep,
-)
 from comparisons.console.exit_status import guarded
-from comparisons.runs.environment import package_version
 
 __all__ = ["main"]
 
-_COMMANDS = (run, judge, report, paper, sweep, solve, curve, fem, listing, check_model, new_model, bench)
+#: Command -> its module in `comparisons.cli.commands`, and its line of the help.  A module is imported when its
+#: command is called, so that the help does not wait for the libraries of all commands.
+_COMMANDS = {
+    "run": ("run", "compute the standing cases and judge them"),
+    "judge": ("judge", "judge stored results again without computing"),
+    "report": ("report", "write a run as one HTML page"),
+    "paper": ("paper", "compute the figures and numbers of the paper again"),
+    "sweep": ("sweep", "compute grids of one's own"),
+    "solve": ("solve", "compute one quantity of one problem by one model"),
+    "curve": ("curve", "compute curves or surfaces at pull-off, as CSV and as a plot"),
+    "fem": ("fem", "write fields of the finite elements (vtu, picture), print their verification and solver tables"),
+    "list": ("listing", "list the models, quantities, cases or gates"),
+    "check-model": ("check_model", "check that an external model keeps the contract"),
+    "new-model": ("new_model", "write a template for a model of your own"),
+    "bench": ("bench", "measure time, memory and error beside the paper's own scheme"),
+}
 
 
 class _Parser(argparse.ArgumentParser):
@@ -49,17 +48,34 @@ class _Parser(argparse.ArgumentParser):
         print(message, end="", file=file or sys.stderr)
 
 
-def _parser() -> argparse.ArgumentParser:
+class _Version(argparse.Action):
+    """The option --version; the version is read when it is asked for."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
+        from comparisons.runs.environment import package_version
+
+        print(f"fscm-bench {package_version()}")
+        parser.exit()
+
+
+def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
+    """The parser, with the arguments of the command that is called."""
     parser = _Parser(
         prog="fscm-bench",
         description="How wrong is a model of adhesive contact of graded materials, and how certain is that error?",
         epilog="Exit status: 0 done and every gate passes, 1 a gate fails, 2 wrong input, 3 inconclusive, "
         "4 a computation or an output failed, a gate is in error, or no gate was evaluated.",
     )
-    parser.add_argument("--version", action="version", version=f"fscm-bench {package_version()}")
+    parser.add_argument("--version", action=_Version, nargs=0, help="show program's version number and exit")
     parsers = parser.add_subparsers(metavar="COMMAND", required=True)
-    for command in _COMMANDS:
-        command.add(parsers)
+    called = next((text for text in arguments if not text.startswith("-")), None)
+    for name, (module_name, text) in _COMMANDS.items():
+        command = parsers.add_parser(name, help=text)
+        if name == called:
+            module = import_module(f"comparisons.cli.commands.{module_name}")
+            command.description = module.__doc__
+            module.add(command)
+            command.set_defaults(call=module.call)
     return parser
 
 
@@ -105,9 +121,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _call(arguments: Sequence[str]) -> int:
+    args = _parser(arguments).parse_args(_keep_negative_numbers(arguments))
+    # Not needed for the help.
+    from threadpoolctl import threadpool_limits
+
     # Embedding a font in a PDF, it remarks on the date in the font's file.
     logging.getLogger("fontTools").setLevel(logging.ERROR)
-    args = _parser().parse_args(_keep_negative_numbers(arguments))
     # One thread for BLAS: processes share the work, and sums come in the same order every time.
     with threadpool_limits(1):
         status: int = args.call(args)

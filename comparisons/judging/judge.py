@@ -68,9 +68,9 @@ def judge(
     grids : sequence of Grid
         The cases that were computed.
     rows : DataFrame
-        Stored results (`comparisons.runs.rows.COLUMNS`).
+        Stored results (`comparisons.runs.frames.COLUMNS`).
     curves : DataFrame, optional
-        Stored curves (`comparisons.runs.rows.CURVE_COLUMNS`).
+        Stored curves (`comparisons.runs.frames.CURVE_COLUMNS`).
     models : sequence of str, optional
         Models that were given in place of those each grid names.
 

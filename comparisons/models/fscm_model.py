@@ -52,7 +52,12 @@ class FullSelfConsistent:
             if problem.k == 1.0:
                 return gibson_curve(problem)
             path = fscm.trace(problem, longest_step=_STEP)
-        columns = {"central_gap": path.central_gap, "edge_radius": path.edge_radius}
+        columns = {
+            "central_gap": path.central_gap,
+            "edge_radius": path.edge_radius,
+            "stable_under_displacement": path.stable_under_displacement.astype(float),
+            "stable_under_load": path.stable_under_load.astype(float),
+        }
         shares = path.u_displacement / np.ptp(path.displacement), path.u_load / np.ptp(path.load)
         # Not a combination of two bounds, but the longest vector with components within them.
         return Curve(path.displacement, path.load, columns, u_distance=float(np.hypot(*shares)))

@@ -29,7 +29,7 @@ _U_DISTANCE = 1e-12
 
 
 def gibson_curve(problem: Problem) -> Curve:
-    """Return the equilibrium path at k = 1; column ``central_gap``.
+    """Return the equilibrium path at k = 1; columns ``central_gap`` and the marks of stability.
 
     It leads from far away to the fold A, back from A to B on the same line (the unstable germ of a contact carries
     no load, and its central gap has no limit: NaN), and on the contact branch from B to where the load is as
@@ -52,13 +52,22 @@ def gibson_curve(problem: Problem) -> Curve:
         entry = local.law.peak_gap
     contact = _between(entry, _end(solid, entry))
     gaps = np.array([*approach, *contact])
+    load = np.array([solid.load(float(gap)) for gap in gaps])
     central_gap = gaps.copy()
+    held = np.ones(len(gaps), bool)
     if local.folds:
         central_gap[_POINTS : 2 * _POINTS] = np.nan
+        # Both folds are stable to one side only.
+        held[_POINTS - 1 : 2 * _POINTS + 1] = False
+    rises = np.diff(load, prepend=load[0]) > 0.0
     return Curve(
         np.array([-local.level(float(gap)) for gap in gaps]),
-        np.array([solid.load(float(gap)) for gap in gaps]),
-        {"central_gap": central_gap},
+        load,
+        {
+            "central_gap": central_gap,
+            "stable_under_displacement": held.astype(float),
+            "stable_under_load": (held & rises).astype(float),
+        },
         u_distance=_U_DISTANCE,
     )
 

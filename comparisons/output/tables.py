@@ -38,7 +38,7 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
     Parameters
     ----------
     rows : DataFrame
-        Stored results (`comparisons.runs.rows.COLUMNS`).
+        Stored results (`comparisons.runs.frames.COLUMNS`).
     reference : str
         Name of the model the others are compared with.
 
@@ -90,7 +90,7 @@ def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
     Parameters
     ----------
     rows : DataFrame
-        Stored results (`comparisons.runs.rows.COLUMNS`).
+        Stored results (`comparisons.runs.frames.COLUMNS`).
     model, reference : str
         Names of the two.
 

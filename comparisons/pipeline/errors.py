@@ -11,7 +11,7 @@ from comparisons.output.tables import relative_error
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
 from comparisons.runs.cases import Case
-from comparisons.runs.rows import frame
+from comparisons.runs.frames import frame
 from comparisons.runs.tasks import evaluate
 
 __all__ = ["errors"]

@@ -15,7 +15,8 @@ from comparisons.pipeline.inputs import Cases
 from comparisons.quantities import CURVES as CURVE_QUANTITIES
 from comparisons.runs.cases import VERIFICATION
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.rows import Row, curve_frame, frame
+from comparisons.runs.frames import curve_frame, frame
+from comparisons.runs.rows import Row
 from comparisons.runs.tables import write_curves, write_results, write_table
 from comparisons.runs.tasks import plan
 
@@ -32,7 +33,7 @@ class RunTables:
     Attributes
     ----------
     results, curves : DataFrame
-        The rows, with the columns of `comparisons.runs.rows`.
+        The rows, with the columns of `comparisons.runs.frames`.
     kappa : DataFrame
         Relative errors, as of `comparisons.output.tables.relative_error`.
     largest : DataFrame

@@ -14,7 +14,7 @@ import pyarrow.parquet as pq
 
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.csv_format import csv_text
-from comparisons.runs.rows import COLUMNS, CURVE_COLUMNS
+from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
 
 __all__ = ["read_table", "write_curves", "write_results", "write_table"]
 

@@ -16,7 +16,7 @@ from fem_reference._contact.completeness import complete_path
 from fem_reference._contact.path import Point, point_at
 from fem_reference.errors import NoSuchEvent
 
-__all__ = ["EVENTS", "LANDING", "PathEvents", "beyond_pull_off"]
+__all__ = ["EVENTS", "LANDING", "SEPARATED", "PathEvents", "beyond_pull_off", "event_energy", "excess_of"]
 
 ROOT_TOLERANCE = 1e-11
 """Relative tolerance of the parameter at an event; P is stationary there and delta moves by as little."""
@@ -27,6 +27,12 @@ where the load changes from tension to compression."""
 
 LANDING = "landing"
 """The point in contact at the displacement of the jump into contact: where that jump ends."""
+
+SEPARATED = "separated"
+"""The point out of contact at the displacement of the jump out of contact: where that jump ends."""
+
+SLOPE_STEP = 1e-4
+"""Relative change of the parameter for the slope of a rate: an error of this size slows the secant method only."""
 
 Pair = tuple[Point, Point]
 
@@ -47,6 +53,7 @@ class PathEvents:
 
     def __init__(self, samples: Sequence[Point]) -> None:
         self.samples = samples
+        self._anchors: dict[str, tuple[Point, float]] = {}
 
     @cached_property
     def points(self) -> Sequence[Point]:
@@ -65,7 +72,7 @@ class PathEvents:
         Parameters
         ----------
         event : str
-            One of `EVENTS`, or `LANDING`.
+            One of `EVENTS`, `LANDING` or `SEPARATED`.
 
         Raises
         ------
@@ -74,10 +81,26 @@ class PathEvents:
         NoSuchEvent
             If the path has no such point.
         """
-        if event not in (*EVENTS, LANDING):
+        if event not in (*EVENTS, LANDING, SEPARATED):
             raise ValueError(f"event {event!r} is unknown; choose one of {', '.join(EVENTS)}")
         point: Point = getattr(self, event)
         return point
+
+    def anchor(self, event: str) -> tuple[Point, float]:
+        """Return the state at an event, and the slope there of the function that vanishes (see `excess_of`)."""
+        if event not in self._anchors:
+            point = self.at(event)
+            if event in (LANDING, SEPARATED):
+                slope = point.state.displacement_rate
+            elif event == "zero_load":
+                slope = point.state.load_rate
+            else:
+                unit = point.parameter if point.branch.touching else point.branch.contact.law.length
+                near = point_at(point, point.parameter + SLOPE_STEP * unit)
+                excess = excess_of(event)
+                slope = (excess(near) - excess(point)) / (near.parameter - point.parameter)
+            self._anchors[event] = point, slope
+        return self._anchors[event]
 
     @cached_property
     def pull_off(self) -> Point:
@@ -128,12 +151,12 @@ class PathEvents:
     @cached_property
     def jump_in_loss(self) -> float:
         """Energy lost by the jump into contact."""
-        return _energy(self.jump_in) - _energy(self.landing)
+        return event_energy(self.jump_in) - event_energy(self.landing)
 
     @cached_property
     def jump_out_loss(self) -> float:
         """Energy lost by the jump out of contact."""
-        return _energy(self.jump_out) - _energy(self.separated)
+        return event_energy(self.jump_out) - event_energy(self.separated)
 
     def _at_displacement(self, delta: float, last: bool) -> Point:
         """Return the first or the last point where the displacement rises through a value."""
@@ -141,6 +164,32 @@ class PathEvents:
         if found is None:
             raise NoSuchEvent(f"the path does not reach the displacement {delta:.6g} on both branches")
         return found
+
+
+def excess_of(event: str, level: float = 0.0) -> Callable[[Point], float]:
+    """Return the function of a point that vanishes at an event.
+
+    Parameters
+    ----------
+    event : str
+        One of `EVENTS`, `LANDING` or `SEPARATED`.
+    level : float
+        Displacement at a landing or separation.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> excess_of("landing", level=1.0)(SimpleNamespace(state=SimpleNamespace(displacement=3.0)))
+    2.0
+    """
+    value = {"pull_off": _load_rate, "jump_in": _displacement_rate, "jump_out": _displacement_rate, "zero_load": _load}
+    rate = value.get(event, _displacement)
+    return lambda point: rate(point) - level
+
+
+def event_energy(point: Point) -> float:
+    """Elastic plus surface energy at a point."""
+    return point.branch.contact.energy(point.state.y)
 
 
 def _load(point: Point) -> float:
@@ -213,7 +262,3 @@ def _root(pair: Pair, function: Callable[[Point], float]) -> Point:
     )
     value(root)
     return known[root]
-
-
-def _energy(point: Point) -> float:
-    return point.branch.contact.energy(point.state.y)

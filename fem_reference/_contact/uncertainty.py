@@ -1,7 +1,8 @@
-"""Numerical uncertainty from three meshes: observed order, Richardson estimate, safety factor.
+"""Error of a mesh from three densities and another degree: observed order and Richardson estimate.
 
-Every element of a mesh is `density` times a length that belongs to the problem, so three densities in
-constant ratio are a family of similar meshes and the error behaves like density^p.
+Every element of a mesh is `density` times a length that belongs to the problem, so three densities are a family of
+similar meshes and the error behaves like density^p.  The difference of two degrees on the medium mesh is a second
+estimate of the error there; the family tells how much of it is left on the fine mesh.
 """
 
 from __future__ import annotations
@@ -11,13 +12,8 @@ from dataclasses import dataclass
 
 __all__ = ["Convergence", "three_meshes"]
 
-SAFETY = 3.0
-"""Factor on the Richardson estimate: high orders are seldom in their asymptotic range (measured: the true
-error stays below a third of the bound)."""
-
-FLOOR = 2e-7
-"""Relative error that refinement in the family does not show: first layer, exterior, tail, quadrature (measured
-against the integral equation: worst 8e-8, for a cone at 0 < k <= 0.2; 1e-8 and less for paraboloids)."""
+SLOWEST = 1.0
+"""Lower limit of the order that is used."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,25 +22,28 @@ class Convergence:
 
     Attributes
     ----------
-    value : float
-        Result of the finest mesh (no extrapolation).
-    u_num : float
-        Bound of its numerical error.
+    error : float
+        Estimate of the error on the fine mesh.
     observed_order : float
         log |d12 / d23| / log ratio; nan when the differences are rounding.
 
     Examples
     --------
-    >>> three_meshes((1.16, 1.04, 1.01), ratio=2.0, declared=2.0, scale=1.0).value
-    1.01
+    >>> round(three_meshes((1.16, 1.04, 1.01), ratio=2.0, declared=2.0).error, 9)  # the limit is 1
+    0.01
     """
 
-    value: float
-    u_num: float
+    error: float
     observed_order: float
 
 
-def three_meshes(values: tuple[float, float, float], ratio: float, declared: float, scale: float) -> Convergence:
+def three_meshes(
+    values: tuple[float, float, float],
+    ratio: float,
+    declared: float,
+    lower_degree: float | None = None,
+    rounding: float = 0.0,
+) -> Convergence:
     """Combine the values of a coarse, a medium and a fine mesh.
 
     Parameters
@@ -55,8 +54,11 @@ def three_meshes(values: tuple[float, float, float], ratio: float, declared: flo
         Refinement ratio of neighbours, > 1.
     declared : float
         Order of the element; the observed order is not trusted beyond it.
-    scale : float
-        Size of the quantity, for the floor of the estimate.
+    lower_degree : float, optional
+        Value of the medium mesh with elements of a lower degree.  Its error is at least twice that of the medium mesh
+        if a degree halves the error, and the difference is then at least the latter.
+    rounding : float
+        Size below which a difference has no order.
 
     Returns
     -------
@@ -69,18 +71,21 @@ def three_meshes(values: tuple[float, float, float], ratio: float, declared: flo
 
     Examples
     --------
-    >>> three_meshes((1.16, 1.04, 1.01), ratio=2.0, declared=2.0, scale=1.0).observed_order
+    >>> three_meshes((1.16, 1.04, 1.01), ratio=2.0, declared=2.0).observed_order
     2.0
+    >>> round(three_meshes((1.16, 1.04, 1.01), ratio=2.0, declared=2.0, lower_degree=0.96).error, 9)
+    0.02
     """
     if ratio <= 1:
         raise ValueError(f"refinement ratio {ratio} is not above 1: the meshes must be refined")
     coarse, medium, fine = values
     first, second = abs(coarse - medium), abs(medium - fine)
-    floor = FLOOR * scale
-    tiny = 1e-3 * floor
-    order = math.log(first / second) / math.log(ratio) if first > tiny and second > tiny else math.nan
-    # Too slow: the declared lower limit 1; too fast or rounding: the order of the element.
-    trusted = declared if math.isnan(order) else min(max(round(order, 12), 1.0), declared)
+    order = math.log(first / second) / math.log(ratio) if first > rounding and second > rounding else math.nan
+    # Too slow: the lowest order; too fast or rounding: the order of the element.
+    trusted = declared if math.isnan(order) else min(max(round(order, 12), SLOWEST), declared)
     growth = ratio**trusted
-    difference = max(second, first / growth)
-    return Convergence(fine, SAFETY * difference / (growth - 1.0) + floor, round(order, 12))
+    # Two fine values may agree by chance: the coarse one tells what their difference should be.
+    error = max(second, first / growth) / (growth - 1.0)
+    if lower_degree is not None:
+        error = max(error, abs(lower_degree - medium) / growth)
+    return Convergence(error, round(order, 12))

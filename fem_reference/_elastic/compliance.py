@@ -8,7 +8,7 @@ matrix that depends on k, nu and the mesh only, and serves every size.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Protocol
 
@@ -16,7 +16,7 @@ import numpy as np
 from scipy import linalg
 
 from fem_reference._elastic.assembly import assemble_half_space
-from fem_reference._elastic.condensation import surface_stiffness
+from fem_reference._elastic.condensation import condensed
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.trace import Trace, trace_of
 from fem_reference._typing import Array
@@ -57,6 +57,10 @@ class Compliance(Protocol):
         """Normal displacement per load vector, shape (m, m), per unit factor."""
         ...
 
+    def rounded(self) -> Compliance:
+        """Return the compliance with the rounding of its condensation added."""
+        ...
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ScalingCompliance:
@@ -66,6 +70,7 @@ class ScalingCompliance:
     matrix: Array
     modulus: PowerLawModulus
     unknowns: int
+    rounding: Array | float = 0.0
 
     def factor(self, c: float) -> float:
         """c^(1-k) c0^k / E0."""
@@ -75,6 +80,10 @@ class ScalingCompliance:
     def factor_slope(self, c: float) -> float:
         """(1 - k) factor / c."""
         return (1.0 - self.modulus.k) * self.factor(c) / c
+
+    def rounded(self) -> ScalingCompliance:
+        """Return the compliance with the rounding of its condensation added."""
+        return replace(self, matrix=self.matrix + self.rounding, rounding=0.0)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -91,6 +100,7 @@ class FixedCompliance:
     matrix: Array
     size: float
     unknowns: int
+    rounding: Array | float = 0.0
 
     def factor(self, c: float) -> float:
         """c, which must be the size of the mesh."""
@@ -102,18 +112,23 @@ class FixedCompliance:
         """Zero: the size cannot change."""
         return 0.0
 
+    def rounded(self) -> FixedCompliance:
+        """Return the compliance with the rounding of its condensation added."""
+        return replace(self, matrix=self.matrix + self.rounding, rounding=0.0)
+
 
 @lru_cache(maxsize=24)
-def _unit_compliance(k: float, nu: float, spec: MeshSpec) -> tuple[Trace, Array, int]:
+def _unit_compliance(k: float, nu: float, spec: MeshSpec) -> tuple[Trace, Array, Array, int]:
     grid = spec.grid()
     half_space = assemble_half_space(grid, PowerLawModulus(1.0, 1.0, k), nu, spec.order)
-    matrix = _inverse(surface_stiffness(half_space))
-    return trace_of(grid, spec.order), matrix, int(half_space.free.size)
+    return trace_of(grid, spec.order), *_inverse(*condensed(half_space)), int(half_space.free.size)
 
 
-def _inverse(S: Array) -> Array:
+def _inverse(S: Array, rounding: Array) -> tuple[Array, Array]:
+    """Inverse of S, and its change under a small change of S."""
     X = linalg.cho_solve(linalg.cho_factor(S), np.eye(S.shape[0]))
-    return 0.5 * (X + X.T)
+    X = 0.5 * (X + X.T)
+    return X, -X @ rounding @ X
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,12 +178,12 @@ def compliance_for(modulus: Modulus, nu: float, spec: MeshSpec, size: float) -> 
         If the stiffness of the mesh is not positive definite.
     """
     if isinstance(modulus, PowerLawModulus):
-        trace, matrix, unknowns = _unit_compliance(modulus.k, nu, spec)
-        return ScalingCompliance(trace, matrix, modulus, unknowns)
+        trace, matrix, rounding, unknowns = _unit_compliance(modulus.k, nu, spec)
+        return ScalingCompliance(trace, matrix, modulus, unknowns, rounding)
     grid = spec.grid()
     half_space = assemble_half_space(grid, scaled_modulus(modulus, size), nu, spec.order)
-    matrix = _inverse(surface_stiffness(half_space))
-    return FixedCompliance(trace_of(grid, spec.order), matrix, size, int(half_space.free.size))
+    matrix, rounding = _inverse(*condensed(half_space))
+    return FixedCompliance(trace_of(grid, spec.order), matrix, size, int(half_space.free.size), rounding)
 
 
 def scaled_modulus(modulus: Modulus, size: float) -> Modulus:

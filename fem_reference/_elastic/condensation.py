@@ -14,7 +14,7 @@ from fem_reference._elastic.assembly import HalfSpace
 from fem_reference._typing import Array, Index
 from fem_reference.errors import NotConverged
 
-__all__ = ["dissection_order", "grid_positions", "surface_stiffness"]
+__all__ = ["condensed", "dissection_order", "grid_positions", "surface_stiffness"]
 
 
 SYMMETRY_TOLERANCE = 1e-7
@@ -106,6 +106,22 @@ def surface_stiffness(half_space: HalfSpace) -> Array:
     NotConverged
         When the matrix is singular or not positive definite.
     """
+    return condensed(half_space)[0]
+
+
+def condensed(half_space: HalfSpace) -> tuple[Array, Array]:
+    """Surface stiffness, and its rounding as far as the two triangles of the factorisation differ.
+
+    Returns
+    -------
+    stiffness, rounding : ndarray, shape (m, m)
+        Both symmetric; rounding is half the difference of the lower and the upper triangle.
+
+    Raises
+    ------
+    NotConverged
+        As `surface_stiffness`.
+    """
     order = dissection_order(half_space)
     m = half_space.surface.size
     matrix = half_space.matrix[order][:, order].tocsc()
@@ -121,6 +137,7 @@ def surface_stiffness(half_space: HalfSpace) -> Array:
     S = factors.L[-m:, -m:].toarray() @ factors.U[-m:, -m:].toarray()
     if np.abs(S - S.T).max() > SYMMETRY_TOLERANCE * np.abs(S).max():
         raise NotConverged("the surface stiffness is not symmetric; the matrix is not positive definite")
+    lower = np.tril(0.5 * (S - S.T) / scale[-m:, None] / scale[-m:])
     S = 0.5 * (S + S.T) / scale[-m:, None] / scale[-m:]
     try:
         linalg.cholesky(S)
@@ -128,4 +145,4 @@ def surface_stiffness(half_space: HalfSpace) -> Array:
         raise NotConverged(
             f"the surface stiffness is not positive definite ({error}); check modulus and mesh"
         ) from error
-    return S
+    return S, lower + lower.T

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from fscm.laws import SurfaceLaw
 
@@ -32,7 +32,7 @@ def root(f: Callable[[float], float], a: float, b: float) -> float:
     >>> root(lambda x: x * x - 2.0, 1.0, 2.0)
     1.41421356237...
     """
-    return float(brentq(f, a, b, xtol=_ROOT_FLOOR, rtol=_ROOT, maxiter=500))
+    return float(scipy.optimize.brentq(f, a, b, xtol=_ROOT_FLOOR, rtol=_ROOT, maxiter=500))
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
-from scipy.integrate import quad
+import scipy
 
 from fscm._threads import one_thread
 from fscm.errors import NoSuchEvent, NotConverged
@@ -307,5 +307,5 @@ _QUANTITIES: dict[str, Callable[[GibsonSolid], Number]] = {
 
 def _integral(f: Callable[[float], float], a: float, b: float) -> Number:
     """Integral and its error by adaptive quadrature; the error replaces its warnings."""
-    value, error, *_ = quad(f, a, b, epsabs=_QUADRATURE, epsrel=_QUADRATURE, limit=200, full_output=1)
+    value, error, *_ = scipy.integrate.quad(f, a, b, epsabs=_QUADRATURE, epsrel=_QUADRATURE, limit=200, full_output=1)
     return float(value), float(error)

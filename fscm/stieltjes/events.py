@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from fscm._threads import one_thread
 from fscm._typing import Array
@@ -98,7 +98,7 @@ def _between(
         raise NotConverged(
             f"between the central gaps {low:g} and {high:g} the path turns more than once: use a smaller gap_step"
         )
-    return at(float(brentq(lambda gap: measure(at(gap)), low, high, xtol=_EVENT_TOLERANCE, rtol=1e-15)))
+    return at(float(scipy.optimize.brentq(lambda gap: measure(at(gap)), low, high, xtol=_EVENT_TOLERANCE, rtol=1e-15)))
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
-from scipy.linalg import lu_factor, lu_solve
-from scipy.optimize import brentq
+import scipy
 
 from fscm._kernel import Psi
 from fscm._threads import one_thread
@@ -172,7 +171,7 @@ class StieltjesScheme:
         high = 1.0
         while excess(high) < 0.0:
             high *= 2.0
-        return float(brentq(excess, 0.0, high, xtol=1e-300, rtol=1e-15))
+        return float(scipy.optimize.brentq(excess, 0.0, high, xtol=1e-300, rtol=1e-15))
 
     @one_thread()
     def solve(self, central_gap: float, start: Array | None = None) -> StieltjesState:
@@ -195,7 +194,9 @@ class StieltjesScheme:
             p, matrix = self._linearised(central_gap, H)
             residual = H - central_gap - self._height - self._front * (_psi_table(self.problem.k, self.segments) @ p)
             # A singular matrix or an overflow shows in the iterate, which is checked.
-            new = H - lu_solve(lu_factor(matrix, check_finite=False), residual, check_finite=False)
+            new = H - scipy.linalg.lu_solve(
+                scipy.linalg.lu_factor(matrix, check_finite=False), residual, check_finite=False
+            )
             if not (np.all(np.isfinite(new)) and new.min() > self.problem.law.singular_gap):
                 break
             change = np.abs(new - H)
@@ -233,7 +234,7 @@ class StieltjesScheme:
         _, matrix = self._linearised(state.central_gap, state.gap)
         # H_0 enters Eq. 34 itself and through the middle of the first segment.
         by_central = 1.0 + 0.5 * self._front * slope[0] * _psi_table(self.problem.k, self.segments)[:, 0]
-        dH = lu_solve(lu_factor(matrix, check_finite=False), by_central, check_finite=False)
+        dH = scipy.linalg.lu_solve(scipy.linalg.lu_factor(matrix, check_finite=False), by_central, check_finite=False)
         dp = slope * self._middle(1.0, dH)
         return CentralGapRates(float(self._w @ dp) - 1.0, float(self._area @ dp))
 

@@ -6,7 +6,7 @@ import math
 import time
 
 import numpy as np
-from scipy.integrate import quad
+import scipy
 
 from fscm._threads import one_thread
 from fscm.problem import Problem
@@ -90,4 +90,4 @@ def _tail(scheme: StieltjesScheme, state: StieltjesState, exponent: float) -> fl
         return float((problem.law.traction(gap) * exponent * r**exponent)[0])
 
     # In log r the integrand decays exponentially; where f has grown by e^60 nothing is left of it.
-    return abs(float(quad(density, 0.0, 60.0 / problem.punch.growth, limit=200)[0]))
+    return abs(float(scipy.integrate.quad(density, 0.0, 60.0 / problem.punch.growth, limit=200)[0]))

@@ -10,8 +10,9 @@ import pytest
 from comparisons.baseline import BASELINE, main, renew
 from comparisons.numerics.bounds import combined
 from comparisons.runs.environment import computing_environment, environment
+from comparisons.runs.frames import curve_frame, frame
 from comparisons.runs.record import read_record, write_record
-from comparisons.runs.rows import Row, curve_frame, frame
+from comparisons.runs.rows import Row
 from comparisons.runs.tables import write_curves, write_results
 
 COMMITTED = Path(__file__).parents[2] / BASELINE

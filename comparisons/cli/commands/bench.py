@@ -18,12 +18,8 @@ QUANTITY, CASE = "pull_off_force", Case(n=2, k=0.4, mu=1)
 _FORMATS = {ACCURATE: ".9g", BASELINE: ".9g", "ratio": ".0f"}
 
 
-def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments: there are none."""
-    parser = parsers.add_parser(
-        "bench", help="measure time, memory and error beside the paper's own scheme", description=__doc__
-    )
-    parser.set_defaults(call=call)
 
 
 def call(args: argparse.Namespace) -> int:

@@ -13,17 +13,13 @@ from comparisons.registry import MODELS
 __all__ = ["add", "call"]
 
 
-def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser(
-        "check-model", help="check that an external model keeps the contract", description=__doc__
-    )
     parser.add_argument(
         "spec",
         metavar="SPEC",
         help="name of an installed model, FILE.py:CLASS, or a folder with a model.toml",
     )
-    parser.set_defaults(call=call)
 
 
 def call(args: argparse.Namespace) -> int:

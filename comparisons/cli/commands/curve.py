@@ -21,11 +21,8 @@ from comparisons.runs.csv_format import csv_text
 __all__ = ["add", "call"]
 
 
-def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser(
-        "curve", help="compute curves or surfaces at pull-off, as CSV and as a plot", description=__doc__
-    )
     parser.add_argument(
         "--model",
         metavar="SPEC",
@@ -39,7 +36,6 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.add_argument("--nu", type=number, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one")
     parser.add_argument("--csv", metavar="FILE", type=Path, help="write the points here; by default to stdout")
     parser.add_argument("--plot", metavar="FILE", type=Path, help="draw the curves here (.png, .pdf or .svg)")
-    parser.set_defaults(call=call)
 
 
 def call(args: argparse.Namespace) -> int:

@@ -31,13 +31,8 @@ _STUDY = {"residual": ".0e", "setup_seconds": ".2f", "solve_seconds": ".2f", "me
 _SHOWN, _SHARE = 2.0, 0.15
 
 
-def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser(
-        "fem",
-        help="write fields of the finite elements (vtu, picture), print their verification and solver tables",
-        description=__doc__,
-    )
     add_case(parser, required=False)
     parser.add_argument("--nu", type=number, default=0.3, help="Poisson's ratio, in [0, 0.5)")
     parser.add_argument(
@@ -51,7 +46,6 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.add_argument("--verify", action="store_true", help="print the checks against exact solutions")
     parser.add_argument("--solver", action="store_true", help="print the table of the linear solvers")
     parser.add_argument("--full", action="store_true", help="all checks and sizes (long)")
-    parser.set_defaults(call=call)
 
 
 def call(args: argparse.Namespace) -> int:

@@ -27,12 +27,10 @@ STATUS = {
 }
 
 
-def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser("judge", help="judge stored results again without computing", description=__doc__)
     parser.add_argument("folder", metavar="DIR", type=Path, help="folder of a finished run")
     parser.add_argument("--gates", metavar="FILE", type=Path, help="judge by these gates, not by those of the run")
-    parser.set_defaults(call=call)
 
 
 def call(args: argparse.Namespace) -> int:

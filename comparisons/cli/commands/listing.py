@@ -18,11 +18,9 @@ from comparisons.runs.cases import TIERS, grids
 __all__ = ["add", "call"]
 
 
-def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser("list", help="list the models, quantities, cases or gates", description=__doc__)
     parser.add_argument("what", choices=_TABLES)
-    parser.set_defaults(call=call)
 
 
 def call(args: argparse.Namespace) -> int:

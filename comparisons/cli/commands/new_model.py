@@ -13,11 +13,9 @@ from comparisons.registry import MODELS
 __all__ = ["add", "call"]
 
 
-def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser("new-model", help="write a template for a model of your own", description=__doc__)
     parser.add_argument("folder", metavar="DIR", type=Path, help="new folder; the model gets its name, e.g. my-model")
-    parser.set_defaults(call=call)
 
 
 def call(args: argparse.Namespace) -> int:

@@ -15,9 +15,8 @@ from comparisons.pipeline.figures import make_figures
 __all__ = ["add", "call"]
 
 
-def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser("paper", help="compute the figures and numbers of the paper again", description=__doc__)
     parser.add_argument(
         "--figure", metavar="N", nargs="+", action="extend", help=f"only these of {', '.join(NAMES)} (default: all)"
     )
@@ -30,7 +29,6 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         help="folder for the files (default: %(default)s); resumed if it has some results",
     )
     add_retry_failed(parser)
-    parser.set_defaults(call=call)
 
 
 def call(args: argparse.Namespace) -> int:

@@ -17,12 +17,10 @@ from comparisons.runs.folder import RunFolder
 __all__ = ["add", "call"]
 
 
-def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser("report", help="write a run as one HTML page", description=__doc__)
     parser.add_argument("folder", metavar="DIR", type=Path, help="folder of a finished run")
     parser.add_argument("--out", metavar="FILE", type=Path, help="the page (default: DIR/report.html)")
-    parser.set_defaults(call=call)
 
 
 def call(args: argparse.Namespace) -> int:

@@ -21,9 +21,8 @@ from comparisons.runs.cases import TIERS
 __all__ = ["add", "call", "print_kappa"]
 
 
-def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser("run", help="compute the standing cases and judge them", description=__doc__)
     parser.add_argument("--tier", choices=TIERS, default=TIERS[0], help="how much to compute (default: %(default)s)")
     parser.add_argument(
         "--model",
@@ -36,7 +35,6 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     add_jobs(parser)
     add_out(parser)
     add_retry_failed(parser)
-    parser.set_defaults(call=call)
 
 
 def call(args: argparse.Namespace) -> int:

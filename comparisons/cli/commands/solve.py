@@ -10,22 +10,19 @@ from comparisons.console.progress import waiting
 from comparisons.numerics.number_text import case_text, short
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
-from comparisons.runs.csv_format import csv_text
-from comparisons.runs.rows import Row, frame
+from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
 __all__ = ["add", "call"]
 
 
-def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser("solve", help="compute one quantity of one problem by one model", description=__doc__)
     parser.add_argument("--model", metavar="SPEC", required=True, help=MODEL_SPEC)
     parser.add_argument("--quantity", metavar="NAME", required=True, help="see: fscm-bench list quantities")
     add_case(parser)
     parser.add_argument("--nu", type=number, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one")
     parser.add_argument("--format", choices=_FORMATS, default="text")
-    parser.set_defaults(call=call)
 
 
 def call(args: argparse.Namespace) -> int:
@@ -62,6 +59,10 @@ def _json(row: Row) -> str:
 
 
 def _csv(row: Row) -> str:
+    # Imported here: the other formats do not need the libraries of tables.
+    from comparisons.runs.csv_format import csv_text
+    from comparisons.runs.frames import frame
+
     return csv_text(frame([row]))
 
 

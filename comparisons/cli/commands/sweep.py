@@ -15,9 +15,8 @@ from comparisons.pipeline.run import run
 __all__ = ["add", "call"]
 
 
-def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser = parsers.add_parser("sweep", help="compute grids of one's own", description=__doc__)
     parser.add_argument(
         "file", metavar="FILE", type=Path, help="[[grid]] tables as in comparisons/data/cases.toml, without a tier"
     )
@@ -31,7 +30,6 @@ def add(parsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     add_jobs(parser)
     add_out(parser)
     add_retry_failed(parser)
-    parser.set_defaults(call=call)
 
 
 def call(args: argparse.Namespace) -> int:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,10 +13,12 @@ from matplotlib.figure import Figure
 from comparisons.output.style import model_styles, styled
 from comparisons.quantities import CurveQuantity, Kind, Points
 
-__all__ = ["draw", "tension_view"]
+__all__ = ["draw", "sections", "tension_view"]
 
 #: Where the load is below this share of the pull-off force, a curve approaches the axis and ends the picture.
 _FAINT = 0.02
+#: Column that a model with a stability analysis adds, and the width of an unstable part.
+_STABLE, _THIN = "stable_under_displacement", 0.7
 
 
 def draw(points: dict[str, Points], quantity: CurveQuantity, title: str) -> Figure:
@@ -41,15 +45,46 @@ def draw(points: dict[str, Points], quantity: CurveQuantity, title: str) -> Figu
         figure = Figure(figsize=(5.0, 3.8), layout="constrained")
         axes = figure.subplots()
         for name, curve in points.items():
-            axes.plot(curve.x, curve.y, label=name, **styles[name].arguments)
+            _plot(axes, name, curve, styles[name].arguments)
         axes.axhline(0, color="0.4", lw=0.8)
         axes.set_xlabel(quantity.x.figure_label)
         axes.set_ylabel(quantity.y.signed_figure_label)
         axes.set_title(title)
         _set_limits(axes, quantity, points)
+        if any(_STABLE in curve.columns for curve in points.values()):
+            axes.plot([], [], color="0.4", lw=_THIN, label="thin: unstable if $\\delta$ is prescribed")
         if points:
             axes.legend()
     return figure
+
+
+def _plot(axes: Axes, name: str, curve: Points, style: dict[str, Any]) -> None:
+    """Draw one curve; the parts that cannot be held at their displacement are thin."""
+    stable = [bool(mark) for mark in curve.columns.get(_STABLE, [True] * len(curve.x))]
+    for held, first, last in sections(stable) or [(True, 0, 0)]:
+        part = slice(first, last + 1)
+        axes.plot(
+            curve.x[part], curve.y[part], label=None if first else name, **style | ({} if held else {"lw": _THIN})
+        )
+
+
+def sections(stable: list[bool]) -> list[tuple[bool, int, int]]:
+    """Return the parts of a curve as (stable, first point, last point); neighbours share a point.
+
+    The points that join two parts, the folds, are marked unstable.
+
+    Examples
+    --------
+    >>> sections([True, True, False, False, False, True])
+    [(True, 0, 2), (False, 2, 4), (True, 4, 5)]
+    """
+    parts: list[tuple[bool, int, int]] = []
+    for i, held in enumerate(a or b for a, b in pairwise(stable)):
+        if parts and parts[-1][0] == held:
+            parts[-1] = (held, parts[-1][1], i + 1)
+        else:
+            parts.append((held, i, i + 1))
+    return parts
 
 
 def _set_limits(axes: Axes, quantity: CurveQuantity, points: dict[str, Points]) -> None:

@@ -14,8 +14,8 @@ from comparisons.judging.decision import Verdict
 from comparisons.judging.judge import Judged
 from comparisons.output.verdicts import GATE_COLUMNS
 from comparisons.runs.folder import RunFolder
+from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
 from comparisons.runs.record import check_files, read_record, warn_of_other_code
-from comparisons.runs.rows import COLUMNS, CURVE_COLUMNS
 from comparisons.runs.tables import read_table
 
 __all__ = ["Stored", "read_folder"]

@@ -242,6 +242,26 @@ def test_as_a_process():
     assert b"1.7000" in done.stdout
 
 
+@pytest.mark.parametrize(
+    ("arguments", "unneeded"),
+    [
+        (["--help"], {"numpy", "rich"}),
+        (["--version"], {"numpy"}),
+        (
+            ["solve", "--model", "jkr", "--quantity", "pull_off_force", *CASE],
+            {"pandas", "pyarrow", "matplotlib", "scipy.optimize", "fem_reference"},
+        ),
+    ],
+)
+def test_a_command_does_not_wait_for_libraries_that_it_does_not_need(arguments, unneeded):
+    program = (
+        f"import sys; from comparisons.cli.main import main; main({arguments!r}); "
+        f"print(sorted({unneeded!r} & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
+
+
 def test_a_reader_that_leaves_is_no_disaster():
     with subprocess.Popen(
         [*PROGRAM, "curve", "--model", "jkr", *CASE], stdout=subprocess.PIPE, stderr=subprocess.PIPE

@@ -18,7 +18,8 @@ from comparisons.judging.judge import judge
 from comparisons.numerics.bounds import combined
 from comparisons.quantities import CURVES as CURVE_QUANTITIES
 from comparisons.runs.cases import VERIFICATION, grids
-from comparisons.runs.rows import Row, curve_frame, frame
+from comparisons.runs.frames import curve_frame, frame
+from comparisons.runs.rows import Row
 from comparisons.runs.tasks import plan
 
 ROOT = Path(__file__).parents[3]

@@ -24,7 +24,7 @@ from comparisons.judging.summary import summarise
 from comparisons.output.verdicts import command
 from comparisons.quantities import CURVES as CURVE_QUANTITIES
 from comparisons.runs.cases import grids
-from comparisons.runs.rows import frame
+from comparisons.runs.frames import frame
 from comparisons.runs.tasks import evaluate_task, plan
 
 GRIDS = grids("quick")

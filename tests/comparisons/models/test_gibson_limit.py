@@ -61,3 +61,19 @@ def test_the_front_is_a_jump_of_the_gap():
     jump = np.diff(surface.gap).argmax()
     assert surface.radius[jump + 1] == pytest.approx(surface.radius[jump], abs=1e-14)
     assert surface.gap[jump + 1] - surface.gap[jump] > 0.5
+
+
+@pytest.mark.parametrize("mu", [0.3, 2.0])
+def test_marks_of_stability(mu: float) -> None:
+    """Under a prescribed load the contact is stable behind pull-off, under a displacement outside of the jump."""
+    curve = gibson_curve(Problem(n=2, k=1, mu=mu))
+    held, under_load = curve.columns["stable_under_displacement"], curve.columns["stable_under_load"]
+    steps = np.diff(curve.displacement)
+    assert bool(held.all()) is (mu < 0.5)
+    inside = (held[1:] > 0) & (held[:-1] > 0)
+    assert np.all(steps[inside] >= 0)
+    assert np.all(held >= under_load)
+    first = int(np.argmax(under_load))
+    assert abs(first - int(np.argmin(curve.load))) <= 1
+    assert np.all(under_load[first:] == 1)
+    assert not under_load[:first].any()

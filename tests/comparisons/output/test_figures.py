@@ -58,6 +58,19 @@ def test_force_curves_are_named():
     assert (first.get_color(), first.get_linestyle()) != (second.get_color(), second.get_linestyle())
 
 
+def test_the_unstable_part_of_a_curve_is_thin():
+    x = np.arange(6.0)
+    marks = {"stable_under_displacement": [1.0, 1.0, 0.0, 0.0, 0.0, 1.0]}
+    points = {"a": Points(x.tolist(), (-x).tolist(), 0.0, marks), "b": Points(x.tolist(), x.tolist(), 0.0)}
+    axes = curves.draw(points, CURVES["force_curve"], "n = 2").axes[0]
+    first, unstable, last, other = axes.get_lines()[:4]
+    assert [line.get_xdata().tolist() for line in (first, unstable, last)] == [[0, 1, 2], [2, 3, 4], [4, 5]]
+    assert unstable.get_linewidth() < first.get_linewidth() == last.get_linewidth() == other.get_linewidth()
+    texts = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert texts[:2] == ["a", "b"]
+    assert "unstable" in texts[2]
+
+
 def test_a_figure_without_rows_is_not_drawn():
     others = errors().assign(model="jkr")
     drawn_stems = [stem for stem, _ in figures_of({"kappa": errors(), "curves": pd.DataFrame()})]

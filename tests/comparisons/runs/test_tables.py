@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 
 from comparisons.runs.atomic_files import atomic, prepare_folder, writable_file, write_json
 from comparisons.runs.csv_format import csv_text, plain_text
-from comparisons.runs.rows import COLUMNS, Row, frame
+from comparisons.runs.frames import COLUMNS, frame
+from comparisons.runs.rows import Row
 from comparisons.runs.tables import write_results
 
 

@@ -14,8 +14,9 @@ from comparisons.judging.gates import gates_text, load_gates
 from comparisons.output.tables import largest, relative_error
 from comparisons.output.verdicts import write_verdicts
 from comparisons.runs.environment import computing_environment, environment
+from comparisons.runs.frames import curve_frame, frame
 from comparisons.runs.record import read_record, write_record
-from comparisons.runs.rows import Row, curve_frame, frame
+from comparisons.runs.rows import Row
 from comparisons.runs.tables import write_curves, write_results, write_table
 
 from .browsing import ARGUMENTS, DESKTOP, PATIENCE, package, programs, show

@@ -1,0 +1,78 @@
+"""Tables of results: one row for each model, quantity and case, with declared column types."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import asdict
+
+import pandas as pd
+import pyarrow as pa
+
+from comparisons.runs.rows import Row
+
+__all__ = ["COLUMNS", "CURVE_COLUMNS", "curve_frame", "frame"]
+
+_TEXT, _REAL, _COUNT = pa.string(), pa.float64(), pa.int64()
+
+#: Column types of the stored table, in order.
+COLUMNS = pa.schema(
+    [
+        ("model", _TEXT),
+        ("model_version", _TEXT),
+        ("quantity", _TEXT),
+        ("n", _REAL),
+        ("k", _REAL),
+        ("mu", _REAL),
+        ("nu", _REAL),
+        ("value", _REAL),
+        ("u_num", _REAL),
+        ("observed_order", _REAL),
+        ("unit", _TEXT),
+        ("status", _TEXT),
+        ("reason", _TEXT),
+        ("size", _COUNT),
+        ("iterations", _COUNT),
+        ("residual", _REAL),
+        ("seconds", _REAL),
+    ]
+)
+
+#: Column types of the stored curves: one row a point, and one row for a curve that there is not.
+CURVE_COLUMNS = pa.schema(
+    [
+        ("model", _TEXT),
+        ("model_version", _TEXT),
+        ("quantity", _TEXT),
+        ("n", _REAL),
+        ("k", _REAL),
+        ("mu", _REAL),
+        ("nu", _REAL),
+        ("point", _COUNT),
+        ("x", _REAL),
+        ("y", _REAL),
+        ("u_distance", _REAL),
+        ("unit", _TEXT),
+        ("status", _TEXT),
+        ("reason", _TEXT),
+        ("seconds", _REAL),
+    ]
+)
+
+_ORDER = ["quantity", "model", "n", "k", "mu", "nu"]
+
+
+def frame(rows: Iterable[Row]) -> pd.DataFrame:
+    """Return the rows as a sorted pandas table with the columns of `COLUMNS`."""
+    table = pa.Table.from_pylist([asdict(row) for row in rows], schema=COLUMNS)
+    return table.to_pandas().sort_values(_ORDER, ignore_index=True)
+
+
+def curve_frame(rows: Iterable[Row]) -> pd.DataFrame:
+    """Return the curves as a sorted pandas table with the columns of `CURVE_COLUMNS`."""
+    records = [
+        asdict(row) | {"point": number, "x": x, "y": y, "u_distance": row.points[2] if row.points else None}
+        for row in rows
+        for number, (x, y) in enumerate(zip(*row.points[:2], strict=True) if row.points else [(None, None)])
+    ]
+    table = pa.Table.from_pylist(records, schema=CURVE_COLUMNS)
+    return table.to_pandas().sort_values([*_ORDER, "point"], ignore_index=True)

@@ -1,0 +1,185 @@
+"""Parts of the error of a quantity, each from a computation that differs in one thing.
+
+The path on the finest mesh finds an event, and only the event is solved again on the others.  No part is taken from
+another method, and none is a factor times another.
+
+* mesh: three densities, and a lower degree at the medium one (`fem_reference._contact.uncertainty`).
+* first layer, interior and exterior, apex: one feature of the coarsest mesh is made coarser, and what that changes is
+  the part.  These features are `density` times a length too (the extent is the same at all densities), and so the
+  error on the finest mesh is smaller.  The elements have a lower degree, whose error is larger as well.
+* edge: the same mesh, with the contact edge half an element further in and out, plus the apex.
+* tail: the displacement that the mesh leaves out, by its first term.
+* algebra: another triangle of the factorisation, another start of Newton's method, another root search.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.events import PathEvents
+from fem_reference._contact.mesh_choice import MeshChoice
+from fem_reference._contact.resolved import ResolvedEvents
+from fem_reference._contact.tail import TailContact
+from fem_reference._contact.uncertainty import Convergence, three_meshes
+from fem_reference._elastic.compliance import FixedCompliance
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._elastic.variants import FEATURES, variant
+
+__all__ = ["PARTS", "Estimate", "EventsOnMeshes", "events_on_meshes"]
+
+PARTS = ("mesh", "first layer", "interior and exterior", "edge", "tail", "algebra")
+"""Names of the parts of a bound."""
+
+FEATURE_DEGREES = 2
+"""Degrees by which the elements of the meshes that differ in one feature are lower: they cost a third of those of the
+full degree, and change by 2 to 100 times as much (measured on the elements alone)."""
+
+ROUNDING = 1e-15
+"""Relative rounding of a quantity itself: a few units of its last place."""
+
+Functional = Callable[[PathEvents | ResolvedEvents], float]
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """Values of a quantity on the three densities, and the parts of the error of the last.
+
+    Attributes
+    ----------
+    values : tuple of float
+        Coarse to fine.
+    convergence : Convergence
+        Of the three densities.
+    parts : mapping of str to float
+        By the names of `PARTS`.
+    """
+
+    values: tuple[float, float, float]
+    convergence: Convergence
+    parts: Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class EventsOnMeshes:
+    """The events of one path, and the same events on other meshes.
+
+    Attributes
+    ----------
+    path : PathEvents
+        On the finest mesh.
+    coarse, medium, lower_degree : ResolvedEvents
+        At the other densities, and at the medium one with a lower degree.
+    base : ResolvedEvents
+        On the coarsest mesh with the lowest degree.
+    features : mapping of str to ResolvedEvents
+        On that mesh with one feature made coarser.
+    placements : tuple of ResolvedEvents
+        On the finest mesh with another placement of the contact edge.
+    tail, rounding : ResolvedEvents
+        On the finest mesh, with the displacement beyond it, and with the rounding of its condensation.
+    ratio : float
+        Refinement ratio of neighbouring densities.
+    """
+
+    path: PathEvents
+    coarse: ResolvedEvents
+    medium: ResolvedEvents
+    lower_degree: ResolvedEvents
+    base: ResolvedEvents
+    features: Mapping[str, ResolvedEvents]
+    placements: tuple[ResolvedEvents, ...]
+    tail: ResolvedEvents
+    rounding: ResolvedEvents
+    ratio: float
+
+    def estimate(self, functional: Functional, declared: float) -> Estimate:
+        """Return the parts of the error of a quantity, given its declared order.
+
+        Raises
+        ------
+        NoSuchEvent
+            If the path has no such event.
+        NotConverged
+            If an event cannot be found on one of the meshes.
+        """
+        fine = functional(self.path)
+        values = functional(self.coarse), functional(self.medium), fine
+        algebra = abs(functional(self.rounding) - fine) + ROUNDING * abs(fine)
+        convergence = three_meshes(values, self.ratio, declared, functional(self.lower_degree), algebra)
+        base = functional(self.base)
+        feature = {name: abs(functional(events) - base) for name, events in self.features.items()}
+        placement = max((abs(functional(events) - fine) for events in self.placements), default=0.0)
+        parts = (
+            convergence.error,
+            feature["first layer"],
+            feature["extent"],
+            placement + feature["apex"],
+            abs(functional(self.tail) - fine),
+            algebra,
+        )
+        return Estimate(values, convergence, dict(zip(PARTS, parts, strict=True)))
+
+
+# The quantities of one problem are requested one after the other, on the meshes of two kinds of events.
+@lru_cache(maxsize=4)
+def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsOnMeshes:
+    """Return the events of a problem on all meshes of an accuracy.
+
+    Parameters
+    ----------
+    choice : MeshChoice
+    spec, size
+        As `fem_reference._contact.mesh_choice.chosen` returns them.
+
+    Raises
+    ------
+    NotConverged
+        If the path on the finest mesh cannot be traced.
+    """
+    _, middle, finest = choice.level.densities
+    medium, fine = replace(spec, density=middle), replace(spec, density=finest)
+    coarse = choice.traced(spec, size).samples[0].branch.contact
+    other = size
+    placements: tuple[float, ...] = (-1.0, 1.0)
+    if isinstance(coarse.compliance, FixedCompliance):
+        # Another placement of the edge needs another mesh here: that of the other degree.
+        r = fine.grid().r
+        other = size * (0.5 + 0.5 * float(r[np.argmin(abs(r - 1.0)) + 1]))
+        placements = ()
+    plain = replace(spec, order=spec.order - FEATURE_DEGREES)
+    middle_contact = choice.contact(medium, size)
+    lower_degree = choice.contact(replace(medium, order=spec.order - 1), other)
+    base = choice.contact(plain, size)
+    features = {feature: choice.contact(variant(plain, feature), size) for feature in FEATURES}
+    # The finest mesh is the last: it is used next.
+    path = choice.traced(fine, size)
+    contact = path.samples[0].branch.contact
+    return EventsOnMeshes(
+        path,
+        ResolvedEvents(path, coarse),
+        ResolvedEvents(path, middle_contact),
+        ResolvedEvents(path, lower_degree),
+        ResolvedEvents(path, base),
+        {feature: ResolvedEvents(path, other_contact) for feature, other_contact in features.items()},
+        tuple(ResolvedEvents(path, contact, placement) for placement in placements),
+        ResolvedEvents(path, _with_tail(contact, choice)),
+        ResolvedEvents(path, _rounded(contact)),
+        math.sqrt(choice.level.densities[0] / finest),
+    )
+
+
+def _with_tail(contact: Contact, choice: MeshChoice) -> Contact:
+    """The contact with the displacement beyond the mesh."""
+    depth_exponent = choice.problem.solid.modulus.depth_exponent
+    return TailContact(contact.punch, contact.law, contact.compliance, depth_exponent)
+
+
+def _rounded(contact: Contact) -> Contact:
+    """The contact with the rounding of its condensation."""
+    return replace(contact, compliance=contact.compliance.rounded())

@@ -1,0 +1,157 @@
+"""Events of a path solved again on another mesh, from the equilibria of that path.
+
+The path on the finest mesh finds each event.  On another mesh a few Newton steps from there find the same event: the
+surface displacement is projected, and the secant method, begun with the slope known on the finest mesh, finds the
+parameter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from scipy import linalg
+
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.controls import Control, EdgeGap, GapRise, Size
+from fem_reference._contact.events import PathEvents, event_energy, excess_of
+from fem_reference._contact.path import Branch, Point
+from fem_reference._elastic.compliance import FixedCompliance
+from fem_reference._typing import Array
+from fem_reference.errors import NotConverged
+
+__all__ = ["ResolvedEvents"]
+
+SECANT_STEPS = 12
+"""Largest number of secant steps; two are usual, from an event that differs by 1e-6."""
+
+SECANT_TOLERANCE = 1e-9
+"""Relative change of the parameter at which the secant method ends: the last step is linear in what is left, 1e-12."""
+
+LARGEST_SHIFT = 0.3
+"""Largest relative change of the parameter, or of the central gap in lengths of the law, in one secant step."""
+
+
+class ResolvedEvents:
+    """The events of a path on another mesh, each solved once.
+
+    Parameters
+    ----------
+    path : PathEvents
+        The complete path on the finest mesh.
+    contact : Contact
+        The same problem on another mesh.
+    placement : float
+        Where the contact edge is put, in halves of the element beyond the node s = 1: with 1 the node s = 1 lies half
+        an element beyond the edge.
+    """
+
+    def __init__(self, path: PathEvents, contact: Contact, placement: float = 0.0) -> None:
+        self._path, self._contact, self._placement = path, contact, placement
+        self._found: dict[str, Point] = {}
+
+    def at(self, event: str) -> Point:
+        """Return the state at an event of the path.
+
+        Raises
+        ------
+        NoSuchEvent
+            If the path has no such point.
+        NotConverged
+            If the event cannot be found on this mesh.
+        """
+        if event not in self._found:
+            original, slope = self._path.anchor(event)
+            level = 0.0
+            if event == "landing":
+                level = self.jump_in.state.displacement
+            elif event == "separated":
+                level = self.jump_out.state.displacement
+            self._found[event] = self._solved(original, slope, excess_of(event, level))
+        return self._found[event]
+
+    @property
+    def pull_off(self) -> Point:
+        """The deepest minimum of the load along the path."""
+        return self.at("pull_off")
+
+    @property
+    def jump_in(self) -> Point:
+        """The first fold on approach."""
+        return self.at("jump_in")
+
+    @property
+    def jump_out(self) -> Point:
+        """The lowest fold."""
+        return self.at("jump_out")
+
+    @property
+    def zero_load(self) -> Point:
+        """The point in contact without load."""
+        return self.at("zero_load")
+
+    @property
+    def jump_in_loss(self) -> float:
+        """Energy lost by the jump into contact."""
+        return event_energy(self.jump_in) - event_energy(self.at("landing"))
+
+    @property
+    def jump_out_loss(self) -> float:
+        """Energy lost by the jump out of contact."""
+        return event_energy(self.jump_out) - event_energy(self.at("separated"))
+
+    def _solved(self, original: Point, slope: float, excess: Callable[[Point], float]) -> Point:
+        """Find the root of `excess` from the point of the path where it vanishes."""
+        branch, parameter, y = _moved(original, self._contact, self._placement)
+        if original.parameter != 0.0 and branch.touching:
+            slope *= original.parameter / parameter
+        unit = abs(parameter) if branch.touching else self._contact.law.length
+        point = branch.solve(parameter, y)
+        value = excess(point)
+        for _ in range(SECANT_STEPS):
+            step = float(np.clip(-value / slope if slope else 0.0, -LARGEST_SHIFT * unit, LARGEST_SHIFT * unit))
+            if step == 0.0:
+                return point
+            following = branch.solve(point.parameter + step, point.predict(point.parameter + step))
+            change = excess(following) - value
+            point, value = following, value + change
+            if abs(step) <= SECANT_TOLERANCE * unit:
+                return point
+            # Below rounding the difference says nothing about the slope.
+            if abs(step) > 1e-6 * unit and change != 0.0:
+                slope = change / step
+        raise NotConverged(
+            f"an event near delta = {original.state.displacement:.6g} was not found on another mesh; take a finer "
+            "accuracy"
+        )
+
+
+def _moved(point: Point, contact: Contact, placement: float) -> tuple[Branch, float, Array]:
+    """Branch, parameter and starting vector on another mesh for a point of the path."""
+    trace, y = point.branch.contact.compliance.trace, point.state.y
+    branch = point.branch
+    c, parameter = point.state.size, point.parameter
+    fixed: Control = branch.fixed
+    if isinstance(contact.compliance, FixedCompliance):
+        c = contact.compliance.size
+        fixed = Size(c)
+    elif placement:
+        s = 1.0 + 0.5 * placement * float(trace.nodes[trace.edge + 1] - 1.0)
+        w = float(trace.evaluate(np.array([s]))[0] @ y[:-2])
+        gap = float(contact.punch.height(np.array(c * s))) - point.state.displacement + w
+        c *= s
+        if isinstance(fixed, EdgeGap):
+            fixed, parameter = EdgeGap(gap), c
+        elif isinstance(fixed, GapRise):
+            fixed = GapRise(gap - point.state.central_gap)
+    return replace(branch, contact=contact, fixed=fixed), parameter, _projected(point, contact, c)
+
+
+def _projected(point: Point, contact: Contact, c: float) -> Array:
+    """Project the surface displacement onto the functions of another mesh of the size c."""
+    trace, target, y = point.branch.contact.compliance.trace, contact.compliance.trace, point.state.y
+    s = np.minimum(target.s * c / point.state.size, trace.extent)
+    root = np.sqrt(target.weight)[:, None]
+    w = linalg.lstsq(root * target.phi, root[:, 0] * (trace.evaluate(s) @ y[:-2]), check_finite=False)[0]
+    return np.concatenate([w, [point.state.displacement, c]])

@@ -1,0 +1,73 @@
+"""Variants of a mesh: one feature made coarser, every other node kept.
+
+The difference between a mesh and its variant is then due to that feature alone.  Whatever its error falls with, it is
+at least halved from the variant to the mesh if it is at least linear, so that the difference bounds it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from fem_reference._elastic.mesh import Grid, MeshSpec
+from fem_reference._typing import Array
+
+__all__ = ["FEATURES", "VariantSpec", "variant"]
+
+FEATURES = ("first layer", "extent", "apex")
+"""What a variant makes coarser: the first layer takes in the second, the mesh ends earlier, or the innermost element
+takes in its neighbour."""
+
+SHRINKAGE = 2.0
+"""Smallest ratio of the extent to that of a variant."""
+
+CLEARANCE = 1.5
+"""Smallest ratio of the last depth to the one before it, where a mesh has been shortened."""
+
+
+@dataclass(frozen=True, slots=True)
+class VariantSpec(MeshSpec):
+    """A mesh with one feature of `FEATURES` made coarser, hashable."""
+
+    feature: str = ""
+
+    def grid(self) -> Grid:
+        """Return the grid with its edge at s = 1."""
+        grid = MeshSpec.grid(self)
+        if self.feature == "first layer":
+            return Grid(grid.r, np.delete(grid.z, 1))
+        if self.feature == "apex":
+            return Grid(np.delete(grid.r, 1), grid.z)
+        r = grid.r[grid.r <= grid.extent / SHRINKAGE * (1.0 + 1e-12)]
+        return Grid(r, _shortened(grid.z, float(r[-1])))
+
+
+def _shortened(nodes: Array, end: float) -> Array:
+    """Nodes up to a new end."""
+    return np.append(nodes[nodes * CLEARANCE <= end], end)
+
+
+def variant(spec: MeshSpec, feature: str) -> VariantSpec:
+    """Return a mesh with one feature made coarser.
+
+    Parameters
+    ----------
+    spec : MeshSpec
+    feature : str
+        One of `FEATURES`.
+
+    Raises
+    ------
+    ValueError
+        For an unknown feature.
+
+    Examples
+    --------
+    >>> spec = MeshSpec(0.1, 0.05, 100.0, 0.5, 4)
+    >>> bool(variant(spec, "first layer").grid().z[1] == spec.grid().z[2])
+    True
+    """
+    if feature not in FEATURES:
+        raise ValueError(f"feature {feature!r} of a mesh is unknown; choose one of {', '.join(FEATURES)}")
+    return VariantSpec(**{field.name: getattr(spec, field.name) for field in fields(MeshSpec)}, feature=feature)

@@ -1,0 +1,159 @@
+r"""Stability of an equilibrium state under prescribed displacement and under prescribed load.
+
+The surface may move by v(r) cos(m theta) and, under prescribed load, the punch by e along its axis; the punch cannot
+tilt or shift.  With the elastic stiffness K_m^{-1} (K_m: the ring response of `fscm._azimuthal_kernel`) the second
+variation of the energy is
+
+    int v K_m^{-1} v  -  int p'(H) (v - e)^2,        e = 0 unless m = 0 and the load is prescribed.
+
+*Prescribed displacement.*  p' > 0 beyond the gap of largest tension, where the attraction grows as the gap closes:
+only there the surface loses energy.  The part of the other terms that it cancels at most is the largest eigenvalue
+of (1 + K_m p'_-)^{-1} K_m p'_+ , p' = p'_+ - p'_-; the margin is 1 less this part, positive when the state is stable.
+
+*Prescribed load.*  If the surface follows, the energy is U(delta) - P delta, so that the load adds one unstable
+direction when dP/d(delta) < 0.  A state is stable if it is so under prescribed displacement and dP/d(delta) > 0.
+
+*m > 0.*  K_m^{-1} is a fractional power (1-k)/2 of the Laplacian, whose heat kernel in the sector m is positive and
+falls with m.  By Trotter's formula so does that of K_m^{-1} - p'(H(r)): the margin rises with m, and no state that is
+stable for m = 0 is unstable for another m, whatever the law, the punch and the gradient.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import LinAlgError, lu_factor, lu_solve
+from scipy.sparse.linalg import ArpackError, LinearOperator, eigs
+
+from fscm._arc_length import Point, rates_of
+from fscm._azimuthal_kernel import azimuthal_kernel
+from fscm._deformation import response_matrix
+from fscm._equilibrium import State
+from fscm._typing import Array
+from fscm.errors import NotConverged
+
+__all__ = ["Stability", "margins", "stability_of", "stable_sections"]
+
+# Modes cos(m theta) of a state.
+MODES = (0, 1, 2, 3, 4)
+# Largest number of unstable directions that is told apart at the first state of a path.
+_MOST = 6
+
+
+@dataclass(frozen=True)
+class Stability:
+    """Stability of a state.
+
+    Attributes
+    ----------
+    margins : tuple of float
+        For m = 0, ..., 4 the smallest second variation of the energy under prescribed displacement, as a part of its
+        stiffening terms: at most 1, 0 at a fold of the displacement, negative when the state is unstable.
+    stiffness : float
+        dP/d(delta) along the path, dimensionless.
+
+    Examples
+    --------
+    >>> from fscm import Problem, equilibria
+    >>> for state in equilibria(Problem(n=2, k=0, mu=1.0), "load", -1.5):
+    ...     print(round(state.displacement, 2), state.stable_under_displacement, state.stable_under_load)
+    -1.48 True False
+    -0.07 True True
+    """
+
+    margins: tuple[float, ...]
+    stiffness: float
+
+    @property
+    def under_displacement(self) -> bool:
+        """Whether the state is stable when the displacement is prescribed."""
+        return min(self.margins) > 0.0
+
+    @property
+    def under_load(self) -> bool:
+        """Whether the state is stable when the load is prescribed."""
+        return self.under_displacement and self.stiffness > 0.0
+
+
+def margins(state: State, m: int, count: int = 1) -> Array:
+    """The `count` smallest margins of a state for cos(m theta), ascending.
+
+    Parameters
+    ----------
+    state : State
+    m : int
+        Number of waves around the axis, >= 0.
+    count : int
+
+    Raises
+    ------
+    NotConverged
+        When the eigenvalues are not found.
+    """
+    d = state.disc
+    slope = d.problem.law.slope(state.gap)
+    attracted = slope > 0.0
+    response = d.matrix if m == 0 else response_matrix(azimuthal_kernel(d.problem.k, m), d.mesh)
+    K = d.stiffness_scale(state.scale) * response
+    size = int(np.count_nonzero(attracted))
+    try:
+        stiffened = np.eye(len(slope)) + K * np.maximum(-slope, 0.0)
+        reduced = lu_solve(lu_factor(stiffened), K[:, attracted] * slope[attracted])[attracted]
+        if size <= count + 1:
+            values = np.linalg.eigvals(reduced)
+        else:
+            operator = LinearOperator((size, size), matvec=lambda x: reduced @ x, dtype=float)
+            values = eigs(operator, k=count, which="LM", v0=np.ones(size), return_eigenvectors=False)
+    except (LinAlgError, ArpackError) as error:
+        raise NotConverged(
+            f"the stability of the state at H_0 = {state.central_gap:.6g} was not found: {error}"
+        ) from error
+    return np.sort(1.0 - values.real)[:count]
+
+
+def stability_of(state: State) -> Stability:
+    """Stability of an equilibrium state against cos(m theta), m = 0, ..., 4.
+
+    Parameters
+    ----------
+    state : State
+
+    Raises
+    ------
+    NotConverged
+    """
+    rates = rates_of(state)
+    stiffness = rates.load / rates.displacement if rates.displacement else np.inf
+    return Stability(tuple(float(margins(state, m)[0]) for m in MODES), float(stiffness))
+
+
+def stable_sections(first: Point, folds: Sequence[str]) -> list[tuple[bool, bool]]:
+    """Whether the sections of a path between its folds are stable, under displacement and under load.
+
+    Unstable directions are counted at the first state.  From section to section dP/d(delta) changes its sign.  The
+    unstable directions under prescribed load are those under prescribed displacement and one more where
+    dP/d(delta) < 0; a fold of the displacement does not change the former, and a fold of the load not the latter.
+
+    Parameters
+    ----------
+    first : Point
+        Of the path.
+    folds : sequence of str
+        "displacement" or "load", in the order of the path.
+
+    Returns
+    -------
+    list of (bool, bool)
+        One pair more than folds.
+    """
+    unstable = int(np.count_nonzero(margins(first.state, 0, _MOST) <= 0.0))
+    rising = first.rates.load * first.rates.displacement > 0.0
+    sections = [(unstable == 0, unstable == 0 and rising)]
+    for fold in folds:
+        if fold == "displacement":
+            unstable += -1 if rising else 1
+        rising = not rising
+        sections.append((unstable == 0, unstable == 0 and rising))
+    return sections

@@ -1,0 +1,230 @@
+"""Parts of the bound: they add up, each responds to its cause, none is taken from another method."""
+
+import math
+import re
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import fem_reference
+from fem_reference import (
+    CustomModulus,
+    CustomSolid,
+    LennardJones,
+    NotConverged,
+    PowerPunch,
+    Problem,
+    Solid,
+    Solution,
+    solve,
+    solve_together,
+)
+from fem_reference._contact import error_parts
+from fem_reference._contact.error_parts import PARTS, events_on_meshes
+from fem_reference._contact.mesh_choice import chosen
+from fem_reference._contact.resolved import ResolvedEvents
+from fem_reference._contact.tail import TailContact
+from fem_reference._elastic.compliance import ScalingCompliance
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._elastic.variants import FEATURES, variant
+from fem_reference.quantities import TABLE
+from fem_reference.verification.reference_solutions import surface_constant
+
+
+def _coated(z):
+    return 1.0 + 10.0 * np.exp(-z / 2.0)
+
+
+SPEC = MeshSpec(0.0625, 0.01, 64.0, 1.4, 4, 0.05)
+
+
+def _problem(k, mu, n=2.0, nu=0.3):
+    E_star = surface_constant(k, nu) / (1 - k) / mu ** ((2 * n + k - 1) / n)
+    return Problem(Solid(E_star * (1 - nu**2), 1.0, k, nu), PowerPunch(n, 1.0), LennardJones(1.0, 1.0))
+
+
+PROBLEM = _problem(0.3, 1.2)
+
+
+@lru_cache(maxsize=1)
+def _meshes():
+    return events_on_meshes(*chosen(PROBLEM, ("zero_load", "landing"), "quick"))
+
+
+@lru_cache(maxsize=1)
+def _found():
+    return solve_together(PROBLEM, ("hysteresis_energy", *TABLE), "quick")
+
+
+def _contact(spec, problem=PROBLEM):
+    choice, _, size = chosen(problem, ("pull_off",), "quick")
+    return choice.contact(spec, size)
+
+
+@pytest.mark.parametrize("quantity", TABLE)
+def test_parts_add_up(quantity):
+    solution = _found()[quantity]
+    assert tuple(solution.parts) == PARTS
+    assert all(0.0 <= part < math.inf for part in solution.parts.values())
+    assert math.fsum(solution.parts.values()) == pytest.approx(solution.u_num, rel=1e-12)
+    assert solution.u_num > 0.0
+
+
+@pytest.mark.parametrize("quantity", TABLE)
+def test_bound_covers_the_error_against_a_finer_mesh(quantity):
+    """The finer mesh has another degree, and every feature is finer too."""
+    meshes = _meshes()
+    spec = chosen(PROBLEM, ("zero_load", "landing"), "quick")[1]
+    finer = replace(spec, order=7, density=0.7, surface_depth=spec.surface_depth / 4, extent=4 * spec.extent)
+    reference = TABLE[quantity].functional(ResolvedEvents(meshes.path, _contact(finer)))
+    solution = _found()[quantity]
+    assert abs(solution.value - reference) <= solution.u_num
+
+
+def test_added_part_is_added_to_the_bound():
+    solution = Solution(1.0, 3e-9, 100, 3, 0.0, 0.1, 6.0, 6.0, (1.0, 0.8, 0.6), (1.0, 1.0, 1.0), {"mesh": 3e-9})
+    more = solution.with_part("algebra", 1e-9).with_part("algebra", 1e-9).with_part("mesh", 5e-9)
+    assert more.parts == {"mesh": 8e-9, "algebra": 2e-9}
+    assert more.u_num == pytest.approx(math.fsum(more.parts.values()))
+    assert solution.parts == {"mesh": 3e-9}
+    for error in (-1e-9, math.nan, math.inf):
+        with pytest.raises(ValueError, match="outside"):
+            solution.with_part("algebra", error)
+
+
+@pytest.mark.parametrize(
+    ("part", "change"),
+    [
+        ("first layer", {"surface_depth": 16.0}),
+        ("interior and exterior", {"extent": 1 / 16}),
+        ("edge", {"edge_width": 4.0}),
+        ("tail", {"extent": 1 / 16}),
+    ],
+)
+def test_a_part_responds_to_its_cause(part, change):
+    """A mesh that is worse in one feature has a larger part of that name."""
+    choice, spec, size = chosen(PROBLEM, ("pull_off",), "quick")
+    worse = replace(spec, **{name: factor * getattr(spec, name) for name, factor in change.items()})
+    good, bad = (
+        events_on_meshes(choice, mesh, size).estimate(TABLE["jump_in_displacement"].functional, 6.0).parts[part]
+        for mesh in (spec, worse)
+    )
+    assert bad > 3.0 * good
+
+
+def test_mesh_part_falls_with_the_accuracy():
+    parts = [solve(_problem(0.0, 0.3), "pull_off_force", accuracy).parts["mesh"] for accuracy in ("quick", "default")]
+    assert 0.0 < parts[1] < 0.3 * parts[0]
+
+
+def test_a_coated_solid_on_a_larger_interior_stays_within_its_part():
+    """E = 1 + 10 exp(-z/2): how far the mesh reaches decides the displacement, and only a longer mesh shows it."""
+    solid = CustomSolid(CustomModulus(_coated, 0.0, 0.0, surface_depth=2.0), 0.3)
+    problem = Problem(solid, PowerPunch(5.0, 1.0), LennardJones(1.0, 1.0))
+    solution = solve(problem, "pull_off_displacement", "quick")
+    choice, spec, size = chosen(problem, ("pull_off",), "quick")
+    larger = replace(spec, density=choice.level.densities[-1], extent=4.0 * spec.extent)
+    reference = ResolvedEvents(events_on_meshes(choice, spec, size).path, choice.contact(larger, size)).pull_off
+    change = abs(reference.state.displacement - solution.value)
+    mesh = solution.parts["mesh"] + solution.parts["first layer"]
+    assert change <= solution.parts["interior and exterior"] + mesh
+    assert solution.u_num < 1e-3
+
+
+def test_apex_part_responds_to_a_tip():
+    """A cone has a singular stress at r = 0, a paraboloid has none."""
+    edge = {n: solve(_problem(0.0, 1.5, n=n), "jump_out_gap", "quick").parts["edge"] for n in (1.0, 2.0)}
+    assert edge[1.0] > 100.0 * edge[2.0]
+
+
+def test_algebra_part_responds_to_rounding(monkeypatch):
+    meshes = _meshes()
+    contact = meshes.path.samples[0].branch.contact
+    matrix = contact.compliance.matrix
+    monkeypatch.setattr(
+        ScalingCompliance, "rounded", lambda self: replace(self, matrix=self.matrix * (1 + 1e-6), rounding=0.0)
+    )
+    worse = replace(meshes, rounding=ResolvedEvents(meshes.path, error_parts._rounded(contact)))
+    functional = TABLE["pull_off_displacement"].functional
+    small, large = (each.estimate(functional, 6.0).parts["algebra"] for each in (meshes, worse))
+    assert small < 1e-10
+    assert large > 1e-8
+    assert contact.compliance.matrix is matrix
+
+
+def test_condensation_shows_its_rounding():
+    """The two triangles of the factorisation differ by rounding, and the inverse of either is the compliance."""
+    compliance = _contact(SPEC).compliance
+    change = compliance.rounded().matrix - compliance.matrix
+    largest = np.abs(compliance.matrix).max()
+    assert 0.0 < np.abs(change).max() < 1e-9 * largest
+    assert change == pytest.approx(change.T, abs=1e-15 * largest)
+
+
+def test_tail_is_that_of_a_longer_mesh():
+    """What the mesh leaves out is found again on one that ends much farther away."""
+    problem = _problem(0.2, 0.5, n=1.2)
+    choice, spec, size = chosen(problem, ("pull_off",), "quick")
+    meshes = events_on_meshes(choice, spec, size)
+    functional = TABLE["pull_off_displacement"].functional
+    short = replace(spec, extent=64.0)
+    near, far = (choice.contact(mesh, size) for mesh in (short, spec))
+    tail = TailContact(near.punch, near.law, near.compliance, 0.2)
+    plain, corrected, complete = (functional(ResolvedEvents(meshes.path, c)) for c in (near, tail, far))
+    assert abs(plain - complete) > 1e-6
+    assert abs(corrected - complete) < 0.2 * abs(plain - complete)
+
+
+def test_tail_has_the_derivative_of_its_load():
+    plain = _contact(replace(SPEC, extent=16.0))
+    contact = TailContact(plain.punch, plain.law, plain.compliance, 0.3)
+    y = np.concatenate([np.full(contact.unknowns, 0.1), [-0.5, 1.5]])
+    h = 1e-6
+    for index in (0, int(contact.compliance.trace.nodes.size) - 1, -2, -1):
+        step = np.zeros(y.size)
+        step[index] = h
+        slope = (contact.load(y + step) - contact.load(y - step)) / (2 * h)
+        assert contact.load_gradient(y)[index] == pytest.approx(slope, rel=1e-6, abs=1e-9)
+
+
+@pytest.mark.parametrize("feature", FEATURES)
+def test_variant_changes_one_feature(feature):
+    plain, other = SPEC.grid(), variant(SPEC, feature).grid()
+    assert hash(variant(SPEC, feature)) != hash(SPEC)
+    if feature == "extent":
+        assert 2.0 <= plain.extent / other.extent < 16.0
+        assert np.isin(other.r, plain.r).all()
+        assert np.isin(other.z[:-1], plain.z).all()
+    else:
+        kept, changed = ("r", "z") if feature == "first layer" else ("z", "r")
+        assert np.array_equal(getattr(plain, kept), getattr(other, kept))
+        assert np.array_equal(np.delete(getattr(plain, changed), 1), getattr(other, changed))
+    with pytest.raises(ValueError, match="choose one of"):
+        variant(SPEC, "edge")
+
+
+def test_placement_moves_the_edge_over_the_mesh():
+    meshes = _meshes()
+    inward, outward = (events.pull_off for events in meshes.placements)
+    plain = meshes.path.pull_off
+    assert inward.state.size < plain.state.size < outward.state.size
+    for moved in (inward, outward):
+        assert moved.state.load == pytest.approx(plain.state.load, rel=1e-6)
+
+
+def test_event_that_another_mesh_does_not_have_is_refused():
+    """Here the load of the other problem has no point without load near that of the path."""
+    meshes = _meshes()
+    contact = meshes.path.samples[0].branch.contact
+    stiffer = replace(contact, compliance=replace(contact.compliance, matrix=1e-3 * contact.compliance.matrix))
+    with pytest.raises(NotConverged):
+        ResolvedEvents(meshes.path, stiffer).at("jump_in")
+
+
+def test_no_constant_is_taken_from_the_other_method():
+    """The package names the integral equation nowhere but in the rule of its independence."""
+    for path in Path(fem_reference.__file__).parent.rglob("*.py"):
+        assert not re.search(r"integral equation|\bfscm\b|FSCM", path.read_text(encoding="utf-8")), path.name
