@@ -2,8 +2,8 @@
 
 Physical quantities in any consistent units: a half-space with Young's modulus E(z) and Poisson ratio nu, a
 rigid punch f(r), a surface law p(H).  The solid is meshed with high-order elements and closed by the exact
-stiffness of the infinite exterior, condensed to its surface, and brought into equilibrium with the surface
-law.
+stiffness of the infinite exterior.  Condensed to its surface it follows the path of equilibria; at an event every
+displacement of the mesh is solved with pyamg.
 """
 
 from fem_reference.accuracy import ACCURACIES
@@ -16,7 +16,6 @@ from fem_reference.quantities import LOSSES, QUANTITIES
 from fem_reference.solid import CustomSolid, Solid
 from fem_reference.solution import Solution, solve, solve_together
 from fem_reference.states import EVENTS, EquilibriumPath, RadialField, event_state, profile, trace
-from fem_reference.uncondensed import solve_uncondensed
 
 #: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
 LAYERS = (
@@ -24,7 +23,7 @@ LAYERS = (
     ("_elastic",),
     ("_linear",),
     ("_contact",),
-    ("quantities", "solution", "states", "export", "uncondensed"),
+    ("quantities", "solution", "states", "export"),
     ("verification",),
 )
 
@@ -54,6 +53,5 @@ __all__ = [
     "profile",
     "solve",
     "solve_together",
-    "solve_uncondensed",
     "trace",
 ]

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
 from fem_reference._contact.mesh_choice import chosen
+from fem_reference._contact.uncondensed import UncondensedValue, uncondensed_events
 from fem_reference._threads import one_thread
 from fem_reference.accuracy import Level
 from fem_reference.errors import NoSuchEvent
@@ -29,9 +30,9 @@ class Solution:
     size : int
         Unknowns of the finest finite-element mesh.
     iterations : int
-        Newton steps along the path on the finest mesh.
+        Conjugate-gradient iterations with pyamg for all displacements of the finest mesh at the events.
     residual : float
-        Residual of the equilibrium at the event, in lengths of the surface law.
+        Residual of the whole nonlinear system there, relative to the traction.
     seconds : float
         Wall-clock time of everything.
     observed_order : float
@@ -39,11 +40,12 @@ class Solution:
     declared_order : float
         Order beyond which the observed one is not used: that of the quantity, or else of the elements.
     densities, values : tuple of float
-        The meshes, coarse to fine, and the quantity on each.
+        The meshes, coarse to fine, and the quantity on each from its condensed system.
     parts : mapping of str to float
         Causes of the error and the share of each in `u_num`: "mesh" (density and degree), "first layer", "interior and
         exterior" (extent of the mesh), "edge" (placement of the contact edge, size of the elements at the apex), "tail"
-        (displacement that the mesh leaves out) and "algebra" (rounding).
+        (displacement that the mesh leaves out) and "algebra" (rounding,
+        the distance of `value` from the condensed one, and what conjugate gradients leave).
     """
 
     value: float
@@ -83,6 +85,11 @@ class Solution:
             raise ValueError(f"error {error} of the part {name!r} is outside [0, inf): it is added to a bound")
         parts = {**self.parts, name: self.parts.get(name, 0.0) + error}
         return replace(self, u_num=self.u_num + error, parts=parts)
+
+    def with_whole_system(self, whole: UncondensedValue) -> Solution:
+        """Return the solution with the value of the whole system, whose algebraic error is added to the bound."""
+        added = self.with_part("algebra", whole.algebra)
+        return replace(added, value=whole.value, iterations=whole.iterations, residual=whole.residual)
 
 
 def solve(problem: Problem, quantity: str, accuracy: float | str = "default") -> Solution:
@@ -179,24 +186,31 @@ def solve_together(
         for name, row in rows.items():
             if name not in found:
                 try:
-                    found[name] = _solution(row, meshes, choice.level, begin)
+                    found[name] = _solution(row, meshes, choice.level)
                 except NoSuchEvent as reason:
                     found[name] = reason.with_traceback(None)
+        # All events of the whole system are columns of one linear system.
+        events = uncondensed_events(choice, replace(spec, density=choice.level.densities[-1]), size)
+        solved = {name: solution for name, solution in found.items() if isinstance(solution, Solution)}
+        events.prepare(rows[name].functional for name in solved)
+        seconds = time.perf_counter() - begin
+        for name, solution in solved.items():
+            whole = events.value(rows[name].functional)
+            found[name] = replace(solution.with_whole_system(whole), seconds=seconds)
     return {name: found[name] for name in rows}
 
 
-def _solution(row: Quantity, meshes: EventsOnMeshes, level: Level, begin: float) -> Solution:
-    """Evaluate a quantity on all meshes."""
+def _solution(row: Quantity, meshes: EventsOnMeshes, level: Level) -> Solution:
+    """Evaluate a quantity on the condensed system of all meshes."""
     declared = row.order or level.order
     estimate = meshes.estimate(row.functional, declared)
-    point = meshes.path.at(row.events[0])
     return Solution(
         estimate.values[-1],
         math.fsum(estimate.parts.values()),
-        point.branch.contact.compliance.unknowns,
-        sum(p.state.iterations for p in meshes.path.points),
-        point.state.residual,
-        time.perf_counter() - begin,
+        meshes.path.at(row.events[0]).branch.contact.compliance.unknowns,
+        0,
+        0.0,
+        0.0,
         estimate.convergence.observed_order,
         float(declared),
         level.densities,

@@ -1,4 +1,7 @@
-"""States of a contact problem on the finest mesh: the equilibrium path, one event, and the surface there."""
+"""States of a contact problem on the finest mesh: the equilibrium path, one event, and the surface there.
+
+The path is that of the condensed system.  An event and the surface there are those of the whole system (pyamg).
+"""
 
 from __future__ import annotations
 
@@ -6,9 +9,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fem_reference._contact.events import EVENTS, PathEvents
-from fem_reference._contact.mesh_choice import chosen
+from fem_reference._contact.events import EVENTS
+from fem_reference._contact.mesh_choice import MeshChoice, chosen
 from fem_reference._contact.path import Point
+from fem_reference._contact.uncondensed import uncondensed_events
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._threads import one_thread
 from fem_reference._typing import Array
@@ -90,7 +94,8 @@ def trace(problem: Problem, accuracy: float | str = "default") -> EquilibriumPat
     (True, -6.22)
     """
     with one_thread:
-        points = _finest(problem, "zero_load", accuracy)[1].points
+        choice, spec, size = _finest(problem, "zero_load", accuracy)
+        points = choice.traced(spec, size).points
         return EquilibriumPath(
             np.array([p.state.displacement for p in points]),
             np.array([p.state.load for p in points]),
@@ -136,8 +141,8 @@ def event_state(problem: Problem, event: str = "pull_off", accuracy: float | str
     if event not in EVENTS:
         raise ValueError(f"event {event!r} is unknown; choose one of {', '.join(EVENTS)}")
     with one_thread:
-        spec, path = _finest(problem, event, accuracy)
-        return spec, path.at(event)
+        choice, spec, size = _finest(problem, event, accuracy)
+        return spec, uncondensed_events(choice, spec, size).at(event)
 
 
 def profile(
@@ -191,8 +196,7 @@ def profile(
         return RadialField(s * y[-1], gap, pressure, w, point.state.displacement, point.state.load)
 
 
-def _finest(problem: Problem, event: str, accuracy: float | str) -> tuple[MeshSpec, PathEvents]:
-    """Return the finest mesh for an event, and the path on it."""
+def _finest(problem: Problem, event: str, accuracy: float | str) -> tuple[MeshChoice, MeshSpec, float]:
+    """Return the finest mesh for an event, as `fem_reference._contact.mesh_choice.chosen` returns the coarsest."""
     choice, spec, size = chosen(problem, (event,), accuracy)
-    spec = replace(spec, density=choice.level.densities[-1])
-    return spec, choice.traced(spec, size)
+    return choice, replace(spec, density=choice.level.densities[-1]), size

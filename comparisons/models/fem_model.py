@@ -56,7 +56,7 @@ class FiniteElements:
 
     name: ClassVar[str] = "fem"
     version: ClassVar[str] = "1"
-    citation: ClassVar[str] = "This package: axisymmetric elements on the graded half-space, condensed to its surface"
+    citation: ClassVar[str] = "This package: axisymmetric elements on the graded half-space, solved with pyamg"
     domain: ClassVar[str] = "n >= 1, 0 <= k <= 0.9, 0 <= nu < 0.5; power-law punch and 9-3 law"
 
     def __init__(self, poisson_ratio: float = 0.3) -> None:
@@ -72,7 +72,7 @@ class FiniteElements:
         return result_of(_audited(solution), unit=physical.scales[QUANTITIES[quantity].scale])
 
     def curve(self, problem: Problem) -> Curve:
-        """Return the equilibrium path from far away into compression."""
+        """Return the equilibrium path from far away into compression, on the condensed surface."""
         physical, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             coarse, path = (fem_reference.trace(body, level) for level in _LEVELS)

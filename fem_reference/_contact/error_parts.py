@@ -9,7 +9,8 @@ another method, and none is a factor times another.
   error on the finest mesh is smaller.  The elements have a lower degree, whose error is larger as well.
 * edge: the same mesh, with the contact edge half an element further in and out, plus the apex.
 * tail: the displacement that the mesh leaves out, by its first term.
-* algebra: another triangle of the factorisation, another start of Newton's method, another root search.
+* algebra: another triangle of the factorisation, another start of Newton's method, another root search.  The whole
+  system (`fem_reference._contact.uncondensed`) adds its own.
 """
 
 from __future__ import annotations

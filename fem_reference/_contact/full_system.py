@@ -14,9 +14,10 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import LinearOperator
 from skfem import BilinearForm, FacetBasis, LinearForm
+from skfem.mapping import MappingIsoparametric
 
 from fem_reference._elastic.assembly import HalfSpace
-from fem_reference._linear.linear_solver import TOLERANCE, solve_cg
+from fem_reference._linear.linear_solver import relative_residual, solve_cg
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._typing import Array
 from fem_reference.laws import SurfaceLaw
@@ -35,6 +36,22 @@ def _pressure_change(u: Any, v: Any, w: Any) -> Any:
     return w.change * w.x[0] * u * v
 
 
+class _RectangleMapping(MappingIsoparametric):
+    """Map of rectangles whose inverse is a division.
+
+    scikit-fem inverts by Newton's method to 1e-12 of an element, which is below rounding where an element has a
+    millionth of its radius.
+    """
+
+    def invF(self, x: Array, tind: Any = None, *_: Any, **__: Any) -> Array:
+        """Reference coordinates of points in their elements."""
+        t = self.mesh.t if tind is None else self.mesh.t[:, tind]
+        corner, first, _, second = self.mesh.p[:, t].transpose(1, 0, 2)
+        sides = np.stack([first - corner, second - corner])
+        along = np.einsum("kij,ijq->kjq", sides, x - corner[:, :, None])
+        return np.clip(along / np.einsum("kij,kij->kj", sides, sides)[:, :, None], 0.0, 1.0)
+
+
 class FullSystem:
     """Punch, surface law and the whole meshed half-space.
 
@@ -46,16 +63,27 @@ class FullSystem:
         Shape.
     law : SurfaceLaw
         Surface law.
+    preconditioner : ElasticPreconditioner, optional
+        Of this half-space; built when absent.
     """
 
-    def __init__(self, half_space: HalfSpace, punch: Punch, law: SurfaceLaw) -> None:
+    def __init__(
+        self,
+        half_space: HalfSpace,
+        punch: Punch,
+        law: SurfaceLaw,
+        preconditioner: ElasticPreconditioner | None = None,
+    ) -> None:
         self.half_space, self.punch, self.law = half_space, punch, law
-        self.preconditioner = ElasticPreconditioner(half_space)
+        self.preconditioner = ElasticPreconditioner(half_space) if preconditioner is None else preconditioner
         basis = half_space.basis
         mesh = basis.mesh
+        straight = mesh.mapping()
+        mapping = _RectangleMapping(mesh, straight.elem, straight.bndelem)
         x, w = np.polynomial.legendre.leggauss(2 * half_space.body.order + 2)
         top = np.flatnonzero((mesh.p[1][mesh.facets] == 0).all(axis=0))
-        self.facets = FacetBasis(mesh, basis.elem, facets=top, quadrature=((0.5 * (x + 1.0))[None, :], 0.5 * w))
+        rule = (0.5 * (x + 1.0))[None, :], 0.5 * w
+        self.facets = FacetBasis(mesh, basis.elem, mapping, facets=top, quadrature=rule)
         self.s: Array = np.asarray(self.facets.global_coordinates())[0]
 
     def gap(self, u: Array, delta: float, c: float) -> Array:
@@ -82,11 +110,37 @@ class FullSystem:
             reduced.append(self.preconditioner.scale * full_vector[free])
         return reduced[0], (D @ full[free][:, free] @ D).tocsr(), reduced[1], reduced[2]
 
-    def under_pressure(self, pressure: Array, factor: float, tolerance: float = TOLERANCE) -> Array:
-        """Return the displacement under a pressure at the facet Gauss points, to start Newton from."""
+    def vector(self, pressure: Array) -> Array:
+        """Return the load vector of a pressure at the facet Gauss points, shape (2 N,)."""
         load = np.zeros(self.half_space.matrix.shape[0])
         load[1::2] = np.asarray(_pressure.assemble(self.facets, pressure=pressure))
-        return factor * solve_cg(self.half_space, load, self.preconditioner, tolerance).solution
+        return load
+
+    def on_surface(self, w: Array) -> Array:
+        """Return the displacement with the values w along the surface and zero elsewhere, shape (2 N,)."""
+        u = np.zeros(self.half_space.matrix.shape[0])
+        u[self.half_space.surface] = w
+        return u
+
+    def load_vector(self, y: Array) -> Array:
+        """F at y = (w, delta, c), shape (2 N,)."""
+        return self.vector(self.law.traction(self.gap(self.on_surface(y[:-2]), y[-2], y[-1])))
+
+    def load_vector_rate(self, y: Array, rate: Array) -> Array:
+        """Derivative of F at y along `rate`, shape (2 N,)."""
+        slope = self.law.slope(self.gap(self.on_surface(y[:-2]), y[-2], y[-1]))
+        rise = np.asarray(self.facets.interpolate(self.on_surface(rate[:-2])[1::2]))
+        rise = rise - rate[-2] + rate[-1] * self.s * self.punch.slope(y[-1] * self.s)
+        return self.vector(slope * rise)
+
+    def residual(self, u: Array, delta: float, c: float, factor: float) -> float:
+        """Residual K u - factor F of the whole nonlinear system, relative in the norm of `solve_cg`."""
+        F = self.vector(self.law.traction(self.gap(u, delta, c)))
+        return relative_residual(self.half_space, factor * F, u, self.preconditioner)
+
+    def under_pressure(self, pressure: Array, factor: float) -> Array:
+        """Return the displacement under a pressure at the facet Gauss points, to start Newton from."""
+        return factor * solve_cg(self.half_space, self.vector(pressure), self.preconditioner).solution
 
     def load(self, u: Array, delta: float, c: float) -> float:
         """P on the mesh (compression positive)."""

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, cast
 
 import numpy as np
 from scipy import sparse
@@ -12,11 +15,11 @@ from fem_reference._elastic.dof_ordering import both_components, line_unknowns, 
 from fem_reference._elastic.elasticity import Body, stiffness
 from fem_reference._elastic.exterior import exterior_stiffness
 from fem_reference._elastic.mapping import InteriorChart
-from fem_reference._elastic.mesh import Grid
+from fem_reference._elastic.mesh import Grid, MeshSpec
 from fem_reference._typing import Index
 from fem_reference.modulus import Modulus
 
-__all__ = ["HalfSpace", "assemble_half_space"]
+__all__ = ["HalfSpace", "assemble_half_space", "half_space_of"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -88,3 +91,28 @@ def assemble_half_space(grid: Grid, modulus: Modulus, nu: float, order: int = 4)
     free = np.setdiff1d(np.arange(matrix.shape[0]), axis)
     surface = 2 * line_unknowns(basis, 1, 0.0) + 1
     return HalfSpace(body, grid, basis, matrix, free, surface, boundary)
+
+
+def half_space_of(modulus: Modulus, nu: float, spec: MeshSpec) -> HalfSpace:
+    """Return the half-space on a mesh, kept for the next caller: compliance and pyamg's preconditioner share it.
+
+    Parameters
+    ----------
+    modulus : Modulus
+        E(z), hashable.
+    nu : float
+        Poisson ratio in [0, 0.5).
+    spec : MeshSpec
+        The mesh.
+
+    Returns
+    -------
+    HalfSpace
+    """
+    return _kept(cast(Hashable, modulus), nu, spec)
+
+
+# Two: the mesh of the last path, whose events are solved next, and one before it; each holds some 100 MB.
+@lru_cache(maxsize=2)
+def _kept(modulus: Any, nu: float, spec: MeshSpec) -> HalfSpace:
+    return assemble_half_space(spec.grid(), modulus, nu, spec.order)

@@ -15,7 +15,7 @@ from typing import Protocol
 import numpy as np
 from scipy import linalg
 
-from fem_reference._elastic.assembly import assemble_half_space
+from fem_reference._elastic.assembly import half_space_of
 from fem_reference._elastic.condensation import condensed
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.trace import Trace, trace_of
@@ -120,7 +120,7 @@ class FixedCompliance:
 @lru_cache(maxsize=24)
 def _unit_compliance(k: float, nu: float, spec: MeshSpec) -> tuple[Trace, Array, Array, int]:
     grid = spec.grid()
-    half_space = assemble_half_space(grid, PowerLawModulus(1.0, 1.0, k), nu, spec.order)
+    half_space = half_space_of(PowerLawModulus(1.0, 1.0, k), nu, spec)
     return trace_of(grid, spec.order), *_inverse(*condensed(half_space)), int(half_space.free.size)
 
 
@@ -181,7 +181,7 @@ def compliance_for(modulus: Modulus, nu: float, spec: MeshSpec, size: float) -> 
         trace, matrix, rounding, unknowns = _unit_compliance(modulus.k, nu, spec)
         return ScalingCompliance(trace, matrix, modulus, unknowns, rounding)
     grid = spec.grid()
-    half_space = assemble_half_space(grid, scaled_modulus(modulus, size), nu, spec.order)
+    half_space = half_space_of(scaled_modulus(modulus, size), nu, spec)
     matrix, rounding = _inverse(*condensed(half_space))
     return FixedCompliance(trace_of(grid, spec.order), matrix, size, int(half_space.free.size), rounding)
 

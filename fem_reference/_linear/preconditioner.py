@@ -4,8 +4,10 @@ The meshes are tensor products with elements of every aspect ratio, thin columns
 rows under the surface.  The smoother therefore solves whole strips: all unknowns strictly between two grid
 lines two elements apart (overlapping line Schwarz).  Every other strip is independent of the next, so a
 direction takes two sparse factorisations ("zebra"), and a sweep is columns, then rows; the reverse sweep
-closes the symmetric preconditioner.  In between, the vertex functions of the hierarchical element, which are exactly
-the bilinear space, carry the smooth error to pyamg's smoothed aggregation.
+closes the symmetric preconditioner.  Strips are solved exactly, so that a residual is left on the lines between them
+only: it is kept and changed there, at a tenth of the cost of a product with the whole matrix.  In between, the vertex
+functions of the hierarchical element, which are exactly the bilinear space, carry the smooth error to pyamg's smoothed
+aggregation.
 
 Measured: conjugate gradients take 6 to 20 iterations to 1e-10 from 4e3 to 3e5 unknowns, k = 0 ... 0.8,
 nu = 0 ... 0.45, with and without an edge a thousandth of its radius wide.
@@ -13,6 +15,7 @@ nu = 0 ... 0.45, with and without an edge a thousandth of its radius wide.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -83,6 +86,38 @@ def unit_scaling(diagonal: Array) -> Array:
     return np.asarray(1.0 / np.sqrt(diagonal))
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Strips:
+    """Every other strip of the mesh, factorised.
+
+    Attributes
+    ----------
+    inside, lines : ndarray of int
+        Unknowns in the strips, and on the grid lines between them.
+    factors : SuperLU
+        Of the matrix on `inside`.
+    coupling : csr_array
+        The matrix, rows `lines` and columns `inside`.
+    """
+
+    inside: Index
+    lines: Index
+    factors: SuperLU
+    coupling: sparse.csr_array
+
+    def correct(self, x: Array, residual: Array) -> None:
+        """Solve the strips exactly; update x and the residual, shape (free, q), in place."""
+        change = self.factors.solve(residual[self.inside])
+        x[self.inside] += change
+        residual[self.inside] = 0.0
+        residual[self.lines] -= self.coupling @ change
+
+    @property
+    def storage(self) -> int:
+        """Bytes of factors, coupling and indices."""
+        return int(self.inside.nbytes + self.lines.nbytes + 12 * self.factors.nnz + _sparse_bytes(self.coupling))
+
+
 class ElasticPreconditioner:
     """Symmetric positive definite approximate inverse of the scaled stiffness on the free rows.
 
@@ -112,19 +147,21 @@ class ElasticPreconditioner:
         self.matrix: sparse.csr_array = (D @ A @ D).tocsr()
         self._strips = self._factor_strips(half_space)
         self._vertices, self._coarse = self._build_coarse(half_space)
+        self._vertex_columns = self.matrix[:, self._vertices[self._vertices >= 0]].tocsr()
 
-    def _factor_strips(self, half_space: HalfSpace) -> list[tuple[Index, SuperLU, sparse.csr_array]]:
+    def _factor_strips(self, half_space: HalfSpace) -> list[Strips]:
         strips = []
         for position in grid_positions(half_space):
             place = np.repeat(position, 2)[half_space.free]
             for dropped in (2, 0):
-                inside = np.flatnonzero(place % 4 != dropped)
-                rows = self.matrix[inside]
+                between = place % 4 == dropped
+                inside, lines = np.flatnonzero(~between), np.flatnonzero(between)
+                columns = self.matrix[:, inside].tocsr()
                 try:
-                    factors = factorise(rows[:, inside])
+                    factors = factorise(columns[inside])
                 except RuntimeError as error:
                     raise NotConverged(f"a strip of the mesh is singular ({error}); check modulus and mesh") from error
-                strips.append((inside, factors, rows))
+                strips.append(Strips(inside, lines, factors, columns[lines]))
         return strips
 
     def _build_coarse(self, half_space: HalfSpace) -> tuple[Index, pyamg.MultilevelSolver]:
@@ -160,27 +197,29 @@ class ElasticPreconditioner:
         return vertices, hierarchy
 
     def __call__(self, b: Array) -> Array:
-        """Apply the preconditioner to a right-hand side of the scaled system, shape (free,)."""
-        b = np.asarray(b, float).ravel()
-        x = np.zeros_like(b)
-        first, factors, _ = self._strips[0]
-        x[first] = factors.solve(b[first])
-        for inside, factors, rows in self._strips[1:]:
-            x[inside] += factors.solve(b[inside] - rows @ x)
+        """Apply the preconditioner to right-hand sides of the scaled system, shape (free,) or (free, q)."""
+        b = np.asarray(b, float)
+        residual = b.reshape(b.shape[0], -1).copy()
+        x = np.zeros_like(residual)
+        for strips in self._strips:
+            strips.correct(x, residual)
         present = self._vertices >= 0
-        residual = np.zeros(self._vertices.size)
-        residual[present] = (b - self.matrix @ x)[self._vertices[present]]
-        correction = self._coarse.solve(residual, tol=1e-300, maxiter=COARSE_CYCLES, cycle="V")
-        x[self._vertices[present]] += correction[present]
-        for inside, factors, rows in reversed(self._strips):
-            x[inside] += factors.solve(b[inside] - rows @ x)
-        return x
+        vertices = self._vertices[present]
+        for column, left in zip(x.T, residual.T, strict=True):
+            coarse = np.zeros(self._vertices.size)
+            coarse[present] = left[vertices]
+            correction = self._coarse.solve(coarse, tol=1e-300, maxiter=COARSE_CYCLES, cycle="V")[present]
+            column[vertices] += correction
+            left -= self._vertex_columns @ correction
+        for strips in reversed(self._strips):
+            strips.correct(x, residual)
+        return x.reshape(b.shape)
 
     @property
     def storage(self) -> int:
         """Bytes of the scaled matrix, of the strips with their factors, and of pyamg's hierarchy."""
-        strips = sum(inside.nbytes + 12 * lu.nnz + _sparse_bytes(rows) for inside, lu, rows in self._strips)
-        return _sparse_bytes(self.matrix) + strips + self._vertices.nbytes + hierarchy_bytes(self._coarse)
+        own = _sparse_bytes(self.matrix) + _sparse_bytes(self._vertex_columns) + self._vertices.nbytes
+        return own + sum(strips.storage for strips in self._strips) + hierarchy_bytes(self._coarse)
 
     def operator(self) -> LinearOperator:
         """Return the preconditioner as a scipy operator."""

@@ -1,8 +1,8 @@
-"""Uncondensed contact model, which keeps every displacement: a check of the condensed path.
+"""Uncondensed contact model of which nothing is condensed, the tangent neither: a check of the path and of its events.
 
 Newton with the exact tangent is bordered by the edge control; its linear systems are solved by GMRES with the elastic
 preconditioner.  The model shares mesh, elements and exterior with the condensed path, but neither its factorisation
-nor its quadrature matrices.
+nor its quadrature matrices; from the events of the whole system it differs by its tangent and its linear solver.
 """
 
 from __future__ import annotations

@@ -3,21 +3,25 @@
 from dataclasses import replace
 
 import numpy as np
+import pyamg
 import pytest
 
-from fem_reference import CustomModulus, CustomSolid, NoSuchEvent, solve_together, solve_uncondensed
+from fem_reference import CustomModulus, CustomSolid, NoSuchEvent, NotConverged, solve, solve_together
+from fem_reference._contact import mesh_choice, uncondensed
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.full_system import FullSystem
 from fem_reference._contact.tracing import traced
-from fem_reference._contact.uncondensed import last_newton_steps
+from fem_reference._contact.uncondensed import UncondensedEvents
 from fem_reference._elastic.assembly import assemble_half_space
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference.laws import LennardJones
 from fem_reference.modulus import PowerLawModulus
 from fem_reference.problem import Problem
 from fem_reference.punch import PowerPunch
+from fem_reference.quantities import TABLE
 from fem_reference.solid import Solid
 from fem_reference.states import event_state
 from fem_reference.verification.reference_solutions import surface_constant
@@ -25,6 +29,9 @@ from fem_reference.verification.uncondensed import FullContact
 
 AGREEMENT = 1e-8
 """Newton tolerance 1e-10 and linear tolerance 1e-4 of the last step: measured 1e-11."""
+
+ALGEBRA = 1e-9
+"""Largest distance of the whole system from its condensation (measured: 4e-11)."""
 
 SPEC = MeshSpec(0.125, 2.5e-3, 64.0, 1.3, 4)
 
@@ -81,43 +88,170 @@ def _problem(solid):
     return Problem(solid, PowerPunch(2.0, 1.1), LennardJones(1.2, 0.9))
 
 
-@pytest.mark.parametrize("event", ["jump_in", "pull_off"])
-def test_the_last_newton_steps_do_not_depend_on_the_condensed_displacement(event):
-    """Before contact under the control of the central gap, and in contact under that of the edge."""
-    modulus, nu = PowerLawModulus(0.3, 1.3, 0.4), 0.3
-    punch, law = PowerPunch(2.0, 1.1), LennardJones(1.2, 0.9)
-    contact = Contact(punch, law, compliance_for(modulus, nu, SPEC, 1.0))
-    point = PathEvents(traced(contact)).at(event)
-    half_space = assemble_half_space(SPEC.grid(), PowerLawModulus(1.0, 1.0, 0.4), nu, SPEC.order)
-    start = point.state.y.copy()
-    start[:-1] *= 1.0 + 1e-5
-    found = last_newton_steps(FullSystem(half_space, punch, law), replace(point, state=replace(point.state, y=start)))
-    assert found.state.iterations > 1
-    assert found.state.load == pytest.approx(point.state.load, rel=AGREEMENT)
-    assert np.abs(found.state.y - point.state.y).max() <= AGREEMENT
+NU = 0.3
+SOFT = PowerLawModulus(0.3, 1.3, 0.4)
+
+SPOILED = 1e-5
+"""Relative error put into the condensed compliance."""
 
 
+def _soft_contact(spoiled=0.0):
+    """A solid with jumps on the small mesh; its compliance is too large by a share."""
+    compliance = compliance_for(SOFT, NU, SPEC, 1.0)
+    compliance = replace(compliance, matrix=(1.0 + spoiled) * compliance.matrix)
+    return Contact(PowerPunch(2.0, 1.1), LennardJones(1.2, 0.9), compliance)
+
+
+@pytest.fixture(scope="module")
+def soft_system():
+    half_space = assemble_half_space(SPEC.grid(), PowerLawModulus(1.0, 1.0, SOFT.k), NU, SPEC.order)
+    return FullSystem(half_space, PowerPunch(2.0, 1.1), LennardJones(1.2, 0.9))
+
+
+@pytest.fixture(scope="module")
+def soft_path():
+    return PathEvents(traced(_soft_contact()))
+
+
+@pytest.fixture(scope="module")
+def spoiled_path():
+    return PathEvents(traced(_soft_contact(SPOILED)))
+
+
+@pytest.fixture
+def no_kept_events():
+    """Nothing solved before or after is reused."""
+    caches = mesh_choice._traced, uncondensed.uncondensed_events, uncondensed._preconditioned
+    for cache in caches:
+        cache.cache_clear()
+    yield
+    for cache in caches:
+        cache.cache_clear()
+
+
+def test_the_value_is_that_of_the_whole_system_and_not_of_the_condensed_path(soft_path, spoiled_path, soft_system):
+    """A wrong compliance moves every condensed value; the whole system brings each back and tells how far it was."""
+    events = UncondensedEvents(spoiled_path, lambda: soft_system)
+    for name, row in TABLE.items():
+        right, wrong = row.functional(soft_path), row.functional(spoiled_path)
+        whole = events.value(row.functional)
+        assert abs(wrong - right) > 10 * ALGEBRA, name
+        assert whole.value == pytest.approx(right, abs=ALGEBRA), name
+        assert whole.algebra >= 0.99 * abs(wrong - right), name
+
+
+def test_the_whole_system_agrees_with_a_right_condensation(soft_path, soft_system):
+    events = UncondensedEvents(soft_path, lambda: soft_system)
+    events.prepare(row.functional for row in TABLE.values())
+    for name, row in TABLE.items():
+        whole = events.value(row.functional)
+        assert whole.value != row.functional(soft_path), name
+        assert whole.value == pytest.approx(row.functional(soft_path), abs=ALGEBRA), name
+        assert whole.algebra <= ALGEBRA, name
+        assert 0 < whole.iterations <= 20, name
+
+
+def test_what_conjugate_gradients_leave_is_known(soft_path, soft_system, monkeypatch):
+    """With a coarse tolerance the estimate alone, without the distance from the condensed value, covers the error."""
+    monkeypatch.setattr(uncondensed, "LINEAR_TOLERANCE", 1e-5)
+    monkeypatch.setattr(uncondensed, "NEWTON_TOLERANCE", 1e-2)
+    monkeypatch.setattr(uncondensed, "ROUNDING_STEP", 1e-2)
+    monkeypatch.setattr(uncondensed, "RESIDUAL_TOLERANCE", 1e-2)
+    events = UncondensedEvents(soft_path, lambda: soft_system)
+    for name, row in TABLE.items():
+        whole, right = events.value(row.functional), row.functional(soft_path)
+        estimate = whole.algebra - abs(whole.value - right)
+        assert abs(whole.value - right) <= estimate, name
+
+
+@pytest.mark.parametrize("tolerance", ["ROUNDING", "ROUNDING_STEP", "RESIDUAL_TOLERANCE"])
+def test_a_missed_tolerance_is_no_number(soft_path, soft_system, monkeypatch, tolerance):
+    monkeypatch.setattr(uncondensed, tolerance, 1e-25)
+    monkeypatch.setattr(uncondensed, "LINEAR_TOLERANCE", 1e-25 if tolerance == "ROUNDING" else 1e-11)
+    events = UncondensedEvents(soft_path, lambda: soft_system)
+    with pytest.raises(NotConverged, match=r"conjugate gradients|Newton steps|nonlinear system"):
+        events.value(TABLE["pull_off_force"].functional)
+
+
+def test_another_stiffness_is_not_an_equilibrium_nearby(soft_path):
+    """A mesh of a solid twice as stiff: Newton's method does not come back with a number of the soft one."""
+    half_space = assemble_half_space(SPEC.grid(), PowerLawModulus(2.0, 1.0, SOFT.k), NU, SPEC.order)
+    system = FullSystem(half_space, PowerPunch(2.0, 1.1), LennardJones(1.2, 0.9))
+    events = UncondensedEvents(soft_path, lambda: system)
+    try:
+        whole = events.value(TABLE["pull_off_force"].functional)
+    except NotConverged:
+        return
+    stiff = replace(_soft_contact(), compliance=compliance_for(replace(SOFT, E0=2 * SOFT.E0), NU, SPEC, 1.0))
+    assert whole.value == pytest.approx(TABLE["pull_off_force"].functional(PathEvents(traced(stiff))), rel=1e-6)
+
+
+def _nothing_solved(self, b, **options):
+    return np.full_like(b, np.nan)
+
+
+def _not_preconditioned(self, b):
+    return np.array(b)
+
+
+@pytest.mark.usefixtures("no_kept_events")
 @pytest.mark.parametrize(
-    "names",
+    ("owner", "name", "spoiled"),
     [
-        ("pull_off_force", "pull_off_displacement"),
-        pytest.param(("hysteresis_energy", "jump_in_gap"), marks=pytest.mark.heavy),  # four states of the whole mesh
+        (pyamg.multilevel.MultilevelSolver, "solve", _nothing_solved),
+        (ElasticPreconditioner, "__call__", _not_preconditioned),
     ],
 )
-def test_uncondensed_values_with_their_difference_in_the_bound(names):
-    problem = _problem(Solid(0.3, 1.3, 0.4, 0.3))
-    condensed, whole = solve_together(problem, names, "quick"), solve_uncondensed(problem, names, "quick")
-    for name in names:
-        difference = abs(whole[name].value - condensed[name].value)
-        assert 0.0 < difference <= AGREEMENT
-        assert whole[name].u_num == pytest.approx(condensed[name].u_num + difference, rel=1e-12)
+def test_without_pyamg_there_is_no_solution(monkeypatch, owner, name, spoiled):
+    problem = _problem(Solid(3.0, 1.3, 0.4, NU))
+    monkeypatch.setattr(owner, name, spoiled)
+    with pytest.raises(NotConverged, match="conjugate gradients reached a residual"):
+        solve(problem, "pull_off_force", "quick")
 
 
-def test_uncondensed_values_of_a_solid_of_one_size():
+@pytest.mark.usefixtures("no_kept_events")
+def test_a_solution_holds_the_value_of_the_whole_system(monkeypatch):
+    problem = _problem(Solid(3.0, 1.3, 0.4, NU))
+    right = solve(problem, "pull_off_force", "quick")
+    assert right.value != right.values[-1]
+    assert right.parts["algebra"] <= ALGEBRA
+    assert 0 < right.iterations <= 25
+    assert 0.0 < right.residual <= uncondensed.RESIDUAL_TOLERANCE
+    assert right.u_num == pytest.approx(sum(right.parts.values()))
+    _, point = event_state(problem, "pull_off", "quick")
+    assert -point.state.load == right.value
+    mesh_choice._traced.cache_clear()
+    uncondensed.uncondensed_events.cache_clear()
+
+    def spoiled(*arguments):
+        compliance = compliance_for(*arguments)
+        return replace(compliance, matrix=(1.0 + SPOILED) * compliance.matrix)
+
+    monkeypatch.setattr(mesh_choice, "compliance_for", spoiled)
+    found = solve(problem, "pull_off_force", "quick")
+    moved = abs(found.values[-1] - right.values[-1])
+    assert moved > 100 * AGREEMENT
+    assert found.value == pytest.approx(right.value, abs=AGREEMENT)
+    assert found.parts["algebra"] == pytest.approx(moved, rel=1e-2)
+    assert found.u_num >= moved
+
+
+def test_a_solid_of_one_size():
     """The edge moves over a fixed mesh; a quantity that does not exist stays an exception."""
-    solid = CustomSolid(CustomModulus(lambda z: 20.0 + 0.0 * z, 0.0, 0.0, surface_depth=1.0), 0.3)
-    names = ("pull_off_force", "jump_in_gap")
-    found = solve_uncondensed(_problem(solid), names, "quick")
+    solid = CustomSolid(CustomModulus(lambda z: 20.0 + 0.0 * z, 0.0, 0.0, surface_depth=1.0), NU)
+    found = solve_together(_problem(solid), ("pull_off_force", "jump_in_gap"), "quick")
     force = found["pull_off_force"]
+    assert force.value != force.values[-1]
     assert force.value == pytest.approx(force.values[-1], rel=AGREEMENT)
     assert isinstance(found["jump_in_gap"], NoSuchEvent)
+
+
+def test_facet_forms_on_elements_thinner_than_rounding_resolves():
+    """At an edge of a millionth of its radius the reference coordinates are good to 1e-10 of an element."""
+    grid = replace(SPEC, edge_width=1e-6, density=1.4).grid()
+    half_space = assemble_half_space(grid, PowerLawModulus(1.0, 1.0, 0.4), NU, 4)
+    system = FullSystem(half_space, PowerPunch(2.0, 1.1), LennardJones(1.2, 0.9), preconditioner=object())
+    assert system.facets.dx.sum() == pytest.approx(SPEC.extent, rel=1e-12)
+    assert system.s.min() > 0.0
+    nodes = grid.r[:-1, None]
+    assert np.all((np.sort(system.s, axis=0)[np.argsort(system.s[:, 0])] > nodes).all())

@@ -1,0 +1,176 @@
+"""Equations of one event, whose unknowns are an equilibrium, its rate along the path, and the parameter.
+
+The displacement under the traction is given: another module solves the elastic system.  The tangent is that of the
+condensed system, which decides how fast the steps fall but not where they end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Self
+
+import numpy as np
+from scipy import linalg
+
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.controls import Control, EdgeRadius
+from fem_reference._contact.full_system import FullSystem
+from fem_reference._contact.newton import State
+from fem_reference._contact.path import Point, point_at
+from fem_reference._typing import Array
+
+__all__ = ["BEGINNINGS", "EventEquations"]
+
+BEGINNINGS = {"landing": "jump_in", "separated": "jump_out"}
+"""Where the jump begins that ends at an event: both have the same displacement."""
+
+SLOPE_STEP = 1e-4
+"""Change of the parameter, in its largest steps, for the slope of a rate: an error of this size slows Newton only."""
+
+
+class EventEquations:
+    """State of Newton's method at one event.
+
+    Parameters
+    ----------
+    name : str
+        Of the event, as a property of `fem_reference._contact.events.PathEvents`.
+    point : Point
+        The event on the condensed path.
+
+    Attributes
+    ----------
+    y, rate : ndarray, shape (m + 2,)
+        Equilibrium, and its derivative with respect to the parameter.
+    parameter : float
+        Of the second control.
+    """
+
+    def __init__(self, name: str, point: Point) -> None:
+        self.name, self.point = name, point
+        self.y, self.rate, self.parameter = point.state.y.copy(), point.state.rate.copy(), point.parameter
+        self._slope = self._excess_slope()
+
+    @property
+    def contact(self) -> Contact:
+        """The condensed contact."""
+        return self.point.branch.contact
+
+    @property
+    def is_fold(self) -> bool:
+        """Whether a rate vanishes at the event."""
+        return self.name in ("pull_off", "jump_in", "jump_out")
+
+    def copy(self) -> Self:
+        """Return equations whose unknowns can be changed without changing these."""
+        made = object.__new__(type(self))
+        made.__dict__.update(self.__dict__)
+        return made
+
+    def step(self, w: Array, w_rate: Array | None, events: Mapping[str, EventEquations]) -> float:
+        """Take a Newton step.
+
+        Parameters
+        ----------
+        w : ndarray, shape (m,)
+            Surface displacement under the traction of `y`, per unit factor of the compliance.
+        w_rate : ndarray, shape (m,), optional
+            The same under the rate of the traction; the rate stays what it is without it.
+        events : mapping of str to EventEquations
+            Holds the beginning of the jump that ends here; its step comes first.
+
+        Returns
+        -------
+        float
+            Largest change, and largest defect of the surface displacement before it, both relative to the displacement
+            (the change of the size to itself).  The defect is the larger: where the law is steep, a small change of the
+            gap is a large one of the traction.
+        """
+        y, rate, first, second = self.y, self.rate, *self._controls()
+        defect = np.append(y[:-2], [first.value(self.contact, y), second.value(self.contact, y)])
+        defect_rate = None
+        if w_rate is not None:
+            parameter_rate = second.parameter_rate(self.contact, y) if isinstance(second, EdgeRadius) else 1.0
+            rows = first.gradient(self.contact, y) @ rate, second.gradient(self.contact, y) @ rate - parameter_rate
+            defect_rate = np.append(rate[:-2], rows)
+        self._correct(defect, defect_rate, w, w_rate, events)
+        change = np.abs(self.y - y)
+        left = float(np.abs(y[:-2] - self.contact.compliance.factor(float(y[-1])) * w).max())
+        scale = self.contact.law.length + float(np.abs(self.y[:-2]).max())
+        return max(left / scale, float(change[:-1].max()) / scale, float(change[-1] / y[-1]))
+
+    def shift(self, w: Array, w_rate: Array | None, events: Mapping[str, EventEquations]) -> None:
+        """Move to where the displacements `w` and `w_rate`, added to those of the last step, would have led."""
+        zero = np.zeros_like(self.y)
+        self._correct(zero, None if w_rate is None else zero, w, w_rate, events)
+
+    def point_of(self, system: FullSystem, iterations: int, residual: float) -> Point:
+        """Return the event as a point of the path."""
+        y, delta, c = self.y, float(self.y[-2]), float(self.y[-1])
+        load = system.load(system.on_surface(y[:-2]), delta, c) + self.contact.load_beyond(y)
+        load_rate = float(self.contact.load_gradient(y) @ self.rate)
+        return Point(self.point.branch, self.parameter, State(y, load, load_rate, self.rate, iterations, residual))
+
+    def _controls(self) -> tuple[Control, Control]:
+        return self.point.branch.fixed, self.point.branch.family(self.parameter)
+
+    def _correct(
+        self,
+        defect: Array,
+        defect_rate: Array | None,
+        w: Array,
+        w_rate: Array | None,
+        events: Mapping[str, EventEquations],
+    ) -> None:
+        """Solve the equations linearised at `y`, less the displacements from both defects, then move the parameter."""
+        contact, c = self.contact, float(self.y[-1])
+        factor, factor_slope = contact.compliance.factor(c), contact.compliance.factor_slope(c)
+        K = self._tangent()
+        self.y = self.y - _solved(K, defect - _padded(factor * w))
+        if w_rate is not None and defect_rate is not None:
+            under = factor * w_rate + factor_slope * self.rate[-1] * w
+            moved = self._tangent()
+            defect_rate = defect_rate - _padded(under) + (moved - K) @ self.rate
+            self.rate = self.rate - _solved(moved, defect_rate)
+        move = -self._excess(events) / self._slope
+        self.parameter += move
+        self.y = self.y + move * self.rate
+
+    def _tangent(self) -> Array:
+        """Derivative of the condensed equations and the controls with respect to y, shape (m + 2, m + 2)."""
+        first, second = self._controls()
+        rows = first.gradient(self.contact, self.y), second.gradient(self.contact, self.y)
+        return np.vstack([self.contact.tangent(self.y), *rows])
+
+    def _excess(self, events: Mapping[str, EventEquations]) -> float:
+        """What vanishes at the event."""
+        if self.name in BEGINNINGS:
+            return float(self.y[-2] - events[BEGINNINGS[self.name]].y[-2])
+        if self.name == "zero_load":
+            return self.contact.load(self.y)
+        if self.name == "pull_off":
+            return float(self.contact.load_gradient(self.y) @ self.rate)
+        return float(self.rate[-2])
+
+    def _excess_slope(self) -> float:
+        """Return the derivative of `_excess` with respect to the parameter, from the condensed path."""
+        state = self.point.state
+        if self.name in BEGINNINGS:
+            return state.displacement_rate
+        if self.name == "zero_load":
+            return state.load_rate
+        step = SLOPE_STEP * self.point.branch.largest_step(self.parameter)
+        near = point_at(self.point, self.parameter + step).state
+        if self.name == "pull_off":
+            return (near.load_rate - state.load_rate) / step
+        return (near.displacement_rate - state.displacement_rate) / step
+
+
+def _solved(matrix: Array, b: Array) -> Array:
+    """Solve a linear system; a step too large to be sensible is the caller's to refuse."""
+    return np.asarray(linalg.lu_solve(linalg.lu_factor(matrix, check_finite=False), b, check_finite=False))
+
+
+def _padded(w: Array) -> Array:
+    """Append zeros for the two controls."""
+    return np.append(w, [0.0, 0.0])
