@@ -25,12 +25,17 @@ class Point:
     stretch: int = 0
 
 
+# The unit of the load is at least this share of the load: near n = 2/3 the tail alone carries loads of 1e3 and more,
+# on which steps in the unit of the contact are lost.
+_SHARE_OF_LOAD = 0.05
+
+
 @dataclass(frozen=True)
 class ArcLength:
     """Units in which displacement and load enter the arc length; the continuation parameter enters as it is."""
 
     displacement_in_contact: float
-    load: float
+    load_in_contact: float
 
     @classmethod
     def of(cls, problem: Problem) -> ArcLength:
@@ -45,10 +50,16 @@ class ArcLength:
         """Unit of the displacement: larger far apart, where the path is nearly straight."""
         return self.displacement_in_contact + max(state.central_gap, 0.0)
 
+    def load_unit(self, state: State) -> float:
+        """Unit of the load: larger where the load is much larger than in the two limits."""
+        return max(self.load_in_contact, _SHARE_OF_LOAD * abs(state.load))
+
     def tangent(self, state: State) -> Rates:
         rates = rates_of(state)
         parameter = 1.0 / self.parameter_unit(state)
-        norm = math.hypot(parameter, rates.displacement / self.displacement_unit(state), rates.load / self.load)
+        norm = math.hypot(
+            parameter, rates.displacement / self.displacement_unit(state), rates.load / self.load_unit(state)
+        )
         return rates.scaled((1.0 if state.follows_edge else -1.0) / norm)
 
     def turn(self, a: Point, b: Point) -> float:
@@ -57,7 +68,7 @@ class ArcLength:
         def direction(point: Point) -> np.ndarray:
             state, rates = point.state, point.rates
             parameter = rates.log_scale if state.follows_edge else rates.central_gap
-            units = (self.parameter_unit(state), self.displacement_unit(state), self.load)
+            units = (self.parameter_unit(state), self.displacement_unit(state), self.load_unit(state))
             return np.array([parameter, rates.displacement, rates.load]) / units
 
         return float(direction(a) @ direction(b))
@@ -67,7 +78,7 @@ class ArcLength:
         unit = self.parameter_unit(state) ** 2
         a = (tangent.log_scale if state.follows_edge else tangent.central_gap) / unit
         b = tangent.displacement / self.displacement_unit(state) ** 2
-        c = tangent.load / self.load**2
+        c = tangent.load / self.load_unit(state) ** 2
         value = a * parameter_of(state) + b * state.displacement + c * state.load + step
         if state.follows_edge:
             return Control(value, log_scale=a, displacement=b, load=c)

@@ -20,6 +20,8 @@ __all__ = ["Tail", "tail_energy", "tail_errors", "tail_of"]
 _FARTHER, _PIECES, _QUADRATURE = 4.0, 3, 20
 # A steeper punch overflows at _FARTHER times the radius; its tail is zero to all digits.
 _STEEPEST = 150.0
+# Height from which on the tail is zero: the tension there is below 1e-60 for m > 1.
+_ZERO = 1e60
 
 
 @dataclass(frozen=True)
@@ -54,9 +56,9 @@ def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
         delta, in z0; w is neglected there beside it.
     """
     C, m = problem.law.decay
-    if C == 0.0:
-        return Tail(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     F = _height(problem, T)
+    if C == 0.0 or F > _ZERO:
+        return Tail(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     g, k = problem.punch.growth, problem.k
     e = (-displacement - problem.law.singular_gap) / F
     strength = C * F**-m
@@ -106,7 +108,7 @@ def tail_errors(problem: Problem, T: float, displacement: float) -> tuple[Array,
     (True, True)
     """
     C, m = problem.law.decay
-    if C == 0.0:
+    if C == 0.0 or _height(problem, T) > _ZERO:
         return np.zeros(3), np.zeros(3)
     g, k = problem.punch.growth, problem.k
     rule = np.polynomial.legendre.leggauss(_QUADRATURE)
@@ -150,9 +152,9 @@ def tail_energy(problem: Problem, T: float, displacement: float) -> float:
         As for `tail_of`.
     """
     C, m = problem.law.decay
-    if C == 0.0:
-        return 0.0
     F = _height(problem, T)
+    if C == 0.0 or F > _ZERO:
+        return 0.0
     g = problem.punch.growth
     excess = (m - 1.0) * g - 2.0
     leading = -math.log(T) if excess == 0.0 else 1.0 / excess
