@@ -78,6 +78,13 @@ def finer(disc: Discretisation) -> Discretisation:
     return Discretisation(disc.problem, PanelMesh(breaks, disc.mesh.order + _MORE_NODES))
 
 
+def _from_gap(
+    disc: Discretisation, scale: float, lift: Array, displacement: float, follows_edge: bool, edge_gap: float | None
+) -> State:
+    gap = disc.height(scale * disc.mesh.nodes) - displacement + lift
+    return State(disc, scale, gap, displacement, follows_edge, edge_gap=edge_gap)
+
+
 class Defect:
     """Residual of a state on a finer mesh, and the adjoint solutions there.
 
@@ -92,11 +99,12 @@ class Defect:
     def __init__(self, state: State, fine: Discretisation) -> None:
         self.coarse = state
         own, mesh = state.disc.mesh, fine.mesh
-        shape = fine.problem.punch.height
-        height = shape(state.scale * mesh.nodes)
+        height = fine.height(state.scale * mesh.nodes)
         # The deformation is smoother than the gap.
-        gap = own.transfer(state.gap - shape(state.radius), mesh) + height
-        self.fine = f = State(fine, state.scale, gap, state.displacement, state.follows_edge)
+        lift = state.gap - fine.height(state.radius) + state.displacement if state.lift is None else state.lift
+        lift = own.transfer(lift, mesh)
+        known = state.scale, lift, state.displacement, state.follows_edge, state.edge_gap
+        self.fine = f = State.lifted(fine, *known) if fine.steep else _from_gap(fine, *known)
         self._system = Linearisation(f)
         self._stiffness = fine.stiffness_scale(state.scale)
         self._area = 2.0 * state.scale**2 * mesh.weights * mesh.nodes
@@ -104,7 +112,7 @@ class Defect:
         # The error of the pressure in its own place, and that of the deformation between the nodes.
         self._pressure_error = f.pressure - polynomial
         deformation = self._stiffness * (fine.matrix @ polynomial) + f.tail.displacement
-        self._gap_error = gap + state.displacement - height - deformation
+        self._gap_error = lift - deformation if fine.steep else f.gap + state.displacement - height - deformation
         axis = fine.axis @ polynomial, state.disc.axis @ state.pressure
         self._axis_error = self._stiffness * float(axis[0] - axis[1])
         self._owner = np.repeat(own.locate(mesh.starts + 0.5 * mesh.lengths), mesh.order)
@@ -152,11 +160,11 @@ class Defect:
 
     def _gradient(self, name: str) -> Array:
         """Derivatives of a functional by the unknowns."""
-        system, tail = self._system, self.fine.tail
+        system = self._system
         if name == "load":
-            return np.concatenate([system.load_row, [tail.load_slope, system.load_scale]])
+            return np.concatenate([system.load_row, [system.load_slope, system.load_scale]])
         if name == "central_gap":
-            return np.concatenate([system.axis_gap_row, [tail.displacement_slope - 1.0, system.axis_gap_scale]])
+            return np.concatenate([system.axis_gap_row, [-system.axis_gap_slope, system.axis_gap_scale]])
         if name == "energy":
             return self._energy_gradient()
         unit = np.zeros(len(self._area) + 2)
@@ -181,6 +189,9 @@ class Defect:
         )
         by_scale = 2.0 * float(surface) + elastic + pressure * tail.displacement_rate
         by_scale += (behind(_STEP, 0.0) - behind(-_STEP, 0.0)) / (2.0 * _STEP)
+        if f.lift is not None:  # the gap follows from it, H = f(c s) - delta + w
+            by_displacement -= float(row.sum())
+            by_scale += float(row @ f.disc.rise(f.radius))
         return np.concatenate([row, [by_displacement, by_scale]])
 
     def _difference(self, name: str) -> Array:
@@ -228,11 +239,15 @@ class Defect:
     def _rounding(self, adjoint: Array, border: float, functional: str, control: str) -> float:
         """Rounding of the residual weighed by the adjoint, and of the functionals."""
         f = self.fine
-        problem = f.disc.problem
-        size = np.abs(f.gap) + abs(f.displacement) + problem.punch.height(f.radius)
-        size = size + f.radius * np.abs(problem.punch.slope(f.radius))
         row = np.abs(adjoint)
-        product = float(np.abs(self._backwards(row)) @ np.abs(f.pressure))
+        backwards = np.abs(self._backwards(row))
+        product = float(backwards @ np.abs(f.pressure))
+        size = abs(f.displacement) + f.disc.height(f.radius) + np.abs(f.disc.rise(f.radius))
+        if f.lift is None:
+            size = size + np.abs(f.gap)
+        else:  # the height is rounded in the gap, not in the equation
+            product += float(backwards @ np.abs(f.disc.problem.law.slope(f.gap) * size)) / _ENTRY
+            size = np.abs(f.lift)
         own = self._functional_rounding(functional) + abs(border) * self._functional_rounding(control)
         return _ROUNDOFF * (float(row @ size) + _ENTRY * product + own)
 
