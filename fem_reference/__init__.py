@@ -7,9 +7,10 @@ displacement of the mesh is solved with pyamg.
 """
 
 from fem_reference.accuracy import ACCURACIES
+from fem_reference.coating import CoatingModulus
 from fem_reference.errors import NoSuchEvent, NotConverged
 from fem_reference.laws import LennardJones, SurfaceLaw
-from fem_reference.modulus import CustomModulus, Modulus, OffsetPowerLawModulus, PowerLawModulus
+from fem_reference.modulus import CustomModulus, Interface, Modulus, OffsetPowerLawModulus, PowerLawModulus
 from fem_reference.problem import Problem
 from fem_reference.punch import CustomPunch, PowerPunch, Punch
 from fem_reference.quantities import LOSSES, QUANTITIES
@@ -19,7 +20,8 @@ from fem_reference.states import EVENTS, EquilibriumPath, RadialField, event_sta
 
 #: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
 LAYERS = (
-    ("_typing", "_threads", "errors", "modulus", "punch", "laws", "solid", "problem", "accuracy"),
+    ("_typing", "_threads", "errors"),
+    ("modulus", "coating", "modulus_checks", "punch", "laws", "solid", "problem", "accuracy"),
     ("_elastic",),
     ("_linear",),
     ("_contact",),
@@ -32,10 +34,12 @@ __all__ = [
     "EVENTS",
     "LOSSES",
     "QUANTITIES",
+    "CoatingModulus",
     "CustomModulus",
     "CustomPunch",
     "CustomSolid",
     "EquilibriumPath",
+    "Interface",
     "LennardJones",
     "Modulus",
     "NoSuchEvent",

@@ -1,7 +1,8 @@
 """Young's modulus as a function of depth.
 
 The Poisson ratio is constant.  Any consistent units; depth z is positive into the solid.  A modulus has the exponents
-of its power laws at the surface and at great depth: the mesh resolves the first, the exterior takes the second.
+of its power laws at the surface and at great depth: the mesh resolves the first, the exterior takes the second.  It may
+have `interfaces` too: depths where it changes at once or within a short length.
 """
 
 from __future__ import annotations
@@ -15,12 +16,12 @@ import numpy as np
 
 from fem_reference._typing import Array
 
-__all__ = ["CustomModulus", "Modulus", "OffsetPowerLawModulus", "PowerLawModulus"]
+__all__ = ["CustomModulus", "Interface", "Modulus", "OffsetPowerLawModulus", "PowerLawModulus", "interfaces_of"]
 
 
 @runtime_checkable
 class Modulus(Protocol):
-    """Young's modulus E(z) with its limiting exponents.
+    """Young's modulus E(z) with its limiting exponents, and optionally `interfaces` (see `interfaces_of`).
 
     Examples
     --------
@@ -56,6 +57,45 @@ def _check_exponent(k: float) -> None:
 def _check_positive(name: str, value: float) -> None:
     if not (math.isfinite(value) and value > 0):
         raise ValueError(f"{name} = {value} is outside (0, infinity)")
+
+
+@dataclass(frozen=True, slots=True)
+class Interface:
+    """A depth where the modulus changes.
+
+    Parameters
+    ----------
+    depth : float
+        A mesh line is put there.
+    transition : float
+        Length over which the modulus changes around that depth; 0 for a sharp interface.
+
+    Examples
+    --------
+    >>> Interface(depth=0.0)
+    Traceback (most recent call last):
+    ValueError: depth of an interface = 0.0 is outside (0, infinity)
+    """
+
+    depth: float
+    transition: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check_positive("depth of an interface", self.depth)
+        if not (math.isfinite(self.transition) and self.transition >= 0):
+            raise ValueError(f"transition = {self.transition} of an interface is outside [0, infinity): it is a length")
+
+
+def interfaces_of(modulus: Modulus) -> tuple[Interface, ...]:
+    """Return the declared interfaces of a modulus, from the surface down.
+
+    Examples
+    --------
+    >>> interfaces_of(PowerLawModulus(1.0, 1.0, 0.4))
+    ()
+    """
+    found: tuple[Interface, ...] = getattr(modulus, "interfaces", ())
+    return tuple(sorted(found, key=lambda interface: interface.depth))
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,6 +190,9 @@ class CustomModulus:
         Exponents of E ~ z^m as z -> 0 and z -> infinity, in [0, 1).
     surface_depth : float
         Depth over which E leaves its surface law.
+    interfaces : tuple of Interface
+        Depths where E changes at once or within a short length.  Those that are not declared are searched for by
+        sampling, which can miss a layer thinner than 1/30 of its depth.
 
     Examples
     --------
@@ -162,11 +205,14 @@ class CustomModulus:
     surface_exponent: float
     depth_exponent: float
     surface_depth: float
+    interfaces: tuple[Interface, ...] = ()
 
     def __post_init__(self) -> None:
         _check_exponent(self.surface_exponent)
         _check_exponent(self.depth_exponent)
         _check_positive("surface depth", self.surface_depth)
+        if not (isinstance(self.interfaces, tuple) and all(isinstance(i, Interface) for i in self.interfaces)):
+            raise ValueError(f"interfaces = {self.interfaces!r} is not a tuple of Interface(depth, transition)")
 
     def __call__(self, z: Array) -> Array:
         """E(z), shape of `z`."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from fem_reference.modulus import Modulus, OffsetPowerLawModulus, PowerLawModulus
+from fem_reference.modulus_checks import check_exponents
 
 __all__ = ["CustomSolid", "Solid"]
 
@@ -60,7 +61,7 @@ class CustomSolid:
     Raises
     ------
     ValueError
-        If the Poisson ratio is outside its range.
+        If the Poisson ratio is outside its range, or the modulus does not have the exponents that it declares.
 
     Examples
     --------
@@ -75,6 +76,7 @@ class CustomSolid:
 
     def __post_init__(self) -> None:
         _check_poisson(self.nu)
+        check_exponents(self.modulus)
 
 
 def _check_poisson(nu: float) -> None:

@@ -12,8 +12,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fscm._equilibrium import Control, Discretisation, State
-from fscm._newton import STEEP, STEP_TOLERANCE, moves_exactly, newton
+from fscm._equilibrium import STEEP, Control, Discretisation, State
+from fscm._newton import STEP_TOLERANCE, newton
 from fscm._panels import PanelMesh
 from fscm._typing import Array
 from fscm.errors import NotConverged
@@ -68,7 +68,8 @@ def initial_mesh(problem: Problem, order: int, end_height: float) -> PanelMesh:
     breaks = _extended(np.array([0.0, 0.5, 1.0, 2.0]), end_radius(problem, end_height))
     while problem.punch.growth > STEEP:
         f = problem.punch.height(breaks)
-        bad = np.flatnonzero(f[1:] > _RISE * np.maximum(f[:-1], 1.0))
+        # Farther out than the end height the pressure need not be resolved.
+        bad = np.flatnonzero((f[1:] > _RISE * np.maximum(f[:-1], 1.0)) & (f[:-1] < end_height))
         if not bad.size:
             break
         breaks = np.sort(np.concatenate([breaks, 0.5 * (breaks[bad] + breaks[bad + 1])]))
@@ -165,12 +166,16 @@ def on_mesh(state: State, mesh: PanelMesh) -> State:
     """The state interpolated to another mesh at the same scale: a guess, not an equilibrium."""
     problem = state.disc.problem
     disc = Discretisation(problem, mesh, state.disc)
-    if not moves_exactly(problem.punch):
-        gap = state.disc.mesh.transfer(state.gap, mesh)
-    else:  # the deformation is smooth where the shape is not resolved
+    if state.lift is not None:
+        lift = state.disc.mesh.transfer(state.lift, mesh)
+        known = state.scale, lift, state.displacement, state.follows_edge, state.edge_gap, state.turned
+        return State.lifted(disc, *known)
+    if kinks_of(problem.punch):  # the deformation is smooth where the shape is not resolved
         shape = problem.punch.height
         gap = state.disc.mesh.transfer(state.gap - shape(state.radius), mesh) + shape(state.scale * mesh.nodes)
-    return State(disc, state.scale, gap, state.displacement, state.follows_edge, turned=state.turned)
+    else:
+        gap = state.disc.mesh.transfer(state.gap, mesh)
+    return replace(state, disc=disc, gap=gap, iterations=0, residual=0.0)
 
 
 def fit(state: State, control: Control, tolerance: float, coarsen: bool = False) -> State:

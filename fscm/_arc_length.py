@@ -12,6 +12,9 @@ __all__ = ["ArcLength", "Point", "parameter_control", "parameter_of", "rate_of",
 
 # Share of a large displacement or compressive load that is its unit.
 _SHARE = 0.1
+# The unit of the load is at least this share of the load: near n = 2/3 the tail alone carries loads of 1e3 and more,
+# on which steps in the unit of the contact are lost.
+_SHARE_OF_LOAD = 0.05
 # Attribute of each continuation parameter in a state (but log c) and in its rates.
 _NAMES = {"gap": "central_gap", "log_scale": "log_scale", "displacement": "displacement", "load": "load"}
 
@@ -33,7 +36,7 @@ class ArcLength:
     """Units in which displacement and load enter the arc length; the continuation parameter enters as it is."""
 
     displacement_in_contact: float
-    load: float
+    load_in_contact: float
 
     @classmethod
     def of(cls, problem: Problem) -> ArcLength:
@@ -49,17 +52,16 @@ class ArcLength:
         return max(self.displacement_in_contact + max(state.central_gap, 0.0), _SHARE * state.displacement)
 
     def load_unit(self, state: State) -> float:
-        """Unit of the load: larger far in contact."""
-        return max(self.load, _SHARE * state.load)
+        """Unit of the load: larger far in contact, and where the load is much larger than in the two limits."""
+        return max(self.load_in_contact, _SHARE * state.load, _SHARE_OF_LOAD * abs(state.load))
 
     def units(self, state: State) -> dict[str, float]:
         """Units of all that enters the arc length, by the name of the continuation parameter."""
         units = {"log_scale" if state.follows_edge else "gap": self.parameter_unit(state)}
         units |= {"displacement": self.displacement_unit(state), "load": self.load_unit(state)}
-        law = state.disc.problem.law
-        if state.follows_edge and state.central_gap > law.peak_gap:
+        if state.follows_edge and state.central_gap > state.gap_at_edge:
             # In contact on a ring, the surface inside the ring may move fast while the edge does not.
-            units["gap"] = state.central_gap - law.singular_gap
+            units["gap"] = state.central_gap - state.disc.problem.law.singular_gap
         return units
 
     def tangent(self, state: State) -> Rates:

@@ -8,11 +8,12 @@ from dataclasses import replace
 import numpy as np
 import scipy
 
-from fscm._adaptivity import at_kinks, rescaled_mesh
+from fscm._adaptivity import at_kinks, on_mesh, rescaled_mesh
 from fscm._arc_length import ArcLength, Point
 from fscm._equilibrium import Discretisation, Rates, State
-from fscm._newton import moved_gap, moves_exactly
+from fscm._newton import shifted
 from fscm._panels import PanelMesh
+from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.punch import kinks_of
 
@@ -25,36 +26,18 @@ _NEAR_EDGE = 2.0
 
 
 def predicted(state: State, rates: Rates, step: float) -> State:
-    problem = state.disc.problem
-    if step * rates.log_scale != 0.0 and kinks_of(problem.punch):
-        return _predicted_with_kinks(state, rates, step)
-    return replace(
-        state,
-        scale=state.scale * math.exp(step * rates.log_scale),
-        gap=moved_gap(state, step * rates.gap, step * rates.log_scale),
-        displacement=state.displacement + step * rates.displacement,
-    )
+    """The state after a step along the tangent, on a mesh with its breaks where the kinks are at the new scale."""
+    problem, old = state.disc.problem, state.disc.mesh
+    moved = shifted(state, rates.gap, rates.displacement, rates.log_scale, step)
+    if step * rates.log_scale == 0.0 or not kinks_of(problem.punch):
+        return moved
+    return on_mesh(moved, PanelMesh(at_kinks(problem, old.breaks, state.scale, moved.scale), old.order))
 
 
-def _predicted_with_kinks(state: State, rates: Rates, step: float) -> State:
-    """The same, on a mesh with its breaks where the kinks are at the new scale."""
-    problem, old, log_scale = state.disc.problem, state.disc.mesh, step * rates.log_scale
-    scale, shape = state.scale * math.exp(log_scale), problem.punch.height
-    smooth = moved_gap(state, step * rates.gap, log_scale) - shape(state.radius * math.exp(log_scale))
-    mesh = PanelMesh(at_kinks(problem, old.breaks, state.scale, scale), old.order)
-    return replace(
-        state,
-        disc=Discretisation(problem, mesh, state.disc),
-        scale=scale,
-        gap=old.transfer(smooth, mesh) + shape(scale * mesh.nodes),
-        displacement=state.displacement + step * rates.displacement,
-    )
-
-
-def follow_edge(state: State, end_height: float) -> State:
-    """Guess on a mesh scaled so that the outermost gap of largest tension sits at s = 1."""
+def follow_edge(state: State, end_height: float, edge_gap: float | None = None) -> State:
+    """Guess on a mesh scaled so that the outermost edge gap, by default that of largest tension, sits at s = 1."""
     problem, mesh = state.disc.problem, state.disc.mesh
-    target = problem.law.peak_gap
+    target = problem.law.peak_gap if edge_gap is None else edge_gap
     outer = int(np.flatnonzero(state.gap < target)[-1]) if np.any(state.gap < target) else -1
     low = 0.0 if outer < 0 else float(mesh.nodes[outer])
     ratio = scipy.optimize.brentq(
@@ -62,13 +45,14 @@ def follow_edge(state: State, end_height: float) -> State:
     )
     new = rescaled_mesh(problem, mesh, state.scale, state.scale * ratio, end_height)
     known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
-    shape = problem.punch.height
-    if not moves_exactly(problem.punch):
-        gap = mesh.evaluate(state.gap, known)
-        gap += shape(state.scale * ratio * new.nodes) - shape(state.scale * known)
+    disc, scale, shape = Discretisation(problem, new), state.scale * ratio, problem.punch.height
+    if state.lift is not None:
+        return State.lifted(disc, scale, mesh.evaluate(state.lift, known), state.displacement, True, edge_gap)
+    if kinks_of(problem.punch):
+        gap = mesh.evaluate(state.gap - shape(state.radius), known) + shape(scale * new.nodes)
     else:
-        gap = mesh.evaluate(state.gap - shape(state.radius), known) + shape(state.scale * ratio * new.nodes)
-    return State(Discretisation(problem, new), state.scale * ratio, gap, state.displacement, True)
+        gap = mesh.evaluate(state.gap, known) + (shape(scale * new.nodes) - shape(state.scale * known))
+    return State(disc, scale, gap, state.displacement, True, edge_gap=edge_gap)
 
 
 def edge_elsewhere(state: State, hand_over: float) -> bool:
@@ -96,6 +80,16 @@ def joined(arc: ArcLength, before: Point, state: State) -> Point:
     return Point(state, arc.tangent(state), before.stretch + 1)
 
 
+def _moving(state: State) -> Array:
+    """Gaps; of a steep punch without its height, which is no linear function of log c within a step."""
+    return state.gap if state.lift is None else state.lift - state.displacement
+
+
+def _moving_rates(point: Point) -> Array:
+    rates = point.rates
+    return rates.gap if point.state.lift is None else rates.gap - rates.displacement
+
+
 def checked_sense(a: Point, b: Point, step: float, same: bool | None) -> bool:
     """Whether the gaps go on changing in the same sense; NotConverged when b is on another branch.
 
@@ -103,13 +97,14 @@ def checked_sense(a: Point, b: Point, step: float, same: bool | None) -> bool:
     """
     mesh, other = a.state.disc.mesh, b.state.disc.mesh
     known = np.minimum(other.nodes, mesh.breaks[-1])
-    before, rate = mesh.evaluate(a.state.gap, known), mesh.evaluate(a.rates.gap, known)
+    before, rate = mesh.evaluate(_moving(a.state), known), mesh.evaluate(_moving_rates(a), known)
+    after, new_rate = _moving(b.state), _moving_rates(b)
     clearance = b.state.gap - a.state.disc.problem.law.singular_gap
     near = other.nodes < _NEAR_EDGE
-    product = other.weights * other.nodes * rate * b.rates.gap / clearance**2
+    product = other.weights * other.nodes * rate * new_rate / clearance**2
     if same is None:
         same = bool(np.sum(product[near]) >= 0.0)
-    surprise = b.state.gap - before - 0.5 * step * (rate + (1.0 if same else -1.0) * b.rates.gap)
+    surprise = after - before - 0.5 * step * (rate + (1.0 if same else -1.0) * new_rate)
     if np.max(np.abs(surprise) / clearance) > _SURPRISE:
         raise NotConverged("Newton converged to a state that the tangent does not lead to")
     return same

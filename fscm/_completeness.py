@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -152,13 +153,23 @@ def _middle(a: Point, b: Point, arc: ArcLength) -> Point:
     x = _length(a, b)
 
     first, last = (1.0 / _parameter_rate(point) for point in (a, b))
-    guess = replace(
-        a.state,
-        scale=math.sqrt(a.state.scale * b.state.scale),
-        gap=0.5 * (a.state.gap + b.state.gap) + x / 8.0 * (first * a.rates.gap - last * b.rates.gap),
-        displacement=0.5 * (a.state.displacement + b.state.displacement)
-        + x / 8.0 * (first * a.rates.displacement - last * b.rates.displacement),
-    )
+
+    def middle(start: Any, end: Any, start_rate: Any, end_rate: Any) -> Any:
+        return 0.5 * (start + end) + x / 8.0 * (first * start_rate - last * end_rate)
+
+    scale = math.sqrt(a.state.scale * b.state.scale)
+    displacement = middle(a.state.displacement, b.state.displacement, a.rates.displacement, b.rates.displacement)
+    if a.state.lift is None or b.state.lift is None:
+        gap = middle(a.state.gap, b.state.gap, a.rates.gap, b.rates.gap)
+        guess = replace(a.state, scale=scale, gap=gap, displacement=displacement)
+    else:
+        lift = middle(a.state.lift, b.state.lift, a.rates.gap, b.rates.gap)
+        if a.state.follows_edge:  # the gap at the edge, which the punch of the mean log c does not leave in place
+            disc = a.state.disc
+            edge = float(disc.height(np.array([scale]))[0] + disc.edge @ lift)
+            displacement = edge - a.state.gap_at_edge
+        known = a.state.follows_edge, a.state.edge_gap, a.state.turned
+        guess = State.lifted(a.state.disc, scale, lift, displacement, *known)
     parameter = 0.5 * (parameter_of(a.state) + parameter_of(b.state))
     return _point(newton(guess, parameter_control(guess, parameter)), a, arc)
 

@@ -13,6 +13,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 
+import numpy as np
+import scipy
+
 from fscm._adaptivity import end_radius, fit, initial_mesh
 from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of
 from fscm._branches import checked_sense, edge_elsewhere, follow_edge, joined, predicted, turned
@@ -26,8 +29,8 @@ from fscm.punch import PowerPunch, kinks_of
 
 __all__ = ["MAX_POINTS", "bracketing_path", "equilibrium_path", "moved", "path_end", "path_until"]
 
-# Measured: at most 80 points of a bracketing path for k up to 0.8, but 790 and 1060 at n = 2, k = 0.9, mu = 1 and 2,
-# where the nucleus of contact grows in small steps.  Each keeps its matrices: 2 MB on such meshes.
+# Measured: at most 120 points of a bracketing path for n >= 1, but 300 to 750 at n = 0.67.  Each keeps its matrices:
+# 2 MB on such meshes.
 MAX_POINTS = 1500
 _FIRST_STEP = 0.25
 _SMALLEST_STEP = 1e-6
@@ -44,9 +47,10 @@ _BLIND_STEP_OF_ASPERITIES = 0.002
 # the path may then run flat through several shallow folds, over which the tangent hardly turns.  Measured: n = 2,
 # k = 0.6, mu = 3 has three folds within 0.015 of displacement, and steps of 0.5 missed the first two.
 _FLAT_SHARE, _FLAT_STEP = 0.5, 0.1
-# The width of the cohesive edge is (1.03 M)^(-1/(1-k)) for the 9-3 law; decimal logarithm of the narrowest that is
-# tried: a contact radius has 16 digits, and a law that is ten times less steep has an edge that is as much wider.
-_EDGE, _NARROWEST = 1.03, -20.0
+# The width of the cohesive edge is (1.03 M)^(-1/(1-k)) for the 9-3 law; decimal logarithm of the least width, relative
+# to a contact radius, that is computed.  Measured: right at 4e-10 (n = 2, k = 0.9, mu = 2), but the pull-off force is
+# wrong by 2e-3 with a bound of 2e-4 at 4e-11 (n = 2, k = 0, mu = 1e5).
+_EDGE, _NARROWEST = 1.03, -10.0
 # Where its parameter turns, the path goes on in another one, until that one makes up less than this share of the
 # tangent.
 _LEAST_SHARE = 0.3
@@ -56,6 +60,13 @@ _GIVEN_SHARE = 0.05
 # of that gap's distance to the singular gap: nearer to it the edge radius is a poor variable (it starts as a
 # root).
 _HAND_OVER = 0.05
+# Above this k a contact begins as a nucleus many decades smaller than the punch, whose own gap is above the gap of
+# largest tension until it has grown: its edge is followed from where it grows.  Below, the nucleus passes within the
+# 80 points above.
+_NUCLEUS = 0.8
+# The nucleus lies within a part of the radius at which the punch is this high, its gap is below the one there by this
+# share of its distance to the singular gap, and its radius grows at this rate of log c per arc length.
+_FLAT_HEIGHT, _SMALL, _DEEP, _GROWING = 0.02, 0.05, 0.2, 0.3
 
 
 def moved(state: State, rates: Rates, value: float, tolerance: float = STEP_TOLERANCE) -> State:
@@ -72,18 +83,52 @@ def moved(state: State, rates: Rates, value: float, tolerance: float = STEP_TOLE
 def _far_state(problem: Problem, central_gap: float, order: int, tolerance: float, end_height: float) -> State:
     """Equilibrium at a large central gap, from the rigid solution."""
     disc = Discretisation(problem, initial_mesh(problem, order, end_height))
-    gap = central_gap + problem.punch.height(disc.mesh.nodes)
+    gap = central_gap + disc.height(disc.mesh.nodes)
     control = Control(central_gap, gap=1.0)
-    return fit(newton(State(disc, 1.0, gap, -central_gap, False), control), control, tolerance)
+    lift = np.zeros(disc.mesh.size) if disc.steep else None
+    guess = State(disc, 1.0, gap, -central_gap, False, lift=lift)
+    return fit(newton(guess, control), control, tolerance)
+
+
+def _nucleus_gap(state: State, rates: Rates) -> float | None:
+    """The gap at the edge of a small growing nucleus of contact, if there is such a nucleus."""
+    problem, mesh = state.disc.problem, state.disc.mesh
+    if state.follows_edge or problem.k <= _NUCLEUS:
+        return None
+    flat = int(np.argmax(problem.punch.height(state.radius) >= _FLAT_HEIGHT)) - 1
+    inner = state.central_gap
+    if flat < 1 or state.gap[flat] - inner < _DEEP * (inner - problem.law.singular_gap):
+        return None
+    # The front is where the gap is steepest in log r: it decays slowly farther out.
+    gap, log_r = state.gap[: flat + 1], np.log(mesh.nodes[: flat + 1])
+    slopes = np.diff(gap) / np.diff(log_r)
+    i = int(np.argmax(slopes))
+    if mesh.nodes[i + 1] > _SMALL * mesh.nodes[flat]:
+        return None
+    front = 0.5 * float(gap[i] + gap[i + 1])
+    # Growth at a fixed share of the depth: the radius of a fixed gap grows as well when the nucleus forms, and shrinks
+    # later.
+    share = (front - inner) / (float(gap[flat]) - inner)
+    change = (1.0 - share) * rates.central_gap + share * rates.gap[flat] - 0.5 * (rates.gap[i] + rates.gap[i + 1])
+    return front if change > _GROWING * slopes[i] else None
+
+
+def _log_width(problem: Problem, log_mu: float) -> float:
+    """Decimal logarithm of the width of the cohesive edge over the contact radius, about (n mu)^(1/n), at log10 mu."""
+    n, k = problem.n, problem.k
+    log_M = math.log10(2.0) + (2.0 * n + k - 1.0) / n * log_mu
+    radius = max(math.log10(n) + log_mu, 0.0) / n
+    return -(math.log10(_EDGE) + log_M) / (1.0 - k) - radius
 
 
 def _check_edge(problem: Problem) -> None:
-    """Refuse a cohesive edge, of the width (1.03 M)^(-1/(1-k)), that is far below the rounding of any radius."""
-    log_width = -math.log10(_EDGE * problem.compliance) / (1.0 - problem.k)
-    if log_width < _NARROWEST:
+    """Refuse a cohesive edge that is too narrow beside the rounding of its radius."""
+    log_mu = math.log10(problem.mu)
+    if _log_width(problem, log_mu) < _NARROWEST:
+        largest = scipy.optimize.brentq(lambda x: _log_width(problem, x) - _NARROWEST, -400.0, log_mu)
         raise NotConverged(
-            f"the contact edge of {problem} is about 10^{log_width:.0f} wide, below the rounding of its radius: "
-            f"k = {problem.k:g} is too close to 1, the Gibson solid, at this Tabor number"
+            f"the contact edge of {problem} is about 10^{_log_width(problem, log_mu):.0f} wide, below the rounding of "
+            f"its radius: the largest Tabor number at n = {problem.n:g}, k = {problem.k:g} is mu = {10.0**largest:.3g}"
         )
 
 
@@ -141,9 +186,12 @@ def equilibrium_path(
     while True:
         yield point
         state = point.state
-        if edge_elsewhere(state, hand_over):
-            guess = follow_edge(state, end_height)
+        nucleus = _nucleus_gap(state, point.rates)
+        if nucleus is not None or edge_elsewhere(state, hand_over):
+            guess = follow_edge(state, end_height, nucleus)
             control = parameter_control(guess, parameter_of(guess))
+            if nucleus is not None:  # it grows slowly at first: its gap tells states apart better than its radius
+                control = Control(state.central_gap, gap=1.0)
             state = fit(newton(guess, control), control, tolerance)
             point = joined(arc, point, state)
             continue
@@ -168,11 +216,12 @@ def equilibrium_path(
                 new = fit(new, control, tolerance, coarsen=True)
                 after = Point(new, arc.tangent(new), point.stretch)
                 turn, blind = arc.turn(point, after), step <= shortest
-                if abs(turn) < _LARGEST_TURN and not blind:
+                power = isinstance(problem.punch, PowerPunch)
+                if (turn if power else abs(turn)) < _LARGEST_TURN and not blind:
                     step *= _SHORTER
                     continue
                 same = turn >= 0.0
-                if not isinstance(problem.punch, PowerPunch):
+                if not power:
                     same = checked_sense(point, after, step, same if abs(turn) >= _LARGEST_TURN else None)
                 if not same:  # the path goes on, but its parameter turns
                     after = turned(arc, point)

@@ -23,12 +23,18 @@ import scipy
 from fscm._deformation import axis_row, response_matrix
 from fscm._kernel import kernel_of
 from fscm._panels import PanelMesh
-from fscm._tail import Tail, tail_energy, tail_of, tail_uncertainty
+from fscm._tail import Tail, tail_energy, tail_of
 from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.problem import Problem
 
-__all__ = ["Control", "Discretisation", "Linearisation", "Rates", "State"]
+__all__ = ["STEEP", "Control", "Discretisation", "Linearisation", "Rates", "State"]
+
+# Growth of a punch above which its height is no linear function of log c within a step, and too large beside the
+# deformation to be subtracted from the gap again: the unknowns are then the deformations w in place of the gaps.
+STEEP = 10.0
+# Heights of a steep punch above this one count as this one: its tension, 1e-180 for the 9-3 law, is zero anyway.
+_HIGHEST = 1e60
 
 
 @dataclass(frozen=True)
@@ -63,6 +69,24 @@ class Discretisation:
         edge = int(np.searchsorted(mesh.breaks, 1.0))
         self.edge = mesh.row_at_end(max(edge - 1, 0), 1.0)
 
+    @property
+    def steep(self) -> bool:
+        """Whether the deformations are the unknowns, in place of the gaps."""
+        return self.problem.punch.growth > STEEP
+
+    def height(self, radius: Array) -> Array:
+        """Height of the punch, bounded for a steep one."""
+        f = self.problem.punch.height(radius)
+        return np.minimum(f, _HIGHEST) if self.steep else f
+
+    def rise(self, radius: Array) -> Array:
+        """r df/dr, the change of the height with log c."""
+        if self.steep:
+            # Where the height is bounded it does not change.
+            near = self.problem.punch.height(radius) < _HIGHEST
+            return np.where(near, radius * self.problem.punch.slope(np.where(near, radius, 0.0)), 0.0)
+        return radius * self.problem.punch.slope(radius)
+
     def stiffness_scale(self, c: float) -> float:
         """M (1-k) c^{1-k}, the factor of W."""
         p = self.problem
@@ -82,10 +106,14 @@ class State:
         H at the nodes, in z0.
     displacement : float
         delta / z0.
-    iterations, residual
-        Of the Newton solve that produced it.
     follows_edge : bool
         The anchor: H(s=1) is the edge gap (True) or the scale is fixed (False).
+    iterations, residual
+        Of the Newton solve that produced it.
+    lift : ndarray, shape (N,), optional
+        Deformation w from which the gaps of a steep punch follow.
+    edge_gap : float, optional
+        Gap at s = 1 when the mesh follows the edge; by default the one of largest tension.
     turned : tuple of str and float, optional
         Continuation parameter and its sign along the path, where they are not the usual ones: log c rising when the
         mesh follows the edge, else the central gap falling.
@@ -98,7 +126,24 @@ class State:
     follows_edge: bool
     iterations: int = 0
     residual: float = 0.0
+    lift: Array | None = None
+    edge_gap: float | None = None
     turned: tuple[str, float] | None = None
+
+    @classmethod
+    def lifted(
+        cls,
+        disc: Discretisation,
+        scale: float,
+        lift: Array,
+        displacement: float,
+        follows_edge: bool,
+        edge_gap: float | None = None,
+        turned: tuple[str, float] | None = None,
+    ) -> State:
+        """The state of a steep punch from its deformation."""
+        gap = disc.height(scale * disc.mesh.nodes) - displacement + lift
+        return cls(disc, scale, gap, displacement, follows_edge, lift=lift, edge_gap=edge_gap, turned=turned)
 
     @property
     def parameter(self) -> str:
@@ -109,6 +154,11 @@ class State:
     def sense(self) -> float:
         """Whether the continuation parameter rises (1) or falls (-1) along the path."""
         return self.turned[1] if self.turned else 1.0 if self.follows_edge else -1.0
+
+    @property
+    def gap_at_edge(self) -> float:
+        """Gap at s = 1 when the mesh follows the edge."""
+        return self.disc.problem.law.peak_gap if self.edge_gap is None else self.edge_gap
 
     @cached_property
     def radius(self) -> Array:
@@ -150,27 +200,6 @@ class State:
         area = 2.0 * self.scale**2 * mesh.weights * mesh.nodes
         return float(area @ self.pressure) + self.tail.load
 
-    @property
-    def tail_uncertainty(self) -> float:
-        """Bound on the error of the closed tail, on load and displacement."""
-        return tail_uncertainty(self.disc.problem, self.end, self.displacement, self.tail)
-
-    @property
-    def axis_uncertainty(self) -> float:
-        """Bound on the error of the deformation on the axis, hence of the central gap, on this mesh.
-
-        The pressure follows r^n at the tip, so that its Legendre coefficients of degree l on the innermost panel fall
-        like l^(-2n-1): those from the order q on sum to the last one times q / (2 n).
-        """
-        d, mesh = self.disc, self.disc.mesh
-        last = float(np.max(np.abs(mesh.modes(self.pressure)[0, -2:])))
-        r = self.radius[:2]
-        f = d.problem.punch.height(r)
-        # A flat tip counts as a linear one, the least favourable of those that do not rise like r^n, n < 1.
-        exponent = math.log(f[1] / f[0]) / math.log(r[1] / r[0]) if f[1] > f[0] > 0.0 else 1.0
-        omitted = mesh.order / (2.0 * exponent)
-        return d.stiffness_scale(self.scale) * float(mesh.lengths[0]) ** (1.0 - d.problem.k) * last * omitted
-
     @cached_property
     def energy(self) -> float:
         """Elastic plus surface energy, unit pi Q^(2/n) dgamma z0^(2/n); its change is P d(delta).
@@ -195,7 +224,7 @@ class State:
 
 @dataclass(frozen=True)
 class Rates:
-    """Derivatives along the equilibrium path."""
+    """Derivatives along the equilibrium path; of a steep punch `gap` holds those of the deformation."""
 
     gap: Array
     displacement: float
@@ -224,11 +253,14 @@ class Linearisation:
         slope = problem.law.slope(s.gap)
         mesh = d.mesh
         k = problem.k
-        height = problem.punch.height(s.radius)
-        self.residual = s.gap + s.displacement - height - s.deformation
+        rise = d.rise(s.radius)
+        if s.lift is None:
+            self.residual = s.gap + s.displacement - d.height(s.radius) - s.deformation
+        else:
+            self.residual = s.lift - s.deformation
         # dR / d log c
         elastic = s.deformation - s.tail.displacement
-        self.scale_column = -(s.radius * problem.punch.slope(s.radius) + (1.0 - k) * elastic + s.tail.displacement_rate)
+        self.scale_column = -(rise + (1.0 - k) * elastic + s.tail.displacement_rate)
         N = mesh.size
         self.matrix = np.empty((N + 2, N + 2), order="F")
         J = self.matrix[:N, :N]
@@ -239,25 +271,44 @@ class Linearisation:
         self.matrix[N, :] = 0.0
         if s.follows_edge:
             self.matrix[N, :N] = d.edge
-            self.anchor = float(d.edge @ s.gap) - problem.law.peak_gap
+            self.anchor = float(d.edge @ s.gap) - s.gap_at_edge
         else:
             self.matrix[N, N + 1] = 1.0
             self.anchor = 0.0
         area = 2.0 * s.scale**2 * mesh.weights * mesh.nodes
         self.load_row = area * slope
+        self.load_slope = s.tail.load_slope
         self.load_scale = 2.0 * (s.load - s.tail.load) + s.tail.load_rate
         self.axis_gap_row = K * d.axis * slope
+        self.axis_gap_slope = 1.0 - s.tail.displacement_slope
         self.axis_gap_scale = (1.0 - k) * (
             s.central_gap + s.displacement - s.tail.displacement
         ) + s.tail.displacement_rate
+        if s.lift is not None:
+            self._unknown_is_lift(s.lift, K * slope, rise, elastic)
+
+    def _unknown_is_lift(self, lift: Array, stiffness: Array, rise: Array, elastic: Array) -> None:
+        """Columns for the unknowns (w, delta, log c), H = f(c s) - delta + w, without the large heights."""
+        s, d = self.state, self.state.disc
+        N = d.mesh.size
+        self.matrix[:N, N] = d.matrix @ stiffness - s.tail.displacement_slope
+        self.scale_column = -(d.matrix @ (stiffness * rise) + (1.0 - d.problem.k) * elastic + s.tail.displacement_rate)
+        self.matrix[:N, N + 1] = self.scale_column
+        if s.follows_edge:
+            edge = np.array([s.scale])
+            self.anchor = float(d.height(edge)[0] - s.displacement + d.edge @ lift) - s.gap_at_edge
+            self.matrix[N, N], self.matrix[N, N + 1] = -1.0, float(d.rise(edge)[0])
+        self.load_slope -= float(self.load_row.sum())
+        self.load_scale += float(self.load_row @ rise)
+        self.axis_gap_slope += float(self.axis_gap_row.sum())
+        self.axis_gap_scale += float(self.axis_gap_row @ rise)
 
     def solve(self, control: Control, rhs: Array) -> Array:
         """Solve the bordered system with the control as its last row."""
         N = len(rhs) - 2
         row = self.matrix[N + 1]
         row[:N] = control.gap * self.axis_gap_row + control.load * self.load_row
-        tail = self.state.tail
-        row[N] = control.displacement - control.gap * (1.0 - tail.displacement_slope) + control.load * tail.load_slope
+        row[N] = control.displacement - control.gap * self.axis_gap_slope + control.load * self.load_slope
         row[N + 1] = control.log_scale + control.gap * self.axis_gap_scale + control.load * self.load_scale
         # dgesv directly: the rows differ by many orders of magnitude on purpose, which partial pivoting does
         # not mind, while the condition estimate of the wrapper does.
@@ -284,11 +335,10 @@ class Linearisation:
         rhs[N + 1] = 1.0
         x = self.solve(control, rhs)
         dH, dd, dc = x[:N], float(x[N]), float(x[N + 1])
-        tail = self.state.tail
         return Rates(
             dH,
             dd,
             dc,
-            float(self.axis_gap_row @ dH) - (1.0 - tail.displacement_slope) * dd + self.axis_gap_scale * dc,
-            float(self.load_row @ dH) + tail.load_slope * dd + self.load_scale * dc,
+            float(self.axis_gap_row @ dH) - self.axis_gap_slope * dd + self.axis_gap_scale * dc,
+            float(self.load_row @ dH) + self.load_slope * dd + self.load_scale * dc,
         )

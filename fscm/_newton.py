@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
+import scipy
 
 from fscm._equilibrium import Control, Linearisation, State
 from fscm._typing import Array
 from fscm.errors import NotConverged
-from fscm.punch import PunchShape, kinks_of
+from fscm.punch import kinks_of
 
-__all__ = ["STEEP", "STEP_TOLERANCE", "moved_gap", "moves_exactly", "newton"]
-
-# Growth of a punch above which its height is no linear function of log c within a step: it is then moved exactly.
-STEEP = 10.0
+__all__ = ["STEP_TOLERANCE", "newton", "shifted"]
 
 # Newton stops when the last step changes no gap by more than this, relative to 1 + |H|; the step after it
 # would be at rounding level, since convergence is quadratic.
@@ -26,41 +25,75 @@ _SHRINK = 0.4
 _LOWEST = 0.25
 # Largest change of the logarithm of the scale in one iteration: a factor of two.
 _LARGEST_GROWTH = 0.7
+# Bound on any change of log c, against overflow in what Newton's iteration will refuse.
+_LARGEST_CHANGE = 50.0
 # Below this fraction of a step the iterations allowed parameter nowhere.
 _SMALLEST_DAMPING = 1e-3
 # A step that changes a gap by this factor is no correction any more, and the next ones would overflow.
 _DIVERGED = 1e6
 
 
-def moves_exactly(punch: PunchShape) -> bool:
-    """Whether the height of a punch is no linear function of log c within a step: it is steep, or has kinks."""
-    return punch.growth > STEEP or bool(kinks_of(punch))
+def _moved_scale(state: State, log_scale: float) -> float:
+    """The scale after a linear change of log c; for a steep punch of z = log c + f(c), in which its edge is linear."""
+    if state.lift is None or kinks_of(state.disc.problem.punch):
+        return state.scale * math.exp(log_scale)
+    if log_scale == 0.0:
+        return state.scale
+    log_scale = min(max(log_scale, -_LARGEST_CHANGE), _LARGEST_CHANGE)
+
+    def beyond(log_c: float) -> float:
+        return log_c + float(state.disc.height(np.array([math.exp(log_c)]))[0]) - aim
+
+    start, aim = math.log(state.scale), 0.0
+    aim = beyond(start) + log_scale * (1.0 + float(state.disc.rise(np.array([state.scale]))[0]))
+    # f is convex in log c: the tangent leads too far up, or not far enough down.
+    high = start + log_scale
+    low = start if log_scale > 0.0 else high - beyond(high)
+    if beyond(low) >= 0.0 or beyond(high) <= 0.0:  # the same to rounding
+        return math.exp(high)
+    return math.exp(scipy.optimize.brentq(beyond, low, high, xtol=1e-15, rtol=1e-15))
 
 
-def moved_gap(state: State, change: Array, log_scale: float) -> Array:
-    """Gaps after a linear change at a change of log c, with the exact shape in place of its slope for a steep punch."""
-    punch, r = state.disc.problem.punch, state.radius
-    if not moves_exactly(punch) or log_scale == 0.0:
-        return state.gap + change
-    exact = punch.height(r * math.exp(log_scale)) - punch.height(r)
-    return state.gap + (change - r * punch.slope(r) * log_scale) + exact
+def shifted(state: State, gap: Array, displacement: float, log_scale: float, factor: float = 1.0) -> State:
+    """The state after a part of a linear change of its unknowns: gaps (deformations of a steep punch), delta, log c.
+
+    A punch with kinks moves by its exact change of height: that is no linear function of log c within a step.
+    """
+    scale = _moved_scale(state, factor * log_scale)
+    displacement = state.displacement + factor * displacement
+    if state.lift is not None:
+        lift = state.lift + factor * gap
+        known = state.follows_edge, state.edge_gap, state.turned
+        return State.lifted(state.disc, scale, lift, displacement, *known)
+    moved, disc, r = state.gap + factor * gap, state.disc, state.radius
+    if log_scale != 0.0 and kinks_of(disc.problem.punch):
+        moved += disc.height(scale * disc.mesh.nodes) - disc.height(r) - disc.rise(r) * (factor * log_scale)
+    return replace(state, scale=scale, gap=moved, displacement=displacement)
 
 
-def _largest_damping(state: State, dH: Array, log_scale: float) -> float:
+def _largest_damping(state: State, step: Array) -> float:
     """Largest part of a step, at most 1, that keeps the gaps away from the singular one."""
     floor = state.disc.problem.law.singular_gap
     clearance = state.gap - floor
     least = np.maximum(_SHRINK * clearance, _LOWEST * -floor)
-    if moves_exactly(state.disc.problem.punch) and log_scale != 0.0:
-        damping = min(1.0, _LARGEST_GROWTH / abs(log_scale))
+    dH, log_scale = step[:-2], float(step[-1])
+    largest = _LARGEST_GROWTH / max(abs(log_scale), 1e-300)
+    if state.lift is not None or (log_scale != 0.0 and kinks_of(state.disc.problem.punch)):
+        damping = min(1.0, largest)
         while damping > _SMALLEST_DAMPING and np.any(
-            moved_gap(state, damping * dH, damping * log_scale) - floor < np.minimum(least, clearance)
+            shifted(state, dH, float(step[-2]), log_scale, damping).gap - floor < np.minimum(least, clearance)
         ):
             damping *= 0.5
         return damping
     with np.errstate(divide="ignore", invalid="ignore"):
         limit = np.where(dH < 0.0, (clearance - least) / -dH, np.inf)
-    return float(min(1.0, max(limit.min(), 0.0)))
+    return min(float(min(1.0, max(limit.min(), 0.0))), largest)
+
+
+def _change_of_gap(state: State, step: Array) -> Array:
+    if state.lift is None:
+        return step[:-2]
+    return step[:-2] - step[-2] + state.disc.rise(state.radius) * step[-1]
 
 
 def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) -> State:
@@ -91,21 +124,15 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) ->
         if not np.all(np.isfinite(rhs)):
             raise NotConverged("Newton met a residual that is not finite; start from a closer state")
         step = -system.solve(control, rhs)
-        N = len(state.gap)
-        dH = step[:N]
-        log_scale = float(step[N + 1])
-        damping = min(_largest_damping(state, dH, log_scale), _LARGEST_GROWTH / max(abs(log_scale), 1e-300))
+        damping = _largest_damping(state, step)
         if damping < _SMALLEST_DAMPING:
             raise NotConverged("Newton is driven into the singular gap of the surface law; take a smaller step")
-        state = State(
-            state.disc,
-            state.scale * math.exp(damping * log_scale),
-            moved_gap(state, damping * dH, damping * log_scale),
-            state.displacement + damping * float(step[N]),
-            state.follows_edge,
-            iteration,
-            float(np.max(np.abs(rhs[:N]) / (1.0 + np.abs(state.gap)))),
-            state.turned,
+        residual = float(np.max(np.abs(rhs[:-2]) / (1.0 + np.abs(state.gap))))
+        dH = _change_of_gap(state, step)
+        state = replace(
+            shifted(state, step[:-2], float(step[-2]), float(step[-1]), damping),
+            iterations=iteration,
+            residual=residual,
         )
         change = float(np.max(np.abs(dH) / (1.0 + np.abs(state.gap))))
         if not math.isfinite(change) or change > _DIVERGED:

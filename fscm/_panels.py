@@ -8,6 +8,7 @@ points near the cohesive edge is far below the rounding of the radii themselves.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -17,6 +18,9 @@ from numpy.typing import NDArray
 from fscm._typing import Array
 
 __all__ = ["GaussRule", "PanelMesh", "gauss_rule"]
+
+# Binary digits with which Gauss rules are computed before they are rounded.
+_BITS = 120
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,10 +49,31 @@ class GaussRule:
         return legendre.legvander(2.0 * np.asarray(u) - 1.0, self.order - 1) @ self.to_modes
 
 
+def _gauss(order: int) -> tuple[Array, Array]:
+    """Nodes and weights on [-1, 1], each the nearest double; numpy's weights are wrong by up to 8e-14 (18 nodes).
+
+    Newton's method in integers, units of 2^-_BITS, from numpy's nodes.
+    """
+    one = 1 << _BITS
+    nodes, weights = [], []
+    for guess in legendre.leggauss(order)[0]:
+        x = int(Fraction(float(guess)) * one)
+        for _ in range(2):
+            before, last = one, x
+            for m in range(1, order):
+                before, last = last, ((2 * m + 1) * (x * last >> _BITS) - m * before) // (m + 1)
+            away = one - (x * x >> _BITS)
+            # (1 - x^2) P' = n (P_{n-1} - x P_n)
+            x -= last * away // (order * (before - (x * last >> _BITS)))
+        nodes.append(x / one)
+        weights.append(2 * away * one / (order * before) ** 2)
+    return np.array(nodes), np.array(weights)
+
+
 @lru_cache(maxsize=32)
 def gauss_rule(order: int) -> GaussRule:
     """The rule with `order` nodes."""
-    x, w = legendre.leggauss(order)
+    x, w = _gauss(order)
     modes = (2.0 * np.arange(order) + 1.0)[:, None] * legendre.legvander(x, order - 1).T * (0.5 * w)[None, :]
     return GaussRule(0.5 * (1.0 + x), 0.5 * w, modes)
 

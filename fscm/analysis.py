@@ -5,12 +5,14 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 
 from fscm import _events as events
 from fscm._arc_length import Point
+from fscm._bounds import EventErrors, bounds, energy_of_jump
 from fscm._completeness import completed
 from fscm._continuation import bracketing_path
+from fscm._defect import Errors
 from fscm._events import Bracket, Condition
 from fscm._meshes import Accuracy, Meshes
 from fscm._threads import one_thread
@@ -18,7 +20,7 @@ from fscm.errors import NoSuchEvent, NotConverged
 from fscm.folds import Fold, folds_of
 from fscm.problem import Problem
 from fscm.quantities import quantity_named
-from fscm.solution import EventPair, Solution
+from fscm.solution import EventPair, Parts, Solution
 
 __all__ = ["EVENTS", "Analysis"]
 
@@ -57,6 +59,12 @@ class Analysis:
         self.problem = problem
         self.meshes = Meshes.of(accuracy)
         self._pairs: dict[str, EventPair] = {}
+        self._landings: dict[EventPair, tuple[EventPair, Bracket]] = {}
+        self._jumps: dict[str, list[tuple[EventPair, EventPair]]] = {}
+        self._parts: dict[tuple[str, str], Parts] = {}
+        # The finer mesh of one event at a time: it holds several square matrices.
+        self._last: tuple[str, EventErrors] | None = None
+        self._fold_errors: dict[str, tuple[Errors, Errors]] = {}
 
     @cached_property
     @one_thread()
@@ -112,7 +120,7 @@ class Analysis:
 
     @one_thread()
     def event(self, name: str) -> EventPair:
-        """The state at one of `EVENTS`, on two meshes.
+        """The state at one of `EVENTS`, on the value mesh, and on the check mesh when that is read.
 
         Parameters
         ----------
@@ -146,8 +154,56 @@ class Analysis:
 
     def _pair(self, bracket: Bracket, condition: Condition) -> EventPair:
         coarse = events.locate(*bracket, condition)
-        check = events.sharpen(coarse, condition, *self.meshes.check)
-        return EventPair(check, events.sharpen(check, condition, *self.meshes.value))
+        check = partial(events.sharpen, coarse, condition, *self.meshes.check)
+        return EventPair(events.sharpen(coarse, condition, *self.meshes.value), check)
+
+    @one_thread()
+    def parts(self, event: str, functional: str) -> Parts:
+        """Bounds on the error of "load", "displacement" or "central_gap" at an event.
+
+        Examples
+        --------
+        >>> parts = Analysis(Problem(n=2, k=0.4, mu=1.0)).parts("pull_off", "load")
+        >>> parts.total < 1e-10
+        True
+        """
+        if (event, functional) not in self._parts:
+            errors, extremal = self._errors(event), _EXTREMAL[event]
+            self._parts[event, functional] = (
+                bounds(errors.controlled(functional, "load", 0.0))
+                if extremal is None
+                else errors.at_extreme(functional, extremal)
+            )
+        return self._parts[event, functional]
+
+    def _errors(self, event: str) -> EventErrors:
+        if self._last is None or self._last[0] != event:
+            errors = EventErrors(self.event(event).value)
+            self._last = event, errors
+            if event in _LANDINGS:
+                self._fold_errors[event] = errors.at_fold()
+        return self._last[1]
+
+    @one_thread()
+    def jump_parts(self, jump: str) -> Parts:
+        """Bounds on the error of the energy that is lost in all jumps of an approach or a retreat, see `jumps`.
+
+        Examples
+        --------
+        >>> Analysis(Problem(n=2, k=0.4, mu=1.0)).jump_parts("jump_in").total < 1e-8
+        True
+        """
+        parts = Parts()
+        for fold, landing in self.jumps(jump):
+            if fold is not self.event(jump):
+                errors = EventErrors(fold.value).at_fold()
+            else:
+                if jump not in self._fold_errors:
+                    self._errors(jump)
+                errors = self._fold_errors[jump]
+            # The errors may cancel by accident, so their sizes are added.
+            parts = parts.plus(energy_of_jump(*errors, landing.value))
+        return parts
 
     @one_thread()
     def landing(self, event: str) -> EventPair:
@@ -165,6 +221,13 @@ class Analysis:
         list of (EventPair, EventPair)
             The fold and the landing of each, in their order.  A punch with asperities may jump several times.
         """
+        if event not in self._jumps:
+            self._jumps[event] = self._all_jumps(event)
+        return self._jumps[event]
+
+    def _all_jumps(self, event: str) -> list[tuple[EventPair, EventPair]]:
+        if event not in _LANDINGS:
+            raise ValueError(f"unknown jump {event!r}; known are {', '.join(_LANDINGS)}")
         fold = self.event(event)
         landing, place = self._landing(event, fold)
         found, places = [(fold, landing)], {id(point): i for i, point in enumerate(self.points)}
@@ -187,6 +250,8 @@ class Analysis:
 
     def _landing(self, event: str, fold: EventPair) -> tuple[EventPair, Bracket]:
         """State in which a jump from a fold lands, and its bracket on the path."""
+        if fold in self._landings:
+            return self._landings[fold]
 
         def at(displacement: float) -> Condition:
             return lambda state, rates: state.displacement - displacement
@@ -200,8 +265,10 @@ class Analysis:
             )
         place = crossings[_LANDINGS[event]]
         coarse = events.locate(*place, condition)
-        check = events.sharpen(coarse, at(fold.check.displacement), *self.meshes.check)
-        return EventPair(check, events.sharpen(check, at(fold.value.displacement), *self.meshes.value)), place
+        value = events.sharpen(coarse, condition, *self.meshes.value)
+        pair = EventPair(value, lambda: events.sharpen(coarse, at(fold.check.displacement), *self.meshes.check))
+        self._landings[fold] = pair, place
+        return self._landings[fold]
 
     @one_thread()
     def solution(self, quantity: str) -> Solution:
@@ -217,7 +284,7 @@ class Analysis:
         if self._alternatives:
             # What the smoothing of a law changes is as uncertain as its data.
             change = max(abs(other.solution(quantity).value - found.value) for other in self._alternatives)
-            found = replace(found, u_num=found.u_num + change)
+            found = replace(found, parts=found.parts.plus(Parts(law=change)))
         return replace(found, seconds=time.perf_counter() - start)
 
     @cached_property
@@ -238,6 +305,8 @@ _EVENTS: dict[str, tuple[Callable[[Analysis], Bracket], Condition]] = {
     "jump_out": (lambda analysis: analysis._folds[1], events.displacement_fold),
     "zero_load": (Analysis._last_zero_load, events.zero_load),
 }
+# The functional that is extreme at an event; none: the load is prescribed.
+_EXTREMAL = {"pull_off": "load", "jump_in": "displacement", "jump_out": "displacement", "zero_load": None}
 # Where a jump lands among the points of the path with the displacement of its fold: on the last or on the first branch.
 _LANDINGS = {"jump_in": -1, "jump_out": 0}
 

@@ -13,6 +13,7 @@ from dataclasses import replace
 import scipy
 
 from fscm._arc_length import parameter_control, parameter_of, rates_of
+from fscm._bounds import EventErrors, bounds
 from fscm._continuation import bracketing_path, moved
 from fscm._equilibrium import Discretisation, State
 from fscm._events import refined, slowest
@@ -21,7 +22,7 @@ from fscm._newton import newton
 from fscm._threads import one_thread
 from fscm.errors import NoSuchEvent, NotConverged
 from fscm.problem import Problem
-from fscm.solution import FLOOR, SAFETY, Solution
+from fscm.solution import Parts, Solution
 
 __all__ = ["critical_tabor_number"]
 
@@ -34,8 +35,6 @@ _FIRST_SECANT_STEP, _SECANT_STEPS, _TOLERANCE = 1e-4, 15, 1e-9
 # (n = 1, k = 0).
 _SPACING = 2e-4
 _VERTEX_TOLERANCE = 1e-4
-# Second differences of the rate amplify its rounding; measured scatter of mu between meshes is below 1e-10.
-_AMPLIFICATION = 1e3
 
 
 def _coarse_root(problem: Problem, meshes: Meshes) -> State:
@@ -88,20 +87,33 @@ def _least_rate(state: State) -> tuple[State, float, float]:
     return moved(state, rates, x + step), rates.displacement + 0.5 * slope * step, step
 
 
-def _on_mesh(state: State) -> tuple[float, State]:
-    """Root in mu of the least rate on the mesh of a state, by the secant method."""
+def _on_mesh(state: State) -> tuple[float, State, float]:
+    """Root in mu of the least rate on the mesh of a state, by the secant method; the state; derivative of the rate."""
     mu = state.disc.problem.mu
     state, rate, _ = _least_rate(state)
-    step = _FIRST_SECANT_STEP * mu
+    step, slope = _FIRST_SECANT_STEP * mu, 0.0
     for _ in range(_SECANT_STEPS):
         mu += step
         state, new, off = _least_rate(_at_tabor_number(state, mu))
-        if abs(step) < _TOLERANCE * mu and abs(off) < _VERTEX_TOLERANCE:
-            return mu, state
         # Once mu has settled, further rounds only improve the vertex.
-        step = step * -new / (new - rate) if abs(step) > 0.1 * _TOLERANCE * mu else step
+        moving = abs(step) > 0.1 * _TOLERANCE * mu
+        slope = (new - rate) / step if moving else slope
+        if abs(step) < _TOLERANCE * mu and abs(off) < _VERTEX_TOLERANCE:
+            return mu, state, slope
+        step = -new / slope if moving else step
         rate = new
     raise NotConverged("the secant method for the critical Tabor number did not settle")
+
+
+def _bounds(state: State, slope: float) -> Parts:
+    """Bounds on the error of the root: the error of the rate over its derivative by mu.
+
+    The rate is least, so that it does not change, to first order, with the place along the path.
+    """
+    rate = EventErrors(state).rate("displacement")
+    # The vertex of the parabola adds the difference of two rates, times its distance over twice their spacing.
+    rounding = (1.0 + 0.5 * _VERTEX_TOLERANCE / _SPACING) * rate.rounding
+    return bounds(replace(rate, rounding=rounding), 1.0 / abs(slope))
 
 
 @one_thread()
@@ -132,11 +144,10 @@ def critical_tabor_number(problem: Problem, accuracy: Accuracy = "default") -> S
     """
     start = time.perf_counter()
     meshes = Meshes.of(accuracy)
-    coarse = _coarse_root(problem, meshes)
-    (check, _), (value, state) = (_on_mesh(refined(coarse, *mesh)) for mesh in (meshes.check, meshes.value))
+    value, state, slope = _on_mesh(refined(_coarse_root(problem, meshes), *meshes.value))
     return Solution(
         value,
-        SAFETY * abs(value - check) + FLOOR * _AMPLIFICATION,
+        _bounds(state, slope),
         len(state.gap) + 2,
         state.iterations,
         state.residual,

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 from fscm.critical import critical_tabor_number
-from fscm.solution import Solution, State, solution_of
+from fscm.solution import Parts, Solution, solution_of
 
 if TYPE_CHECKING:
     from fscm.analysis import Analysis
@@ -56,23 +56,31 @@ class Quantity:
     compute: Callable[[Analysis], Solution]
 
 
-@dataclass(frozen=True, init=False)
+@dataclass(frozen=True)
 class AtEvent(Quantity):
-    """A quantity that is a functional of the state at one event."""
+    """A quantity that is a functional of the state at one event.
+
+    Attributes
+    ----------
+    functional : callable
+        PathPoint -> float.
+    """
 
     functional: Callable[[PathPoint], float]
 
-    def __init__(self, kind: str, event: str, functional: Callable[[PathPoint], float]) -> None:
-        def compute(analysis: Analysis) -> Solution:
-            pair = analysis.event(event)
-            # Load and displacement share their error (that of the work of adhesion), so the larger stands for both.
-            difference = pair.difference(functional, _load, _displacement)
-            # Two meshes may share the innermost panel, whose error is that of the central gap alone.
-            axis = pair.value.axis_uncertainty if functional is _central_gap else 0.0
-            return solution_of(functional(pair.value), difference, [pair], axis)
+    @classmethod
+    def of(cls, kind: str, event: str, attribute: str, sign: float = 1.0) -> AtEvent:
+        """Row for an attribute of `PathPoint`, times a sign."""
 
-        for name, value in (("kind", kind), ("needs", (event,)), ("compute", compute), ("functional", functional)):
-            object.__setattr__(self, name, value)
+        def functional(point: PathPoint) -> float:
+            return sign * float(getattr(point, attribute))
+
+        def compute(analysis: Analysis) -> Solution:
+            return solution_of(
+                functional(analysis.event(event).value), analysis.parts(event, attribute), [analysis.event(event)]
+            )
+
+        return cls(kind, (event,), compute, functional)
 
     @property
     def event(self) -> str:
@@ -80,41 +88,25 @@ class AtEvent(Quantity):
         return self.needs[0]
 
 
-def _load(point: PathPoint) -> float:
-    return point.load
-
-
-def _displacement(point: PathPoint) -> float:
-    return point.displacement
-
-
-def _central_gap(point: PathPoint) -> float:
-    return point.central_gap
-
-
-def _energy(state: State) -> float:
-    return state.energy
-
-
 def _hysteresis_energy(analysis: Analysis) -> Solution:
     """Energy lost in all jumps of a cycle: by how much the energy drops at constant displacement."""
-    jumps = [*analysis.jumps("jump_in"), *analysis.jumps("jump_out")]
-    pairs = [pair for jump in jumps for pair in jump]
-    lost = 0.0
-    for fold, landing in jumps:
-        lost = lost + fold.value.energy - landing.value.energy
-    # The errors may cancel by accident, so their sizes are added.
-    return solution_of(lost, sum(pair.difference(_energy) for pair in pairs), pairs)
+    value, parts, pairs = 0.0, Parts(), []
+    for name in ("jump_in", "jump_out"):
+        for fold, landing in analysis.jumps(name):
+            value += fold.value.energy - landing.value.energy
+            pairs += [fold, landing]
+        parts = parts.plus(analysis.jump_parts(name))
+    return solution_of(value, parts, pairs)
 
 
 TABLE: dict[str, Quantity] = {
-    "pull_off_force": AtEvent("force", "pull_off", lambda point: -point.load),
-    "pull_off_displacement": AtEvent("displacement", "pull_off", _displacement),
-    "jump_in_displacement": AtEvent("displacement", "jump_in", _displacement),
-    "jump_in_gap": AtEvent("gap", "jump_in", _central_gap),
-    "jump_out_displacement": AtEvent("displacement", "jump_out", _displacement),
-    "jump_out_gap": AtEvent("gap", "jump_out", _central_gap),
-    "zero_load_displacement": AtEvent("displacement", "zero_load", _displacement),
+    "pull_off_force": AtEvent.of("force", "pull_off", "load", -1.0),
+    "pull_off_displacement": AtEvent.of("displacement", "pull_off", "displacement"),
+    "jump_in_displacement": AtEvent.of("displacement", "jump_in", "displacement"),
+    "jump_in_gap": AtEvent.of("gap", "jump_in", "central_gap"),
+    "jump_out_displacement": AtEvent.of("displacement", "jump_out", "displacement"),
+    "jump_out_gap": AtEvent.of("gap", "jump_out", "central_gap"),
+    "zero_load_displacement": AtEvent.of("displacement", "zero_load", "displacement"),
     "hysteresis_energy": Quantity("energy", ("jump_in", "jump_out"), _hysteresis_energy),
     "critical_tabor_number": Quantity(
         "number", (), lambda analysis: critical_tabor_number(analysis.problem, analysis.meshes)

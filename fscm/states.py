@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 
 from fscm import _events as events
 from fscm._arc_length import Point, parameter_of, rates_of
+from fscm._bounds import EventErrors
 from fscm._completeness import completed
 from fscm._continuation import path_end, path_until
 from fscm._equilibrium import State
@@ -18,7 +19,7 @@ from fscm._threads import one_thread
 from fscm._typing import Array
 from fscm.analysis import Analysis
 from fscm.problem import Problem
-from fscm.solution import FLOOR, SAFETY, EventPair
+from fscm.solution import Parts
 from fscm.stability import Stability, stability_of
 
 __all__ = ["EquilibriumState", "RadialField", "equilibria", "profile", "radial_field"]
@@ -65,7 +66,17 @@ class RadialField:
 
 @dataclass(frozen=True)
 class EquilibriumState:
-    """One equilibrium state, dimensionless; `u_num` bounds the error of each of the three numbers.
+    """One equilibrium state, dimensionless.
+
+    Attributes
+    ----------
+    central_gap, displacement, load : float
+    u_num : float
+        Bound on the error of each of the three numbers.
+    profile : RadialField
+    parts : mapping
+        Bounds on the error of each of the three, by name and cause: ``parts["load"]["mesh"]``.  That of the control
+        bounds how well its value is met.
 
     Only a stable state can be held in an experiment, so that an unstable branch is never reached.
 
@@ -83,6 +94,7 @@ class EquilibriumState:
     load: float
     u_num: float
     profile: RadialField
+    parts: Mapping[str, Parts]
     _state: State = field(repr=False, compare=False)
 
     @cached_property
@@ -163,7 +175,7 @@ def equilibria(problem: Problem, control: str, value: float, accuracy: Accuracy 
         near = _near_extreme(a, b, condition, fold, meshes)
         if near is None:
             near = [events.locate(*bracket, condition) for bracket in events.crossings([a, b], condition, fold)]
-        found += [_solved(coarse, condition, meshes) for coarse in near]
+        found += [_solved(coarse, control, value, condition, meshes) for coarse in near]
     return found
 
 
@@ -195,17 +207,17 @@ def _near_extreme(
     return [events.moved(extreme, rates, x + side * along * distance) for side in (-1.0, 1.0)]
 
 
-def _solved(coarse: State, condition: events.Condition, meshes: Meshes) -> EquilibriumState:
-    pair = EventPair(*(events.sharpen(coarse, condition, *mesh) for mesh in (meshes.check, meshes.value)))
-    state = pair.value
-    difference = pair.difference(*_FUNCTIONALS.values())
-    scale = 1.0 + max(abs(f(state)) for f in _FUNCTIONALS.values())
+def _solved(coarse: State, control: str, value: float, condition: events.Condition, meshes: Meshes) -> EquilibriumState:
+    state = events.sharpen(coarse, condition, *meshes.value)
+    errors = EventErrors(state)
+    parts = {name: errors.prescribed(name, control, value) for name in _FUNCTIONALS}
     return EquilibriumState(
         float(state.central_gap),
         float(state.displacement),
         float(state.load),
-        float(SAFETY * difference + FLOOR * scale + state.tail_uncertainty),
+        max(each.total for each in parts.values()),
         radial_field(state),
+        parts,
         state,
     )
 

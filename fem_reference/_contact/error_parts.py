@@ -31,6 +31,7 @@ from fem_reference._contact.uncertainty import Convergence, three_meshes
 from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import FEATURES, variant
+from fem_reference.errors import NotConverged
 
 __all__ = ["PARTS", "Estimate", "EventsOnMeshes", "events_on_meshes"]
 
@@ -80,6 +81,8 @@ class EventsOnMeshes:
         On the coarsest mesh with the lowest degree.
     features : mapping of str to ResolvedEvents
         On that mesh with one feature made coarser.
+    full_features : callable
+        Returns the same on the coarsest mesh with the full degree, for edges that the lower degree cannot resolve.
     placements : tuple of ResolvedEvents
         On the finest mesh with another placement of the contact edge.
     tail, rounding : ResolvedEvents
@@ -94,6 +97,7 @@ class EventsOnMeshes:
     lower_degree: ResolvedEvents
     base: ResolvedEvents
     features: Mapping[str, ResolvedEvents]
+    full_features: Callable[[], Mapping[str, ResolvedEvents]]
     placements: tuple[ResolvedEvents, ...]
     tail: ResolvedEvents
     rounding: ResolvedEvents
@@ -112,9 +116,18 @@ class EventsOnMeshes:
         fine = functional(self.path)
         values = functional(self.coarse), functional(self.medium), fine
         algebra = abs(functional(self.rounding) - fine) + ROUNDING * abs(fine)
-        convergence = three_meshes(values, self.ratio, declared, functional(self.lower_degree), algebra)
-        base = functional(self.base)
-        feature = {name: abs(functional(events) - base) for name, events in self.features.items()}
+        try:
+            lower_degree = functional(self.lower_degree)
+        except NotConverged:
+            # The coarse mesh replaces it, and is farther away than the medium one.
+            lower_degree = values[0]
+        convergence = three_meshes(values, self.ratio, declared, lower_degree, algebra)
+        try:
+            base = functional(self.base)
+            feature = {name: abs(functional(events) - base) for name, events in self.features.items()}
+        except NotConverged:
+            # An edge that is too narrow for the lower degree.
+            feature = {name: abs(functional(events) - values[0]) for name, events in self.full_features().items()}
         placement = max((abs(functional(events) - fine) for events in self.placements), default=0.0)
         parts = (
             convergence.error,
@@ -155,12 +168,19 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
         placements = ()
     plain = replace(spec, order=spec.order - FEATURE_DEGREES)
     middle_contact = choice.contact(medium, size)
-    lower_degree = choice.contact(replace(medium, order=spec.order - 1), other)
+    # The interfaces of the modulus keep their depths.
+    moved = replace(medium, order=spec.order - 1, scales=medium.scales.scaled(other / size))
+    lower_degree = choice.contact(moved, other)
     base = choice.contact(plain, size)
     features = {feature: choice.contact(variant(plain, feature), size) for feature in FEATURES}
     # The finest mesh is the last: it is used next.
     path = choice.traced(fine, size)
     contact = path.samples[0].branch.contact
+
+    @lru_cache(maxsize=1)
+    def full_features() -> Mapping[str, ResolvedEvents]:
+        return {name: ResolvedEvents(path, choice.contact(variant(spec, name), size)) for name in FEATURES}
+
     return EventsOnMeshes(
         path,
         ResolvedEvents(path, coarse),
@@ -168,6 +188,7 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
         ResolvedEvents(path, lower_degree),
         ResolvedEvents(path, base),
         {feature: ResolvedEvents(path, other_contact) for feature, other_contact in features.items()},
+        full_features,
         tuple(ResolvedEvents(path, contact, placement) for placement in placements),
         ResolvedEvents(path, _with_tail(contact, choice)),
         ResolvedEvents(path, _rounded(contact)),

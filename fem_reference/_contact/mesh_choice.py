@@ -17,7 +17,9 @@ from fem_reference._contact.contact import Contact
 from fem_reference._contact.events import PathEvents, beyond_pull_off
 from fem_reference._contact.path import EDGE_RISE, edge_width
 from fem_reference._contact.tracing import traced
-from fem_reference._elastic.compliance import compliance_for
+from fem_reference._elastic.compliance import compliance_for, scaled_modulus
+from fem_reference._elastic.depth_scales import depth_scales
+from fem_reference._elastic.exterior import exterior_error
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import Level, finer_levels
 from fem_reference.errors import NotConverged
@@ -50,9 +52,12 @@ power 3/m of it for a slower H^-m): beyond it the traction enters P by a quadrat
 LARGEST_EXTENT = 1e8
 """Of a mesh, in units of its edge radius.  It costs an element for each factor of two."""
 
-HOMOGENEOUS_DEPTH = 64.0
-"""End of the mesh relative to the depth over which the modulus leaves its surface law: the exterior beyond takes
-it for the power law of great depth (measured: four times as far changes displacements by 1.3e-7 z0 at most)."""
+EXTERIOR_ERROR = 5e-8
+"""Bound of the relative error of the displacement from the power law that the exterior takes: half of the accuracy
+"default", for all accuracies, because it falls with the square of the extent."""
+
+FINEST_SCALE = 1e-3
+"""Depth, relative to the one resolved under the surface, from which on changes of the modulus are searched for."""
 
 REFINEMENTS = 8
 """Largest number of meshes tried to find the width of the edge."""
@@ -95,9 +100,11 @@ class MeshChoice:
         C, m = law.decay
         height = FAR_HEIGHT ** max(1.0, 3.0 / m) if C != 0.0 else FAR_HEIGHT
         far = radius_at_height(self.problem.punch, height * law.length)
-        deep = HOMOGENEOUS_DEPTH * modulus.surface_depth / size if math.isfinite(modulus.surface_depth) else 0.0
-        extent = 2.0 ** math.ceil(math.log2(min(max(far / smallest, 50.0, deep), LARGEST_EXTENT)))
-        return MeshSpec(width, depth, extent, self.level.densities[0], self.level.order, APEX_WIDTH)
+        extent = 2.0 ** math.ceil(math.log2(min(max(far / smallest, 50.0), LARGEST_EXTENT)))
+        while exterior_error(scaled_modulus(modulus, size), extent) > EXTERIOR_ERROR and extent < LARGEST_EXTENT:
+            extent *= 2.0
+        scales = depth_scales(modulus, FINEST_SCALE * depth * size, extent * size).scaled(size)
+        return MeshSpec(width, depth, extent, self.level.densities[0], self.level.order, APEX_WIDTH, scales)
 
     def first_width(self, radius: float) -> float:
         """Relative length over which traction and stiffness balance, at a contact of that radius."""

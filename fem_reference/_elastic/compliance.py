@@ -20,7 +20,7 @@ from fem_reference._elastic.condensation import condensed
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.trace import Trace, trace_of
 from fem_reference._typing import Array
-from fem_reference.modulus import Modulus, PowerLawModulus
+from fem_reference.modulus import Interface, Modulus, PowerLawModulus, interfaces_of
 
 __all__ = [
     "Compliance",
@@ -149,6 +149,10 @@ class _Scaled:
     @property
     def surface_depth(self) -> float:
         return self.base.surface_depth / self.c
+
+    @property
+    def interfaces(self) -> tuple[Interface, ...]:
+        return tuple(Interface(i.depth / self.c, i.transition / self.c) for i in interfaces_of(self.base))
 
     def __call__(self, z: Array) -> Array:
         return self.base(np.asarray(z, float) * self.c)

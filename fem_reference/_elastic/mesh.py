@@ -2,20 +2,26 @@
 
 Radii r >= 0 run along the surface, depth z >= 0 into the solid.  Radial nodes sit at s_e + d sinh(x) and
 depth nodes at d_z sinh(x) with x equally spaced: an element is about `density` times its distance from the
-edge (or the surface), and never smaller than `density` times the width d that has to be resolved.
+edge (or the surface), and never smaller than `density` times the width d that has to be resolved.  Where the modulus
+changes within a short length, elements are no longer than `density` times that length plus the distance to it; where
+it jumps there is a mesh line.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from skfem import MeshQuad
 
+from fem_reference._elastic.depth_scales import DepthScales
 from fem_reference._typing import Array
 
 __all__ = ["Grid", "MeshSpec", "graded_grid", "uniform_grid"]
+
+_NO_SCALES = DepthScales()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,6 +70,38 @@ def _sinh_nodes(width: float, length: float, density: float) -> Array:
     return nodes
 
 
+CURVE_POINTS = 400
+"""Points for the integral of the node density, for each length that it has to follow."""
+
+
+def _depth_nodes(width: float, length: float, density: float, scales: DepthScales) -> Array:
+    """0 ... length, spaced as `_sinh_nodes` and as the modulus asks for, with its lines among them."""
+    lines = [z for z in scales.lines if 0 < z < length]
+    parts = np.array([part for part in scales.parts if part[0] < length]).reshape(-1, 2)
+    if not lines and not parts.size:
+        return _sinh_nodes(width, length, density)
+    curves = [width * np.sinh(np.linspace(0.0, math.asinh(length / width), 4 * CURVE_POINTS)), np.array(lines)]
+    for a, b in parts:
+        away = (b - a) * np.sinh(np.linspace(0.0, math.asinh(length / (b - a)), CURVE_POINTS))
+        curves += [a - away, b + away, np.linspace(a, b, 9)]
+    z = np.unique(np.concatenate(curves))
+    z = z[(z >= 0) & (z < length)]
+    z = np.append(z, length)
+    middle = 0.5 * (z[:-1] + z[1:])
+    longest = np.hypot(width, middle)
+    for a, b in parts:
+        longest = np.minimum(longest, b - a + np.maximum(np.maximum(a - middle, middle - b), 0.0))
+    count = np.concatenate([[0.0], np.cumsum(np.diff(z) / longest)]) / density
+    ends = np.array([0.0, *lines, length])
+    nodes = [np.zeros(1)]
+    for low, high in pairwise(ends):
+        first, last = np.interp([low, high], z, count)
+        elements = max(1, math.ceil(last - first))
+        inside = np.interp(np.linspace(first, last, elements + 1)[1:-1], count, z)
+        nodes += [inside, np.array([high])]
+    return np.concatenate(nodes)
+
+
 def graded_grid(
     edge: float = 1.0,
     edge_width: float = 0.1,
@@ -71,6 +109,7 @@ def graded_grid(
     extent: float = 100.0,
     density: float = 0.5,
     apex_width: float | None = None,
+    scales: DepthScales = _NO_SCALES,
 ) -> Grid:
     """Return a grid refined around the radius `edge` and towards the surface.
 
@@ -88,6 +127,8 @@ def graded_grid(
         Growth of element size with distance; halving it halves every element.
     apex_width : float, optional
         Radial length to resolve at r = 0 as well (a cone has a singular stress there).
+    scales : DepthScales
+        Depths and lengths of the modulus to follow.
 
     Returns
     -------
@@ -111,7 +152,7 @@ def graded_grid(
         inside = np.concatenate([_sinh_nodes(apex_width, half, density), inside[1:]])
     outside = edge + _sinh_nodes(edge_width, extent - edge, density)
     inside[0], outside[-1] = 0.0, extent
-    return Grid(np.concatenate([inside, outside[1:]]), _sinh_nodes(surface_depth, extent, density))
+    return Grid(np.concatenate([inside, outside[1:]]), _depth_nodes(surface_depth, extent, density, scales))
 
 
 def uniform_grid(extent: float, count: int) -> Grid:
@@ -138,6 +179,8 @@ class MeshSpec:
         Growth of element size with distance.
     order : int
         Degree of the elements.
+    scales : DepthScales
+        Depths and lengths of the modulus, in units of the edge radius.
     """
 
     edge_width: float
@@ -146,7 +189,10 @@ class MeshSpec:
     density: float
     order: int
     apex_width: float | None = None
+    scales: DepthScales = _NO_SCALES
 
     def grid(self) -> Grid:
         """Return the grid with its edge at s = 1."""
-        return graded_grid(1.0, self.edge_width, self.surface_depth, self.extent, self.density, self.apex_width)
+        return graded_grid(
+            1.0, self.edge_width, self.surface_depth, self.extent, self.density, self.apex_width, self.scales
+        )

@@ -35,7 +35,7 @@ from fscm.errors import NoSuchEvent, NotConverged
 from fscm.gibson.local_equilibrium import Front, LocalEquilibrium, root
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
-from fscm.solution import Solution
+from fscm.solution import Parts, Solution
 
 __all__ = ["GibsonSolid"]
 
@@ -214,8 +214,8 @@ class GibsonSolid:
         if quantity not in _QUANTITIES:
             raise ValueError(f"unknown quantity {quantity!r}; known are {', '.join(_QUANTITIES)}")
         value, error = _QUANTITIES[quantity](self)
-        u_num = error + _ROUNDING * _EPS * (1.0 + self._local.M) * (1.0 + abs(value))
-        return Solution(value, u_num, 1, 0, 0.0, time.perf_counter() - start)
+        parts = Parts(mesh=error, rounding=_ROUNDING * _EPS * (1.0 + self._local.M) * (1.0 + abs(value)))
+        return Solution(value, parts, 1, 0, 0.0, time.perf_counter() - start)
 
     def _hysteretic(self) -> tuple[float, Front]:
         """Gap of fold A and the front, or NoSuchEvent."""

@@ -11,7 +11,7 @@ import scipy
 from fscm._threads import one_thread
 from fscm.problem import Problem
 from fscm.quantities import TABLE, AtEvent
-from fscm.solution import Solution
+from fscm.solution import Parts, Solution
 from fscm.stieltjes.events import find_event
 from fscm.stieltjes.scheme import StieltjesScheme, StieltjesState
 
@@ -63,9 +63,9 @@ def stieltjes_solution(problem: Problem, quantity: str, segments: int = 2500, **
     state = find_event(scheme, row.event)
     value = row.functional(state)
     coarse = row.functional(find_event(StieltjesScheme(problem, segments // 2, **settings), row.event))
-    u_num = _SAFETY * (abs(value - coarse) + _beyond(scheme, state, row))
+    parts = Parts(mesh=_SAFETY * abs(value - coarse), tail=_SAFETY * _beyond(scheme, state, row))
     iterations = sum(s.iterations for s in scheme.path)
-    return Solution(value, u_num, segments, iterations, state.change, time.perf_counter() - start)
+    return Solution(value, parts, segments, iterations, state.change, time.perf_counter() - start)
 
 
 def _beyond(scheme: StieltjesScheme, state: StieltjesState, row: AtEvent) -> float:

@@ -224,6 +224,20 @@ def test_event_that_another_mesh_does_not_have_is_refused():
         ResolvedEvents(meshes.path, stiffer).at("jump_in")
 
 
+def test_features_take_the_full_degree_where_the_lower_one_fails():
+    meshes = _meshes()
+    contact = meshes.path.samples[0].branch.contact
+    stiffer = replace(contact, compliance=replace(contact.compliance, matrix=1e-3 * contact.compliance.matrix))
+    failing = ResolvedEvents(meshes.path, stiffer)
+    functional = TABLE["jump_in_displacement"].functional
+    worse = replace(meshes, base=failing, lower_degree=failing).estimate(functional, 6.0)
+    plain = meshes.estimate(functional, 6.0)
+    assert set(worse.parts) == set(PARTS)
+    assert 0.0 < worse.parts["first layer"] + worse.parts["edge"] < 1e-6
+    assert worse.parts["mesh"] > 0.0
+    assert worse.values == plain.values
+
+
 def test_no_constant_is_taken_from_the_other_method():
     """The package names the integral equation nowhere but in the rule of its independence."""
     for path in Path(fem_reference.__file__).parent.rglob("*.py"):

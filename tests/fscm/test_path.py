@@ -4,10 +4,14 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
+from scipy.optimize import minimize_scalar
 
-from fscm import NoSuchEvent, Problem, equilibria, profile, solve, trace
+from fscm import Analysis, LennardJones93, NoSuchEvent, NotConverged, Problem, equilibria, profile, solve, trace
 from fscm._arc_length import parameter_of, rates_of
-from fscm._continuation import equilibrium_path, moved
+from fscm._completeness import completed
+from fscm._continuation import equilibrium_path, moved, path_end, path_until
+from fscm._meshes import Mesh, Meshes
 from fscm.experiment import displacement_cycle, load_controlled_retreat
 
 
@@ -133,3 +137,64 @@ def test_profiles_at_pull_off() -> None:
 def test_profiles_need_the_event() -> None:
     with pytest.raises(NoSuchEvent):
         profile(Problem(2, 0.4, 0.1), "jump_in")
+
+
+def _finer(problem: Problem, quantity: str) -> float:
+    """The quantity from finer meshes that end four times farther out, on a path of eight times smaller steps."""
+    meshes = Meshes(path=Mesh(12, 1e-5), check=Mesh(12, 3e-9), value=Mesh(15, 1e-9), end_height=4e6)
+    analysis = Analysis(problem, meshes)
+    end = path_end(problem, meshes.end_height)
+    points = path_until(problem, *meshes.path, end, "its end", 12000, 0.5 / 8.0, end_height=meshes.end_height)
+    analysis.__dict__["points"] = completed(points, meshes.path.tolerance)
+    return analysis.solution(quantity).value
+
+
+@pytest.mark.parametrize(("n", "k", "mu"), [(50.0, 0.0, 3.0), (100.0, 0.4, 1.0), (300.0, 0.2, 0.3), (300.0, 0.4, 1.0)])
+def test_steep_punches_are_solved(n: float, k: float, mu: float) -> None:
+    """The deformation of a steep punch is kept beside its heights, which would round it away."""
+    problem = Problem(n, k, mu)
+    solution = solve(problem, "pull_off_force")
+    assert abs(solution.value - _finer(problem, "pull_off_force")) <= solution.u_num < 1e-9
+
+
+@pytest.mark.parametrize("n", [100.0, 300.0])
+def test_a_steep_punch_on_a_stiff_solid_has_the_pull_off_force_of_bradley(n: float) -> None:
+    """P(H_0) = 2 int p(H_0 + r^n / n) r dr, its largest tension."""
+
+    def load(H: float) -> float:
+        def density(r: float) -> float:
+            return 2.0 * r * float(LennardJones93().traction(np.array(H + r**n / n)))
+
+        return sum(quad(density, *ends, limit=200)[0] for ends in pairwise([0.0, 0.9, 1.0, 1.1, 1.5]))
+
+    least = minimize_scalar(load, bounds=(0.1, 0.3), method="bounded", options={"xatol": 1e-9})
+    assert solve(Problem(n, 0.2, 1e-5), "pull_off_force").value == pytest.approx(-least.fun, rel=1e-7)
+
+
+def test_a_punch_near_the_least_shape_index_is_followed_in_steps_of_its_load() -> None:
+    """The tail carries loads of 1e3 near n = 2/3; steps in the unit of the contact needed more than 1500 points."""
+    problem = Problem(0.67, 0.4, 1.0)
+    analysis = Analysis(problem)
+    solution = analysis.solution("pull_off_force")
+    assert len(analysis.points) < 250
+    assert abs(solution.value - 206.46053308) < 1e-7  # from finer meshes and eight times smaller steps
+    assert solution.u_num < 1e-8
+
+
+@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.9, 2.0), (2.0, 0.95, 1.0), (5.0, 0.95, 1.0)])
+def test_the_edge_of_a_small_nucleus_is_followed(n: float, k: float, mu: float) -> None:
+    """It is up to 1e-8 wide and its own gap is above that of largest tension: the fixed mesh needed 1e3 steps."""
+    analysis = Analysis(Problem(n, k, mu))
+    solution = analysis.solution("pull_off_force")
+    assert len(analysis.points) < 150
+    gibson = solve(Problem(n, 1.0, mu), "pull_off_force").value
+    other = solve(Problem(n, 2.0 * k - 1.0, mu), "pull_off_force").value
+    # Between the values at 1 and at twice the distance from 1, near their middle: measured worst 6e-3 off.
+    assert abs(solution.value - 0.5 * (gibson + other)) < 2e-2
+    assert solution.u_num < 1e-7
+
+
+@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.0, 1e6), (2.0, 0.98, 1.0), (2.0, 0.95, 2.0)])
+def test_an_edge_too_narrow_is_refused_with_the_largest_tabor_number(n: float, k: float, mu: float) -> None:
+    with pytest.raises(NotConverged, match=r"the largest Tabor number at n = 2, k = .* is mu = "):
+        solve(Problem(n, k, mu), "pull_off_force")

@@ -2,10 +2,14 @@
 
 import math
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from fscm._branches import predicted
+from fscm._continuation import equilibrium_path
+from fscm._newton import shifted
 from fscm.custom_punch import CustomPunch
 from fscm.measured_punch import MeasuredPunch
 from fscm.problem import Problem
@@ -185,6 +189,33 @@ def test_a_profile_with_kinks_is_the_limit_of_rounded_ones():
     ]
     assert errors[1] < 1e-2
     assert 2.0 < errors[0] / errors[1] < 6.0
+
+
+@pytest.mark.parametrize("growth", [2.0, 12.0])
+def test_a_shifted_state_keeps_its_anchor_and_moves_by_the_exact_height(growth):
+    """Also where the punch is so steep that the deformations are the unknowns."""
+    punch = MeasuredPunch([0.0, 1.0, 2.0], [0.0, 0.3, 1.6], growth)
+    point = next(equilibrium_path(Problem(2, 0.2, 0.5, punch=punch), 8, 1e-4))
+    state = replace(point.state, turned=("load", -1.0), edge_gap=0.3)
+    still = np.zeros_like(state.gap)
+    for new in (shifted(state, still, 0.0, 0.1), predicted(state, replace(point.rates, log_scale=0.1), 1.0)):
+        assert (new.turned, new.edge_gap, new.lift is None) == (state.turned, 0.3, growth < 10.0)
+        assert new.scale == pytest.approx(state.scale * math.exp(0.1))
+    new = shifted(state, still, 0.0, 0.1)
+    change = punch.height(new.radius) - punch.height(state.radius)
+    if growth < 10.0:
+        change -= 0.1 * state.radius * punch.slope(state.radius)
+    near = punch.height(new.radius) < 1e6
+    np.testing.assert_allclose((new.gap - state.gap)[near], change[near], rtol=1e-9, atol=1e-9)
+
+
+def test_a_steep_profile_with_kinks_is_continuous_in_its_growth():
+    """Above a growth of 10 the deformations are the unknowns, below it the gaps."""
+    forces = [
+        solve(Problem(2, 0.2, 0.5, punch=MeasuredPunch([0.0, 1.0, 2.0], [0.0, 0.3, 1.6], growth)), "pull_off_force")
+        for growth in (10.0, 10.0 + 1e-9)
+    ]
+    assert abs(forces[1].value - forces[0].value) <= forces[0].u_num + forces[1].u_num
 
 
 @pytest.mark.parametrize(

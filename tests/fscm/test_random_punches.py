@@ -12,6 +12,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 from fscm import Analysis, CustomPunch, Problem, displacement_cycle
+from fscm._bounds import EventErrors, energy_of_jump
 from fscm.path import EquilibriumPath, _with_events
 from tests.fscm.brute_force import BruteForce, least_load
 from tests.fscm.random_punches import COUNT, SEED, outcome, random_punch
@@ -73,6 +74,9 @@ def test_hysteresis_counts_every_jump_of_a_cycle() -> None:
         assert len(analysis.jumps(name)) == 2
     with pytest.raises(ValueError, match="unknown jump"):
         analysis.landing("nonsense")
+    jumps = [jump for name in ("jump_in", "jump_out") for jump in analysis.jumps(name)]
+    parts = [energy_of_jump(*EventErrors(fold.value).at_fold(), landing.value) for fold, landing in jumps]
+    assert analysis.solution("hysteresis_energy").u_num == pytest.approx(sum(part.total for part in parts))
     states, _ = _with_events(analysis.points)
     arrays = [np.array([getattr(state, name) for state in states]) for name in ("central_gap", "displacement", "load")]
     blank = np.full(len(states), math.nan)

@@ -54,7 +54,7 @@ def _derivative(mesh: PanelMesh, values: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.4, 1.0), (3.0, 0.6, 0.7)])
 def test_translation(n: float, k: float, mu: float) -> None:
     """The equation at a surface shifted along x, less the equation: (1 - K_1 p') dH/dr = df/dr."""
-    state = Analysis(Problem(n, k, mu)).event("pull_off").value
+    state = Analysis(Problem(n, k, mu), "fine").event("pull_off").value
     disc = state.disc
     slope = _derivative(disc.mesh, state.gap) / state.scale
     K = disc.stiffness_scale(state.scale) * response_matrix(azimuthal_kernel(k, 1), disc.mesh)

@@ -207,7 +207,8 @@ def test_what_the_smoothing_matters_is_part_of_the_uncertainty():
     exact = solve(Problem(2, 0, 0.5), "pull_off_force").value
     solution = solve(Problem(2, 0, 0.5, law=law), "pull_off_force")
     assert abs(solution.value - exact) < solution.u_num < 1e-2
-    assert solution.u_num > 1e-6
+    assert solution.parts["law"] > 1e-6
+    assert solution.u_num == sum(solution.parts.values())
     assert TabulatedLaw(*sample(LJ, 100)).alternatives == ()
 
 

@@ -1,0 +1,180 @@
+"""Depths and lengths of a modulus that a mesh has to follow: its jumps, and where it changes within a short length.
+
+Every octave of depth, cut at the declared interfaces, is halved until a polynomial of low degree
+represents E on each part.  A part that stays unresolved down to rounding has a jump, which is found by bisection and
+becomes a mesh line; the parts on both sides of it are then resolved again.  A step between two moduli is found however
+narrow it is, because the modulus differs on both sides; a thin layer between equal moduli is found if it is thicker
+than 1/30 of its depth, or declared.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+from typing import cast
+
+import numpy as np
+
+from fem_reference.modulus import Interface, Modulus, PowerLawModulus, interfaces_of
+from fem_reference.modulus_checks import positive_modulus
+
+__all__ = ["DepthScales", "depth_scales"]
+
+DEGREE = 6
+"""Degree of the polynomials: that of the elements, in which the displacement of a modulus resolved so is resolved."""
+
+RESOLVED = 1e-3
+"""Error of a polynomial on a part, relative to the largest E there.  An element of that length and degree has the
+displacement to about as much, and the energy to the square of it, weighted with the share of the part in the depth."""
+
+SAMPLES = 32
+"""Points a part: enough to see a change on a part from its inside and from both ends."""
+
+JUMP = 2.0**-40
+"""Length of a part relative to its depth below which a modulus that is not resolved has a jump."""
+
+FIRST_END = 1.0737
+"""One end of an octave; the others are its multiples by powers of 2.  A jump at an end or at a middle is not seen, and
+interfaces are at round depths."""
+
+MOST_JUMPS = 64
+"""Jumps in one octave beyond which the modulus is refused: it is noise and not layers."""
+
+
+@dataclass(frozen=True, slots=True)
+class DepthScales:
+    """What a mesh has to follow.
+
+    Attributes
+    ----------
+    lines : tuple of float
+        Depths of mesh lines, rising.
+    parts : tuple of (float, float)
+        Intervals of depth in which elements must not be longer than the interval (times the density of the mesh).
+    """
+
+    lines: tuple[float, ...] = ()
+    parts: tuple[tuple[float, float], ...] = ()
+
+    def scaled(self, size: float) -> DepthScales:
+        """Return the same in lengths of `size`.
+
+        Examples
+        --------
+        >>> DepthScales((2.0,), ((1.0, 4.0),)).scaled(2.0)
+        DepthScales(lines=(1.0,), parts=((0.5, 2.0),))
+        """
+        return DepthScales(tuple(z / size for z in self.lines), tuple((a / size, b / size) for a, b in self.parts))
+
+
+def depth_scales(modulus: Modulus, low: float, high: float) -> DepthScales:
+    """Return what a mesh has to follow between two depths.
+
+    Parameters
+    ----------
+    modulus : Modulus
+        Hashable; nothing is searched in a power law.
+    low, high : float
+        Range of depth, positive.
+
+    Returns
+    -------
+    DepthScales
+
+    Raises
+    ------
+    ValueError
+        If the modulus is not positive and finite, or changes everywhere.
+
+    Examples
+    --------
+    >>> from fem_reference.coating import CoatingModulus
+    >>> depth_scales(CoatingModulus(10.0, 1.0, thickness=3.0), 0.01, 100.0)
+    DepthScales(lines=(3.0,), parts=())
+    """
+    if isinstance(modulus, PowerLawModulus):
+        return DepthScales()
+    declared = [i for i in interfaces_of(modulus) if low < i.depth < high]
+    lines = {i.depth for i in declared}
+    parts = {_around(i) for i in declared if i.transition > 0}
+    for octave in range(math.floor(math.log2(low / FIRST_END)), math.ceil(math.log2(high / FIRST_END))):
+        found = _octave(cast(Hashable, modulus), octave)
+        lines.update(z for z in found.lines if low < z < high)
+        parts.update(part for part in found.parts if part[1] > low and part[0] < high)
+    return DepthScales(tuple(sorted(lines)), tuple(sorted(parts)))
+
+
+def _around(interface: Interface) -> tuple[float, float]:
+    """Interval of the length of its transition."""
+    half = 0.5 * interface.transition
+    return interface.depth - half, interface.depth + half
+
+
+@lru_cache(maxsize=512)
+def _octave(modulus: Modulus, octave: int) -> DepthScales:
+    """Jumps and short parts in an octave."""
+    low, high = FIRST_END * 2.0**octave, FIRST_END * 2.0 ** (octave + 1)
+    lines = [i.depth for i in interfaces_of(modulus) if low < i.depth < high]
+    jumps: list[float] = []
+    parts: list[tuple[float, float]] = []
+    ends = [low, *lines, high]
+    pending = list(pairwise(ends))
+    while pending:
+        a, b = pending.pop()
+        resolved = _resolve(modulus, a, b)
+        if isinstance(resolved, float):
+            jumps.append(resolved)
+            if len(jumps) > MOST_JUMPS:
+                raise ValueError(
+                    f"the modulus jumps at more than {MOST_JUMPS} depths between {low:g} and {high:g}: "
+                    "a mesh cannot follow it; smooth the data it comes from"
+                )
+            pending += [(a, resolved), (resolved, b)]
+        else:
+            parts += [part for part in resolved if part[1] - part[0] < b - a]
+    return DepthScales(tuple(jumps), tuple(parts))
+
+
+def _resolve(modulus: Modulus, a: float, b: float) -> list[tuple[float, float]] | float:
+    """Parts of [a, b] on each of which a polynomial represents E, or the depth of a jump."""
+    resolved = []
+    pending = [(a, b)]
+    while pending:
+        left, right = pending.pop()
+        if _is_polynomial(modulus, left, right):
+            resolved.append((left, right))
+        elif right - left <= JUMP * right:
+            return _jump(modulus, left, right)
+        else:
+            middle = 0.5 * (left + right)
+            pending += [(left, middle), (middle, right)]
+    return resolved
+
+
+_X = np.cos(np.pi * (np.arange(SAMPLES) + 0.5) / SAMPLES)
+_BASIS = np.polynomial.chebyshev.chebvander(_X, DEGREE)
+_REMAINDER = np.eye(SAMPLES) - _BASIS @ np.linalg.pinv(_BASIS)
+
+
+def _is_polynomial(modulus: Modulus, a: float, b: float) -> bool:
+    """Whether a polynomial represents E between two depths, neither of which is sampled."""
+    z = 0.5 * (a + b) + 0.5 * (b - a) * _X
+    E = positive_modulus(modulus, z)
+    return float(np.abs(_REMAINDER @ E).max()) <= RESOLVED * float(E.max())
+
+
+def _jump(modulus: Modulus, a: float, b: float) -> float:
+    """Depth of the largest change of E in a very short interval, by bisection to rounding."""
+    E_a, E_b = (float(modulus(np.array(z))) for z in (a, b))
+    while True:
+        middle = 0.5 * (a + b)
+        if not a < middle < b:
+            return b
+        E = float(modulus(np.array(middle)))
+        if abs(E - E_a) > abs(E - E_b):
+            b, E_b = middle, E
+        else:
+            a, E_a = middle, E

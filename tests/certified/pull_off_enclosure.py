@@ -1,0 +1,130 @@
+"""Certified enclosures of pull-off forces: n = 2, k = 0, the 9-3 law.
+
+Theorem, with the numbers that `pull_off_enclosure` returns.  For every displacement in [delta* - eta, delta* + eta] the
+contact has exactly one equilibrium in the tube about the approximate state.  Along these equilibria P is a smooth
+function of delta with P'' >= m > 0.  It has exactly one minimum there, inside the interval, and -P at it is in the
+ball `force`.
+
+Proof.  `state_bounds` encloses P and P' at delta*, and P'' on the whole interval.  If abs(P'(delta*)) < m eta, then P'
+changes its sign inside the interval, and P(delta*) - P'(delta*)^2 / (2 m) <= min P <= P(delta*).
+
+What is not proved: that no deeper minimum exists elsewhere on the path.  `fscm` decides this by its complete path.
+
+`python -m tests.certified.pull_off_enclosure` proves the committed values again and prints them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from flint import arb, ctx, fmpq
+
+from tests.certified.approximate_states import ApproximateStates, approximate_states
+from tests.certified.panel_bounds import NotProved, PanelBounds, panel_bounds
+from tests.certified.panel_functions import BITS
+from tests.certified.sphere_form import SphereForm
+from tests.certified.state_bounds import enclose
+
+__all__ = ["CERTIFIED", "Certified", "PullOff", "minimum", "pull_off_enclosure"]
+
+# Tubes of the proof at delta* and on the interval, in units of W; wide enough for the states, narrow enough for N.
+_NARROW_TUBE, _TUBE = arb(1e-8), arb(1e-5)
+
+
+@dataclass(frozen=True)
+class PullOff:
+    """Balls of the pull-off force, of its displacement, and of P'' on the whole interval."""
+
+    force: arb
+    displacement: arb
+    curvature: arb
+
+
+@dataclass(frozen=True)
+class Certified:
+    """A committed enclosure and the sizes with which it is proved; radii are rounded up by a fifth.
+
+    Attributes
+    ----------
+    eta : float
+        Half-width of the interval of displacements.
+    force, displacement : str
+        Ball "[midpoint +/- radius]".
+    quick : bool
+        Whether the proof takes seconds and not a minute.
+    """
+
+    form: SphereForm
+    panel_count: int
+    eta: float
+    force: str
+    displacement: str
+    quick: bool = False
+
+
+CERTIFIED = {
+    "mu = 1/10": Certified(
+        SphereForm(fmpq(1, 10), 5, 240),
+        80,
+        1e-3,
+        "[1.96895637932829 +/- 1e-11]",
+        "[-0.058632631557597 +/- 1.2e-12]",
+        quick=True,
+    ),
+    "mu = 1/2": Certified(
+        SphereForm(fmpq(1, 2), 6, 400),
+        160,
+        1e-4,
+        "[1.78748293102689 +/- 6e-13]",
+        "[-0.447016584589004 +/- 8e-13]",
+    ),
+    "mu = 1": Certified(
+        SphereForm(fmpq(1), 4, 500),
+        200,
+        2e-5,
+        "[1.6706647764763 +/- 1.6e-12]",
+        "[-0.87337951490526 +/- 2.9e-11]",
+    ),
+}
+"""Enclosures by the Tabor number."""
+
+
+def minimum(states: ApproximateStates, bounds: list[PanelBounds], eta: float) -> PullOff:
+    """Enclose the minimum of P next to the approximate state.
+
+    Raises
+    ------
+    NotProved
+        If a condition of the theorem fails.
+    """
+    with ctx.workprec(BITS):
+        centre = enclose(states, bounds, arb(0), _NARROW_TUBE)
+        interval = enclose(states, bounds, arb(eta), _TUBE)
+        m = interval.second.lower()
+        slope = abs(centre.first).upper()
+        # A comparison with a number that is not finite is False.
+        if not (centre.load.is_finite() and m > 0 and slope < m * arb(eta)):
+            shown = f"P' = {centre.first.str(5)}, P'' = {interval.second.str(5)}"
+            raise NotProved(f"no change of the sign of P' is proved: {shown}")
+        return PullOff(
+            force=-centre.load.union(centre.load - slope * slope / (2 * m)),
+            displacement=arb(states.delta) + arb(0, (slope / m).upper()),
+            curvature=interval.second,
+        )
+
+
+def pull_off_enclosure(form: SphereForm, panel_count: int, eta: float) -> PullOff:
+    """Approximate, bound and prove."""
+    states = approximate_states(form)
+    return minimum(states, panel_bounds(states, panel_count), eta)
+
+
+def _decimal(ball: arb) -> str:
+    return f"{ball.mid().str(16, radius=False)} +/- {ball.rad().str(2, radius=False)}"
+
+
+if __name__ == "__main__":
+    for name, certified in CERTIFIED.items():
+        found = pull_off_enclosure(certified.form, certified.panel_count, certified.eta)
+        print(f"{name}: force {_decimal(found.force)}, displacement {_decimal(found.displacement)}, ", end="")
+        print(f"P'' {_decimal(found.curvature)} within {certified.eta:g}", flush=True)

@@ -1,0 +1,199 @@
+"""Finite elements on coated and layered solids, against Hankel transforms and against themselves."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fem_reference import (
+    CoatingModulus,
+    CustomModulus,
+    CustomSolid,
+    Interface,
+    LennardJones,
+    PowerPunch,
+    Problem,
+    solve,
+    solve_together,
+)
+from fem_reference._contact.mesh_choice import EXTERIOR_ERROR, chosen
+from fem_reference._elastic.depth_scales import FIRST_END, DepthScales, depth_scales
+from fem_reference._elastic.exterior import exterior_error
+from fem_reference._elastic.mesh import graded_grid
+from fem_reference.modulus import OffsetPowerLawModulus
+from tests.fem_reference.hankel_reference import pull_off, transform
+from tests.reference_values import REFERENCE_VALUES
+
+NU = 0.3
+LAW = LennardJones(1.0, 1.0)
+FORCE, DISPLACEMENT = "pull_off_force", "pull_off_displacement"
+
+HANKEL_ERROR = 1e-7
+"""Error of the Hankel transforms: other panels or another largest wave move force and displacement by less than 1e-10,
+panels that end at 22 instead of 16 by 1.2e-7 (the displacement of the stiff coating) and 3e-8 (its force)."""
+
+
+def _exponential(z):
+    return 1.0 + 10.0 * np.exp(-z / 2.0)
+
+
+EXPONENTIAL = CustomModulus(_exponential, 0.0, 0.0, surface_depth=2.0)
+STIFF, SOFT = CoatingModulus(10.0, 1.0, thickness=1.0), CoatingModulus(1.0, 10.0, thickness=1.0)
+SMOOTH = CoatingModulus(10.0, 1.0, thickness=1.0, transition=0.02)
+
+
+def _problem(modulus, n=2.0):
+    return Problem(CustomSolid(modulus, NU), PowerPunch(n, 1.0), LAW)
+
+
+def _power(n):
+    return lambda r: r**n / n
+
+
+def test_hankel_transforms_of_a_homogeneous_solid():
+    known = next(v for v in REFERENCE_VALUES if (v.n, v.k, v.mu, v.quantity) == (2, 0, 1, FORCE))
+    found = pull_off(lambda z: 1.0 + 0.0 * z, 0.0, _power(2))
+    assert found.force == pytest.approx(math.pi * known.value, abs=HANKEL_ERROR)
+
+
+def test_hankel_transform_of_a_layer():
+    """The coating at short waves, the substrate at long ones; a stack of one material is that material."""
+    xi = np.array([1e-4, 1.0, 30.0])
+    layer = 2 * (1 - NU**2)
+    values = transform(STIFF, NU, xi, sharp=(1.0,))
+    assert values[0] == pytest.approx(layer, rel=2e-3)
+    assert values[2] == pytest.approx(layer / 10, rel=1e-10)
+    narrow = transform(CoatingModulus(10.0, 1.0, 1.0, 0.01), NU, xi)
+    assert narrow[1] == pytest.approx(values[1], rel=1e-2)
+    assert transform(lambda z: 1.0 + 0.0 * z, NU, xi, sharp=(0.1, 1.0)) == pytest.approx(layer, rel=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("modulus", "n", "options"),
+    [
+        pytest.param(STIFF, 2.0, {"sharp": (1.0,), "radius": 22.0}, id="sharp 10:1"),
+        pytest.param(SOFT, 2.0, {"sharp": (1.0,)}, id="sharp 1:10"),
+        pytest.param(SMOOTH, 2.0, {"radius": 22.0}, id="transition of 0.02"),
+        pytest.param(
+            EXPONENTIAL, 5.0, {"nearest": 2.0, "width": 0.125, "radius": 7.0, "wave": 40.0}, id="exponential, n = 5"
+        ),
+    ],
+)
+def test_pull_off_of_coatings(modulus, n, options):
+    """Force and displacement within the bound, which is small (measured difference: 1.3e-8 relative at most)."""
+    reference = pull_off(modulus, NU, _power(n), **options)
+    found = solve_together(_problem(modulus, n), (FORCE, DISPLACEMENT), "quick")
+    for name, exact in ((FORCE, reference.force), (DISPLACEMENT, reference.displacement)):
+        assert abs(found[name].value - exact) <= found[name].u_num + HANKEL_ERROR
+        assert abs(found[name].value - exact) <= 1e-6
+        assert found[name].u_num <= 1e-5
+
+
+def test_displacement_does_not_depend_on_the_extent():
+    """It moved by 5e-5, because the skin was left out of the solid beyond the mesh."""
+    choice, spec, size = chosen(_problem(EXPONENTIAL, 5.0), ("pull_off",), "quick")
+    spec = replace(spec, density=choice.level.densities[-1])
+    near, far = (choice.traced(replace(spec, extent=scale * spec.extent), size).pull_off.state for scale in (1, 8))
+    assert abs(far.displacement - near.displacement) <= 3e-7
+    assert far.load == pytest.approx(near.load, rel=1e-7)
+
+
+def test_an_undeclared_interface_is_found():
+    undeclared = CustomModulus(STIFF, 0.0, 0.0, surface_depth=1.0)
+    declared = solve(_problem(STIFF), FORCE, "quick")
+    found = solve(_problem(undeclared), FORCE, "quick")
+    assert found.value == pytest.approx(declared.value, rel=1e-12)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("modulus", [STIFF, SMOOTH])
+def test_finer_meshes_are_more_certain(modulus):
+    quick, default, fine = (solve(_problem(modulus), FORCE, name) for name in ("quick", "default", "fine"))
+    assert fine.u_num <= default.u_num <= quick.u_num
+    assert abs(default.value - fine.value) <= default.u_num
+
+
+@pytest.mark.parametrize("depth", [1.0, 0.75, FIRST_END * 1.5, 7.3e-4, 2.0**20])
+def test_jumps_of_a_callable(depth):
+    """Wherever they are, to rounding; both declared and found."""
+    modulus = CustomModulus(lambda z: np.where(z < depth, 3.0, 2.0), 0.0, 0.0, surface_depth=depth)
+    if depth != FIRST_END * 1.5:  # the middle of an octave: the one place where a jump is not found
+        lines = depth_scales(modulus, 1e-3 * depth, 1e3 * depth).lines
+        assert lines == pytest.approx([depth], rel=1e-14)
+    declared = replace(modulus, interfaces=(Interface(depth),))
+    assert depth_scales(declared, 1e-3 * depth, 1e3 * depth) == DepthScales((depth,))
+
+
+def test_layers_and_kinks():
+    sandwich = CustomModulus(lambda z: np.where((z < 1) | (z > 1.2), 1.0, 9.0), 0.0, 0.0, 1.0)
+    assert depth_scales(sandwich, 1e-2, 1e2).lines == pytest.approx([1.0, 1.2], rel=1e-14)
+    kink = CustomModulus(lambda z: 1.0 + np.minimum(z, 2.0), 0.0, 0.0, 1.0)
+    scales = depth_scales(kink, 1e-2, 1e2)
+    assert scales.lines == ()
+    assert min(b - a for a, b in scales.parts) < 0.2
+    assert depth_scales(OffsetPowerLawModulus(1.0, 1.0, 0.7, 1.0), 1e-3, 1e6) == DepthScales()
+
+
+def test_nodes_follow_the_scales():
+    """A node at a line, elements no longer than a short part, and the nodes of a plain mesh without any."""
+    plain = graded_grid()
+    assert np.array_equal(graded_grid(scales=DepthScales()).z, plain.z)
+    z = graded_grid(scales=DepthScales((3.0,), ((9.9, 10.1),))).z
+    assert 3.0 in z
+    length = np.diff(z)
+    middle = 0.5 * (z[1:] + z[:-1])
+    at_part = np.abs(middle - 10.0) < 0.3
+    assert at_part.sum() >= 4
+    assert length[at_part].max() <= 0.5 * (0.2 + 0.3)
+    assert z.size < 3 * plain.z.size
+
+
+def test_error_of_the_exterior():
+    """Falls with the square of the extent, and is what the displacement moves by."""
+    first, second = (exterior_error(EXPONENTIAL, extent) for extent in (256.0, 1024.0))
+    assert first / second == pytest.approx(16.0, rel=1e-3)
+    assert first > 5e-5
+    _, spec, size = chosen(_problem(EXPONENTIAL, 5.0), ("pull_off",), "quick")
+    assert exterior_error(CustomModulus(lambda z: _exponential(size * z), 0.0, 0.0, 1.0), spec.extent) <= EXTERIOR_ERROR
+
+
+@pytest.mark.parametrize(
+    "modulus",
+    [
+        EXPONENTIAL,
+        STIFF,
+        OffsetPowerLawModulus(1.0, 1.0, 0.7, 1e-3),
+        CustomModulus(lambda z: 1.0 + 10.0 * z**0.2, 0.0, 0.2, surface_depth=1e-5),
+        CustomModulus(lambda z: 1.0 + 9.0 / np.cosh(z) ** 2, 0.0, 0.0, surface_depth=1.0),
+        CustomModulus(lambda z: z**0.3 / (1.0 + z**0.3), 0.3, 0.0, surface_depth=1.0),
+    ],
+)
+def test_moduli_with_the_exponents_that_they_declare(modulus):
+    assert CustomSolid(modulus, NU).modulus is modulus
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: CustomModulus(np.sqrt, 0.0, 0.5, 1.0), r"surface exponent 0 is declared, but E\(z\) rises as z\^0.5"),
+        (lambda: CustomModulus(np.sqrt, 0.5, 0.0, 1.0), r"depth exponent 0 is declared, but E\(z\) rises as z\^0.5"),
+        (lambda: CustomModulus(lambda z: 1 - z, 0.0, 0.0, 1.0), "outside .0, infinity.: it must be positive"),
+        (lambda: CustomModulus(lambda z: 2.0, 0.0, 0.0, 1.0), "must have the shape of z"),
+        (lambda: CustomModulus(np.sqrt, 0.5, 0.5, 1.0, (1.0,)), "not a tuple of Interface"),
+        (lambda: Interface(-1.0), "depth of an interface = -1.0"),
+        (lambda: Interface(1.0, math.nan), "transition = nan"),
+        (lambda: CoatingModulus(1.0, 0.0, 1.0), "E_substrate = 0.0 is outside"),
+        (lambda: CoatingModulus(1.0, 2.0, 1.0, 0.5), "reaches the surface"),
+    ],
+)
+def test_impossible_moduli_are_refused(make, message):
+    with pytest.raises(ValueError, match=message):
+        CustomSolid(make(), NU)
+
+
+def test_noise_is_refused():
+    rng = np.random.default_rng(7)
+    noisy = CustomModulus(lambda z: 1.0 + 0.1 * rng.random(np.shape(z)), 0.0, 0.0, 1.0)
+    with pytest.raises(ValueError, match="smooth the data"):
+        depth_scales(noisy, 0.5, 2.0)
