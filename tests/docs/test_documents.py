@@ -83,7 +83,7 @@ COMMANDS = [
 def test_a_command_parses(line):
     """Names of commands and options, choices, required arguments."""
     _, *arguments = shlex.split(line, comments=True)
-    cli._parser().parse_args(cli._keep_negative_numbers(arguments))
+    cli._parser(arguments).parse_args(cli._keep_negative_numbers(arguments))
 
 
 def test_commands_are_found():
