@@ -21,6 +21,8 @@ TABLE = Path(__file__).with_name("random_punches.csv")
 # The fixed mesh of the brute force does not resolve the contact edge: measured worst 4e-4 over eight punches.
 BRUTE_FORCE = 1e-2
 LIGHT = (0, 5, 6)
+# Measured profiles that are not in the table yet: each takes minutes.
+MISSING = (39, *range(44, COUNT, 5))
 
 
 @lru_cache(maxsize=1)
@@ -31,8 +33,8 @@ def table() -> dict[int, dict[str, str]]:
 
 def test_no_punch_of_the_table_is_silently_wrong() -> None:
     rows = table()
-    assert set(rows) <= set(range(COUNT))
-    assert len(rows) > COUNT // 2
+    assert sorted({*rows, *MISSING}) == list(range(COUNT))
+    assert len(rows) == COUNT - len(MISSING)
     for number, row in rows.items():
         assert int(row["seed"]) == SEED
         assert row["kind"] == random_punch(number).kind
@@ -41,12 +43,11 @@ def test_no_punch_of_the_table_is_silently_wrong() -> None:
 
 
 @pytest.mark.parametrize(
-    "number", [*LIGHT, *(pytest.param(i, marks=pytest.mark.heavy) for i in range(COUNT) if i not in LIGHT)]
+    "number",
+    [*LIGHT, *(pytest.param(i, marks=pytest.mark.heavy) for i in range(COUNT) if i not in (*LIGHT, *MISSING))],
 )
 def test_the_outcome_is_that_of_the_table(number: int) -> None:
-    row = table().get(number)
-    if row is None:
-        pytest.skip("not in the table")
+    row = table()[number]
     status, force, _ = outcome(random_punch(number))
     assert status == row["status"]
     if status == "complete":
