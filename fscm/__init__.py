@@ -13,6 +13,7 @@ from fscm.custom_punch import CustomPunch
 from fscm.errors import NoSuchEvent, NotConverged
 from fscm.experiment import Cycle, displacement_cycle, load_controlled_retreat
 from fscm.laws import LennardJones93, Mie, SurfaceLaw
+from fscm.measured_punch import MeasuredPunch
 from fscm.path import EquilibriumPath, trace
 from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
@@ -25,12 +26,12 @@ from fscm.tabulated_law import TabulatedLaw
 
 #: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
 LAYERS = (
-    ("errors", "_typing", "_threads", "_validation", "_response_factor"),
-    ("laws", "tabulated_law", "punch", "custom_punch"),
+    ("errors", "_typing", "_threads", "_validation", "_response_factor", "_smoothed_table"),
+    ("laws", "tabulated_law", "punch", "custom_punch", "measured_punch"),
     ("problem", "physical"),
     ("_meshes", "_kernel", "_azimuthal_kernel", "_panels", "_deformation", "_tail"),
     ("_equilibrium", "_defect", "solution"),
-    ("_newton", "_arc_length", "_path_end", "_adaptivity", "_continuation"),
+    ("_newton", "_arc_length", "_path_end", "_adaptivity", "_branches", "_continuation"),
     ("_events", "_bounds", "_completeness", "folds", "stability"),
     ("path", "critical", "quantities", "analysis"),
     ("gibson", "stieltjes"),
@@ -47,6 +48,7 @@ __all__ = [
     "EquilibriumPath",
     "EquilibriumState",
     "LennardJones93",
+    "MeasuredPunch",
     "Mie",
     "NoSuchEvent",
     "NotConverged",

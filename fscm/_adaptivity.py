@@ -18,8 +18,9 @@ from fscm._panels import PanelMesh
 from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.problem import Problem
+from fscm.punch import kinks_of
 
-__all__ = ["end_radius", "fit", "indicator", "initial_mesh", "rescaled_mesh"]
+__all__ = ["at_kinks", "end_radius", "fit", "indicator", "initial_mesh", "rescaled_mesh"]
 
 # A pair of panels is merged when the merged panel would still be this much below the tolerance.
 _MERGE_MARGIN = 0.02
@@ -32,6 +33,10 @@ _WORTH_MERGING = 0.2
 # Newton error beside the error of the mesh.
 _NEWTON_MARGIN = 0.01
 _MAX_ROUNDS = 60
+# A break belongs to a kink that is nearer than this share of its panels; a panel is thicker than _SLIVER.
+_NEAR_KINK, _SLIVER = 0.3, 1e-7
+# Largest distance of a kink to its break, in units of the root of the tolerance: its effect is of second order.
+_OFF_KINK = 0.1
 # r^n at the tip of a punch is not smooth: coefficients of the innermost panel fall algebraically, so that the
 # omitted ones together exceed the last.  Measured on n = 1.5, k = 0.6, mu = 3: by up to 10.
 _ALGEBRAIC = 30.0
@@ -68,7 +73,35 @@ def initial_mesh(problem: Problem, order: int, end_height: float) -> PanelMesh:
         if not bad.size:
             break
         breaks = np.sort(np.concatenate([breaks, 0.5 * (breaks[bad] + breaks[bad + 1])]))
-    return PanelMesh(breaks, order)
+    return PanelMesh(at_kinks(problem, breaks, 1.0, 1.0), order)
+
+
+def at_kinks(problem: Problem, breaks: Array, old_scale: float, new_scale: float) -> Array:
+    """Breaks that are moved from the kinks of the punch at one scale to those at another; or put there."""
+    kinks = np.array(kinks_of(problem.punch))
+    if not kinks.size:
+        return breaks
+    for s in kinks / old_scale:
+        i = int(np.argmin(np.abs(breaks - s)))
+        if not 0 < i < len(breaks) - 1 or breaks[i] == 1.0:
+            continue
+        if abs(breaks[i] - s) < _NEAR_KINK * min(breaks[i] - breaks[i - 1], breaks[i + 1] - breaks[i]):
+            breaks = np.delete(breaks, i)
+    new = kinks / new_scale
+    fixed = np.array([0.0, 1.0, breaks[-1]])
+    new = new[(new < breaks[-1]) & (np.min(np.abs(new[:, None] - fixed), axis=1) > _SLIVER)]
+    # What is left next to a kink would make a panel that is thinner than it has to be.
+    distance = np.min(np.abs(breaks[:, None] - new), axis=1) if new.size else np.full(len(breaks), np.inf)
+    keep = (distance > _SLIVER) | np.isin(breaks, fixed)
+    return np.union1d(breaks[keep], new)
+
+
+def _off_kinks(state: State) -> float:
+    """Largest distance of a kink in the mesh to the next break."""
+    kinks = np.array(kinks_of(state.disc.problem.punch)) / state.scale
+    breaks = state.disc.mesh.breaks
+    kinks = kinks[kinks < breaks[-1]]
+    return float(np.max(np.min(np.abs(kinks[:, None] - breaks), axis=1))) if kinks.size else 0.0
 
 
 def rescaled_mesh(
@@ -82,7 +115,8 @@ def rescaled_mesh(
         # A break too close to s = 1 gives way to it.
         drop = [j for j in (i - 1, i) if j > 0 and abs(breaks[j] - 1.0) < 0.2 * length]
         breaks = np.sort(np.append(np.delete(breaks, drop), 1.0))
-    return PanelMesh(_extended(breaks, max(end_radius(problem, end_height) / new_scale, 4.0)), mesh.order)
+    breaks = _extended(breaks, max(end_radius(problem, end_height) / new_scale, 4.0))
+    return PanelMesh(at_kinks(problem, breaks, new_scale, new_scale), mesh.order)
 
 
 def _weights(state: State, starts: Array, lengths: Array) -> Array:
@@ -134,9 +168,14 @@ def on_mesh(state: State, mesh: PanelMesh) -> State:
     disc = Discretisation(problem, mesh, state.disc)
     if state.lift is not None:
         lift = state.disc.mesh.transfer(state.lift, mesh)
-        return State.lifted(disc, state.scale, lift, state.displacement, state.follows_edge, state.edge_gap)
-    gap = state.disc.mesh.transfer(state.gap, mesh)
-    return State(disc, state.scale, gap, state.displacement, state.follows_edge, edge_gap=state.edge_gap)
+        known = state.scale, lift, state.displacement, state.follows_edge, state.edge_gap, state.turned
+        return State.lifted(disc, *known)
+    if kinks_of(problem.punch):  # the deformation is smooth where the shape is not resolved
+        shape = problem.punch.height
+        gap = state.disc.mesh.transfer(state.gap - shape(state.radius), mesh) + shape(state.scale * mesh.nodes)
+    else:
+        gap = state.disc.mesh.transfer(state.gap, mesh)
+    return replace(state, disc=disc, gap=gap, iterations=0, residual=0.0)
 
 
 def fit(state: State, control: Control, tolerance: float, coarsen: bool = False) -> State:
@@ -164,9 +203,11 @@ def fit(state: State, control: Control, tolerance: float, coarsen: bool = False)
         breaks, middles = state.disc.mesh.breaks, _unresolved(state, tolerance)
         drop = _superfluous(state, tolerance) if coarsen and attempt == 0 else np.empty(0, np.intp)
         # A new mesh costs a solve: it is worth that for panels that lack, or for many that are too many.
-        if not middles.size and drop.size < _WORTH_MERGING * len(breaks):
+        moved = _off_kinks(state) > _OFF_KINK * tolerance**0.5
+        if not (middles.size or moved) and drop.size < _WORTH_MERGING * len(breaks):
             return replace(state, iterations=iterations)
         breaks = np.sort(np.concatenate([np.delete(breaks, drop), middles]))
+        breaks = at_kinks(state.disc.problem, breaks, state.scale, state.scale)
         if np.any(np.diff(breaks) <= 0.0):
             raise NotConverged(
                 "the contact edge is narrower than the rounding of its radius: no panel resolves the pressure there"

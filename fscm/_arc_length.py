@@ -5,12 +5,18 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 from fscm._equilibrium import Control, Rates, State
 from fscm.problem import Problem
 
-__all__ = ["ArcLength", "Point", "parameter_control", "parameter_of", "rates_of"]
+__all__ = ["ArcLength", "Point", "parameter_control", "parameter_of", "rate_of", "rates_of"]
+
+# Share of a large displacement or compressive load that is its unit.
+_SHARE = 0.1
+# The unit of the load is at least this share of the load: near n = 2/3 the tail alone carries loads of 1e3 and more,
+# on which steps in the unit of the contact are lost.
+_SHARE_OF_LOAD = 0.05
+# Attribute of each continuation parameter in a state (but log c) and in its rates.
+_NAMES = {"gap": "central_gap", "log_scale": "log_scale", "displacement": "displacement", "load": "load"}
 
 
 @dataclass(frozen=True)
@@ -23,11 +29,6 @@ class Point:
     state: State
     rates: Rates
     stretch: int = 0
-
-
-# The unit of the load is at least this share of the load: near n = 2/3 the tail alone carries loads of 1e3 and more,
-# on which steps in the unit of the contact are lost.
-_SHARE_OF_LOAD = 0.05
 
 
 @dataclass(frozen=True)
@@ -47,54 +48,67 @@ class ArcLength:
         return 1.0 if state.follows_edge else state.central_gap - state.disc.problem.law.singular_gap
 
     def displacement_unit(self, state: State) -> float:
-        """Unit of the displacement: larger far apart, where the path is nearly straight."""
-        return self.displacement_in_contact + max(state.central_gap, 0.0)
+        """Unit of the displacement: larger far apart and far in contact, where the path is nearly straight."""
+        return max(self.displacement_in_contact + max(state.central_gap, 0.0), _SHARE * state.displacement)
 
     def load_unit(self, state: State) -> float:
-        """Unit of the load: larger where the load is much larger than in the two limits."""
-        return max(self.load_in_contact, _SHARE_OF_LOAD * abs(state.load))
+        """Unit of the load: larger far in contact, and where the load is much larger than in the two limits."""
+        return max(self.load_in_contact, _SHARE * state.load, _SHARE_OF_LOAD * abs(state.load))
+
+    def units(self, state: State) -> dict[str, float]:
+        """Units of all that enters the arc length, by the name of the continuation parameter."""
+        units = {"log_scale" if state.follows_edge else "gap": self.parameter_unit(state)}
+        units |= {"displacement": self.displacement_unit(state), "load": self.load_unit(state)}
+        if state.follows_edge and state.central_gap > state.gap_at_edge:
+            # In contact on a ring, the surface inside the ring may move fast while the edge does not.
+            units["gap"] = state.central_gap - state.disc.problem.law.singular_gap
+        return units
 
     def tangent(self, state: State) -> Rates:
         rates = rates_of(state)
-        parameter = 1.0 / self.parameter_unit(state)
-        norm = math.hypot(
-            parameter, rates.displacement / self.displacement_unit(state), rates.load / self.load_unit(state)
-        )
-        return rates.scaled((1.0 if state.follows_edge else -1.0) / norm)
+        shares = _shares(self.units(state), rates)
+        if not state.turned:
+            shares[state.parameter] = 1.0 / self.parameter_unit(state)
+        return rates.scaled(state.sense / math.hypot(*shares.values()))
+
+    def shares(self, point: Point) -> dict[str, float]:
+        """Components of the unit tangent, by the name of the continuation parameter."""
+        return _shares(self.units(point.state), point.rates)
 
     def turn(self, a: Point, b: Point) -> float:
         """Cosine of the angle between the tangents at two points of one stretch."""
-
-        def direction(point: Point) -> np.ndarray:
-            state, rates = point.state, point.rates
-            parameter = rates.log_scale if state.follows_edge else rates.central_gap
-            units = (self.parameter_unit(state), self.displacement_unit(state), self.load_unit(state))
-            return np.array([parameter, rates.displacement, rates.load]) / units
-
-        return float(direction(a) @ direction(b))
+        first, last = self.shares(a), self.shares(b)
+        return float(sum(first[name] * last[name] for name in first if name in last))
 
     def control(self, state: State, tangent: Rates, step: float) -> Control:
         """The condition that the projection of the move on the tangent is `step`."""
-        unit = self.parameter_unit(state) ** 2
-        a = (tangent.log_scale if state.follows_edge else tangent.central_gap) / unit
-        b = tangent.displacement / self.displacement_unit(state) ** 2
-        c = tangent.load / self.load_unit(state) ** 2
-        value = a * parameter_of(state) + b * state.displacement + c * state.load + step
-        if state.follows_edge:
-            return Control(value, log_scale=a, displacement=b, load=c)
-        return Control(value, gap=a, displacement=b, load=c)
+        row = {name: rate_of(tangent, name) / unit**2 for name, unit in self.units(state).items()}
+        return Control(sum(a * _value(state, name) for name, a in row.items()) + step, **row)
 
 
 def parameter_of(state: State) -> float:
-    """The continuation parameter: log c when the mesh follows the edge, else the central gap."""
-    return math.log(state.scale) if state.follows_edge else state.central_gap
+    """The continuation parameter: log c when the mesh follows the edge, else the central gap, unless it has turned."""
+    return _value(state, state.parameter)
 
 
 def parameter_control(state: State, value: float) -> Control:
     """The condition that the continuation parameter has a value."""
-    return Control(value, log_scale=1.0) if state.follows_edge else Control(value, gap=1.0)
+    return Control(value, **{state.parameter: 1.0})
 
 
 def rates_of(state: State) -> Rates:
     """Exact derivatives per unit of the continuation parameter."""
-    return state.rates("log_scale" if state.follows_edge else "gap")
+    return state.rates(state.parameter)
+
+
+def rate_of(rates: Rates, parameter: str) -> float:
+    """Rate of a continuation parameter among all rates."""
+    return float(getattr(rates, _NAMES[parameter]))
+
+
+def _shares(units: dict[str, float], rates: Rates) -> dict[str, float]:
+    return {name: rate_of(rates, name) / unit for name, unit in units.items()}
+
+
+def _value(state: State, parameter: str) -> float:
+    return math.log(state.scale) if parameter == "log_scale" else float(getattr(state, _NAMES[parameter]))

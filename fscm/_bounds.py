@@ -10,11 +10,14 @@ from __future__ import annotations
 import math
 from functools import cached_property
 
+import numpy as np
+
 from fscm._arc_length import parameter_of, rates_of
 from fscm._continuation import moved
 from fscm._defect import Defect, Errors, finer
 from fscm._equilibrium import Discretisation, Rates, State
 from fscm.errors import NotConverged
+from fscm.punch import kinks_of
 from fscm.solution import Parts
 
 __all__ = ["EventErrors", "bounds", "root_shift"]
@@ -27,6 +30,7 @@ _SECOND_ORDER = 1.1
 # Steps of the continuation parameter, relative to its unit: for the rate of an error, which varies as slowly as the
 # panels, and for the curvature at an extreme, which varies fast near a critical Tabor number.
 _ERROR_STEP, _CURVATURE_STEP = 1e-2, 1e-4
+_FUNCTIONALS = ("load", "displacement", "central_gap")
 
 
 def root_shift(error: float, slope: float, curvature: float) -> float:
@@ -68,10 +72,12 @@ class EventErrors:
 
     def __init__(self, state: State) -> None:
         self.state = state
-        self._sign = 1.0 if state.follows_edge else -1.0
-        self.parameter = "log_scale" if state.follows_edge else "central_gap"
-        law = state.disc.problem.law
-        self._unit = 1.0 if state.follows_edge else state.central_gap - law.singular_gap
+        self.parameter = "central_gap" if state.parameter == "gap" else state.parameter
+        self._unit = 1.0
+        if self.parameter == "central_gap":
+            self._unit = state.central_gap - state.disc.problem.law.singular_gap
+        elif self.parameter != "log_scale":
+            self._unit += abs(parameter_of(state))
 
     @cached_property
     def _fine(self) -> Discretisation:
@@ -83,10 +89,10 @@ class EventErrors:
 
     @cached_property
     def _beside(self) -> tuple[Defect, Defect]:
-        return (
-            Defect(self._at(-_ERROR_STEP)[0], self._fine),
-            Defect(self._at(_ERROR_STEP)[0], self._fine),
-        )
+        states = [self._at(step)[0] for step in (-_ERROR_STEP, _ERROR_STEP)]
+        # The mesh of a punch with kinks moves with them.
+        first, last = (self._fine if state.disc is self.state.disc else finer(state.disc) for state in states)
+        return Defect(states[0], first), Defect(states[1], last)
 
     @cached_property
     def rates(self) -> Rates:
@@ -98,8 +104,11 @@ class EventErrors:
         return state, rates_of(state)
 
     @cached_property
-    def _rates_around(self) -> tuple[Rates, Rates]:
-        return self._at(-_CURVATURE_STEP)[1], self._at(_CURVATURE_STEP)[1]
+    def _near(self) -> tuple[tuple[dict[str, float], Rates], tuple[dict[str, float], Rates]]:
+        """Values and rates of the functionals on both sides, without the matrices of the states."""
+        found = [self._at(step) for step in (-_CURVATURE_STEP, _CURVATURE_STEP)]
+        first, last = (({name: getattr(state, name) for name in _FUNCTIONALS}, rates) for state, rates in found)
+        return first, last
 
     def controlled(self, functional: str, control: str, value: float | None = None) -> Errors:
         """Errors at a value of a control, or of the continuation parameter; None for the value the state has."""
@@ -108,7 +117,7 @@ class EventErrors:
 
     def derivatives(self, functional: str) -> tuple[float, float, float]:
         """First three derivatives of a functional by the continuation parameter."""
-        before, after = (getattr(rates, functional) for rates in self._rates_around)
+        before, after = (getattr(rates, functional) for _, rates in self._near)
         here, step = getattr(self.rates, functional), _CURVATURE_STEP * self._unit
         return here, (after - before) / (2.0 * step), (after - 2.0 * here + before) / step**2
 
@@ -118,7 +127,17 @@ class EventErrors:
         before, after = (defect.errors(functional, self.parameter) for defect in self._beside)
         change = after.plus(before, -1.0)
         rounding = self._here.rate_rounding(functional, self.parameter)
-        return Errors(change.mesh / step, change.tail / step, change.domain / step, rounding)
+        mesh = change.mesh / step
+        if kinks_of(self.state.disc.problem.punch):
+            mesh = np.append(mesh, self._moving(functional))
+        return Errors(mesh, change.tail / step, change.domain / step, rounding)
+
+    def _moving(self, functional: str) -> float:
+        """Mean rate of a functional on meshes that move with the kinks, less the exact rate on fixed ones (Simpson)."""
+        (first, rate_before), (last, rate_after) = self._near
+        change = last[functional] - first[functional]
+        rates = [getattr(rates, functional) for rates in (rate_before, self.rates, rate_after)]
+        return float(change / (2.0 * _CURVATURE_STEP * self._unit) - (rates[0] + 4.0 * rates[1] + rates[2]) / 6.0)
 
     def at_extreme(self, functional: str, extremal: str) -> Parts:
         """Bounds on the error of a functional at the extreme of another, or at its own."""

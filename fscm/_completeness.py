@@ -16,12 +16,13 @@ from typing import Any
 import numpy as np
 
 from fscm._adaptivity import fit, on_mesh
-from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rates_of
+from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of, rates_of
 from fscm._continuation import moved
 from fscm._equilibrium import State
 from fscm._newton import newton
 from fscm._panels import PanelMesh
 from fscm.errors import NotConverged
+from fscm.punch import kinks_of
 
 __all__ = ["completed", "may_hide"]
 
@@ -30,6 +31,8 @@ _MARGIN = 2.0
 # Times that an interval is halved, and the change of load or displacement that may then hide in it, relative to
 # 1 + |f|: below the error of the meshes of the path.
 _HALVINGS, _NEGLIGIBLE = 12, 1e-7
+# Resolution of the pressure on a punch with kinks, to which a mesh has to move with the edge.
+_FINE = 1e-8
 # Newton error beside the error of the mesh, and the smallest step to a middle, in units of its distance.
 _NEWTON_MARGIN, _SMALLEST = 0.01, 1e-3
 
@@ -64,7 +67,7 @@ _RATES = ("load", "displacement")
 
 
 def _parameter_rate(point: Point) -> float:
-    return point.rates.log_scale if point.state.follows_edge else point.rates.central_gap
+    return rate_of(point.rates, point.state.parameter)
 
 
 def _rate(point: Point, name: str) -> float:
@@ -118,13 +121,27 @@ def _may_hide_any(a: Point, b: Point) -> bool:
 
 
 def _on_common_mesh(a: Point, b: Point, arc: ArcLength) -> tuple[Point, Point]:
-    """The two points on the mesh with the breaks of both, so that their difference is free of mesh errors."""
+    """The two points on the mesh with the breaks of both, so that their difference is free of mesh errors.
+
+    With kinks there is no such mesh; each point is then resolved on its own until the errors are negligible.
+    """
+    if _kinked(a):
+        return _resolved(a, arc), _resolved(b, arc)
     breaks = np.union1d(a.state.disc.mesh.breaks, b.state.disc.mesh.breaks)
     mesh = PanelMesh(breaks, a.state.disc.mesh.order)
     first = on_mesh(a.state, mesh)
     states = first, replace(on_mesh(b.state, mesh), disc=first.disc)
     solved = [newton(state, parameter_control(state, parameter_of(state))) for state in states]
     return _point(solved[0], a, arc), _point(solved[1], a, arc)
+
+
+def _kinked(point: Point) -> bool:
+    return bool(kinks_of(point.state.disc.problem.punch))
+
+
+def _resolved(point: Point, arc: ArcLength) -> Point:
+    state = fit(point.state, parameter_control(point.state, parameter_of(point.state)), _FINE)
+    return _point(state, point, arc)
 
 
 def _point(state: State, like: Point, arc: ArcLength) -> Point:
@@ -151,7 +168,8 @@ def _middle(a: Point, b: Point, arc: ArcLength) -> Point:
             disc = a.state.disc
             edge = float(disc.height(np.array([scale]))[0] + disc.edge @ lift)
             displacement = edge - a.state.gap_at_edge
-        guess = State.lifted(a.state.disc, scale, lift, displacement, a.state.follows_edge, a.state.edge_gap)
+        known = a.state.follows_edge, a.state.edge_gap, a.state.turned
+        guess = State.lifted(a.state.disc, scale, lift, displacement, *known)
     parameter = 0.5 * (parameter_of(a.state) + parameter_of(b.state))
     return _point(newton(guess, parameter_control(guess, parameter)), a, arc)
 
@@ -180,6 +198,8 @@ def _reached_middle(a: Point, b: Point, arc: ArcLength, tolerance: float) -> Poi
 
 def _resolved_middle(a: Point, b: Point, arc: ArcLength, tolerance: float) -> Point:
     """The state halfway, on the mesh of the ends when that resolves it, else on a finer one."""
+    if _kinked(a):
+        return _reached_middle(a, b, arc, _FINE)
     try:
         state = _middle(a, b, arc).state
         state = fit(state, parameter_control(state, parameter_of(state)), tolerance)
@@ -203,7 +223,7 @@ def _parts(a: Point, b: Point, arc: ArcLength, tolerance: float, halvings: int) 
         return [a, b]
     middle = _resolved_middle(a, b, arc, tolerance)
     halves = (a, middle), (middle, b)
-    if middle.state.disc is not a.state.disc:
+    if middle.state.disc is not a.state.disc and not _kinked(a):
         # The mesh of the two ends does not resolve the edge between them; it would pin the edge, and turn falsely.
         halves = _on_common_mesh(a, middle, arc), _on_common_mesh(middle, b, arc)
     first, last = (_parts(*half, arc, tolerance, halvings - 1) for half in halves)

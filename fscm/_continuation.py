@@ -16,14 +16,16 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import scipy
 
-from fscm._adaptivity import end_radius, fit, initial_mesh, rescaled_mesh
-from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of
+from fscm._adaptivity import end_radius, fit, initial_mesh
+from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of
+from fscm._branches import checked_sense, edge_elsewhere, follow_edge, joined, predicted, turned
 from fscm._equilibrium import Control, Discretisation, Rates, State
 from fscm._meshes import Meshes
-from fscm._newton import STEP_TOLERANCE, newton, shifted
-from fscm._path_end import PathEnd, radius_of_compression
+from fscm._newton import STEP_TOLERANCE, newton
+from fscm._path_end import PathEnd, depth, displacement_of_compression
 from fscm.errors import NotConverged
 from fscm.problem import Problem
+from fscm.punch import PowerPunch, kinks_of
 
 __all__ = ["MAX_POINTS", "bracketing_path", "equilibrium_path", "moved", "path_end", "path_until"]
 
@@ -39,6 +41,8 @@ _LONGER, _SHORTER, _RETRY = 1.4, 0.7, 0.4
 # A step over which the tangent turns by more than this cosine is taken again, shorter: a fold pair turns
 # the path twice and must not be stepped over.  Steps below _BLIND_STEP are taken whatever the turn.
 _LARGEST_TURN, _BLIND_STEP = 0.85, 0.02
+# The same for any punch but a power law: a cavity that snaps shut turns the path within 0.01 (measured).
+_BLIND_STEP_OF_ASPERITIES = 0.002
 # Before contact, once the displacement makes up less than this share of the tangent, steps are at most this long:
 # the path may then run flat through several shallow folds, over which the tangent hardly turns.  Measured: n = 2,
 # k = 0.6, mu = 3 has three folds within 0.015 of displacement, and steps of 0.5 missed the first two.
@@ -47,6 +51,11 @@ _FLAT_SHARE, _FLAT_STEP = 0.5, 0.1
 # to a contact radius, that is computed.  Measured: right at 4e-10 (n = 2, k = 0.9, mu = 2), but the pull-off force is
 # wrong by 2e-3 with a bound of 2e-4 at 4e-11 (n = 2, k = 0, mu = 1e5).
 _EDGE, _NARROWEST = 1.03, -10.0
+# Where its parameter turns, the path goes on in another one, until that one makes up less than this share of the
+# tangent.
+_LEAST_SHARE = 0.3
+# Share of the tangent from which on it is prescribed, not the arc length, where the mesh moves with kinks.
+_GIVEN_SHARE = 0.05
 # The edge is followed from where the central gap has fallen below the gap of largest tension by this fraction
 # of that gap's distance to the singular gap: nearer to it the edge radius is a poor variable (it starts as a
 # root).
@@ -60,10 +69,6 @@ _NUCLEUS = 0.8
 _FLAT_HEIGHT, _SMALL, _DEEP, _GROWING = 0.02, 0.05, 0.2, 0.3
 
 
-def _predicted(state: State, rates: Rates, step: float) -> State:
-    return shifted(state, rates.gap, rates.displacement, rates.log_scale, step)
-
-
 def moved(state: State, rates: Rates, value: float, tolerance: float = STEP_TOLERANCE) -> State:
     """Equilibrium at another value of the continuation parameter, from the tangent predictor.
 
@@ -72,7 +77,7 @@ def moved(state: State, rates: Rates, value: float, tolerance: float = STEP_TOLE
     NotConverged
         When Newton's method fails.
     """
-    return newton(_predicted(state, rates, value - parameter_of(state)), parameter_control(state, value), tolerance)
+    return newton(predicted(state, rates, value - parameter_of(state)), parameter_control(state, value), tolerance)
 
 
 def _far_state(problem: Problem, central_gap: float, order: int, tolerance: float, end_height: float) -> State:
@@ -90,7 +95,7 @@ def _nucleus_gap(state: State, rates: Rates) -> float | None:
     problem, mesh = state.disc.problem, state.disc.mesh
     if state.follows_edge or problem.k <= _NUCLEUS:
         return None
-    flat = int(np.searchsorted(problem.punch.height(state.radius), _FLAT_HEIGHT)) - 1
+    flat = int(np.argmax(problem.punch.height(state.radius) >= _FLAT_HEIGHT)) - 1
     inner = state.central_gap
     if flat < 1 or state.gap[flat] - inner < _DEEP * (inner - problem.law.singular_gap):
         return None
@@ -106,32 +111,6 @@ def _nucleus_gap(state: State, rates: Rates) -> float | None:
     share = (front - inner) / (float(gap[flat]) - inner)
     change = (1.0 - share) * rates.central_gap + share * rates.gap[flat] - 0.5 * (rates.gap[i] + rates.gap[i + 1])
     return front if change > _GROWING * slopes[i] else None
-
-
-def _follow_edge(state: State, end_height: float, edge_gap: float | None = None) -> State:
-    """Guess on a mesh scaled so that the outermost edge gap, by default that of largest tension, sits at s = 1."""
-    problem, mesh = state.disc.problem, state.disc.mesh
-    target = problem.law.peak_gap if edge_gap is None else edge_gap
-    outer = int(np.flatnonzero(state.gap < target)[-1]) if np.any(state.gap < target) else -1
-    low = 0.0 if outer < 0 else float(mesh.nodes[outer])
-    ratio = scipy.optimize.brentq(
-        lambda s: mesh.evaluate(state.gap, np.array([s]))[0] - target, low, mesh.nodes[outer + 1]
-    )
-    new = rescaled_mesh(problem, mesh, state.scale, state.scale * ratio, end_height)
-    known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
-    disc, scale = Discretisation(problem, new), state.scale * ratio
-    if state.lift is not None:
-        return State.lifted(disc, scale, mesh.evaluate(state.lift, known), state.displacement, True, edge_gap)
-    shape = problem.punch.height
-    gap = mesh.evaluate(state.gap, known) + (shape(scale * new.nodes) - shape(state.scale * known))
-    return State(disc, scale, gap, state.displacement, True, edge_gap=edge_gap)
-
-
-def _edge_elsewhere(state: State, hand_over: float) -> bool:
-    """Whether the outermost contact edge is not the one that the mesh follows."""
-    if not state.follows_edge:
-        return state.central_gap < hand_over
-    return float(np.min(state.gap[state.disc.mesh.nodes > 1.0])) < hand_over
 
 
 def _log_width(problem: Problem, log_mu: float) -> float:
@@ -178,7 +157,7 @@ def equilibrium_path(
     longest_step : float
         Longest step of arc length, dimensionless.
     start_gap : float, optional
-        Central gap of the first state.
+        Gap of the first state at the lowest point of the punch, which is its center unless the tip is concave.
     end_height : float
         Height of the punch at which the mesh ends.
 
@@ -194,35 +173,58 @@ def equilibrium_path(
     """
     _check_edge(problem)
     arc = ArcLength.of(problem)
-    state = _far_state(problem, _start_gap(problem) if start_gap is None else start_gap, order, tolerance, end_height)
+    gap = _start_gap(problem) if start_gap is None else start_gap
+    gap += depth(problem, end_radius(problem, end_height))
+    state = _far_state(problem, gap, order, tolerance, end_height)
     peak, singular = problem.law.peak_gap, problem.law.singular_gap
     hand_over = peak - _HAND_OVER * (peak - singular)
+    kinked = bool(kinks_of(problem.punch))
+    least_share = _GIVEN_SHARE if kinked else _LEAST_SHARE
+    shortest = _BLIND_STEP if isinstance(problem.punch, PowerPunch) else _BLIND_STEP_OF_ASPERITIES
     step = min(_FIRST_STEP, longest_step)
     point = Point(state, arc.tangent(state))
     while True:
         yield point
         state = point.state
         nucleus = _nucleus_gap(state, point.rates)
-        if nucleus is not None or _edge_elsewhere(state, hand_over):
-            guess = _follow_edge(state, end_height, nucleus)
+        if nucleus is not None or edge_elsewhere(state, hand_over):
+            guess = follow_edge(state, end_height, nucleus)
             control = parameter_control(guess, parameter_of(guess))
             if nucleus is not None:  # it grows slowly at first: its gap tells states apart better than its radius
                 control = Control(state.central_gap, gap=1.0)
             state = fit(newton(guess, control), control, tolerance)
-            point = Point(state, arc.tangent(state), point.stretch + 1)
+            point = joined(arc, point, state)
             continue
+        shares = arc.shares(point)
+        usual = "log_scale" if state.follows_edge else "gap"
+        # With the scale given, no node passes a kink during an iteration.
+        kept = usual if kinked and abs(shares[usual]) > _GIVEN_SHARE else state.parameter
+        if state.turned and (kept != state.parameter or abs(shares.get(kept, 0.0)) < least_share):
+            point = turned(arc, point, kept if kept != state.parameter else None)
+            state = point.state
+            yield point
         if not state.follows_edge and abs(point.rates.displacement) < _FLAT_SHARE * arc.displacement_unit(state):
             step = min(step, _FLAT_STEP)
         while True:
+            guess = predicted(state, point.rates, step)
             control = arc.control(state, point.rates, step)
+            if kinked and state.parameter == usual and abs(shares[usual]) > _GIVEN_SHARE:
+                control = parameter_control(guess, parameter_of(state) + step * rate_of(point.rates, state.parameter))
             try:
-                new = newton(_predicted(state, point.rates, step), control, _NEWTON_MARGIN * tolerance)
+                new = newton(guess, control, _NEWTON_MARGIN * tolerance)
                 used = new.iterations
                 new = fit(new, control, tolerance, coarsen=True)
                 after = Point(new, arc.tangent(new), point.stretch)
-                if step > _BLIND_STEP and arc.turn(point, after) < _LARGEST_TURN:
+                turn, blind = arc.turn(point, after), step <= shortest
+                power = isinstance(problem.punch, PowerPunch)
+                if (turn if power else abs(turn)) < _LARGEST_TURN and not blind:
                     step *= _SHORTER
                     continue
+                same = turn >= 0.0
+                if not power:
+                    same = checked_sense(point, after, step, same if abs(turn) >= _LARGEST_TURN else None)
+                if not same:  # the path goes on, but its parameter turns
+                    after = turned(arc, point)
                 break
             except NotConverged as error:
                 step *= _RETRY
@@ -286,4 +288,10 @@ def bracketing_path(problem: Problem, meshes: Meshes) -> list[Point]:
 
 def path_end(problem: Problem, end_height: float) -> PathEnd:
     """The end of a path behind which no state carries tension; for one path only, since it keeps its largest delta."""
-    return PathEnd(radius_of_compression(problem, end_radius(problem, end_height)))
+    displacement = displacement_of_compression(problem, end_radius(problem, end_height))
+    if displacement == math.inf:
+        raise NotConverged(
+            f"of the path of {problem} it cannot be told where its last tension is: "
+            "up to the largest displacement that is examined, the attraction can still exceed the compression"
+        )
+    return PathEnd(displacement)

@@ -53,7 +53,10 @@ class Errors:
     rounding: float
 
     def plus(self, other: Errors, factor: float) -> Errors:
-        """Contributions of self + factor * other, both of the same mesh."""
+        """Contributions of self + factor * other; when their places are not the same, the sizes add up."""
+        if self.mesh.shape != other.mesh.shape:
+            size = abs(factor)
+            return self.beside(Errors(size * other.mesh, size * other.tail, size * other.domain, size * other.rounding))
         return Errors(
             self.mesh + factor * other.mesh,
             self.tail + factor * other.tail,

@@ -114,6 +114,9 @@ class State:
         Deformation w from which the gaps of a steep punch follow.
     edge_gap : float, optional
         Gap at s = 1 when the mesh follows the edge; by default the one of largest tension.
+    turned : tuple of str and float, optional
+        Continuation parameter and its sign along the path, where they are not the usual ones: log c rising when the
+        mesh follows the edge, else the central gap falling.
     """
 
     disc: Discretisation
@@ -125,6 +128,7 @@ class State:
     residual: float = 0.0
     lift: Array | None = None
     edge_gap: float | None = None
+    turned: tuple[str, float] | None = None
 
     @classmethod
     def lifted(
@@ -135,10 +139,21 @@ class State:
         displacement: float,
         follows_edge: bool,
         edge_gap: float | None = None,
+        turned: tuple[str, float] | None = None,
     ) -> State:
         """The state of a steep punch from its deformation."""
         gap = disc.height(scale * disc.mesh.nodes) - displacement + lift
-        return cls(disc, scale, gap, displacement, follows_edge, lift=lift, edge_gap=edge_gap)
+        return cls(disc, scale, gap, displacement, follows_edge, lift=lift, edge_gap=edge_gap, turned=turned)
+
+    @property
+    def parameter(self) -> str:
+        """Name of the continuation parameter: "gap", "log_scale", "displacement" or "load"."""
+        return self.turned[0] if self.turned else "log_scale" if self.follows_edge else "gap"
+
+    @property
+    def sense(self) -> float:
+        """Whether the continuation parameter rises (1) or falls (-1) along the path."""
+        return self.turned[1] if self.turned else 1.0 if self.follows_edge else -1.0
 
     @property
     def gap_at_edge(self) -> float:

@@ -150,7 +150,7 @@ def slowest(points: Sequence[Point]) -> tuple[Point, Point, Point, float]:
 
 def _least_rate(a: Point, b: Point) -> tuple[Point, Point, Point, float]:
     between = _Between(a, b)
-    orientation = 1.0 if a.state.follows_edge else -1.0
+    orientation = a.state.sense
     best = scipy.optimize.minimize_scalar(
         lambda x: orientation * between(x)[1].displacement,
         bounds=(between.low, between.high),

@@ -11,6 +11,7 @@ import scipy
 from fscm._equilibrium import Control, Linearisation, State
 from fscm._typing import Array
 from fscm.errors import NotConverged
+from fscm.punch import kinks_of
 
 __all__ = ["STEP_TOLERANCE", "newton", "shifted"]
 
@@ -34,7 +35,7 @@ _DIVERGED = 1e6
 
 def _moved_scale(state: State, log_scale: float) -> float:
     """The scale after a linear change of log c; for a steep punch of z = log c + f(c), in which its edge is linear."""
-    if state.lift is None:
+    if state.lift is None or kinks_of(state.disc.problem.punch):
         return state.scale * math.exp(log_scale)
     if log_scale == 0.0:
         return state.scale
@@ -54,14 +55,20 @@ def _moved_scale(state: State, log_scale: float) -> float:
 
 
 def shifted(state: State, gap: Array, displacement: float, log_scale: float, factor: float = 1.0) -> State:
-    """The state after a part of a linear change of its unknowns: gaps (deformations of a steep punch), delta, log c."""
+    """The state after a part of a linear change of its unknowns: gaps (deformations of a steep punch), delta, log c.
+
+    A punch with kinks moves by its exact change of height: that is no linear function of log c within a step.
+    """
     scale = _moved_scale(state, factor * log_scale)
     displacement = state.displacement + factor * displacement
-    if state.lift is None:
-        moved = state.gap + factor * gap
-        return State(state.disc, scale, moved, displacement, state.follows_edge, edge_gap=state.edge_gap)
-    lift = state.lift + factor * gap
-    return State.lifted(state.disc, scale, lift, displacement, state.follows_edge, state.edge_gap)
+    if state.lift is not None:
+        lift = state.lift + factor * gap
+        known = state.follows_edge, state.edge_gap, state.turned
+        return State.lifted(state.disc, scale, lift, displacement, *known)
+    moved, disc, r = state.gap + factor * gap, state.disc, state.radius
+    if log_scale != 0.0 and kinks_of(disc.problem.punch):
+        moved += disc.height(scale * disc.mesh.nodes) - disc.height(r) - disc.rise(r) * (factor * log_scale)
+    return replace(state, scale=scale, gap=moved, displacement=displacement)
 
 
 def _largest_damping(state: State, step: Array) -> float:
@@ -71,7 +78,7 @@ def _largest_damping(state: State, step: Array) -> float:
     least = np.maximum(_SHRINK * clearance, _LOWEST * -floor)
     dH, log_scale = step[:-2], float(step[-1])
     largest = _LARGEST_GROWTH / max(abs(log_scale), 1e-300)
-    if state.lift is not None:
+    if state.lift is not None or (log_scale != 0.0 and kinks_of(state.disc.problem.punch)):
         damping = min(1.0, largest)
         while damping > _SMALLEST_DAMPING and np.any(
             shifted(state, dH, float(step[-2]), log_scale, damping).gap - floor < np.minimum(least, clearance)

@@ -1,38 +1,49 @@
 r"""End of the equilibrium path: where no later state can carry tension.
 
-A power-law punch has one minimum of the load on its contact branch, and its path ends at the first compressive load.
-Any other punch may have asperities: the path goes on until the edge has passed the radius from which on
+A punch without asperities, such as a power law, has one minimum of the load on its contact branch, and its path ends at
+the first compressive load.  It is one on which r f' does not decrease.  Any other may have asperities.  There the load
+of every state of displacement delta has a lower bound.  Let q be the pressure of a flat punch of radius a that is
+pressed in by one length.  It lifts the surface by 1 below the flat punch and by phi < 1 outside.  With the reciprocity
+of q and p, H > s (the singular gap) and Eq. 4,
 
-    P_H(c) - P_a(c) - 2 T(c) > 0       for every edge radius c.
+    P >= C_a (delta + s - <f>) - int_a^oo t(f - delta - W) (1 - phi) 2 r dr       for every a.
 
-P_H is the load without adhesion on the full disc of radius c, P_a the load that Griffith's balance at its edge takes
-off (the two of the soft limit, JKR), and T the tension of the gap region outside c, in which the gap is that of the
-undeformed punch (the rigid limit, Bradley).  Between the limits the sum of both is taken, with the factor 2 for the
-deformation of the gap region.
+C_a is the load of the flat punch, <f> the mean of f with the weight q, and t(H) the largest tension at the gap H or a
+larger one.  W bounds the part of the deformation that the tension causes: it is the largest W that does not exceed the
+deformation by the tension t(f - delta - W).  Nothing is assumed of the state.  What is assumed of the path: once it has
+reached a displacement from which on the bound is positive, it does not come back to a smaller one.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+import scipy
 
 from fscm._equilibrium import State
 from fscm._typing import Array
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
-__all__ = ["PathEnd", "least_later_loads", "radius_of_compression"]
+__all__ = ["LeastLoad", "PathEnd", "depth", "displacement_of_compression"]
 
-# Radii at which the shape is evaluated, and every so many of them an edge.
-_RADII, _EVERY = 6000, 12
+# Radii at which the shape is evaluated, and every so many of them the radius of a flat punch.
+_RADII, _EVERY = 3000, 24
 # The first radius, in units of the last: features below it carry less than 1e-9 of any load.
 _FIRST_RADIUS = 1e-7
-# The last edge, in the same unit: the gap region outside it has to be seen as well.
-_LAST_EDGE = 1e-2
-# The factor of the tension in the gap region.
-_MARGIN = 2.0
+# Largest displacement, in units of the height of the punch at the last radius: far enough from it for the closed tail.
+_LARGEST = 1e-2
+# Relative decrease of r f' that is rounding: a slope by differences has an error of 1e-11 of f / r.
+_LEVEL = 1e-6
+# Ratio of the displacements that are tried.
+_RATIO = 1.05
+# Iterations for the deformation by tension; it decreases from one to the next, so that each of them is a bound.
+_ITERATIONS = 60
+# Beyond the last radius, H is less than f by less than this factor to the power of the decay of the law.
+_TAIL_MARGIN = 1.5
 
 
 @dataclass
@@ -41,78 +52,131 @@ class PathEnd:
 
     Attributes
     ----------
-    radius : float
-        Edge radius from which on the load stays compressive (see `radius_of_compression`).
+    displacement : float
+        Displacement from which on every load is compressive (see `displacement_of_compression`).
     load : float
         The load has to exceed this as well.
     farthest : float
         Largest displacement of the states so far.
     """
 
-    radius: float
+    displacement: float
     load: float = 0.0
     farthest: float = -math.inf
 
     def __call__(self, state: State) -> bool:
         self.farthest = max(self.farthest, state.displacement)
-        deepest = state.displacement >= self.farthest
-        return state.follows_edge and state.load > self.load and state.scale >= self.radius and deepest
+        deepest = state.displacement >= max(self.farthest, self.displacement)
+        return state.follows_edge and state.load > self.load and deepest
 
 
-def radius_of_compression(problem: Problem, end: float) -> float:
-    """Edge radius beyond which no state carries tension; 0 for a power law, where any compressive load is the end.
+def _radii(end: float) -> Array:
+    return np.concatenate([[0.0], np.geomspace(_FIRST_RADIUS * end, end, _RADII)])
+
+
+def depth(problem: Problem, end: float) -> float:
+    """Depth of the lowest point of the punch below its center, up to the radius `end`; 0 unless the tip is concave."""
+    if isinstance(problem.punch, PowerPunch):
+        return 0.0
+    return -min(0.0, float(np.min(problem.punch.height(_radii(end)))))
+
+
+def _has_asperities(problem: Problem, end: float) -> bool:
+    r = _radii(end)[1:]
+    rising = r * problem.punch.slope(r)
+    return bool(np.any(np.diff(rising) < -_LEVEL * np.abs(rising[1:])) or rising[0] < 0.0)
+
+
+def displacement_of_compression(problem: Problem, end: float) -> float:
+    """Displacement from which on no state carries tension; -inf without asperities, where no such bound is needed.
 
     Parameters
     ----------
     problem : Problem
     end : float
         Largest radius that is examined.
+
+    Returns
+    -------
+    float
+        Infinite when the bound is not positive at the largest displacement that is examined.
     """
-    if isinstance(problem.punch, PowerPunch):
-        return 0.0
-    radii, loads = least_later_loads(problem, end)
-    tense = np.flatnonzero(loads <= 0.0)
-    if not tense.size:
-        return 0.0
-    return float(radii[tense[-1] + 1]) if tense[-1] + 1 < len(radii) else math.inf
-
-
-def least_later_loads(problem: Problem, end: float) -> tuple[Array, Array]:
-    """Edge radii, and a load below which no state with this edge can be; arrays of shape (m,)."""
-    k = problem.k
-    r = np.concatenate([[0.0], np.geomspace(_FIRST_RADIUS * end, end, _RADII)])
-    f = problem.punch.height(r)
-    c = r[_EVERY::_EVERY]
-    c = c[c < _LAST_EDGE * end]
-    # P of a flat punch of radius a pressed in by d is d a^(1+k) C / (1+k).
-    C = 4.0 * math.cos(0.5 * math.pi * k) / (math.pi * problem.compliance * (1.0 - k))
-    transform = _transform(r, f, c, k)
-    middle = 0.5 * (c + np.append(0.0, c[:-1]))
-    hertz = C / (1.0 + k) * np.cumsum(middle ** (1.0 + k) * np.diff(transform, prepend=0.0))
-    griffith = 2.0 * math.sqrt(C) * c ** (0.5 * (3.0 + k)) / (1.0 + k)
-    return c, hertz - griffith - _MARGIN * _tension(problem, r, f, len(c))
-
-
-def _transform(r: Array, f: Array, x: Array, k: float) -> Array:
-    """x^(1-k) int_0^x f'(r) (x^2 - r^2)^((k-1)/2) dr, exact where f is linear in r^2 between the radii."""
-    squares = r * r
-    slopes = np.diff(f) / np.diff(squares)
-    found = np.empty_like(x)
-    for i, radius in enumerate(x):
-        left = np.maximum(radius * radius - squares, 0.0) ** (0.5 * (1.0 + k))
-        found[i] = radius ** (1.0 - k) * float(slopes @ -np.diff(left)) * 2.0 / (1.0 + k)
+    if isinstance(problem.punch, PowerPunch) or not _has_asperities(problem, end):
+        return -math.inf
+    bound = LeastLoad(problem, end)
+    largest = _LARGEST * float(problem.punch.height(np.array([end]))[0])
+    found, displacement = math.inf, largest
+    while displacement > largest * _FIRST_RADIUS and bound(displacement) > 0.0:
+        found, displacement = displacement, displacement / _RATIO
     return found
 
 
-def _tension(problem: Problem, r: Array, f: Array, edges: int) -> Array:
-    """Tension of the undeformed gap region outside each of the edges, the gap at the edge being 0."""
-    law = problem.law
-    squares = r * r
-    C, m = law.decay
-    found = []
-    for i in range(_EVERY, (edges + 1) * _EVERY, _EVERY):
-        gap = np.maximum(f[i:] - f[i], law.peak_gap)
-        pressure = -law.traction(gap)
-        outside = C * gap[-1] ** -m * squares[-1] * 2.0 / (m * problem.punch.growth - 2.0) if C else 0.0
-        found.append(float(np.sum(0.5 * (pressure[1:] + pressure[:-1]) * np.diff(squares[i:]))) + outside)
-    return np.array(found)
+class LeastLoad:
+    """Lower bound of the load of every equilibrium state, as a function of its displacement.
+
+    Parameters
+    ----------
+    problem : Problem
+    end : float
+        Largest radius that is examined; the punch is taken for a power of the radius beyond it.
+    """
+
+    def __init__(self, problem: Problem, end: float) -> None:
+        self.problem = problem
+        self.radii = _radii(end)
+        self.heights = problem.punch.height(self.radii)
+        # The largest function below f that does not decrease: its tension lifts the surface most at the center.
+        self._rising = np.minimum.accumulate(self.heights[::-1])[::-1]
+
+    def __call__(self, displacement: float) -> float:
+        tension = self._tension(self.heights, displacement + self.deformation(displacement))
+        outside = np.maximum(tension[:-1], tension[1:])
+        compliant, mean, weights = self._flat_punches
+        pressed = displacement + self.problem.law.singular_gap - mean
+        return float(np.max(compliant * pressed - weights @ outside)) - self._tail(2.0) * 2.0
+
+    def deformation(self, displacement: float) -> float:
+        """Bound of the deformation by tension, W."""
+        k = self.problem.k
+        found = 1.0
+        while (lifted := self._lifted(displacement + found)) > found:
+            found = 2.0 * lifted
+        for _ in range(_ITERATIONS):
+            found, last = self._lifted(displacement + found), found
+            if last - found < 1e-3 * (1.0 - k) * found:
+                break
+        return found
+
+    def _lifted(self, approach: float) -> float:
+        """Deformation at the center by the tension at the gaps f - approach."""
+        k = self.problem.k
+        tension = self._tension(self._rising, approach)[:-1]
+        inside = float(tension @ np.diff(self.radii ** (1.0 - k)))
+        return self.problem.compliance * (inside + (1.0 - k) * self._tail(1.0 - k))
+
+    def _tension(self, heights: Array, approach: float) -> Array:
+        law = self.problem.law
+        return np.asarray(-law.traction(np.maximum(heights - approach, law.peak_gap)))
+
+    def _tail(self, power: float) -> float:
+        """Integral of t r^(power - 1) beyond the last radius."""
+        C, m = self.problem.law.decay
+        if C == 0.0:
+            return 0.0
+        T, F = self.radii[-1], self.heights[-1]
+        return float(C * _TAIL_MARGIN**m * F**-m * T**power / (m * self.problem.punch.growth - power))
+
+    @cached_property
+    def _flat_punches(self) -> tuple[Array, Array, Array]:
+        """C_a, <f> and the weights (1 - phi) 2 r dr of the radii outside, for some radii a."""
+        k, squares = self.problem.k, self.radii**2
+        a = self.radii[_EVERY::_EVERY]
+        C = 4.0 * math.cos(0.5 * math.pi * k) / (math.pi * self.problem.compliance * (1.0 - k * k))
+        # <f> is exact where f is linear in r^2 between the radii.
+        left = np.maximum(a[:, None] ** 2 - squares, 0.0) ** (0.5 * (3.0 + k)) / (0.5 * (3.0 + k))
+        slopes = np.diff(self.heights) / np.diff(squares)
+        mean = self.heights[0] + (-np.diff(left, axis=1) @ slopes) / a ** (1.0 + k)
+        with np.errstate(divide="ignore"):
+            ratio = np.minimum(a[:, None] ** 2 / squares[1:], 1.0)
+        phi = scipy.special.betainc(0.5 * (1.0 + k), 0.5 * (1.0 - k), ratio)
+        return C * a ** (1.0 + k), mean, (1.0 - phi) * np.diff(squares)

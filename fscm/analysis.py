@@ -59,11 +59,12 @@ class Analysis:
         self.problem = problem
         self.meshes = Meshes.of(accuracy)
         self._pairs: dict[str, EventPair] = {}
-        self._landings: dict[str, EventPair] = {}
+        self._landings: dict[EventPair, tuple[EventPair, Bracket]] = {}
+        self._jumps: dict[str, list[tuple[EventPair, EventPair]]] = {}
         self._parts: dict[tuple[str, str], Parts] = {}
         # The finer mesh of one event at a time: it holds several square matrices.
         self._last: tuple[str, EventErrors] | None = None
-        self._jumps: dict[str, tuple[Errors, Errors]] = {}
+        self._fold_errors: dict[str, tuple[Errors, Errors]] = {}
 
     @cached_property
     @one_thread()
@@ -148,10 +149,13 @@ class Analysis:
             raise ValueError(f"unknown event {name!r}; known are {', '.join(_EVENTS)}")
         if name not in self._pairs:
             bracket, condition = _EVENTS[name]
-            coarse = events.locate(*bracket(self), condition)
-            check = partial(events.sharpen, coarse, condition, *self.meshes.check)
-            self._pairs[name] = EventPair(events.sharpen(coarse, condition, *self.meshes.value), check)
+            self._pairs[name] = self._pair(bracket(self), condition)
         return self._pairs[name]
+
+    def _pair(self, bracket: Bracket, condition: Condition) -> EventPair:
+        coarse = events.locate(*bracket, condition)
+        check = partial(events.sharpen, coarse, condition, *self.meshes.check)
+        return EventPair(events.sharpen(coarse, condition, *self.meshes.value), check)
 
     @one_thread()
     def parts(self, event: str, functional: str) -> Parts:
@@ -177,30 +181,77 @@ class Analysis:
             errors = EventErrors(self.event(event).value)
             self._last = event, errors
             if event in _LANDINGS:
-                self._jumps[event] = errors.at_fold()
+                self._fold_errors[event] = errors.at_fold()
         return self._last[1]
 
     @one_thread()
     def jump_parts(self, jump: str) -> Parts:
-        """Bounds on the error of the energy that is lost in a jump.
+        """Bounds on the error of the energy that is lost in all jumps of an approach or a retreat, see `jumps`.
 
         Examples
         --------
         >>> Analysis(Problem(n=2, k=0.4, mu=1.0)).jump_parts("jump_in").total < 1e-8
         True
         """
-        if jump not in self._jumps:
-            self._errors(jump)
-        return energy_of_jump(*self._jumps[jump], self.landing(jump).value)
+        parts = Parts()
+        for fold, landing in self.jumps(jump):
+            if fold is not self.event(jump):
+                errors = EventErrors(fold.value).at_fold()
+            else:
+                if jump not in self._fold_errors:
+                    self._errors(jump)
+                errors = self._fold_errors[jump]
+            # The errors may cancel by accident, so their sizes are added.
+            parts = parts.plus(energy_of_jump(*errors, landing.value))
+        return parts
 
     @one_thread()
     def landing(self, event: str) -> EventPair:
         """Where a jump ("jump_in" or "jump_out") under displacement control lands: on the other branch."""
         if event not in _LANDINGS:
             raise ValueError(f"unknown jump {event!r}; known are {', '.join(_LANDINGS)}")
-        if event in self._landings:
-            return self._landings[event]
+        return self._landing(event, self.event(event))[0]
+
+    @one_thread()
+    def jumps(self, event: str) -> list[tuple[EventPair, EventPair]]:
+        """Every jump of an approach ("jump_in") or a retreat ("jump_out") under displacement control.
+
+        Returns
+        -------
+        list of (EventPair, EventPair)
+            The fold and the landing of each, in their order.  A punch with asperities may jump several times.
+        """
+        if event not in self._jumps:
+            self._jumps[event] = self._all_jumps(event)
+        return self._jumps[event]
+
+    def _all_jumps(self, event: str) -> list[tuple[EventPair, EventPair]]:
+        if event not in _LANDINGS:
+            raise ValueError(f"unknown jump {event!r}; known are {', '.join(_LANDINGS)}")
         fold = self.event(event)
+        landing, place = self._landing(event, fold)
+        found, places = [(fold, landing)], {id(point): i for i, point in enumerate(self.points)}
+        approach = event == "jump_in"
+        folds = events.brackets(self.points, events.displacement_fold, rising=not approach)
+        while True:
+            # On from the landing: into contact on approach, towards separation on retreat.
+            here = places[id(place[0])]
+            folds = [
+                pair for pair in folds if (places[id(pair[0])] >= here if approach else places[id(pair[0])] <= here)
+            ]
+            if not folds:
+                return found
+            bracket = folds.pop(0 if approach else -1)
+            fold = self._pair(bracket, events.displacement_fold)
+            landing, place = self._landing(event, fold)
+            if (places[id(place[0])] <= places[id(bracket[0])]) == approach:
+                raise NotConverged(f"the path of {self.problem} ends before the landing of a {event.replace('_', '-')}")
+            found.append((fold, landing))
+
+    def _landing(self, event: str, fold: EventPair) -> tuple[EventPair, Bracket]:
+        """State in which a jump from a fold lands, and its bracket on the path."""
+        if fold in self._landings:
+            return self._landings[fold]
 
         def at(displacement: float) -> Condition:
             return lambda state, rates: state.displacement - displacement
@@ -212,12 +263,12 @@ class Analysis:
                 f"the path of {self.problem} does not reach the displacement {fold.value.displacement:.6g}, "
                 f"at which the {event.replace('_', '-')} lands"
             )
-        coarse = events.locate(*crossings[_LANDINGS[event]], condition)
+        place = crossings[_LANDINGS[event]]
+        coarse = events.locate(*place, condition)
         value = events.sharpen(coarse, condition, *self.meshes.value)
-        self._landings[event] = EventPair(
-            value, lambda: events.sharpen(coarse, at(fold.check.displacement), *self.meshes.check)
-        )
-        return self._landings[event]
+        pair = EventPair(value, lambda: events.sharpen(coarse, at(fold.check.displacement), *self.meshes.check))
+        self._landings[fold] = pair, place
+        return self._landings[fold]
 
     @one_thread()
     def solution(self, quantity: str) -> Solution:
@@ -229,7 +280,22 @@ class Analysis:
         """
         row = quantity_named(quantity)
         start = time.perf_counter()
-        return replace(row.compute(self), seconds=time.perf_counter() - start)
+        found = row.compute(self)
+        if self._alternatives:
+            # What the smoothing of a law changes is as uncertain as its data.
+            change = max(abs(other.solution(quantity).value - found.value) for other in self._alternatives)
+            found = replace(found, parts=found.parts.plus(Parts(law=change)))
+        return replace(found, seconds=time.perf_counter() - start)
+
+    @cached_property
+    def _alternatives(self) -> list[Analysis]:
+        """The problem with the other laws that the data of a smoothed one allow."""
+        found = []
+        for law in getattr(self.problem.law, "alternatives", ()):
+            other = Analysis(replace(self.problem, law=law), self.meshes)
+            other._alternatives = []
+            found.append(other)
+        return found
 
 
 # Bracket and condition of each event.

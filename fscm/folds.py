@@ -59,7 +59,7 @@ def folds_between(a: Point, b: Point) -> list[tuple[State, str, bool]]:
         before, after = condition(a.state, a.rates), condition(b.state, b.rates)
         if before * after < 0.0:
             found.append((events.locate(a, b, condition), quantity, before > 0.0))
-    direction = 1.0 if a.state.follows_edge else -1.0
+    direction = a.state.sense
     return sorted(found, key=lambda item: direction * parameter_of(item[0]))
 
 

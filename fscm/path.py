@@ -184,7 +184,7 @@ def _with_events(points: list[Point]) -> tuple[list[State], list[tuple[State, st
         folds += between
         zeros = events.crossings([a, b], events.zero_load, events.load_fold)
         added = [fold[0] for fold in between] + [events.locate(*bracket, events.zero_load) for bracket in zeros]
-        direction = 1.0 if a.state.follows_edge else -1.0
+        direction = a.state.sense
         states += sorted(added, key=lambda state: direction * parameter_of(state))
         states.append(b.state)
     return states, folds

@@ -37,7 +37,7 @@ class PhysicalProblem:
     k : float
         Gradient exponent, 0 <= k <= 1.
     nu : float
-        Poisson's ratio, 0 <= nu < 1/2; for k = 1 (the Gibson solid) exactly 1/2, or the response is infinite.
+        Poisson's ratio, 0 <= nu <= 1/2; for k = 1 (the Gibson solid) exactly 1/2, or the response is infinite.
     Q : float
         Shape parameter, > 0 (length^(n-1)); the radius of a paraboloid, R^(n-1) in general.
     n : float
@@ -80,7 +80,7 @@ class PhysicalProblem:
                 reason = "E = E0 (z/c0)^k has no finite surface response there"
                 value = real_number("k", value, low=0.0, high=1.0, closed_low=True, closed_high=True, reason=reason)
             elif field.name == "nu":
-                reason = "the solid is elastic and compressible, or k = 1 and nu = 0.5"
+                reason = "the solid is elastic, and incompressible at 0.5"
                 value = real_number("nu", value, low=0.0, high=0.5, closed_low=True, closed_high=True, reason=reason)
             else:
                 value = real_number(field.name, value, low=0.0, high=math.inf, reason="it is a positive quantity")
@@ -89,11 +89,6 @@ class PhysicalProblem:
             raise ValueError(
                 f"nu = {self.nu:g} is outside [0.5, 0.5] for k = 1: only the incompressible Gibson solid has "
                 "a finite b / (1 - k) in Eq. 29"
-            )
-        if self.k < 1.0 and self.nu == 0.5:
-            raise ValueError(
-                f"nu = 0.5 is outside [0, 0.5) for k = {self.k:g}: the solid is compressible unless it is "
-                "the Gibson solid, k = 1"
             )
         if 2.0 * self.n + self.k <= 1.0:
             raise ValueError(

@@ -16,7 +16,7 @@ import numpy as np
 from fscm._typing import Array
 from fscm._validation import real_number
 
-__all__ = ["PowerPunch", "PowerSum", "PunchShape", "RoundedCone"]
+__all__ = ["PowerPunch", "PowerSum", "PunchShape", "RoundedCone", "kinks_of"]
 
 
 @runtime_checkable
@@ -41,6 +41,17 @@ class PunchShape(Protocol):
     def slope(self, r: Array) -> Array:
         """df/dr, shape of `r`."""
         ...
+
+
+def kinks_of(punch: PunchShape) -> tuple[float, ...]:
+    """Radii at which the slope of a punch jumps: its attribute `kinks`, if it has one.
+
+    Examples
+    --------
+    >>> kinks_of(PowerPunch(2.0))
+    ()
+    """
+    return tuple(getattr(punch, "kinks", None) or ())
 
 
 @dataclass(frozen=True, slots=True)

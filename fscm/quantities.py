@@ -89,13 +89,13 @@ class AtEvent(Quantity):
 
 
 def _hysteresis_energy(analysis: Analysis) -> Solution:
-    """Energy lost in the two jumps: by how much the energy drops at constant displacement."""
+    """Energy lost in all jumps of a cycle: by how much the energy drops at constant displacement."""
     value, parts, pairs = 0.0, Parts(), []
-    for jump in ("jump_in", "jump_out"):
-        fold, landing = analysis.event(jump), analysis.landing(jump)
-        value += fold.value.energy - landing.value.energy
-        parts = parts.plus(analysis.jump_parts(jump))
-        pairs += [fold, landing]
+    for name in ("jump_in", "jump_out"):
+        for fold, landing in analysis.jumps(name):
+            value += fold.value.energy - landing.value.energy
+            pairs += [fold, landing]
+        parts = parts.plus(analysis.jump_parts(name))
     return solution_of(value, parts, pairs)
 
 

@@ -32,6 +32,8 @@ class Parts(Mapping[str, float]):
         What is neglected behind the mesh: deformation there, and the place of the tail's rings.
     rounding : float
         Rounding of the numbers, through the condition of the event.
+    law : float
+        What the data of a smoothed law leave open (see `TabulatedLaw`).
 
     Examples
     --------
@@ -44,6 +46,7 @@ class Parts(Mapping[str, float]):
     tail: float = 0.0
     domain: float = 0.0
     rounding: float = 0.0
+    law: float = 0.0
 
     def __getitem__(self, name: str) -> float:
         if name not in _CAUSES:
@@ -94,7 +97,7 @@ class Solution:
     >>> solution.u_num < 1e-10, solution.residual < 1e-12
     (True, True)
     >>> list(solution.parts), sum(solution.parts.values()) == solution.u_num
-    (['mesh', 'tail', 'domain', 'rounding'], True)
+    (['mesh', 'tail', 'domain', 'rounding', 'law'], True)
     """
 
     value: float

@@ -203,7 +203,7 @@ def _near_extreme(
     distance = math.sqrt(2.0 * abs(missing / curvature))
     if distance < _SPACING**2:
         return [extreme]
-    along = 1.0 if extreme.follows_edge else -1.0
+    along = extreme.sense
     return [events.moved(extreme, rates, x + side * along * distance) for side in (-1.0, 1.0)]
 
 

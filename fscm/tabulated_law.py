@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import scipy
 
+from fscm._smoothed_table import smoothed_table
 from fscm._typing import Array
 from fscm._validation import real_number
 
@@ -48,6 +49,11 @@ class TabulatedLaw:
         half-spaces). C and the origin t are then fitted to the end of the data.  Otherwise t is the gap at
         which the wall diverges, and C and m are fitted.
 
+    smoothing : float, optional
+        Relative standard error of the tractions, below 0.1.  Above 0 the law is a smooth curve that leaves the points
+        by about this error, and not the one through all of them: for noisy data, or fewer than about 40 points.  What
+        the choice matters is a part of the `u_num` of every solution (see `alternatives`).
+
     Raises
     ------
     ValueError
@@ -64,6 +70,7 @@ class TabulatedLaw:
     gaps: Sequence[float]
     tractions: Sequence[float]
     tail_exponent: float | None = None
+    smoothing: float = 0.0
     equilibrium_gap: float = field(init=False, compare=False)
     work_of_adhesion: float = field(init=False, compare=False)
     _spline: scipy.interpolate.PPoly = field(init=False, compare=False)
@@ -78,6 +85,11 @@ class TabulatedLaw:
         if m is not None:
             reason = "with m <= 1 the work of adhesion is infinite"
             m = real_number("tail_exponent", m, low=1.0, high=math.inf, reason=reason)
+        reason = "it is the relative error of the tractions"
+        error = real_number("smoothing", self.smoothing, low=0.0, high=0.1, reason=reason, closed_low=True)
+        columns = gap, p
+        if error > 0.0:
+            gap, p = smoothed_table(gap, p, error)
         free = _quintic(gap, p)
         left = float(free(gap[0], 1)), float(free(gap[0], 2))
         wall = _fitted_wall(gap[0], p[0], *left)
@@ -92,9 +104,10 @@ class TabulatedLaw:
             raise ValueError(f"the work of adhesion of the data is {adhesion:g}, outside (0, inf): no net attraction")
         normalised = scipy.interpolate.PPoly(spline.c / adhesion, spline.x - equilibrium)
         values = {
-            "gaps": tuple(gap.tolist()),
-            "tractions": tuple(p.tolist()),
+            "gaps": tuple(columns[0].tolist()),
+            "tractions": tuple(columns[1].tolist()),
             "tail_exponent": m,
+            "smoothing": error,
             "equilibrium_gap": equilibrium,
             "work_of_adhesion": adhesion,
             "_spline": normalised,
@@ -108,6 +121,28 @@ class TabulatedLaw:
 
     def __repr__(self) -> str:
         return f"TabulatedLaw({len(self.gaps)} points, gaps {self.gaps[0]:g} to {self.gaps[-1]:g})"
+
+    @property
+    def alternatives(self) -> tuple[TabulatedLaw, ...]:
+        """Laws that the data allow as well: half and twice the smoothing, every other point; none without smoothing.
+
+        Examples
+        --------
+        >>> gap = np.geomspace(0.75, 20.0, 20)
+        >>> law = TabulatedLaw(gap, gap**-9 - gap**-3, smoothing=1e-3)
+        >>> len(law.alternatives)
+        4
+        """
+        if self.smoothing == 0.0:
+            return ()
+        rows = [(slice(None), 0.5), (slice(None), 2.0)]
+        if len(self.gaps) >= 2 * _FEWEST_POINTS:
+            rows += [(slice(0, None, 2), 1.0), (slice(1, None, 2), 1.0)]
+        largest = 0.1 - 1e-9
+        return tuple(
+            TabulatedLaw(self.gaps[row], self.tractions[row], self.tail_exponent, min(factor * self.smoothing, largest))
+            for row, factor in rows
+        )
 
     @property
     def singular_gap(self) -> float:
@@ -269,6 +304,6 @@ def _checked_shape(spline: scipy.interpolate.PPoly, gap: Array, p: Array) -> flo
     if len(extrema) != turns:
         raise ValueError(
             f"the smooth curve through the data turns {len(extrema)} times, the data {turns} times: "
-            "they are too coarse or too noisy, add points or smooth them"
+            "they are too coarse or too noisy, add points or state their smoothing"
         )
     return float(extrema[np.argmin(spline(extrema))])

@@ -17,6 +17,7 @@ from fscm._tail import tail_energy, tail_errors, tail_of
 from fscm.critical import critical_tabor_number
 from fscm.gibson import GibsonSolid
 from fscm.laws import Mie
+from fscm.measured_punch import MeasuredPunch
 from fscm.punch import PowerSum
 from fscm.solution import Parts, Solution
 
@@ -96,7 +97,7 @@ def test_a_flat_punch_is_solved(n: float, k: float, mu: float) -> None:
 
 def test_the_parts_sum_to_the_bound_and_are_read_only() -> None:
     solution = solve(Problem(2, 0.4, 1.0), "pull_off_force")
-    assert list(solution.parts) == ["mesh", "tail", "domain", "rounding"]
+    assert list(solution.parts) == ["mesh", "tail", "domain", "rounding", "law"]
     assert sum(solution.parts.values()) == solution.u_num
     assert all(part >= 0.0 for part in solution.parts.values())
     assert pickle.loads(pickle.dumps(solution)) == solution
@@ -272,3 +273,28 @@ def test_the_gap_at_a_fold_includes_the_place_of_the_fold() -> None:
     assert errors.parameter == "central_gap"
     assert abs(errors.controlled("central_gap", "central_gap").mesh).sum() < 1e-15
     assert model.parts("jump_in", "central_gap")["mesh"] > 1e-13
+
+
+@pytest.mark.parametrize(("parameter", "name"), [("displacement", "displacement"), ("gap", "central_gap")])
+def test_the_bounds_of_a_state_on_a_path_that_goes_on_in_another_parameter(parameter: str, name: str) -> None:
+    """The same bound of the pull-off force, and one of the place that covers the distance to a finer mesh."""
+    problem = Problem(2.0, 0.4, 1.0)
+    model = Analysis(problem)
+    state = model.event("pull_off").value
+    errors = EventErrors(replace(state, turned=(parameter, 1.0)))
+    assert errors.parameter == name
+    assert errors.at_extreme("load", "load").total == pytest.approx(model.parts("pull_off", "load").total, rel=1e-4)
+    exact = _finer(problem).event("pull_off").value
+    for functional in ("displacement", "central_gap"):
+        error = abs(getattr(state, functional) - getattr(exact, functional))
+        assert error <= errors.at_extreme(functional, "load").total
+
+
+def test_the_bounds_of_a_punch_with_kinks() -> None:
+    """The mesh moves with the kinks: the place of an event had errors of up to 60 times its bound."""
+    problem = Problem(2.0, 0.2, 2.0, punch=MeasuredPunch([0.0, 1.0, 2.0], [0.0, 0.3, 1.6]))
+    model, finer = Analysis(problem), _finer(problem)
+    for quantity in ("pull_off_force", "pull_off_displacement", "jump_out_gap", "hysteresis_energy"):
+        solution, exact = model.solution(quantity), finer.solution(quantity)
+        assert abs(solution.value - exact.value) <= solution.u_num + exact.u_num
+        assert exact.u_num < 0.2 * solution.u_num < 1e-7

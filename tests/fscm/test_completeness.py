@@ -9,11 +9,12 @@ import pytest
 from fscm import Analysis, Problem, displacement_cycle, equilibria, trace
 from fscm._completeness import completed, may_hide
 from fscm._continuation import equilibrium_path, path_until
-from fscm._path_end import least_later_loads, radius_of_compression
+from fscm._path_end import LeastLoad, displacement_of_compression
 from fscm.custom_punch import CustomPunch
+from fscm.errors import NotConverged
 from fscm.experiment import load_controlled_retreat
 from fscm.path import EquilibriumPath
-from fscm.punch import PowerSum
+from fscm.punch import PowerSum, RoundedCone
 
 ASPERITY = Problem(2, 0, 0.3, punch=CustomPunch(lambda r: -8 * np.expm1(-(r**2)) + r**2 / 50, growth=2))
 
@@ -45,20 +46,58 @@ def test_the_path_behind_an_asperity_is_passed_once(asperity: Analysis) -> None:
             assert b.state.displacement == pytest.approx(a.state.displacement, rel=1e-4)
 
 
-def test_the_bound_on_later_loads_contains_the_soft_and_the_rigid_limit() -> None:
-    """A paraboloid with no more than a trace of another power: JKR -1.5 and Bradley -2 lie above the bound."""
-    for mu in (0.05, 1.0, 5.0):
-        problem = Problem(2, 0, mu, punch=PowerSum([0.5, 1e-12], [2, 4]))
-        radii, loads = least_later_loads(problem, 1000.0)
-        assert loads.min() < -2.0
-        c = radii[-1]
-        # Hertz and JKR, with C = 4 / (pi M), and the tension of a gap region that begins with the largest tension.
-        C, law = 4 / (math.pi * problem.compliance), problem.law
-        tension = 2 * float(-law.energy(law.peak_gap) - law.traction(law.peak_gap) * law.peak_gap)
-        expected = 2 / 3 * C * c**3 - 2 * math.sqrt(C) * c**1.5 - 2 * tension
-        assert loads[-1] == pytest.approx(expected, rel=1e-2, abs=0.2)
-        assert 0.0 < radius_of_compression(problem, 1000.0) < 20.0
-    assert radius_of_compression(Problem(2, 0, 1.0), 1000.0) == 0.0
+@pytest.mark.parametrize(("k", "mu"), [(0.0, 0.05), (0.0, 1.0), (0.5, 1.0)])
+def test_no_state_is_below_the_least_load_of_its_displacement(k: float, mu: float) -> None:
+    """The bound holds on all of the path of an asperity, and far in contact it is of the size of the load."""
+    problem = Problem(2, k, mu, punch=CustomPunch(lambda r: -3 * np.expm1(-(r**2)) + r**2 / 4, growth=2))
+    bound = LeastLoad(problem, 2000.0)
+    analysis = Analysis(problem)
+    for point in analysis.points:
+        assert point.state.load > bound(point.state.displacement)
+    end = displacement_of_compression(problem, 2000.0)
+    assert analysis.points[-1].state.displacement >= end
+    assert bound(1.05 * end) > 0.0 >= bound(0.95 * end)
+
+
+def test_the_least_load_tends_to_that_without_adhesion() -> None:
+    """Under a flat punch of the best radius a paraboloid without adhesion carries 1/sqrt(2) of Hertz."""
+    problem = Problem(2, 0, 0.02, punch=PowerSum([0.5, 1e-12], [2, 4]))
+    # Without asperities no bound is needed, however slowly the punch rises.
+    assert displacement_of_compression(Problem(1, 0, 2.0, punch=RoundedCone(1.0)), 1e6) == -math.inf
+    displacement = 100.0
+    C = 4 / (math.pi * problem.compliance)
+    # The best radius is a^2 = delta + s, the load C (2/3) a (delta + s); less the tension around.
+    expected = C * (2 / 3) * (displacement - 1.0) ** 1.5
+    assert LeastLoad(problem, 2000.0)(displacement) == pytest.approx(expected, rel=3e-2)
+    assert displacement_of_compression(Problem(2, 0, 1.0), 1000.0) == -math.inf
+
+
+def test_a_path_whose_end_has_no_bound_is_not_known_to_be_complete() -> None:
+    """So soft a solid pulls itself up to the punch farther than is examined."""
+    problem = Problem(2, 0, 20.0, punch=CustomPunch(lambda r: -8 * np.expm1(-(r**2)) + r**2 / 50, growth=2))
+    with pytest.raises(NotConverged, match="cannot be told where its last tension is"):
+        Analysis(problem).solution("pull_off_force")
+
+
+@pytest.mark.parametrize(
+    ("mu", "force", "folds"),
+    [
+        (0.1, 3.4566257041, ["load"]),
+        (1.0, 2.9253487381, ["displacement", "displacement", "load"]),
+        (2.0, 3.1442648111, ["displacement", "displacement", "load", "load", "displacement", "displacement", "load"]),
+    ],
+)
+def test_contact_that_begins_on_a_ring(mu: float, force: float, folds: list[str]) -> None:
+    """The tip r^4/4 - 2 r^2 is concave; at mu = 2 the cavity inside the ring snaps shut, and the path turns in its gap.
+
+    Force of the soft solid: that of the closed cavity, above the 2.2614 of the ring.
+    """
+    analysis = Analysis(Problem(4, 0, mu, punch=PowerSum([0.25, -2.0], [4, 2])))
+    assert analysis.points[0].state.gap.min() > 1.0
+    assert [fold.quantity for fold in analysis.folds] == folds
+    solution = analysis.solution("pull_off_force")
+    assert solution.value == pytest.approx(force, abs=1e-9)
+    assert solution.u_num < 1e-9
 
 
 @pytest.mark.parametrize(

@@ -39,7 +39,7 @@ def printed_b(k, nu):
     return front * mpmath.beta((3 + k + q) / 2, (3 + k - q) / 2)
 
 
-@pytest.mark.parametrize("nu", [0.0, 0.1, 0.3, 0.45, 0.4999999])
+@pytest.mark.parametrize("nu", [0.0, 0.1, 0.3, 0.45, 0.4999999, 0.5])
 @pytest.mark.parametrize("k", [1e-300, 1e-12, 1e-8, 1e-3, 0.1, 0.4, 0.8, 0.95, 0.999, 1 - 1e-9])
 def test_response_factor_is_eq_7(k, nu):
     with mpmath.workdps(340 if k < 1e-100 else 40):
@@ -198,10 +198,20 @@ def test_zero_is_refused(name):
         PhysicalProblem(**{**SPHERE, name: 0})
 
 
-@pytest.mark.parametrize(("k", "nu"), [(0.4, 0.5), (0.0, 0.5), (1.0, 0.3), (1.0, 0.0)])
-def test_incompressible_means_gibson(k, nu):
+@pytest.mark.parametrize(("k", "nu"), [(1.0, 0.3), (1.0, 0.0)])
+def test_k_1_means_an_incompressible_solid(k, nu):
     with pytest.raises(ValueError, match="Gibson"):
         PhysicalProblem(**{**SPHERE, "k": k, "nu": nu})
+
+
+@pytest.mark.parametrize("k", [0.0, 0.4, 0.9])
+def test_an_incompressible_solid_is_the_limit_of_compressible_ones(k):
+    """Rubber: the response of Eq. 7 has no singularity at nu = 1/2 for k < 1."""
+    rubber = PhysicalProblem(**{**SPHERE, "k": k, "nu": 0.5})
+    near = PhysicalProblem(**{**SPHERE, "k": k, "nu": 0.5 - 1e-9})
+    assert rubber.tabor_number == pytest.approx(near.tabor_number, rel=1e-7)
+    assert rubber.contact_modulus == pytest.approx(SPHERE["E0"] / 0.75, rel=1e-15)
+    assert rubber.response_factor == pytest.approx(float(printed_b(k, 0.5)) if k else 1.0, rel=30 * EPS)
 
 
 def test_other_refusals():

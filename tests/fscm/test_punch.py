@@ -2,12 +2,19 @@
 
 import math
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from fscm._branches import predicted
+from fscm._continuation import equilibrium_path
+from fscm._newton import shifted
 from fscm.custom_punch import CustomPunch
-from fscm.punch import PowerPunch, PowerSum, PunchShape, RoundedCone
+from fscm.measured_punch import MeasuredPunch
+from fscm.problem import Problem
+from fscm.punch import PowerPunch, PowerSum, PunchShape, RoundedCone, kinks_of
+from fscm.solve import solve
 
 RADII = np.array([1e-3, 0.1, 0.5, 1.0, 2.0, 30.0, 1e3])
 
@@ -143,3 +150,90 @@ def test_profiles_are_values():
         assert pickle.loads(pickle.dumps(shape)) == shape
         assert hash(pickle.loads(pickle.dumps(shape))) == hash(shape)
     assert PowerPunch(2) == PowerPunch(np.float64(2.0))
+
+
+def test_a_measured_profile_is_its_segments_and_a_power():
+    punch = MeasuredPunch([0, 1, 2, 3], [0, 0.5, 1.0, 3.0], growth=3)
+    assert isinstance(punch, PunchShape)
+    r = np.array([0.0, 0.5, 1.5, 2.5, 3.0, 6.0])
+    np.testing.assert_allclose(punch.height(r), [0.0, 0.25, 0.75, 2.0, 3.0, 24.0])
+    np.testing.assert_allclose(punch.slope(r), [0.5, 0.5, 0.5, 2.0, 3.0, 12.0])
+    # The slope does not jump at 1.
+    assert punch.kinks == kinks_of(punch) == (2.0, 3.0)
+    assert pickle.loads(pickle.dumps(punch)) == punch
+    assert hash(pickle.loads(pickle.dumps(punch))) == hash(punch)
+
+
+def test_a_straight_profile_is_a_cone():
+    table = MeasuredPunch([0.0, 1.0, 2.5], [0.0, 1.0, 2.5], growth=1)
+    assert table.kinks == ()
+    force = solve(Problem(1, 0, 0.5, punch=table), "pull_off_force").value
+    assert force == pytest.approx(solve(Problem(1, 0, 0.5), "pull_off_force").value, rel=1e-11)
+
+
+def test_a_profile_with_kinks_is_the_limit_of_rounded_ones():
+    """The slope rises from 0.5 to 2 at r = 1; rounded over w there, the force deviates by the second order of w."""
+
+    def rounded(w):
+        def f(r):
+            return 1.25 * r + 0.75 * (np.hypot(r - 1.0, w) - math.hypot(1.0, w))
+
+        return CustomPunch(f, 1.0)
+
+    kinked = MeasuredPunch([0.0, 1.0, 2.0], [0.0, 0.5, 2.5], growth=1.25)
+    assert len(kinked.kinks) == 2
+    problem = Problem(1, 0, 0.3, punch=MeasuredPunch([0.0, 1.0, 1e3], [0.0, 0.5, 0.5 + 2.0 * 999.0], growth=1.0))
+    solution = solve(problem, "pull_off_force")
+    errors = [
+        abs(solve(Problem(1, 0, 0.3, punch=rounded(w)), "pull_off_force").value - solution.value) for w in (0.1, 0.05)
+    ]
+    assert errors[1] < 1e-2
+    assert 2.0 < errors[0] / errors[1] < 6.0
+
+
+@pytest.mark.parametrize("growth", [2.0, 12.0])
+def test_a_shifted_state_keeps_its_anchor_and_moves_by_the_exact_height(growth):
+    """Also where the punch is so steep that the deformations are the unknowns."""
+    punch = MeasuredPunch([0.0, 1.0, 2.0], [0.0, 0.3, 1.6], growth)
+    point = next(equilibrium_path(Problem(2, 0.2, 0.5, punch=punch), 8, 1e-4))
+    state = replace(point.state, turned=("load", -1.0), edge_gap=0.3)
+    still = np.zeros_like(state.gap)
+    for new in (shifted(state, still, 0.0, 0.1), predicted(state, replace(point.rates, log_scale=0.1), 1.0)):
+        assert (new.turned, new.edge_gap, new.lift is None) == (state.turned, 0.3, growth < 10.0)
+        assert new.scale == pytest.approx(state.scale * math.exp(0.1))
+    new = shifted(state, still, 0.0, 0.1)
+    change = punch.height(new.radius) - punch.height(state.radius)
+    if growth < 10.0:
+        change -= 0.1 * state.radius * punch.slope(state.radius)
+    near = punch.height(new.radius) < 1e6
+    np.testing.assert_allclose((new.gap - state.gap)[near], change[near], rtol=1e-9, atol=1e-9)
+
+
+def test_a_steep_profile_with_kinks_is_continuous_in_its_growth():
+    """Above a growth of 10 the deformations are the unknowns, below it the gaps."""
+    forces = [
+        solve(Problem(2, 0.2, 0.5, punch=MeasuredPunch([0.0, 1.0, 2.0], [0.0, 0.3, 1.6], growth)), "pull_off_force")
+        for growth in (10.0, 10.0 + 1e-9)
+    ]
+    assert abs(forces[1].value - forces[0].value) <= forces[0].u_num + forces[1].u_num
+
+
+@pytest.mark.parametrize(
+    ("radii", "heights", "growth", "reason"),
+    [
+        ([0.0, 1.0], [0.0], 2, "no profile"),
+        ([0.0], [0.0], 2, "no profile"),
+        ([0.1, 1.0], [0.0, 1.0], 2, "measured from the tip"),
+        ([0.0, 1.0], [0.5, 1.0], 2, "measured from the tip"),
+        ([0.0, 1.0, 1.0], [0.0, 1.0, 2.0], 2, "increase"),
+        ([0.0, 1.0], [0.0, -1.0], 2, "must grow"),
+        ([0.0, 1.0], [0.0, 1.0], 0, "must grow"),
+        ([0.0, math.nan], [0.0, 1.0], 2, "finite"),
+        (["0", "1"], [0.0, 1.0], 2, "finite"),
+        ([[0.0], [1.0, 2.0]], [0.0, 1.0], 2, "real numbers"),
+    ],
+)
+def test_what_is_no_profile_is_refused(radii, heights, growth, reason):
+    with pytest.raises(ValueError, match=reason) as caught:
+        MeasuredPunch(radii, heights, growth)
+    assert "\n" not in str(caught.value)

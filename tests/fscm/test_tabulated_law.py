@@ -10,6 +10,7 @@ from scipy.integrate import quad
 
 from fscm.laws import LennardJones93, Mie, SurfaceLaw
 from fscm.problem import Problem
+from fscm.solve import solve
 from fscm.tabulated_law import TabulatedLaw
 
 LJ = LennardJones93()
@@ -183,3 +184,35 @@ def test_a_table_is_a_value():
     assert float(again.traction(np.array(0.3))) == float(table.traction(np.array(0.3)))
     assert "50 points" in repr(table)
     assert table != TabulatedLaw(GAP, P, tail_exponent=3)
+
+
+@pytest.mark.parametrize(("count", "noise"), [(20, 0.0), (40, 1e-4), (80, 1e-3)])
+def test_smoothing_answers_for_few_and_for_noisy_points(count, noise):
+    """Twenty points, or noise, which the interpolating spline refuses or turns into waves."""
+    gap, p = sample(LJ, count)
+    p = p * (1 + noise * np.random.default_rng(1).standard_normal(count))
+    law = TabulatedLaw(gap, p, tail_exponent=3, smoothing=max(noise, 1e-4))
+    H = np.linspace(0.0, 15.0, 400)
+    # The error of a mean of several points: below three of a single one.
+    np.testing.assert_allclose(law.traction(H), LJ.traction(H), atol=3 * max(noise, 1e-4))
+    assert law.tractions == tuple(p.tolist())
+    assert pickle.loads(pickle.dumps(law)) == law != law.alternatives[0]
+
+
+def test_what_the_smoothing_matters_is_part_of_the_uncertainty():
+    """The pull-off force with a noisy law differs from the exact one by less than its u_num, which says so."""
+    gap, p = sample(LJ, 40)
+    p = p * (1 + 1e-3 * np.random.default_rng(2).standard_normal(40))
+    law = TabulatedLaw(gap, p, tail_exponent=3, smoothing=1e-3)
+    exact = solve(Problem(2, 0, 0.5), "pull_off_force").value
+    solution = solve(Problem(2, 0, 0.5, law=law), "pull_off_force")
+    assert abs(solution.value - exact) < solution.u_num < 1e-2
+    assert solution.parts["law"] > 1e-6
+    assert solution.u_num == sum(solution.parts.values())
+    assert TabulatedLaw(*sample(LJ, 100)).alternatives == ()
+
+
+@pytest.mark.parametrize("smoothing", [-1e-3, 0.1, math.nan, "1", True])
+def test_bad_smoothing(smoothing):
+    with pytest.raises(ValueError, match=r"smoothing = .*\[0, 0\.1\)"):
+        TabulatedLaw(GAP, P, smoothing=smoothing)

@@ -1,0 +1,110 @@
+"""Predicted states, change of the edge that the mesh follows, and change of the continuation parameter."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import scipy
+
+from fscm._adaptivity import at_kinks, on_mesh, rescaled_mesh
+from fscm._arc_length import ArcLength, Point
+from fscm._equilibrium import Discretisation, Rates, State
+from fscm._newton import shifted
+from fscm._panels import PanelMesh
+from fscm._typing import Array
+from fscm.errors import NotConverged
+from fscm.punch import kinks_of
+
+__all__ = ["checked_sense", "edge_elsewhere", "follow_edge", "joined", "predicted", "turned"]
+
+# Largest deviation from the trapezoidal rule, relative to the distance of a gap to the singular gap.
+_SURPRISE = 0.5
+# The gaps within this multiple of the edge radius tell the sense of the path.
+_NEAR_EDGE = 2.0
+
+
+def predicted(state: State, rates: Rates, step: float) -> State:
+    """The state after a step along the tangent, on a mesh with its breaks where the kinks are at the new scale."""
+    problem, old = state.disc.problem, state.disc.mesh
+    moved = shifted(state, rates.gap, rates.displacement, rates.log_scale, step)
+    if step * rates.log_scale == 0.0 or not kinks_of(problem.punch):
+        return moved
+    return on_mesh(moved, PanelMesh(at_kinks(problem, old.breaks, state.scale, moved.scale), old.order))
+
+
+def follow_edge(state: State, end_height: float, edge_gap: float | None = None) -> State:
+    """Guess on a mesh scaled so that the outermost edge gap, by default that of largest tension, sits at s = 1."""
+    problem, mesh = state.disc.problem, state.disc.mesh
+    target = problem.law.peak_gap if edge_gap is None else edge_gap
+    outer = int(np.flatnonzero(state.gap < target)[-1]) if np.any(state.gap < target) else -1
+    low = 0.0 if outer < 0 else float(mesh.nodes[outer])
+    ratio = scipy.optimize.brentq(
+        lambda s: mesh.evaluate(state.gap, np.array([s]))[0] - target, low, mesh.nodes[outer + 1]
+    )
+    new = rescaled_mesh(problem, mesh, state.scale, state.scale * ratio, end_height)
+    known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
+    disc, scale, shape = Discretisation(problem, new), state.scale * ratio, problem.punch.height
+    if state.lift is not None:
+        return State.lifted(disc, scale, mesh.evaluate(state.lift, known), state.displacement, True, edge_gap)
+    if kinks_of(problem.punch):
+        gap = mesh.evaluate(state.gap - shape(state.radius), known) + shape(scale * new.nodes)
+    else:
+        gap = mesh.evaluate(state.gap, known) + (shape(scale * new.nodes) - shape(state.scale * known))
+    return State(disc, scale, gap, state.displacement, True, edge_gap=edge_gap)
+
+
+def edge_elsewhere(state: State, hand_over: float) -> bool:
+    """Whether the outermost contact edge is not the one that the mesh follows."""
+    if not state.follows_edge:
+        return min(state.central_gap, float(np.min(state.gap))) < hand_over
+    return float(np.min(state.gap[state.disc.mesh.nodes > 1.0])) < hand_over
+
+
+def turned(arc: ArcLength, point: Point, name: str | None = None) -> Point:
+    """The same state, from which the path goes on in the named parameter, or in the other one that changes most."""
+    shares = {name: share for name, share in arc.shares(point).items() if name != point.state.parameter}
+    name = name or max(shares, key=lambda other: abs(shares[other]))
+    state = replace(point.state, turned=(name, math.copysign(1.0, shares[name])))
+    return Point(state, arc.tangent(state), point.stretch + 1)
+
+
+def joined(arc: ArcLength, before: Point, state: State) -> Point:
+    """The state that follows another edge, with load and displacement changing in the same sense as before."""
+    point = Point(state, arc.tangent(state), before.stretch + 1)
+    old, new = arc.shares(before), arc.shares(point)
+    if sum(old[name] * new[name] for name in ("displacement", "load")) >= 0.0:
+        return point
+    state = replace(state, turned=("log_scale", -1.0))
+    return Point(state, arc.tangent(state), before.stretch + 1)
+
+
+def _moving(state: State) -> Array:
+    """Gaps; of a steep punch without its height, which is no linear function of log c within a step."""
+    return state.gap if state.lift is None else state.lift - state.displacement
+
+
+def _moving_rates(point: Point) -> Array:
+    rates = point.rates
+    return rates.gap if point.state.lift is None else rates.gap - rates.displacement
+
+
+def checked_sense(a: Point, b: Point, step: float, same: bool | None) -> bool:
+    """Whether the gaps go on changing in the same sense; NotConverged when b is on another branch.
+
+    Near a sharp turn of the path, the gaps inside the contact tell its sense when load and displacement do not.
+    """
+    mesh, other = a.state.disc.mesh, b.state.disc.mesh
+    known = np.minimum(other.nodes, mesh.breaks[-1])
+    before, rate = mesh.evaluate(_moving(a.state), known), mesh.evaluate(_moving_rates(a), known)
+    after, new_rate = _moving(b.state), _moving_rates(b)
+    clearance = b.state.gap - a.state.disc.problem.law.singular_gap
+    near = other.nodes < _NEAR_EDGE
+    product = other.weights * other.nodes * rate * new_rate / clearance**2
+    if same is None:
+        same = bool(np.sum(product[near]) >= 0.0)
+    surprise = after - before - 0.5 * step * (rate + (1.0 if same else -1.0) * new_rate)
+    if np.max(np.abs(surprise) / clearance) > _SURPRISE:
+        raise NotConverged("Newton converged to a state that the tangent does not lead to")
+    return same

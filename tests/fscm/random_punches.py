@@ -1,0 +1,121 @@
+"""Random punches with asperities, waves, flats and measured profiles, and the outcome of their paths."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from fscm import Analysis, CustomPunch, MeasuredPunch, NoSuchEvent, NotConverged, Problem
+from fscm.punch import PunchShape
+
+SEED = 20261122
+COUNT = 100
+KINDS = ("asperity", "ring", "waves", "flat", "measured")
+
+
+@dataclass(frozen=True)
+class RandomPunch:
+    """A problem, its number, the kind of its punch and the height of its roughness."""
+
+    number: int
+    kind: str
+    problem: Problem
+    height: float
+
+
+def random_punch(number: int) -> RandomPunch:
+    """Problem of a number: every fifth is of one kind; heights of 0.5 to 15 z0, mu from 0.05 to 2, k from 0 to 0.6."""
+    rng = np.random.default_rng([SEED, number])
+    kind = KINDS[number % len(KINDS)]
+    mu = float(math.exp(rng.uniform(math.log(0.05), math.log(2.0))))
+    k = float(rng.choice([0.0, rng.uniform(0.0, 0.6)]))
+    shape, height = _SHAPES[kind](rng)
+    return RandomPunch(number, kind, Problem(2.0, k, mu, punch=shape), height)
+
+
+def _height(rng: np.random.Generator) -> float:
+    return float(math.exp(rng.uniform(math.log(0.5), math.log(15.0))))
+
+
+def _asperity(rng: np.random.Generator) -> tuple[PunchShape, float]:
+    """A bump at the center of a paraboloid."""
+    h, w, R = _height(rng), rng.uniform(0.5, 3.0), math.exp(rng.uniform(0.0, math.log(20.0)))
+    shape = CustomPunch(
+        lambda r: -h * np.expm1(-((r / w) ** 2)) + r**2 / (2 * R),
+        2.0,
+        lambda r: 2 * h * r / w**2 * np.exp(-((r / w) ** 2)) + r / R,
+    )
+    return shape, h
+
+
+def _ring(rng: np.random.Generator) -> tuple[PunchShape, float]:
+    """An annular bump on a paraboloid; contact begins on it when it is higher than the paraboloid."""
+    h, w, R = _height(rng), rng.uniform(0.5, 1.5), math.exp(rng.uniform(0.0, math.log(10.0)))
+    c = rng.uniform(1.5, 4.0)
+
+    def bump(r):
+        x = (r**2 - c**2) / (2 * c * w)
+        return h * np.exp(-(x**2)), x / (c * w)
+
+    foot = bump(np.zeros(1))[0][0]
+    shape = CustomPunch(
+        lambda r: r**2 / (2 * R) - bump(r)[0] + foot,
+        2.0,
+        lambda r: r / R + 2 * r * bump(r)[1] * bump(r)[0],
+    )
+    return shape, h
+
+
+def _waves(rng: np.random.Generator) -> tuple[PunchShape, float]:
+    """A paraboloid with waves that fade out."""
+    a, q, R = 0.5 * _height(rng), rng.uniform(0.8, 4.0), math.exp(rng.uniform(0.0, math.log(10.0)))
+    a, L = min(a, 4.0), rng.uniform(4.0, 12.0)
+
+    def fading(r):
+        return np.exp(-((r / L) ** 2))
+
+    shape = CustomPunch(
+        lambda r: r**2 / (2 * R) + a * (1 - np.cos(q * r) * fading(r)),
+        2.0,
+        lambda r: r / R + a * fading(r) * (q * np.sin(q * r) + 2 * r / L**2 * np.cos(q * r)),
+    )
+    return shape, 2 * a
+
+
+def _flat(rng: np.random.Generator) -> tuple[PunchShape, float]:
+    """A flat of radius b that turns into a paraboloid within a width w."""
+    b, w, R = rng.uniform(1.0, 5.0), rng.uniform(0.2, 1.0), math.exp(rng.uniform(0.0, math.log(10.0)))
+
+    def bend(r):
+        """s, ds/d(r^2): a smooth maximum of 0 and r^2 - b^2, less its value at the center."""
+        x, width = r**2 - b**2, 2 * b * w
+        root = np.hypot(x, width)
+        foot = 0.5 * width**2 / (math.hypot(b**2, width) + b**2)
+        return np.where(x > 0, 0.5 * (x + root), 0.5 * width**2 / (root - np.minimum(x, 0))) - foot, 0.5 * (
+            1 + x / root
+        )
+
+    return CustomPunch(lambda r: bend(r)[0] / (2 * R), 2.0, lambda r: r / R * bend(r)[1]), 0.0
+
+
+def _measured(rng: np.random.Generator) -> tuple[PunchShape, float]:
+    """Straight segments between points of a rough paraboloid."""
+    h, R, end = min(_height(rng), 5.0), math.exp(rng.uniform(0.0, math.log(10.0))), rng.uniform(4.0, 8.0)
+    radii = np.linspace(0.0, end, int(rng.integers(5, 12)))
+    heights = radii**2 / (2 * R) + np.append(0.0, 0.5 * h * rng.uniform(-1.0, 1.0, len(radii) - 1))
+    heights[-1] = max(heights[-1], 0.5 * end**2 / (2 * R))
+    return MeasuredPunch(radii, heights), h
+
+
+_SHAPES = {"asperity": _asperity, "ring": _ring, "waves": _waves, "flat": _flat, "measured": _measured}
+
+
+def outcome(case: RandomPunch) -> tuple[str, float, float]:
+    """Status, pull-off force and its bound; the status is "complete" or the class of the exception."""
+    try:
+        solution = Analysis(case.problem).solution("pull_off_force")
+    except (NotConverged, NoSuchEvent) as error:
+        return type(error).__name__, math.nan, math.nan
+    return "complete", solution.value, solution.u_num
