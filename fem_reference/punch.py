@@ -10,8 +10,15 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from fem_reference._typing import Array
+from fem_reference.errors import NotConverged
 
-__all__ = ["CustomPunch", "PowerPunch", "Punch", "radius_at_height"]
+__all__ = ["CustomPunch", "PowerPunch", "Punch", "check_without_asperities", "radius_at_height"]
+
+RADII = 3000
+"""Radii in equal ratios at which the shape of a punch is examined: forty in a factor of two over 22 decades."""
+
+FALL = 1e-9
+"""Relative fall of r f' that the rounding of a smooth shape may make."""
 
 
 @runtime_checkable
@@ -87,6 +94,37 @@ class CustomPunch:
     def slope(self, r: Array) -> Array:
         """df/dr, shape of `r`."""
         return np.asarray(self.derivative(np.asarray(r, float)), float)
+
+
+def check_without_asperities(punch: Punch, lowest: float, highest: float) -> None:
+    """Refuse a punch on which r f'(r) falls between two heights, as outside an asperity or behind a wave.
+
+    Such a punch may come into contact in several places.  Behind the first compressive load the path may then fall to a
+    deeper tension, which the paths of this package do not follow.
+
+    Parameters
+    ----------
+    punch : Punch
+    lowest, highest : float
+        Heights between which the shape matters.
+
+    Raises
+    ------
+    NotConverged
+        If r f' falls.
+
+    Examples
+    --------
+    >>> check_without_asperities(PowerPunch(n=2.0, Q=1.0), 1e-6, 1e4)
+    """
+    r = np.geomspace(radius_at_height(punch, lowest), radius_at_height(punch, highest), RADII)
+    rise = r * punch.slope(r)
+    falls = np.flatnonzero(np.diff(rise) < -FALL * np.abs(rise[:-1]))
+    if falls.size:
+        raise NotConverged(
+            f"the punch has r f'(r) falling at r = {r[falls[0]]:.3g}, as outside an asperity: its path may go on to a "
+            "deeper tension behind its first compressive load, and is not followed there"
+        )
 
 
 def radius_at_height(punch: Punch, height: float) -> float:

@@ -7,7 +7,6 @@ agree, those equations are right as well.  No scale is 1 and no two are equal: a
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import lru_cache
 from typing import ClassVar
 
@@ -158,7 +157,7 @@ class FiniteElements:
 def _audited(solution: fem_reference.Solution) -> fem_reference.Solution:
     """Return the solution with the larger of two bounds: the solver's own, and that of the three-grid procedure."""
     family = three_grids(solution.densities, solution.values, solution.declared_order)
-    return replace(solution, u_num=max(solution.u_num, family.u_num))
+    return solution.with_part("mesh", max(family.u_num - solution.u_num, 0.0))
 
 
 @lru_cache(maxsize=1)

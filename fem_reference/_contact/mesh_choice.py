@@ -25,7 +25,7 @@ from fem_reference.accuracy import Level, finer_levels
 from fem_reference.errors import NotConverged
 from fem_reference.modulus import PowerLawModulus
 from fem_reference.problem import Problem
-from fem_reference.punch import radius_at_height
+from fem_reference.punch import check_without_asperities, radius_at_height
 
 __all__ = ["MeshChoice", "chosen"]
 
@@ -58,6 +58,10 @@ EXTERIOR_ERROR = 5e-8
 
 FINEST_SCALE = 1e-3
 """Depth, relative to the one resolved under the surface, from which on changes of the modulus are searched for."""
+
+LOWEST, HIGHEST = 1e-8, 1e4
+"""Heights of a punch, in lengths of the law, between which it may have no asperity: below, it is flat to the law, and
+above, the tension is 1e-12 of its peak."""
 
 REFINEMENTS = 8
 """Largest number of meshes tried to find the width of the edge."""
@@ -204,10 +208,12 @@ def chosen(problem: Problem, events: tuple[str, ...], accuracy: float | str) -> 
     NoSuchEvent
         As `MeshChoice.adapted`.
     NotConverged
-        If the path cannot be traced on the finest meshes either.
+        If the path cannot be traced on the finest meshes either, or is not known to end: on a punch with asperities.
     """
     if not isinstance(problem, Problem):
         raise ValueError(f"problem = {problem!r} is not a Problem; make one of a solid, a punch and a surface law")
+    length = problem.law.length
+    check_without_asperities(problem.punch, LOWEST * length, HIGHEST * length)
     *coarser, finest = finer_levels(accuracy)
     for level in coarser:
         choice = MeshChoice(problem, level)

@@ -335,3 +335,17 @@ def test_three_meshes_does_not_trust_a_coincidence():
     assert three_meshes((1.0, 1.0, 1.0), 1.3, declared=6.0, lower_degree=1.1).error > 0.02
     with pytest.raises(ValueError, match="not above 1"):
         three_meshes((1.0, 1.0, 1.0), 1.0, 2.0)
+
+
+def test_a_punch_with_an_asperity_is_refused() -> None:
+    """Behind its first compressive load the path goes on to a tension 38 times as large (`fscm`, softer solid)."""
+    punch = fem_reference.CustomPunch(
+        lambda r: -8.0 * np.expm1(-(r**2)) + r**2 / 50.0, lambda r: 16.0 * r * np.exp(-(r**2)) + r / 25.0
+    )
+    problem = fem_reference.Problem(fem_reference.Solid(10.0, 1.0, 0.0, 0.0), punch, fem_reference.LennardJones(1, 1))
+    for compute in (
+        lambda: fem_reference.solve(problem, "pull_off_force", "quick"),
+        lambda: fem_reference.trace(problem),
+    ):
+        with pytest.raises(fem_reference.NotConverged, match=r"falling at r = 1\.?0*,"):
+            compute()
