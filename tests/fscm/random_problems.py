@@ -1,0 +1,136 @@
+"""Reference values of 500 random problems, from paths with 8 times smaller steps and from finer meshes.
+
+``python -m tests.fscm.random_problems`` adds the problems that `random_problems.csv` lacks.  A row is a problem and a
+quantity; its status is "value", the name of the exception that the finer path raised, or "timeout".
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+import multiprocessing
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import FrameType
+
+import numpy as np
+
+from fscm import QUANTITIES, Analysis, NoSuchEvent, NotConverged, Problem
+from fscm import _continuation as continuation
+from fscm._arc_length import Point
+from fscm._completeness import completed
+from fscm._equilibrium import State
+from fscm._meshes import Mesh, Meshes
+from fscm._threads import one_thread
+
+SEED, COUNT = 20261122, 500
+TABLE = Path(__file__).with_suffix(".csv")
+COLUMNS = ("n", "k", "mu", "quantity", "status", "value", "points")
+# Other panels, a mesh that ends ten times farther out, and steps of an eighth in arc length.
+MESHES = Meshes(path=Mesh(10, 2e-5), check=Mesh(8, 1e-3), value=Mesh(18, 1e-9), end_height=1e7)
+STEPS = 8
+# Seconds of CPU after which the finer path of a problem is given up; its rows then say so.
+PATIENCE = 60
+# The critical Tabor number does not belong to a path.
+NAMES = tuple(name for name in QUANTITIES if name != "critical_tabor_number")
+
+
+def problems(count: int = COUNT) -> list[Problem]:
+    """Problems of the box 0.8 <= n <= 10, 0 <= k <= 0.9, 0.005 <= mu <= 20, an eighth of them homogeneous."""
+    rng = np.random.default_rng(SEED)
+    found = []
+    for _ in range(count):
+        n = math.exp(rng.uniform(math.log(0.8), math.log(10.0)))
+        k = rng.uniform(0.0, 0.9) * (rng.random() < 0.875)
+        mu = math.exp(rng.uniform(math.log(0.005), math.log(20.0)))
+        found.append(Problem(round(n, 4), round(k, 4), float(f"{mu:.4g}")))
+    return found
+
+
+@one_thread()
+def finer(problem: Problem) -> Analysis:
+    """The model on the finer meshes, with a path of small steps."""
+    model = Analysis(problem, MESHES)
+    end = continuation.path_end(problem, MESHES.end_height)
+    longest = 0.5 / STEPS
+    path = continuation.equilibrium_path(problem, *MESHES.path, longest, end_height=MESHES.end_height)
+    model.__dict__["points"] = completed(_thinned(path, end), MESHES.path.tolerance)
+    return model
+
+
+def _thinned(path: Iterator[Point], end: Callable[[State], bool]) -> list[Point]:
+    """The points of a path next to turning points and zero load, and one of `STEPS` of the others: each takes 2 MB."""
+    kept: list[Point] = []
+    before = None
+    for count, point in enumerate(path):
+        if before is not None and _signs(before) != _signs(point) and kept[-1] is not before:
+            kept.append(before)
+        ended = end(point.state)
+        if before is None or ended or count % STEPS == 0 or _signs(before) != _signs(point):
+            kept.append(point)
+        if ended:
+            return kept
+        before = point
+    raise AssertionError("the path has no end of its own")
+
+
+def _signs(point: Point) -> tuple[object, ...]:
+    return point.stretch, point.rates.load < 0.0, point.rates.displacement < 0.0, point.state.load < 0.0
+
+
+def rows_of(problem: Problem) -> Iterator[tuple[object, ...]]:
+    """The rows of one problem."""
+    case = problem.n, problem.k, problem.mu
+    try:
+        model = finer(problem)
+    except NotConverged:
+        yield from ((*case, name, "NotConverged", "", "") for name in NAMES)
+        return
+    for name in NAMES:
+        try:
+            yield *case, name, "value", repr(float(model.solution(name).value)), len(model.points)
+        except (NoSuchEvent, NotConverged) as error:
+            yield *case, name, type(error).__name__, "", len(model.points)
+
+
+def known() -> dict[Problem, dict[str, tuple[str, float]]]:
+    """Status and value of each quantity of each problem in the table."""
+    found: dict[Problem, dict[str, tuple[str, float]]] = {}
+    with TABLE.open(newline="") as file:
+        for row in csv.DictReader(file):
+            problem = Problem(float(row["n"]), float(row["k"]), float(row["mu"]))
+            found.setdefault(problem, {})[row["quantity"]] = row["status"], float(row["value"] or math.nan)
+    return found
+
+
+def _computed(problem: Problem) -> list[tuple[object, ...]]:
+    def late(number: int, frame: FrameType | None) -> None:
+        raise TimeoutError
+
+    signal.signal(signal.SIGVTALRM, late)
+    signal.setitimer(signal.ITIMER_VIRTUAL, PATIENCE)
+    try:
+        return list(rows_of(problem))
+    except TimeoutError:
+        return [(problem.n, problem.k, problem.mu, name, "timeout", "", "") for name in NAMES]
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
+
+
+def main(workers: int = 2) -> None:
+    """Compute the problems that the table lacks, and append them."""
+    done = known() if TABLE.exists() else {}
+    with TABLE.open("a", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        if not done:
+            table.writerow(COLUMNS)
+        with multiprocessing.get_context("spawn").Pool(workers) as pool:
+            for rows in pool.imap(_computed, [p for p in problems() if p not in done]):
+                table.writerows(rows)
+                file.flush()
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))
