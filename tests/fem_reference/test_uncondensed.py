@@ -7,7 +7,7 @@ import pyamg
 import pytest
 
 from fem_reference import CustomModulus, CustomSolid, NoSuchEvent, NotConverged, solve, solve_together
-from fem_reference._contact import mesh_choice, uncondensed
+from fem_reference._contact import error_parts, mesh_choice, uncondensed
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.full_system import FullSystem
@@ -118,15 +118,23 @@ def spoiled_path():
     return PathEvents(traced(_soft_contact(SPOILED)))
 
 
+def _forget():
+    kept = (
+        mesh_choice._traced,
+        error_parts.events_on_meshes,
+        uncondensed.uncondensed_events,
+        uncondensed._preconditioned,
+    )
+    for cache in kept:
+        cache.cache_clear()
+
+
 @pytest.fixture
 def no_kept_events():
     """Nothing solved before or after is reused."""
-    caches = mesh_choice._traced, uncondensed.uncondensed_events, uncondensed._preconditioned
-    for cache in caches:
-        cache.cache_clear()
+    _forget()
     yield
-    for cache in caches:
-        cache.cache_clear()
+    _forget()
 
 
 def test_the_value_is_that_of_the_whole_system_and_not_of_the_condensed_path(soft_path, spoiled_path, soft_system):
@@ -220,8 +228,7 @@ def test_a_solution_holds_the_value_of_the_whole_system(monkeypatch):
     assert right.u_num == pytest.approx(sum(right.parts.values()))
     _, point = event_state(problem, "pull_off", "quick")
     assert -point.state.load == right.value
-    mesh_choice._traced.cache_clear()
-    uncondensed.uncondensed_events.cache_clear()
+    _forget()
 
     def spoiled(*arguments):
         compliance = compliance_for(*arguments)
