@@ -6,7 +6,9 @@ another method, and none is a factor times another.
 * mesh: three densities, and a lower degree at the medium one (`fem_reference._contact.uncertainty`).
 * first layer, interior and exterior, apex: one feature of the coarsest mesh is made coarser, and what that changes is
   the part.  These features are `density` times a length too (the extent is the same at all densities), and so the
-  error on the finest mesh is smaller.  The elements have a lower degree, whose error is larger as well.
+  error on the finest mesh is smaller.  For the first layer and the apex the elements have a lower degree, whose error
+  is larger as well; for the extent they have the full one, since at a lower degree the elements next to the end alone
+  change a displacement by a hundred times as much as the end does (n = 5).
 * edge: the same mesh, with the contact edge half an element further in and out, plus the apex.
 * tail: the displacement that the mesh leaves out, by its first term.
 * algebra: another triangle of the factorisation, another start of Newton's method, another root search.  The whole
@@ -30,7 +32,7 @@ from fem_reference._contact.tail import TailContact
 from fem_reference._contact.uncertainty import Convergence, three_meshes
 from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference._elastic.variants import FEATURES, variant
+from fem_reference._elastic.variants import EXTENT, FEATURES, variant
 from fem_reference.errors import NotConverged
 
 __all__ = ["PARTS", "Estimate", "EventsOnMeshes", "events_on_meshes"]
@@ -81,8 +83,9 @@ class EventsOnMeshes:
         On the coarsest mesh with the lowest degree.
     features : mapping of str to ResolvedEvents
         On that mesh with one feature made coarser.
-    full_features : callable
-        Returns the same on the coarsest mesh with the full degree, for edges that the lower degree cannot resolve.
+    full_degree : callable
+        Returns the same for the name of a feature on the coarsest mesh with the full degree: for the extent, and for
+        edges that the lower degree cannot resolve.
     placements : tuple of ResolvedEvents
         On the finest mesh with another placement of the contact edge.
     tail, rounding : ResolvedEvents
@@ -97,7 +100,7 @@ class EventsOnMeshes:
     lower_degree: ResolvedEvents
     base: ResolvedEvents
     features: Mapping[str, ResolvedEvents]
-    full_features: Callable[[], Mapping[str, ResolvedEvents]]
+    full_degree: Callable[[str], ResolvedEvents]
     placements: tuple[ResolvedEvents, ...]
     tail: ResolvedEvents
     rounding: ResolvedEvents
@@ -127,12 +130,13 @@ class EventsOnMeshes:
             feature = {name: abs(functional(events) - base) for name, events in self.features.items()}
         except NotConverged:
             # An edge that is too narrow for the lower degree.
-            feature = {name: abs(functional(events) - values[0]) for name, events in self.full_features().items()}
+            feature = {name: abs(functional(self.full_degree(name)) - values[0]) for name in self.features}
+        extent = abs(functional(self.full_degree(EXTENT)) - values[0])
         placement = max((abs(functional(events) - fine) for events in self.placements), default=0.0)
         parts = (
             convergence.error,
             feature["first layer"],
-            feature["extent"],
+            extent,
             placement + feature["apex"],
             abs(functional(self.tail) - fine),
             algebra,
@@ -172,14 +176,14 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
     moved = replace(medium, order=spec.order - 1, scales=medium.scales.scaled(other / size))
     lower_degree = choice.contact(moved, other)
     base = choice.contact(plain, size)
-    features = {feature: choice.contact(variant(plain, feature), size) for feature in FEATURES}
+    features = {feature: choice.contact(variant(plain, feature), size) for feature in FEATURES if feature != EXTENT}
     # The finest mesh is the last: it is used next.
     path = choice.traced(fine, size)
     contact = path.samples[0].branch.contact
 
-    @lru_cache(maxsize=1)
-    def full_features() -> Mapping[str, ResolvedEvents]:
-        return {name: ResolvedEvents(path, choice.contact(variant(spec, name), size)) for name in FEATURES}
+    @lru_cache(maxsize=len(FEATURES))
+    def full_degree(feature: str) -> ResolvedEvents:
+        return ResolvedEvents(path, choice.contact(variant(spec, feature), size))
 
     return EventsOnMeshes(
         path,
@@ -188,7 +192,7 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
         ResolvedEvents(path, lower_degree),
         ResolvedEvents(path, base),
         {feature: ResolvedEvents(path, other_contact) for feature, other_contact in features.items()},
-        full_features,
+        full_degree,
         tuple(ResolvedEvents(path, contact, placement) for placement in placements),
         ResolvedEvents(path, _with_tail(contact, choice)),
         ResolvedEvents(path, _rounded(contact)),

@@ -13,9 +13,10 @@ import numpy as np
 from fem_reference._elastic.mesh import Grid, MeshSpec
 from fem_reference._typing import Array
 
-__all__ = ["FEATURES", "VariantSpec", "variant"]
+__all__ = ["EXTENT", "FEATURES", "VariantSpec", "variant"]
 
-FEATURES = ("first layer", "extent", "apex")
+EXTENT = "extent"
+FEATURES = ("first layer", EXTENT, "apex")
 """What a variant makes coarser: the first layer takes in the second, the mesh ends earlier, or the innermost element
 takes in its neighbour."""
 
