@@ -14,16 +14,21 @@ __all__ = ["COLUMNS", "CURVE_COLUMNS", "curve_frame", "frame"]
 
 _TEXT, _REAL, _COUNT = pa.string(), pa.float64(), pa.int64()
 
+# What was evaluated, in either table.
+_EVALUATION = [
+    ("model", _TEXT),
+    ("model_version", _TEXT),
+    ("quantity", _TEXT),
+    ("n", _REAL),
+    ("k", _REAL),
+    ("mu", _REAL),
+    ("nu", _REAL),
+]
+
 #: Column types of the stored table, in order.
 COLUMNS = pa.schema(
     [
-        ("model", _TEXT),
-        ("model_version", _TEXT),
-        ("quantity", _TEXT),
-        ("n", _REAL),
-        ("k", _REAL),
-        ("mu", _REAL),
-        ("nu", _REAL),
+        *_EVALUATION,
         ("value", _REAL),
         ("u_num", _REAL),
         ("observed_order", _REAL),
@@ -40,13 +45,7 @@ COLUMNS = pa.schema(
 #: Column types of the stored curves: one row a point, and one row for a curve that there is not.
 CURVE_COLUMNS = pa.schema(
     [
-        ("model", _TEXT),
-        ("model_version", _TEXT),
-        ("quantity", _TEXT),
-        ("n", _REAL),
-        ("k", _REAL),
-        ("mu", _REAL),
-        ("nu", _REAL),
+        *_EVALUATION,
         ("point", _COUNT),
         ("x", _REAL),
         ("y", _REAL),
