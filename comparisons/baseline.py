@@ -12,7 +12,6 @@ the tables of the paper's figures, that differ from the committed ones.
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -24,7 +23,7 @@ from comparisons.console.exit_status import guarded
 from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA_FIGURE, LARGEST_KAPPA, REFERENCES, RESULTS
 from comparisons.paper import baseline as paper_baseline
 from comparisons.runs.atomic_files import atomic
-from comparisons.runs.csv_format import csv_text, plain_text
+from comparisons.runs.csv_format import csv_text, read_csv
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import check_files, read_record
 from comparisons.runs.tables import read_table
@@ -106,19 +105,8 @@ def read_baseline(target: Path = BASELINE) -> tuple[pd.DataFrame, pd.DataFrame]:
             f"there is no file {target / missing[0]}: the committed results are in a clone of the repository only; "
             "call this in its root folder"
         )
-    rows, curves = (_read(target / name) for name in _TABLES)
+    rows, curves = (read_csv(target / name, _TEXTS) for name in _TABLES)
     return rows, curves
-
-
-def _read(path: Path) -> pd.DataFrame:
-    """Read a table with every digit: each number goes through Python's own, exact conversion."""
-    table = pd.read_csv(path, dtype=str, keep_default_na=False)
-    numbers = {
-        name: table[name].map(lambda text: float(text) if text else math.nan).astype(float)
-        for name in table.columns.difference(list(_TEXTS))
-    }
-    texts = {name: table[name].map(plain_text) for name in table.columns.intersection(list(_TEXTS))}
-    return table.assign(**numbers, **texts)
 
 
 def drift(stored: pd.DataFrame, computed: pd.DataFrame) -> pd.DataFrame:

@@ -14,10 +14,11 @@ import pandas as pd
 from comparisons.judging.decision import Verdict, crossing, decide, expecting_failure, requiring_certainty
 from comparisons.judging.gates import Gate
 from comparisons.judging.metrics import CaseError, case_error, reference_range
-from comparisons.judging.selection import relevant
-from comparisons.judging.stored_results import Key, StoredResults, UnusableResult, stored_curves, stored_numbers
+from comparisons.judging.selection import cases_of, relevant
+from comparisons.judging.stored_results import StoredResults, UnusableResult, stored_curves, stored_numbers
 from comparisons.numerics.number_text import exact
 from comparisons.runs.cases import Case, Grid
+from comparisons.runs.rows import Key
 from comparisons.runs.tasks import case_for, plan
 
 __all__ = ["Judged", "judge"]
@@ -96,7 +97,7 @@ def _judge_gate(
     if results.missing_columns:
         yield _whole(gate, f"the results have no column {', '.join(results.missing_columns)}")
         return
-    cases = _cases(gate, grids, models)
+    cases = cases_of(gate, grids, models)
     scale = reference_range(gate, cases, results)
     judged = [_judge_case(gate, case, results, scale) for case in cases]
     yield from judged
@@ -106,19 +107,6 @@ def _judge_gate(
     stray = [key for key in results.rows if key[:2] == (gate.candidate, gate.quantity) and key not in expected]
     if stray:
         yield _whole(gate, f"{len(stray)} rows belong to cases that are not declared, e.g. {stray[0][2:]}")
-
-
-def _cases(gate: Gate, grids: Sequence[Grid], models: set[str] | None) -> list[Case]:
-    """Return the cases that the candidate computes and the gate selects, sorted."""
-    chosen = {
-        case
-        for grid in grids
-        if gate.quantity in grid.quantities
-        and gate.candidate in (models if models is not None else set(grid.models)) | {grid.reference}
-        for case in grid.cases
-        if gate.selects(grid, case)
-    }
-    return sorted(chosen, key=lambda case: (case.n, case.k, case.mu, -1.0 if case.nu is None else case.nu))
 
 
 def _judge_case(gate: Gate, case: Case, results: StoredResults, scale: float) -> Judged:

@@ -8,12 +8,12 @@ from typing import Any
 
 from comparisons.judging.decision import Verdict
 from comparisons.judging.gates import Gate
-from comparisons.judging.stored_results import Key, StoredResults, UnusableResult
+from comparisons.judging.selection import key_of
+from comparisons.judging.stored_results import StoredResults, UnusableResult
 from comparisons.numerics.bounds import combined
 from comparisons.numerics.curve_distance import curve_distance
 from comparisons.numerics.kappa import relative_difference
 from comparisons.runs.cases import Case
-from comparisons.runs.tasks import case_for
 
 __all__ = ["CaseError", "case_error", "reference_range"]
 
@@ -60,9 +60,11 @@ def case_error(gate: Gate, case: Case, results: StoredResults, scale: float) -> 
     """
     if gate.metric == "curve":
         return _distance(gate, case, results)
-    reference, u_reference = results.number(_key(gate.reference, gate, gate.reference_case(case)))
+    # The candidate first: where it has no value, the reference needs none, and a run does not compute it.
+    value, u_num = results.number(key_of(gate.candidate, gate, case))
+    reference, u_reference = results.number(key_of(gate.reference, gate, gate.reference_case(case)))
     if gate.metric == "en":
-        return _normalised(*results.number(_key(gate.candidate, gate, case)), reference, u_reference)
+        return _normalised(value, u_num, reference, u_reference)
     unit = {"rel": abs(reference), "abs": 1.0, "range-relative": scale}[gate.metric]
     if unit == 0.0:
         raise UnusableResult(Verdict.ERROR, f"the reference {gate.reference} is or has a range of zero: use metric abs")
@@ -73,11 +75,10 @@ def case_error(gate: Gate, case: Case, results: StoredResults, scale: float) -> 
             return relative_difference(value, reference), abs(value / reference) * u_reference / unit
         return (value - reference) / unit, u_reference / unit
 
-    value, u_num = results.number(_key(gate.candidate, gate, case))
     error, share = error_of(value)
     shares = {"candidate": u_num / unit, "reference": share}
     if gate.rival:
-        other, u_other = results.number(_key(gate.rival, gate, case))
+        other, u_other = results.number(key_of(gate.rival, gate, case))
         error_of_rival, share_of_rival = error_of(other)
         error = abs(error) - abs(error_of_rival)
         shares = {"candidate": u_num / unit, "reference": share + share_of_rival, "rival": u_other / unit}
@@ -90,15 +91,10 @@ def reference_range(gate: Gate, cases: Iterable[Case], results: StoredResults) -
     values = []
     for case in cases if gate.metric == "range-relative" else []:
         try:
-            values.append(results.number(_key(gate.reference, gate, gate.reference_case(case)))[0])
+            values.append(results.number(key_of(gate.reference, gate, gate.reference_case(case)))[0])
         except UnusableResult:
             continue
     return max(values) - min(values) if values else 0.0
-
-
-def _key(model: str, gate: Gate, case: Case) -> Key:
-    own = case_for(model, case)
-    return model, gate.quantity, own.n, own.k, own.mu, own.nu
 
 
 def _normalised(value: float, u_num: float, reference: float, u_reference: float) -> CaseError:
@@ -112,8 +108,8 @@ def _normalised(value: float, u_num: float, reference: float, u_reference: float
 
 
 def _distance(gate: Gate, case: Case, results: StoredResults) -> CaseError:
-    x, y, u_candidate = results.points(_key(gate.candidate, gate, case))
-    *reference, u_points = results.points(_key(gate.reference, gate, gate.reference_case(case)))
+    x, y, u_candidate = results.points(key_of(gate.candidate, gate, case))
+    *reference, u_points = results.points(key_of(gate.reference, gate, gate.reference_case(case)))
     try:
         found = curve_distance(x, y, *reference)
     except ValueError as error:

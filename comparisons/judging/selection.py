@@ -1,15 +1,17 @@
-"""Selection of the gates that a run can judge."""
+"""Selection of the gates that a run can judge, of their cases, and of the results that they need."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from comparisons.console.progress import log
 from comparisons.judging.gates import GIVEN, Gate, load_gates, of_tier
-from comparisons.runs.cases import Grid
+from comparisons.runs.cases import Case, Grid
+from comparisons.runs.rows import Key
+from comparisons.runs.tasks import case_for, plan
 
-__all__ = ["load_user_gates", "relevant", "skipped_gates"]
+__all__ = ["cases_of", "key_of", "load_user_gates", "needed_keys", "relevant", "skipped_gates"]
 
 
 def relevant(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> list[Gate]:
@@ -32,6 +34,68 @@ def relevant(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str]
         elif models is None or (gate.candidate in models and not _not_computed(gate, grids, models)):
             chosen.append(gate)
     return chosen
+
+
+def cases_of(gate: Gate, grids: Sequence[Grid], models: Collection[str] | None) -> list[Case]:
+    """Return the cases that the candidate of a gate computes and the gate selects, sorted."""
+    chosen = {
+        case
+        for grid in grids
+        if gate.quantity in grid.quantities
+        and gate.candidate in {*(models if models is not None else grid.models), grid.reference}
+        for case in grid.cases
+        if gate.selects(grid, case)
+    }
+    return sorted(chosen, key=lambda case: (case.n, case.k, case.mu, -1.0 if case.nu is None else case.nu))
+
+
+def key_of(model: str, gate: Gate, case: Case) -> Key:
+    """Return the key of the result of a model that a gate uses in a case."""
+    own = case_for(model, case)
+    return model, gate.quantity, own.n, own.k, own.mu, own.nu
+
+
+def needed_keys(
+    gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str], statuses: Mapping[Key, str]
+) -> set[Key]:
+    """Return the keys of the results that the gates about given models need.
+
+    These are the results of the candidates, and in the cases in which a candidate has a value also those with which it
+    is compared.  A model that no gate names is in the tables of errors alone: it needs all its results, with the
+    reference of each grid.
+
+    Parameters
+    ----------
+    gates, grids, models
+        As of `relevant`.
+    statuses : mapping of key to str
+        The status of each result that is known.
+
+    Examples
+    --------
+    >>> from comparisons.judging.gates import gates_text
+    >>> from comparisons.runs.cases import grids
+    >>> first = needed_keys(load_gates(gates_text()), grids("quick"), ["dmt"], {})
+    >>> {key[0] for key in first}, len(first)
+    ({'dmt'}, 192)
+    >>> second = needed_keys(load_gates(gates_text()), grids("quick"), ["dmt"], {sorted(first)[0]: "ok"})
+    >>> second - first
+    {('fscm', 'pull_off_force', 1.0, 0.0, 0.01, None)}
+    """
+    needed: set[Key] = set()
+    named: set[str] = set()
+    for gate in relevant(gates, grids, models):
+        named |= {gate.candidate, gate.reference} | ({gate.rival} if gate.rival else set())
+        for case in cases_of(gate, grids, models):
+            candidate = key_of(gate.candidate, gate, case)
+            needed.add(candidate)
+            # The range of the reference is over all cases.
+            if statuses.get(candidate) == "ok" or gate.metric == "range-relative":
+                needed.add(key_of(gate.reference, gate, gate.reference_case(case)))
+                needed |= {key_of(gate.rival, gate, case)} if gate.rival else set()
+    if others := [model for model in models if model not in named]:
+        needed |= {task.key for task in plan(grids, others)}
+    return needed
 
 
 def skipped_gates(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> list[Gate]:

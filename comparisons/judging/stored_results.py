@@ -11,11 +11,9 @@ import numpy as np
 import pandas as pd
 
 from comparisons.judging.decision import Verdict
+from comparisons.runs.rows import Key
 
-__all__ = ["Key", "StoredResults", "UnusableResult", "stored_curves", "stored_numbers"]
-
-#: Model, quantity, n, k, mu and nu.
-Key = tuple[str, str, float, float, float, float | None]
+__all__ = ["StoredResults", "UnusableResult", "stored_curves", "stored_numbers"]
 
 _KEY = {"model", "quantity", "n", "k", "mu", "nu"}
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import re
+from collections.abc import Collection
+from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
-__all__ = ["csv_text", "plain_text"]
+__all__ = ["csv_text", "plain_text", "read_csv"]
 
 _PARAMETERS = ("n", "k", "mu", "nu")
 
@@ -46,6 +49,24 @@ def plain_text(cell: str) -> str:
     ('=1+1', '-0.5', "it's")
     """
     return cell[1:] if cell.startswith("'") and _FORMULA.match(cell[1:].lstrip()) else cell
+
+
+def read_csv(path: Path, texts: Collection[str]) -> pd.DataFrame:
+    """Read a table that `csv_text` has written, with every digit: Python's own conversion of numbers is exact.
+
+    Parameters
+    ----------
+    path : Path
+    texts : collection of str
+        Columns of texts; every other one is of numbers, NaN where the cell is empty.
+    """
+    table = pd.read_csv(path, dtype=str, keep_default_na=False)
+    numbers = {
+        name: table[name].map(lambda text: float(text) if text else math.nan).astype(float)
+        for name in table.columns.difference(list(texts))
+    }
+    words = {name: table[name].map(plain_text) for name in table.columns.intersection(list(texts))}
+    return table.assign(**numbers, **words)
 
 
 def _without_formulas(table: pd.DataFrame) -> pd.DataFrame:

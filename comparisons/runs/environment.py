@@ -23,12 +23,12 @@ from urllib.request import url2pathname
 
 from threadpoolctl import threadpool_info
 
+from comparisons.runs.code_files import CODE, files_digest, solver_digest
+
 __all__ = ["code_digest", "computing_environment", "differences", "environment", "fingerprint", "package_version"]
 
 DISTRIBUTION = "fscm-bench"
 _PACKAGES = ("fscm", "fem_reference", "comparisons")
-#: Files that numbers depend on.
-_CODE = {".py", ".toml"}
 
 
 def package_version() -> str:
@@ -51,13 +51,7 @@ def code_digest(root: Path | None = None) -> str:
         root = _running_root()
         if missing := [package for package in _PACKAGES if not (root / package / "__init__.py").is_file()]:
             raise RuntimeError(f"the code of {', '.join(missing)} is not in {root}, so that its digest is unknown")
-    digest = hashlib.sha256()
-    for package in _PACKAGES:
-        for path in sorted((root / package).rglob("*")):
-            if path.suffix in _CODE:
-                digest.update(f"{path.relative_to(root).as_posix()}\0".encode())
-                digest.update(path.read_bytes())
-    return digest.hexdigest()
+    return files_digest(root, [path for package in _PACKAGES for path in sorted((root / package).rglob("*"))])
 
 
 def fingerprint() -> str:
@@ -109,6 +103,7 @@ def environment() -> dict[str, Any]:
             "name": DISTRIBUTION,
             "version": package_version(),
             "code_sha256": code_digest(),
+            "solvers_sha256": solver_digest(),
             "fingerprint": fingerprint(),
             **_commit(),
         },
@@ -167,7 +162,7 @@ def _installed_commit() -> dict[str, Any] | None:
     if source.get("vcs") != "git" or installed is None or Path(str(installed.locate_file(""))).resolve() != root:
         return None
     recorded = {file.as_posix(): file.hash for file in installed.files or []}
-    running = [path for package in _PACKAGES for path in (root / package).rglob("*") if path.suffix in _CODE]
+    running = [path for package in _PACKAGES for path in (root / package).rglob("*") if path.suffix in CODE]
     unchanged = all(_is_recorded(path, recorded.get(path.relative_to(root).as_posix())) for path in running)
     return {"commit": source.get("commit_id"), "dirty": not unchanged}
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import asdict
+from typing import Any
 
 import pandas as pd
 import pyarrow as pa
 
 from comparisons.runs.rows import Row
 
-__all__ = ["COLUMNS", "CURVE_COLUMNS", "curve_frame", "frame"]
+__all__ = ["COLUMNS", "CURVE_COLUMNS", "curve_frame", "frame", "rows_of"]
 
 _TEXT, _REAL, _COUNT = pa.string(), pa.float64(), pa.int64()
 
@@ -75,3 +76,33 @@ def curve_frame(rows: Iterable[Row]) -> pd.DataFrame:
     ]
     table = pa.Table.from_pylist(records, schema=CURVE_COLUMNS)
     return table.to_pandas().sort_values([*_ORDER, "point"], ignore_index=True)
+
+
+def rows_of(results: pd.DataFrame, curves: pd.DataFrame) -> list[Row]:
+    """Return the rows of which `frame` and `curve_frame` have made tables.
+
+    Examples
+    --------
+    >>> row = Row("mine", "1", "pull_off_force", 2, 0, 1, None, 1.5, 1e-15, "load", "ok", "", None, None, 0.0, 0.1)
+    >>> rows_of(frame([row]), curve_frame([])) == [row]
+    True
+    """
+    rows = [Row(**_typed(record, COLUMNS)) for record in results[COLUMNS.names].to_dict("records")]
+    whole = [name for name in CURVE_COLUMNS.names if name not in ("point", "x", "y", "u_distance")]
+    for _, points in curves.groupby(_ORDER, sort=False, dropna=False):
+        points = points.sort_values("point")
+        first = _typed(points[whole].to_dict("records")[0], CURVE_COLUMNS)
+        found = None
+        if first["status"] == "ok":
+            found = points["x"].tolist(), points["y"].tolist(), float(points["u_distance"].iloc[0])
+        none = dict.fromkeys(("value", "u_num", "size", "iterations", "residual"))
+        rows.append(Row(**first, **none, points=found))
+    return rows
+
+
+def _typed(record: dict[Any, Any], schema: pa.Schema) -> dict[str, Any]:
+    """Return the entries of a row, None for those that are not there, and counts as integers."""
+    types = {_TEXT: str, _REAL: float, _COUNT: int}
+    return {
+        name: None if pd.isna(value) else types[schema.field(name).type](value) for name, value in record.items()
+    }

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["Row"]
+__all__ = ["Key", "Row"]
+
+#: What identifies an evaluation: model, quantity, n, k, mu and nu.
+Key = tuple[str, str, float, float, float, float | None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +56,6 @@ class Row:
     points: tuple[list[float], list[float], float] | None = None
 
     @property
-    def key(self) -> tuple[str, str, float, float, float, float | None]:
+    def key(self) -> Key:
         """What identifies the evaluation; a run makes each once."""
         return self.model, self.quantity, self.n, self.k, self.mu, self.nu
