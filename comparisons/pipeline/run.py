@@ -15,10 +15,11 @@ from comparisons.judging.decision import Verdict
 from comparisons.pipeline.inputs import Cases, Gates, load_cases, read_gates
 from comparisons.pipeline.judgement import Judgement, judge_and_write
 from comparisons.pipeline.record_content import now, record_content
+from comparisons.pipeline.results import results
 from comparisons.pipeline.tables import RunTables, make_tables, write_pictures, write_tables
 from comparisons.registry import ExternalIdentity, create, identify
 from comparisons.runs.atomic_files import atomic
-from comparisons.runs.computation import Completed, checked_jobs, complete, folder_for
+from comparisons.runs.computation import Completed, checked_jobs, folder_for
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import write_record
 from comparisons.runs.rows import Row
@@ -37,7 +38,7 @@ class FinishedRun:
         With the files of the run.
     tables : RunTables
     counts : dict of str to int
-        Numbers of rows: all, resumed, and by status.
+        Numbers of rows: all, resumed, shipped, and by status.
     failures : tuple of Row
         The rows of computations that failed.
     judgement : Judgement or None
@@ -64,10 +65,12 @@ def run(
     *,
     jobs: int = 1,
     retry_failed: bool = False,
+    recompute: bool = False,
 ) -> FinishedRun:
     """Compute cases, judge the results, and write tables, verdicts and the record into a folder.
 
-    What the folder holds already is not computed again.
+    What the folder holds already is not computed again, and in the standing cases neither is what is shipped with the
+    package.  With models and gates, only the results that the gates need are computed.
 
     Parameters
     ----------
@@ -83,6 +86,8 @@ def run(
         Number of processes.  With more than one, a script needs the guard ``if __name__ == "__main__":``.
     retry_failed : bool
         Whether stored failures are computed again.
+    recompute : bool
+        Whether the values of the references are computed although they are shipped.
 
     Returns
     -------
@@ -93,7 +98,7 @@ def run(
     ValueError
         If an argument is not admissible, or the folder holds results of other code or files of a user.
     comparisons.model.ComputationFailed
-        If a worker process dies.
+        If a worker process dies, or a shipped value is not confirmed.
 
     Examples
     --------
@@ -124,8 +129,11 @@ def run(
     target = RunFolder(folder_for(folder, started))
     texts = _texts(target, chosen, rules)
     tasks = plan(chosen.grids, chosen_models, external)
-    completed = complete(tasks, target.path, jobs, retry_failed)
-    tables = make_tables(completed.rows, chosen, chosen_models)
+    found = results(
+        tasks, chosen, rules, chosen_models, target.path, jobs=jobs, retry_failed=retry_failed, recompute=recompute
+    )
+    completed, rows = found.completed, found.rows
+    tables = make_tables(rows, chosen, chosen_models)
     write_tables(tables, target)
     if chosen.tier is not None:
         write_pictures(tables, target)
@@ -138,7 +146,7 @@ def run(
         judgement = judge_and_write(target, rules, chosen, tables.results, tables.curves, chosen_models, specs)
     stale = {GRID_TEXT} if rules is not None else {GATES_TEXT, *VERDICT_FILES}
     _remove_stale(target, stale - {path.name for path in texts})
-    counts = {"all": len(completed.rows), "resumed": completed.resumed, **_statuses(completed.rows)}
+    counts = {"all": len(rows), "resumed": completed.resumed, "shipped": len(found.shipped), **_statuses(rows)}
     content = record_content(
         "sweep" if rules is None else "run",
         {
@@ -157,9 +165,11 @@ def run(
         verdicts=judgement.counts if judgement else {},
     )
     content |= _digests(chosen, rules) | _evaluated_again(completed)
+    if found.entry:
+        content["shipped"] = found.entry
     content["models"] = _described({task.model for task in tasks}, external)
     write_record(content, target.record)
-    failures = tuple(row for row in completed.rows if row.status == "failed")
+    failures = tuple(row for row in rows if row.status == "failed")
     return FinishedRun(target.path, tables, counts, failures, judgement)
 
 

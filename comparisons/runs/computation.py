@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import BrokenExecutor
 from contextlib import closing
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.journal import alone_in
 from comparisons.runs.reevaluation import evaluate_again
 from comparisons.runs.row_journal import RowJournal
-from comparisons.runs.rows import Row
+from comparisons.runs.rows import Key, Row
 from comparisons.runs.tasks import Task, compute
 
 __all__ = [
@@ -63,7 +63,13 @@ class Completed:
     evaluated_again: dict[str, Any] | None
 
 
-def complete(tasks: list[Task], folder: Path, jobs: int, retry_failed: bool = False) -> Completed:
+def complete(
+    tasks: list[Task],
+    folder: Path,
+    jobs: int,
+    retry_failed: bool = False,
+    needed: Callable[[list[Row]], Collection[Key]] | None = None,
+) -> Completed:
     """Compute the tasks that the journal of a folder does not have.
 
     A stored row of another version of an external model does not count, nor does one that failed.  A few of the others
@@ -72,13 +78,16 @@ def complete(tasks: list[Task], folder: Path, jobs: int, retry_failed: bool = Fa
     Parameters
     ----------
     tasks : list of Task
-        All that is needed.
+        All that may be needed.
     folder : Path
         Of the results.
     jobs : int
         Number of processes.
     retry_failed : bool
         Whether stored failures of our own models do not count either.
+    needed : callable, optional
+        Returns the keys of the results that are needed, from the rows that are there: it is called again with the new
+        ones, until nothing is missing.  By default all are needed.
 
     Raises
     ------
@@ -93,6 +102,13 @@ def complete(tasks: list[Task], folder: Path, jobs: int, retry_failed: bool = Fa
     def usable(row: Row) -> bool:
         return row.key in wanted and versions.get(row.model, row.model_version) == row.model_version
 
+    def chosen() -> list[Task]:
+        keys = wanted if needed is None else needed([row for row in journal.items if usable(row)])
+        return [task for task in tasks if task.key in keys]
+
+    def missing_of(known: Collection[Key]) -> list[Task]:
+        return [task for task in chosen() if task.key not in known]
+
     with alone_in(folder):
         journal = RowJournal(folder)
         journal.drop(lambda row: usable(row) and row.status == "failed" and (retry_failed or row.model in versions))
@@ -102,12 +118,17 @@ def complete(tasks: list[Task], folder: Path, jobs: int, retry_failed: bool = Fa
             stored = [row for row in journal.items if usable(row)]
             log_failures_used(Counter(row.model for row in stored if row.status == "failed"))
             known = {row.key for row in stored}
-            missing = [task for task in tasks if task.key not in known]
+            missing = missing_of(known)
             log(f"{len(missing)} computations on {jobs} processes" + (f", {len(known)} are stored" if known else ""))
-            with counting("computing", len(missing)) as count, closing(compute(missing, jobs)) as computed:
-                for row in computed:
-                    journal.add(row)
-                    count()
+            while missing:
+                with counting("computing", len(missing)) as count, closing(compute(missing, jobs)) as computed:
+                    for row in computed:
+                        journal.add(row)
+                        known.add(row.key)
+                        count()
+                missing = missing_of(known)
+                if missing:
+                    log(f"{len(missing)} computations more, with which these are compared")
         except KeyboardInterrupt:
             log(_safe(journal, folder))
             raise
@@ -115,8 +136,10 @@ def complete(tasks: list[Task], folder: Path, jobs: int, retry_failed: bool = Fa
             raise ComputationFailed(
                 f"a worker process ended early, perhaps for lack of memory; {_safe(journal, folder)}"
             ) from None
-        rows = [row for row in journal.items if usable(row)]
-        return Completed(rows, len(stored), journal.parts_of(rows), evaluated_again)
+        used = {task.key for task in chosen()}
+        rows = [row for row in journal.items if usable(row) and row.key in used]
+        resumed = sum(row.key in used for row in stored)
+        return Completed(rows, resumed, journal.parts_of(rows), evaluated_again)
 
 
 def _checked(stored: dict[Task, Row], journal: RowJournal, jobs: int) -> dict[str, Any]:

@@ -95,14 +95,11 @@ def rows_of(results: pd.DataFrame, curves: pd.DataFrame) -> list[Row]:
         found = None
         if first["status"] == "ok":
             found = points["x"].tolist(), points["y"].tolist(), float(points["u_distance"].iloc[0])
-        none = dict.fromkeys(("value", "u_num", "size", "iterations", "residual"))
-        rows.append(Row(**first, **none, points=found))
+        rows.append(Row(**first, value=None, u_num=None, size=None, iterations=None, residual=None, points=found))
     return rows
 
 
 def _typed(record: dict[Any, Any], schema: pa.Schema) -> dict[str, Any]:
     """Return the entries of a row, None for those that are not there, and counts as integers."""
     types = {_TEXT: str, _REAL: float, _COUNT: int}
-    return {
-        name: None if pd.isna(value) else types[schema.field(name).type](value) for name, value in record.items()
-    }
+    return {name: None if pd.isna(value) else types[schema.field(name).type](value) for name, value in record.items()}

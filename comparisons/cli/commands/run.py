@@ -35,13 +35,26 @@ def add(parser: argparse.ArgumentParser) -> None:
     add_jobs(parser)
     add_out(parser)
     add_retry_failed(parser)
+    parser.add_argument(
+        "--recompute",
+        action="store_true",
+        help="compute the values of fscm and fem that are shipped with this program, too",
+    )
 
 
 def call(args: argparse.Namespace) -> int:
     """Run and print; return the exit status."""
     to_step_summary("")
     try:
-        finished = run(args.tier, args.gates, args.model, args.out, jobs=args.jobs, retry_failed=args.retry_failed)
+        finished = run(
+            args.tier,
+            args.gates,
+            args.model,
+            args.out,
+            jobs=args.jobs,
+            retry_failed=args.retry_failed,
+            recompute=args.recompute,
+        )
     except ComputationFailed as failure:
         log(str(failure))
         return FAILED

@@ -1,0 +1,136 @@
+"""Results that a run needs: those shipped with the package where they fit the solvers, and the others computed."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from random import SystemRandom
+from typing import Any
+
+from comparisons.console.progress import log
+from comparisons.judging.selection import needed_keys
+from comparisons.model import ComputationFailed
+from comparisons.pipeline.inputs import Cases, Gates
+from comparisons.runs.cases import Case
+from comparisons.runs.computation import Completed, complete
+from comparisons.runs.reevaluation import evaluate_again
+from comparisons.runs.rows import Key, Row
+from comparisons.runs.shipped_values import SHIPPED_MODELS, ShippedValues, load_shipped
+from comparisons.runs.tasks import Task
+
+__all__ = ["Results", "results"]
+
+
+@dataclass(frozen=True, slots=True)
+class Results:
+    """The rows of a run, and what its record states of those that were not computed.
+
+    Attributes
+    ----------
+    completed : Completed
+        What was computed, now or in an earlier part of the run.
+    shipped : list of Row
+        The other rows.
+    entry : dict
+        What the record states of them; empty if there are none.
+    """
+
+    completed: Completed
+    shipped: list[Row]
+    entry: dict[str, Any]
+
+    @property
+    def rows(self) -> list[Row]:
+        """All rows."""
+        return [*self.completed.rows, *self.shipped]
+
+
+def results(
+    tasks: list[Task],
+    cases: Cases,
+    gates: Gates | None,
+    models: Sequence[str] | None,
+    folder: Path,
+    *,
+    jobs: int = 1,
+    retry_failed: bool = False,
+    recompute: bool = False,
+) -> Results:
+    """Return the rows that a run needs: with models of its own and gates, those that its gates need.
+
+    Parameters
+    ----------
+    tasks : list of Task
+        Of all cases and models.
+    cases, gates, models
+        Of the run.
+    folder : Path
+        Of the run.
+    jobs : int
+        Number of processes.
+    retry_failed : bool
+        Whether stored failures are computed again.
+    recompute : bool
+        Whether every row is computed, also those that are shipped.
+
+    Raises
+    ------
+    ValueError
+        As `comparisons.runs.computation.complete`.
+    comparisons.model.ComputationFailed
+        As there, and if a shipped value that is computed again is not within both bounds.
+    """
+    known = ShippedValues({}, ()) if cases.tier is None or recompute else _fitting(tasks, cases.tier)
+
+    def needed(rows: Collection[Row]) -> set[Key]:
+        if gates is None or models is None:
+            return {task.key for task in tasks}
+        statuses = {row.key: row.status for row in (*rows, *known.rows.values())}
+        return needed_keys(gates.gates, cases.grids, models, statuses)
+
+    missing = [task for task in tasks if task.key not in known.rows]
+    completed = complete(missing, folder, jobs, retry_failed, needed)
+    keys = needed(completed.rows)
+    used = {task: known.rows[task.key] for task in tasks if task.key in known.rows and task.key in keys}
+    entry = _entry(known, used, _confirmed(used, jobs)) if used else {}
+    return Results(completed, list(used.values()), entry)
+
+
+def _fitting(tasks: list[Task], tier: str) -> ShippedValues:
+    """Return the shipped values that fit the solvers; state in one sentence if there are others that tasks need."""
+    known = load_shipped(tier)
+    if known.obstacle and any(task.model in SHIPPED_MODELS for task in tasks):
+        log(f"the shipped values are of other solvers ({known.obstacle}): what they do not have is computed")
+    return known
+
+
+def _confirmed(used: dict[Task, Row], jobs: int) -> dict[str, Any]:
+    """Compute a few shipped values of each model again; return which, as the record holds it."""
+    seed = SystemRandom().randrange(2**32)
+    found = evaluate_again(used, seed, jobs)
+    for model, again in found.items():
+        if again.difference:
+            raise ComputationFailed(
+                f"a shipped value of {model} is not confirmed here ({again.difference}; seed {seed}), so that nothing "
+                "is judged: --recompute computes every value"
+            )
+    count = sum(len(again.tasks) for again in found.values())
+    log(
+        f"{len(used)} values of {' and '.join(found)} are shipped with fscm-bench; {count} of them, computed again, "
+        "agree within their bounds; --recompute computes all"
+    )
+    return {"seed": seed, "models": {model: again.as_json() for model, again in found.items()}}
+
+
+def _entry(known: ShippedValues, used: dict[Task, Row], evaluated_again: dict[str, Any]) -> dict[str, Any]:
+    """Return what the record states of the shipped rows: which they are, and where they were computed."""
+    cases: dict[tuple[str, str], list[str]] = {}
+    for row in used.values():
+        cases.setdefault((row.model, row.quantity), []).append(Case(row.n, row.k, row.mu, row.nu).label)
+    rows = [
+        {"model": model, "quantity": quantity, "cases": sorted(labels)}
+        for (model, quantity), labels in sorted(cases.items())
+    ]
+    origins = [{name: value for name, value in origin.items() if name != "files"} for origin in known.origins]
+    return {"rows": rows, "origins": origins, "evaluated_again": evaluated_again}
