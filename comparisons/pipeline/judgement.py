@@ -13,11 +13,13 @@ from comparisons.console.progress import log
 from comparisons.data.file_names import VERDICT_FILES
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.judge import judge
+from comparisons.judging.selection import needed_keys
 from comparisons.output.verdicts import write_verdicts
 from comparisons.pipeline.inputs import Cases, Gates, load_cases, read_gates
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.folder import RunFolder
+from comparisons.runs.frames import rows_of
 from comparisons.runs.record import check_files, read_record, warn_of_other_code, write_record
 from comparisons.runs.tables import read_table
 
@@ -114,6 +116,7 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
             file.write(chosen.text.encode())
         record["command_name"], record["gates_sha256"] = "run", chosen.sha256
         arguments["gates"], own = label, True
+    _warn_of_missing(chosen, cases, models, results, curves, folder)
     judgement = judge_and_write(stored, chosen, cases, results, curves, models, specs)
     # The record has the verdicts that are beside it, and the gates that they are by.
     record["verdicts"] = judgement.counts
@@ -125,3 +128,23 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
         record["judged_again"] = {"gates": label, "gates_sha256": chosen.sha256}
     write_record(record, stored.record)
     return judgement
+
+
+def _warn_of_missing(
+    gates: Gates,
+    cases: Cases,
+    models: list[str] | None,
+    results: pd.DataFrame,
+    curves: pd.DataFrame,
+    folder: Path,
+) -> None:
+    """Write in one sentence how many results the gates need that the run, which had other gates, did not compute."""
+    if models is None:
+        return
+    statuses = {row.key: row.status for row in rows_of(results, curves)}
+    missing = needed_keys(gates.gates, cases.grids, models, statuses) - statuses.keys()
+    if missing:
+        log(
+            f"{len(missing)} results that these gates need are not in {folder}, which has those of its own gates: "
+            f"fscm-bench run with --out {folder} and these gates computes them"
+        )

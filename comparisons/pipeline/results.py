@@ -81,7 +81,7 @@ def results(
     comparisons.model.ComputationFailed
         As there, and if a shipped value that is computed again is not within both bounds.
     """
-    known = ShippedValues({}, ()) if cases.tier is None or recompute else _fitting(tasks, cases.tier)
+    known = ShippedValues({}, {}) if cases.tier is None or recompute else _fitting(tasks)
 
     def needed(rows: Collection[Row]) -> set[Key]:
         if gates is None or models is None:
@@ -97,11 +97,11 @@ def results(
     return Results(completed, list(used.values()), entry)
 
 
-def _fitting(tasks: list[Task], tier: str) -> ShippedValues:
+def _fitting(tasks: list[Task]) -> ShippedValues:
     """Return the shipped values that fit the solvers; state in one sentence if there are others that tasks need."""
-    known = load_shipped(tier)
+    known = load_shipped()
     if known.obstacle and any(task.model in SHIPPED_MODELS for task in tasks):
-        log(f"the shipped values are of other solvers ({known.obstacle}): what they do not have is computed")
+        log(f"the shipped values are of other solvers ({known.obstacle}): everything is computed")
     return known
 
 
@@ -132,5 +132,4 @@ def _entry(known: ShippedValues, used: dict[Task, Row], evaluated_again: dict[st
         {"model": model, "quantity": quantity, "cases": sorted(labels)}
         for (model, quantity), labels in sorted(cases.items())
     ]
-    origins = [{name: value for name, value in origin.items() if name != "files"} for origin in known.origins]
-    return {"rows": rows, "origins": origins, "evaluated_again": evaluated_again}
+    return {"rows": rows, "origin": known.origin, "evaluated_again": evaluated_again}

@@ -1,13 +1,13 @@
-"""Values of the two references in the standing cases, shipped with the package.
+"""Values of the two references in the standing cases of the quick tier, shipped with the package.
 
-Each tier has a table of results, a table of curves, and an origin: where they were computed, and the digest of the
+They are a table of results, a table of curves, and their origin: where they were computed, and the digest of the
 solvers that computed them.  They are used as long as the solvers that run have the same digest.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
@@ -17,7 +17,6 @@ import pandas as pd
 
 from comparisons.quantities import CURVES
 from comparisons.runs.atomic_files import atomic, write_json
-from comparisons.runs.cases import TIERS
 from comparisons.runs.code_files import solver_digest
 from comparisons.runs.csv_format import csv_text, read_csv
 from comparisons.runs.frames import curve_frame, frame, rows_of
@@ -30,6 +29,9 @@ SHIPPED_MODELS = ("fscm", "fem")
 
 #: The folder of the files in the package.
 FOLDER = Path(__file__).resolve().parents[1] / "data" / "shipped"
+
+#: The tables of results and of curves, and their origin.
+_TABLES, _ORIGIN = ("results.csv", "curves.csv"), "origin.json"
 
 _TEXTS = ("model", "model_version", "quantity", "unit", "status", "reason")
 
@@ -44,19 +46,19 @@ class ShippedValues:
     Attributes
     ----------
     rows : mapping of key to Row
-    origins : tuple of dict
-        Where those of each tier were computed, as the record of a run holds it.
+    origin : dict
+        Where they were computed, as the record of a run holds it; empty without rows.
     obstacle : str
         Why values that are there cannot be used; empty if they can, or if there are none.
     """
 
     rows: Mapping[Key, Row]
-    origins: tuple[dict[str, Any], ...]
+    origin: dict[str, Any]
     obstacle: str = ""
 
 
-def load_shipped(tier: str, folder: Path = FOLDER) -> ShippedValues:
-    """Return the shipped values of a tier and of the tiers before it that fit the solvers that run.
+def load_shipped(folder: Path = FOLDER) -> ShippedValues:
+    """Return the shipped values, if they fit the solvers that run.
 
     Raises
     ------
@@ -65,65 +67,51 @@ def load_shipped(tier: str, folder: Path = FOLDER) -> ShippedValues:
 
     Examples
     --------
-    >>> load_shipped("quick", Path("nowhere"))
-    ShippedValues(rows={}, origins=(), obstacle='')
+    >>> load_shipped(Path("nowhere"))
+    ShippedValues(rows={}, origin={}, obstacle='')
     """
-    rows: dict[Key, Row] = {}
-    origins: list[dict[str, Any]] = []
-    obstacle, now = "", solver_digest()
-    for one in TIERS[: TIERS.index(tier) + 1]:
-        if not _origin(folder, one).is_file():
-            continue
-        origin = json.loads(_origin(folder, one).read_text(encoding="utf-8"))
-        if origin["solvers_sha256"] != now:
-            obstacle = f"solvers {origin['solvers_sha256'][:12]}, now {now[:12]}"
-            continue
-        tables = [_checked(path, origin["files"]) for path in _tables(folder, one)]
-        rows |= {row.key: row for row in rows_of(*tables)}
-        origins.append(origin)
-    return ShippedValues(rows, tuple(origins), obstacle)
+    if not (folder / _ORIGIN).is_file():
+        return ShippedValues({}, {})
+    origin = json.loads((folder / _ORIGIN).read_text(encoding="utf-8"))
+    then, now = origin["solvers_sha256"], solver_digest()
+    if then != now:
+        return ShippedValues({}, {}, f"solvers {then[:12]}, now {now[:12]}")
+    sums = origin.pop("files")
+    results, curves = (_checked(folder / name, sums) for name in _TABLES)
+    return ShippedValues({row.key: row for row in rows_of(results, curves)}, origin)
 
 
-def write_shipped(record: Mapping[str, Any], rows: list[Row], tier: str, folder: Path = FOLDER) -> list[Path]:
+def write_shipped(record: Mapping[str, Any], rows: Iterable[Row], folder: Path = FOLDER) -> list[Path]:
     """Write the values of the references among the rows of a run; return the paths of the files.
 
     Parameters
     ----------
     record : mapping
         Of the run that computed them.
-    rows : list of Row
-    tier : str
+    rows : iterable of Row
+        Failed ones are left out.
     folder : Path
     """
-    chosen = [row for row in rows if row.model in SHIPPED_MODELS]
+    chosen = [row for row in rows if row.model in SHIPPED_MODELS and row.status != "failed"]
     curves = curve_frame(row for row in chosen if row.quantity in CURVES)
     results = frame(row for row in chosen if row.quantity not in CURVES)
     folder.mkdir(parents=True, exist_ok=True)
     sums = {}
-    for path, table in zip(_tables(folder, tier), (results, curves), strict=True):
+    for name, table in zip(_TABLES, (results, curves), strict=True):
         rounded = table.assign(seconds=[float(f"{seconds:.{_DIGITS}g}") for seconds in table["seconds"]])
         content = csv_text(rounded).encode()
-        sums[path.name] = sha256(content).hexdigest()
-        with atomic(path) as file:
+        sums[name] = sha256(content).hexdigest()
+        with atomic(folder / name) as file:
             file.write(content)
     origin = {
-        "tier": tier,
         "solvers_sha256": record["package"]["solvers_sha256"],
         "package": {name: record["package"][name] for name in ("version", "commit", "dirty")},
         "parts": record["parts"],
         "dependencies": record["dependencies"],
         "files": sums,
     }
-    write_json(origin, _origin(folder, tier))
-    return [*_tables(folder, tier), _origin(folder, tier)]
-
-
-def _origin(folder: Path, tier: str) -> Path:
-    return folder / f"{tier}.json"
-
-
-def _tables(folder: Path, tier: str) -> tuple[Path, Path]:
-    return folder / f"{tier}_results.csv", folder / f"{tier}_curves.csv"
+    write_json(origin, folder / _ORIGIN)
+    return [folder / name for name in (*_TABLES, _ORIGIN)]
 
 
 def _checked(path: Path, sums: Mapping[str, str]) -> pd.DataFrame:
