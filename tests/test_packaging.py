@@ -16,7 +16,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = ("fscm", "fem_reference", "comparisons")
-PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+CONFIGURATION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+PROJECT, SETUPTOOLS = CONFIGURATION["project"], CONFIGURATION["tool"]["setuptools"]
 RUNTIME, FOR_TESTS = PROJECT["dependencies"], PROJECT["optional-dependencies"]["test"]
 
 #: Files that the build adds.
@@ -91,6 +92,14 @@ def _is_under(name: str, pattern: str) -> bool:
     if "/" in pattern:
         return name.startswith(f"{pattern}/")
     return any(fnmatch(part, pattern) for part in PurePosixPath(name).parts)
+
+
+def test_the_wheel_has_every_file_of_the_packages():
+    for package in PACKAGES:
+        patterns = SETUPTOOLS["package-data"][package]
+        packed = {path for pattern in patterns for path in (ROOT / package).glob(pattern)}
+        files = {ROOT / name for name in repository() if name.startswith(f"{package}/") and not name.endswith(".py")}
+        assert files <= packed
 
 
 def test_the_source_distribution_has_every_file_of_the_repository(tmp_path):

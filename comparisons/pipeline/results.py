@@ -81,7 +81,7 @@ def results(
     comparisons.model.ComputationFailed
         As there, and if a shipped value that is computed again is not within both bounds.
     """
-    known = ShippedValues({}, {}) if cases.tier is None or recompute else _fitting(tasks)
+    known = ShippedValues({}, {}) if recompute or cases.tier is None else _fitting(tasks)
 
     def needed(rows: Collection[Row]) -> set[Key]:
         if gates is None or models is None:
@@ -99,8 +99,10 @@ def results(
 
 def _fitting(tasks: list[Task]) -> ShippedValues:
     """Return the shipped values that fit the solvers; state in one sentence if there are others that tasks need."""
+    if not any(task.model in SHIPPED_MODELS for task in tasks):
+        return ShippedValues({}, {})
     known = load_shipped()
-    if known.obstacle and any(task.model in SHIPPED_MODELS for task in tasks):
+    if known.obstacle:
         log(f"the shipped values are of other solvers ({known.obstacle}): everything is computed")
     return known
 

@@ -38,7 +38,7 @@ class FinishedRun:
         With the files of the run.
     tables : RunTables
     counts : dict of str to int
-        Numbers of rows: all, resumed, shipped, and by status.
+        Numbers of rows: all, resumed, shipped if there are any, and by status.
     failures : tuple of Row
         The rows of computations that failed.
     judgement : Judgement or None
@@ -146,7 +146,8 @@ def run(
         judgement = judge_and_write(target, rules, chosen, tables.results, tables.curves, chosen_models, specs)
     stale = {GRID_TEXT} if rules is not None else {GATES_TEXT, *VERDICT_FILES}
     _remove_stale(target, stale - {path.name for path in texts})
-    counts = {"all": len(rows), "resumed": completed.resumed, "shipped": len(found.shipped), **_statuses(rows)}
+    shipped = {"shipped": len(found.shipped)} if found.shipped else {}
+    counts = {"all": len(rows), "resumed": completed.resumed, **shipped, **_statuses(rows)}
     content = record_content(
         "sweep" if rules is None else "run",
         {
