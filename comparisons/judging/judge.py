@@ -82,10 +82,12 @@ def judge(
     """
     expected = {task.key for task in plan(grids, None if models is None else list(models))}
     named = None if models is None else set(models)
-    numbers, points = stored_numbers(rows), stored_curves(curves)
+    chosen = relevant(gates, grids, models)
+    quantities = {gate.quantity for gate in chosen}
+    numbers, points = stored_numbers(rows, quantities), stored_curves(curves, quantities)
     judged = [
         one
-        for gate in relevant(gates, grids, models)
+        for gate in chosen
         for one in _judge_gate(gate, grids, points if gate.metric == "curve" else numbers, expected, named)
     ]
     return pd.DataFrame([asdict(one) for one in judged], columns=list(Judged.__slots__))

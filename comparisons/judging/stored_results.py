@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Hashable
+from collections.abc import Collection, Hashable
 from typing import Any
 
 import numpy as np
@@ -35,6 +35,8 @@ class StoredResults:
         None is a table without rows.
     needed : set of str
         Columns without which nothing can be judged.
+    quantities : set of str
+        The rows of others are left out.
 
     Attributes
     ----------
@@ -43,11 +45,13 @@ class StoredResults:
         Key -> rows, more than one only for the points of a curve.
     """
 
-    def __init__(self, table: pd.DataFrame | None, needed: set[str]) -> None:
+    def __init__(self, table: pd.DataFrame | None, needed: set[str], quantities: Collection[str]) -> None:
         table = pd.DataFrame(columns=sorted(needed)) if table is None else table
         self.missing_columns = sorted(needed - set(table.columns))
         self.rows: dict[Key, list[dict[Hashable, Any]]] = defaultdict(list)
-        for row in [] if self.missing_columns else table[sorted(needed)].to_dict("records"):
+        if self.missing_columns:
+            return
+        for row in table.loc[table["quantity"].isin(list(quantities)), sorted(needed)].to_dict("records"):
             nu = None if row["nu"] is None or pd.isna(row["nu"]) else float(row["nu"])
             self.rows[row["model"], row["quantity"], row["n"], row["k"], row["mu"], nu].append(row)
 
@@ -93,14 +97,14 @@ class StoredResults:
         return rows
 
 
-def stored_numbers(table: pd.DataFrame) -> StoredResults:
-    """Return the rows of a table of scalars."""
-    return StoredResults(table, _KEY | {"value", "u_num", "status", "reason"})
+def stored_numbers(table: pd.DataFrame, quantities: Collection[str]) -> StoredResults:
+    """Return the rows of a table of scalars that are of some quantities."""
+    return StoredResults(table, _KEY | {"value", "u_num", "status", "reason"}, quantities)
 
 
-def stored_curves(table: pd.DataFrame | None) -> StoredResults:
-    """Return the points of a table of curves."""
-    return StoredResults(table, _KEY | {"x", "y", "u_distance", "status", "reason"})
+def stored_curves(table: pd.DataFrame | None, quantities: Collection[str]) -> StoredResults:
+    """Return the points of a table of curves that are of some quantities."""
+    return StoredResults(table, _KEY | {"x", "y", "u_distance", "status", "reason"}, quantities)
 
 
 def _real(value: float | None) -> float:

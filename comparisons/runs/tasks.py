@@ -47,7 +47,7 @@ def case_for(model: str, case: Case) -> Case:
     >>> case_for("jkr", Case(2, 0, 1, nu=0.25)).label
     'n = 2, k = 0, mu = 1'
     """
-    return case if depends_on_poisson_ratio(model) else replace(case, nu=None)
+    return case if case.nu is None or depends_on_poisson_ratio(model) else replace(case, nu=None)
 
 
 def plan(
