@@ -127,7 +127,9 @@ def _summary(stored: Stored) -> str:
         return f"The folder holds {rows} computations. Models: {', '.join(names) or 'none'}."
     models = stored.record["arguments"]["model"]
     candidates = ", ".join(models if models is not None else sorted(set(stored.summary["candidate"]))) or "none"
-    size = f"The {stored.record['arguments']['tier']} tier has {rows} computations."
+    shipped = stored.record["rows"].get("shipped")
+    of_package = f", {shipped} of them shipped with fscm-bench" if shipped else ""
+    size = f"The run of the {stored.record['arguments']['tier']} tier has {rows} results{of_package}."
     if stored.summary.empty:
         return f"{size} No gate was evaluated, which is an error and not a pass. Candidates: {candidates}."
     gates = f"{len(stored.summary)} gates were judged in {len(stored.verdicts)} cases."
@@ -177,6 +179,8 @@ def _provenance(stored: Stored) -> list[tuple[str, str]]:
         ("BLAS", "; ".join(f"{one['library']} {one['version']}, {one['threads']} threads" for one in record["blas"])),
     ]
     facts += [(f"part {number} of the computations", _pairs(part)) for number, part in enumerate(record["parts"], 1)]
+    if "shipped" in record:
+        facts += _shipped(record["shipped"], record["rows"]["shipped"])
     if "judged_by_other_code" in record:
         facts.append(("judged by other code", record["judged_by_other_code"]))
     if "judged_again" in record:
@@ -186,6 +190,20 @@ def _provenance(stored: Stored) -> list[tuple[str, str]]:
     if stored.judged and then != now:
         facts.append(("judged again", f"yes; at the end of the run the verdicts were {_pairs(then)}"))
     return facts
+
+
+def _shipped(shipped: dict[str, Any], count: int) -> list[tuple[str, str]]:
+    """Return the facts about the values that came with the package."""
+    again = shipped["evaluated_again"]
+    tasks = [f"{model} {_pairs(task)}" for model, one in again["models"].items() for task in one["tasks"]]
+    return [
+        ("shipped values", f"{count}, solvers {shipped['origin']['solvers_sha256']}"),
+        *(
+            (f"part {number} of the shipped values", _pairs(part))
+            for number, part in enumerate(shipped["origin"]["parts"], 1)
+        ),
+        (f"shipped values computed again (seed {again['seed']})", "; ".join(tasks)),
+    ]
 
 
 def _pairs(content: dict[str, Any]) -> str:

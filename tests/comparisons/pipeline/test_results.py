@@ -69,6 +69,16 @@ def test_the_record_names_the_shipped_values_and_those_that_were_computed_again(
     assert "shipped" not in origin
 
 
+def test_the_report_states_which_values_were_shipped(shipped, tmp_path):
+    run("quick", folder=tmp_path / "new")
+    assert main(["report", str(tmp_path / "new")]) == 0
+    text = (tmp_path / "new" / "report.html").read_text()
+    assert "12 results, 4 of them shipped with fscm-bench" in text
+    seed = read_record(tmp_path / "new" / "run.json")["shipped"]["evaluated_again"]["seed"]
+    assert f"shipped values computed again (seed {seed})" in text
+    assert "part 1 of the shipped values" in text
+
+
 def test_a_value_that_is_not_confirmed_is_not_judged(shipped, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(sys.modules["toy_models"], "exact", lambda: Toy("exact", lambda problem: 2.0 + 1e-7))
     assert main(["run", "--jobs", "1", "--out", str(tmp_path / "new")]) == 4
