@@ -78,6 +78,8 @@ def renew(folder: Path, target: Path = BASELINE) -> list[Path]:
     models = record["arguments"]["model"]
     if models is not None:
         raise ValueError(f"{folder} has the models {', '.join(models)} only: the baseline needs a run without --model")
+    if (gates := record["arguments"]["gates"]) is not None:
+        raise ValueError(f"{folder} has what the gates of {gates} need: the baseline needs a run without --gates")
     tables = _TABLES if tier == "quick" else {}
     texts = {name: csv_text(read_table(folder / source)[columns]) for name, (source, columns) in tables.items()}
     contents = {name: text.encode() for name, text in texts.items()}

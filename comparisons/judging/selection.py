@@ -56,12 +56,12 @@ def key_of(model: str, gate: Gate, case: Case) -> Key:
 
 
 def needed_keys(
-    gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str], statuses: Mapping[Key, str]
+    gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str] | None, statuses: Mapping[Key, str]
 ) -> set[Key]:
-    """Return the keys of the results that the gates about given models need.
+    """Return the keys of the results that gates need.
 
     These are the results of the candidates, and in the cases in which a candidate has a value also those with which it
-    is compared.  A model that no gate names is in the tables of errors alone: it needs all its results, with the
+    is compared.  A given model that no gate names is in the tables of errors alone: it needs all its results, with the
     reference of each grid.
 
     Parameters
@@ -93,7 +93,7 @@ def needed_keys(
             if statuses.get(candidate) == "ok" or gate.metric == "range-relative":
                 needed.add(key_of(gate.reference, gate, gate.reference_case(case)))
                 needed |= {key_of(gate.rival, gate, case)} if gate.rival else set()
-    if others := [model for model in models if model not in named]:
+    if others := [model for model in models or () if model not in named]:
         needed |= {task.key for task in plan(grids, others)}
     return needed
 

@@ -217,6 +217,8 @@ def statuses(rows: pd.DataFrame) -> pd.DataFrame:
     >>> statuses(pd.DataFrame({"model": ["jkr", "jkr"], "status": ["ok", "failed"]})).values.tolist()
     [['jkr', 1, 1]]
     """
+    if rows.empty:
+        return pd.DataFrame({"model": []})
     return rows.groupby(["model", "status"]).size().unstack(fill_value=0).reset_index()
 
 

@@ -19,8 +19,8 @@ from comparisons.pipeline.inputs import Cases, Gates, load_cases, read_gates
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.frames import rows_of
 from comparisons.runs.record import check_files, read_record, warn_of_other_code, write_record
+from comparisons.runs.rows import Key
 from comparisons.runs.tables import read_table
 
 __all__ = ["Judgement", "judge_and_write", "judge_folder"]
@@ -139,9 +139,14 @@ def _warn_of_missing(
     folder: Path,
 ) -> None:
     """Write in one sentence how many results the gates need that the run, which had other gates, did not compute."""
-    if models is None:
-        return
-    statuses = {row.key: row.status for row in rows_of(results, curves)}
+    key = ["model", "quantity", "n", "k", "mu", "nu"]
+    if not all({*key, "status"} <= set(table.columns) for table in (results, curves)):
+        return  # The judge refuses them.
+    statuses: dict[Key, str] = {
+        (*row[:5], None if pd.isna(row[5]) else row[5]): row[6]
+        for table in (results, curves)
+        for row in table[[*key, "status"]].itertuples(index=False, name=None)
+    }
     missing = needed_keys(gates.gates, cases.grids, models, statuses) - statuses.keys()
     if missing:
         log(

@@ -57,7 +57,10 @@ def results(
     retry_failed: bool = False,
     recompute: bool = False,
 ) -> Results:
-    """Return the rows that a run needs: with models of its own and gates, those that its gates need.
+    """Return the rows that a run needs.
+
+    These are those that its gates need, if the run is about the standing cases with chosen models or gates, and
+    otherwise all: the tables and figures of the standing cases, and a user's own cases, are then the purpose.
 
     Parameters
     ----------
@@ -82,9 +85,10 @@ def results(
         As there, and if a shipped value that is computed again is not within both bounds.
     """
     known = ShippedValues({}, {}) if recompute or cases.tier is None else _fitting(tasks)
+    chosen = cases.tier is not None and gates is not None and (models is not None or gates.source is not None)
 
     def needed(rows: Collection[Row]) -> set[Key]:
-        if gates is None or models is None:
+        if gates is None or not chosen:
             return {task.key for task in tasks}
         statuses = {row.key: row.status for row in (*rows, *known.rows.values())}
         return needed_keys(gates.gates, cases.grids, models, statuses)

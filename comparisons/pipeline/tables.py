@@ -75,7 +75,8 @@ def _kappa(results: pd.DataFrame, cases: Cases, models: list[str] | None) -> pd.
             (*row[:5], None if pd.isna(row[5]) else row[5]) in keys
             for row in results[["model", "quantity", "n", "k", "mu", "nu"]].itertuples(index=False)
         ]
-        tables.append(relative_error(results[of_grids], reference))
+        # An empty list would select no columns.
+        tables.append(relative_error(results[pd.Series(of_grids, index=results.index, dtype=bool)], reference))
     return pd.concat(tables, ignore_index=True)
 
 

@@ -206,6 +206,16 @@ def test_a_run_is_compared_with_what_is_committed(tmp_path, monkeypatch, capsys)
     assert "quick" in capsys.readouterr().err
 
 
+def test_a_run_of_chosen_gates_is_refused(tmp_path, target):
+    run = made_up(tmp_path / "run", "quick")
+    record = read_record(run / "run.json")
+    record["arguments"]["gates"] = "mine.toml"
+    write_record(record, run / "run.json")
+    with pytest.raises(ValueError, match=r"what the gates of mine\.toml need"):
+        renew(run, target)
+    assert renewed(target) == set()
+
+
 def with_shipped_values(run):
     """The run, as if one of its values had come with the package."""
     record = read_record(run / "run.json")

@@ -134,3 +134,12 @@ def test_other_gates_compute_what_they_need_into_the_same_folder(shipped, tmp_pa
     finished = run("quick", GATES, ["ten-percent"], tmp_path / "new", recompute=True)
     assert finished.counts == {"all": 8, "resumed": 4, "ok": 8}
     assert str(finished.verdict) == "PASS"
+
+
+def test_gates_of_ones_own_need_no_other_rows(shipped, tmp_path):
+    half = GATES.replace("mu = [0.1, 1]", "mu = [1, 1]").replace("min_cases = 4", "min_cases = 2")
+    finished = run("quick", half, folder=tmp_path / "new")
+    assert finished.counts == {"all": 4, "resumed": 0, "shipped": 2, "ok": 4}
+    assert set(finished.tables.results["model"]) == {"exact", "ten-percent"}
+    own = run(GRID.replace('tier = "quick"\n', ""), half, folder=tmp_path / "own")
+    assert own.counts["all"] == 12
