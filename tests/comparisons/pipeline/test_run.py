@@ -164,3 +164,9 @@ def test_the_package_runs_as_a_module():
     done = subprocess.run([*command, "list"], capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
+
+
+def test_a_sweep_of_curves_alone_has_no_errors_in_its_tables(toys, tmp_path):
+    finished = run(GRID.replace("pull_off_force", "force_curve"), folder=tmp_path)
+    assert finished.tables.kappa.empty
+    assert not finished.tables.curves.empty
