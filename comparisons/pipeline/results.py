@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from concurrent.futures import BrokenExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from random import SystemRandom
@@ -114,7 +115,12 @@ def _fitting(tasks: list[Task]) -> ShippedValues:
 def _confirmed(used: dict[Task, Row], jobs: int) -> dict[str, Any]:
     """Compute a few shipped values of each model again; return which, as the record holds it."""
     seed = SystemRandom().randrange(2**32)
-    found = evaluate_again(used, seed, jobs)
+    try:
+        found = evaluate_again(used, seed, jobs)
+    except BrokenExecutor:
+        raise ComputationFailed(
+            "a worker process ended early, perhaps for lack of memory, while it computed shipped values again"
+        ) from None
     for model, again in found.items():
         if again.difference:
             raise ComputationFailed(

@@ -2,6 +2,7 @@
 
 import json
 import sys
+from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 
 import pytest
@@ -90,6 +91,15 @@ def test_a_value_that_is_not_confirmed_is_not_judged(shipped, tmp_path, monkeypa
     assert not (tmp_path / "new" / "run.json").exists()
     assert main(["run", "--jobs", "1", "--recompute", "--out", str(tmp_path / "new")]) == 0
     assert read_record(tmp_path / "new" / "run.json")["rows"]["all"] == 12
+
+
+def test_a_process_that_dies_in_the_check_is_one_sentence(shipped, tmp_path, monkeypatch, capsys):
+    def dying(*_):
+        raise BrokenProcessPool
+
+    monkeypatch.setattr("comparisons.pipeline.results.evaluate_again", dying)
+    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "new")]) == 4
+    assert "a worker process ended early" in capsys.readouterr().err.splitlines()[-1]
 
 
 def test_everything_is_computed_on_demand(shipped, tmp_path, capsys):
