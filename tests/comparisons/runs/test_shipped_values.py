@@ -146,3 +146,9 @@ def test_the_shipped_values_are_those_of_the_baseline():
     numbers = frame(one for one in shipped.values() if one.quantity not in CURVES)
     assert not numbers.empty
     assert drift(results, numbers).empty
+
+
+def test_the_check_before_a_change_is_taken_in_tests_the_solvers():
+    lines = (ROOT / ".ci" / "run").read_text().splitlines()
+    (command,) = (line for line in lines if line.startswith("run_command="))
+    assert "--recompute" in command
