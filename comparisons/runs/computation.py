@@ -12,14 +12,17 @@ from pathlib import Path
 from random import SystemRandom
 from typing import Any
 
-from comparisons.console.progress import counting, log
+from comparisons.console.progress import counting, log, note
 from comparisons.model import ComputationFailed
 from comparisons.runs.atomic_files import prepare_folder
+from comparisons.runs.execution import compute_with_environment
 from comparisons.runs.journal import alone_in
 from comparisons.runs.reevaluation import evaluate_again
 from comparisons.runs.row_journal import RowJournal
 from comparisons.runs.rows import Row
-from comparisons.runs.tasks import Task, compute
+from comparisons.runs.tasks import Task
+from comparisons.runs.time_left import TimeLeft
+from comparisons.runs.workers import LOST, Backend, processes
 
 __all__ = [
     "Completed",
@@ -63,11 +66,14 @@ class Completed:
     evaluated_again: dict[str, Any] | None
 
 
-def complete(tasks: list[Task], folder: Path, jobs: int, retry_failed: bool = False) -> Completed:
+def complete(
+    tasks: list[Task], folder: Path, jobs: int, retry_failed: bool = False, backend: Backend = processes
+) -> Completed:
     """Compute the tasks that the journal of a folder does not have.
 
-    A stored row of another version of an external model does not count, nor does one that failed.  A few of the others
-    are evaluated again; if one differs, all rows of its model are computed again.
+    A stored row that failed because its process ended does not count.  A stored row of another version of an external
+    model does not, nor does one that failed.  A few of the others are evaluated again; if one differs, all rows of its
+    model are computed again.
 
     Parameters
     ----------
@@ -79,13 +85,15 @@ def complete(tasks: list[Task], folder: Path, jobs: int, retry_failed: bool = Fa
         Number of processes.
     retry_failed : bool
         Whether stored failures of our own models do not count either.
+    backend : Backend
+        Where the tasks are computed.
 
     Raises
     ------
     ValueError
-        If the folder holds results of other code, or another process computes into it.
+        If the folder or a worker is of other code, or another process computes into the folder.
     comparisons.model.ComputationFailed
-        If a worker process dies.
+        If the workers cannot compute.
     """
     wanted = {task.key: task for task in tasks}
     versions = {task.model: task.external.version for task in tasks if task.external}
@@ -93,9 +101,12 @@ def complete(tasks: list[Task], folder: Path, jobs: int, retry_failed: bool = Fa
     def usable(row: Row) -> bool:
         return row.key in wanted and versions.get(row.model, row.model_version) == row.model_version
 
+    def again(row: Row) -> bool:
+        return row.status == "failed" and (retry_failed or row.model in versions or row.reason == LOST)
+
     with alone_in(folder):
         journal = RowJournal(folder)
-        journal.drop(lambda row: usable(row) and row.status == "failed" and (retry_failed or row.model in versions))
+        journal.drop(lambda row: usable(row) and again(row))
         try:
             external = {wanted[row.key]: row for row in journal.items if usable(row) and row.model in versions}
             evaluated_again = _checked(external, journal, jobs) if external else None
@@ -103,18 +114,19 @@ def complete(tasks: list[Task], folder: Path, jobs: int, retry_failed: bool = Fa
             log_failures_used(Counter(row.model for row in stored if row.status == "failed"))
             known = {row.key for row in stored}
             missing = [task for task in tasks if task.key not in known]
-            log(f"{len(missing)} computations on {jobs} processes" + (f", {len(known)} are stored" if known else ""))
-            with counting("computing", len(missing)) as count, closing(compute(missing, jobs)) as computed:
-                for row in computed:
-                    journal.add(row)
-                    count()
+            workers = f"{jobs} processes" if backend is processes else "a Dask cluster"
+            note(f"{len(missing)} computations on {workers}" + (f", {len(known)} are stored" if known else ""))
+            left = TimeLeft(missing)
+            computing = closing(compute_with_environment(missing, jobs, backend))
+            with counting("computing", len(missing)) as count, computing as computed:
+                for row, environment in computed:
+                    journal.add(row, environment)
+                    count(left.after(row))
         except KeyboardInterrupt:
             log(_safe(journal, folder))
             raise
-        except BrokenExecutor:
-            raise ComputationFailed(
-                f"a worker process ended early, perhaps for lack of memory; {_safe(journal, folder)}"
-            ) from None
+        except BrokenExecutor as failure:
+            raise ComputationFailed(f"{failure}; {_safe(journal, folder)}") from None
         rows = [row for row in journal.items if usable(row)]
         return Completed(rows, len(stored), journal.parts_of(rows), evaluated_again)
 

@@ -20,16 +20,16 @@ def fail(item):
 
 
 def test_the_linear_algebra_of_a_worker_has_one_thread():
-    for process, numbers in each(threads, [1, 2], 2):
+    for process, numbers in each(threads, [1, 2], 2, lost=str):
         assert process != os.getpid()
         assert numbers
         assert set(numbers) == {1}
 
 
 def test_one_job_works_in_this_process():
-    assert [process for process, _ in each(threads, [1, 2], 1)] == [os.getpid()] * 2
+    assert [process for process, _ in each(threads, [1, 2], 1, lost=str)] == [os.getpid()] * 2
 
 
 def test_an_exception_of_the_function_is_raised():
     with pytest.raises(ValueError, match="is refused"):
-        list(each(fail, [1, 2], 2))
+        list(each(fail, [1, 2], 2, lost=str))
