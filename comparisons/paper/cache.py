@@ -140,6 +140,7 @@ class CallCache:
 
     def __init__(self, path: Path, fingerprint: str) -> None:
         self._journal = PartJournal(path, fingerprint, _read, _written)
+        self._journal.drop(lambda outcome: outcome.failure == LOST)
         self.results = Results()
         for outcome in self._journal.items:
             self.results.add(outcome)

@@ -9,7 +9,7 @@ from comparisons.runs.cases import Case
 from comparisons.runs.execution import compute_with_environment
 from comparisons.runs.tasks import Task, evaluate_task
 from comparisons.runs.time_left import TimeLeft
-from comparisons.runs.workers import LOST
+from comparisons.runs.workers import LOST, processes
 
 TASKS = [Task("bradley", quantity, Case(2, 0, mu)) for mu in (2, 1) for quantity in ("pull_off_force", "jump_in_gap")]
 
@@ -68,3 +68,12 @@ def test_the_time_left_only_falls_and_ends_at_zero():
     assert all(value > 0 for value in seen[:-1])
     # Before the first row of the dear model is there, its cost is known in advance.
     assert seen[19] > 5.0
+
+
+def test_a_row_does_not_depend_on_what_its_process_computed_before():
+    """Of the solver, which keeps meshes and paths: in one process, and each alone in the other order."""
+    quantities = ("pull_off_force", "jump_out_displacement", "hysteresis_energy")
+    tasks = [Task("fscm", quantity, Case(2, 0.4, mu)) for mu in (1.5, 1) for quantity in quantities]
+    together = {row.key: replace(row, seconds=0) for row, _ in compute_with_environment(tasks, 1)}
+    alone = {row.key: replace(row, seconds=0) for _, row in processes(evaluate_task, tasks[::-1], 2)}
+    assert alone == together
