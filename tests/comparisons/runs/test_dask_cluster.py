@@ -3,6 +3,7 @@
 import builtins
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -178,3 +179,26 @@ def test_without_dask_it_is_said_what_to_install(monkeypatch):
     monkeypatch.setattr(builtins, "__import__", without_dask)
     with pytest.raises(ValueError, match=r"pip install 'fscm-bench\[cluster\]'"):
         backend_of("dask")
+
+
+@pytest.mark.heavy
+def test_an_interrupt_ends_the_cluster_without_a_word_of_it(tmp_path):
+    path, journal = tmp_path / "long.toml", tmp_path / "out" / "journal.jsonl"
+    path.write_text(GRID.replace("md-improved", "fscm").replace("mu = [1, 3]", "mu = [1, 1.5, 2, 2.5, 3]"))
+    command = [sys.executable, "-m", "comparisons", "sweep", path, "--jobs", "2", "--backend", "dask"]
+    process = subprocess.Popen(
+        [*command, "--out", tmp_path / "out"], stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+    while process.poll() is None and not (journal.exists() and journal.read_bytes().count(b"\n") > 1):
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGINT)
+    _, message = process.communicate()
+    assert process.returncode == 130
+    _, safe, last = message.splitlines()
+    assert "finished computations are safe" in safe
+    assert last == "fscm-bench: interrupted"
+    # The last process of the group to end is one of Python's own.
+    with pytest.raises(ProcessLookupError):
+        for _ in range(1000):
+            os.killpg(process.pid, 0)
+            time.sleep(0.01)
