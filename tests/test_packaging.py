@@ -18,7 +18,8 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = ("fscm", "fem_reference", "comparisons")
 CONFIGURATION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT, SETUPTOOLS = CONFIGURATION["project"], CONFIGURATION["tool"]["setuptools"]
-RUNTIME, FOR_TESTS = PROJECT["dependencies"], PROJECT["optional-dependencies"]["test"]
+RUNTIME, EXTRAS = PROJECT["dependencies"], PROJECT["optional-dependencies"]
+FOR_TESTS = EXTRAS["test"]
 
 #: Files that the build adds.
 BUILT = ("PKG-INFO", "setup.cfg", "*.egg-info/*")
@@ -51,7 +52,12 @@ def external(*folders: str) -> set[str]:
 
 
 def test_every_import_of_the_packages_is_declared_and_nothing_else():
-    assert external(*PACKAGES) == {canonical(requirement) for requirement in RUNTIME}
+    # An optional package is imported where it is used.
+    assert external(*PACKAGES) == {canonical(requirement) for requirement in RUNTIME + EXTRAS["cluster"]}
+
+
+def test_the_tests_need_every_extra():
+    assert set(EXTRAS["cluster"]) <= set(FOR_TESTS)
 
 
 def test_every_import_of_the_tests_is_declared():

@@ -27,6 +27,7 @@ _COMMANDS = {
     "report": ("report", "write a run as one HTML page"),
     "paper": ("paper", "compute the figures and numbers of the paper again"),
     "sweep": ("sweep", "compute grids of one's own"),
+    "merge": ("merge", "put the shards of a sweep into one folder"),
     "solve": ("solve", "compute one quantity of one problem by one model"),
     "curve": ("curve", "compute curves or surfaces at pull-off, as CSV and as a plot"),
     "fem": ("fem", "write fields of the finite elements (vtu, picture), print their verification and solver tables"),

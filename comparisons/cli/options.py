@@ -23,6 +23,7 @@ __all__ = [
     "add_case",
     "add_jobs",
     "add_out",
+    "add_quiet",
     "add_retry_failed",
     "case_of",
     "number",
@@ -45,9 +46,12 @@ class _Output(Console):
         raise BrokenPipeError
 
 
-def output() -> Console:
-    """Return the console for results, which is stdout."""
-    return _Output(width=None if sys.stdout.isatty() else _WIDTH, highlight=False)
+def output(at_most: int | None = None) -> Console:
+    """Return the console for results, which is stdout, with lines of at most so many columns."""
+    console = _Output(width=None if sys.stdout.isatty() else _WIDTH, highlight=False)
+    if at_most is not None:
+        console.width = min(console.width, at_most)
+    return console
 
 
 def number(text: str) -> float:
@@ -87,6 +91,11 @@ def add_out(parser: argparse.ArgumentParser) -> None:
         type=Path,
         help="folder for the results (default: results/runs/TIME); resumed if it has some",
     )
+
+
+def add_quiet(parser: argparse.ArgumentParser) -> None:
+    """Declare the option that leaves out all but failures."""
+    parser.add_argument("--quiet", action="store_true", help="print nothing but warnings and failures")
 
 
 def add_retry_failed(parser: argparse.ArgumentParser) -> None:

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
+from contextvars import ContextVar
+from datetime import timedelta
+from math import ceil
 from typing import NoReturn
 
 from rich.console import Console
@@ -12,12 +15,17 @@ from rich.progress import (
     MofNCompleteColumn,
     Progress,
     ProgressColumn,
+    Task,
     TextColumn,
     TimeElapsedColumn,
     TimeRemainingColumn,
 )
+from rich.text import Text
 
-__all__ = ["counting", "log", "waiting"]
+__all__ = ["counting", "log", "note", "quiet", "waiting"]
+
+
+_quiet: ContextVar[bool] = ContextVar("quiet", default=False)
 
 
 class _Messages(Console):
@@ -31,6 +39,28 @@ def log(text: str) -> None:
         _Messages(stderr=True, soft_wrap=True, highlight=False, markup=False).print(text)
 
 
+def note(text: str) -> None:
+    """Write a line on stderr that `quiet` leaves out: what is under way, and no warning."""
+    if not _quiet.get():
+        log(text)
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Leave out notes and progress bars.
+
+    Examples
+    --------
+    >>> with quiet():
+    ...     note("not written")
+    """
+    before = _quiet.set(True)
+    try:
+        yield
+    finally:
+        _quiet.reset(before)
+
+
 @contextmanager
 def waiting(description: str) -> Iterator[None]:
     """Show that one computation of unknown length is under way."""
@@ -39,12 +69,29 @@ def waiting(description: str) -> Iterator[None]:
         yield
 
 
+class _TimeLeft(TimeRemainingColumn):
+    """The seconds left that the computation states; if it states none, an estimate from the number of steps."""
+
+    def render(self, task: Task) -> Text:
+        left = task.fields["left"]
+        if left is None:
+            return super().render(task)
+        return Text(str(timedelta(seconds=ceil(left))), style="progress.remaining")
+
+
 @contextmanager
-def counting(description: str, total: int) -> Iterator[Callable[[], None]]:
-    """Show how many of `total` computations are done; call the returned function when one more is done."""
-    with _bar(MofNCompleteColumn(), TimeElapsedColumn(), TimeRemainingColumn()) as bar:
-        task = bar.add_task(description, total=total)
-        yield lambda: bar.advance(task)
+def counting(description: str, total: int) -> Iterator[Callable[..., None]]:
+    """Show how many of `total` computations are done.
+
+    Call the returned function when one more is done, with the seconds left if they are known.
+    """
+    with _bar(MofNCompleteColumn(), TimeElapsedColumn(), _TimeLeft()) as bar:
+        task = bar.add_task(description, total=total, left=None)
+
+        def count(left: float | None = None) -> None:
+            bar.update(task, advance=1, left=left)
+
+        yield count
 
 
 @contextmanager
@@ -52,5 +99,5 @@ def _bar(*columns: ProgressColumn) -> Iterator[Progress]:
     console = Console(stderr=True)
     bar = Progress(TextColumn("{task.description}"), BarColumn(), *columns, console=console, transient=True)
     # Without a terminal (a file, a CI log) a redrawn bar is only noise: it counts, but is not started.
-    with bar if console.is_terminal else nullcontext():
+    with bar if console.is_terminal and not _quiet.get() else nullcontext():
         yield bar

@@ -15,7 +15,7 @@ from typing import Any
 
 from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.runs.part_journal import PartJournal
-from comparisons.runs.workers import each
+from comparisons.runs.workers import LOST, each
 
 __all__ = ["CachedCall", "CallCache", "Results"]
 
@@ -70,6 +70,10 @@ def _written(outcome: _Outcome) -> dict[str, Any]:
         "failure": outcome.failure,
         "refused": outcome.refused,
     }
+
+
+def _lost(call: CachedCall) -> _Outcome:
+    return _Outcome(call, failure=LOST)
 
 
 def _make(call: CachedCall) -> _Outcome:
@@ -136,6 +140,7 @@ class CallCache:
 
     def __init__(self, path: Path, fingerprint: str) -> None:
         self._journal = PartJournal(path, fingerprint, _read, _written)
+        self._journal.drop(lambda outcome: outcome.failure == LOST)
         self.results = Results()
         for outcome in self._journal.items:
             self.results.add(outcome)
@@ -168,7 +173,7 @@ class CallCache:
         ValueError
             If a result cannot be kept, as one that holds a NaN.
         """
-        with closing(each(_make, self.missing(calls), jobs)) as outcomes:
+        with closing(each(_make, self.missing(calls), jobs, lost=_lost)) as outcomes:
             for outcome in outcomes:
                 self._journal.add(outcome)
                 # New results and stored results must be the same, so that a resumed run writes the same files.

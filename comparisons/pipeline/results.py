@@ -19,6 +19,7 @@ from comparisons.runs.reevaluation import evaluate_again
 from comparisons.runs.rows import Key, Row
 from comparisons.runs.shipped_values import SHIPPED_MODELS, ShippedValues, load_shipped
 from comparisons.runs.tasks import Task
+from comparisons.runs.workers import Backend, processes
 
 __all__ = ["Results", "results"]
 
@@ -57,6 +58,7 @@ def results(
     jobs: int = 1,
     retry_failed: bool = False,
     recompute: bool = False,
+    backend: Backend = processes,
 ) -> Results:
     """Return the rows that a run needs.
 
@@ -77,6 +79,8 @@ def results(
         Whether stored failures are computed again.
     recompute : bool
         Whether every row is computed, also those that are shipped.
+    backend : Backend
+        Where they are computed.
 
     Raises
     ------
@@ -95,7 +99,7 @@ def results(
         return needed_keys(gates.gates, cases.grids, models, statuses)
 
     missing = [task for task in tasks if task.key not in known.rows]
-    completed = complete(missing, folder, jobs, retry_failed, needed)
+    completed = complete(missing, folder, jobs, retry_failed, backend, needed)
     keys = needed(completed.rows)
     used = {task: known.rows[task.key] for task in tasks if task.key in known.rows and task.key in keys}
     entry = _entry(known, used, _confirmed(used, jobs)) if used else {}

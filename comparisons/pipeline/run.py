@@ -15,17 +15,19 @@ from comparisons.judging.decision import Verdict
 from comparisons.pipeline.inputs import Cases, Gates, load_cases, read_gates
 from comparisons.pipeline.judgement import Judgement, judge_and_write
 from comparisons.pipeline.record_content import now, record_content
-from comparisons.pipeline.results import results
+from comparisons.pipeline.results import Results, results
 from comparisons.pipeline.tables import RunTables, make_tables, write_pictures, write_tables
 from comparisons.registry import ExternalIdentity, create, identify
 from comparisons.runs.atomic_files import atomic
+from comparisons.runs.backends import backend_of
 from comparisons.runs.computation import Completed, checked_jobs, folder_for
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import write_record
 from comparisons.runs.rows import Row
-from comparisons.runs.tasks import plan
+from comparisons.runs.shards import Shard
+from comparisons.runs.tasks import Task, plan
 
-__all__ = ["FinishedRun", "run"]
+__all__ = ["FinishedRun", "RunInputs", "run", "write_run"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +59,31 @@ class FinishedRun:
         return self.judgement.verdict if self.judgement else None
 
 
+@dataclass(frozen=True, slots=True)
+class RunInputs:
+    """What a run computes and judges.
+
+    Attributes
+    ----------
+    cases : Cases
+    gates : Gates or None
+        None if nothing is judged.
+    models : list of str or None
+        Names of the candidates in place of those each grid names.
+    external : mapping of str to ExternalIdentity
+        Those of them that are external.
+    """
+
+    cases: Cases
+    gates: Gates | None
+    models: list[str] | None
+    external: Mapping[str, ExternalIdentity]
+
+    def plan(self) -> list[Task]:
+        """Return every task once, as `comparisons.runs.tasks.plan`."""
+        return plan(self.cases.grids, self.models, self.external)
+
+
 def run(
     cases: str | Path = "quick",
     gates: str | Path | None = None,
@@ -66,6 +93,9 @@ def run(
     jobs: int = 1,
     retry_failed: bool = False,
     recompute: bool = False,
+    backend: str = "processes",
+    scheduler: str | None = None,
+    shard: str | None = None,
 ) -> FinishedRun:
     """Compute cases, judge the results, and write tables, verdicts and the record into a folder.
 
@@ -88,6 +118,12 @@ def run(
         Whether stored failures are computed again.
     recompute : bool
         Whether the values of the references are computed although they are shipped.
+    backend : str
+        Where it is computed: "processes" of this machine, or "dask" for a Dask cluster.
+    scheduler : str, optional
+        The address of the scheduler of a Dask cluster; by default a cluster is started on this machine.
+    shard : str, optional
+        The part i/N of cases without gates, as "2/3"; `comparisons.pipeline.merge.merge` puts the N folders together.
 
     Returns
     -------
@@ -98,7 +134,7 @@ def run(
     ValueError
         If an argument is not admissible, or the folder holds results of other code or files of a user.
     comparisons.model.ComputationFailed
-        If a worker process dies, or a shipped value is not confirmed.
+        If the workers cannot compute, or a shipped value is not confirmed.
 
     Examples
     --------
@@ -120,18 +156,54 @@ def run(
     (None, 2, [-0.25])
     """
     checked_jobs(jobs)
+    workers = backend_of(backend, scheduler)
+    part = None if shard is None else Shard.parse(shard)
     # Before anything is computed or written, every model is loaded and every text is read.
     names, external = identify(models or [])
     chosen_models = None if models is None else names
     chosen = load_cases(cases, chosen_models)
     rules = None if chosen.tier is None and gates is None else read_gates(gates, chosen, chosen_models)
+    if part is not None and rules is not None:
+        raise ValueError(f"shard {part} of a run cannot be judged: only cases without gates are computed in shards")
     started, start = datetime.now(UTC), now()
     target = RunFolder(folder_for(folder, started))
-    texts = _texts(target, chosen, rules)
-    tasks = plan(chosen.grids, chosen_models, external)
+    _texts(target, chosen, rules)
+    inputs = RunInputs(chosen, rules, chosen_models, external)
+    tasks = inputs.plan() if part is None else part.of(inputs.plan())
     found = results(
-        tasks, chosen, rules, chosen_models, target.path, jobs=jobs, retry_failed=retry_failed, recompute=recompute
+        tasks,
+        chosen,
+        rules,
+        chosen_models,
+        target.path,
+        jobs=jobs,
+        retry_failed=retry_failed,
+        recompute=recompute,
+        backend=workers,
     )
+    others = {"backend": None if backend == "processes" else backend, "scheduler": scheduler, "shard": shard}
+    arguments = {"jobs": jobs, **{name: value for name, value in others.items() if value is not None}}
+    return write_run(target, inputs, found, arguments, start)
+
+
+def write_run(
+    target: RunFolder, inputs: RunInputs, found: Results, arguments: Mapping[str, Any], started: str
+) -> FinishedRun:
+    """Write what follows from the rows of a run into its folder: tables, pictures, verdicts and the record.
+
+    Parameters
+    ----------
+    target : RunFolder
+    inputs : RunInputs
+    found : Results
+        The rows.
+    arguments : mapping
+        How they were computed, as the record holds it beside the inputs.
+    started : str
+        When the command began.
+    """
+    chosen, rules, chosen_models, external = inputs.cases, inputs.gates, inputs.models, inputs.external
+    texts = _texts(target, chosen, rules)
     completed, rows = found.completed, found.rows
     tables = make_tables(rows, chosen, chosen_models)
     write_tables(tables, target)
@@ -156,10 +228,10 @@ def run(
             "model": chosen_models,
             "external": specs,
             "gates": None if rules is None else rules.source,
-            "jobs": jobs,
+            **arguments,
             "out": str(target.path),
         },
-        started=start,
+        started=started,
         parts=completed.parts,
         rows=counts,
         seconds=_seconds(completed.rows),
@@ -168,7 +240,7 @@ def run(
     content |= _digests(chosen, rules) | _evaluated_again(completed)
     if found.entry:
         content["shipped"] = found.entry
-    content["models"] = _described({task.model for task in tasks}, external)
+    content["models"] = _described({task.model for task in inputs.plan()}, external)
     write_record(content, target.record)
     failures = tuple(row for row in rows if row.status == "failed")
     return FinishedRun(target.path, tables, counts, failures, judgement)

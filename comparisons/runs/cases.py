@@ -1,7 +1,8 @@
 """Cases of a run, read from a TOML file.
 
-A case is one dimensionless problem.  A grid is the product of lists of n, k, mu and nu, with an id, a tier, and the
-quantities and models that are computed.  The form of the file is checked by ``comparisons/data/cases.schema.json``.
+A case is one dimensionless problem.  A grid is a set of cases (a product of lists of n, k, mu and nu, a list of cases
+or a Latin hypercube), with an id, a tier, and the quantities and models that are computed.
+The form of the file is checked by ``comparisons/data/cases.schema.json``.
 """
 
 from __future__ import annotations
@@ -9,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
-from itertools import product
 from typing import Any
 
 from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, label, validated
 from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS
+from comparisons.runs.parameter_sets import NAMES, parameter_sets
 from fscm.problem import Problem
 
 __all__ = ["TIERS", "VERIFICATION", "Case", "Grid", "cases_text", "grids", "grids_for", "load_grids"]
@@ -83,7 +84,7 @@ class Case:
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """A named set of cases: the product of its parameter lists.
+    """A named set of cases.
 
     Attributes
     ----------
@@ -130,8 +131,6 @@ def _grid(table: dict[str, Any], where: str, tier: str | None) -> Grid:
         known_name("model", model, MODELS, where)
     for quantity in table["quantities"]:
         known_name("quantity", quantity, tuple(ALL_QUANTITIES), where)
-    parameters = product(table["n"], table["k"], table["mu"], table.get("nu", [None]))
-    cases = {Case(*values) for values in parameters}
     return Grid(
         id=table["id"],
         title=table["title"],
@@ -139,9 +138,21 @@ def _grid(table: dict[str, Any], where: str, tier: str | None) -> Grid:
         reference=table["reference"],
         models=tuple(table["models"]),
         quantities=tuple(table["quantities"]),
-        cases=tuple(sorted(cases, key=lambda case: (case.n, case.k, case.mu, case.nu or 0.0))),
+        cases=tuple(sorted(_cases(table, where), key=lambda case: (case.n, case.k, case.mu, case.nu or 0.0))),
         tags=tuple(table.get("tags", ())),
     )
+
+
+def _cases(table: dict[str, Any], where: str) -> set[Case]:
+    """Return the cases of a grid, each once; refuse one that is not admissible, and so the ends of a range."""
+    points = parameter_sets(table, where)
+    ends = table.get("latin_hypercube", {})
+    try:
+        for end in (0, 1) if ends else ():
+            Case(*(ends[name][end] for name in NAMES if name in ends))
+        return {Case(*values) for values in points}
+    except ValueError as refusal:
+        raise ValueError(f"{where}: {refusal}") from None
 
 
 def load_grids(text: str, tier: str | None = None, source: str = "the case file") -> list[Grid]:

@@ -12,14 +12,17 @@ from pathlib import Path
 from random import SystemRandom
 from typing import Any
 
-from comparisons.console.progress import counting, log
+from comparisons.console.progress import counting, log, note
 from comparisons.model import ComputationFailed
 from comparisons.runs.atomic_files import prepare_folder
+from comparisons.runs.execution import compute_with_environment
 from comparisons.runs.journal import alone_in
 from comparisons.runs.reevaluation import evaluate_again
 from comparisons.runs.row_journal import RowJournal
 from comparisons.runs.rows import Key, Row
-from comparisons.runs.tasks import Task, compute
+from comparisons.runs.tasks import Task
+from comparisons.runs.time_left import TimeLeft
+from comparisons.runs.workers import LOST, Backend, processes
 
 __all__ = [
     "Completed",
@@ -68,12 +71,14 @@ def complete(
     folder: Path,
     jobs: int,
     retry_failed: bool = False,
+    backend: Backend = processes,
     needed: Callable[[list[Row]], Collection[Key]] | None = None,
 ) -> Completed:
     """Compute the tasks that the journal of a folder does not have.
 
-    A stored row of another version of an external model does not count, nor does one that failed.  A few of the others
-    are evaluated again; if one differs, all rows of its model are computed again.
+    A stored row that failed because its process ended does not count.  A stored row of another version of an external
+    model does not, nor does one that failed.  A few of the others are evaluated again; if one differs, all rows of its
+    model are computed again.
 
     Parameters
     ----------
@@ -85,6 +90,8 @@ def complete(
         Number of processes.
     retry_failed : bool
         Whether stored failures of our own models do not count either.
+    backend : Backend
+        Where the tasks are computed.
     needed : callable, optional
         Returns the keys of the results that are needed, from the rows that are there: it is called again with the new
         ones, until nothing is missing.  By default all are needed.
@@ -92,15 +99,18 @@ def complete(
     Raises
     ------
     ValueError
-        If the folder holds results of other code, or another process computes into it.
+        If the folder or a worker is of other code, or another process computes into the folder.
     comparisons.model.ComputationFailed
-        If a worker process dies.
+        If the workers cannot compute.
     """
     wanted = {task.key: task for task in tasks}
     versions = {task.model: task.external.version for task in tasks if task.external}
 
     def usable(row: Row) -> bool:
         return row.key in wanted and versions.get(row.model, row.model_version) == row.model_version
+
+    def again(row: Row) -> bool:
+        return row.status == "failed" and (retry_failed or row.model in versions or row.reason == LOST)
 
     def chosen() -> list[Task]:
         keys = wanted if needed is None else needed([row for row in journal.items if usable(row)])
@@ -111,7 +121,7 @@ def complete(
 
     with alone_in(folder):
         journal = RowJournal(folder)
-        journal.drop(lambda row: usable(row) and row.status == "failed" and (retry_failed or row.model in versions))
+        journal.drop(lambda row: usable(row) and again(row))
         try:
             external = {wanted[row.key]: row for row in journal.items if usable(row) and row.model in versions}
             evaluated_again = _checked(external, journal, jobs) if external else None
@@ -119,23 +129,24 @@ def complete(
             log_failures_used(Counter(row.model for row in stored if row.status == "failed"))
             known = {row.key for row in stored}
             missing = missing_of(known)
-            log(f"{len(missing)} computations on {jobs} processes" + (f", {len(known)} are stored" if known else ""))
+            workers = f"{jobs} processes" if backend is processes else "a Dask cluster"
+            note(f"{len(missing)} computations on {workers}" + (f", {len(known)} are stored" if known else ""))
             while missing:
-                with counting("computing", len(missing)) as count, closing(compute(missing, jobs)) as computed:
-                    for row in computed:
-                        journal.add(row)
+                left = TimeLeft(missing)
+                computing = closing(compute_with_environment(missing, jobs, backend))
+                with counting("computing", len(missing)) as count, computing as computed:
+                    for row, environment in computed:
+                        journal.add(row, environment)
                         known.add(row.key)
-                        count()
+                        count(left.after(row))
                 missing = missing_of(known)
                 if missing:
-                    log(f"{len(missing)} computations more, with which these are compared")
+                    note(f"{len(missing)} computations more, with which these are compared")
         except KeyboardInterrupt:
             log(_safe(journal, folder))
             raise
-        except BrokenExecutor:
-            raise ComputationFailed(
-                f"a worker process ended early, perhaps for lack of memory; {_safe(journal, folder)}"
-            ) from None
+        except BrokenExecutor as failure:
+            raise ComputationFailed(f"{failure}; {_safe(journal, folder)}") from None
         used = {task.key for task in chosen()}
         rows = [row for row in journal.items if usable(row) and row.key in used]
         resumed = sum(row.key in used for row in stored)

@@ -92,6 +92,7 @@ def computing_environment() -> dict[str, str]:
         "numpy": version("numpy"),
         "scipy": version("scipy"),
         "system": platform.platform(),
+        "host": platform.node(),
         "cpu": _cpu(),
     }
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -19,7 +19,7 @@ _Item = TypeVar("_Item")
 
 @dataclass(frozen=True, slots=True)
 class _Entry(Generic[_Item]):
-    """An item, the environment and start of the command that computed it, and when in that command it was finished."""
+    """An item, the start of the command that computed it with the environment, and when it was finished there."""
 
     item: _Item
     part: dict[str, str]
@@ -68,7 +68,8 @@ class PartJournal(Generic[_Item]):
             return {"item": write(entry.item), "part": entry.part, "seconds": entry.seconds}
 
         self._journal = Journal(path, fingerprint, read_entry, write_entry)
-        self._part = {"started": datetime.now(UTC).isoformat(timespec="seconds"), **computing_environment()}
+        self._started = datetime.now(UTC).isoformat(timespec="seconds")
+        self._environment = computing_environment()
         self._clock = time.perf_counter()
 
     @property
@@ -76,15 +77,29 @@ class PartJournal(Generic[_Item]):
         """The items that are stored."""
         return [entry.item for entry in self._journal.entries]
 
-    def add(self, item: _Item) -> None:
+    def add(self, item: _Item, environment: Mapping[str, str] | None = None) -> None:
         """Store an item that this command has computed.
+
+        Parameters
+        ----------
+        item
+        environment : mapping of str to str, optional
+            As `comparisons.runs.environment.computing_environment` of the process that computed it; by default of this
+            one.
 
         Raises
         ------
         ValueError
             If JSON cannot hold it, as one with a NaN.
         """
-        self._journal.add(_Entry(item, self._part, time.perf_counter() - self._clock))
+        part = {"started": self._started, **(environment or self._environment)}
+        self._journal.add(_Entry(item, part, time.perf_counter() - self._clock))
+
+    def take(self, other: PartJournal[_Item], wanted: Callable[[_Item], bool]) -> None:
+        """Store items of another journal, with the parts that computed them."""
+        for entry in other._journal.entries:
+            if wanted(entry.item):
+                self._journal.add(entry)
 
     def drop(self, unwanted: Callable[[_Item], bool]) -> int:
         """Remove items, also from the file; return how many."""

@@ -14,8 +14,9 @@ from typing import Any
 
 import numpy as np
 
+from comparisons.runs.execution import compute
 from comparisons.runs.rows import Row
-from comparisons.runs.tasks import Task, compute
+from comparisons.runs.tasks import Task
 
 __all__ = ["AT_MOST", "Reevaluation", "chosen", "evaluate_again", "same"]
 

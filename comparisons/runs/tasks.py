@@ -1,4 +1,4 @@
-"""Tasks of a run: which evaluations it needs, and their computation on every core.
+"""Tasks of a run: which evaluations it needs, and the row of each.
 
 A `Task` is one evaluation of one model.  `evaluate_task` returns its `Row` whatever happens: a model that fails costs
 its own rows and nothing else.
@@ -7,8 +7,7 @@ its own rows and nothing else.
 from __future__ import annotations
 
 import time
-from collections.abc import Generator, Iterable, Mapping
-from contextlib import closing
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import groupby
 from traceback import extract_tb
@@ -19,9 +18,9 @@ from comparisons.quantities import ALL_QUANTITIES, Points
 from comparisons.registry import ExternalIdentity, create, depends_on_poisson_ratio
 from comparisons.runs.cases import Case, Grid
 from comparisons.runs.rows import Row
-from comparisons.runs.workers import each
+from comparisons.runs.workers import LOST
 
-__all__ = ["Task", "case_for", "compute", "evaluate", "evaluate_task", "plan"]
+__all__ = ["Task", "batches", "case_for", "evaluate", "evaluate_task", "lost_row", "plan"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +75,13 @@ def plan(
         for quantity in grid.quantities
         for case in grid.cases
     }
-    return sorted(tasks, key=lambda task: (-task.case.mu, task.case.n, task.case.k, task.model, task.quantity))
+    return sorted(tasks, key=_costliest_first)
+
+
+def _costliest_first(task: Task) -> tuple[float, float, float, float, str, str]:
+    # Complete, so that every process plans the same order.
+    case = task.case
+    return -case.mu, case.n, case.k, -1.0 if case.nu is None else case.nu, task.model, task.quantity
 
 
 def evaluate(model: Model, quantity: str, case: Case) -> Row:
@@ -165,6 +170,18 @@ def evaluate_task(task: Task) -> Row:
         return _row(model, task.quantity, task.case, started, status="failed", reason=str(refusal))
 
 
+def lost_row(task: Task) -> Row:
+    """Return the row of a task that has ended its process twice.
+
+    Examples
+    --------
+    >>> lost_row(Task("jkr", "pull_off_force", Case(2, 0, 1))).status
+    'failed'
+    """
+    model = task.external or create(task.model, task.case.nu)
+    return _row(model, task.quantity, task.case, time.perf_counter(), status="failed", reason=LOST)
+
+
 def _evaluate_external(first: ExternalIdentity, task: Task) -> Row:
     """Evaluate an external model; the row has failed if the model is not what it was at the start of the run."""
     started = time.perf_counter()
@@ -175,25 +192,13 @@ def _evaluate_external(first: ExternalIdentity, task: Task) -> Row:
     return evaluate(model, task.quantity, task.case)
 
 
-def _batches(tasks: list[Task]) -> list[list[Task]]:
-    """Tasks of one model in one case go to one process, where the solver finds its meshes again."""
-    return [list(batch) for _, batch in groupby(tasks, key=lambda task: (task.model, task.case))]
+def batches(tasks: Iterable[Task]) -> list[list[Task]]:
+    """Return tasks of one model in one case together: in one process the solver finds its meshes again.
 
-
-def _evaluate_batch(batch: list[Task]) -> list[Row]:
-    return [evaluate_task(task) for task in batch]
-
-
-def compute(tasks: list[Task], jobs: int) -> Generator[Row]:
-    """Evaluate tasks on `jobs` processes and yield each row as it is finished.
-
-    Closing the iterator (`contextlib.closing`) before its end drops what has not begun.
-
-    Raises
-    ------
-    RuntimeError
-        If a worker process dies (`concurrent.futures.BrokenExecutor`), as one short of memory does.
+    Examples
+    --------
+    >>> of_jkr = [Task("jkr", quantity, Case(2, 0, 1)) for quantity in ("pull_off_force", "pull_off_displacement")]
+    >>> [len(batch) for batch in batches([*of_jkr, Task("dmt", "pull_off_force", Case(2, 0, 1))])]
+    [2, 1]
     """
-    with closing(each(_evaluate_batch, _batches(tasks), jobs)) as batches:
-        for rows in batches:
-            yield from rows
+    return [list(batch) for _, batch in groupby(tasks, key=lambda task: (task.model, task.case))]

@@ -5,19 +5,34 @@ from __future__ import annotations
 import os
 import signal
 import threading
-from collections.abc import Callable, Generator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from collections import deque
+from collections.abc import Callable, Generator, Iterable, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, ProcessPoolExecutor, wait
+from contextlib import closing
 from importlib import import_module
 from multiprocessing import get_context, parent_process
 from multiprocessing.process import BaseProcess
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from threadpoolctl import threadpool_limits
 
-__all__ = ["each", "usable_cores"]
+from comparisons.console.progress import log
+
+__all__ = ["LOST", "Backend", "each", "one_thread", "processes", "usable_cores"]
 
 Item = TypeVar("Item")
 Output = TypeVar("Output")
+
+#: Why an item has no output of its own; that may be the machine's fault and not the item's.
+LOST = "its worker process ended twice before it was finished, perhaps for lack of memory"
+
+#: Calls a function with every item, on a number of processes, and yields each item with its output, in any order; the
+#: output is None if the process that worked on the item ended.
+Backend = Callable[[Callable[[Any], Any], Sequence[Any], int], Generator[tuple[Any, Any]]]
+
+#: Processes that may end one after the other without an output between them.  More are no fault of single items: the
+#: processes cannot start, or the machine has no memory for any of them.
+_DEATHS_IN_SEQUENCE = 10
 
 
 def usable_cores() -> int:
@@ -25,43 +40,135 @@ def usable_cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def each(function: Callable[[Item], Output], items: Sequence[Item], jobs: int) -> Generator[Output]:
-    """Yield `function(item)` for every item, as each is finished, on `jobs` processes.
+def _whole(item: Item) -> Iterable[Item]:
+    return [item]
 
-    Closing the generator (`contextlib.closing`) before its end drops what has not begun.
+
+def processes(
+    function: Callable[[Item], Output], items: Sequence[Item], jobs: int
+) -> Generator[tuple[Item, Output | None]]:
+    """Call a function on processes of this machine: a `Backend`.
+
+    A process that ends is replaced.  With one job the function is called in this process.
+
+    Raises
+    ------
+    concurrent.futures.BrokenExecutor
+        If many processes end one after the other.
+    """
+    if jobs == 1:
+        for item in items:
+            yield item, function(item)
+        return
+    waiting = deque(items)
+    # An executor for each process: if the process ends, that tells on which item it worked, and the others go on.
+    pools = [_pool() for _ in range(min(jobs, len(items)))]
+    running: dict[Future[Output], tuple[int, Item]] = {}
+
+    def begin(slot: int) -> None:
+        item = waiting.popleft()
+        try:
+            future = pools[slot].submit(function, item)
+        except BrokenExecutor:  # the process ended between two items
+            pools[slot] = _pool()
+            future = pools[slot].submit(function, item)
+        running[future] = slot, item
+
+    deaths = 0
+    try:
+        for slot in range(len(pools)):
+            begin(slot)
+        while running:
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                slot, item = running.pop(future)
+                try:
+                    output = future.result()
+                    deaths = 0
+                except BrokenExecutor:
+                    output = None
+                    deaths += 1
+                    if deaths > _DEATHS_IN_SEQUENCE:
+                        raise BrokenExecutor(
+                            f"{deaths} worker processes one after the other ended early, perhaps for lack of memory"
+                        ) from None
+                    pools[slot].shutdown(wait=False)
+                    pools[slot] = _pool()
+                if waiting:
+                    begin(slot)
+                yield item, output
+    finally:
+        for pool in pools:
+            pool.shutdown(cancel_futures=True)
+
+
+def each(
+    function: Callable[[Item], Output],
+    items: Sequence[Item],
+    jobs: int,
+    *,
+    lost: Callable[[Item], Output],
+    split: Callable[[Item], Iterable[Item]] = _whole,
+    backend: Backend = processes,
+) -> Generator[Output]:
+    """Yield `function(item)` for every item, as each is finished.
+
+    An item whose process ends is tried once more.  Closing the generator (`contextlib.closing`) before its end drops
+    what has not begun.
 
     Parameters
     ----------
     function : callable
-        Importable by its name.
+        Importable by its name; returns no None.
     items : sequence
         What it is called with, the longest work first: if it starts last, the other cores wait for it.
     jobs : int
-        Number of processes; 1 works in this one.
+        Number of processes.
+    lost : callable
+        Returns the output for an item that has ended its process twice.
+    split : callable
+        Returns the items that are tried in place of one whose process ended.
+    backend : Backend
+        Where the function is called.
 
     Raises
     ------
-    RuntimeError
-        If a worker process dies (`concurrent.futures.BrokenExecutor`), as one short of memory does.
+    concurrent.futures.BrokenExecutor
+        If the backend cannot work.
+
+    Examples
+    --------
+    >>> sorted(each(abs, [-1, 2], 1, lost=lambda item: 0))
+    [1, 2]
     """
-    if jobs == 1 or len(items) <= 1:
-        yield from map(function, items)
-        return
-    # "spawn": a fresh interpreter, the same on every platform, and safe beside the threads of a progress bar.
-    with ProcessPoolExecutor(min(jobs, len(items)), get_context("spawn"), initializer=_start_worker) as pool:
-        pending = [pool.submit(function, item) for item in items]
-        try:
-            for future in as_completed(pending):
-                yield future.result()
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
+    again: list[Item] = []
+    with closing(backend(function, items, jobs)) as outputs:
+        for item, output in outputs:
+            if output is None:
+                again.extend(split(item))
+            else:
+                yield output
+    if again:
+        log(f"worker processes ended early: what they worked on ({len(again)}) is tried once more")
+        with closing(backend(function, again, jobs)) as outputs:
+            for item, output in outputs:
+                yield lost(item) if output is None else output
 
 
-def _start_worker() -> None:
-    """Prepare a worker: one thread, since the workers use all cores, and an end as soon as the parent ends."""
+def one_thread() -> None:
+    """Limit the linear algebra of this process to one thread: the processes share the cores."""
     # Only libraries that are loaded can be limited: this loads the linear algebra of both NumPy and SciPy.
     import_module("scipy.linalg")
     threadpool_limits(1)
+
+
+def _pool() -> ProcessPoolExecutor:
+    # "spawn": a fresh interpreter, the same on every platform, and safe beside the threads of a progress bar.
+    return ProcessPoolExecutor(1, get_context("spawn"), initializer=_start_worker)
+
+
+def _start_worker() -> None:
+    """Prepare a worker: one thread, and an end as soon as the parent ends."""
+    one_thread()
     # Ctrl-C reaches the whole process group: end at once, without a traceback; the parent writes the message.
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.SIG_DFL)

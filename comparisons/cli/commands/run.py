@@ -18,7 +18,7 @@ from comparisons.pipeline.run import run
 from comparisons.pipeline.tables import RunTables
 from comparisons.runs.cases import TIERS
 
-__all__ = ["add", "call", "print_kappa"]
+__all__ = ["add", "call"]
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -71,7 +71,7 @@ def call(args: argparse.Namespace) -> int:
     return status
 
 
-def print_kappa(kappa: pd.DataFrame) -> None:
+def _print_kappa(kappa: pd.DataFrame) -> None:
     """Print the relative errors: a table for each quantity and reference, a row for each case."""
     console = output()
     for (quantity, reference), group in kappa.groupby(["quantity", "reference"]):
@@ -81,7 +81,7 @@ def print_kappa(kappa: pd.DataFrame) -> None:
 
 def _print(tables: RunTables) -> None:
     """Print the details first: the end of the output is what a user of a terminal sees."""
-    print_kappa(tables.kappa)
+    _print_kappa(tables.kappa)
     console = output()
     results = tables.results
     failed = results.loc[results["status"] == "failed", ["model", "quantity", "n", "k", "mu", "reason"]]

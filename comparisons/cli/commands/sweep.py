@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import nullcontext
 from pathlib import Path
 
-from comparisons.cli.commands.run import print_kappa
-from comparisons.cli.options import FAILED, OK, add_jobs, add_out, add_retry_failed, output
-from comparisons.console.progress import log
+from comparisons.cli.options import FAILED, OK, add_jobs, add_out, add_quiet, add_retry_failed, output
+from comparisons.console.progress import log, note, quiet
 from comparisons.model import ComputationFailed
-from comparisons.output.tables import rich_table, statuses
-from comparisons.pipeline.run import run
+from comparisons.output.sweep_summary import COLUMNS, failure_lines, summary_tables
+from comparisons.pipeline.run import FinishedRun, run
+from comparisons.runs.backends import BACKENDS
 
-__all__ = ["add", "call"]
+__all__ = ["add", "call", "show"]
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -28,20 +29,51 @@ def add(parser: argparse.ArgumentParser) -> None:
         help="compare these models instead of those each grid names",
     )
     add_jobs(parser)
+    parser.add_argument(
+        "--backend", choices=BACKENDS, default=BACKENDS[0], help="where it is computed (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--scheduler", metavar="ADDRESS", help="scheduler of a Dask cluster (default: one is started on this machine)"
+    )
+    parser.add_argument(
+        "--shard", metavar="i/N", help="compute the i-th of N parts, to be put together by fscm-bench merge"
+    )
     add_out(parser)
     add_retry_failed(parser)
+    add_quiet(parser)
 
 
 def call(args: argparse.Namespace) -> int:
     """Compute what is missing, write and print; return the exit status."""
-    try:
-        finished = run(args.file, models=args.model, folder=args.out, jobs=args.jobs, retry_failed=args.retry_failed)
-    except ComputationFailed as failure:
-        log(str(failure))
-        return FAILED
-    print_kappa(finished.tables.kappa)
-    for row in finished.failures:
-        log(f"{row.model}: {row.quantity} at n = {row.n:g}, k = {row.k:g}, mu = {row.mu:g}: {row.reason}")
-    output().print(rich_table(statuses(finished.tables.results), "computations"))
-    log(f"results are in {finished.folder}")
+    if args.shard is not None and args.out is None:
+        raise ValueError(
+            f"--shard {args.shard} needs --out DIR: each shard has a folder of its own, which is merged later"
+        )
+    with quiet() if args.quiet else nullcontext():
+        try:
+            finished = run(
+                args.file,
+                models=args.model,
+                folder=args.out,
+                jobs=args.jobs,
+                retry_failed=args.retry_failed,
+                backend=args.backend,
+                scheduler=args.scheduler,
+                shard=args.shard,
+            )
+        except ComputationFailed as failure:
+            log(str(failure))
+            return FAILED
+        return show(finished, with_summary=not args.quiet)
+
+
+def show(finished: FinishedRun, *, with_summary: bool) -> int:
+    """Print the summary of a sweep and its failures; return the exit status."""
+    if with_summary:
+        console = output(COLUMNS)
+        for table in summary_tables(finished.tables.results, finished.tables.curves, finished.tables.kappa):
+            console.print(table)
+    for line in failure_lines(finished.failures):
+        log(line)
+    note(f"results are in {finished.folder}")
     return FAILED if finished.failures else OK

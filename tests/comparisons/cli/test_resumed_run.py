@@ -10,11 +10,12 @@ from comparisons.cli.main import main
 from comparisons.model import ComputationFailed
 from comparisons.paper.cache import CachedCall, CallCache
 from comparisons.runs import computation as computing
-from comparisons.runs import part_journal, reevaluation, row_journal
+from comparisons.runs import execution, reevaluation, row_journal
 from comparisons.runs.cases import Case
+from comparisons.runs.execution import compute_with_environment
 from comparisons.runs.record import read_record
 from comparisons.runs.tables import read_table
-from comparisons.runs.tasks import Task, compute, evaluate_task
+from comparisons.runs.tasks import Task, evaluate_task
 
 from .test_run import interrupt_after, run
 
@@ -32,11 +33,11 @@ def test_stored_failures_are_computed_again_when_it_is_asked_for(small_grid, tmp
     assert run(tmp_path, "--model", "ten-percent", "fails") == 4
     computed = []
 
-    def counted(tasks, jobs):
+    def counted(tasks, jobs, backend):
         computed.extend(task.model for task in tasks)
-        return compute(tasks, jobs)
+        return compute_with_environment(tasks, jobs, backend)
 
-    monkeypatch.setattr(computing, "compute", counted)
+    monkeypatch.setattr(computing, "compute_with_environment", counted)
     assert run(tmp_path, "--model", "ten-percent", "fails", "--retry-failed") == 4
     assert computed == ["fails"] * 4
     message = capsys.readouterr().err
@@ -73,11 +74,11 @@ def test_a_cache_knows_its_failures_and_forgets_them(tmp_path):
 
 
 def test_the_record_has_every_part_with_its_own_environment(small_grid, tmp_path, monkeypatch, capsys):
-    here = part_journal.computing_environment()
+    here, code = execution._of_this_process()
     there = here | {"python": "3.99.0", "cpu": "another"}
     with monkeypatch.context() as patch:
-        patch.setattr(computing, "compute", interrupt_after(5, BrokenProcessPool))
-        patch.setattr(part_journal, "computing_environment", lambda: there)
+        patch.setattr(computing, "compute_with_environment", interrupt_after(5, BrokenProcessPool))
+        patch.setattr(execution, "_of_this_process", lambda: (there, code))
         assert run(tmp_path) == 4
     assert run(tmp_path) == 0
     record = read_record(tmp_path / "run.json")

@@ -10,8 +10,9 @@ from comparisons.cli.main import main
 from comparisons.data.file_names import VERDICT_FILES
 from comparisons.runs import computation as computing
 from comparisons.runs.cases import Case, load_grids
+from comparisons.runs.execution import compute, compute_with_environment
 from comparisons.runs.journal import Journal
-from comparisons.runs.tasks import Task, compute, evaluate_task, plan
+from comparisons.runs.tasks import Task, evaluate_task, plan
 
 FILES = {
     "journal.jsonl",
@@ -102,8 +103,8 @@ def test_two_runs_give_the_same_bytes(small_grid, tmp_path):
 
 
 def interrupt_after(count, error=KeyboardInterrupt):
-    def interrupted(tasks, jobs):
-        for number, row in enumerate(compute(tasks, jobs)):
+    def interrupted(tasks, jobs, backend):
+        for number, row in enumerate(compute_with_environment(tasks, jobs, backend)):
             if number == count:
                 raise error
             yield row
@@ -114,7 +115,7 @@ def interrupt_after(count, error=KeyboardInterrupt):
 def test_an_interrupted_run_goes_on_where_it_was(small_grid, tmp_path, monkeypatch, capsys):
     run(tmp_path / "whole")
     with monkeypatch.context() as patch:
-        patch.setattr(computing, "compute", interrupt_after(5))
+        patch.setattr(computing, "compute_with_environment", interrupt_after(5))
         assert run(tmp_path / "cut") == 130
     assert "5 finished computations are safe" in capsys.readouterr().err
     assert run(tmp_path / "cut") == 0
@@ -124,7 +125,7 @@ def test_an_interrupted_run_goes_on_where_it_was(small_grid, tmp_path, monkeypat
 
 
 def test_a_worker_that_dies_loses_nothing_that_was_finished(small_grid, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(computing, "compute", interrupt_after(3, BrokenProcessPool))
+    monkeypatch.setattr(computing, "compute_with_environment", interrupt_after(3, BrokenProcessPool))
     assert run(tmp_path) == 4
     assert "3 finished computations are safe" in capsys.readouterr().err
 

@@ -33,8 +33,9 @@ def test_the_errors_of_every_model(tmp_path, capsys):
     assert jkr["value"].tolist() == pytest.approx([1.5, 1.5, 1.7, 1.7])
     rows = read_table(tmp_path / "out" / "results.parquet")
     assert (rows.loc[rows["quantity"] == "jump_in_displacement", "status"] == "not-applicable").all()
-    # The title of a narrow table is broken into lines.
-    assert "kappa of each model" in " ".join(capsys.readouterr().out.split())
+    lines = capsys.readouterr().out.splitlines()
+    assert any(line.split()[1::2] == ["jkr", "4", "4", "0", "0"] for line in lines)
+    assert "largest abs(kappa) in percent" in "\n".join(lines)
 
 
 def test_it_goes_on_where_it_stopped(tmp_path, capsys):
@@ -42,6 +43,59 @@ def test_it_goes_on_where_it_stopped(tmp_path, capsys):
     capsys.readouterr()
     assert sweep(tmp_path) == 0
     assert "0 computations" in capsys.readouterr().err
+
+
+def test_quiet_prints_failures_alone(toys, tmp_path, capsys):
+    assert sweep(tmp_path, GRID, "--quiet") == 0
+    shown = capsys.readouterr()
+    assert (shown.out, shown.err) == ("", "")
+    assert sweep(tmp_path, GRID, "--quiet", "--model", "fails") == 4
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    assert shown.err.count("100 iterations were not enough") == 3
+    assert shown.err.endswith("5 more computations failed; the tables have their reasons\n")
+
+
+def test_the_summary_fits_a_terminal(tmp_path, capsys):
+    text = (
+        GRID.replace(
+            "jump_in_displacement",
+            'pull_off_displacement", "jump_out_gap", "jump_out_displacement", "zero_load_displacement',
+        )
+        .replace('"jkr", "bradley"', '"jkr", "bradley", "dmt", "md-original", "semi-rigid", "md-improved"')
+        .replace("[2]", "[1, 1.25, 1.5, 2]")
+    )
+    assert sweep(tmp_path, text) == 0
+    shown = capsys.readouterr()
+    lines = [*shown.out.splitlines(), *shown.err.splitlines()]
+    assert len(lines) <= 30
+    assert max(map(len, shown.out.splitlines())) <= 80
+    kappa = read_table(tmp_path / "out" / "kappa.parquet")
+    assert len(kappa) > 60
+    assert "the first 10 of" in shown.out
+
+
+def test_a_latin_hypercube_of_one_model(tmp_path):
+    text = """
+[[grid]]
+id = "alone"
+title = "One model, without another to compare it with"
+reference = "jkr"
+models = ["jkr"]
+quantities = ["pull_off_force"]
+[grid.latin_hypercube]
+count = 7
+seed = 1
+n = [1, 6]
+k = [0, 0.8]
+mu = [0.01, 10]
+"""
+    assert sweep(tmp_path, text) == 0
+    rows = read_table(tmp_path / "out" / "results.parquet")
+    assert rows["status"].tolist() == ["ok"] * 7
+    assert read_table(tmp_path / "out" / "kappa.parquet").empty
+    assert (tmp_path / "out" / "grid.toml").read_text() == text
+    assert main(["report", str(tmp_path / "out")]) == 0
 
 
 def test_other_models_may_be_asked(tmp_path):

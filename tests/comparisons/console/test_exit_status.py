@@ -143,7 +143,7 @@ from comparisons.runs.workers import each
 from slow import wait
 
 if __name__ == "__main__":
-    sys.exit(guarded(lambda: len(list(each(wait, [sys.argv[1]] * 2, 2)))))
+    sys.exit(guarded(lambda: len(list(each(wait, [sys.argv[1]] * 2, 2, lost=str)))))
 """
 
 

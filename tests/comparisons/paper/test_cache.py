@@ -2,6 +2,9 @@
 
 import json
 import math
+import os
+import signal
+from pathlib import Path
 
 import pytest
 
@@ -100,3 +103,24 @@ def test_calls_on_two_processes(tmp_path):
     results, made = work(tmp_path / "j", tasks, jobs=2)
     assert set(made) == set(tasks)
     assert [results[call] for call in tasks] == [5.0, 10.0, 15.0, 20.0]
+
+
+def killed_once(path):
+    if not Path(path).exists():
+        Path(path).touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return 1.0
+
+
+def killed(_):
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def test_a_call_whose_process_ends_is_made_once_more_and_again_by_the_next_command(tmp_path):
+    once, always = CachedCall.of(killed_once, str(tmp_path / "once")), CachedCall.of(killed, 1)
+    path = tmp_path / "calls"
+    results, _ = work(path, [once, always], jobs=2)
+    assert results[once] == 1.0
+    with pytest.raises(ComputationFailed, match="its worker process ended twice"):
+        results[always]
+    assert CallCache(path, "a").missing([once, always]) == [always]

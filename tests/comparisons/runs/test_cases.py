@@ -47,6 +47,67 @@ def test_a_wrong_grid_is_refused_with_a_reason(old, new, sentence):
         load_grids(GRID.replace(old, new))
 
 
+#: What a grid has besides its cases.
+REST = GRID.partition("n = [2, 1]")[0]
+
+HYPERCUBE = """
+[grid.latin_hypercube]
+count = 50
+seed = 3
+n = [1, 6]
+k = [0, 0.8]
+mu = [0.01, 10]
+"""
+
+
+def test_a_list_of_cases_is_taken_as_it_is():
+    (grid,) = load_grids(REST + "cases = [{n = 2, k = 0.4, mu = 3, nu = 0.3}, {n = 1, k = 0, mu = 1}]")
+    assert grid.cases == (Case(1, 0, 1), Case(2, 0.4, 3, 0.3))
+
+
+def test_a_latin_hypercube_has_one_point_in_each_layer_and_the_same_again():
+    (grid,) = load_grids(REST + HYPERCUBE)
+    assert load_grids(REST + HYPERCUBE)[0] == grid
+    assert load_grids(REST + HYPERCUBE.replace("seed = 3", "seed = 4"))[0] != grid
+    units = {
+        "n": [(case.n - 1) / 5 for case in grid.cases],
+        "k": [case.k / 0.8 for case in grid.cases],
+        "mu": [math.log(case.mu / 0.01) / math.log(1000) for case in grid.cases],
+    }
+    for unit in units.values():
+        assert sorted(int(50 * x) for x in unit) == list(range(50))
+    # A message prints six digits, and with them the exact case.
+    assert all(float(f"{x:g}") == x for case in grid.cases for x in case.parameters.values())
+
+
+def test_a_range_of_one_value_is_that_value():
+    (grid,) = load_grids(REST + HYPERCUBE.replace("[1, 6]", "[1.23456789, 1.23456789]") + "nu = [0.1, 0.4]")
+    assert {case.n for case in grid.cases} == {1.23456789}
+    assert len({case.nu for case in grid.cases}) == 50
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", "grid a: it has no cases; state the cases once: lists n, k, mu (and nu); cases = ["),
+        ("n = [1]\nmu = [1]", "grid a: k missing; lists of cases are n, k, mu and perhaps nu"),
+        ("nu = [0.3]\ncases = [{n = 2, k = 0, mu = 1}]", "grid a: it has nu and cases together"),
+        ("cases = [{n = 2, k = 0}]", "grid a: cases.0: mu missing; a case has n, k, mu and may have nu"),
+        ("cases = []", "cases = [] must be a list of at least one case"),
+        ("cases = [{n = 2, k = 0, mu = -1}]", "grid a: Tabor number mu = -1.0 is outside (0, inf)"),
+        (HYPERCUBE.replace("50", "0"), "latin_hypercube.count = 0 must be a number of points from 1 to 100000"),
+        (HYPERCUBE.replace("seed = 3", ""), "grid a: latin_hypercube: seed missing"),
+        (HYPERCUBE.replace("[1, 6]", "[6, 1]"), "latin_hypercube: n = [6, 1] is not a range"),
+        (HYPERCUBE.replace("0.01", "0"), "mu = [0, 10] is outside (0, inf): points are even in the logarithm"),
+        (HYPERCUBE.replace("0.8", "1.01"), "grid a: gradient exponent k = 1.01 is outside [0, 1]"),
+        (HYPERCUBE + "nu = [0.1, 0.5]", "Poisson's ratio nu = 0.5 is not in [0, 0.5)"),
+    ],
+)
+def test_wrong_cases_are_refused_with_a_reason(text, sentence):
+    with pytest.raises(ValueError, match=re.escape(sentence)):
+        load_grids(REST + text)
+
+
 def test_ids_are_unique():
     with pytest.raises(ValueError, match="must be unique"):
         load_grids(GRID + GRID)

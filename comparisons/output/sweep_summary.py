@@ -1,0 +1,84 @@
+"""Summary of a sweep for the terminal: at most 30 lines of 80 columns, whatever its size."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import pandas as pd
+from rich.table import Table
+
+from comparisons.output.tables import rich_table
+from comparisons.runs.rows import Row
+
+__all__ = ["COLUMNS", "failure_lines", "summary_tables"]
+
+#: Width of the summary.
+COLUMNS = 80
+
+#: Rows of the table of models and of the table of errors; with titles, headings and rules 28 lines.
+_MODELS, _ERRORS = 7, 10
+
+#: Failures that are written one by one.
+_FAILURES = 3
+
+
+def summary_tables(results: pd.DataFrame, curves: pd.DataFrame, kappa: pd.DataFrame) -> list[Table]:
+    """Return the tables of a summary: how the computations ended, and the largest error of each quantity and model.
+
+    Parameters
+    ----------
+    results, curves, kappa : DataFrame
+        As `comparisons.pipeline.tables.RunTables` has them.
+
+    Examples
+    --------
+    >>> results = pd.DataFrame({"model": ["jkr", "dmt"], "status": ["ok", "failed"], "seconds": [0.5, 0.1]})
+    >>> [table.row_count for table in summary_tables(results, pd.DataFrame(columns=results.columns), pd.DataFrame())]
+    [2]
+    """
+    tables = [_first(_computations(results, curves), _MODELS, "computations")]
+    if len(kappa):
+        tables.append(_first(_largest(kappa), _ERRORS, "largest abs(kappa) in percent", {"largest": "+.3f"}))
+    return tables
+
+
+def failure_lines(failures: Sequence[Row]) -> Iterator[str]:
+    """Yield a sentence for each of the first failures, and one for the others.
+
+    Examples
+    --------
+    >>> list(failure_lines([]))
+    []
+    """
+    for row in failures[:_FAILURES]:
+        yield f"{row.model}: {row.quantity} at n = {row.n:g}, k = {row.k:g}, mu = {row.mu:g}: {row.reason}"
+    if len(failures) > _FAILURES:
+        yield f"{len(failures) - _FAILURES} more computations failed; the tables have their reasons"
+
+
+def _computations(results: pd.DataFrame, curves: pd.DataFrame) -> pd.DataFrame:
+    # A curve has a row for each point.
+    whole = curves[curves["point"] == 0] if "point" in curves else curves
+    rows = pd.concat([results[["model", "status", "seconds"]], whole[["model", "status", "seconds"]]])
+    counts = rows.groupby(["model", "status"]).size().unstack(fill_value=0)
+    for status in ("ok", "not-applicable", "failed"):
+        if status not in counts:
+            counts[status] = 0
+    counts = counts[["ok", "not-applicable", "failed"]]
+    return counts.assign(seconds=rows.groupby("model")["seconds"].sum().round(1)).reset_index()
+
+
+def _largest(kappa: pd.DataFrame) -> pd.DataFrame:
+    worst = kappa.loc[kappa["kappa"].abs().groupby([kappa["quantity"], kappa["model"]]).idxmax()]
+    table = worst[["quantity", "model", "kappa", "n", "k", "mu"]].assign(kappa=100 * worst["kappa"])
+    return table.rename(columns={"kappa": "largest"})
+
+
+def _first(table: pd.DataFrame, rows: int, title: str, formats: dict[str, str] | None = None) -> Table:
+    """Return the first rows of a table; the title tells how many there are."""
+    if len(table) > rows:
+        title += f" (the first {rows} of {len(table)} rows)"
+    shown = rich_table(table.head(rows), title, formats)
+    for column in shown.columns:
+        column.no_wrap, column.overflow = True, "ellipsis"
+    return shown
