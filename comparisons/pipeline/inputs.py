@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 
 from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
 from comparisons.judging.selection import load_user_gates
+from comparisons.registry import ExternalIdentity
 from comparisons.runs.cases import TIERS, Grid, cases_text, grids, grids_for, load_grids
+from comparisons.runs.tasks import Task, plan
 
-__all__ = ["Cases", "Gates", "load_cases", "read_gates"]
+__all__ = ["Cases", "Gates", "RunInputs", "load_cases", "read_gates"]
 
 #: The name of a text that is in no file, for messages and for the record.
 _TEXT = "a text"
@@ -60,6 +62,31 @@ class Gates:
     def sha256(self) -> str:
         """The checksum of the text."""
         return sha256(self.text.encode()).hexdigest()
+
+
+@dataclass(frozen=True, slots=True)
+class RunInputs:
+    """What a run computes and judges.
+
+    Attributes
+    ----------
+    cases : Cases
+    gates : Gates or None
+        None if nothing is judged.
+    models : list of str or None
+        Names of the candidates in place of those each grid names.
+    external : mapping of str to ExternalIdentity
+        Those of them that are external.
+    """
+
+    cases: Cases
+    gates: Gates | None
+    models: list[str] | None
+    external: Mapping[str, ExternalIdentity]
+
+    def plan(self) -> list[Task]:
+        """Return every task once, as `comparisons.runs.tasks.plan`."""
+        return plan(self.cases.grids, self.models, self.external)
 
 
 def load_cases(cases: str | Path, models: Sequence[str] | None) -> Cases:

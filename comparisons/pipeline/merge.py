@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.model import ComputationFailed
-from comparisons.pipeline.inputs import load_cases
+from comparisons.pipeline.finished_run import FinishedRun, write_run
+from comparisons.pipeline.inputs import RunInputs, load_cases
 from comparisons.pipeline.record_content import now
 from comparisons.pipeline.results import Results
-from comparisons.pipeline.run import FinishedRun, RunInputs, write_run
 from comparisons.registry import ExternalIdentity
 from comparisons.runs.atomic_files import atomic, prepare_folder
 from comparisons.runs.computation import Completed

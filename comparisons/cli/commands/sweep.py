@@ -10,7 +10,8 @@ from comparisons.cli.options import FAILED, OK, add_jobs, add_out, add_quiet, ad
 from comparisons.console.progress import log, note, quiet
 from comparisons.model import ComputationFailed
 from comparisons.output.sweep_summary import COLUMNS, failure_lines, summary_tables
-from comparisons.pipeline.run import FinishedRun, run
+from comparisons.pipeline.finished_run import FinishedRun
+from comparisons.pipeline.run import run
 from comparisons.runs.backends import BACKENDS
 
 __all__ = ["add", "call", "show"]

@@ -5,7 +5,7 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.external.model_source import close_models
 from comparisons.pipeline import inputs
-from comparisons.pipeline.run import _described
+from comparisons.pipeline.finished_run import described
 from comparisons.registry import identify
 from comparisons.runs.cases import load_grids
 from comparisons.runs.record import read_record
@@ -37,6 +37,22 @@ upper = 0.01
 max_reference_uncertainty = 1e-6
 basis = "derived"
 grounds = "a gate of this test"
+min_cases = 4
+tier = "quick"
+
+[[gate]]
+id = "FINITE"
+requirement = "The displacement is a number."
+quantity = "pull_off_displacement"
+candidate = "given"
+reference = "bradley"
+cases = { mu = [0.1, 1] }
+metric = "abs"
+lower = -1e6
+upper = 1e6
+max_reference_uncertainty = 1e-6
+basis = "derived"
+grounds = "a gate that needs another quantity"
 min_cases = 4
 tier = "quick"
 """
@@ -128,7 +144,7 @@ class Hashed:
 
 def test_what_was_hashed_is_in_the_record(write_model):
     names, models = identify([write_model("return Result(2.0, 0.0)")])
-    assert _described(set(names), {name: Hashed(model) for name, model in models.items()}) == {
+    assert described(set(names), {name: Hashed(model) for name, model in models.items()}) == {
         "stranger": {
             "version": models["stranger"].version,
             "citation": "A. Author",
