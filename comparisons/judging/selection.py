@@ -61,8 +61,8 @@ def needed_keys(
     """Return the keys of the results that gates need.
 
     These are the results of the candidates, and in the cases in which a candidate has a value also those with which it
-    is compared.  A given model that no gate names is in the tables of errors alone: it needs all its results, with the
-    reference of each grid.
+    is compared.  A given model that no gate compares in any case is in the tables of errors alone: it needs all its
+    results, with the reference of each grid.
 
     Parameters
     ----------
@@ -85,8 +85,8 @@ def needed_keys(
     needed: set[Key] = set()
     named: set[str] = set()
     for gate in relevant(gates, grids, models):
-        named |= {gate.candidate, gate.reference} | ({gate.rival} if gate.rival else set())
         for case in cases_of(gate, grids, models):
+            named |= {gate.candidate, gate.reference} | ({gate.rival} if gate.rival else set())
             candidate = key_of(gate.candidate, gate, case)
             needed.add(candidate)
             # The range of the reference is over all cases.

@@ -174,7 +174,8 @@ def test_a_run_goes_on_and_notices_that_a_model_changed(write_model, gates, tmp_
         return capsys.readouterr().err, [float(row["value"]) for row in rows if row["model"] == "stranger"]
 
     messages, values = once("return Result(1.5, 0.0)")
-    assert "8 computations" in messages
+    assert "4 computations on" in messages
+    assert "4 computations more" in messages
     assert values == [1.5] * 4
     messages, values = once("return Result(1.5, 0.0)")
     assert "0 computations" in messages
