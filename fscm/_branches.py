@@ -12,7 +12,6 @@ from fscm._adaptivity import at_kinks, on_mesh, rescaled_mesh
 from fscm._arc_length import ArcLength, Point
 from fscm._equilibrium import Discretisation, Rates, State
 from fscm._newton import shifted
-from fscm._panels import PanelMesh
 from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.punch import kinks_of
@@ -31,7 +30,7 @@ def predicted(state: State, rates: Rates, step: float) -> State:
     moved = shifted(state, rates.gap, rates.displacement, rates.log_scale, step)
     if step * rates.log_scale == 0.0 or not kinks_of(problem.punch):
         return moved
-    return on_mesh(moved, PanelMesh(at_kinks(problem, old.breaks, state.scale, moved.scale), old.order))
+    return on_mesh(moved, at_kinks(problem, old, state.scale, moved.scale))
 
 
 def follow_edge(state: State, end_height: float, edge_gap: float | None = None) -> State:
@@ -39,19 +38,21 @@ def follow_edge(state: State, end_height: float, edge_gap: float | None = None) 
     problem, mesh = state.disc.problem, state.disc.mesh
     target = problem.law.peak_gap if edge_gap is None else edge_gap
     outer = int(np.flatnonzero(state.gap < target)[-1]) if np.any(state.gap < target) else -1
-    low = 0.0 if outer < 0 else float(mesh.nodes[outer])
-    ratio = scipy.optimize.brentq(
-        lambda s: mesh.evaluate(state.gap, np.array([s]))[0] - target, low, mesh.nodes[outer + 1]
+    low = -mesh.origin if outer < 0 else float(mesh.places[outer])
+    place = scipy.optimize.brentq(
+        lambda s: mesh.evaluate(state.gap, np.array([s]))[0] - target, low, mesh.places[outer + 1]
     )
+    ratio = mesh.origin + place
     new = rescaled_mesh(problem, mesh, state.scale, state.scale * ratio, end_height)
-    known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
+    radii = np.minimum(new.nodes * ratio, mesh.breaks[-1])
+    known = radii - mesh.origin
     disc, scale, shape = Discretisation(problem, new), state.scale * ratio, problem.punch.height
     if state.lift is not None:
         return State.lifted(disc, scale, mesh.evaluate(state.lift, known), state.displacement, True, edge_gap)
     if kinks_of(problem.punch):
         gap = mesh.evaluate(state.gap - shape(state.radius), known) + shape(scale * new.nodes)
     else:
-        gap = mesh.evaluate(state.gap, known) + (shape(scale * new.nodes) - shape(state.scale * known))
+        gap = mesh.evaluate(state.gap, known) + (shape(scale * new.nodes) - shape(state.scale * radii))
     return State(disc, scale, gap, state.displacement, True, edge_gap=edge_gap)
 
 
@@ -96,7 +97,7 @@ def checked_sense(a: Point, b: Point, step: float, same: bool | None) -> bool:
     Near a sharp turn of the path, the gaps inside the contact tell its sense when load and displacement do not.
     """
     mesh, other = a.state.disc.mesh, b.state.disc.mesh
-    known = np.minimum(other.nodes, mesh.breaks[-1])
+    known = np.minimum(other.seen_from(mesh.origin), mesh.offsets[-1])
     before, rate = mesh.evaluate(_moving(a.state), known), mesh.evaluate(_moving_rates(a), known)
     after, new_rate = _moving(b.state), _moving_rates(b)
     clearance = b.state.gap - a.state.disc.problem.law.singular_gap

@@ -50,7 +50,7 @@ _FLAT_SHARE, _FLAT_STEP = 0.5, 0.1
 # The width of the cohesive edge is (1.03 M)^(-1/(1-k)) for the 9-3 law; decimal logarithm of the least width, relative
 # to a contact radius, that is computed.  Measured: right at 4e-10 (n = 2, k = 0.9, mu = 2), but the pull-off force is
 # wrong by 2e-3 with a bound of 2e-4 at 4e-11 (n = 2, k = 0, mu = 1e5).
-_EDGE, _NARROWEST = 1.03, -10.0
+_EDGE, _NARROWEST = 1.03, -300.0
 # Where its parameter turns, the path goes on in another one, until that one makes up less than this share of the
 # tangent.
 _LEAST_SHARE = 0.3

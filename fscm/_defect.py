@@ -76,9 +76,9 @@ class Errors:
 
 def finer(disc: Discretisation) -> Discretisation:
     """The same problem on the mesh on which residuals are taken."""
-    b = disc.mesh.breaks
-    breaks = np.concatenate([[0.0, _TIP * b[1]], b[1:]])
-    return Discretisation(disc.problem, PanelMesh(breaks, disc.mesh.order + _MORE_NODES))
+    mesh, ends = disc.mesh, disc.mesh.offsets
+    ends = np.insert(ends, 1, ends[0] + _TIP * mesh.lengths[0])
+    return Discretisation(disc.problem, PanelMesh(ends, mesh.order + _MORE_NODES, mesh.origin))
 
 
 def _from_gap(
@@ -118,9 +118,9 @@ class Defect:
         self._gap_error = lift - deformation if fine.steep else f.gap + state.displacement - height - deformation
         axis = fine.axis @ polynomial, state.disc.axis @ state.pressure
         self._axis_error = self._stiffness * float(axis[0] - axis[1])
-        self._owner = np.repeat(own.locate(mesh.starts + 0.5 * mesh.lengths), mesh.order)
+        self._owner = np.repeat(own.locate(mesh.middles), mesh.order)
         self._panels = len(own.lengths)
-        self._edge = max(int(np.searchsorted(own.breaks, 1.0)) - 1, 0)
+        self._edge = max(int(np.searchsorted(own.offsets, 1.0 - own.origin)) - 1, 0)
 
     def errors(self, functional: str, control: str, missed: float = 0.0) -> Errors:
         """Errors of "load", "displacement", "central_gap" or "energy" at a fixed value of a control.

@@ -66,7 +66,7 @@ class Discretisation:
         known = (previous.mesh, previous.matrix) if previous is not None and previous.problem.k == problem.k else None
         self.matrix: Array = response_matrix(kernel, mesh, known)
         self.axis = axis_row(kernel, mesh)
-        edge = int(np.searchsorted(mesh.breaks, 1.0))
+        edge = int(np.searchsorted(mesh.offsets, 1.0 - mesh.origin))
         self.edge = mesh.row_at_end(max(edge - 1, 0), 1.0)
 
     @property
