@@ -14,7 +14,7 @@ from fscm._equilibrium import Discretisation, Rates, State
 from fscm._newton import shifted
 from fscm._typing import Array
 from fscm.errors import NotConverged
-from fscm.punch import kinks_of
+from fscm.punch import PowerPunch, kinks_of
 
 __all__ = ["checked_sense", "edge_elsewhere", "follow_edge", "joined", "predicted", "turned"]
 
@@ -72,10 +72,18 @@ def turned(arc: ArcLength, point: Point, name: str | None = None) -> Point:
 
 
 def joined(arc: ArcLength, before: Point, state: State) -> Point:
-    """The state that follows another edge, with load and displacement changing in the same sense as before."""
+    """The state that follows another edge, with load and displacement changing in the same sense as before.
+
+    Under a power-law punch, contact begins at the center: there its gap changes in the same sense.  Load and
+    displacement do not tell it: the nucleus is so small that they stay the same to the error of the mesh.
+    """
     point = Point(state, arc.tangent(state), before.stretch + 1)
-    old, new = arc.shares(before), arc.shares(point)
-    if sum(old[name] * new[name] for name in ("displacement", "load")) >= 0.0:
+    if isinstance(state.disc.problem.punch, PowerPunch):
+        same = before.rates.central_gap * point.rates.central_gap >= 0.0
+    else:
+        old, new = arc.shares(before), arc.shares(point)
+        same = sum(old[name] * new[name] for name in ("displacement", "load")) >= 0.0
+    if same:
         return point
     state = replace(state, turned=("log_scale", -1.0))
     return Point(state, arc.tangent(state), before.stretch + 1)
