@@ -214,12 +214,14 @@ class State:
         return float(area @ density) + tail_energy(self.disc.problem, self.end, self.displacement)
 
     @cached_property
-    def _system(self) -> Linearisation:
-        return Linearisation(self)
+    def _rates(self) -> dict[str, Rates]:
+        return {}
 
     def rates(self, follow: str = "log_scale") -> Rates:
         """Exact derivatives along the path, per unit of `follow` ("log_scale" or "gap")."""
-        return self._system.rates(Control(0.0, **{follow: 1.0}))
+        if follow not in self._rates:  # kept in place of the tangent, which takes as much memory as the response
+            self._rates[follow] = Linearisation(self).rates(Control(0.0, **{follow: 1.0}))
+        return self._rates[follow]
 
 
 @dataclass(frozen=True)

@@ -82,8 +82,11 @@ def test_the_bound_of_the_gap_at_jump_in_has_a_margin(n: float, k: float, mu: fl
     assert solution.u_num < 1e-7
 
 
-def test_an_edge_below_rounding_is_refused_at_once_with_the_cause() -> None:
-    with pytest.raises(NotConverged, match=r"edge of .* is about 10\^-314 wide, below the rounding"):
+def test_an_edge_that_needs_too_many_panels_is_refused_at_once_with_the_cause() -> None:
+    with pytest.raises(
+        NotConverged,
+        match=r"edge of .* is about 10\^-314 of its radius wide, below 10\^-22, which needs too much memory",
+    ):
         solve(Problem(2, 0.999, 1.0), "pull_off_force")
 
 
