@@ -139,22 +139,26 @@ class EventErrors:
         rates = [getattr(rates, functional) for rates in (rate_before, self.rates, rate_after)]
         return float(change / (2.0 * _CURVATURE_STEP * self._unit) - (rates[0] + 4.0 * rates[1] + rates[2]) / 6.0)
 
+    def on_path(self, functional: str) -> Parts:
+        """Bounds on the error of a functional at a value of the continuation parameter."""
+        return bounds(self.controlled(functional, self.parameter))
+
     def at_extreme(self, functional: str, extremal: str) -> Parts:
         """Bounds on the error of a functional at the extreme of another, or at its own."""
-        here = self.controlled(functional, self.parameter)
         if functional == extremal:
-            return bounds(here)
+            return self.on_path(functional)
         _, curvature, third = self.derivatives(extremal)
         if curvature == 0.0:
             raise NotConverged(f"the {extremal} has no curvature at its extreme: the event is about to vanish")
         rate = self.rate(extremal)
         size = bounds(rate).total
         factor = root_shift(size, curvature, third) * abs(curvature) / size if size else 1.0
+        here = self.controlled(functional, self.parameter)
         return bounds(here.plus(rate, -getattr(self.rates, functional) / curvature), factor)
 
     def prescribed(self, functional: str, control: str, value: float) -> Parts:
         """Bounds on the error of a functional at a prescribed value of a control, also next to its extreme."""
-        free = bounds(self.controlled(control, self.parameter))
+        free = self.on_path(control)
         slope, curvature, _ = self.derivatives(control)
         if 4.0 * abs(curvature) * free.total <= slope * slope:
             factor = root_shift(free.total, slope, curvature) * abs(slope) / free.total if free.total else 1.0
@@ -163,7 +167,7 @@ class EventErrors:
         shift = root_shift(free.total, slope, curvature)
         first, second, _ = self.derivatives(functional)
         effect = (abs(first) * shift + 0.5 * abs(second) * shift**2) / free.total
-        here = bounds(self.controlled(functional, self.parameter))
+        here = self.on_path(functional)
         return here.plus(Parts(*(effect * part for part in free.values())))
 
     def at_fold(self) -> tuple[Errors, Errors]:

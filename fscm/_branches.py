@@ -40,19 +40,18 @@ def follow_edge(state: State, end_height: float, edge_gap: float | None = None) 
     outer = int(np.flatnonzero(state.gap < target)[-1]) if np.any(state.gap < target) else -1
     low = -mesh.origin if outer < 0 else float(mesh.places[outer])
     place = scipy.optimize.brentq(
-        lambda s: mesh.evaluate(state.gap, np.array([s]))[0] - target, low, mesh.places[outer + 1]
+        lambda s: mesh.evaluate_places(state.gap, np.array([s]))[0] - target, low, mesh.places[outer + 1]
     )
     ratio = mesh.origin + place
     new = rescaled_mesh(problem, mesh, state.scale, state.scale * ratio, end_height)
-    radii = np.minimum(new.nodes * ratio, mesh.breaks[-1])
-    known = radii - mesh.origin
+    known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
     disc, scale, shape = Discretisation(problem, new), state.scale * ratio, problem.punch.height
     if state.lift is not None:
         return State.lifted(disc, scale, mesh.evaluate(state.lift, known), state.displacement, True, edge_gap)
     if kinks_of(problem.punch):
         gap = mesh.evaluate(state.gap - shape(state.radius), known) + shape(scale * new.nodes)
     else:
-        gap = mesh.evaluate(state.gap, known) + (shape(scale * new.nodes) - shape(state.scale * radii))
+        gap = mesh.evaluate(state.gap, known) + (shape(scale * new.nodes) - shape(state.scale * known))
     return State(disc, scale, gap, state.displacement, True, edge_gap=edge_gap)
 
 
@@ -106,7 +105,7 @@ def checked_sense(a: Point, b: Point, step: float, same: bool | None) -> bool:
     """
     mesh, other = a.state.disc.mesh, b.state.disc.mesh
     known = np.minimum(other.seen_from(mesh.origin), mesh.offsets[-1])
-    before, rate = mesh.evaluate(_moving(a.state), known), mesh.evaluate(_moving_rates(a), known)
+    before, rate = mesh.evaluate_places(_moving(a.state), known), mesh.evaluate_places(_moving_rates(a), known)
     after, new_rate = _moving(b.state), _moving_rates(b)
     clearance = b.state.gap - a.state.disc.problem.law.singular_gap
     near = other.nodes < _NEAR_EDGE
