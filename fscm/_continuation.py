@@ -12,13 +12,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import scipy
 
 from fscm._adaptivity import end_radius, fit, initial_mesh
 from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of
-from fscm._branches import checked_sense, edge_elsewhere, follow_edge, joined, predicted, turned
+from fscm._branches import SURPRISE, checked_sense, edge_elsewhere, follow_edge, joined, predicted, turned
 from fscm._equilibrium import Control, Discretisation, Rates, State
 from fscm._meshes import Meshes
 from fscm._newton import STEP_TOLERANCE, newton
@@ -27,7 +29,7 @@ from fscm.errors import NotConverged
 from fscm.problem import Problem
 from fscm.punch import PowerPunch, kinks_of
 
-__all__ = ["MAX_POINTS", "bracketing_path", "equilibrium_path", "moved", "path_end", "path_until"]
+__all__ = ["MAX_POINTS", "bracketing_path", "equilibrium_path", "moved", "path_by_any_mesh", "path_end", "path_until"]
 
 # Measured: at most 120 points of a bracketing path for n >= 1, but 300 to 750 at n = 0.67.  Each keeps its matrices:
 # 2 MB on such meshes.
@@ -67,6 +69,37 @@ _NUCLEUS = 0.8
 # The nucleus lies within a part of the radius at which the punch is this high, its gap is below the one there by this
 # share of its distance to the singular gap, and its radius grows at this rate of log c per arc length.
 _FLAT_HEIGHT, _SMALL, _DEEP, _GROWING = 0.02, 0.05, 0.2, 0.3
+
+# A path that comes back to the central gap of its first state and this much more has turned round.
+_RETURNED = 1.0
+# Changes of the parameter without a step between them, after which the path is at its end.
+_MOST_TURNS = 6
+# Decimal logarithm of the width of the cohesive edge, in units of the first radius, from which on a mesh of fixed scale
+# resolves it on its way.  Measured: all punches with kinks, whose mesh is bent by each kink that a moving mesh passes.
+_WIDE = -1.5
+
+
+@dataclass(frozen=True)
+class Tracking:
+    """How a path is tracked.
+
+    Attributes
+    ----------
+    follow : bool
+        Whether the mesh follows the contact edge; if not, its scale stays fixed.
+    surprise : float
+        Largest deviation of a step from the trapezoidal rule, relative to the distance of a gap to the singular gap.
+    longest_step : float
+        Of the arc length.
+    """
+
+    follow: bool = True
+    surprise: float = SURPRISE
+    longest_step: float = math.inf
+
+
+# Measured: two of a hundred random punches, a ring and waves, need the last one where two branches come close.
+_FIXED, _CAREFUL = Tracking(follow=False), Tracking(False, 0.1 * SURPRISE, 0.2)
 
 
 def moved(state: State, rates: Rates, value: float, tolerance: float = STEP_TOLERANCE) -> State:
@@ -113,6 +146,11 @@ def _nucleus_gap(state: State, rates: Rates) -> float | None:
     return front if change > _GROWING * slopes[i] else None
 
 
+def _log_edge(problem: Problem) -> float:
+    """Decimal logarithm of the width of the cohesive edge."""
+    return -math.log10(_EDGE * problem.compliance) / (1.0 - problem.k)
+
+
 def _log_width(problem: Problem, log_mu: float) -> float:
     """Decimal logarithm of the width of the cohesive edge over the contact radius, about (n mu)^(1/n), at log10 mu."""
     n, k = problem.n, problem.k
@@ -144,6 +182,7 @@ def equilibrium_path(
     longest_step: float = 0.5,
     start_gap: float | None = None,
     end_height: float = Meshes.end_height,
+    tracking: Tracking | None = None,
 ) -> Iterator[Point]:
     """Yield the path, one converged state after another, without end: the caller stops.
 
@@ -160,6 +199,8 @@ def equilibrium_path(
         Gap of the first state at the lowest point of the punch, which is its center unless the tip is concave.
     end_height : float
         Height of the punch at which the mesh ends.
+    tracking : Tracking, optional
+        By default the mesh follows the contact edge.
 
     Yields
     ------
@@ -169,10 +210,11 @@ def equilibrium_path(
     Raises
     ------
     NotConverged
-        When the step becomes too small.
+        When the step becomes too small, or the path turns back.
     """
     _check_edge(problem)
-    arc = ArcLength.of(problem)
+    arc, tracking = ArcLength.of(problem), tracking or Tracking()
+    longest_step = min(longest_step, tracking.longest_step)
     gap = _start_gap(problem) if start_gap is None else start_gap
     gap += depth(problem, end_radius(problem, end_height))
     state = _far_state(problem, gap, order, tolerance, end_height)
@@ -181,13 +223,13 @@ def equilibrium_path(
     kinked = bool(kinks_of(problem.punch))
     least_share = _GIVEN_SHARE if kinked else _LEAST_SHARE
     shortest = _BLIND_STEP if isinstance(problem.punch, PowerPunch) else _BLIND_STEP_OF_ASPERITIES
-    step = min(_FIRST_STEP, longest_step)
+    step, turns, farthest = min(_FIRST_STEP, longest_step), 0, _RETURNED + state.central_gap
     point = Point(state, arc.tangent(state))
     while True:
         yield point
         state = point.state
-        nucleus = _nucleus_gap(state, point.rates)
-        if nucleus is not None or edge_elsewhere(state, hand_over):
+        nucleus = _nucleus_gap(state, point.rates) if tracking.follow else None
+        if tracking.follow and (nucleus is not None or edge_elsewhere(state, hand_over)):
             guess = follow_edge(state, end_height, nucleus)
             control = parameter_control(guess, parameter_of(guess))
             if nucleus is not None:  # it grows slowly at first: its gap tells states apart better than its radius
@@ -195,6 +237,13 @@ def equilibrium_path(
             state = fit(newton(guess, control), control, tolerance)
             point = joined(arc, point, state)
             continue
+        if state.central_gap > farthest:
+            raise NotConverged(f"the path of {problem} came back to separation: a sharp turn of it was not resolved")
+        if turns > _MOST_TURNS:
+            raise NotConverged(
+                f"the path of {problem} ends at delta = {state.displacement:.6g}, P = {state.load:.6g}: "
+                f"in none of its parameters a step goes on"
+            )
         shares = arc.shares(point)
         usual = "log_scale" if state.follows_edge else "gap"
         # With the scale given, no node passes a kink during an iteration.
@@ -222,9 +271,12 @@ def equilibrium_path(
                     continue
                 same = turn >= 0.0
                 if not power:
-                    same = checked_sense(point, after, step, same if abs(turn) >= _LARGEST_TURN else None)
+                    same = checked_sense(
+                        point, after, step, same if abs(turn) >= _LARGEST_TURN else None, tracking.surprise
+                    )
                 if not same:  # the path goes on, but its parameter turns
                     after = turned(arc, point)
+                turns = 0 if same else turns + 1
                 break
             except NotConverged as error:
                 step *= _RETRY
@@ -251,12 +303,13 @@ def path_until(
     longest_step: float = 0.5,
     start_gap: float | None = None,
     end_height: float = Meshes.end_height,
+    tracking: Tracking | None = None,
 ) -> list[Point]:
     """Points of the path up to the first state for which `ended` holds.
 
     Parameters
     ----------
-    problem, order, tolerance, longest_step, start_gap, end_height
+    problem, order, tolerance, longest_step, start_gap, end_height, tracking
         As for `equilibrium_path`.
     ended : callable
         State -> bool; called once for each state, in their order.
@@ -271,19 +324,70 @@ def path_until(
         When the end is not reached.
     """
     points: list[Point] = []
-    for point in equilibrium_path(problem, order, tolerance, longest_step, start_gap, end_height):
+    for point in equilibrium_path(problem, order, tolerance, longest_step, start_gap, end_height, tracking):
         points.append(point)
         if ended(point.state):
             return points
         if len(points) > most:
             break
-    raise NotConverged(f"the path of {problem} has not reached {end} in {most} steps")
+    last = points[-1].state
+    raise NotConverged(
+        f"the path of {problem} has not reached {end} in {most} steps: the last is at "
+        f"delta = {last.displacement:.6g}, P = {last.load:.6g}"
+    )
 
 
-def bracketing_path(problem: Problem, meshes: Meshes) -> list[Point]:
+def path_by_any_mesh(
+    problem: Problem,
+    order: int,
+    tolerance: float,
+    ended: Callable[[], Callable[[State], bool]],
+    completed: Callable[[list[Point], float], list[Point]],
+    end: str,
+    most: int = MAX_POINTS,
+    longest_step: float = 0.5,
+    start_gap: float | None = None,
+    end_height: float = Meshes.end_height,
+) -> list[Point]:
+    """Points of the path as of `path_until`, on a mesh that follows the edge or on one of fixed scale.
+
+    The moving mesh is the first choice, but for a punch with kinks.  The others are tried where the edge is wide.
+
+    Parameters
+    ----------
+    problem, order, tolerance, end, most, longest_step, start_gap, end_height
+        As for `path_until`.
+    ended : callable
+        () -> the condition of the end of a new path.
+    completed : callable
+        Points of a path, tolerance -> points between which no turning point hides (see `fscm._completeness`).
+
+    Raises
+    ------
+    NotConverged
+        With the reason of the first choice.
+    """
+    choices = [Tracking()]
+    if not isinstance(problem.punch, PowerPunch) and _log_edge(problem) > _WIDE:
+        choices = [_FIXED, Tracking(), _CAREFUL] if kinks_of(problem.punch) else [Tracking(), _FIXED, _CAREFUL]
+    errors = []
+    for tracking in choices:
+        try:
+            known = ended(), end, most, longest_step, start_gap, end_height, tracking
+            return completed(path_until(problem, order, tolerance, *known), tolerance)
+        except NotConverged as error:
+            errors.append(error)
+    raise errors[0]
+
+
+def bracketing_path(
+    problem: Problem,
+    meshes: Meshes,
+    completed: Callable[[list[Point], float], list[Point]] = lambda points, tolerance: points,
+) -> list[Point]:
     """The coarse path from far separation to a compressive load, which brackets every event."""
-    end = path_end(problem, meshes.end_height)
-    return path_until(problem, *meshes.path, end, "a compressive load", end_height=meshes.end_height)
+    end = partial(path_end, problem, meshes.end_height)
+    return path_by_any_mesh(problem, *meshes.path, end, completed, "a compressive load", end_height=meshes.end_height)
 
 
 def path_end(problem: Problem, end_height: float) -> PathEnd:

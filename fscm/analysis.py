@@ -70,7 +70,7 @@ class Analysis:
     @one_thread()
     def points(self) -> list[Point]:
         """The coarse path from far separation to its end; no turning point of load or displacement is left out."""
-        return completed(bracketing_path(self.problem, self.meshes), self.meshes.path.tolerance)
+        return bracketing_path(self.problem, self.meshes, completed)
 
     @cached_property
     @one_thread()
