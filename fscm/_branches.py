@@ -16,10 +16,10 @@ from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.punch import PowerPunch, kinks_of
 
-__all__ = ["checked_sense", "edge_elsewhere", "follow_edge", "joined", "predicted", "turned"]
+__all__ = ["SURPRISE", "checked_sense", "edge_elsewhere", "follow_edge", "joined", "predicted", "turned"]
 
 # Largest deviation from the trapezoidal rule, relative to the distance of a gap to the singular gap.
-_SURPRISE = 0.5
+SURPRISE = 0.5
 # The gaps within this multiple of the edge radius tell the sense of the path.
 _NEAR_EDGE = 2.0
 
@@ -98,7 +98,7 @@ def _moving_rates(point: Point) -> Array:
     return rates.gap if point.state.lift is None else rates.gap - rates.displacement
 
 
-def checked_sense(a: Point, b: Point, step: float, same: bool | None) -> bool:
+def checked_sense(a: Point, b: Point, step: float, same: bool | None, largest: float = SURPRISE) -> bool:
     """Whether the gaps go on changing in the same sense; NotConverged when b is on another branch.
 
     Near a sharp turn of the path, the gaps inside the contact tell its sense when load and displacement do not.
@@ -113,6 +113,6 @@ def checked_sense(a: Point, b: Point, step: float, same: bool | None) -> bool:
     if same is None:
         same = bool(np.sum(product[near]) >= 0.0)
     surprise = after - before - 0.5 * step * (rate + (1.0 if same else -1.0) * new_rate)
-    if np.max(np.abs(surprise) / clearance) > _SURPRISE:
+    if np.max(np.abs(surprise) / clearance) > largest:
         raise NotConverged("Newton converged to a state that the tangent does not lead to")
     return same

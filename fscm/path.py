@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TypeAlias
@@ -12,13 +13,12 @@ from numpy.typing import NDArray
 from fscm import _events as events
 from fscm._arc_length import Point, parameter_of
 from fscm._bounds import EventErrors
-from fscm._completeness import completed
-from fscm._continuation import path_end, path_until
 from fscm._equilibrium import State
 from fscm._meshes import Accuracy, Meshes
 from fscm._threads import one_thread
 from fscm._typing import Array
-from fscm.folds import Fold, fold_at, folds_between
+from fscm._whole_path import path_by_any_mesh, path_end
+from fscm.folds import Fold, edge_radius, fold_at, folds_between
 from fscm.problem import Problem
 from fscm.stability import stable_sections
 
@@ -117,18 +117,20 @@ def trace(
     """
     meshes = Meshes.of(accuracy)
     start = 10.0 + 5.0 * problem.mu if start_gap is None else start_gap
-    end = path_end(problem, meshes.end_height)
-    lowest = 0.0
 
-    def ended(state: State) -> bool:
-        nonlocal lowest
-        lowest = min(lowest, state.load)
-        end.load = -lowest if max_load is None else max(max_load, 0.0)
-        return end(state)
+    def ending() -> Callable[[State], bool]:
+        end, lowest = path_end(problem, meshes.end_height), 0.0
 
-    points = completed(
-        path_until(problem, *meshes.curve, ended, "its end", _MAX_POINTS, longest_step, start, meshes.end_height),
-        meshes.curve.tolerance,
+        def ended(state: State) -> bool:
+            nonlocal lowest
+            lowest = min(lowest, state.load)
+            end.load = -lowest if max_load is None else max(max_load, 0.0)
+            return end(state)
+
+        return ended
+
+    points = path_by_any_mesh(
+        problem, *meshes.curve, ending, "its end", _MAX_POINTS, longest_step, start, meshes.end_height
     )
     states, folds = _with_events(points)
     if max_load is not None and max_load <= 0.0:
@@ -140,7 +142,7 @@ def trace(
         np.array([s.displacement for s in states]),
         np.array([s.load for s in states]),
         np.array([s.energy for s in states]),
-        np.array([s.scale if s.follows_edge else np.nan for s in states]),
+        np.array([edge_radius(s) for s in states]),
         u_displacement,
         u_load,
         tuple(fold_at(*fold) for fold in folds),
