@@ -12,15 +12,14 @@ from fscm._adaptivity import at_kinks, on_mesh, rescaled_mesh
 from fscm._arc_length import ArcLength, Point
 from fscm._equilibrium import Discretisation, Rates, State
 from fscm._newton import shifted
-from fscm._panels import PanelMesh
 from fscm._typing import Array
 from fscm.errors import NotConverged
-from fscm.punch import kinks_of
+from fscm.punch import PowerPunch, kinks_of
 
-__all__ = ["checked_sense", "edge_elsewhere", "follow_edge", "joined", "predicted", "turned"]
+__all__ = ["SURPRISE", "checked_sense", "edge_elsewhere", "follow_edge", "joined", "predicted", "turned"]
 
 # Largest deviation from the trapezoidal rule, relative to the distance of a gap to the singular gap.
-_SURPRISE = 0.5
+SURPRISE = 0.5
 # The gaps within this multiple of the edge radius tell the sense of the path.
 _NEAR_EDGE = 2.0
 
@@ -31,7 +30,7 @@ def predicted(state: State, rates: Rates, step: float) -> State:
     moved = shifted(state, rates.gap, rates.displacement, rates.log_scale, step)
     if step * rates.log_scale == 0.0 or not kinks_of(problem.punch):
         return moved
-    return on_mesh(moved, PanelMesh(at_kinks(problem, old.breaks, state.scale, moved.scale), old.order))
+    return on_mesh(moved, at_kinks(problem, old, state.scale, moved.scale))
 
 
 def follow_edge(state: State, end_height: float, edge_gap: float | None = None) -> State:
@@ -39,10 +38,11 @@ def follow_edge(state: State, end_height: float, edge_gap: float | None = None) 
     problem, mesh = state.disc.problem, state.disc.mesh
     target = problem.law.peak_gap if edge_gap is None else edge_gap
     outer = int(np.flatnonzero(state.gap < target)[-1]) if np.any(state.gap < target) else -1
-    low = 0.0 if outer < 0 else float(mesh.nodes[outer])
-    ratio = scipy.optimize.brentq(
-        lambda s: mesh.evaluate(state.gap, np.array([s]))[0] - target, low, mesh.nodes[outer + 1]
+    low = -mesh.origin if outer < 0 else float(mesh.places[outer])
+    place = scipy.optimize.brentq(
+        lambda s: mesh.evaluate_places(state.gap, np.array([s]))[0] - target, low, mesh.places[outer + 1]
     )
+    ratio = mesh.origin + place
     new = rescaled_mesh(problem, mesh, state.scale, state.scale * ratio, end_height)
     known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
     disc, scale, shape = Discretisation(problem, new), state.scale * ratio, problem.punch.height
@@ -71,10 +71,18 @@ def turned(arc: ArcLength, point: Point, name: str | None = None) -> Point:
 
 
 def joined(arc: ArcLength, before: Point, state: State) -> Point:
-    """The state that follows another edge, with load and displacement changing in the same sense as before."""
+    """The state that follows another edge, with load and displacement changing in the same sense as before.
+
+    Under a power-law punch, contact begins at the center: there its gap changes in the same sense.  Load and
+    displacement do not tell it: the nucleus is so small that they stay the same to the error of the mesh.
+    """
     point = Point(state, arc.tangent(state), before.stretch + 1)
-    old, new = arc.shares(before), arc.shares(point)
-    if sum(old[name] * new[name] for name in ("displacement", "load")) >= 0.0:
+    if isinstance(state.disc.problem.punch, PowerPunch):
+        same = before.rates.central_gap * point.rates.central_gap >= 0.0
+    else:
+        old, new = arc.shares(before), arc.shares(point)
+        same = sum(old[name] * new[name] for name in ("displacement", "load")) >= 0.0
+    if same:
         return point
     state = replace(state, turned=("log_scale", -1.0))
     return Point(state, arc.tangent(state), before.stretch + 1)
@@ -90,14 +98,14 @@ def _moving_rates(point: Point) -> Array:
     return rates.gap if point.state.lift is None else rates.gap - rates.displacement
 
 
-def checked_sense(a: Point, b: Point, step: float, same: bool | None) -> bool:
+def checked_sense(a: Point, b: Point, step: float, same: bool | None, largest: float = SURPRISE) -> bool:
     """Whether the gaps go on changing in the same sense; NotConverged when b is on another branch.
 
     Near a sharp turn of the path, the gaps inside the contact tell its sense when load and displacement do not.
     """
     mesh, other = a.state.disc.mesh, b.state.disc.mesh
-    known = np.minimum(other.nodes, mesh.breaks[-1])
-    before, rate = mesh.evaluate(_moving(a.state), known), mesh.evaluate(_moving_rates(a), known)
+    known = np.minimum(other.seen_from(mesh.origin), mesh.offsets[-1])
+    before, rate = mesh.evaluate_places(_moving(a.state), known), mesh.evaluate_places(_moving_rates(a), known)
     after, new_rate = _moving(b.state), _moving_rates(b)
     clearance = b.state.gap - a.state.disc.problem.law.singular_gap
     near = other.nodes < _NEAR_EDGE
@@ -105,6 +113,6 @@ def checked_sense(a: Point, b: Point, step: float, same: bool | None) -> bool:
     if same is None:
         same = bool(np.sum(product[near]) >= 0.0)
     surprise = after - before - 0.5 * step * (rate + (1.0 if same else -1.0) * new_rate)
-    if np.max(np.abs(surprise) / clearance) > _SURPRISE:
+    if np.max(np.abs(surprise) / clearance) > largest:
         raise NotConverged("Newton converged to a state that the tangent does not lead to")
     return same

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -168,10 +169,11 @@ def response_block(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], s
     """
     q = mesh.order
     v, w = mesh.rule.nodes, mesh.rule.weights
-    a, b, h = mesh.starts, mesh.breaks[1:], mesh.lengths
+    # Less the origin: clearances come from exact differences.
+    a, b, h = mesh.offsets[:-1], mesh.offsets[1:], mesh.lengths
     at, bt, ht = a[targets, None], b[targets, None], h[targets, None]  # (T, 1)
     as_, bs, hs = a[None, sources], b[None, sources], h[None, sources]  # (1, S)
-    # Clearance of each target node from each source panel, from exact differences of breaks: (T, S, q).
+    # Clearance of each target node from each source panel: (T, S, q).
     left = (at - bs)[:, :, None] + (ht * v)[:, None, :]  # panel to the left of the node
     right = (as_ - bt)[:, :, None] + (ht * v[::-1])[:, None, :]  # panel to the right
     own = (targets[:, None] == sources[None, :])[:, :, None]
@@ -180,8 +182,9 @@ def response_block(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], s
     gap = np.where(own, 0.0, gap)
     near = gap < _NEAR * hs[:, :, None]
 
-    r = (at + ht * v)[:, None, :, None]  # (T, 1, q, 1)
-    t = (as_.T + hs.T * v)[None, :, None, :]  # (1, S, 1, q)
+    nodes = mesh.nodes.reshape(-1, q)
+    r = nodes[targets, None, :, None]  # (T, 1, q, 1)
+    t = nodes[None, sources, None, :]  # (1, S, 1, q)
     beyond = np.where(is_left[:, :, None], (hs.T * v[::-1])[None, :, :], (hs.T * v)[None, :, :])
     distance = gap[:, :, :, None] + beyond[:, :, None, :]
     far = np.broadcast_to(~near[:, :, :, None], distance.shape)
@@ -195,7 +198,7 @@ def response_block(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], s
         own_pair = targets[T] == sources[S]
         block[T, S, Q] = _near_rows(
             kernel,
-            (at + ht * v)[T, Q],
+            nodes[targets[T], Q],
             gap[T, S, Q],
             np.where(is_left[T, S], -1.0, 1.0),
             own_pair,
@@ -210,11 +213,11 @@ def response_matrix(kernel: Kernel, mesh: PanelMesh, previous: tuple[PanelMesh, 
     """The whole matrix W, shape (m q, m q); blocks between panels that `previous` has too are reused."""
     count, q = len(mesh.lengths), mesh.order
     everything = np.arange(count)
-    if previous is None or previous[0].order != q:
+    if previous is None or (previous[0].order, previous[0].origin) != (q, mesh.origin):
         return response_block(kernel, mesh, everything, everything)
     old, old_matrix = previous
-    where = {edges: i for i, edges in enumerate(zip(old.starts, old.breaks[1:], strict=True))}
-    match = np.array([where.get(edges, -1) for edges in zip(mesh.starts, mesh.breaks[1:], strict=True)])
+    where = {edges: i for i, edges in enumerate(pairwise(old.offsets))}
+    match = np.array([where.get(edges, -1) for edges in pairwise(mesh.offsets)])
     kept, fresh = np.flatnonzero(match >= 0), np.flatnonzero(match < 0)
     W = np.empty((count, q, count, q))
     W[np.ix_(kept, np.arange(q), kept, np.arange(q))] = old_matrix.reshape(len(old.lengths), q, len(old.lengths), q)[

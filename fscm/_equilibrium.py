@@ -66,7 +66,7 @@ class Discretisation:
         known = (previous.mesh, previous.matrix) if previous is not None and previous.problem.k == problem.k else None
         self.matrix: Array = response_matrix(kernel, mesh, known)
         self.axis = axis_row(kernel, mesh)
-        edge = int(np.searchsorted(mesh.breaks, 1.0))
+        edge = int(np.searchsorted(mesh.offsets, 1.0 - mesh.origin))
         self.edge = mesh.row_at_end(max(edge - 1, 0), 1.0)
 
     @property
@@ -214,12 +214,14 @@ class State:
         return float(area @ density) + tail_energy(self.disc.problem, self.end, self.displacement)
 
     @cached_property
-    def _system(self) -> Linearisation:
-        return Linearisation(self)
+    def _rates(self) -> dict[str, Rates]:
+        return {}
 
     def rates(self, follow: str = "log_scale") -> Rates:
         """Exact derivatives along the path, per unit of `follow` ("log_scale" or "gap")."""
-        return self._system.rates(Control(0.0, **{follow: 1.0}))
+        if follow not in self._rates:  # kept in place of the tangent, which takes as much memory as the response
+            self._rates[follow] = Linearisation(self).rates(Control(0.0, **{follow: 1.0}))
+        return self._rates[follow]
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,6 @@ from fscm._arc_length import Point, parameter_control, parameter_of, rates_of
 from fscm._continuation import moved
 from fscm._equilibrium import Rates, State
 from fscm._newton import newton
-from fscm._panels import PanelMesh
 from fscm.errors import NotConverged
 
 __all__ = [
@@ -164,7 +163,7 @@ def _least_rate(a: Point, b: Point) -> tuple[Point, Point, Point, float]:
 def refined(state: State, order: int, tolerance: float) -> State:
     """The state at the same continuation parameter, on a mesh of the given order refined to the tolerance."""
     control = parameter_control(state, parameter_of(state))
-    mesh = PanelMesh(state.disc.mesh.breaks, order)
+    mesh = replace(state.disc.mesh, order=order)
     return fit(newton(on_mesh(state, mesh), control), control, tolerance, coarsen=True)
 
 

@@ -1,8 +1,8 @@
 """The panel mesh: consecutive intervals of the radius, each with the same Gauss-Legendre nodes.
 
 A function on the mesh is the vector of its values at all nodes, panel by panel; on each panel it is the
-polynomial of degree q-1 through them.  Radii are kept as (panel start, offset), because the distance of two
-points near the cohesive edge is far below the rounding of the radii themselves.
+polynomial of degree q-1 through them.  Panel ends are kept as exact distances from an origin, the axis or the
+cohesive edge, because the edge is narrower than the rounding of its radius when k or mu is large.
 """
 
 from __future__ import annotations
@@ -80,37 +80,50 @@ def gauss_rule(order: int) -> GaussRule:
 
 @dataclass(frozen=True, eq=False)
 class PanelMesh:
-    """Panels between consecutive `breaks` (shape (m+1,), ascending from 0) with `order` nodes each.
+    """Panels between consecutive ends with `order` nodes each.
 
     Parameters
     ----------
-    breaks : ndarray, shape (m + 1,)
-        Panel ends in a radius of any unit, strictly ascending from 0.
+    offsets : ndarray, shape (m + 1,)
+        Panel ends less the origin, in a radius of any unit; they ascend strictly from the axis.
     order : int
         Nodes a panel, q.
+    origin : float
+        Radius from which the offsets count, 0 by default.  Distances near it are exact to full relative accuracy.
 
     Raises
     ------
     ValueError
-        When the breaks do not ascend strictly from 0.
+        When the ends do not ascend strictly from the axis.
     """
 
-    breaks: Array
+    offsets: Array
     order: int
+    origin: float = 0.0
 
     def __post_init__(self) -> None:
-        if self.breaks[0] != 0.0 or np.any(np.diff(self.breaks) <= 0.0):
+        if self.offsets[0] != -self.origin or np.any(np.diff(self.offsets) <= 0.0):
             raise ValueError("panel breaks must ascend strictly from 0")
 
     @cached_property
+    def breaks(self) -> Array:
+        """Radii of the panel ends, shape (m + 1,), rounded."""
+        return self.origin + self.offsets
+
+    @cached_property
     def starts(self) -> Array:
-        """Panel starts, shape (m,)."""
+        """Radii of the panel starts, shape (m,), rounded."""
         return self.breaks[:-1]
 
     @cached_property
     def lengths(self) -> Array:
-        """Panel lengths, shape (m,); exact differences of the breaks."""
-        return np.diff(self.breaks)
+        """Panel lengths, shape (m,); exact differences of the offsets."""
+        return np.diff(self.offsets)
+
+    @cached_property
+    def middles(self) -> Array:
+        """Middles of the panels less the origin, shape (m,)."""
+        return self.offsets[:-1] + 0.5 * self.lengths
 
     @property
     def rule(self) -> GaussRule:
@@ -123,8 +136,14 @@ class PanelMesh:
         return len(self.lengths) * self.order
 
     @cached_property
+    def places(self) -> Array:
+        """Nodes less the origin, shape (m q,)."""
+        return (self.offsets[:-1, None] + self.lengths[:, None] * self.rule.nodes).ravel()
+
+    @cached_property
     def nodes(self) -> Array:
-        """Radii of the nodes, shape (m q,)."""
+        """Radii of the nodes, shape (m q,), rounded."""
+        # Not the origin plus the places: the starts near the axis are exact.
         return (self.starts[:, None] + self.lengths[:, None] * self.rule.nodes).ravel()
 
     @cached_property
@@ -136,14 +155,22 @@ class PanelMesh:
         """Legendre coefficients panel by panel, shape (m, q), of nodal `values`, shape (m q,)."""
         return values.reshape(-1, self.order) @ self.rule.to_modes.T
 
-    def locate(self, radii: Array) -> NDArray[np.intp]:
-        """Index of the panel that holds each radius; radii beyond the last break go to the last panel."""
-        return np.clip(np.searchsorted(self.breaks, radii, side="right") - 1, 0, len(self.lengths) - 1)
+    def locate(self, places: Array) -> NDArray[np.intp]:
+        """Index of the panel that holds each radius less the origin; what is farther out goes to the last panel."""
+        return np.clip(np.searchsorted(self.offsets, places, side="right") - 1, 0, len(self.lengths) - 1)
+
+    def seen_from(self, origin: float) -> Array:
+        """Nodes less another origin, shape (m q,)."""
+        return self.places + (self.origin - origin)
 
     def evaluate(self, values: Array, radii: Array) -> Array:
         """Values at `radii`, shape (p,), of the piecewise polynomial with nodal `values`."""
-        panel = self.locate(radii)
-        u = (radii - self.starts[panel]) / self.lengths[panel]
+        return self.evaluate_places(values, radii - self.origin)
+
+    def evaluate_places(self, values: Array, places: Array) -> Array:
+        """Values of the piecewise polynomial with nodal `values` at radii less the origin, shape (p,)."""
+        panel = self.locate(places)
+        u = (places - self.offsets[panel]) / self.lengths[panel]
         rows = self.rule.interpolation(u)
         return np.einsum("ij,ij->i", rows, values.reshape(-1, self.order)[panel])
 
@@ -160,11 +187,13 @@ class PanelMesh:
         radius are handled to full relative accuracy.
         """
         q = other.order
-        panel = np.repeat(self.locate(other.starts + 0.5 * other.lengths), q)
-        offset = (other.starts - self.starts[panel[::q]])[:, None] + other.lengths[:, None] * other.rule.nodes
+        shift = other.origin - self.origin
+        panel = np.repeat(self.locate(other.middles + shift), q)
+        start = other.offsets[:-1] + shift - self.offsets[panel[::q]]
+        offset = start[:, None] + other.lengths[:, None] * other.rule.nodes
         u = offset.ravel() / self.lengths[panel]
         inside = (u >= 0.0) & (u <= 1.0)
         out = np.einsum("ij,ij->i", self.rule.interpolation(u), values.reshape(-1, self.order)[panel])
         if not inside.all():  # `other` merged panels: its nodes fall into several of ours
-            out[~inside] = self.evaluate(values, other.nodes[~inside])
+            out[~inside] = self.evaluate_places(values, other.seen_from(self.origin)[~inside])
         return out

@@ -13,7 +13,7 @@ class NotConverged(RuntimeError):
     >>> from fscm import Problem, solve
     >>> solve(Problem(n=2, k=0.999, mu=1), "pull_off_force")
     Traceback (most recent call last):
-    fscm.errors.NotConverged: the contact edge of ... is about 10^-314 wide, below the rounding of its radius: ...
+    fscm.errors.NotConverged: the contact edge of ... is about 10^-314 of its radius wide, below 10^-22, ...
     """
 
 

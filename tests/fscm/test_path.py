@@ -7,11 +7,24 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
-from fscm import Analysis, LennardJones93, NoSuchEvent, NotConverged, Problem, equilibria, profile, solve, trace
+from fscm import (
+    Analysis,
+    LennardJones93,
+    NoSuchEvent,
+    NotConverged,
+    Problem,
+    Solution,
+    equilibria,
+    profile,
+    solve,
+    solve_together,
+    trace,
+)
 from fscm._arc_length import parameter_of, rates_of
 from fscm._completeness import completed
-from fscm._continuation import equilibrium_path, moved, path_end, path_until
+from fscm._continuation import equilibrium_path, moved
 from fscm._meshes import Mesh, Meshes
+from fscm._whole_path import path_end, path_until
 from fscm.experiment import displacement_cycle, load_controlled_retreat
 
 
@@ -181,9 +194,12 @@ def test_a_punch_near_the_least_shape_index_is_followed_in_steps_of_its_load() -
     assert solution.u_num < 1e-8
 
 
-@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.9, 2.0), (2.0, 0.95, 1.0), (5.0, 0.95, 1.0)])
+@pytest.mark.parametrize(
+    ("n", "k", "mu"),
+    [(2.0, 0.9, 2.0), (2.0, 0.95, 1.0), (5.0, 0.95, 1.0), pytest.param(2.0, 0.98, 1.0, marks=pytest.mark.heavy)],
+)
 def test_the_edge_of_a_small_nucleus_is_followed(n: float, k: float, mu: float) -> None:
-    """It is up to 1e-8 wide and its own gap is above that of largest tension: the fixed mesh needed 1e3 steps."""
+    """It is up to 1e-16 wide and its own gap is above that of largest tension: the fixed mesh needed 1e3 steps."""
     analysis = Analysis(Problem(n, k, mu))
     solution = analysis.solution("pull_off_force")
     assert len(analysis.points) < 150
@@ -194,7 +210,19 @@ def test_the_edge_of_a_small_nucleus_is_followed(n: float, k: float, mu: float) 
     assert solution.u_num < 1e-7
 
 
-@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.0, 1e6), (2.0, 0.98, 1.0), (2.0, 0.95, 2.0)])
+@pytest.mark.parametrize(
+    ("k", "mu", "zero_load_displacement"), [(0.0, 1e5, 194888.854486038), (0.4, 1e3, 2017.03606843554)]
+)
+def test_an_edge_below_the_rounding_of_its_radius(k: float, mu: float, zero_load_displacement: float) -> None:
+    """JKR-n-k: it is right to 5e-7 here.  A mesh that does not resolve the edge was wrong by 2e-3."""
+    found = solve_together(Problem(2.0, k, mu), ("pull_off_force", "zero_load_displacement"))
+    for solution, jkr in zip(found.values(), (0.5 * (3.0 + k), zero_load_displacement), strict=True):
+        assert isinstance(solution, Solution)
+        assert solution.value == pytest.approx(jkr, rel=5e-7)
+        assert solution.u_num < 1e-6 * jkr
+
+
+@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.9, 100.0), (2.0, 0.99, 1.0), (2.0, 0.95, 20.0)])
 def test_an_edge_too_narrow_is_refused_with_the_largest_tabor_number(n: float, k: float, mu: float) -> None:
     with pytest.raises(NotConverged, match=r"the largest Tabor number at n = 2, k = .* is mu = "):
         solve(Problem(n, k, mu), "pull_off_force")

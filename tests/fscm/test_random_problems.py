@@ -14,8 +14,8 @@ from tests.fscm.random_problems import known, problems
 REFERENCE_ERROR = 1e-14
 # Largest ratio of bound to error, in the median and everywhere, where the error is above that rounding.
 MEDIAN, WORST = 1e3, 1e5
-# An edge too narrow beside the rounding of its radius is refused, although the finer path may have been solved.
-NARROW = "below the rounding of its radius"
+# A very narrow edge is refused.
+NARROW = "which needs too much memory"
 # Problems whose finer path was not solved either: k above 0.8 and mu above 5.
 UNSOLVED = 8
 # Problems of the quick test: one of each 25.
