@@ -1,7 +1,8 @@
 """Reference values of 500 random problems, from paths with 8 times smaller steps and from finer meshes.
 
 ``python -m tests.fscm.random_problems`` adds the problems that `random_problems.csv` lacks.  A row is a problem and a
-quantity; its status is "value", the name of the exception that the finer path raised, or "timeout".
+quantity; its status is "value", the name of the exception that the finer path raised, or "timeout".  The bound of the
+finer value is stored where it was computed: without it, rounding is what is left of its error.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ from fscm._whole_path import path_end
 
 SEED, COUNT = 20261122, 500
 TABLE = Path(__file__).with_suffix(".csv")
-COLUMNS = ("n", "k", "mu", "quantity", "status", "value", "points")
+COLUMNS = ("n", "k", "mu", "quantity", "status", "value", "points", "u_num")
 # Other panels, a mesh that ends ten times farther out, and steps of an eighth in arc length.
 MESHES = Meshes(path=Mesh(10, 2e-5), check=Mesh(8, 1e-3), value=Mesh(18, 1e-9), end_height=1e7)
 STEPS = 8
@@ -87,22 +88,24 @@ def rows_of(problem: Problem) -> Iterator[tuple[object, ...]]:
     try:
         model = finer(problem)
     except NotConverged:
-        yield from ((*case, name, "NotConverged", "", "") for name in NAMES)
+        yield from ((*case, name, "NotConverged", "", "", "") for name in NAMES)
         return
     for name in NAMES:
         try:
-            yield *case, name, "value", repr(float(model.solution(name).value)), len(model.points)
+            found = model.solution(name)
+            yield *case, name, "value", repr(float(found.value)), len(model.points), f"{found.u_num:.2g}"
         except (NoSuchEvent, NotConverged) as error:
-            yield *case, name, type(error).__name__, "", len(model.points)
+            yield *case, name, type(error).__name__, "", len(model.points), ""
 
 
-def known() -> dict[Problem, dict[str, tuple[str, float]]]:
-    """Status and value of each quantity of each problem in the table."""
-    found: dict[Problem, dict[str, tuple[str, float]]] = {}
+def known() -> dict[Problem, dict[str, tuple[str, float, float]]]:
+    """Status, value and its bound (0 where it is not stored) of each quantity of each problem in the table."""
+    found: dict[Problem, dict[str, tuple[str, float, float]]] = {}
     with TABLE.open(newline="") as file:
         for row in csv.DictReader(file):
             problem = Problem(float(row["n"]), float(row["k"]), float(row["mu"]))
-            found.setdefault(problem, {})[row["quantity"]] = row["status"], float(row["value"] or math.nan)
+            value = row["status"], float(row["value"] or math.nan), float(row["u_num"] or 0.0)
+            found.setdefault(problem, {})[row["quantity"]] = value
     return found
 
 
@@ -115,7 +118,7 @@ def _computed(problem: Problem) -> list[tuple[object, ...]]:
     try:
         return list(rows_of(problem))
     except TimeoutError:
-        return [(problem.n, problem.k, problem.mu, name, "timeout", "", "") for name in NAMES]
+        return [(problem.n, problem.k, problem.mu, name, "timeout", "", "", "") for name in NAMES]
     finally:
         signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
 
