@@ -10,9 +10,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
+import numpy as np
 import scipy
 
-from fscm._adaptivity import fit, on_mesh
+from fscm._adaptivity import fit, indicator, on_mesh
 from fscm._arc_length import Point, parameter_control, parameter_of, rates_of
 from fscm._continuation import moved
 from fscm._equilibrium import Rates, State
@@ -41,6 +42,9 @@ _SECANT_STEPS = 15
 # First step of the secant method: large against rounding of the derivative, small against its curvature.
 _FIRST_SECANT_STEP = 1e-4
 _COARSE_PARAMETER_TOLERANCE = 1e-6
+# The mesh is refined again when the pressure at the root is unresolved by this factor, at most so often.  Measured:
+# once at n = 300, k = 0, where the force was wrong by 4e-8.
+_UNRESOLVED, _REFITS = 10.0, 4
 
 
 def load_fold(state: State, rates: Rates) -> float:
@@ -173,9 +177,20 @@ def sharpen(state: State, condition: Condition, order: int, tolerance: float) ->
     Raises
     ------
     NotConverged
-        When the secant method does not settle.
+        When the secant method does not settle, or the mesh at the root stays too coarse.
     """
     state = refined(state, order, tolerance)
+    for _ in range(_REFITS):
+        state = _root(state, condition)
+        if np.max(indicator(state)) <= _UNRESOLVED * tolerance:
+            return state
+        # The steep rise of a flat punch has left the panels that resolved it.
+        state = refined(state, order, tolerance)
+    raise NotConverged("the mesh at an event does not resolve the pressure; the event moves with the mesh")
+
+
+def _root(state: State, condition: Condition) -> State:
+    """Root of the condition on the mesh of a state, by the secant method."""
     iterations = state.iterations
     rates = rates_of(state)
     value = condition(state, rates)

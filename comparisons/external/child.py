@@ -27,6 +27,9 @@ _START = 120.0
 #: Longest reply, in bytes: a curve of a million points and a few columns.
 _LONGEST_REPLY = 200_000_000
 
+# Time that a process may take to end after its pipe has closed; a loaded machine took more than a second.
+_END_SECONDS = 20.0
+
 
 class Child:
     """A process that has loaded one model; started at the first request, and again after it had to be ended.
@@ -131,7 +134,7 @@ class Child:
         # The pipe may close a moment before the process is gone; one that closed it by itself is ended.
         code = None
         with contextlib.suppress(subprocess.TimeoutExpired):
-            code = launched.process.wait(1.0)
+            code = launched.process.wait(_END_SECONDS)
         self.close()
         if code is None:
             return _failed("its process closed the pipe for its results")
