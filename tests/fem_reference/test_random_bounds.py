@@ -12,6 +12,9 @@ LARGEST_RATIO = 1e5
 LARGEST_MEDIAN = 1e3
 """Of the same ratio over all values of the table."""
 
+UNFINISHED = {9}
+"""n = 1.06, k = 0.88, mu = 1.19: no result within 12 minutes of one processor, on meshes of 4 GB."""
+
 
 def _outside(table):
     values = {row["quantity"]: ratio(row) for row in table if row["status"] == "value"}
@@ -31,6 +34,7 @@ def test_no_error_is_above_its_bound(number):
 
 def test_no_error_of_the_table_is_above_its_bound():
     table = stored()
+    assert {int(row["number"]) for row in table} == set(range(COUNT)) - UNFINISHED
     ratios = [ratio(row) for row in table if row["status"] == "value"]
     assert all(1.0 <= found <= LARGEST_RATIO for found in ratios)
     assert statistics.median(ratios) <= LARGEST_MEDIAN
