@@ -20,6 +20,8 @@ NARROW = "which needs too much memory"
 UNSOLVED = 8
 # Problems of the quick test: one of each 25.
 EVERY = 25
+# Numbers of problems with a bound that was up to 20 times too small.
+_ONCE_TOO_SMALL = (216, 260, 316)
 KNOWN = known()
 
 
@@ -69,6 +71,11 @@ def test_the_table_has_every_problem() -> None:
 
 def test_a_sample_of_the_random_problems() -> None:
     judge(problems()[::EVERY])
+
+
+def test_bounds_that_were_once_too_small() -> None:
+    """Contributions that cancel at the tip of a rigid solid, and an error whose rate changes fast at a nucleus."""
+    judge([problems()[i] for i in _ONCE_TOO_SMALL])
 
 
 @pytest.mark.heavy
