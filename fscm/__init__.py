@@ -10,8 +10,9 @@ from fscm._kernel import Phi, Psi, ring_response
 from fscm._meshes import ACCURACIES
 from fscm.analysis import EVENTS, Analysis
 from fscm.custom_punch import CustomPunch
-from fscm.errors import NoSuchEvent, NotConverged
+from fscm.errors import NoSuchEvent, NotConverged, OutsideAtlas
 from fscm.experiment import Cycle, displacement_cycle, load_controlled_retreat
+from fscm.interpolation.atlas import ATLAS_QUANTITIES, AtlasValue, atlas
 from fscm.laws import LennardJones93, Mie, SurfaceLaw
 from fscm.measured_punch import MeasuredPunch
 from fscm.path import EquilibriumPath, trace
@@ -34,15 +35,17 @@ LAYERS = (
     ("_newton", "_arc_length", "_path_end", "_adaptivity", "_branches", "_continuation"),
     ("_events", "_bounds", "_completeness", "_whole_path", "folds", "stability"),
     ("path", "critical", "quantities", "analysis"),
-    ("gibson", "stieltjes"),
+    ("gibson", "stieltjes", "interpolation"),
     ("experiment", "states", "solve"),
 )
 
 __all__ = [
     "ACCURACIES",
+    "ATLAS_QUANTITIES",
     "EVENTS",
     "QUANTITIES",
     "Analysis",
+    "AtlasValue",
     "CustomPunch",
     "Cycle",
     "EquilibriumPath",
@@ -52,6 +55,7 @@ __all__ = [
     "Mie",
     "NoSuchEvent",
     "NotConverged",
+    "OutsideAtlas",
     "Phi",
     "PhysicalProblem",
     "PowerPunch",
@@ -65,6 +69,7 @@ __all__ = [
     "Stability",
     "SurfaceLaw",
     "TabulatedLaw",
+    "atlas",
     "displacement_cycle",
     "equilibria",
     "load_controlled_retreat",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-__all__ = ["NoSuchEvent", "NotConverged"]
+__all__ = ["NoSuchEvent", "NotConverged", "OutsideAtlas"]
 
 
 class NotConverged(RuntimeError):
@@ -26,4 +26,16 @@ class NoSuchEvent(LookupError):
     >>> solve(Problem(n=2, k=0, mu=0.1), "jump_in_gap")
     Traceback (most recent call last):
     fscm.errors.NoSuchEvent: the displacement rises monotonically along the path at mu = 0.1: there is no jump below ...
+    """
+
+
+class OutsideAtlas(ValueError):
+    """A parameter is outside the range of the atlas.
+
+    Examples
+    --------
+    >>> from fscm import atlas
+    >>> atlas(2, 0.4, 20.0, "pull_off_force")
+    Traceback (most recent call last):
+    fscm.errors.OutsideAtlas: mu = 20 is outside [0.01, 10], the range of the atlas; fscm.solve has a wider one
     """

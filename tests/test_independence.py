@@ -35,6 +35,7 @@ ALLOWED = {
     "comparisons.paper.values.scheme_ingredients": ("fscm",),
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
+    "comparisons.models.atlas_model": ("fscm",),
     "comparisons.models.gibson_limit": ("fscm",),
     "comparisons.models.stieltjes_model": ("fscm",),
     "comparisons.models.fem_model": (

@@ -1,0 +1,43 @@
+"""The atlas of the full self-consistent model: its values in microseconds."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import fscm
+from comparisons.model import NotApplicable, Result
+from fscm.laws import LennardJones93
+from fscm.problem import Problem
+from fscm.punch import PowerPunch
+
+__all__ = ["Atlas"]
+
+MODELS = {"atlas": "Atlas"}
+
+
+class Atlas:
+    """The function `fscm.atlas`; `u_num` is its bound.
+
+    Examples
+    --------
+    >>> result = Atlas().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
+    >>> abs(result.value - 1.78848171) <= result.u_num
+    True
+    """
+
+    name: ClassVar[str] = "atlas"
+    version: ClassVar[str] = "1"
+    citation: ClassVar[str] = "Chebyshev series of the full self-consistent model, fitted to its values at nodes"
+    domain: ClassVar[str] = "1 <= n <= 6, 0 <= k <= 0.8, 0.01 <= mu <= 10"
+
+    def evaluate(self, problem: Problem, quantity: str) -> Result:
+        """Return the quantity, or raise as in `comparisons.model.Model`."""
+        if quantity not in fscm.ATLAS_QUANTITIES:
+            raise NotApplicable(f"the atlas does not contain {quantity}")
+        if not isinstance(problem.punch, PowerPunch) or not isinstance(problem.law, LennardJones93):
+            raise NotApplicable("the atlas is for the power-law punch and the Lennard-Jones 9-3 law")
+        try:
+            value, bound = fscm.atlas(problem.n, problem.k, problem.mu, quantity)
+        except (fscm.OutsideAtlas, fscm.NoSuchEvent) as reason:
+            raise NotApplicable(str(reason)) from reason
+        return Result(float(value), float(bound))

@@ -1,0 +1,180 @@
+"""The atlas: quantities of the FSCM from series, with bounds."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from fscm._typing import Array
+from fscm.errors import NoSuchEvent, OutsideAtlas
+from fscm.interpolation.cells import cells_of, plane_cells
+from fscm.interpolation.components import COMPONENTS, CRITICAL, QUANTITIES, Composition
+from fscm.interpolation.coordinates import BOX, LEAST_MU, MOST_MU, seam
+from fscm.interpolation.forms import FORMS, Place, critical_of_smooth
+from fscm.interpolation.storage import Stored, stored
+
+__all__ = ["ATLAS_QUANTITIES", "AtlasValue", "atlas", "value_of_component", "value_of_composition"]
+
+#: Quantities of the atlas.
+ATLAS_QUANTITIES = (*QUANTITIES, CRITICAL)
+# Powers of w with which a component starts at the critical Tabor number (`fscm.interpolation.forms`).
+_POWERS = {"power_1_2": 0.5, "power_3_2": 1.5, "power_2": 2.0}
+
+
+class AtlasValue(NamedTuple):
+    """Values of the atlas, floats or arrays.
+
+    Attributes
+    ----------
+    value : float or ndarray
+        In the units of `fscm.solve`.
+    bound : float or ndarray
+        Bound on its distance from the exact value.
+
+    Examples
+    --------
+    >>> value, bound = AtlasValue(1.5, 1e-7)
+    >>> value
+    1.5
+    """
+
+    value: float | Array
+    bound: float | Array
+
+
+def atlas(n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str, *, missing: str = "raise") -> AtlasValue:
+    """Quantity of the FSCM for the power-law punch and the Lennard-Jones 9-3 law, without a solution of the equations.
+
+    Parameters
+    ----------
+    n, k, mu : array_like of float
+        Shape index, 1 to 6; gradient exponent, 0 to 0.8; Tabor number, 0.01 to 10.  They are broadcast together.
+    quantity : str
+        One of `ATLAS_QUANTITIES`.
+    missing : str
+        What happens where the quantity does not exist, below the critical Tabor number: "raise" an error, or "nan".
+
+    Returns
+    -------
+    AtlasValue
+        Value and bound; arrays if one of the parameters is one.
+
+    Raises
+    ------
+    OutsideAtlas
+        If a parameter is outside its range.
+    NoSuchEvent
+        If there is no jump at a Tabor number.
+    ValueError
+        For an unknown quantity, or another word for `missing`.
+
+    Examples
+    --------
+    >>> value, bound = atlas(2, 0.4, 1.0, "pull_off_force")
+    >>> abs(value - 1.78848171) <= bound < 1e-3
+    True
+    >>> atlas(2, 0.4, [0.5, 1.0], "jump_in_gap", missing="nan").value.round(2).tolist()
+    [nan, 0.6]
+    """
+    if quantity not in ATLAS_QUANTITIES:
+        raise ValueError(f"the atlas has no quantity {quantity!r}; it has {', '.join(ATLAS_QUANTITIES)}")
+    if missing not in ("raise", "nan"):
+        raise ValueError(f'missing = {missing!r} is unknown; it is "raise" or "nan"')
+    parameters = [_inside(name, values) for name, values in (("n", n), ("k", k), ("mu", mu))]
+    try:
+        grids = np.broadcast_arrays(*parameters)
+    except ValueError:
+        shapes = ", ".join(str(values.shape) for values in parameters)
+        raise ValueError(f"the shapes {shapes} of n, k and mu do not fit together") from None
+    flat = tuple(np.ascontiguousarray(grid, dtype=float).ravel() for grid in grids)
+    value, bound = _evaluated(stored(), flat[0], flat[1], flat[2], quantity)
+    if missing == "raise" and np.isnan(value).any():
+        first = int(np.flatnonzero(np.isnan(value))[0])
+        at = tuple(values[first : first + 1] for values in flat)
+        raise NoSuchEvent(
+            f"there is no jump at n = {at[0][0]:g}, k = {at[1][0]:g}, mu = {at[2][0]:g}: jumps exist above the "
+            f"critical Tabor number {_critical(stored(), at[0], at[1])[0][0]:.6g}"
+        )
+    if grids[0].ndim == 0:
+        return AtlasValue(float(value[0]), float(bound[0]))
+    return AtlasValue(value.reshape(grids[0].shape), bound.reshape(grids[0].shape))
+
+
+def _inside(name: str, values: ArrayLike) -> Array:
+    low, high = BOX[name]
+    found = np.asarray(values)
+    if found.dtype.kind not in "iuf":
+        raise ValueError(f"{name} = {values!r} is not a real number, nor an array of them")
+    outside = found[~((found >= low) & (found <= high))]
+    if outside.size:
+        raise OutsideAtlas(
+            f"{name} = {outside.flat[0]:g} is outside [{low:g}, {high:g}], the range of the atlas; "
+            "fscm.solve has a wider one"
+        )
+    return found
+
+
+def _evaluated(data: Stored, n: Array, k: Array, mu: Array, quantity: str) -> tuple[Array, Array]:
+    """Values and bounds; nan where the quantity does not exist."""
+    critical, u_critical = _critical(data, n, k)
+    if quantity == CRITICAL:
+        return critical, u_critical
+    composition = QUANTITIES[quantity]
+    value, bound = np.full(n.shape, math.nan), np.full(n.shape, math.nan)
+    upper = mu > critical if composition.jumps else mu >= seam(n)
+    for chosen, is_upper in ((upper, True), (~upper, False)):
+        if chosen.any() and (is_upper or not composition.jumps):
+            of_patch = n[chosen], k[chosen], mu[chosen], critical[chosen]
+            value[chosen], cusp = value_of_composition(data, composition, is_upper, *of_patch, u_critical[chosen])
+            of_cell = data.bounds[quantity, "upper" if is_upper else "lower"]
+            scale = np.abs(value[chosen]) + (0.0 if composition.relative else 1.0)
+            bound[chosen] = of_cell[cells_of(is_upper, *of_patch)] * scale + cusp
+    return value, bound
+
+
+def _critical(data: Stored, n: Array, k: Array) -> tuple[Array, Array]:
+    """Critical Tabor number and its bound."""
+    plane = data.coordinates[CRITICAL].plane(n, k)
+    value = critical_of_smooth(n, k, data.series[CRITICAL](plane))
+    return value, data.bounds[CRITICAL, "plane"][plane_cells(n, k)] * value
+
+
+def value_of_composition(
+    data: Stored,
+    composition: Composition,
+    upper: bool,
+    n: Array,
+    k: Array,
+    mu: Array,
+    critical: Array,
+    u_critical: Array,
+) -> tuple[Array, Array]:
+    """Values, and the bound on what the error of the critical Tabor number changes at the cusp."""
+    name = composition.upper if upper else composition.lower
+    value, cusp = value_of_component(data, name, n, k, mu, critical, u_critical)
+    if composition.difference:
+        difference, its_cusp = value_of_component(data, composition.difference, n, k, mu, critical, u_critical)
+        value, cusp = value + composition.sign * difference, cusp + its_cusp
+    return value, cusp
+
+
+def value_of_component(
+    data: Stored, name: str, n: Array, k: Array, mu: Array, critical: Array, u_critical: Array
+) -> tuple[Array, Array]:
+    """Values of a component, and the bound at the cusp."""
+    component, coordinates = COMPONENTS[name], data.coordinates[name]
+    low, high = (critical, MOST_MU) if component.upper else (LEAST_MU, seam(n))
+    part = coordinates.part(n, k, mu, low, high)
+    form, at = FORMS[component.form], Place(n, k, mu, part)
+    smooth = data.series[name](coordinates.cube(n, k, part))
+    value = form.value(smooth, at)
+    if component.form not in _POWERS:
+        return value, np.zeros(n.shape)
+    # ln(1 + c M') is convex in ln mu: w grows most slowly, by its mean rate or less, at the critical Tabor number.
+    moved = 2.0 * u_critical / (critical * np.log(MOST_MU / critical))
+    power = _POWERS[component.form]
+    change = (part + moved) ** power - np.maximum(part - moved, 0.0) ** power
+    return value, np.exp(smooth) * change

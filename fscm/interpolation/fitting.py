@@ -1,0 +1,155 @@
+"""Least-squares fit of the series of the atlas to nodes, and the deviation at each node without that node.
+
+The deviation of a node is that of the series fitted to all other nodes.  It needs no further fit: it is the residual
+divided by 1 minus the leverage of the node.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fscm._typing import Array
+from fscm.interpolation.components import COMPONENTS, CRITICAL, Component
+from fscm.interpolation.coordinates import LEAST_MU, MOST_MU, Coordinates, seam
+from fscm.interpolation.forms import FORMS, Place, critical_of_smooth, smooth_of_critical
+from fscm.interpolation.nodes import Nodes
+from fscm.interpolation.series import Series, degrees_within, design_matrix
+
+__all__ = ["Fit", "Layout", "fit_component", "fit_critical", "least_squares", "nodes_of"]
+
+# Terms for each node: with more of them the fit follows the nodes and not the function.
+_MOST_TERMS = 0.7
+# A node whose relative bound is larger counts less.
+_NOISE = 1e-7
+# Largest leverage with which a deviation is still computed.
+_LEVERAGE = 0.999
+_POWERS = {"power_1_2": 0.5, "power_3_2": 1.5}
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Coordinates of a component and proportions of its degrees.
+
+    Attributes
+    ----------
+    coordinates : Coordinates
+    shape : tuple of float
+        Proportions of the largest degrees in 1/n, k and mu.
+    power : float
+        1 for a bound on the sum of the degrees, 2 for one on the sum of their squares.
+    """
+
+    coordinates: Coordinates
+    shape: tuple[float, ...]
+    power: float
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A series, and the deviations of values at its nodes, each without that node.
+
+    Attributes
+    ----------
+    series : Series
+    deviations : ndarray, shape (m,)
+    terms : int
+    """
+
+    series: Series
+    deviations: Array
+    terms: int
+
+
+def least_squares(cube: Array, smooth: Array, weight: Array, layout: Layout) -> Fit:
+    """The series whose deviations are smallest, among those with a growing number of terms.
+
+    Examples
+    --------
+    >>> x = np.linspace(-1.0, 1.0, 20)[:, None]
+    >>> import math
+    >>> plain = Layout(Coordinates((0.0,) * 5, math.inf, math.inf), (1.0,), 1.0)
+    >>> fit = least_squares(x, x[:, 0] ** 2, np.ones(20), plain)
+    >>> bool(abs(fit.series(np.array([[0.3]]))[0] - 0.09) < 1e-12)
+    True
+    """
+    best: tuple[float, Fit] | None = None
+    for largest in _sizes(layout.shape):
+        degrees = degrees_within(largest, layout.power)
+        if len(degrees) > _MOST_TERMS * len(cube):
+            break
+        matrix = design_matrix(cube, degrees) * weight[:, None]
+        q, r = np.linalg.qr(matrix)
+        coefficients = np.linalg.solve(r, q.T @ (smooth * weight))
+        leverage = np.minimum(np.sum(q * q, axis=1), _LEVERAGE)
+        deviations = (smooth - matrix @ coefficients / weight) / (1.0 - leverage)
+        size = float(np.sqrt(np.mean((deviations * weight) ** 2)))
+        if best is None or size < best[0]:
+            best = size, Fit(Series.of(degrees, coefficients), deviations, len(degrees))
+    if best is None:
+        raise ValueError(f"{len(cube)} nodes are too few for a series of {len(layout.shape)} coordinates")
+    return best[1]
+
+
+def _sizes(shape: tuple[float, ...]) -> Iterator[tuple[int, ...]]:
+    known: set[tuple[int, ...]] = set()
+    for size in np.arange(2.0, 40.0, 0.5) / max(shape):
+        largest = tuple(max(1, round(size * one)) for one in shape)
+        if largest not in known:
+            known.add(largest)
+            yield largest
+
+
+def nodes_of(name: str, nodes: Nodes, critical: Array) -> NDArray[np.bool_]:
+    """Which nodes a component is fitted to."""
+    component = COMPONENTS[name]
+    value, _ = _component_values(component, nodes)
+    # Nodes are rounded, so that one at the seam may be above it.
+    inside = nodes.mu > critical if component.upper else nodes.mu <= seam(nodes.n) * (1.0 + 1e-5)
+    # Near the critical Tabor number the solver may take one fold for both.
+    usable = value > 0.0 if component.form in _POWERS else np.isfinite(value)
+    return np.logical_and(inside, usable)
+
+
+def _component_values(component: Component, nodes: Nodes) -> tuple[Array, Array]:
+    value, bound = nodes.values[component.first], nodes.bounds[component.first]
+    if component.second:
+        value = 0.5 * (value + component.sign * nodes.values[component.second])
+        bound = 0.5 * (bound + nodes.bounds[component.second])
+    return value, bound
+
+
+def fit_component(name: str, layout: Layout, nodes: Nodes, critical: Array) -> Fit:
+    """Fit a component to nodes that all have its value; the deviations are those of the value.
+
+    Parameters
+    ----------
+    name : str
+    layout : Layout
+    nodes : Nodes
+    critical : ndarray
+        Critical Tabor numbers of the atlas at the nodes.
+    """
+    component = COMPONENTS[name]
+    form, coordinates = FORMS[component.form], layout.coordinates
+    value, bound = _component_values(component, nodes)
+    low, high = (critical, MOST_MU) if component.upper else (LEAST_MU, seam(nodes.n))
+    part = coordinates.part(nodes.n, nodes.k, nodes.mu, low, high)
+    at = Place(nodes.n, nodes.k, nodes.mu, part)
+    smooth = form.smooth(value, at)
+    noise = bound / np.abs(value) if component.form != "displacement" else bound / (1.0 + np.abs(value))
+    weight = part ** _POWERS.get(component.form, 0.0) / np.hypot(1.0, noise / _NOISE)
+    fit = least_squares(coordinates.cube(nodes.n, nodes.k, part), smooth, weight, layout)
+    return Fit(fit.series, value - form.value(smooth - fit.deviations, at), fit.terms)
+
+
+def fit_critical(layout: Layout, nodes: Nodes) -> Fit:
+    """Fit the critical Tabor number; the deviations are those of the value."""
+    value = nodes.values[CRITICAL]
+    smooth = smooth_of_critical(nodes.n, nodes.k, value)
+    plane = layout.coordinates.plane(nodes.n, nodes.k)
+    fit = least_squares(plane, smooth, np.ones(len(value)), layout)
+    return Fit(fit.series, value - critical_of_smooth(nodes.n, nodes.k, smooth - fit.deviations), fit.terms)

@@ -1,0 +1,95 @@
+"""Smooth forms of the components of the atlas: what the series expand, and the way back.
+
+The forms are those whose coefficients fall fastest.  At the critical Tabor number the two folds of the displacement
+merge in a cusp: with w, the part of the way from there to mu = 10, the difference of their displacements starts like
+w^(3/2), that of their gaps like w^(1/2) and the hysteresis energy like w^2.  What is left after division is smooth.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from fscm._typing import Array
+
+__all__ = ["FORMS", "Form", "Place", "critical_of_smooth", "smooth_of_critical"]
+
+# Behind n = 1, in 1/n: the load integral of the 9-3 law diverges at n = 2/3.
+_DIVERGES = 1.5
+
+
+@dataclass(frozen=True)
+class Place:
+    """Parameters of points, and the part w of the way through their patch; arrays of shape (m,)."""
+
+    n: Array
+    k: Array
+    mu: Array
+    part: Array
+
+
+@dataclass(frozen=True)
+class Form:
+    """A smooth form of a value.
+
+    Attributes
+    ----------
+    smooth : callable
+        Value, Place -> what the series expands.
+    value : callable
+        The inverse.
+
+    Examples
+    --------
+    >>> place = Place(*(np.array([x]) for x in (2.0, 0.4, 1.0, 0.25)))
+    >>> form = FORMS["power_3_2"]
+    >>> round(float(form.value(form.smooth(0.3, place), place)[0]), 12)
+    0.3
+    """
+
+    smooth: Callable[[Array, Place], Array]
+    value: Callable[[Array, Place], Array]
+
+
+def _force_factor(at: Place) -> Array:
+    # Radii in units of (n Q z0)^(1/n), and the pole of the tail's load.
+    return at.n ** (2.0 / at.n) / (_DIVERGES - 1.0 / at.n)
+
+
+def _power(exponent: float) -> Form:
+    return Form(
+        lambda value, at: np.log(value / at.part**exponent),
+        lambda smooth, at: np.exp(smooth) * at.part**exponent,
+    )
+
+
+FORMS: dict[str, Form] = {
+    "force": Form(
+        lambda value, at: np.log(value / _force_factor(at)), lambda smooth, at: np.exp(smooth) * _force_factor(at)
+    ),
+    "displacement": Form(lambda value, at: value / (1.0 + at.mu), lambda smooth, at: smooth * (1.0 + at.mu)),
+    "logarithm": _power(0.0),
+    "minus_logarithm": Form(lambda value, at: np.log(-value), lambda smooth, at: -np.exp(smooth)),
+    "root": Form(lambda value, at: value / np.sqrt(at.mu), lambda smooth, at: smooth * np.sqrt(at.mu)),
+    "power_3_2": _power(1.5),
+    "power_1_2": _power(0.5),
+    "power_2": _power(2.0),
+}
+
+
+def smooth_of_critical(n: Array, k: Array, mu: Array) -> Array:
+    """ln(M' / 2) at the critical Tabor number, which the series of the plane (n, k) expands.
+
+    Examples
+    --------
+    >>> float(smooth_of_critical(np.array([1.0]), np.array([0.5]), np.array([1.0]))[0])
+    0.0
+    """
+    return ((2.0 * n + k - 1.0) * np.log(mu) + (1.0 - k) * np.log(n)) / n
+
+
+def critical_of_smooth(n: Array, k: Array, smooth: Array) -> Array:
+    """The inverse of `smooth_of_critical`."""
+    return np.exp((n * smooth - (1.0 - k) * np.log(n)) / (2.0 * n + k - 1.0))
