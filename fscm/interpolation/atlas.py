@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from fscm._typing import Array
 from fscm.errors import NoSuchEvent, OutsideAtlas
 from fscm.interpolation.cells import cells_of, plane_cells
-from fscm.interpolation.components import COMPONENTS, CRITICAL, QUANTITIES, Composition
+from fscm.interpolation.components import COMPONENTS, CRITICAL, QUANTITIES, RELATIVE, Composition
 from fscm.interpolation.coordinates import BOX, LEAST_MU, MOST_MU, seam
 from fscm.interpolation.forms import FORMS, Place, critical_of_smooth
 from fscm.interpolation.storage import Stored, stored
@@ -21,7 +21,7 @@ __all__ = ["ATLAS_QUANTITIES", "AtlasValue", "atlas", "value_of_component", "val
 #: Quantities of the atlas.
 ATLAS_QUANTITIES = (*QUANTITIES, CRITICAL)
 # Powers of w with which a component starts at the critical Tabor number (`fscm.interpolation.forms`).
-_POWERS = {"power_1_2": 0.5, "power_3_2": 1.5, "power_2": 2.0}
+_POWERS = {"power_1_2": 0.5, "power_3_2": 1.5, "quarter": 2.0}
 
 
 class AtlasValue(NamedTuple):
@@ -130,7 +130,7 @@ def _evaluated(data: Stored, n: Array, k: Array, mu: Array, quantity: str) -> tu
             of_patch = n[chosen], k[chosen], mu[chosen], critical[chosen]
             value[chosen], cusp = value_of_composition(data, composition, is_upper, *of_patch, u_critical[chosen])
             of_cell = data.bounds[quantity, "upper" if is_upper else "lower"]
-            scale = np.abs(value[chosen]) + (0.0 if composition.relative else 1.0)
+            scale = np.abs(value[chosen]) + (0.0 if quantity in RELATIVE else 1.0)
             bound[chosen] = of_cell[cells_of(is_upper, *of_patch)] * scale + cusp
     return value, bound
 
@@ -157,7 +157,7 @@ def value_of_composition(
     value, cusp = value_of_component(data, name, n, k, mu, critical, u_critical)
     if composition.difference:
         difference, its_cusp = value_of_component(data, composition.difference, n, k, mu, critical, u_critical)
-        value, cusp = value + composition.sign * difference, cusp + its_cusp
+        value, cusp = value - difference, cusp + its_cusp
     return value, cusp
 
 
@@ -177,4 +177,4 @@ def value_of_component(
     moved = 2.0 * u_critical / (critical * np.log(MOST_MU / critical))
     power = _POWERS[component.form]
     change = (part + moved) ** power - np.maximum(part - moved, 0.0) ** power
-    return value, np.exp(smooth) * change
+    return value, np.abs(value) / np.maximum(part, 1e-300) ** power * change

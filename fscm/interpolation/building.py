@@ -11,7 +11,7 @@ import numpy as np
 
 from fscm._typing import Array
 from fscm.interpolation.cells import CELLS, Cells, cells_of, plane_cells
-from fscm.interpolation.components import CRITICAL, QUANTITIES, Composition
+from fscm.interpolation.components import CRITICAL, QUANTITIES, RELATIVE, Composition
 from fscm.interpolation.extremes import tail_bound
 from fscm.interpolation.fitting import Fit, Layout, fit_component, fit_critical, nodes_of
 from fscm.interpolation.forms import critical_of_smooth
@@ -64,7 +64,7 @@ def build(nodes: Nodes, of_component: dict[str, Layout]) -> Stored:
             of_quantity = _relative(quantity, composition, patch == "upper", nodes, deviations)
             known = np.isfinite(of_quantity)
             some = nodes.chosen(known)
-            scale = np.abs(some.values[quantity]) + (0.0 if composition.relative else 1.0)
+            scale = np.abs(some.values[quantity]) + (0.0 if quantity in RELATIVE else 1.0)
             cells = cells_of(patch == "upper", some.n, some.k, some.mu, critical[known])
             bounds[quantity, patch] = _of_cells(of_quantity[known], some.bounds[quantity] / scale, cells)
             record[f"{quantity}.{patch}.deviations"] = _sizes(of_quantity[known])
@@ -78,8 +78,8 @@ def _relative(
     """Deviation of a quantity at the nodes, in units of its scale."""
     found = deviations[composition.upper if upper else composition.lower]
     if composition.difference:
-        found = found + composition.sign * deviations[composition.difference]
-    return found / (np.abs(nodes.values[quantity]) + (0.0 if composition.relative else 1.0))
+        found = found - deviations[composition.difference]
+    return found / (np.abs(nodes.values[quantity]) + (0.0 if quantity in RELATIVE else 1.0))
 
 
 def _of_cells(relative: Array, u_relative: Array, cells: Cells) -> Array:

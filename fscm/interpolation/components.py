@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["COMPONENTS", "CRITICAL", "QUANTITIES", "Component", "Composition"]
+__all__ = ["COMPONENTS", "CRITICAL", "QUANTITIES", "RELATIVE", "Component", "Composition"]
 
 #: Name of the series of the critical Tabor number.
 CRITICAL = "critical_tabor_number"
+#: Quantities of which the relative deviation is bounded; of the others, that in proportion to 1 + |value|.
+RELATIVE = ("pull_off_force", "zero_load_displacement", CRITICAL)
 
 
 @dataclass(frozen=True)
@@ -21,15 +23,13 @@ class Component:
     form : str
         Of `fscm.interpolation.forms.FORMS`.
     first, second : str
-        Quantities.  Without a second one the component is the first; else it is (first + sign * second) / 2.
-    sign : float
+        Quantities.  The component is the first one, less the second one if there is one.
     """
 
     upper: bool
     form: str
     first: str
     second: str = ""
-    sign: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -39,17 +39,12 @@ class Composition:
     Attributes
     ----------
     lower, upper, difference : str
-        Names of components; empty where there is none.  The difference is added to the upper one, times `sign`.
-    sign : float
-    relative : bool
-        Whether the deviation of the series is in proportion to the value, or to 1 + |value|.
+        Names of components; empty where there is none.  The difference is subtracted from the upper one.
     """
 
     lower: str
     upper: str
     difference: str = ""
-    sign: float = 1.0
-    relative: bool = False
 
     @property
     def jumps(self) -> bool:
@@ -66,24 +61,20 @@ COMPONENTS: dict[str, Component] = {
     "pull_off_displacement.upper": Component(True, "displacement", "pull_off_displacement"),
     "zero_load_displacement.lower": Component(False, "logarithm", "zero_load_displacement"),
     "zero_load_displacement.upper": Component(True, "logarithm", "zero_load_displacement"),
-    "jump_displacement.mean": Component(True, "minus_logarithm", _IN_D, _OUT_D),
-    "jump_displacement.difference": Component(True, "power_3_2", _IN_D, _OUT_D, -1.0),
-    "jump_gap.mean": Component(True, "root", _IN_G, _OUT_G),
-    "jump_gap.difference": Component(True, "power_1_2", _IN_G, _OUT_G, -1.0),
-    "hysteresis_energy.upper": Component(True, "power_2", "hysteresis_energy"),
+    "jump_in_displacement.upper": Component(True, "minus_logarithm", _IN_D),
+    "jump_displacement.difference": Component(True, "power_3_2", _IN_D, _OUT_D),
+    "jump_in_gap.upper": Component(True, "root", _IN_G),
+    "jump_gap.difference": Component(True, "power_1_2", _IN_G, _OUT_G),
+    "hysteresis_energy.upper": Component(True, "quarter", "hysteresis_energy"),
 }
 
 QUANTITIES: dict[str, Composition] = {
-    name: Composition(f"{name}.lower", f"{name}.upper", relative=relative)
-    for name, relative in (
-        ("pull_off_force", True),
-        ("pull_off_displacement", False),
-        ("zero_load_displacement", True),
-    )
+    name: Composition(f"{name}.lower", f"{name}.upper")
+    for name in ("pull_off_force", "pull_off_displacement", "zero_load_displacement")
 } | {
-    _IN_D: Composition("", "jump_displacement.mean", "jump_displacement.difference"),
-    _OUT_D: Composition("", "jump_displacement.mean", "jump_displacement.difference", -1.0),
-    _IN_G: Composition("", "jump_gap.mean", "jump_gap.difference"),
-    _OUT_G: Composition("", "jump_gap.mean", "jump_gap.difference", -1.0),
-    "hysteresis_energy": Composition("", "hysteresis_energy.upper", relative=True),
+    _IN_D: Composition("", "jump_in_displacement.upper"),
+    _OUT_D: Composition("", "jump_in_displacement.upper", "jump_displacement.difference"),
+    _IN_G: Composition("", "jump_in_gap.upper"),
+    _OUT_G: Composition("", "jump_in_gap.upper", "jump_gap.difference"),
+    "hysteresis_energy": Composition("", "hysteresis_energy.upper"),
 }

@@ -56,6 +56,9 @@ class Coordinates:
     n_pole, k_pole : float
         Distances behind n = 1 and k = 0.8, in 1/n and k, of the singularities of the logarithms in which the first two
         coordinates are linear; infinite for coordinates that are linear in 1/n and k.
+    root : bool
+        Whether the third coordinate is linear in the square root of the part of the way: at the cusp, the states at
+        the two folds are smooth functions of it.
 
     Examples
     --------
@@ -70,6 +73,7 @@ class Coordinates:
     scale: tuple[float, ...]
     n_pole: float
     k_pole: float
+    root: bool = False
 
     def plane(self, n: Array, k: Array) -> Array:
         """First two coordinates, shape (m, 2)."""
@@ -87,7 +91,8 @@ class Coordinates:
 
     def cube(self, n: Array, k: Array, part: Array) -> Array:
         """All three coordinates, shape (m, 3)."""
-        return np.concatenate([self.plane(n, k), 2.0 * part[:, None] - 1.0], axis=-1)
+        along = np.sqrt(np.maximum(part, 0.0)) if self.root else part
+        return np.concatenate([self.plane(n, k), 2.0 * along[:, None] - 1.0], axis=-1)
 
 
 def _linear_or_log(x: Array, low: float, high: float, pole: float) -> Array:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fscm._typing import Array
-from fscm.interpolation.components import COMPONENTS, CRITICAL, Component
+from fscm.interpolation.components import COMPONENTS, CRITICAL, RELATIVE, Component
 from fscm.interpolation.coordinates import LEAST_MU, MOST_MU, Coordinates, seam
 from fscm.interpolation.forms import FORMS, Place, critical_of_smooth, smooth_of_critical
 from fscm.interpolation.nodes import Nodes
@@ -25,9 +25,12 @@ __all__ = ["Fit", "Layout", "fit_component", "fit_critical", "least_squares", "n
 _MOST_TERMS = 0.7
 # A node whose relative bound is larger counts less.
 _NOISE = 1e-7
+# Near the critical Tabor number the solver may find one fold twice: then the gaps differ by rounding only.
+_DISTINCT = 1e-6
 # Largest leverage with which a deviation is still computed.
 _LEVERAGE = 0.999
-_POWERS = {"power_1_2": 0.5, "power_3_2": 1.5}
+# Step of a smooth form for the change of its value.
+_STEP = 1e-6
 
 
 @dataclass(frozen=True)
@@ -109,16 +112,18 @@ def nodes_of(name: str, nodes: Nodes, critical: Array) -> NDArray[np.bool_]:
     value, _ = _component_values(component, nodes)
     # Nodes are rounded, so that one at the seam may be above it.
     inside = nodes.mu > critical if component.upper else nodes.mu <= seam(nodes.n) * (1.0 + 1e-5)
-    # Near the critical Tabor number the solver may take one fold for both.
-    usable = value > 0.0 if component.form in _POWERS else np.isfinite(value)
-    return np.logical_and(inside, usable)
+    usable = np.logical_and(inside, np.isfinite(value))
+    if component.first.startswith(("jump", "hysteresis")):
+        with np.errstate(invalid="ignore"):
+            usable &= nodes.values["jump_in_gap"] - nodes.values["jump_out_gap"] > _DISTINCT
+    return usable
 
 
 def _component_values(component: Component, nodes: Nodes) -> tuple[Array, Array]:
     value, bound = nodes.values[component.first], nodes.bounds[component.first]
     if component.second:
-        value = 0.5 * (value + component.sign * nodes.values[component.second])
-        bound = 0.5 * (bound + nodes.bounds[component.second])
+        value = value - nodes.values[component.second]
+        bound = bound + nodes.bounds[component.second]
     return value, bound
 
 
@@ -140,8 +145,9 @@ def fit_component(name: str, layout: Layout, nodes: Nodes, critical: Array) -> F
     part = coordinates.part(nodes.n, nodes.k, nodes.mu, low, high)
     at = Place(nodes.n, nodes.k, nodes.mu, part)
     smooth = form.smooth(value, at)
-    noise = bound / np.abs(value) if component.form != "displacement" else bound / (1.0 + np.abs(value))
-    weight = part ** _POWERS.get(component.form, 0.0) / np.hypot(1.0, noise / _NOISE)
+    scale = np.abs(value) + (0.0 if component.first in RELATIVE else 1.0)
+    slope = (form.value(smooth + _STEP, at) - form.value(smooth - _STEP, at)) / (2.0 * _STEP)
+    weight = np.abs(slope) / scale / np.hypot(1.0, bound / scale / _NOISE)
     fit = least_squares(coordinates.cube(nodes.n, nodes.k, part), smooth, weight, layout)
     return Fit(fit.series, value - form.value(smooth - fit.deviations, at), fit.terms)
 

@@ -109,4 +109,4 @@ def coordinates_of(row: Mapping[str, Any]) -> Coordinates:
     0.4
     """
     poles = (math.inf if row[name] is None else float(row[name]) for name in ("n_pole", "k_pole"))
-    return Coordinates(tuple(float(a) for a in row["scale"]), *poles)
+    return Coordinates(tuple(float(a) for a in row["scale"]), *poles, bool(row.get("root")))
