@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import ClassVar
 
 import fscm
-from comparisons.model import NotApplicable, Result
+from comparisons.model import Curve, NotApplicable, Result
+from fscm.interpolation.storage import data_digest
 from fscm.laws import LennardJones93
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
@@ -26,9 +27,13 @@ class Atlas:
     """
 
     name: ClassVar[str] = "atlas"
-    version: ClassVar[str] = "1"
     citation: ClassVar[str] = "Chebyshev series of the full self-consistent model, fitted to its values at nodes"
     domain: ClassVar[str] = "1 <= n <= 6, 0 <= k <= 0.8, 0.01 <= mu <= 10"
+
+    @property
+    def version(self) -> str:
+        """Version of the adapter and digest of the data: another fit is another model."""
+        return f"1+{data_digest()}"
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the quantity, or raise as in `comparisons.model.Model`."""
@@ -41,3 +46,7 @@ class Atlas:
         except (fscm.OutsideAtlas, fscm.NoSuchEvent) as reason:
             raise NotApplicable(str(reason)) from reason
         return Result(float(value), float(bound))
+
+    def curve(self, problem: Problem) -> Curve:
+        """Raise `NotApplicable`: the atlas has numbers only."""
+        raise NotApplicable("the atlas has no force-displacement curve; fscm computes it")

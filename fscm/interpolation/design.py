@@ -1,7 +1,7 @@
 """Nodes of the atlas: quasi-random points with the density of Chebyshev nodes, and the sweep that computes them.
 
-A least-squares fit at points of this density is as good as an interpolation, needs a fraction of the points of a product
-grid, and can be continued: the first points of a Sobol sequence stay the same when there are more of them.
+A least-squares fit at points of this density is as good as an interpolation, needs a fraction of the points of a
+product grid, and can be continued: the first points of a Sobol sequence stay the same when there are more of them.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from fscm.interpolation.components import CRITICAL, QUANTITIES
 from fscm.interpolation.coordinates import BOX, LEAST_MU, MOST_MU, seam
 from fscm.interpolation.nodes import Nodes
 
-__all__ = ["SEEDS", "critical_nodes", "lower_nodes", "random_problems", "sweep_of", "upper_nodes"]
+__all__ = ["SEEDS", "critical_nodes", "lower_nodes", "random_problems", "sweep_of", "sweep_text", "upper_nodes"]
 
 #: Seeds of the Sobol sequences.
 SEEDS = {"lower": 20261122, "upper": 20261123, "critical": 20261124, "verification": 13}
 # Digits of a parameter, as in a Latin hypercube of a sweep.
 _DIGITS = 6
-# Upper nodes keep this relative distance from the critical Tabor number, where the solver no longer separates the folds.
+# Upper nodes keep this relative distance from the critical Tabor number, where the two folds merge.
 _DISTANCE = 5e-4
 _PATH = ("pull_off_force", "pull_off_displacement", "zero_load_displacement")
 Node = tuple[float, float, float]
@@ -114,15 +114,32 @@ def random_problems(count: int) -> list[Node]:
 
 def sweep_of(nodes: Nodes) -> str:
     """Text of the sweep file that computes the values of nodes again."""
-    jumps = [name for name, composition in QUANTITIES.items() if composition.jumps]
+
+    def having(quantity: str) -> list[Node]:
+        some = nodes.with_value(quantity)
+        return list(zip(some.n.tolist(), some.k.tolist(), some.mu.tolist(), strict=True))
+
+    return sweep_text(having(CRITICAL), having(_PATH[0]), having("jump_in_gap"))
+
+
+def sweep_text(critical: list[Node], path: list[Node], jumps: list[Node]) -> str:
+    """Text of a sweep file for the critical Tabor number, the quantities of every path, and those of jumps.
+
+    Examples
+    --------
+    >>> sweep_text([], [(2.0, 0.4, 1.0)], []).splitlines()[-2]
+    '  { n = 2.0, k = 0.4, mu = 1.0 },'
+    """
+    of_jumps = [name for name, composition in QUANTITIES.items() if composition.jumps]
     grids = (
-        ("critical", "Critical Tabor numbers", [CRITICAL], np.isfinite(nodes.values[CRITICAL])),
-        ("path", "Pull-off and zero load", [*_PATH], np.isfinite(nodes.values[_PATH[0]])),
-        ("jumps", "Jumps and hysteresis", jumps, np.isfinite(nodes.values[jumps[0]])),
+        ("critical", "Critical Tabor numbers", [CRITICAL], critical),
+        ("path", "Pull-off and zero load", [*_PATH], path),
+        ("jumps", "Jumps and hysteresis", of_jumps, jumps),
     )
     lines = ["# The nodes of the atlas: see docs/atlas.md."]
-    for name, title, quantities, which in grids:
-        cases = zip(nodes.n[which].tolist(), nodes.k[which].tolist(), nodes.mu[which].tolist(), strict=True)
+    for name, title, quantities, cases in grids:
+        if not cases:
+            continue
         lines += [
             "",
             "[[grid]]",
@@ -130,13 +147,9 @@ def sweep_of(nodes: Nodes) -> str:
             f'title = "{title}"',
             'reference = "fscm"',
             'models = ["fscm"]',
-            f"quantities = [{', '.join(map(_quoted, quantities))}]",
+            "quantities = [" + ", ".join(f'"{quantity}"' for quantity in quantities) + "]",
             "cases = [",
             *(f"  {{ n = {n!r}, k = {k!r}, mu = {mu!r} }}," for n, k, mu in cases),
             "]",
         ]
     return "\n".join(lines) + "\n"
-
-
-def _quoted(text: str) -> str:
-    return f'"{text}"'

@@ -75,9 +75,7 @@ FORMS: dict[str, Form] = {
     "root": Form(lambda value, at: value / np.sqrt(at.mu), lambda smooth, at: smooth * np.sqrt(at.mu)),
     "power_3_2": _power(1.5),
     "power_1_2": _power(0.5),
-    "quarter": Form(
-        lambda value, at: (value / at.part**2) ** 0.25, lambda smooth, at: smooth**4 * at.part**2
-    ),
+    "quarter": Form(lambda value, at: (value / at.part**2) ** 0.25, lambda smooth, at: smooth**4 * at.part**2),
 }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import hashlib
 import json
 import math
 from collections import defaultdict
@@ -20,7 +21,7 @@ from fscm.interpolation.cells import CELLS
 from fscm.interpolation.coordinates import Coordinates
 from fscm.interpolation.series import Series
 
-__all__ = ["Stored", "coordinates_of", "read", "stored", "write"]
+__all__ = ["Stored", "coordinates_of", "data_digest", "read", "stored", "write"]
 
 _LAYOUTS, _RECORD, _COEFFICIENTS, _BOUNDS = "layouts.json", "record.json", "coefficients.csv", "bounds.csv"
 
@@ -55,7 +56,26 @@ def stored() -> Stored:
     >>> sorted(stored().bounds)[0]
     ('critical_tabor_number', 'plane')
     """
-    return read(Path(str(files("fscm.interpolation") / "data")))
+    return read(_folder())
+
+
+@cache
+def data_digest() -> str:
+    """First eight digits of the SHA-256 of the data in the package.
+
+    Examples
+    --------
+    >>> len(data_digest())
+    8
+    """
+    digest = hashlib.sha256()
+    for name in (_LAYOUTS, _COEFFICIENTS, _BOUNDS):
+        digest.update((_folder() / name).read_bytes())
+    return digest.hexdigest()[:8]
+
+
+def _folder() -> Path:
+    return Path(str(files("fscm.interpolation") / "data"))
 
 
 def read(folder: Path) -> Stored:
@@ -108,5 +128,5 @@ def coordinates_of(row: Mapping[str, Any]) -> Coordinates:
     >>> coordinates_of({"scale": [0, 0, 0, 0, 0], "n_pole": None, "k_pole": 0.4}).k_pole
     0.4
     """
-    poles = (math.inf if row[name] is None else float(row[name]) for name in ("n_pole", "k_pole"))
-    return Coordinates(tuple(float(a) for a in row["scale"]), *poles, bool(row.get("root")))
+    n_pole, k_pole = (math.inf if row[name] is None else float(row[name]) for name in ("n_pole", "k_pole"))
+    return Coordinates(tuple(float(a) for a in row["scale"]), n_pole, k_pole, bool(row.get("root")))

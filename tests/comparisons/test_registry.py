@@ -14,6 +14,8 @@ from comparisons.runs.tasks import evaluate
 
 #: Models that take more than a second a value; their own tests evaluate them.
 SLOW = {"fscm-stieltjes", "fscm-stieltjes-400", "fem"}
+#: Bound of the pull-off force of a model that is no closed form and no solver.
+WIDE = {"atlas": 1e-3}
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -32,7 +34,7 @@ def test_a_model_gives_the_pull_off_force_or_the_reason_why_not(name):
     if row.status == "ok":
         # Between the rigid limit 2 and the JKR limit 1.7, a little more where a model is wrong.
         assert 1.6 < row.value <= 2.1
-        assert 0 <= row.u_num < 1e-6
+        assert 0 <= row.u_num < WIDE.get(name, 1e-6)
     else:
         assert row.reason
 

@@ -1,0 +1,281 @@
+"""The atlas: values, bounds, range, and the computation of its data from the nodes."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import fscm
+from fscm import ATLAS_QUANTITIES, NoSuchEvent, OutsideAtlas, Problem, atlas
+from fscm.interpolation import __main__ as command
+from fscm.interpolation.building import build, layouts
+from fscm.interpolation.components import COMPONENTS, CRITICAL, QUANTITIES, RELATIVE
+from fscm.interpolation.coordinates import BOX, Coordinates, seam
+from fscm.interpolation.design import lower_nodes, random_problems, sweep_of, upper_nodes
+from fscm.interpolation.extremes import FACTOR, tail_bound
+from fscm.interpolation.fitting import Layout, least_squares
+from fscm.interpolation.forms import FORMS, Place
+from fscm.interpolation.nodes import Nodes, collected
+from fscm.interpolation.series import Series, degrees_within, design_matrix
+from fscm.interpolation.storage import read, stored
+
+ROOT = Path(__file__).resolve().parents[2]
+TABLES = ROOT / "results" / "baseline" / "atlas"
+DATA = ROOT / "fscm" / "interpolation" / "data"
+JUMPS = [name for name, composition in QUANTITIES.items() if composition.jumps]
+
+# The data are allowed 2 MB in the wheel.
+MOST_BYTES = 2_000_000
+
+
+@pytest.fixture(scope="module")
+def verification():
+    """Values of the solver at random problems that no series was fitted to."""
+    return Nodes.read(TABLES / "verification.csv")
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+def test_no_bound_is_exceeded_at_problems_that_were_not_used(verification, quantity):
+    some = verification.with_value(quantity)
+    assert len(some.n) >= 30
+    value, bound = atlas(some.n, some.k, some.mu, quantity)
+    assert np.all(np.abs(value - some.values[quantity]) <= bound + some.bounds[quantity])
+
+
+def test_the_random_problems_are_those_of_the_recorded_seed(verification):
+    found = set(zip(verification.n.tolist(), verification.k.tolist(), verification.mu.tolist(), strict=True))
+    # A prefix of the sequence, so that more of them can follow.
+    assert found <= set(random_problems(2000))
+    nodes = Nodes.read(TABLES / "nodes.csv")
+    assert not found & set(zip(nodes.n.tolist(), nodes.k.tolist(), nodes.mu.tolist(), strict=True))
+
+
+@pytest.mark.parametrize("quantity", JUMPS)
+def test_jumps_exist_where_the_solver_finds_them(verification, quantity):
+    some = verification.with_value("pull_off_force")
+    found = atlas(some.n, some.k, some.mu, quantity, missing="nan").value
+    critical = atlas(some.n, some.k, 1.0, CRITICAL)
+    sure = np.abs(some.mu - critical.value) > critical.bound
+    assert np.array_equal(np.isfinite(found)[sure], np.isfinite(some.values[quantity])[sure])
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("seed", range(6))
+def test_problems_that_are_solved_anew_are_within_the_bounds(seed):
+    rng = np.random.default_rng(seed)
+    n, k, mu = (float(rng.uniform(*BOX[name])) for name in ("n", "k", "mu"))
+    for quantity, solution in fscm.solve_together(Problem(n=n, k=k, mu=mu), ATLAS_QUANTITIES).items():
+        if isinstance(solution, NoSuchEvent):
+            with pytest.raises(NoSuchEvent):
+                atlas(n, k, mu, quantity)
+        else:
+            value, bound = atlas(n, k, mu, quantity)
+            assert abs(value - solution.value) <= bound + solution.u_num, quantity
+
+
+@pytest.mark.parametrize("quantity", ATLAS_QUANTITIES)
+def test_the_corners_of_the_box_belong_to_it(quantity):
+    corners = np.meshgrid(*BOX.values())
+    value, bound = atlas(*corners, quantity, missing="nan")
+    exists = ~np.isnan(value)
+    assert np.array_equal(exists, corners[2] > 1.0 if quantity in JUMPS else np.full(value.shape, True))
+    assert np.all(bound[exists] > 0.0)
+    assert np.all(np.isfinite(bound[exists]))
+
+
+@pytest.mark.parametrize(
+    ("parameters", "sentence"),
+    [
+        ((0.99, 0.4, 1.0), r"^n = 0.99 is outside \[1, 6\], the range of the atlas; fscm.solve has a wider one$"),
+        ((2.0, [0.1, 0.9], 1.0), r"^k = 0.9 is outside \[0, 0.8\]"),
+        ((2.0, 0.4, math.nan), r"^mu = nan is outside \[0.01, 10\]"),
+    ],
+)
+def test_outside_its_box_it_says_so(parameters, sentence):
+    with pytest.raises(OutsideAtlas, match=sentence):
+        atlas(*parameters, "pull_off_force")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ((2.0, 0.4, 1.0, "contact_area"), "the atlas has no quantity 'contact_area'; it has pull_off_force,"),
+        ((2.0, 0.4, "1", "pull_off_force"), "mu = '1' is not a real number"),
+        ((True, 0.4, 1.0, "pull_off_force"), "n = True is not a real number"),
+        (([2.0, 3.0], [0.1, 0.2, 0.3], 1.0, "pull_off_force"), "the shapes .* do not fit together"),
+    ],
+)
+def test_bad_arguments_are_refused_in_one_sentence(arguments, sentence):
+    with pytest.raises(ValueError, match=sentence) as caught:
+        atlas(*arguments)
+    assert "\n" not in str(caught.value)
+
+
+def test_an_unknown_word_for_missing_values_is_refused():
+    with pytest.raises(ValueError, match='missing = \'skip\' is unknown; it is "raise" or "nan"'):
+        atlas(2.0, 0.4, 1.0, "pull_off_force", missing="skip")
+
+
+def test_below_the_critical_tabor_number_there_is_no_jump():
+    with pytest.raises(NoSuchEvent, match=r"n = 2, k = 0, mu = 0.3: jumps exist above the critical Tabor number 0.69"):
+        atlas(2, 0, [1.0, 0.3], "jump_in_gap")
+    value, bound = atlas(2, 0, [1.0, 0.3], "jump_in_gap", missing="nan")
+    assert np.isnan(value).tolist() == np.isnan(bound).tolist() == [False, True]
+
+
+def test_the_two_jumps_merge_at_the_critical_tabor_number():
+    critical = atlas(2, 0.4, 1.0, CRITICAL).value
+    mu = critical * (1.0 + np.array([1e-9, 1e-4, 1e-2]))
+    gaps = [atlas(2, 0.4, mu, f"jump_{way}_gap").value for way in ("in", "out")]
+    displacements = [atlas(2, 0.4, mu, f"jump_{way}_displacement").value for way in ("in", "out")]
+    energy = atlas(2, 0.4, mu, "hysteresis_energy").value
+    assert np.all(np.diff(gaps[0] - gaps[1]) > 0.0)
+    assert np.all(np.diff(displacements[0] - displacements[1]) > 0.0)
+    assert np.all(np.diff(energy) > 0.0)
+    assert abs(gaps[0] - gaps[1])[0] < 1e-3
+    assert abs(displacements[0] - displacements[1])[0] < 1e-9
+
+
+def test_parameters_are_broadcast_and_scalars_give_floats():
+    value, bound = atlas(np.array([[1.5], [2.0]]), 0.4, [0.1, 1.0, 5.0], "pull_off_force")
+    assert value.shape == bound.shape == (2, 3)
+    one = atlas(2, 0.4, 1.0, "pull_off_force")
+    assert isinstance(one.value, float)
+    assert isinstance(one.bound, float)
+    assert one.value == pytest.approx(value[1, 1], rel=1e-15)
+    assert atlas(np.empty(0), 0.4, 1.0, "pull_off_force").value.shape == (0,)
+
+
+def test_more_points_than_a_chunk_give_the_same_values():
+    mu = np.geomspace(0.01, 10.0, 10_000)
+    together = atlas(2, 0.4, mu, "pull_off_force").value
+    alone = [atlas(2, 0.4, one, "pull_off_force").value for one in mu[::1111]]
+    assert together[::1111] == pytest.approx(alone, rel=1e-14)
+
+
+@pytest.mark.parametrize("quantity", [name for name in QUANTITIES if name not in JUMPS])
+def test_the_two_patches_agree_at_the_seam(quantity):
+    n, k = np.meshgrid(np.linspace(1.0, 6.0, 9), np.linspace(0.0, 0.8, 5))
+    border = seam(n)
+    below, above = (atlas(n, k, border * (1.0 + side), quantity) for side in (-1e-12, 1e-12))
+    assert np.all(np.abs(below.value - above.value) <= below.bound + above.bound)
+
+
+def test_the_files_are_small():
+    assert sum(path.stat().st_size for path in DATA.iterdir()) < MOST_BYTES
+
+
+def test_the_data_follow_from_the_table_of_nodes():
+    again = build(Nodes.read(TABLES / "nodes.csv"), layouts(DATA / "layouts.json"))
+    assert again.series.keys() == stored().series.keys() == {*COMPONENTS, CRITICAL}
+    for name, series in stored().series.items():
+        assert series.coefficients.shape == again.series[name].coefficients.shape
+        # Rounding of another processor, times the condition of the least squares (measured: at most 1e3).
+        assert again.series[name].coefficients == pytest.approx(series.coefficients, abs=1e-10)
+    for place, bound in stored().bounds.items():
+        assert again.bounds[place] == pytest.approx(bound, rel=6e-3)
+
+
+def test_the_sweep_file_has_the_nodes():
+    nodes = Nodes.read(TABLES / "nodes.csv")
+    assert (TABLES / "sweep.toml").read_text(encoding="utf-8") == sweep_of(nodes)
+
+
+def test_nodes_come_from_the_results_of_a_sweep(tmp_path):
+    path = tmp_path / "results.csv"
+    path.write_text(
+        "model,quantity,n,k,mu,nu,value,u_num,status,reason\n"
+        "fscm,pull_off_force,2,0.4,1,,1.5,1e-9,ok,\n"
+        "fscm,jump_in_gap,2,0.4,1,,,,not-applicable,none\n"
+        "fscm,pull_off_force,2,0,1,,,,failed,none\n"
+        "jkr,pull_off_force,2,0.4,1,,9,0,ok,\n"
+    )
+    nodes = collected([path])
+    nodes.write(tmp_path / "nodes.csv")
+    again = Nodes.read(tmp_path / "nodes.csv")
+    assert again.mu.tolist() == [1.0, 1.0]
+    assert again.with_value("pull_off_force").values["pull_off_force"].tolist() == [1.5]
+    assert again.with_value("pull_off_force").bounds["pull_off_force"].tolist() == [1e-9]
+
+
+def test_more_nodes_begin_with_the_same_ones():
+    assert lower_nodes(16) == lower_nodes(64)[:16]
+    assert upper_nodes(16, lambda n, k: 0.7) == upper_nodes(64, lambda n, k: 0.7)[:16]
+    assert all(0.7 < mu <= 10.0 for _, _, mu in upper_nodes(64, lambda n, k: 0.7))
+
+
+def test_a_form_and_its_inverse():
+    rng = np.random.default_rng(3)
+    at = Place(*(rng.uniform(low, high, 50) for low, high in (*BOX.values(), (1e-3, 1.0))))
+    for name, form in FORMS.items():
+        value = rng.uniform(0.1, 2.0, 50) * (-1.0 if name == "minus_logarithm" else 1.0)
+        assert form.value(form.smooth(value, at), at) == pytest.approx(value, rel=1e-13), name
+
+
+def test_coordinates_cover_the_cube():
+    coordinates = Coordinates((0.5, 1.0, -0.3, 0.2, 0.1), 0.5, 0.4, root=True)
+    n, k, mu = (np.array(BOX[name]) for name in ("n", "k", "mu"))
+    part = coordinates.part(n, k, mu, 0.01, 10.0)
+    assert coordinates.cube(n, k, part) == pytest.approx(np.array([[1, -1, -1], [-1, 1, 1]]), abs=1e-12)
+
+
+def test_a_fit_finds_a_polynomial_and_its_deviations_are_rounding():
+    rng = np.random.default_rng(5)
+    cube, degrees = rng.uniform(-1.0, 1.0, (200, 3)), degrees_within((3, 2, 3), 1.0)
+    exact = Series.of(degrees, rng.normal(size=len(degrees)))
+    plain = Layout(Coordinates((0.0,) * 5, math.inf, math.inf), (3.0, 2.0, 3.0), 1.0)
+    fit = least_squares(cube, exact(cube), np.ones(200), plain)
+    assert np.abs(fit.deviations).max() < 1e-12
+    other = rng.uniform(-1.0, 1.0, (50, 3))
+    assert fit.series(other) == pytest.approx(exact(other), abs=1e-12)
+    assert design_matrix(other, degrees) @ exact.coefficients[tuple(degrees.T)] == pytest.approx(exact(other))
+
+
+def test_a_deviation_is_that_of_the_fit_to_the_other_nodes():
+    rng = np.random.default_rng(6)
+    cube = rng.uniform(-1.0, 1.0, (40, 1))
+    values, degrees = np.exp(2.0 * cube[:, 0]), degrees_within((4,), 1.0)
+    plain = Layout(Coordinates((0.0,) * 5, math.inf, math.inf), (4.0,), 1.0)
+    fit = least_squares(cube, values, np.ones(40), plain)
+    matrix = design_matrix(cube, degrees_within((fit.terms - 1,), 1.0))
+    others = np.arange(40) != 7
+    without, *_ = np.linalg.lstsq(matrix[others], values[others], rcond=None)
+    assert fit.deviations[7] == pytest.approx(values[7] - matrix[7] @ without, rel=1e-3, abs=1e-13)
+    assert degrees.shape == (5, 1)
+
+
+def test_too_few_nodes_are_refused():
+    plain = Layout(Coordinates((0.0,) * 5, math.inf, math.inf), (1.0, 1.0, 1.0), 1.0)
+    with pytest.raises(ValueError, match="4 nodes are too few"):
+        least_squares(np.zeros((4, 3)), np.zeros(4), np.ones(4), plain)
+
+
+@pytest.mark.parametrize("tail", ["normal", "uniform", "exponential"])
+def test_the_bound_of_a_sample_is_above_all_later_members(tail):
+    rng = np.random.default_rng(7)
+    exceeded = 0
+    for _ in range(200):
+        sample = getattr(rng, tail)(size=60)
+        bound = tail_bound(sample)
+        assert bound >= FACTOR * np.abs(sample).max()
+        exceeded += np.count_nonzero(np.abs(getattr(rng, tail)(size=2000)) > bound)
+    # The threshold and the mean excess of 60 members are themselves random.
+    assert exceeded <= {"normal": 0, "uniform": 0, "exponential": 40}[tail]
+
+
+def test_a_small_sample_has_no_bound():
+    with pytest.raises(ValueError, match=r"a sample of 9 is outside \[18, inf\)"):
+        tail_bound(np.ones(9))
+
+
+def test_every_stored_bound_is_finite():
+    assert {name for name, _ in stored().bounds} == set(ATLAS_QUANTITIES)
+    assert all(np.all(np.isfinite(bound)) and np.all(bound > 0.0) for bound in stored().bounds.values())
+    assert set(RELATIVE) <= set(ATLAS_QUANTITIES)
+    assert read(DATA).series.keys() == stored().series.keys()
+
+
+def test_the_command_states_its_usage(capsys):
+    assert command.main([]) == 2
+    assert "usage" in capsys.readouterr().err
