@@ -22,6 +22,9 @@ __all__ = ["build", "layouts"]
 
 # A cell with fewer nodes has the bound of the patch.
 _FEWEST = 18
+# The bound of a cell is at least this part of that of its neighbours: the deviation grows within a cell towards the
+# worse neighbour.  Measured without: one of 85 random problems, in the corner of a cell, was outside by 1.3 times.
+_BESIDE = 0.5
 
 
 def layouts(path: Path) -> dict[str, Layout]:
@@ -84,12 +87,22 @@ def _relative(
 
 def _of_cells(relative: Array, u_relative: Array, cells: Cells) -> Array:
     """Bound in each cell: that of the deviations, and the largest one of the nodes themselves."""
-    found = np.full((CELLS,) * len(cells), tail_bound(relative))
-    for cell in np.ndindex(found.shape):
+    own, of_nodes = np.full((CELLS,) * len(cells), tail_bound(relative)), np.zeros((CELLS,) * len(cells))
+    for cell in np.ndindex(own.shape):
         inside = np.logical_and.reduce([number == index for number, index in zip(cells, cell, strict=True)])
         if np.count_nonzero(inside) >= _FEWEST:
-            found[cell] = tail_bound(relative[inside])
-        found[cell] += np.max(u_relative[inside], initial=0.0)
+            own[cell] = tail_bound(relative[inside])
+        of_nodes[cell] = np.max(u_relative[inside], initial=0.0)
+    return np.maximum(own, _BESIDE * _largest_beside(own)) + of_nodes
+
+
+def _largest_beside(values: Array) -> Array:
+    """Largest value in the cells that share a face with each cell."""
+    found = np.zeros_like(values)
+    for axis in range(values.ndim):
+        along, moved = np.moveaxis(found, axis, 0), np.moveaxis(values, axis, 0)
+        np.maximum(along[1:], moved[:-1], out=along[1:])
+        np.maximum(along[:-1], moved[1:], out=along[:-1])
     return found
 
 
