@@ -30,7 +30,7 @@ from fem_reference._contact.tail import TailContact
 from fem_reference._elastic.compliance import ScalingCompliance
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import FEATURES, variant
-from fem_reference.quantities import TABLE
+from fem_reference.quantities import LOSSES, TABLE
 from fem_reference.verification.reference_solutions import surface_constant
 
 
@@ -84,6 +84,12 @@ def test_bound_covers_the_error_against_a_finer_mesh(quantity):
     assert abs(solution.value - reference) <= solution.u_num
 
 
+def test_the_losses_of_both_jumps_are_the_hysteresis():
+    losses = [_found()[name].value for name in LOSSES]
+    assert min(losses) > 0.0
+    assert math.fsum(losses) == pytest.approx(_found()["hysteresis_energy"].value, rel=1e-12)
+
+
 def test_added_part_is_added_to_the_bound():
     solution = Solution(1.0, 3e-9, 100, 3, 0.0, 0.1, 6.0, 6.0, (1.0, 0.8, 0.6), (1.0, 1.0, 1.0), {"mesh": 3e-9})
     more = solution.with_part("algebra", 1e-9).with_part("algebra", 1e-9).with_part("mesh", 5e-9)
@@ -120,6 +126,7 @@ def test_mesh_part_falls_with_the_accuracy():
     assert 0.0 < parts[1] < 0.3 * parts[0]
 
 
+@pytest.mark.heavy
 def test_a_coated_solid_on_a_larger_interior_stays_within_its_part():
     """E = 1 + 10 exp(-z/2): how far the mesh reaches decides the displacement, and only a longer mesh shows it."""
     solid = CustomSolid(CustomModulus(_coated, 0.0, 0.0, surface_depth=2.0), 0.3)
@@ -136,8 +143,8 @@ def test_a_coated_solid_on_a_larger_interior_stays_within_its_part():
 
 def test_apex_part_responds_to_a_tip():
     """A cone has a singular stress at r = 0, a paraboloid has none."""
-    edge = {n: solve(_problem(0.0, 1.5, n=n), "jump_out_gap", "quick").parts["edge"] for n in (1.0, 2.0)}
-    assert edge[1.0] > 100.0 * edge[2.0]
+    cone = solve(_problem(0.0, 1.5, n=1.0), "jump_out_gap", "quick")
+    assert cone.parts["edge"] > 100.0 * _found()["jump_out_gap"].parts["edge"]
 
 
 def test_algebra_part_responds_to_rounding(monkeypatch):

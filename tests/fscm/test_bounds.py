@@ -208,7 +208,7 @@ def test_a_soft_solid_has_more_rounding() -> None:
     assert soft.parts["rounding"] > 100.0 * stiff.parts["rounding"]
 
 
-@pytest.mark.parametrize(("n", "k"), [(2.0, 0.0), (1.3, 0.5), (3.3, 0.7)])
+@pytest.mark.parametrize(("n", "k"), [(2.0, 0.0), (3.3, 0.7), pytest.param(1.3, 0.5, marks=pytest.mark.heavy)])
 def test_the_bound_of_the_critical_tabor_number(n: float, k: float) -> None:
     solution = critical_tabor_number(Problem(n, k, 1.0))
     exact = critical_tabor_number(Problem(n, k, 1.0), Meshes(path=Mesh(10, 2e-5), value=Mesh(18, 1e-9)))
