@@ -283,6 +283,7 @@ def test_accuracy_is_a_number():
     for result, number in zip(values, (ACCURACIES["quick"], 5e-7), strict=True):
         assert abs(result.value - exact) <= min(number * exact, result.u_num) + DIGITS * exact
     assert values[1].u_num < values[0].u_num
+    assert 0.0 < values[1].parts["mesh"] < values[0].parts["mesh"]
 
 
 def test_stiff_solid_has_no_jump():
