@@ -28,6 +28,7 @@ from fem_reference._contact.mesh_choice import MeshChoice, chosen
 from fem_reference._contact.uncertainty import three_meshes
 from fem_reference.accuracy import ACCURACIES, level_for
 from fem_reference.verification.reference_solutions import surface_constant
+from tests.fem_reference.solved_together import PROBLEM, solved
 from tests.reference_values import OTHER_LAWS, REFERENCE_VALUES
 
 PULL_OFF = {(v.k, v.mu): v.value for v in REFERENCE_VALUES if (v.quantity, v.n) == ("pull_off_force", 2.0)}
@@ -160,7 +161,7 @@ def test_finer_meshes_are_taken_where_a_path_cannot_be_traced(monkeypatch, trace
 
 def test_poisson_ratio_collapses():
     """At one ratio of deformation to range nu does not matter: this verifies b(k, nu) of Eq. 7."""
-    forces = [-profile(_problem(0.4, 1.0, nu), "pull_off", "quick").load for nu in (0.0, 0.4, 0.49)]
+    forces = [-profile(_problem(0.4, 1.0, nu), "pull_off", "quick").load for nu in (0.0, 0.49)]
     assert np.ptp(forces) <= 1e-6 * forces[0]
     assert forces[0] == pytest.approx(math.pi * PULL_OFF[0.4, 1.0], rel=1e-6)
 
@@ -178,10 +179,8 @@ def test_unit_scaling():
 
 
 def test_events_lie_on_the_traced_path():
-    problem = _problem(0.4, 1.5)
-    path = trace(problem, "quick")
-    found = solve_together(problem, fem_reference.QUANTITIES, "quick")
-    results = {quantity: solution.value for quantity, solution in found.items()}
+    path = trace(PROBLEM, "quick")
+    results = {quantity: solved()[quantity].value for quantity in fem_reference.QUANTITIES}
     assert -path.load.min() == pytest.approx(results["pull_off_force"], rel=3e-3)
     assert results["pull_off_force"] >= -path.load.min() - 1e-6
     assert results["jump_out_displacement"] < results["jump_in_displacement"] < results["zero_load_displacement"]
@@ -193,11 +192,12 @@ def test_events_lie_on_the_traced_path():
     assert np.all(np.diff(path.edge_radius[path.edge_radius > 0]) > 0)
 
 
+@pytest.mark.heavy
 def test_contact_that_begins_on_a_small_spot():
     """Under a flat punch on a nearly linear gradient contact begins at 1e-3 of the radius it then has.
 
     The attraction of the rest of the punch holds the displacement back; the turning point is that of the
-    integral equation.
+    integral equation.  The mesh of such a punch is in the tests of the choice of the mesh.
     """
     path = trace(_problem(0.6, 3.0, 0.3, n=5.0), "quick")
     young = (path.edge_radius > 0.007) & (path.edge_radius < 0.015)
