@@ -131,7 +131,7 @@ def test_the_jump_into_contact_is_the_first_fold(folded):
     assert samples[: first_fall + 1].max() <= found["jump_in_displacement"].value + 1e-6
 
 
-@pytest.mark.parametrize("step", [0.05, 0.4])
+@pytest.mark.parametrize("step", [pytest.param(0.05, marks=pytest.mark.heavy), 0.4])
 def test_the_step_of_the_path_does_not_choose_the_fold(monkeypatch, step):
     """Steps of the gap four times smaller and twice as large."""
     monkeypatch.setattr(path, "GAP_STEP", step)

@@ -129,6 +129,7 @@ def test_a_coated_solid_on_a_larger_interior_stays_within_its_part():
     assert solution.u_num < 1e-3
 
 
+@pytest.mark.heavy
 def test_apex_part_responds_to_a_tip():
     """A cone has a singular stress at r = 0, a paraboloid has none."""
     row = TABLE["jump_out_gap"]

@@ -28,10 +28,10 @@ def two_threads():
 @pytest.mark.parametrize(
     "compute",
     [
-        # That a solution begins with one thread is in the test of an exception below.
+        # Each enters the same context; that a solution does so is in the test of an exception below.
         pytest.param(lambda problem: solve(problem, "pull_off_force", "quick"), id="solve", marks=pytest.mark.heavy),
         pytest.param(lambda problem: trace(problem, "quick"), id="trace"),
-        pytest.param(lambda problem: profile(problem, accuracy="quick"), id="profile"),
+        pytest.param(lambda problem: profile(problem, accuracy="quick"), id="profile", marks=pytest.mark.heavy),
     ],
 )
 def test_a_computation_has_one_thread(compute):

@@ -41,6 +41,7 @@ def test_an_offset_does_nothing_to_a_uniform_solid():
         assert abs(value - exact) <= u_num < 1e-5
 
 
+@pytest.mark.heavy
 def test_a_thick_skin_is_a_uniform_solid():
     """What is left, at 1000 L, is the share of the contact radius in the offset."""
     value, u_num = with_skin("pull-off", 0.4, 1.0, 1000.0)["pull_off_force"]
@@ -56,6 +57,7 @@ def test_without_jumps_there_is_a_reason():
     assert "too stiff" in found["reason"]
 
 
+@pytest.mark.heavy
 def test_the_result_does_not_depend_on_where_the_exterior_begins(monkeypatch):
     value, u_num = with_skin("pull-off", 0.4, 1.0, 100.0)["pull_off_displacement"]
 
