@@ -74,7 +74,7 @@ def test_a_sample_of_the_random_problems() -> None:
 
 
 def test_bounds_that_were_once_too_small() -> None:
-    """Contributions that cancel at the tip of a rigid solid, and an error whose rate changes fast at a nucleus."""
+    """The tip of a rigid solid, and a nucleus at which the rate of an error changes fast."""
     judge([problems()[i] for i in _ONCE_TOO_SMALL])
 
 
