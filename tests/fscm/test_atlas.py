@@ -9,6 +9,7 @@ import pytest
 import fscm
 from fscm import ATLAS_QUANTITIES, NoSuchEvent, OutsideAtlas, Problem, atlas
 from fscm.interpolation import __main__ as command
+from fscm.interpolation import fitting
 from fscm.interpolation.building import build, layouts
 from fscm.interpolation.components import COMPONENTS, CRITICAL, QUANTITIES, RELATIVE
 from fscm.interpolation.coordinates import BOX, Coordinates, seam
@@ -17,7 +18,7 @@ from fscm.interpolation.extremes import FACTOR, tail_bound
 from fscm.interpolation.fitting import Layout, least_squares
 from fscm.interpolation.forms import FORMS, Place
 from fscm.interpolation.nodes import Nodes, collected
-from fscm.interpolation.series import Series, degrees_within, design_matrix
+from fscm.interpolation.series import Series, basis, degrees_within, design_matrix
 from fscm.interpolation.storage import read, stored
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -25,6 +26,9 @@ TABLES = ROOT / "results" / "baseline" / "atlas"
 DATA = ROOT / "fscm" / "interpolation" / "data"
 JUMPS = [name for name, composition in QUANTITIES.items() if composition.jumps]
 
+# Two fits to the same nodes on different processors: rounding, through the regularised Gram matrix of condition 1e11.
+# The smallest bound of a value is ten times as large.
+AGREE = 1e-7
 # The data are allowed 2 MB in the wheel.
 MOST_BYTES = 2_000_000
 
@@ -169,12 +173,12 @@ def test_the_files_are_small():
 def test_the_data_follow_from_the_table_of_nodes():
     again = build(Nodes.read(TABLES / "nodes.csv"), layouts(DATA / "layouts.json"))
     assert again.series.keys() == stored().series.keys() == {*COMPONENTS, CRITICAL}
+    cube = np.random.default_rng(8).uniform(-1.0, 1.0, (500, 3))
     for name, series in stored().series.items():
-        assert series.coefficients.shape == again.series[name].coefficients.shape
-        # Rounding of another processor, times the condition of the least squares (measured: at most 1e3).
-        assert again.series[name].coefficients == pytest.approx(series.coefficients, abs=1e-10)
+        points = cube[:, : series.coefficients.ndim]
+        assert np.abs(again.series[name](points) - series(points)).max() < AGREE
     for place, bound in stored().bounds.items():
-        assert again.bounds[place] == pytest.approx(bound, rel=6e-3)
+        assert again.bounds[place] == pytest.approx(bound, rel=0.1)
 
 
 def test_the_sweep_file_has_the_nodes():
@@ -220,33 +224,46 @@ def test_coordinates_cover_the_cube():
     assert coordinates.cube(n, k, part) == pytest.approx(np.array([[1, -1, -1], [-1, 1, 1]]), abs=1e-12)
 
 
-def test_a_fit_finds_a_polynomial_and_its_deviations_are_rounding():
+PLAIN = Coordinates((0.0,) * 5, math.inf, math.inf)
+
+
+def test_a_series_is_the_sum_of_its_terms():
     rng = np.random.default_rng(5)
-    cube, degrees = rng.uniform(-1.0, 1.0, (200, 3)), degrees_within((3, 2, 3), 1.0)
-    exact = Series.of(degrees, rng.normal(size=len(degrees)))
-    plain = Layout(Coordinates((0.0,) * 5, math.inf, math.inf), (3.0, 2.0, 3.0), 1.0)
-    fit = least_squares(cube, exact(cube), np.ones(200), plain)
-    assert np.abs(fit.deviations).max() < 1e-12
-    other = rng.uniform(-1.0, 1.0, (50, 3))
-    assert fit.series(other) == pytest.approx(exact(other), abs=1e-12)
-    assert design_matrix(other, degrees) @ exact.coefficients[tuple(degrees.T)] == pytest.approx(exact(other))
+    cube, degrees = rng.uniform(-1.0, 1.0, (50, 3)), degrees_within((3, 2, 4), 1.0)
+    values = rng.normal(size=len(degrees))
+    assert Series.of(degrees, values)(cube) == pytest.approx(design_matrix(cube, degrees) @ values, abs=1e-13)
 
 
-def test_a_deviation_is_that_of_the_fit_to_the_other_nodes():
+def test_a_fit_predicts_a_smooth_function_to_its_stated_deviations():
     rng = np.random.default_rng(6)
-    cube = rng.uniform(-1.0, 1.0, (40, 1))
-    values, degrees = np.exp(2.0 * cube[:, 0]), degrees_within((4,), 1.0)
-    plain = Layout(Coordinates((0.0,) * 5, math.inf, math.inf), (4.0,), 1.0)
-    fit = least_squares(cube, values, np.ones(40), plain)
-    matrix = design_matrix(cube, degrees_within((fit.terms - 1,), 1.0))
+    cube, other = np.cos(np.pi * rng.uniform(size=(300, 3))), rng.uniform(-1.0, 1.0, (200, 3))
+
+    def function(x):
+        return np.exp(0.3 * x[:, 0]) / (2.0 + x[:, 1] * x[:, 2])
+
+    fit = least_squares(cube, function(cube), np.ones(300), Layout(PLAIN, (0.6, 1.0, 1.0), 1.3))
+    errors = np.abs(fit.series(other) - function(other))
+    assert errors.max() < np.abs(fit.deviations).max() < 1e-2
+    assert np.sqrt(np.mean(errors**2)) < np.sqrt(np.mean(fit.deviations**2))
+
+
+def test_a_deviation_is_that_of_the_fit_to_the_other_nodes(monkeypatch):
+    monkeypatch.setattr(fitting, "_RATES", (0.4,))
+    rng = np.random.default_rng(7)
+    x = np.cos(np.pi * rng.uniform(size=40))
+    values = 1.0 / (1.5 + x)
+    fit = least_squares(x[:, None], values, np.ones(40), Layout(PLAIN, (1.0,), 1.0))
+    terms = np.exp(-0.4 * np.arange(fit.terms)) * basis(x, fit.terms - 1)
+    gram = terms @ terms.T
+    gram = gram / (np.trace(gram) / 40) + fitting._RIDGE * np.eye(40)
     others = np.arange(40) != 7
-    without, *_ = np.linalg.lstsq(matrix[others], values[others], rcond=None)
-    assert fit.deviations[7] == pytest.approx(values[7] - matrix[7] @ without, rel=1e-3, abs=1e-13)
-    assert degrees.shape == (5, 1)
+    multipliers = np.linalg.solve(gram[np.ix_(others, others)], (values - values.mean())[others])
+    predicted = values.mean() + gram[7, others] @ multipliers
+    assert fit.deviations[7] == pytest.approx(values[7] - predicted, rel=1e-3, abs=1e-9)
 
 
 def test_too_few_nodes_are_refused():
-    plain = Layout(Coordinates((0.0,) * 5, math.inf, math.inf), (1.0, 1.0, 1.0), 1.0)
+    plain = Layout(PLAIN, (1.0, 1.0, 1.0), 1.0)
     with pytest.raises(ValueError, match="4 nodes are too few"):
         least_squares(np.zeros((4, 3)), np.zeros(4), np.ones(4), plain)
 
