@@ -4,6 +4,7 @@ from __future__ import annotations
 
 __all__ = [
     "AGREEMENT",
+    "BENCH",
     "CALLS",
     "CURVES",
     "FIGURES",
@@ -16,6 +17,7 @@ __all__ = [
     "KAPPA_FIGURE",
     "LARGEST_KAPPA",
     "LOCK",
+    "MEASUREMENTS",
     "RECORD",
     "REFERENCES",
     "REPORT",
@@ -32,6 +34,9 @@ __all__ = [
 
 #: The record of the run, the journals of its rows and of the function calls of the paper, and the lock.
 RECORD, JOURNAL, CALLS, LOCK = "run.json", "journal.jsonl", "calls.jsonl", ".lock"
+
+#: The record of a benchmark, and the journal of its measurements.
+BENCH, MEASUREMENTS = "bench.json", "bench.jsonl"
 
 #: Copies of the gates and of the grids of the run, whose own files may change.
 GATES_TEXT, GRID_TEXT = "gates.toml", "grid.toml"
