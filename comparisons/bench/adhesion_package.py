@@ -15,8 +15,6 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from comparisons.runs.workers import one_thread
-
 __all__ = ["INSTALL", "PullOff", "installed", "pull_off", "versions"]
 
 #: What is printed where the package is not installed.
@@ -29,8 +27,8 @@ _DISTRIBUTIONS = ("adhesion", "ContactMechanics", "SurfaceTopography", "NuMPI", 
 #: there: a displacement that is wrong by the tolerance changes the force by less than 2e-5 of it (measured, mu = 1).
 _AROUND, _TOLERANCE = 0.1, 3e-3
 
-#: Largest force on a pixel that is out of equilibrium, in units of its area.  With a hundredth of it the force at pull-off
-#: changes by less than 1e-5 (measured on 64 x 64 pixels, mu = 0.1 ... 1), and it takes twice the time.
+#: Largest force on a pixel that is out of equilibrium, in units of its area.  With a hundredth of it the force at
+#: pull-off changes by less than 1e-5 (measured on 64 x 64 pixels, mu = 0.1 ... 1), and it takes twice the time.
 _GRADIENT = 1e-5
 
 #: Previous steps that the minimiser (L-BFGS-B) keeps; its limits of iterations are never reached.
@@ -80,7 +78,6 @@ def pull_off(mu: float, half_width: float, points: int, displacement: float) -> 
     from ContactMechanics import FreeFFTElasticHalfSpace
     from SurfaceTopography import Topography
 
-    one_thread()
     side = 2.0 * half_width
     pixel = side / points
     place = (np.arange(points) + 0.5) * pixel - half_width

@@ -32,7 +32,7 @@ _REPEATS = 3
 #: A command that takes so many seconds of CPU is not called again.
 _LONG = 5.0
 
-#: Exit statuses of a finished command: with 1 and 3 a gate fails or is inconclusive, as is right for the stand-in model.
+#: Exit statuses of a finished command: 1 and 3 are a gate that fails or is inconclusive, as with the stand-in model.
 _FINISHED = {0, 1, 3}
 
 #: Folder of the results of `run`.
@@ -126,18 +126,25 @@ def draw(table: pd.DataFrame) -> Figure:
             axes.annotate(
                 f"{seconds:.2g} s", (seconds, command), xytext=(4, 0), textcoords="offset points", va="center"
             )
-        axes.margins(x=0.12)
+        axes.set_yticks(range(len(rows)), [_short(command) for command in rows["command"]])
+        axes.set_xlim(rows["cpu_seconds"].min() / 2.0, 3.0 * rows["cpu_seconds"].max())
         axes.set_xlabel("CPU time from a cold start (s)")
         axes.set_title("Commands in a new interpreter", fontsize=10)
     return figure
+
+
+def _short(command: str) -> str:
+    """The command without the parameters of the case."""
+    return command.partition(" --n")[0]
 
 
 def summary(table: pd.DataFrame) -> list[str]:
     """Return the CPU time of each command over that of an interpreter that does nothing."""
     lines = [f"{'CPU time / that of a bare interpreter:':50}{'ratio':>7}{'CPU (s)':>9}{'wall (s)':>9}"]
     for row in table[(table["status"] == "ok") & (table["command"] != BARE)].to_dict("records"):
-        name = row["command"] if len(row["command"]) < 47 else f"{row['command'][:44]}..."
-        lines.append(f"  {name:48}{row['ratio']:>7.0f}{row['cpu_seconds']:>9.2f}{row['seconds']:>9.2f}")
+        lines.append(
+            f"  {_short(row['command']):48}{row['ratio']:>7.0f}{row['cpu_seconds']:>9.2f}{row['seconds']:>9.2f}"
+        )
     return lines
 
 

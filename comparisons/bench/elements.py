@@ -37,9 +37,9 @@ def items(full: bool) -> list[Item]:
 
 
 def table(rows: pd.DataFrame) -> pd.DataFrame:
-    """Add the whole time and its ratio, and the ratio of memory, to those of "pyamg"; and the disagreement with "direct".
+    """Add the whole time, its ratio and that of memory to those of "pyamg", and the disagreement with "direct".
 
-    The disagreement is that of the displacements at the centre of the load.
+    The disagreement is the relative difference of the displacements under the centre of the load.
     """
     rows = rows.copy()
     if "solve_seconds" not in rows:
@@ -83,7 +83,7 @@ def draw(table: pd.DataFrame) -> Figure:
             axes.set_ylabel(label)
         seconds.legend(loc="best")
         figure.suptitle(
-            rf"Linear systems of the finite elements, $k$ = {k:g}, $\nu$ = {nu:g}, an edge of a thousandth of its radius",
+            rf"Linear systems of the finite elements, $k$ = {k:g}, $\nu$ = {nu:g}, edge of a thousandth of its radius",
             fontsize=10,
         )
     return figure
@@ -111,8 +111,8 @@ def summary(table: pd.DataFrame) -> list[str]:
     ]
     if growth:
         lines.append(
-            f"  iterations of pyamg: at most {iterations['iterations'].max():.0f}; from the least to the most "
-            f"unknowns they grow by {max(growth):.2f}"
+            f"  iterations of pyamg: at most {iterations['iterations'].max():.0f}; "
+            f"most / least unknowns: {max(growth):.2f} times as many"
         )
     return lines
 

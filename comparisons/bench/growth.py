@@ -26,6 +26,8 @@ _VARIED = {
     "mu": ("mu", r"Tabor number $\mu$ ($k$ = 0)"),
     "k": ("k", r"gradient exponent $k$ ($\mu$ = 1)"),
 }
+#: Those with which the edge becomes narrower.
+_EDGES = ("mu", "k")
 
 
 def items(full: bool) -> list[Item]:
@@ -56,14 +58,19 @@ def table(rows: pd.DataFrame) -> pd.DataFrame:
     return rows
 
 
+def _decades(rows: pd.DataFrame) -> pd.Series:
+    """Decades by which the edge is narrower than its radius."""
+    return -np.log10(rows["edge_width"])
+
+
 def _edge_rows(table: pd.DataFrame) -> pd.DataFrame:
     """Rows of one accuracy and several edge widths, the widest edge first."""
-    rows = table[table["varied"].isin(["mu", "k"]) & (table["status"] == "ok")]
+    rows = table[table["varied"].isin(_EDGES) & (table["status"] == "ok")]
     return rows.sort_values("edge_width", ascending=False)
 
 
 def draw(table: pd.DataFrame) -> Figure:
-    """Draw unknowns and CPU time against what varies, unknowns against the width of the edge, and the bounds reached."""
+    """Draw unknowns and CPU time against what varies, unknowns against the edge, and the bounds that are reached."""
     ok = table[table["status"] == "ok"]
     with styled():
         figure = Figure(figsize=(13.0, 6.0), layout="constrained")
@@ -78,7 +85,7 @@ def draw(table: pd.DataFrame) -> Figure:
         for axes, letter in zip(panels.ravel(), "abcdefgh", strict=True):
             lettered(axes, letter)
         figure.suptitle(
-            r"Pull-off force by fscm, $n$ = 2: with the requested error ($k$ = 0.4, $\mu$ = 1), with $\mu$ and with $k$",
+            r"Pull-off force by fscm, $n$ = 2, against the requested error ($k$ = 0.4, $\mu$ = 1), $\mu$ and $k$",
             fontsize=10,
         )
     return figure
@@ -109,26 +116,29 @@ def _draw_bounds(axes: Axes, rows: pd.DataFrame) -> None:
 
 
 def _draw_edge(axes: Axes, table: pd.DataFrame) -> None:
-    """Draw unknowns against the width of the edge with the fitted line."""
+    """Draw unknowns against the width of the edge, with the fitted line of each series."""
     rows = _edge_rows(table)
-    if rows["edge_width"].nunique() < 2:
-        return
-    for place, name in enumerate(("mu", "k"), start=1):
+    for place, name in enumerate(_EDGES, start=1):
         one = rows[rows["varied"] == name]
         axes.semilogx(
-            one["edge_width"], one["unknowns"], ls="", color=COLOURS[place], marker=MARKERS[place], ms=5,
+            one["edge_width"],
+            one["unknowns"],
+            ls="",
+            color=COLOURS[place],
+            marker=MARKERS[place],
+            ms=5,
             label=_VARIED[name][1],
         )
-    fitted = line(np.log10(1.0 / rows["edge_width"]), rows["unknowns"])
-    ends = np.array([rows["edge_width"].min(), rows["edge_width"].max()])
-    axes.semilogx(
-        ends, fitted.start + fitted.slope * np.log10(1.0 / ends), color=COLOURS[7], ls="--",
-        label=f"{fitted.start:.0f} + {fitted.slope:.0f} log10(1 / width)",
-    )
+    for place, name in enumerate(_EDGES, start=1):
+        one = rows[rows["varied"] == name]
+        if one["edge_width"].nunique() > 1:
+            fitted = line(_decades(one), one["unknowns"])
+            ends = one["edge_width"].agg(["min", "max"])
+            axes.semilogx(ends, fitted.start - fitted.slope * np.log10(ends), color=COLOURS[place], ls="--")
     axes.invert_xaxis()
     axes.set_xlabel("width of the cohesive edge / its radius")
     axes.set_ylabel("unknowns")
-    axes.legend(loc="best")
+    axes.legend(loc="lower right")
 
 
 def summary(table: pd.DataFrame) -> list[str]:
@@ -142,15 +152,15 @@ def summary(table: pd.DataFrame) -> list[str]:
             unknowns = f"{rows['unknowns'].min():.0f} to {rows['unknowns'].max():.0f}"
             lines.append(f"  {ends:32}{rows['ratio'].max():>7.1f}{unknowns:>14}")
     rows = _edge_rows(table)
-    if rows["edge_width"].nunique() > 1:
-        fitted = line(np.log10(1.0 / rows["edge_width"]), rows["unknowns"])
-        exponent = growth_exponent(1.0 / rows["edge_width"], rows["unknowns"])
-        lines += [
-            f"  unknowns = {fitted.start:.0f} + {fitted.slope:.0f} log10(1 / edge width), "
-            f"within {100.0 * fitted.residual:.0f} %",
-            f"  (as a power: edge width^{-exponent:.2f}, widths "
-            f"{rows['edge_width'].max():.2g} to {rows['edge_width'].min():.1e})",
-        ]
+    for name in _EDGES:
+        one = rows[rows["varied"] == name]
+        if one["edge_width"].nunique() > 1:
+            fitted = line(_decades(one), one["unknowns"])
+            exponent = growth_exponent(1.0 / one["edge_width"], one["unknowns"])
+            lines.append(
+                f"  with {name}: unknowns = {fitted.start:.0f} + {fitted.slope:.0f} log10(1 / edge width) within "
+                f"{100.0 * fitted.residual:.0f} %; width^-{exponent:.2f}"
+            )
     return lines
 
 

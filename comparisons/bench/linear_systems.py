@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 import numpy as np
 from scipy import linalg
@@ -22,8 +23,8 @@ from fem_reference.verification.solver_study import LOAD_RADIUS
 
 __all__ = ["METHODS", "measure"]
 
-#: Width of the edge, depth of the first layer and extent of the mesh, in units of the edge radius, as in the study of the
-#: linear solver; degree of the elements.
+#: Width of the edge, depth of the first layer and extent of the mesh, in units of the edge radius, as in the study of
+#: the linear solver; degree of the elements.
 _EDGE, _ORDER = (1e-3, 1e-4, 128.0), 4
 
 
@@ -39,6 +40,10 @@ class _Clock:
         return self._last - before
 
 
+#: Solves under a load, with the clock that has just been read; returns the displacement of the surface, and numbers.
+_Method = Callable[[HalfSpace, Array, _Clock], tuple[Array, Numbers]]
+
+
 def measure(settings: Settings) -> Numbers:
     """Assemble a system, solve it, and return unknowns, iterations, CPU times and memory.
 
@@ -47,16 +52,17 @@ def measure(settings: Settings) -> Numbers:
     Parameters
     ----------
     settings : dict
-        ``method`` (of `METHODS`), ``density`` of the mesh, ``k``, ``nu``, and ``shape`` of the mesh where it is not that
-        of the study.
+        ``method`` (of `METHODS`), ``density`` of the mesh, ``k`` and ``nu``; ``shape`` of the mesh where it is not
+        that of the study.
     """
-    spec = MeshSpec(*settings.get("shape", _EDGE), settings["density"], _ORDER)
+    edge_width, surface_depth, extent = settings.get("shape", _EDGE)
+    method = METHODS[settings["method"]]
     # The first factorisation and the first set-up of pyamg import modules.
-    _solve(METHODS[settings["method"]], MeshSpec(0.5, 0.05, 32.0, 1.5, _ORDER), settings)
-    return _solve(METHODS[settings["method"]], spec, settings)
+    _solve(method, MeshSpec(0.5, 0.05, 32.0, 1.5, _ORDER), settings)
+    return _solve(method, MeshSpec(edge_width, surface_depth, extent, settings["density"], _ORDER), settings)
 
 
-def _solve(method: object, spec: MeshSpec, settings: Settings) -> Numbers:
+def _solve(method: _Method, spec: MeshSpec, settings: Settings) -> Numbers:
     clock = _Clock()
     grid = spec.grid()
     half_space = assemble_half_space(grid, PowerLawModulus(1.0, 1.0, settings["k"]), settings["nu"], _ORDER)
@@ -66,7 +72,7 @@ def _solve(method: object, spec: MeshSpec, settings: Settings) -> Numbers:
     before = memory()
     reset_peak()
     clock.read()
-    surface, numbers = method(half_space, load, clock)  # type: ignore[operator]
+    surface, numbers = method(half_space, load, clock)
     peak = memory("VmHWM")
     return {
         "unknowns": int(half_space.free.size),
@@ -102,4 +108,4 @@ def _condensed(half_space: HalfSpace, load: Array, clock: _Clock) -> tuple[Array
 
 
 #: Name -> the method: "direct" factorises and solves at once, which is all in ``solve_seconds``.
-METHODS = {"pyamg": _by_pyamg, "direct": _direct, "condensed": _condensed}
+METHODS: dict[str, _Method] = {"pyamg": _by_pyamg, "direct": _direct, "condensed": _condensed}

@@ -50,9 +50,9 @@ def setting_text(settings: Settings) -> str:
     ('N = 2500', '1e-06')
     """
     if settings["model"] == "fscm-stieltjes":
-        return f"N = {settings['segments']}"
+        return f"N = {settings['segments']:.0f}"
     if settings["model"] == "adhesion":
-        return f"{settings['points']} x {settings['points']}"
+        return f"{settings['points']:.0f} x {settings['points']:.0f}"
     accuracy = settings["accuracy"]
     return accuracy if isinstance(accuracy, str) else f"{accuracy:.0e}"
 

@@ -1,7 +1,7 @@
 """A run of the benchmark: what is measured, stored, written and printed.
 
-Each finished measurement is in the journal of the folder before the next one begins, so that a run that is stopped can be
-resumed; each keeps the record of the machine that made it.
+Each finished measurement is in the journal of the folder before the next one begins, so that a run that is stopped can
+be resumed; each keeps the record of the machine that made it.
 """
 
 from __future__ import annotations
@@ -157,7 +157,7 @@ def _written(
         tables[part.name] = table = part.table(table_of(stored))
         stem = part.name.replace("-", "_")
         with atomic(folder / f"{stem}.csv") as file:
-            file.write(csv_text(table).encode())
+            file.write(csv_text(_with_short_settings(table, stored)).encode())
         if (table["status"] == "ok").any():
             save(part.draw(table), folder / f"{stem}.png")
             lines += part.summary(table)
@@ -175,6 +175,18 @@ def _written(
     machine = record["machine"]
     head = [f"{machine['cpu']}, {machine['cores']} cores; ratios of one run on it:"[:80]]
     return FinishedBench(folder, tables, head + lines, failures)
+
+
+def _with_short_settings(table: pd.DataFrame, stored: Sequence[Measurement]) -> pd.DataFrame:
+    """Write settings as short as they can be exactly: 1e-05, not 1.0000000000000001e-05."""
+    settings = {name for one in stored for name in one.settings}
+    return table.assign(
+        **{
+            name: table[name].map(lambda value: repr(value) if isinstance(value, float) and value == value else value)
+            for name in table.columns
+            if name in settings
+        }
+    )
 
 
 def _ordered(part: Part, stored: Sequence[Measurement]) -> list[Measurement]:

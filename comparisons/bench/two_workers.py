@@ -95,8 +95,8 @@ def draw(table: pd.DataFrame) -> Figure:
             axes.annotate(f"{ratio:.2f} x", (place, seconds), xytext=(0, 3), textcoords="offset points", ha="center")
         axes.set_xticks(places, [f"{workers:.0f} worker{'s' * (workers > 1)}" for workers in rows["workers"]])
         axes.set_ylabel("wall-clock time (s)")
-        axes.margins(y=0.14)
-        axes.legend(loc="best")
+        axes.set_ylim(0.0, 1.3 * rows["seconds"].max())
+        axes.legend(loc="upper right", ncols=2)
         axes.set_title(f"Sweep of {rows['cases'].max():.0f} pull-off forces by fscm", fontsize=10)
     return figure
 
