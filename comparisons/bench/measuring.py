@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
+import signal
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from contextlib import contextmanager
-from multiprocessing import get_context
+from multiprocessing import active_children, get_context, resource_tracker
 from multiprocessing.forkserver import ensure_running
 from pathlib import Path
 from typing import TypeVar
@@ -38,15 +39,28 @@ def made(part: Part, settings: Settings) -> Measurement:
     """Make a measurement, in a new process if the part wants that; one that fails has the reason."""
     if not part.own_process:
         return _made(part.name, part.measure, settings)
-    with _one_thread_at_start():
-        context = get_context("forkserver")
-        context.set_forkserver_preload(_PRELOADED)
+    context = get_context("forkserver")
+    context.set_forkserver_preload(_PRELOADED)
+    resource_tracker.ensure_running()  # which changes the mask of signals
+    with _one_thread_at_start(), _later(signal.SIGINT):
+        # Processes inherit the mask: Ctrl-C reaches them and is left to this process, which ends them.
         ensure_running()
-        with ProcessPoolExecutor(1, context, initializer=start_worker) as pool:
-            try:
-                return pool.submit(_made, part.name, part.measure, settings).result()
-            except BrokenExecutor:
-                return Measurement(part.name, settings, status="failed", reason=ENDED)
+    others = active_children()
+    pool = ProcessPoolExecutor(1, context, initializer=start_worker)
+    try:
+        # A process whose start is interrupted would end with a traceback.
+        with _later(signal.SIGINT, signal.SIGTERM):
+            future = pool.submit(_made, part.name, part.measure, settings)
+        return future.result()
+    except BrokenExecutor:
+        return Measurement(part.name, settings, status="failed", reason=ENDED)
+    except BaseException:
+        for process in active_children():
+            if process not in others:
+                process.terminate()
+        raise
+    finally:
+        pool.shutdown()
 
 
 def _made(name: str, measure: Callable[[Settings], dict[str, object]], settings: Settings) -> Measurement:
@@ -70,6 +84,16 @@ def _one_thread_at_start() -> Iterator[None]:
                 del os.environ[name]
             else:
                 os.environ[name] = value
+
+
+@contextmanager
+def _later(*signals: signal.Signals) -> Iterator[None]:
+    """Deliver signals at the end of the block."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, signals)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def cpu_seconds(compute: Callable[[int], Output], repeats: int = _REPEATS) -> tuple[Output, float]:

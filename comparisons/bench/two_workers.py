@@ -105,7 +105,7 @@ def summary(table: pd.DataFrame) -> list[str]:
     """Return the speed of two workers over that of one."""
     return [
         f"{row['workers']:.0f} workers / 1 on {row['cases']:.0f} cases: {row['ratio']:.2f} times as fast "
-        f"({row['ratio_with_start']:.2f} with the start of the processes)"
+        f"({row['ratio_with_start']:.2f} with their start)"
         for row in table[(table["status"] == "ok") & (table["workers"] > 1)].to_dict("records")
     ]
 
