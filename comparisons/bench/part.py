@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import pandas as pd
@@ -90,6 +91,11 @@ class Part:
     draw: Callable[[pd.DataFrame], Figure]
     summary: Callable[[pd.DataFrame], list[str]]
     own_process: bool = True
+
+    def files(self, folder: Path) -> tuple[Path, Path]:
+        """Return the paths of its table and of its figure."""
+        stem = folder / self.name.replace("-", "_")
+        return stem.with_suffix(".csv"), stem.with_suffix(".png")
 
 
 def table_of(measurements: Sequence[Measurement]) -> pd.DataFrame:

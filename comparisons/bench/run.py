@@ -155,11 +155,11 @@ def _written(
         if not stored:
             continue
         tables[part.name] = table = part.table(table_of(stored))
-        stem = part.name.replace("-", "_")
-        with atomic(folder / f"{stem}.csv") as file:
+        table_file, figure_file = part.files(folder)
+        with atomic(table_file) as file:
             file.write(csv_text(_with_short_settings(table, stored)).encode())
         if (table["status"] == "ok").any():
-            save(part.draw(table), folder / f"{stem}.png")
+            save(part.draw(table), figure_file)
             lines += part.summary(table)
     record = environment()
     write_json(
