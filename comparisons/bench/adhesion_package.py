@@ -24,7 +24,7 @@ _MODULES = ("Adhesion", "ContactMechanics", "SurfaceTopography")
 _DISTRIBUTIONS = ("adhesion", "ContactMechanics", "SurfaceTopography", "NuMPI", "muGrid")
 
 #: The displacement is sought in this distance of the one that is known, to this tolerance.  The load has a minimum
-#: there: with a tolerance of 1e-5 the force changes by at most 1.2e-6 of it (measured on 64 x 64 pixels, mu = 0.1 ... 1).
+#: there: with a tolerance of 1e-5 the force changes by at most 1.2e-6 (measured on 64 x 64 pixels, mu = 0.1 to 1).
 _AROUND, _TOLERANCE = 0.1, 3e-3
 
 #: Largest force on a pixel that is out of equilibrium, in units of its area.  With a thousandth of it the force at

@@ -43,12 +43,10 @@ def test_the_finite_elements_get_a_physical_problem_whose_load_is_scaled_back(mo
     assert len(set(map(repr, problems))) == 3
 
 
+@pytest.mark.skipif(not adhesion_package.installed(), reason=adhesion_package.INSTALL)
 # Remarks of packages that it imports.
 @pytest.mark.filterwarnings("ignore")
 def test_the_package_adhesion_solves_the_same_problem_in_its_own_units():
-    pytest.importorskip("Adhesion")
-    pytest.importorskip("ContactMechanics")
-    pytest.importorskip("SurfaceTopography")
     found = [adhesion_package.pull_off(1.0, 8.0, points, -0.87338).force for points in (32, 64)]
     errors = [abs(force - FORCE) / FORCE for force in found]
     # Measured 5e-2 and 1.4e-3: pixels of 1/2 and 1/4, and the tension behind 8.
