@@ -21,16 +21,17 @@ def has_bench(folder: Path) -> bool:
 
 
 def renew(folder: Path, target: Path = BENCH_BASELINE) -> list[Path]:
-    """Replace the committed tables, figures and record by those of a run of all parts; return their paths.
+    """Replace the committed tables, figures, summary and record by those of a run of all parts; return their paths.
 
     Raises
     ------
     ValueError
         If the run lacks a part, or a measurement failed; nothing is changed then.
     """
-    record = RunFolder(folder).bench
+    stored = RunFolder(folder)
+    record = stored.bench
     content = json.loads(record.read_text(encoding="utf-8"))
-    sources = [record, *(path for part in chosen(None) for path in part.files(folder))]
+    sources = [record, stored.bench_summary, *(path for part in chosen(None) for path in part.files(folder))]
     if missing := [path.name for path in sources if not path.is_file()]:
         raise ValueError(
             f"{folder} lacks {', '.join(missing)}: renew the baseline from the folder of a `fscm-bench bench` without "

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 from comparisons.bench.linear_systems import METHODS, measure
 from comparisons.bench.part import Item, Part
@@ -22,6 +23,8 @@ __all__ = ["ELEMENTS", "draw", "items", "summary", "table"]
 _DENSITIES = {0.9: 1.0, 0.45: 3.0, 0.3: 7.0, 0.22: 18.0}
 _LARGE = {0.14: 60.0}
 _MATERIAL, _CORNERS = (0.4, 0.25), ((0.0, 0.0), (0.8, 0.45))
+#: Fewest unknowns in the figure.
+_LEAST_SHOWN = 1e4
 _LABELS = {"pyamg": "whole, pyamg", "direct": "whole, direct", "condensed": "condensed"}
 
 
@@ -81,6 +84,8 @@ def draw(table: pd.DataFrame) -> Figure:
             lettered(axes, letter)
             axes.set_xlabel("unknowns")
             axes.set_ylabel(label)
+            axes.xaxis.set_minor_formatter(NullFormatter())
+            axes.set_xlim(0.8 * _LEAST_SHOWN, max(1.3 * rows["unknowns"].max(), 2.0 * _LEAST_SHOWN))
         seconds.legend(loc="best")
         figure.suptitle(
             rf"Linear systems of the finite elements, $k$ = {k:g}, $\nu$ = {nu:g}, edge of a thousandth of its radius",

@@ -174,6 +174,8 @@ def _written(
     )
     machine = record["machine"]
     head = [f"{machine['cpu']}, {machine['cores']} cores; ratios of one run on it:"[:80]]
+    with atomic(RunFolder(folder).bench_summary) as file:
+        file.write("".join(f"{line}\n" for line in head + lines).encode())
     return FinishedBench(folder, tables, head + lines, failures)
 
 

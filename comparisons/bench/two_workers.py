@@ -19,6 +19,8 @@ __all__ = ["WORKERS", "draw", "items", "measure", "summary", "table"]
 
 CASES = 200
 _EXPONENTS = (0.0, 0.1, 0.2, 0.3, 0.4)
+#: Share of a core that a worker has at least on an idle machine; the rest is the transfer of tasks and results.
+_IDLE = 0.9
 _LEAST_MU, _LARGEST_MU = 0.1, 1.0
 
 
@@ -102,12 +104,17 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def summary(table: pd.DataFrame) -> list[str]:
-    """Return the speed of two workers over that of one."""
-    return [
+    """Return the speed of two workers over that of one, and whether the machine was busy with other work."""
+    ok = table[table["status"] == "ok"]
+    lines = [
         f"{row['workers']:.0f} workers / 1 on {row['cases']:.0f} cases: {row['ratio']:.2f} times as fast "
         f"({row['ratio_with_start']:.2f} with their start)"
-        for row in table[(table["status"] == "ok") & (table["workers"] > 1)].to_dict("records")
+        for row in ok[ok["workers"] > 1].to_dict("records")
     ]
+    share = float((ok["cpu_seconds"] / ok["seconds_of_tasks"] / ok["workers"]).min())
+    if share < _IDLE:
+        lines.append(f"  (the machine was busy: a worker had {share:.2f} of a core; repeat on an idle machine)")
+    return lines
 
 
 WORKERS = Part(

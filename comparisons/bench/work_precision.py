@@ -37,7 +37,7 @@ _LONG = 20.0
 
 _STYLES = {"fscm": 0, "fscm-stieltjes": 1, "adhesion": 2, "fem": 3}
 #: Place of the names of the settings above their points, in printer's points.
-_HEIGHTS = {"fscm-stieltjes": -13, "adhesion": 7, "fem": -13}
+_HEIGHTS = {"fscm-stieltjes": -13, "adhesion": 7, "fem": 7}
 
 
 def items(full: bool) -> list[Item]:
@@ -69,7 +69,7 @@ def table(rows: pd.DataFrame) -> pd.DataFrame:
     is CPU time over that of the fastest `fscm` whose error is certainly smaller; missing where there is none.
     """
     rows = rows.copy()
-    rows.insert(1, "setting", [setting_text(row) for row in rows.to_dict("records")])
+    rows.insert(rows.columns.get_loc("model") + 1, "setting", [setting_text(row) for row in rows.to_dict("records")])
     is_reference = (rows["model"] == "fscm") & (rows.get("accuracy") == _FINEST) & (rows["status"] == "ok")
     references = rows[is_reference].set_index("mu")
     if "value" not in rows:
@@ -131,7 +131,7 @@ def draw(table: pd.DataFrame) -> Figure:
             axes.set_xlabel("CPU time (s)")
             axes.margins(x=0.14, y=0.08)
         panels[0].set_ylabel("relative error of the pull-off force")
-        panels[-1].legend(loc="best")
+        panels[0].legend(loc="center right")
         figure.suptitle("Pull-off force for $n$ = 2, $k$ = 0: error against CPU time, one thread", fontsize=10)
     return figure
 

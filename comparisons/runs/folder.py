@@ -44,6 +44,11 @@ class RunFolder:
         return self.path / file_names.BENCH
 
     @property
+    def bench_summary(self) -> Path:
+        """The ratios of a benchmark, as they are printed."""
+        return self.path / file_names.BENCH_SUMMARY
+
+    @property
     def measurements(self) -> Path:
         """The journal of the finished measurements of a benchmark."""
         return self.path / file_names.MEASUREMENTS

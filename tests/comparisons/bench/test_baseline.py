@@ -20,7 +20,7 @@ def test_the_baseline_has_the_files_of_the_last_run_only(tiny, tmp_path):
     (target / "stale.csv").write_text("")
     written = renew(tmp_path / "run", target)
     assert {path.name for path in written} == {path.name for path in target.iterdir()}
-    assert {path.name for path in written} == {"bench.json", "tiny.csv", "tiny.png"}
+    assert {path.name for path in written} == {"bench.json", "bench.txt", "tiny.csv", "tiny.png"}
     assert (target / "tiny.csv").read_bytes() == (tmp_path / "run" / "tiny.csv").read_bytes()
 
 
@@ -28,7 +28,7 @@ def test_the_command_renews_it(tiny, tmp_path, monkeypatch, capsys):
     run_bench(tmp_path / "run")
     monkeypatch.chdir(tmp_path)
     assert baseline.main(["run"]) == 0
-    assert "renewed 3 files of results/baseline/bench" in capsys.readouterr().out
+    assert "renewed 4 files of results/baseline/bench" in capsys.readouterr().out
     assert baseline.main(["--check", "run"]) == 2
 
 

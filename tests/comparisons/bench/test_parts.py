@@ -62,7 +62,7 @@ MADE_UP = {
     "workers": lambda settings: {
         "seconds": 41.0 / settings["workers"],
         "seconds_of_tasks": 38.0 / settings["workers"],
-        "cpu_seconds": 38.0,
+        "cpu_seconds": 37.0,
     },
     "elements": system,
     "work-precision": pull_off,
@@ -182,7 +182,13 @@ def test_unknowns_are_fitted_against_the_width_of_the_edge(tables):
 def test_time_of_one_worker_over_time_of_two(tables):
     table = tables["workers"].set_index("workers")
     assert table["ratio"].tolist() == [1.0, 2.0]
-    assert two_workers.summary(tables["workers"])[0].startswith("2 workers / 1 on 200 cases: 2.00 times as fast")
+    assert two_workers.summary(tables["workers"]) == [
+        "2 workers / 1 on 200 cases: 2.00 times as fast (2.00 with their start)"
+    ]
+    # Of 200 seconds on two cores the workers had 37.
+    (_, busy) = two_workers.summary(tables["workers"].assign(seconds_of_tasks=100.0, workers=[1, 2]))
+    assert busy == "  (the machine was busy: a worker had 0.18 of a core; repeat on an idle machine)"
+    assert len(busy) <= 80
 
 
 def test_commands_are_compared_with_an_interpreter_that_does_nothing(tables):

@@ -28,6 +28,7 @@ def test_a_run_writes_table_figure_and_record(tiny, tmp_path):
     assert {"host", "cpu", "numpy", "started"} <= record["parts"][0].keys()
     assert record["dependencies"]["numpy"] == record["parts"][0]["numpy"]
     assert finished.summary[1:] == ["2 sizes"]
+    assert (tmp_path / "bench.txt").read_text().splitlines() == finished.summary
     assert finished.failures == []
 
 
