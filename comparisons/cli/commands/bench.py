@@ -9,7 +9,7 @@ from pathlib import Path
 from comparisons.bench.part import Measurement
 from comparisons.bench.registry import PARTS
 from comparisons.bench.run import run_bench
-from comparisons.cli.options import FAILED, OK, add_quiet, add_retry_failed, output
+from comparisons.cli.options import FAILED, OK, add_quiet, output
 from comparisons.console.progress import log, note, quiet
 
 __all__ = ["add", "call"]
@@ -33,7 +33,7 @@ def add(parser: argparse.ArgumentParser) -> None:
         help="folder for the files (default: %(default)s); resumed if it has some measurements",
     )
     parser.add_argument("--again", action="store_true", help="drop stored measurements and measure everything again")
-    add_retry_failed(parser)
+    parser.add_argument("--retry-failed", action="store_true", help="measure stored failures again")
     add_quiet(parser)
 
 
