@@ -26,7 +26,14 @@ _REPEATS = 3
 _LONG = 1.0
 
 #: What the process from which the others are made imports before, so that no measurement contains the imports.
-_PRELOADED = ["comparisons.bench.registry", "fscm", "fem_reference", "scipy.optimize", "scipy.linalg"]
+_PRELOADED = [
+    "comparisons.bench.registry",
+    "fscm.solve",
+    "fscm.states",
+    "fem_reference",
+    "scipy.optimize",
+    "scipy.linalg",
+]
 
 #: Environment variables by which libraries of linear algebra start with one thread.
 _ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
