@@ -1,4 +1,4 @@
-"""Public names, each from its module; `fscm/__init__.py` loads a module when one of its names is first used."""
+"""Public names, each from its module; `__init__.py` loads a module when one of its names is first used."""
 
 from ._kernel import Phi as Phi, Psi as Psi, ring_response as ring_response
 from ._meshes import ACCURACIES as ACCURACIES
