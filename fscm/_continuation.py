@@ -35,7 +35,7 @@ MAX_POINTS = 1500
 _FIRST_STEP = 0.25
 _SMALLEST_STEP = 1e-6
 # Newton iterations after which the next step is longer or shorter.
-_EASY, _HARD = 3, 6
+_EASY, _HARD = 6, 10
 _NEWTON_MARGIN = 0.01  # Newton error beside the error of the mesh
 _LONGER, _SHORTER, _RETRY = 1.4, 0.7, 0.4
 # A step over which the tangent turns by more than this cosine is taken again, shorter: a fold pair turns
@@ -189,7 +189,7 @@ def equilibrium_path(
         state = point.state
         nucleus = _nucleus_gap(state, point.rates)
         if nucleus is not None or edge_elsewhere(state, hand_over):
-            guess = follow_edge(state, end_height, nucleus)
+            guess = follow_edge(state, end_height, tolerance, nucleus)
             control = parameter_control(guess, parameter_of(guess))
             if nucleus is not None:  # it grows slowly at first: its gap tells states apart better than its radius
                 control = Control(state.central_gap, gap=1.0)
