@@ -22,7 +22,7 @@ from fscm.errors import NotConverged
 from fscm.problem import Problem
 from fscm.punch import kinks_of
 
-__all__ = ["at_kinks", "edge_mesh", "end_radius", "fit", "indicator", "initial_mesh", "on_mesh", "resolving"]
+__all__ = ["at_kinks", "edge_mesh", "end_radius", "fit", "indicator", "initial_mesh", "on_mesh", "resolved", "resolving"]
 
 # A pair of panels is merged when the merged panel would still be this much below the tolerance.
 _MERGE_MARGIN = 0.02
@@ -41,6 +41,8 @@ _WORTH_MERGING = 0.2
 # Newton error beside the error of the mesh.
 _NEWTON_MARGIN = 0.01
 _MAX_ROUNDS = 60
+# Rounds of splitting for known gaps between two solves; for the gaps of a guess.
+_KNOWN_ROUNDS, _GUESS_ROUNDS = 6, 2
 # A break belongs to a kink that is nearer than this share of its panels; a panel is thicker than _SLIVER.
 _NEAR_KINK, _SLIVER = 0.3, 1e-7
 # Largest distance of a kink to its break, in units of the root of the tolerance: its effect is of second order.
@@ -164,7 +166,9 @@ def _indicator(field: _Field, jumps_count: bool = True) -> Array:
     return effect * _weights(field, mesh.offsets[:-1], mesh.lengths)
 
 
-def resolving(state: State, mesh: PanelMesh, tolerance: float, gap_on: Callable[[PanelMesh], Array]) -> PanelMesh:
+def resolving(
+    state: State, mesh: PanelMesh, tolerance: float, gap_on: Callable[[PanelMesh], Array], rounds: int = _KNOWN_ROUNDS
+) -> PanelMesh:
     """The mesh with panels split until each resolves the pressure of known gaps; nothing is solved.
 
     Parameters
@@ -176,8 +180,10 @@ def resolving(state: State, mesh: PanelMesh, tolerance: float, gap_on: Callable[
         Of the indicator, without jumps between panels: known gaps may jump where the mesh they come from is too coarse.
     gap_on : callable
         Mesh -> gaps at its nodes.
+    rounds : int
+        How many times panels are split at most: gaps that are not in equilibrium may be unresolvable.
     """
-    for _ in range(_MAX_ROUNDS):
+    for _ in range(rounds):
         middles = mesh.middles[_indicator(_Field(state, mesh, gap_on(mesh)), jumps_count=False) > tolerance]
         ends = np.sort(np.concatenate([mesh.offsets, middles]))
         if not middles.size or np.any(np.diff(ends) <= 0.0):
@@ -240,6 +246,12 @@ def on_mesh(state: State, mesh: PanelMesh) -> State:
         fixed = state.scale, known, state.displacement, state.follows_edge, state.edge_gap, state.turned
         return State.lifted(disc, *fixed)
     return replace(state, disc=disc, gap=known, iterations=0, residual=0.0)
+
+
+def resolved(guess: State, tolerance: float) -> State:
+    """The guess on a mesh that resolves its pressure, with panels split as `fit` would; nothing is solved."""
+    mesh = resolving(guess, guess.disc.mesh, tolerance, partial(_gap_on, guess), _GUESS_ROUNDS)
+    return guess if mesh is guess.disc.mesh else on_mesh(guess, mesh)
 
 
 def fit(state: State, control: Control, tolerance: float, coarsen: bool = False) -> State:

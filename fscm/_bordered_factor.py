@@ -12,9 +12,6 @@ from fscm.errors import NotConverged
 
 __all__ = ["BorderedFactor"]
 
-# Factors serve a state when no distance of a gap to the singular one differs by more than this share.
-_NEAR = 0.05
-
 
 class BorderedFactor:
     """LU factors of a bordered matrix, whose last row is a control.
@@ -23,8 +20,8 @@ class BorderedFactor:
     ----------
     matrix : ndarray, shape (N + 2, N + 2)
         In Fortran order; it is overwritten.
-    gap : ndarray, shape (N,)
-        Gaps of the state at which the matrix was taken.
+    stiffness_slope : ndarray, shape (N,)
+        Factors of the columns of the response in the matrix.
 
     Raises
     ------
@@ -32,8 +29,8 @@ class BorderedFactor:
         When the matrix is singular.
     """
 
-    def __init__(self, matrix: Array, gap: Array) -> None:
-        self.gap = gap
+    def __init__(self, matrix: Array, stiffness_slope: Array) -> None:
+        self.stiffness_slope = stiffness_slope
         # dgetrf directly: the rows differ by many orders of magnitude on purpose, which partial pivoting does
         # not mind, while the condition estimate of the wrapper does.
         self._lu, self._pivots, info = scipy.linalg.lapack.dgetrf(matrix, overwrite_a=1)
@@ -47,13 +44,9 @@ class BorderedFactor:
     @cached_property
     def tangent(self) -> Array:
         """The direction that all rows but the last map to zero, and the last one to 1."""
-        right = np.zeros(len(self.gap) + 2)
+        right = np.zeros(len(self.stiffness_slope) + 2)
         right[-1] = 1.0
         return self._back(right)
-
-    def near(self, gap: Array, singular_gap: float) -> bool:
-        """Whether these factors are good enough for a state with other gaps."""
-        return bool(np.all(np.abs(gap - self.gap) <= _NEAR * (gap - singular_gap)))
 
     def solve(self, right: Array, row: Array) -> Array:
         """Solution with another last row.

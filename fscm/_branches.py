@@ -23,6 +23,8 @@ __all__ = ["checked_sense", "edge_elsewhere", "follow_edge", "joined", "predicte
 _SURPRISE = 0.5
 # The gaps within this multiple of the edge radius tell the sense of the path.
 _NEAR_EDGE = 2.0
+# Times that the panels of a new mesh are split at the edge: it may be 1e-22 of the contact radius.
+_HAND_OVER_ROUNDS = 80
 
 
 def predicted(state: State, rates: Rates, step: float) -> State:
@@ -62,7 +64,7 @@ def follow_edge(state: State, end_height: float, tolerance: float, edge_gap: flo
         return known if state.lift is None else state.disc.height(scale * new.nodes) - state.displacement + known
 
     new = edge_mesh(problem, mesh.order, scale, end_height)
-    new = resolving(replace(state, scale=scale), new, tolerance, gap_on)
+    new = resolving(replace(state, scale=scale), new, tolerance, gap_on, _HAND_OVER_ROUNDS)
     disc = Discretisation(problem, new)
     if state.lift is not None:
         return State.lifted(disc, scale, known_on(new), state.displacement, True, edge_gap)

@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import scipy
 
-from fscm._adaptivity import end_radius, fit, initial_mesh
+from fscm._adaptivity import end_radius, fit, initial_mesh, resolved
 from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of
 from fscm._branches import checked_sense, edge_elsewhere, follow_edge, joined, predicted, turned
 from fscm._equilibrium import Control, Discretisation, Rates, State
@@ -32,12 +32,12 @@ __all__ = ["MAX_POINTS", "bracketing_path", "equilibrium_path", "moved", "path_e
 # Measured: at most 120 points of a bracketing path for n >= 1, but 300 to 750 at n = 0.67.  Each keeps its matrices:
 # 2 MB on such meshes.
 MAX_POINTS = 1500
-_FIRST_STEP = 0.25
+_FIRST_STEP = 0.5
 _SMALLEST_STEP = 1e-6
 # Newton iterations after which the next step is longer or shorter.
 _EASY, _HARD = 6, 10
 _NEWTON_MARGIN = 0.01  # Newton error beside the error of the mesh
-_LONGER, _SHORTER, _RETRY = 1.4, 0.7, 0.4
+_LONGER, _SHORTER, _RETRY = 2.0, 0.7, 0.4
 # A step over which the tangent turns by more than this cosine is taken again, shorter: a fold pair turns
 # the path twice and must not be stepped over.  Steps below _BLIND_STEP are taken whatever the turn.
 _LARGEST_TURN, _BLIND_STEP = 0.85, 0.02
@@ -86,7 +86,7 @@ def _far_state(problem: Problem, central_gap: float, order: int, tolerance: floa
     gap = central_gap + disc.height(disc.mesh.nodes)
     control = Control(central_gap, gap=1.0)
     lift = np.zeros(disc.mesh.size) if disc.steep else None
-    guess = State(disc, 1.0, gap, -central_gap, False, lift=lift)
+    guess = resolved(State(disc, 1.0, gap, -central_gap, False, lift=lift), tolerance)
     return fit(newton(guess, control), control, tolerance)
 
 
@@ -207,7 +207,7 @@ def equilibrium_path(
         if not state.follows_edge and abs(point.rates.displacement) < _FLAT_SHARE * arc.displacement_unit(state):
             step = min(step, _FLAT_STEP)
         while True:
-            guess = predicted(state, point.rates, step)
+            guess = resolved(predicted(state, point.rates, step), tolerance)
             control = arc.control(state, point.rates, step)
             if kinked and state.parameter == usual and abs(shares[usual]) > _GIVEN_SHARE:
                 control = parameter_control(guess, parameter_of(state) + step * rate_of(point.rates, state.parameter))

@@ -34,6 +34,8 @@ __all__ = ["STEEP", "Control", "Discretisation", "Linearisation", "Rates", "Stat
 STEEP = 10.0
 # Heights of a steep punch above this one count as this one: its tension, 1e-180 for the 9-3 law, is zero anyway.
 _HIGHEST = 1e60
+# Largest sum of a row of the difference of two tangents, of which one can stand for the other.
+_NEAR = 0.1
 # A tangent from the factors of a state nearby is corrected until the last correction is below rounding times the next
 # factor of convergence; each correction has to be smaller than the one before by this factor.
 _CORRECTIONS, _CONVERGING, _CORRECTED = 6, 0.1, 1e-12
@@ -312,6 +314,11 @@ class Linearisation:
         matrix[N, N:] = self._anchor_ends
         return matrix
 
+    def near(self, factor: BorderedFactor) -> bool:
+        """Whether factors of another state's tangent are good enough here."""
+        change = np.abs(self._stiffness_slope - factor.stiffness_slope)
+        return bool(np.max(self.state.disc.matrix @ change) < _NEAR)
+
     def times(self, x: Array) -> Array:
         """All rows of the bordered matrix but the last, times a vector; shape (N + 1,)."""
         d, dH = self.state.disc, x[:-2]
@@ -334,10 +341,13 @@ class Linearisation:
 
     def factor(self, control: Control) -> BorderedFactor:
         """Factors of the bordered matrix with a control, kept for states nearby on the same mesh."""
+        return self._factored(self.row(control))
+
+    def _factored(self, row: Array) -> BorderedFactor:
         matrix = self.bordered()
-        matrix[-1] = self.row(control)
+        matrix[-1] = row
         self.state.disc.factor = None  # its memory is free before the new one is made
-        self.state.disc.factor = BorderedFactor(matrix, self.state.gap)
+        self.state.disc.factor = BorderedFactor(matrix, self._stiffness_slope)
         return self.state.disc.factor
 
     def violation(self, control: Control) -> float:
@@ -367,7 +377,7 @@ class Linearisation:
     def _tangent(self, row: Array) -> Array:
         """Tangent of unit product with a row: from the factors of a state nearby, corrected, or from new ones."""
         known = self.state.disc.factor
-        if known is not None and known.near(self.state.gap, self.state.disc.problem.law.singular_gap):
+        if known is not None and self.near(known):
             x, last = known.tangent, np.inf
             for _ in range(_CORRECTIONS):
                 x = x / float(row @ x)
@@ -379,12 +389,4 @@ class Linearisation:
                 x, last = x - correction, change
                 if change < _CORRECTED:
                     return x
-        fresh = self._fresh_tangent(row)
-        return fresh
-
-    def _fresh_tangent(self, row: Array) -> Array:
-        matrix = self.bordered()
-        matrix[-1] = row
-        self.state.disc.factor = None
-        self.state.disc.factor = BorderedFactor(matrix, self.state.gap)
-        return self.state.disc.factor.tangent
+        return self._factored(row).tangent

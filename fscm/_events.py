@@ -27,6 +27,7 @@ __all__ = [
     "load_fold",
     "locate",
     "sharpen",
+    "sharpened",
     "slowest",
     "zero_load",
 ]
@@ -41,6 +42,8 @@ _SECANT_STEPS = 15
 # First step of the secant method: large against rounding of the derivative, small against its curvature.
 _FIRST_SECANT_STEP = 1e-4
 _COARSE_PARAMETER_TOLERANCE = 1e-6
+# Tolerance where the root on the coarse mesh is a start only.
+_ROUGH = 1e-2
 
 
 def load_fold(state: State, rates: Rates) -> float:
@@ -120,11 +123,19 @@ class _Between:
         return self._known[parameter]
 
 
-def locate(a: Point, b: Point, condition: Condition) -> State:
-    """Root of the condition between two neighbouring points, on their coarse mesh."""
+def locate(a: Point, b: Point, condition: Condition, tolerance: float = _COARSE_PARAMETER_TOLERANCE) -> State:
+    """Root of the condition between two neighbouring points, on their coarse mesh.
+
+    Parameters
+    ----------
+    a, b : Point
+    condition : callable
+    tolerance : float
+        Of the continuation parameter.
+    """
     between = _Between(a, b)
     root = scipy.optimize.brentq(
-        lambda x: condition(*between(x)), between.low, between.high, xtol=_COARSE_PARAMETER_TOLERANCE, rtol=1e-12
+        lambda x: condition(*between(x)), between.low, between.high, xtol=tolerance, rtol=1e-12
     )
     return between(root)[0]
 
@@ -165,6 +176,14 @@ def refined(state: State, order: int, tolerance: float) -> State:
     control = parameter_control(state, parameter_of(state))
     mesh = replace(state.disc.mesh, order=order)
     return fit(newton(on_mesh(state, mesh), control), control, tolerance, coarsen=True)
+
+
+def sharpened(bracket: Bracket, condition: Condition, order: int, tolerance: float) -> State:
+    """Root of the condition in a bracket, on a mesh of the given order refined to the tolerance."""
+    try:
+        return sharpen(locate(*bracket, condition, _ROUGH), condition, order, tolerance)
+    except NotConverged:  # from a better root on the coarse mesh
+        return sharpen(locate(*bracket, condition), condition, order, tolerance)
 
 
 def sharpen(state: State, condition: Condition, order: int, tolerance: float) -> State:

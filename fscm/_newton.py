@@ -22,7 +22,7 @@ STEP_TOLERANCE = 1e-9
 _MAX_ITERATIONS = 40
 # After a step below _CHORD the factors are kept, as long as each step is smaller than the one before by _CONTRACTION;
 # such steps end when what is left is below this share of the tolerance.
-_CHORD, _CONTRACTION, _REMAINDER = 0.05, 0.2, 1e-3
+_CHORD, _CONTRACTION, _REMAINDER = 0.5, 0.1, 1e-3
 # A gap may fall to this fraction of its distance to the singular gap in one iteration, and not below
 # _LOWEST of it: at a quarter of the distance the 9-3 law reaches 7e5 times its strength.
 _SHRINK = 0.4
@@ -128,17 +128,15 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) ->
         After too many iterations, or when a gap is driven towards the singular gap.
     """
     state = guess
-    singular_gap = state.disc.problem.law.singular_gap
-    factor = state.disc.factor
-    if factor is not None and not factor.near(state.gap, singular_gap):
-        factor = None
-    last = math.inf
+    factor, last = state.disc.factor, math.inf
     for iteration in range(1, _MAX_ITERATIONS + 1):
         system = Linearisation(state)
         row = system.row(control)
         rhs = np.concatenate([system.residual, [system.anchor, system.violation(control)]])
         if not np.all(np.isfinite(rhs)):
             raise NotConverged("Newton met a residual that is not finite; start from a closer state")
+        if iteration == 1 and factor is not None and not system.near(factor):
+            factor = None
         step, change = _step(state, factor, rhs, row) if factor is not None else (rhs, math.inf)
         kept = factor is not None and change < _CONTRACTION * last
         if not kept:
