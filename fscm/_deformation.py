@@ -244,18 +244,14 @@ def axis_row(kernel: Kernel, mesh: PanelMesh) -> Array:
     q = mesh.order
     row = mesh.weights * mesh.nodes ** (-kernel.k)
     row[:q] = mesh.lengths[0] ** (1.0 - kernel.k) * _singular_rule(q, kernel.k)[1]
-    near = np.flatnonzero(mesh.starts[1:] < _NEAR * mesh.lengths[1:]) + 1
-    if near.size:
-        zeros = np.zeros(near.size)
-        rows = _near_rows(
-            kernel,
-            zeros,
-            mesh.starts[near],
-            zeros + 1.0,
-            np.zeros(near.size, bool),
-            zeros,
-            mesh.lengths[near],
-            q,
-        )
-        row.reshape(-1, q)[near] = rows
+    for i in np.flatnonzero(mesh.starts[1:] < _NEAR * mesh.lengths[1:]) + 1:
+        row[i * q : (i + 1) * q] = _near_axis_row(kernel, float(mesh.starts[i]), float(mesh.lengths[i]), q)
     return row
+
+
+@lru_cache(maxsize=4096)
+def _near_axis_row(kernel: Kernel, start: float, length: float, order: int) -> Array:
+    """Weights, shape (order,), of the displacement on the axis for a panel that is longer than its distance to it."""
+    one, zero = np.ones(1), np.zeros(1)
+    none = np.zeros(1, bool)
+    return _near_rows(kernel, zero, start * one, one, none, zero, length * one, order)[0]

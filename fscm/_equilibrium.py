@@ -36,9 +36,10 @@ STEEP = 10.0
 _HIGHEST = 1e60
 # Largest sum of a row of the difference of two tangents, of which one can stand for the other.
 _NEAR = 0.1
-# A tangent from the factors of a state nearby is corrected until the last correction is below rounding times the next
-# factor of convergence; each correction has to be smaller than the one before by this factor.
-_CORRECTIONS, _CONVERGING, _CORRECTED = 6, 0.1, 1e-12
+# A tangent from the factors of a state nearby is corrected as long as each correction is smaller than the one before by
+# the first number; it is at rounding when the last correction is below the second, relative to its largest
+# component (of gaps relative to 1 + |H|).
+_CONVERGING, _ROUNDED, _CORRECTIONS = 0.1, 1e-14, 12
 
 
 @dataclass(frozen=True)
@@ -379,14 +380,15 @@ class Linearisation:
         known = self.state.disc.factor
         if known is not None and self.near(known):
             x, last = known.tangent, np.inf
+            # Far out the gaps, and their rates, are larger by many decades than near the edge.
+            size = np.append(1.0 + np.abs(self.state.gap), [1.0, 1.0])
             for _ in range(_CORRECTIONS):
                 x = x / float(row @ x)
-                size = np.max(np.abs(x))
                 correction = known.solve(np.append(self.times(x), 0.0), row)
-                change = float(np.max(np.abs(correction))) / size
+                change = float(np.max(np.abs(correction) / size) / np.max(np.abs(x) / size))
                 if not change < _CONVERGING * last:
+                    if last < _ROUNDED:
+                        return x
                     break
                 x, last = x - correction, change
-                if change < _CORRECTED:
-                    return x
         return self._factored(row).tangent

@@ -21,8 +21,8 @@ __all__ = ["STEP_TOLERANCE", "newton", "shifted"]
 STEP_TOLERANCE = 1e-9
 _MAX_ITERATIONS = 40
 # After a step below _CHORD the factors are kept, as long as each step is smaller than the one before by _CONTRACTION;
-# such steps end when what is left is below this share of the tolerance.
-_CHORD, _CONTRACTION, _REMAINDER = 0.5, 0.1, 1e-3
+# such steps end when what is left is below this power of the tolerance; after a Newton step it is its square.
+_CHORD, _CONTRACTION, _REMAINDER = 0.5, 0.1, 1.8
 # A gap may fall to this fraction of its distance to the singular gap in one iteration, and not below
 # _LOWEST of it: at a quarter of the distance the 9-3 law reaches 7e5 times its strength.
 _SHRINK = 0.4
@@ -160,7 +160,7 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) ->
                 return state
             # With old factors the error falls from step to step by the same factor.
             ahead = change * min(1.0, change / last)
-            if kept and change < tolerance and ahead < _REMAINDER * tolerance:
+            if kept and change < tolerance and ahead < tolerance**_REMAINDER:
                 return state
         last = change
         if damping < 1.0 or change > _CHORD:
