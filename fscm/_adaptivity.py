@@ -22,7 +22,17 @@ from fscm.errors import NotConverged
 from fscm.problem import Problem
 from fscm.punch import kinks_of
 
-__all__ = ["at_kinks", "edge_mesh", "end_radius", "fit", "indicator", "initial_mesh", "on_mesh", "resolved", "resolving"]
+__all__ = [
+    "at_kinks",
+    "edge_mesh",
+    "end_radius",
+    "fit",
+    "indicator",
+    "initial_mesh",
+    "on_mesh",
+    "resolved",
+    "resolving",
+]
 
 # A pair of panels is merged when the merged panel would still be this much below the tolerance.
 _MERGE_MARGIN = 0.02
@@ -220,7 +230,7 @@ def _superfluous(state: State, tolerance: float) -> NDArray[np.intp]:
 
 
 def _known_on(state: State, mesh: PanelMesh) -> Array:
-    """The unknowns of a state interpolated to another mesh at the same scale: gaps, or deformations of a steep punch."""
+    """The unknowns of a state on another mesh at the same scale: gaps, or deformations of a steep punch."""
     own, problem = state.disc.mesh, state.disc.problem
     if state.lift is not None:
         return own.transfer(state.lift, mesh)

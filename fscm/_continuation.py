@@ -36,6 +36,8 @@ _FIRST_STEP = 0.5
 _SMALLEST_STEP = 1e-6
 # Newton iterations after which the next step is longer or shorter.
 _EASY, _HARD = 6, 10
+# Iterations of a step of the path after which a shorter one is taken.
+_MOST_ITERATIONS = 14
 _NEWTON_MARGIN = 0.01  # Newton error beside the error of the mesh
 _LONGER, _SHORTER, _RETRY = 2.0, 0.7, 0.4
 # A step over which the tangent turns by more than this cosine is taken again, shorter: a fold pair turns
@@ -46,7 +48,7 @@ _BLIND_STEP_OF_ASPERITIES = 0.002
 # Before contact, once the displacement makes up less than this share of the tangent, steps are at most this long:
 # the path may then run flat through several shallow folds, over which the tangent hardly turns.  Measured: n = 2,
 # k = 0.6, mu = 3 has three folds within 0.015 of displacement, and steps of 0.5 missed the first two.
-_FLAT_SHARE, _FLAT_STEP = 0.5, 0.1
+_FLAT_SHARE, _FLAT_STEP = 0.5, 0.2
 # The width of the cohesive edge is (1.03 M)^(-1/(1-k)) for the 9-3 law; decimal logarithm of the least width, relative
 # to a contact radius, that is computed.  Measured: 26 s of CPU at 10^-16 (n = 2, k = 0.98, mu = 1) and 55 s and 3 GB at
 # 10^-21 (k = 0.985; half the memory since); the number of panels grows with the logarithm.
@@ -212,7 +214,7 @@ def equilibrium_path(
             if kinked and state.parameter == usual and abs(shares[usual]) > _GIVEN_SHARE:
                 control = parameter_control(guess, parameter_of(state) + step * rate_of(point.rates, state.parameter))
             try:
-                new = newton(guess, control, _NEWTON_MARGIN * tolerance)
+                new = newton(guess, control, _NEWTON_MARGIN * tolerance, _MOST_ITERATIONS)
                 used = new.iterations
                 new = fit(new, control, tolerance, coarsen=True)
                 after = Point(new, arc.tangent(new), point.stretch)

@@ -106,7 +106,7 @@ def _step(state: State, factor: BorderedFactor, rhs: Array, row: Array) -> tuple
     return step, float(np.max(np.abs(_change_of_gap(state, step)) / (1.0 + np.abs(state.gap))))
 
 
-def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) -> State:
+def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE, most: int = _MAX_ITERATIONS) -> State:
     """Solve for equilibrium under a control, from a guess.
 
     Parameters
@@ -116,6 +116,8 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) ->
     control : Control
     tolerance : float
         Largest change of a gap in the last step, relative to 1 + |H|.
+    most : int
+        Iterations after which it is given up.
 
     Returns
     -------
@@ -129,7 +131,7 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) ->
     """
     state = guess
     factor, last = state.disc.factor, math.inf
-    for iteration in range(1, _MAX_ITERATIONS + 1):
+    for iteration in range(1, most + 1):
         system = Linearisation(state)
         row = system.row(control)
         rhs = np.concatenate([system.residual, [system.anchor, system.violation(control)]])
@@ -159,10 +161,10 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE) ->
             if change < tolerance and not kept:
                 return state
             # With old factors the error falls from step to step by the same factor.
-            ahead = change * min(1.0, change / last)
+            ahead = change * min(1.0, change / last if math.isfinite(last) else 1.0)
             if kept and change < tolerance and ahead < tolerance**_REMAINDER:
                 return state
         last = change
         if damping < 1.0 or change > _CHORD:
             factor, last = None, math.inf
-    raise NotConverged(f"Newton did not converge in {_MAX_ITERATIONS} iterations (last change {change:.1e})")
+    raise NotConverged(f"Newton did not converge in {most} iterations (last change {change:.1e})")
