@@ -38,12 +38,14 @@ Bracket = tuple[Point, Point]
 # The secant method ends one step after a step of the continuation parameter below this.  Without the last one the
 # displacement at zero load was wrong by 1.5e-11 (n = 3.2, k = 0.06, mu = 6.6), unseen by u_num.
 _PARAMETER_TOLERANCE = 1e-9
-_SECANT_STEPS = 15
+_SECANT_STEPS = 20
 # First step of the secant method: large against rounding of the derivative, small against its curvature.
 _FIRST_SECANT_STEP = 1e-4
 _COARSE_PARAMETER_TOLERANCE = 1e-6
 # Tolerance where the root on the coarse mesh is a start only.
 _ROUGH = 1e-2
+# Step of the continuation parameter after which the mesh is refined again, where the pressure is not resolved.
+_FAR = 1e-3
 
 
 def load_fold(state: State, rates: Rates) -> float:
@@ -201,6 +203,8 @@ def sharpen(state: State, condition: Condition, order: int, tolerance: float) ->
     step, settled = _FIRST_SECANT_STEP, False
     for _ in range(_SECANT_STEPS):
         new = moved(state, rates, parameter_of(state) + step)
+        if abs(step) > _FAR:  # the mesh was refined at another place
+            new = fit(new, parameter_control(new, parameter_of(new)), tolerance)
         new_rates = rates_of(new)
         new_value = condition(new, new_rates)
         change = new_value - value
