@@ -175,7 +175,7 @@ def solve_together(
         begin = time.perf_counter()
         for name, row in rows.items():
             try:
-                choice, spec, size = chosen(problem, row.events, accuracy)
+                choice, spec, size = chosen(problem, row.events, accuracy, events_on_meshes)
             except NoSuchEvent as reason:
                 found[name] = reason.with_traceback(None)
             else:

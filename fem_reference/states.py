@@ -198,5 +198,15 @@ def profile(
 
 def _finest(problem: Problem, event: str, accuracy: float | str) -> tuple[MeshChoice, MeshSpec, float]:
     """Return the finest mesh for an event, as `fem_reference._contact.mesh_choice.chosen` returns the coarsest."""
-    choice, spec, size = chosen(problem, (event,), accuracy)
-    return choice, replace(spec, density=choice.level.densities[-1]), size
+    choice, spec, size = chosen(problem, (event,), accuracy, _traced)
+    return choice, _fine(choice, spec), size
+
+
+def _fine(choice: MeshChoice, spec: MeshSpec) -> MeshSpec:
+    """The finest of the three meshes."""
+    return replace(spec, density=choice.level.densities[-1])
+
+
+def _traced(choice: MeshChoice, spec: MeshSpec, size: float) -> None:
+    """Trace the path on the finest mesh, which is kept."""
+    choice.traced(_fine(choice, spec), size)

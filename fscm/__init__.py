@@ -32,7 +32,7 @@ LAYERS = (
     ("_meshes", "_kernel", "_azimuthal_kernel", "_panels", "_deformation", "_tail"),
     ("_equilibrium", "_defect", "solution"),
     ("_newton", "_arc_length", "_path_end", "_adaptivity", "_branches", "_continuation"),
-    ("_events", "_bounds", "_completeness", "folds", "stability"),
+    ("_events", "_bounds", "_completeness", "_whole_path", "folds", "stability"),
     ("path", "critical", "quantities", "analysis"),
     ("gibson", "stieltjes"),
     ("experiment", "states", "solve"),

@@ -17,10 +17,10 @@ from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.punch import PowerPunch, kinks_of
 
-__all__ = ["checked_sense", "edge_elsewhere", "follow_edge", "joined", "predicted", "turned"]
+__all__ = ["SURPRISE", "checked_sense", "edge_elsewhere", "follow_edge", "joined", "predicted", "turned"]
 
 # Largest deviation from the trapezoidal rule, relative to the distance of a gap to the singular gap.
-_SURPRISE = 0.5
+SURPRISE = 0.5
 # The gaps within this multiple of the edge radius tell the sense of the path.
 _NEAR_EDGE = 2.0
 # Times that the panels of a new mesh are split at the edge: it may be 1e-22 of the contact radius.
@@ -43,7 +43,7 @@ def follow_edge(state: State, end_height: float, tolerance: float, edge_gap: flo
     outer = int(np.flatnonzero(state.gap < target)[-1]) if np.any(state.gap < target) else -1
     low = -mesh.origin if outer < 0 else float(mesh.places[outer])
     place = scipy.optimize.brentq(
-        lambda s: mesh.evaluate(state.gap, np.array([s]))[0] - target, low, mesh.places[outer + 1]
+        lambda s: mesh.evaluate_places(state.gap, np.array([s]))[0] - target, low, mesh.places[outer + 1]
     )
     ratio = mesh.origin + place
     scale, shape = state.scale * ratio, problem.punch.height
@@ -51,13 +51,12 @@ def follow_edge(state: State, end_height: float, tolerance: float, edge_gap: flo
 
     def known_on(new: PanelMesh) -> Array:
         """Gaps, or deformations of a steep punch, at the nodes of a mesh that follows the edge."""
-        radii = np.minimum(new.nodes * ratio, mesh.breaks[-1])
-        known = radii - mesh.origin
+        known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
         if state.lift is not None:
             return mesh.evaluate(state.lift, known)
         if kinked:
             return mesh.evaluate(state.gap - shape(state.radius), known) + shape(scale * new.nodes)
-        return mesh.evaluate(state.gap, known) + (shape(scale * new.nodes) - shape(state.scale * radii))
+        return mesh.evaluate(state.gap, known) + (shape(scale * new.nodes) - shape(state.scale * known))
 
     def gap_on(new: PanelMesh) -> Array:
         known = known_on(new)
@@ -114,14 +113,14 @@ def _moving_rates(point: Point) -> Array:
     return rates.gap if point.state.lift is None else rates.gap - rates.displacement
 
 
-def checked_sense(a: Point, b: Point, step: float, same: bool | None) -> bool:
+def checked_sense(a: Point, b: Point, step: float, same: bool | None, largest: float = SURPRISE) -> bool:
     """Whether the gaps go on changing in the same sense; NotConverged when b is on another branch.
 
     Near a sharp turn of the path, the gaps inside the contact tell its sense when load and displacement do not.
     """
     mesh, other = a.state.disc.mesh, b.state.disc.mesh
     known = np.minimum(other.seen_from(mesh.origin), mesh.offsets[-1])
-    before, rate = mesh.evaluate(_moving(a.state), known), mesh.evaluate(_moving_rates(a), known)
+    before, rate = mesh.evaluate_places(_moving(a.state), known), mesh.evaluate_places(_moving_rates(a), known)
     after, new_rate = _moving(b.state), _moving_rates(b)
     clearance = b.state.gap - a.state.disc.problem.law.singular_gap
     near = other.nodes < _NEAR_EDGE
@@ -129,6 +128,6 @@ def checked_sense(a: Point, b: Point, step: float, same: bool | None) -> bool:
     if same is None:
         same = bool(np.sum(product[near]) >= 0.0)
     surprise = after - before - 0.5 * step * (rate + (1.0 if same else -1.0) * new_rate)
-    if np.max(np.abs(surprise) / clearance) > _SURPRISE:
+    if np.max(np.abs(surprise) / clearance) > largest:
         raise NotConverged("Newton converged to a state that the tangent does not lead to")
     return same

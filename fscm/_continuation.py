@@ -11,27 +11,25 @@ asperity, another stretch begins, which follows that edge.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 import scipy
 
 from fscm._adaptivity import end_radius, fit, initial_mesh, resolved
 from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of
-from fscm._branches import checked_sense, edge_elsewhere, follow_edge, joined, predicted, turned
+from fscm._branches import SURPRISE, checked_sense, edge_elsewhere, follow_edge, joined, predicted, turned
 from fscm._equilibrium import Control, Discretisation, Rates, State
 from fscm._meshes import Meshes
 from fscm._newton import STEP_TOLERANCE, newton
-from fscm._path_end import PathEnd, depth, displacement_of_compression
+from fscm._path_end import depth
 from fscm.errors import NotConverged
 from fscm.problem import Problem
 from fscm.punch import PowerPunch, kinks_of
 
-__all__ = ["MAX_POINTS", "bracketing_path", "equilibrium_path", "moved", "path_end", "path_until"]
+__all__ = ["EDGE", "Tracking", "equilibrium_path", "moved"]
 
-# Measured: at most 120 points of a bracketing path for n >= 1, but 300 to 750 at n = 0.67.  Each keeps its matrices:
-# 2 MB on such meshes.
-MAX_POINTS = 1500
 _FIRST_STEP = 0.5
 _SMALLEST_STEP = 1e-6
 # Newton iterations after which the next step is longer or shorter.
@@ -52,7 +50,7 @@ _FLAT_SHARE, _FLAT_STEP = 0.5, 0.2
 # The width of the cohesive edge is (1.03 M)^(-1/(1-k)) for the 9-3 law; decimal logarithm of the least width, relative
 # to a contact radius, that is computed.  Measured: 26 s of CPU at 10^-16 (n = 2, k = 0.98, mu = 1) and 55 s and 3 GB at
 # 10^-21 (k = 0.985; half the memory since); the number of panels grows with the logarithm.
-_EDGE, _NARROWEST = 1.03, -22.0
+EDGE, _NARROWEST = 1.03, -22.0
 # Where its parameter turns, the path goes on in another one, until that one makes up less than this share of the
 # tangent.
 _LEAST_SHARE = 0.3
@@ -69,6 +67,29 @@ _NUCLEUS = 0.8
 # The nucleus lies within a part of the radius at which the punch is this high, its gap is below the one there by this
 # share of its distance to the singular gap, and its radius grows at this rate of log c per arc length.
 _FLAT_HEIGHT, _SMALL, _DEEP, _GROWING = 0.02, 0.05, 0.2, 0.3
+# A path that comes back to the central gap of its first state and this much more has turned round.
+_RETURNED = 1.0
+# Changes of the parameter without a step between them, after which the path is at its end.
+_MOST_TURNS = 6
+
+
+@dataclass(frozen=True)
+class Tracking:
+    """How a path is tracked.
+
+    Attributes
+    ----------
+    follow : bool
+        Whether the mesh follows the contact edge; if not, its scale stays fixed.
+    surprise : float
+        Largest deviation of a step from the trapezoidal rule, relative to the distance of a gap to the singular gap.
+    longest_step : float
+        Of the arc length.
+    """
+
+    follow: bool = True
+    surprise: float = SURPRISE
+    longest_step: float = math.inf
 
 
 def moved(state: State, rates: Rates, value: float, tolerance: float = STEP_TOLERANCE) -> State:
@@ -120,7 +141,7 @@ def _log_width(problem: Problem, log_mu: float) -> float:
     n, k = problem.n, problem.k
     log_M = math.log10(2.0) + (2.0 * n + k - 1.0) / n * log_mu
     radius = max(math.log10(n) + log_mu, 0.0) / n
-    return -(math.log10(_EDGE) + log_M) / (1.0 - k) - radius
+    return -(math.log10(EDGE) + log_M) / (1.0 - k) - radius
 
 
 def _check_edge(problem: Problem) -> None:
@@ -147,6 +168,7 @@ def equilibrium_path(
     longest_step: float = 0.5,
     start_gap: float | None = None,
     end_height: float = Meshes.end_height,
+    tracking: Tracking | None = None,
 ) -> Iterator[Point]:
     """Yield the path, one converged state after another, without end: the caller stops.
 
@@ -163,6 +185,8 @@ def equilibrium_path(
         Gap of the first state at the lowest point of the punch, which is its center unless the tip is concave.
     end_height : float
         Height of the punch at which the mesh ends.
+    tracking : Tracking, optional
+        By default the mesh follows the contact edge.
 
     Yields
     ------
@@ -172,10 +196,11 @@ def equilibrium_path(
     Raises
     ------
     NotConverged
-        When the step becomes too small.
+        When the step becomes too small, or the path turns back.
     """
     _check_edge(problem)
-    arc = ArcLength.of(problem)
+    arc, tracking = ArcLength.of(problem), tracking or Tracking()
+    longest_step = min(longest_step, tracking.longest_step)
     gap = _start_gap(problem) if start_gap is None else start_gap
     gap += depth(problem, end_radius(problem, end_height))
     state = _far_state(problem, gap, order, tolerance, end_height)
@@ -184,13 +209,13 @@ def equilibrium_path(
     kinked = bool(kinks_of(problem.punch))
     least_share = _GIVEN_SHARE if kinked else _LEAST_SHARE
     shortest = _BLIND_STEP if isinstance(problem.punch, PowerPunch) else _BLIND_STEP_OF_ASPERITIES
-    step = min(_FIRST_STEP, longest_step)
+    step, turns, farthest = min(_FIRST_STEP, longest_step), 0, _RETURNED + state.central_gap
     point = Point(state, arc.tangent(state))
     while True:
         yield point
         state = point.state
-        nucleus = _nucleus_gap(state, point.rates)
-        if nucleus is not None or edge_elsewhere(state, hand_over):
+        nucleus = _nucleus_gap(state, point.rates) if tracking.follow else None
+        if tracking.follow and (nucleus is not None or edge_elsewhere(state, hand_over)):
             guess = follow_edge(state, end_height, tolerance, nucleus)
             control = parameter_control(guess, parameter_of(guess))
             if nucleus is not None:  # it grows slowly at first: its gap tells states apart better than its radius
@@ -198,6 +223,13 @@ def equilibrium_path(
             state = fit(newton(guess, control), control, tolerance)
             point = joined(arc, point, state)
             continue
+        if state.central_gap > farthest:
+            raise NotConverged(f"the path of {problem} came back to separation: a sharp turn of it was not resolved")
+        if turns > _MOST_TURNS:
+            raise NotConverged(
+                f"the path of {problem} ends at delta = {state.displacement:.6g}, P = {state.load:.6g}: "
+                f"in none of its parameters a step goes on"
+            )
         shares = arc.shares(point)
         usual = "log_scale" if state.follows_edge else "gap"
         # With the scale given, no node passes a kink during an iteration.
@@ -225,9 +257,12 @@ def equilibrium_path(
                     continue
                 same = turn >= 0.0
                 if not power:
-                    same = checked_sense(point, after, step, same if abs(turn) >= _LARGEST_TURN else None)
+                    same = checked_sense(
+                        point, after, step, same if abs(turn) >= _LARGEST_TURN else None, tracking.surprise
+                    )
                 if not same:  # the path goes on, but its parameter turns
                     after = turned(arc, point)
+                turns = 0 if same else turns + 1
                 break
             except NotConverged as error:
                 step *= _RETRY
@@ -242,59 +277,3 @@ def equilibrium_path(
         elif used >= _HARD:
             step *= _SHORTER
         point = after
-
-
-def path_until(
-    problem: Problem,
-    order: int,
-    tolerance: float,
-    ended: Callable[[State], bool],
-    end: str,
-    most: int = MAX_POINTS,
-    longest_step: float = 0.5,
-    start_gap: float | None = None,
-    end_height: float = Meshes.end_height,
-) -> list[Point]:
-    """Points of the path up to the first state for which `ended` holds.
-
-    Parameters
-    ----------
-    problem, order, tolerance, longest_step, start_gap, end_height
-        As for `equilibrium_path`.
-    ended : callable
-        State -> bool; called once for each state, in their order.
-    end : str
-        Name of the end in the message of `NotConverged`.
-    most : int
-        Largest number of points.
-
-    Raises
-    ------
-    NotConverged
-        When the end is not reached.
-    """
-    points: list[Point] = []
-    for point in equilibrium_path(problem, order, tolerance, longest_step, start_gap, end_height):
-        points.append(point)
-        if ended(point.state):
-            return points
-        if len(points) > most:
-            break
-    raise NotConverged(f"the path of {problem} has not reached {end} in {most} steps")
-
-
-def bracketing_path(problem: Problem, meshes: Meshes) -> list[Point]:
-    """The coarse path from far separation to a compressive load, which brackets every event."""
-    end = path_end(problem, meshes.end_height)
-    return path_until(problem, *meshes.path, end, "a compressive load", end_height=meshes.end_height)
-
-
-def path_end(problem: Problem, end_height: float) -> PathEnd:
-    """The end of a path behind which no state carries tension; for one path only, since it keeps its largest delta."""
-    displacement = displacement_of_compression(problem, end_radius(problem, end_height))
-    if displacement == math.inf:
-        raise NotConverged(
-            f"of the path of {problem} it cannot be told where its last tension is: "
-            "up to the largest displacement that is examined, the attraction can still exceed the compression"
-        )
-    return PathEnd(displacement)

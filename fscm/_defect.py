@@ -11,6 +11,7 @@ error: a panel, the closed tail, the kernel behind the mesh.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -28,6 +29,9 @@ __all__ = ["Defect", "Errors", "finer"]
 # The finer mesh: nodes a panel more, and the innermost panel cut at this share of its length, because the pressure is
 # no polynomial at the tip (it follows r^n): there the error falls with the length, on all other panels with the order.
 _MORE_NODES, _TIP = 4, 0.125
+# A panel that is longer than this many times its neighbour is cut there, in panels that grow by this factor: its own
+# nodes are too far from that end to see the pressure there.
+_GROWTH = 16.0
 # Relative error of a number that a few operations make, four roundings; and the relative errors, in units of it, of an
 # entry of the response matrix (kernel and sums of products) and of a pressure times an area.
 _ROUNDOFF = 2.0**-51
@@ -77,8 +81,18 @@ class Errors:
 def finer(disc: Discretisation) -> Discretisation:
     """The same problem on the mesh on which residuals are taken."""
     mesh, ends = disc.mesh, disc.mesh.offsets
-    ends = np.insert(ends, 1, ends[0] + _TIP * mesh.lengths[0])
-    return Discretisation(disc.problem, PanelMesh(ends, mesh.order + _MORE_NODES, mesh.origin))
+    added = [ends[0] + _TIP * mesh.lengths[0]]
+    for end, shorter, longer, sign in _uneven(mesh):
+        while (shorter := _GROWTH * shorter) < longer:
+            added.append(end + sign * shorter)
+    return Discretisation(disc.problem, PanelMesh(np.union1d(ends, added), mesh.order + _MORE_NODES, mesh.origin))
+
+
+def _uneven(mesh: PanelMesh) -> Iterator[tuple[float, float, float, float]]:
+    """Common ends of two panels of very different length, both lengths, and the side of the longer one."""
+    for end, left, right in zip(mesh.offsets[1:-1], mesh.lengths[:-1], mesh.lengths[1:], strict=True):
+        if max(left, right) > _GROWTH * min(left, right):
+            yield float(end), float(min(left, right)), float(max(left, right)), 1.0 if right > left else -1.0
 
 
 def _from_gap(

@@ -25,7 +25,7 @@ class Mesh(NamedTuple):
 
 # Meshes of the accuracy "default".
 _PATH, _CHECK, _VALUE = Mesh(8, 3e-3), Mesh(10, 3e-7), Mesh(12, 1e-7)
-_CURVE, _CURVE_CHECK = Mesh(10, 1e-6), Mesh(14, 1e-8)
+_CURVE = Mesh(10, 1e-6)
 
 
 @dataclass(frozen=True)
@@ -39,8 +39,8 @@ class Meshes:
     check, value : Mesh
         Of a value and of its check; close enough to each other that their difference is not much larger than the error
         of the better one.
-    curve, curve_check : Mesh
-        Of a path that is drawn and integrated, and of its check.
+    curve : Mesh
+        Of a path that is drawn and integrated.
     end_height : float
         The mesh ends where the undeformed gap is this large.  The closed tail behind it is wrong by (1/F)^2 relative.
     """
@@ -49,7 +49,6 @@ class Meshes:
     check: Mesh = _CHECK
     value: Mesh = _VALUE
     curve: Mesh = _CURVE
-    curve_check: Mesh = _CURVE_CHECK
     end_height: float = 1e6
 
     @classmethod
@@ -83,7 +82,6 @@ class Meshes:
             check=scaled(_CHECK),
             value=scaled(_VALUE),
             curve=scaled(_CURVE),
-            curve_check=scaled(_CURVE_CHECK),
         )
 
 

@@ -163,7 +163,11 @@ class PanelMesh:
         """Nodes less another origin, shape (m q,)."""
         return self.places + (self.origin - origin)
 
-    def evaluate(self, values: Array, places: Array) -> Array:
+    def evaluate(self, values: Array, radii: Array) -> Array:
+        """Values at `radii`, shape (p,), of the piecewise polynomial with nodal `values`."""
+        return self.evaluate_places(values, radii - self.origin)
+
+    def evaluate_places(self, values: Array, places: Array) -> Array:
         """Values of the piecewise polynomial with nodal `values` at radii less the origin, shape (p,)."""
         panel = self.locate(places)
         u = (places - self.offsets[panel]) / self.lengths[panel]
@@ -191,5 +195,5 @@ class PanelMesh:
         inside = (u >= 0.0) & (u <= 1.0)
         out = np.einsum("ij,ij->i", self.rule.interpolation(u), values.reshape(-1, self.order)[panel])
         if not inside.all():  # `other` merged panels: its nodes fall into several of ours
-            out[~inside] = self.evaluate(values, other.seen_from(self.origin)[~inside])
+            out[~inside] = self.evaluate_places(values, other.seen_from(self.origin)[~inside])
         return out

@@ -67,7 +67,8 @@ class PathEnd:
     def __call__(self, state: State) -> bool:
         self.farthest = max(self.farthest, state.displacement)
         deepest = state.displacement >= max(self.farthest, self.displacement)
-        return state.follows_edge and state.load > self.load and deepest
+        touching = min(state.central_gap, float(np.min(state.gap))) < state.disc.problem.law.peak_gap
+        return (state.follows_edge or touching) and state.load > self.load and deepest
 
 
 def _radii(end: float) -> Array:

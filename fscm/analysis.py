@@ -10,12 +10,11 @@ from functools import cached_property, partial
 from fscm import _events as events
 from fscm._arc_length import Point
 from fscm._bounds import EventErrors, bounds, energy_of_jump
-from fscm._completeness import completed
-from fscm._continuation import bracketing_path
 from fscm._defect import Errors
 from fscm._events import Bracket, Condition
 from fscm._meshes import Accuracy, Meshes
 from fscm._threads import one_thread
+from fscm._whole_path import bracketing_path
 from fscm.errors import NoSuchEvent, NotConverged
 from fscm.folds import Fold, folds_of
 from fscm.problem import Problem
@@ -70,7 +69,7 @@ class Analysis:
     @one_thread()
     def points(self) -> list[Point]:
         """The coarse path from far separation to its end; no turning point of load or displacement is left out."""
-        return completed(bracketing_path(self.problem, self.meshes), self.meshes.path.tolerance)
+        return bracketing_path(self.problem, self.meshes)
 
     @cached_property
     @one_thread()

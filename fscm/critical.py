@@ -14,12 +14,13 @@ import scipy
 
 from fscm._arc_length import parameter_control, parameter_of, rates_of
 from fscm._bounds import EventErrors, bounds
-from fscm._continuation import bracketing_path, moved
+from fscm._continuation import moved
 from fscm._equilibrium import Discretisation, State
 from fscm._events import refined, slowest
 from fscm._meshes import Accuracy, Meshes
 from fscm._newton import newton
 from fscm._threads import one_thread
+from fscm._whole_path import path_end, path_until
 from fscm.errors import NoSuchEvent, NotConverged
 from fscm.problem import Problem
 from fscm.solution import Parts, Solution
@@ -42,7 +43,9 @@ def _coarse_root(problem: Problem, meshes: Meshes) -> State:
     states: dict[float, State] = {}
 
     def rate(log_mu: float) -> float:
-        _, point, _, value = slowest(bracketing_path(replace(problem, mu=math.exp(log_mu)), meshes))
+        coarse, height = replace(problem, mu=math.exp(log_mu)), meshes.end_height
+        points = path_until(coarse, *meshes.path, path_end(coarse, height), "a compressive load", end_height=height)
+        _, point, _, value = slowest(points)
         states[log_mu] = point.state
         return value
 

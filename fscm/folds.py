@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+import scipy
 
 from fscm import _events as events
 from fscm._arc_length import Point, parameter_of
 from fscm._equilibrium import State
+from fscm.punch import PowerPunch
 
-__all__ = ["Fold", "fold_at", "folds_between", "folds_of"]
+__all__ = ["Fold", "edge_radius", "fold_at", "folds_between", "folds_of"]
 
 _FOLDS = {"load": events.load_fold, "displacement": events.displacement_fold}
 
@@ -48,8 +51,22 @@ class Fold:
 
 def fold_at(state: State, quantity: str, maximum: bool) -> Fold:
     """The fold at a state."""
-    edge = state.scale if state.follows_edge else np.nan
-    return Fold(quantity, maximum, float(state.central_gap), float(state.displacement), float(state.load), float(edge))
+    edge = edge_radius(state)
+    return Fold(quantity, maximum, float(state.central_gap), float(state.displacement), float(state.load), edge)
+
+
+def edge_radius(state: State) -> float:
+    """Outermost radius at which the gap is that of the largest tension; nan before contact."""
+    problem, mesh = state.disc.problem, state.disc.mesh
+    if state.follows_edge:
+        return float(state.scale)
+    inside = np.flatnonzero(state.gap < problem.law.peak_gap)
+    # On a power law the mesh follows the edge soon after it appears.
+    if isinstance(problem.punch, PowerPunch) or not inside.size:
+        return math.nan
+    low, high = mesh.nodes[inside[-1] : inside[-1] + 2]
+    s = scipy.optimize.brentq(lambda s: mesh.evaluate(state.gap, np.array([s]))[0] - problem.law.peak_gap, low, high)
+    return float(state.scale * s)
 
 
 def folds_between(a: Point, b: Point) -> list[tuple[State, str, bool]]:

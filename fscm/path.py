@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TypeAlias
@@ -11,16 +12,14 @@ from numpy.typing import NDArray
 
 from fscm import _events as events
 from fscm._arc_length import Point, parameter_of
-from fscm._completeness import completed
-from fscm._continuation import path_end, path_until
+from fscm._bounds import EventErrors
 from fscm._equilibrium import State
-from fscm._events import refined
 from fscm._meshes import Accuracy, Meshes
 from fscm._threads import one_thread
 from fscm._typing import Array
-from fscm.folds import Fold, fold_at, folds_between
+from fscm._whole_path import path_by_any_mesh, path_end
+from fscm.folds import Fold, edge_radius, fold_at, folds_between
 from fscm.problem import Problem
-from fscm.solution import SAFETY
 from fscm.stability import stable_sections
 
 __all__ = ["EquilibriumPath", "trace"]
@@ -29,7 +28,7 @@ Mask: TypeAlias = NDArray[np.bool_]
 
 # Curves are drawn and integrated: their points are closer than those of the path that brackets events.
 _LONGEST_STEP = 0.15
-# Every so many points the state is solved again on a finer mesh, for the uncertainty.
+# Of every so many points the errors are computed; the largest bounds hold for all, since meshes change little.
 _CHECK_EVERY = 12
 _MAX_POINTS = 5000
 
@@ -47,7 +46,7 @@ class EquilibriumPath:
     edge_radius : ndarray
         Radius where the tension is largest; nan while the central gap is above the gap of largest tension.
     u_displacement, u_load : float
-        Numerical uncertainty of every delta and P.
+        Numerical uncertainty of every delta and P: the largest bound at every twelfth point, as for events.
     folds : tuple of Fold
         All turning points of load and displacement, in the order of the path.
     stable_under_displacement, stable_under_load : ndarray of bool
@@ -118,35 +117,47 @@ def trace(
     """
     meshes = Meshes.of(accuracy)
     start = 10.0 + 5.0 * problem.mu if start_gap is None else start_gap
-    end = path_end(problem, meshes.end_height)
-    lowest = 0.0
 
-    def ended(state: State) -> bool:
-        nonlocal lowest
-        lowest = min(lowest, state.load)
-        end.load = -lowest if max_load is None else max(max_load, 0.0)
-        return end(state)
+    def ending() -> Callable[[State], bool]:
+        end, lowest = path_end(problem, meshes.end_height), 0.0
 
-    points = completed(
-        path_until(problem, *meshes.curve, ended, "its end", _MAX_POINTS, longest_step, start, meshes.end_height),
-        meshes.curve.tolerance,
+        def ended(state: State) -> bool:
+            nonlocal lowest
+            lowest = min(lowest, state.load)
+            end.load = -lowest if max_load is None else max(max_load, 0.0)
+            return end(state)
+
+        return ended
+
+    points = path_by_any_mesh(
+        problem, *meshes.curve, ending, "its end", _MAX_POINTS, longest_step, start, meshes.end_height
     )
     states, folds = _with_events(points)
     if max_load is not None and max_load <= 0.0:
         states = _up_to(states, max_load)
         folds = [fold for fold in folds if any(fold[0] is state for state in states)]
-    checks = [(state, refined(state, *meshes.curve_check)) for state in states[::_CHECK_EVERY]]
+    u_displacement, u_load = _largest_errors(states[::_CHECK_EVERY])
     return EquilibriumPath(
         np.array([s.central_gap for s in states]),
         np.array([s.displacement for s in states]),
         np.array([s.load for s in states]),
         np.array([s.energy for s in states]),
-        np.array([s.scale if s.follows_edge else np.nan for s in states]),
-        float(SAFETY * max(abs(fine.displacement - s.displacement) for s, fine in checks)),
-        float(SAFETY * max(abs(fine.load - s.load) for s, fine in checks)),
+        np.array([edge_radius(s) for s in states]),
+        u_displacement,
+        u_load,
         tuple(fold_at(*fold) for fold in folds),
         *_stable(points[0], states, folds),
     )
+
+
+def _largest_errors(states: list[State]) -> tuple[float, float]:
+    """Largest bounds on the error of displacement and load at a value of the continuation parameter."""
+    largest = np.zeros(2)
+    for state in states:
+        errors = EventErrors(state)
+        found = [errors.on_path(functional).total for functional in ("displacement", "load")]
+        largest = np.maximum(largest, found)
+    return float(largest[0]), float(largest[1])
 
 
 def _stable(first: Point, states: list[State], folds: list[tuple[State, str, bool]]) -> tuple[Mask, Mask]:

@@ -11,12 +11,11 @@ from itertools import pairwise
 from fscm import _events as events
 from fscm._arc_length import Point, parameter_of, rates_of
 from fscm._bounds import EventErrors
-from fscm._completeness import completed
-from fscm._continuation import path_end, path_until
 from fscm._equilibrium import State
 from fscm._meshes import Accuracy, Meshes
 from fscm._threads import one_thread
 from fscm._typing import Array
+from fscm._whole_path import path_by_any_mesh, path_end
 from fscm.analysis import Analysis
 from fscm.problem import Problem
 from fscm.solution import Parts
@@ -159,17 +158,17 @@ def equilibria(problem: Problem, control: str, value: float, accuracy: Accuracy 
     # Rising along the path: displacement and, in contact, load; the central gap falls.
     direction = -1.0 if control == "central_gap" else 1.0
     meshes = Meshes.of(accuracy)
-    complete = path_end(problem, meshes.end_height)
 
-    def ended(state: State) -> bool:
-        return complete(state) and direction * condition(state, None) > 0.0
+    def ending() -> Callable[[State], bool]:
+        complete = path_end(problem, meshes.end_height)
+        return lambda state: complete(state) and direction * condition(state, None) > 0.0
 
     start_gap = 10.0 + 5.0 * problem.mu + (0.0 if control == "load" else 2.0 * abs(value))
     end = f"the {control} {value:g}"
-    points = path_until(problem, *meshes.path, ended, end, start_gap=start_gap, end_height=meshes.end_height)
+    points = path_by_any_mesh(problem, *meshes.path, ending, end, start_gap=start_gap, end_height=meshes.end_height)
     fold = _FOLDS[control]
     found: list[EquilibriumState] = []
-    for a, b in pairwise(completed(points, meshes.path.tolerance)):
+    for a, b in pairwise(points):
         if a.stretch != b.stretch:
             continue
         near = _near_extreme(a, b, condition, fold, meshes)

@@ -42,7 +42,8 @@ PARTS = ("mesh", "first layer", "interior and exterior", "edge", "tail", "algebr
 
 FEATURE_DEGREES = 2
 """Degrees by which the elements of the meshes that differ in one feature are lower: they cost a third of those of the
-full degree, and change by 2 to 100 times as much (measured on the elements alone)."""
+full degree, and the difference that a feature makes is larger (measured: 2.4 to 1400 times for five quantities of ten
+random problems, n = 1 ... 5.7, k = 0 ... 0.65, mu = 0.06 ... 2)."""
 
 ROUNDING = 1e-15
 """Relative rounding of a quantity itself: a few units of its last place."""

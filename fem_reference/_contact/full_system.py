@@ -133,10 +133,11 @@ class FullSystem:
         rise = rise - rate[-2] + rate[-1] * self.s * self.punch.slope(y[-1] * self.s)
         return self.vector(slope * rise)
 
-    def residual(self, u: Array, delta: float, c: float, factor: float) -> float:
-        """Residual K u - factor F of the whole nonlinear system, relative in the norm of `solve_cg`."""
-        F = self.vector(self.law.traction(self.gap(u, delta, c)))
-        return relative_residual(self.half_space, factor * F, u, self.preconditioner)
+    def residuals(self, u: Array, deltas: Array, sizes: Array, factors: Array) -> Array:
+        """Residuals K u - factor F of whole nonlinear systems, one a column, relative in the norm of `solve_cg`."""
+        columns = zip(u.T, deltas, sizes, factors, strict=True)
+        loads = [factor * self.vector(self.law.traction(self.gap(w, delta, c))) for w, delta, c, factor in columns]
+        return relative_residual(self.half_space, np.stack(loads, axis=1), u, self.preconditioner)
 
     def under_pressure(self, pressure: Array, factor: float) -> Array:
         """Return the displacement under a pressure at the facet Gauss points, to start Newton from."""

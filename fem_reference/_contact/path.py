@@ -54,6 +54,9 @@ GAP_STEP = 0.2
 SIZE_STEP = 0.1
 """Largest relative step of the edge radius: P and delta change by a few per cent of their range."""
 
+STEEPER = 4.0
+"""Ratio of the steepest slope of the gap to that at peak tension which the meshes of an edge resolve as they are."""
+
 SMALLEST_STEP = 1e-6
 """Step, relative to the largest, below which the path ends with NotConverged."""
 
@@ -205,11 +208,20 @@ def first_edge_radius(point: Point) -> float:
 
 
 def edge_width(point: Point) -> float:
-    """Radial length over which the gap rises by the length of the law at the edge, relative to the edge radius."""
+    """Radial length over which the gap rises by the length of the law at the edge, relative to the edge radius.
+
+    It is that of the slope at the gap of peak tension, or `STEEPER` times that of the steepest slope in the length of
+    the law beyond, if that is shorter: for k near 1 the gap rises almost at once there.  Where the computed gap falls
+    at the edge, because the mesh is too coarse, the width is negative.
+    """
     contact, y = point.branch.contact, point.state.y
-    radius = point.edge_radius
-    slope = -EdgeRadius(contact.law.peak_gap, radius).parameter_rate(contact, y)
-    return contact.law.length / (slope * radius)
+    radius, length, peak = point.edge_radius, contact.law.length, contact.law.peak_gap
+    slope = -EdgeRadius(peak, radius).parameter_rate(contact, y)
+    s, gap = contact.compliance.trace.s, contact.gap(y)
+    near = (gap > peak) & (gap < peak + length) & (y[-1] * s < 2.0 * radius)
+    pairs = near[:-1] & near[1:]
+    steepest = float(np.max(np.diff(gap)[pairs] / np.diff(s)[pairs], initial=0.0)) / float(y[-1])
+    return length / (radius * (max(slope, steepest / STEEPER) if slope > 0.0 else slope))
 
 
 def equilibrium_points(contact: Contact) -> Iterator[Point]:

@@ -73,6 +73,8 @@ def three_meshes(
     --------
     >>> three_meshes((1.16, 1.04, 1.01), ratio=2.0, declared=2.0).observed_order
     2.0
+    >>> round(three_meshes((1.16, 1.04, 1.07), ratio=2.0, declared=2.0).error, 9)  # the values turn back
+    0.04
     >>> round(three_meshes((1.16, 1.04, 1.01), ratio=2.0, declared=2.0, lower_degree=0.96).error, 9)
     0.02
     """
@@ -85,7 +87,9 @@ def three_meshes(
     trusted = declared if math.isnan(order) else min(max(round(order, 12), SLOWEST), declared)
     growth = ratio**trusted
     # Two fine values may agree by chance: the coarse one tells what their difference should be.
-    error = max(second, first / growth) / (growth - 1.0)
+    # Values that turn back do not show that the last refinement has reduced the error: that of the medium mesh is kept.
+    turned = (coarse - medium) * (medium - fine) < 0.0 and min(first, second) > rounding
+    error = max(second, first if turned else first / growth) / (growth - 1.0)
     if lower_degree is not None:
         error = max(error, abs(lower_degree - medium) / growth)
     return Convergence(error, round(order, 12))

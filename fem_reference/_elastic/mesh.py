@@ -70,6 +70,17 @@ def _sinh_nodes(width: float, length: float, density: float) -> Array:
     return nodes
 
 
+def _outer_nodes(edge: float, width: float, length: float, density: float, far_share: float) -> Array:
+    """0 ... length, spaced as `_sinh_nodes` up to the distance `edge`, and at equal ratios of radii beyond."""
+    if far_share == 1.0 or length <= edge:
+        return _sinh_nodes(width, length, density)
+    near, reach = _sinh_nodes(width, edge, density), math.log((edge + length) / (2.0 * edge))
+    count = math.ceil(reach / (far_share * density))
+    far = 2.0 * edge * np.exp(np.linspace(0.0, reach, count + 1)) - edge
+    far[-1] = length
+    return np.concatenate([near, far[1:]])
+
+
 CURVE_POINTS = 400
 """Points for the integral of the node density, for each length that it has to follow."""
 
@@ -110,6 +121,7 @@ def graded_grid(
     density: float = 0.5,
     apex_width: float | None = None,
     scales: DepthScales = _NO_SCALES,
+    far_share: float = 1.0,
 ) -> Grid:
     """Return a grid refined around the radius `edge` and towards the surface.
 
@@ -129,6 +141,8 @@ def graded_grid(
         Radial length to resolve at r = 0 as well (a cone has a singular stress there).
     scales : DepthScales
         Depths and lengths of the modulus to follow.
+    far_share : float
+        Share of `density` that the radial elements more than one edge radius beyond the edge have, in (0, 1].
 
     Returns
     -------
@@ -144,13 +158,15 @@ def graded_grid(
             raise ValueError(f"{name} = {value} is outside (0, infinity): it is a length to resolve")
     if not 0 < edge < extent:
         raise ValueError(f"edge = {edge} is outside (0, extent = {extent}): the refined radius must lie in the mesh")
+    if not 0 < far_share <= 1:
+        raise ValueError(f"far_share = {far_share} is outside (0, 1]: it is a share of the density")
     if apex_width is None:
         inside = edge - _sinh_nodes(edge_width, edge, density)[::-1]
     else:
         half = 0.5 * edge
         inside = edge - _sinh_nodes(edge_width, half, density)[::-1]
         inside = np.concatenate([_sinh_nodes(apex_width, half, density), inside[1:]])
-    outside = edge + _sinh_nodes(edge_width, extent - edge, density)
+    outside = edge + _outer_nodes(edge, edge_width, extent - edge, density, far_share)
     inside[0], outside[-1] = 0.0, extent
     return Grid(np.concatenate([inside, outside[1:]]), _depth_nodes(surface_depth, extent, density, scales))
 
@@ -181,6 +197,9 @@ class MeshSpec:
         Degree of the elements.
     scales : DepthScales
         Depths and lengths of the modulus, in units of the edge radius.
+    far_share : float
+        Share of `density` that the radial elements far beyond the edge have, where a punch is much wider than the
+        contact.
     """
 
     edge_width: float
@@ -190,9 +209,17 @@ class MeshSpec:
     order: int
     apex_width: float | None = None
     scales: DepthScales = _NO_SCALES
+    far_share: float = 1.0
 
     def grid(self) -> Grid:
         """Return the grid with its edge at s = 1."""
         return graded_grid(
-            1.0, self.edge_width, self.surface_depth, self.extent, self.density, self.apex_width, self.scales
+            1.0,
+            self.edge_width,
+            self.surface_depth,
+            self.extent,
+            self.density,
+            self.apex_width,
+            self.scales,
+            self.far_share,
         )

@@ -146,13 +146,14 @@ def solve_cg(
     )
 
 
-def relative_residual(half_space: HalfSpace, load: Array, u: Array, preconditioner: ElasticPreconditioner) -> float:
-    """Return the residual of A u = load as `solve_cg` measures it."""
-    free, scale = half_space.free, preconditioner.scale
+def relative_residual(half_space: HalfSpace, load: Array, u: Array, preconditioner: ElasticPreconditioner) -> Array:
+    """Return the residual of A u = load as `solve_cg` measures it, for loads of shape (2 N, q): shape (q,)."""
+    free, scale = half_space.free, preconditioner.scale[:, None]
     b = scale * load[free]
-    both = np.stack([b, b - preconditioner.matrix @ (u[free] / scale)], axis=1)
-    norm, left = _products(both, preconditioner(both))
-    return float(np.sqrt(left / norm))
+    # Loads and residuals pass through the preconditioner together.
+    both = np.concatenate([b, b - preconditioner.matrix @ (u[free] / scale)], axis=1)
+    norm, left = np.split(_products(both, preconditioner(both)), 2)
+    return np.asarray(np.sqrt(left / norm))
 
 
 def _products(a: Array, b: Array) -> Array:

@@ -17,7 +17,8 @@ from fem_reference import (
     solve,
     solve_together,
 )
-from fem_reference._contact.mesh_choice import EXTERIOR_ERROR, chosen
+from fem_reference._contact.mesh_choice import chosen
+from fem_reference._contact.mesh_lengths import EXTERIOR_ERROR
 from fem_reference._elastic.depth_scales import FIRST_END, DepthScales, depth_scales
 from fem_reference._elastic.exterior import exterior_error
 from fem_reference._elastic.mesh import graded_grid

@@ -7,6 +7,7 @@ from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import CentralGap, EdgeGap, EdgeRadius, GapRise, Size
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.mesh_choice import MeshChoice
+from fem_reference._contact.mesh_lengths import balance_length
 from fem_reference._contact.newton import newton
 from fem_reference._contact.path import Branch, continuation
 from fem_reference._contact.tracing import traced
@@ -182,11 +183,11 @@ def test_a_distant_rigid_punch_has_the_load_of_bradley():
     assert contact.load(apart) == pytest.approx(-8 / 3 * np.pi / 11**2, rel=1e-5)
 
 
-def test_the_first_width_balances_traction_and_stiffness():
+def test_the_first_length_balances_traction_and_stiffness():
     solid = Solid(E0=1.0, c0=1.0, k=0.0, nu=0.0)
     problem = Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
     choice = MeshChoice(problem, level_for("quick"))
-    # Half of the depth E z0^2 / (2 w) = 0.5, over the radius.
-    assert choice.first_width(radius=2.0) == pytest.approx(0.125)
+    # The depth E z0^2 / (2 w).
+    assert balance_length(problem, radius=2.0) == pytest.approx(0.5)
     # A power of 2: similar problems share a mesh.
     assert choice.spec(0.1, size=2.0, smallest=1.0).edge_width == 0.0625

@@ -333,6 +333,9 @@ def test_three_meshes_does_not_trust_a_coincidence():
     """Two equal fine values do not prove convergence when the coarse one, or another degree, is far away."""
     assert three_meshes((1.1, 1.0, 1.0), 1.3, declared=6.0).error > 0.005
     assert three_meshes((1.0, 1.0, 1.0), 1.3, declared=6.0, lower_degree=1.1).error > 0.02
+    monotone, turned = (three_meshes((1.0, 0.9, 0.9 + change), 1.3, 6.0).error for change in (-0.03, 0.03))
+    # 0.1 / 0.03: the last refinement is not credited.
+    assert turned == pytest.approx(monotone / 0.3)
     with pytest.raises(ValueError, match="not above 1"):
         three_meshes((1.0, 1.0, 1.0), 1.0, 2.0)
 

@@ -1,15 +1,25 @@
-"""Equilibrium path on a fixed mesh, from compression to separation, as a coarse check of complete paths.
+r"""Stable states of a displacement-controlled experiment on a fixed mesh, as a coarse check of complete paths.
 
-Nothing follows an edge here, and no step is taken in the edge radius or in the central gap: the mesh is fixed, and the
-arc length is that of all gaps together, oriented by the tangent before.  The first state is found from full contact by
-relaxation, so that the path begins at the other end.
+The punch is withdrawn from full contact and pressed on again, in small steps of the displacement.  Where a branch of
+stable states ends, the surface relaxes in pseudo-time (implicit Euler) to the state in which the jump lands, and from
+there the punch is moved both ways, until every branch that jumps lead to is known.  Only the kernel matrix and the law
+are those of the solver: no edge is followed, no arc length is taken, and no unstable state is passed.
+
+*What a comparison proves.*  Every state found here is an equilibrium, so that the deepest load found here is at most
+the pull-off force, up to the error of the mesh: a path with a *smaller* force has missed a state, and this is a proof.
+A path with a *larger* force is not refuted: the deepest load may lie on states that are unstable under displacement
+control, or on a stable branch to which no jump leads.  Each jump is a turning point of the displacement, which a
+complete path has as well; a complete path may have more of them, on branches to which no jump leads.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
+from scipy.interpolate import CubicHermiteSpline
 from scipy.linalg import lu_factor, lu_solve
 
 from fscm import Problem
@@ -18,12 +28,57 @@ from fscm._kernel import kernel_of
 from fscm._panels import PanelMesh
 
 # Nodes a panel, nodes of the mesh at most, and the height of the punch where it ends.
-_ORDER, _MOST, _HEIGHT = 4, 400, 3e3
-_STEP, _SMALLEST, _STEPS = 0.1, 1e-5, 1500
+_ORDER, _MOST, _HEIGHT = 6, 1000, 3e3
+# Longest panel, and panels over the width of the cohesive edge: with fewer the edge is held between them and jumps from
+# one to the next (n = 2, k = 0.29, mu = 1.9: more than 24 branches with panels of 1.5 widths).
+_WIDTH, _PER_EDGE, _EDGE = 0.18, 1.0, 1.03
+# The fine panels reach this much farther than the edge at the first state.
+_BEYOND_EDGE, _MARGIN = 1.1, 2.0
+# Steps of the displacement: the first, the longest in tension and in compression, and the one at which a branch ends.
+_FIRST, _LONGEST, _LONGEST_PRESSED, _SHORTEST = 0.01, 0.06, 0.3, 2e-4
+# Largest relative change of a gap's distance to the singular gap in a step, and beyond the trapezoidal rule.
+_CHANGE, _SURPRISE, _GROWTH = 0.25, 0.02, 1.5
+# Newton's method on a branch: iterations, those between two factorisations, largest relative change of the last step.
+_ITERATIONS, _EVERY, _TOLERANCE = 12, 4, 1e-9
+# Gap at which the punch is apart, in units of 1 + mu.
+_APART = 3.0
+# Two states at one displacement are the same if no gap differs by more than this, relative.
+_SAME = 1e-3
+_MOST_BRANCHES = 24
+# A relaxation after a jump begins this far beyond the end of the branch.
+_BEYOND = 2e-3
+
+
+@dataclass
+class Branch:
+    """Stable states in the order of their displacements, and whether a jump ends them below and above."""
+
+    displacements: list[float] = field(default_factory=list)
+    loads: list[float] = field(default_factory=list)
+    slopes: list[float] = field(default_factory=list)
+    gaps: list[np.ndarray] = field(default_factory=list)
+    below: bool = False
+    above: bool = False
+
+    def add(self, d: float, load: float, slope: float, H: np.ndarray, upwards: bool) -> None:
+        for values, value in zip(
+            (self.displacements, self.loads, self.slopes, self.gaps), (d, load, slope, H), strict=True
+        ):
+            values.insert(len(values) if upwards else 0, value)
+
+    def least_load(self) -> float:
+        """Smallest load; between two states it is the cubic through loads and slopes."""
+        least = min(self.loads)
+        for i, j in pairwise(range(len(self.loads))):
+            if self.slopes[i] < 0.0 < self.slopes[j]:
+                pair = slice(i, j + 1)
+                cubic = CubicHermiteSpline(self.displacements[pair], self.loads[pair], self.slopes[pair])
+                least = min(least, float(np.min(cubic(cubic.derivative().roots(extrapolate=False)))))
+        return least
 
 
 class BruteForce:
-    """Loads of the equilibrium path of a problem; `width` is the length of the panels up to the radius `fine`."""
+    """Stable states of a problem; `width` is the length of the panels up to the radius `fine`."""
 
     def __init__(
         self,
@@ -49,8 +104,9 @@ class BruteForce:
         mesh = PanelMesh(breaks, order)
         self.response = problem.compliance * (1.0 - problem.k) * response_matrix(kernel_of(problem.k), mesh)
         self.area = 2.0 * mesh.weights * mesh.nodes
+        self.radii = mesh.nodes
         self.height = problem.punch.height(mesh.nodes)
-        self.fine = mesh.nodes < fine
+        self.factorisations = 0
 
     def residual(self, H, d):
         return H + d - self.height - self.response @ self.problem.law.traction(H)
@@ -63,83 +119,164 @@ class BruteForce:
     def load(self, H):
         return float(self.area @ self.problem.law.traction(H))
 
+    def clearance(self, H):
+        return H - self.problem.law.singular_gap
+
     def compressed(self, d):
-        """Relax from full contact at a displacement: steps of implicit Euler, longer and longer."""
-        H, time = np.maximum(self.height - d, 0.0), 1e-2
-        for _ in range(400):
+        """The state at a displacement that relaxes from full contact."""
+        return self.relaxed(np.maximum(self.height - d, 0.0), d)
+
+    def relaxed(self, H, d):
+        """The state to which the gaps H relax: steps of implicit Euler, longer and longer, none through a maximum."""
+        time = 1e-2
+        for _ in range(600):
             R = self.residual(H, d)
-            if np.max(np.abs(R) / (1.0 + np.abs(H))) < 1e-10:
+            if np.max(np.abs(R) / self.clearance(H)) < _TOLERANCE:
                 return H
             J = self.jacobian(H)
             J[np.diag_indices_from(J)] += 1.0 / time
-            step = np.linalg.solve(J, -R)
-            if np.max(np.abs(step) / (H + 1.0)) < 0.4:
+            factors = self._factors(J)
+            step = lu_solve(factors, -R, check_finite=False)
+            if _rising(factors) and np.max(np.abs(step) / self.clearance(H)) < 0.4:
                 H, time = H + step, time * 1.5
             else:
                 time *= 0.4
-        raise RuntimeError(f"no state in compression at delta = {d}")
+        raise RuntimeError(f"no state to relax to at delta = {d}")
 
-    def path(self, d):
-        """Displacements and loads from compression at `d` to separation."""
-        H = self.compressed(d)
-        tangent = np.append(np.zeros_like(H), -1.0)
-        step, found = _STEP, [(d, self.load(H))]
-        for _ in range(_STEPS):
-            weights = np.append(self.area * self.fine / (1.0 + H) ** 2, 0.1)
-            J = np.block([[self.jacobian(H), np.ones((len(H), 1))], [(weights * tangent)[None, :]]])
-            new = np.linalg.solve(J, np.append(np.zeros_like(H), 1.0))
-            new /= math.sqrt(float(weights @ new**2))
-            turn = float(weights @ (new * tangent))
-            tangent = new
-            while True:
-                moved = self._corrected(H, d, tangent, weights, step)
-                if moved is not None:
-                    break
-                step *= 0.5
-                if step < _SMALLEST:
-                    raise RuntimeError(f"no step at delta = {d}, P = {found[-1][1]}")
-            H, d, iterations = moved
-            step = min(
-                step * (1.3 if iterations <= 3 and turn > 0.0 else 0.8), _STEP * max(1.0, abs(found[-1][1])) ** 0.5
-            )
-            found.append((d, self.load(H)))
-            if np.min(H) > 4.0:
-                return np.array(found).T
-        raise RuntimeError(f"no separation in {_STEPS} steps")
+    def _factors(self, J):
+        self.factorisations += 1
+        return lu_factor(J, overwrite_a=True, check_finite=False)
 
-    def _corrected(self, H0, d0, tangent, weights, step):
-        H, d = H0 + step * tangent[:-1], d0 + step * tangent[-1]
-        if np.min(H) <= -0.75:
-            return None
-        row = weights * tangent
-        factors = None
-        for iteration in range(1, 9):
-            R = np.append(self.residual(H, d), row @ (np.append(H - H0, d - d0)) - step)
-            if factors is None or iteration % 2 == 1:
-                J = np.block([[self.jacobian(H), np.ones((len(H), 1))], [row[None, :]]])
-                factors = lu_factor(J, check_finite=False)
-            x = lu_solve(factors, -R, check_finite=False)
-            change = float(np.max(np.abs(x[:-1]) / (1.0 + np.abs(H))))
-            if change > 0.3:
+    def _solved(self, H, d, factors):
+        """Newton's method from a close guess, with the given factors as long as they do; None if it fails."""
+        for iteration in range(1, _ITERATIONS + 1):
+            step = lu_solve(factors, -self.residual(H, d), check_finite=False)
+            change = float(np.max(np.abs(step) / self.clearance(H)))
+            if not change < _CHANGE:
                 return None
-            H, d = H + x[:-1], d + x[-1]
-            if np.min(H) <= -0.9:
-                return None
-            if change < 1e-7:
-                return H, d, iteration
+            H = H + step
+            if change < _TOLERANCE:
+                return H
+            if iteration % _EVERY == 0:
+                factors = self._factors(self.jacobian(H))
         return None
 
+    def swept(self, branch: Branch, end: float, upwards: bool) -> bool:
+        """Continue a branch from one of its ends; whether it ends in a jump, not at `end` or apart."""
+        sense = 1.0 if upwards else -1.0
+        d, H, step = branch.displacements[-upwards], branch.gaps[-upwards], _FIRST
+        apart = _APART * (1.0 + self.problem.mu)
+        factors, tangent = self._linearised(H)
+        while sense * (end - d) > 0.0 and (upwards or np.min(H) < apart):
+            step, surprise = min(step, abs(end - d)), math.inf
+            if np.max(step * np.abs(tangent) / self.clearance(H)) < _CHANGE:
+                new = self._solved(H + sense * step * tangent, d + sense * step, factors)
+                if new is not None:
+                    new_factors, new_tangent = self._linearised(new)
+                    beyond = new - H - 0.5 * sense * step * (tangent + new_tangent)
+                    surprise = float(np.max(np.abs(beyond) / self.clearance(new)))
+            if surprise > _SURPRISE or not _rising(new_factors):
+                step *= 0.5
+                if step < _SHORTEST:
+                    return True
+                continue
+            d, H, factors, tangent = d + sense * step, new, new_factors, new_tangent
+            branch.add(d, *self._load(H, tangent), H, upwards)
+            # The deviation from the trapezoidal rule is of third order.
+            growth = min(_GROWTH, (0.5 * _SURPRISE / max(surprise, 1e-12)) ** (1.0 / 3.0))
+            step = min(growth * step, _LONGEST_PRESSED if self.load(H) > 0.0 else _LONGEST)
+        return False
 
-def least_load(problem: Problem, height: float, width: float = 0.12) -> float:
-    """Smallest load on the path from a displacement beyond roughness of that height; coarse.
+    def _linearised(self, H):
+        """Factors of the tangent matrix, and the derivative of the gaps by the displacement."""
+        factors = self._factors(self.jacobian(H))
+        return factors, lu_solve(factors, -np.ones_like(H), check_finite=False)
+
+    def _load(self, H, tangent):
+        """Load and its derivative by the displacement."""
+        return self.load(H), float(self.area @ (self.problem.law.slope(H) * tangent))
+
+    def _on(self, branch: Branch, H, d) -> bool:
+        """Whether a state is on a branch: Newton's method from the states next to it leads to it."""
+        at = branch.displacements
+        if not at[0] - _FIRST < d < at[-1] + _FIRST:
+            return False
+        j = int(np.clip(np.searchsorted(at, d), 1, len(at) - 1)) if len(at) > 1 else 0
+        part = np.clip((d - at[j - 1]) / (at[j] - at[j - 1]), 0.0, 1.0) if j else 1.0
+        start = (1.0 - part) * branch.gaps[j - 1] + part * branch.gaps[j]
+        new = self._solved(start, d, self._factors(self.jacobian(start)))
+        return new is not None and bool(np.max(np.abs(new - H) / self.clearance(H)) < _SAME)
+
+    def branches(self, largest: float) -> list[Branch]:
+        """All branches that jumps lead to, from full contact at the displacement `largest`."""
+        found: list[Branch] = []
+        seeds = [(largest, self.compressed(largest))]
+        while seeds:
+            d, H = seeds.pop()
+            if any(self._on(branch, H, d) for branch in found):
+                continue
+            if len(found) == _MOST_BRANCHES:
+                raise RuntimeError(f"more than {_MOST_BRANCHES} branches")
+            branch = Branch()
+            branch.add(d, *self._load(H, self._linearised(H)[1]), H, True)
+            found.append(branch)
+            for upwards in (False, True):
+                if self.swept(branch, largest if upwards else -math.inf, upwards):
+                    beyond = branch.displacements[-upwards] + (_BEYOND if upwards else -_BEYOND)
+                    seeds.append((beyond, self.relaxed(branch.gaps[-upwards], beyond)))
+                    if upwards:
+                        branch.above = True
+                    else:
+                        branch.below = True
+        return found
+
+
+def _rising(factors):
+    """Whether the determinant of a factorised matrix is positive: no unstable direction, or an even number."""
+    matrix, pivots = factors
+    swapped = np.count_nonzero(pivots != np.arange(len(pivots)))
+    return (np.count_nonzero(np.diag(matrix) < 0.0) + swapped) % 2 == 0
+
+
+def _edge(problem: Problem, displacement: float) -> float:
+    """Outermost radius of contact at a displacement, on a coarse mesh."""
+    radii = np.geomspace(1.0, 200.0, 2000)
+    inside = problem.punch.height(radii) < displacement + 4.0 * problem.mu
+    coarse = BruteForce(problem, 0.5, max(6.0, float(radii[inside][-1])), most=200)
+    return float(np.max(coarse.radii[coarse.compressed(displacement) < problem.law.peak_gap]))
+
+
+@dataclass(frozen=True)
+class StableStates:
+    """Pull-off force of the stable states, and displacements at which branches end in jumps.
+
+    Attributes
+    ----------
+    pull_off_force : float
+        Largest tension of all stable states that were met.
+    retreat, approach : tuple of float
+        Displacements of the jumps when the punch is withdrawn and pressed on, ascending.
+    """
+
+    pull_off_force: float
+    retreat: tuple[float, ...]
+    approach: tuple[float, ...]
+
+
+def stable_states(problem: Problem, height: float) -> StableStates:
+    """The stable states from a displacement beyond roughness of that height to separation; coarse.
 
     Raises
     ------
     RuntimeError
-        When the path is not found.
+        When a state is not found.
     """
     displacement = 6.0 + 1.3 * height + 2.0 * problem.mu
-    radii = np.linspace(0.0, 40.0, 4001)
-    reached = radii[problem.punch.height(radii) < displacement + 4.0 * problem.mu]
-    load = BruteForce(problem, width, max(6.0, float(reached[-1]))).path(displacement)[1]
-    return float(np.min(load))
+    width = (_EDGE * problem.compliance) ** (-1.0 / (1.0 - problem.k)) / _PER_EDGE
+    fine = _BEYOND_EDGE * _edge(problem, displacement) + _MARGIN
+    branches = BruteForce(problem, min(width, _WIDTH), fine).branches(displacement)
+    return StableStates(
+        -min(branch.least_load() for branch in branches),
+        tuple(sorted(branch.displacements[0] for branch in branches if branch.below)),
+        tuple(sorted(branch.displacements[-1] for branch in branches if branch.above)),
+    )

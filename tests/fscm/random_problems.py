@@ -24,6 +24,7 @@ from fscm._completeness import completed
 from fscm._equilibrium import State
 from fscm._meshes import Mesh, Meshes
 from fscm._threads import one_thread
+from fscm._whole_path import path_end
 
 SEED, COUNT = 20261122, 500
 TABLE = Path(__file__).with_suffix(".csv")
@@ -53,7 +54,7 @@ def problems(count: int = COUNT) -> list[Problem]:
 def finer(problem: Problem) -> Analysis:
     """The model on the finer meshes, with a path of small steps."""
     model = Analysis(problem, MESHES)
-    end = continuation.path_end(problem, MESHES.end_height)
+    end = path_end(problem, MESHES.end_height)
     longest = 0.5 / STEPS
     path = continuation.equilibrium_path(problem, *MESHES.path, longest, end_height=MESHES.end_height)
     model.__dict__["points"] = completed(_thinned(path, end), MESHES.path.tolerance)

@@ -1,15 +1,23 @@
-"""Random punches with asperities, waves, flats and measured profiles, and the outcome of their paths."""
+"""Random punches with asperities, waves, flats and measured profiles, and the outcome of their paths.
+
+`python -m tests.fscm.random_punches` writes the table again.
+"""
 
 from __future__ import annotations
 
+import csv
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from fscm import Analysis, CustomPunch, MeasuredPunch, NoSuchEvent, NotConverged, Problem
 from fscm.punch import PunchShape
+from tests.fscm.brute_force import stable_states
 
+TABLE = Path(__file__).with_name("random_punches.csv")
 SEED = 20261122
 COUNT = 100
 KINDS = ("asperity", "ring", "waves", "flat", "measured")
@@ -112,10 +120,51 @@ def _measured(rng: np.random.Generator) -> tuple[PunchShape, float]:
 _SHAPES = {"asperity": _asperity, "ring": _ring, "waves": _waves, "flat": _flat, "measured": _measured}
 
 
-def outcome(case: RandomPunch) -> tuple[str, float, float]:
-    """Status, pull-off force and its bound; the status is "complete" or the class of the exception."""
+@dataclass(frozen=True)
+class Outcome:
+    """What the path of a punch gives: status "complete" or the class of the exception, force, its bound, the reason."""
+
+    status: str
+    force: float = math.nan
+    u_num: float = math.nan
+    reason: str = ""
+
+
+def outcome(analysis: Analysis) -> Outcome:
+    """Outcome of the pull-off force."""
     try:
-        solution = Analysis(case.problem).solution("pull_off_force")
+        solution = analysis.solution("pull_off_force")
     except (NotConverged, NoSuchEvent) as error:
-        return type(error).__name__, math.nan, math.nan
-    return "complete", solution.value, solution.u_num
+        return Outcome(type(error).__name__, reason=str(error))
+    return Outcome("complete", solution.value, solution.u_num)
+
+
+def displacements(jumps: Sequence[float]) -> str:
+    """Displacements of jumps as one cell of the table."""
+    return " ".join(f"{jump:.4f}" for jump in jumps)
+
+
+def table_row(number: int) -> dict[str, object]:
+    """Row of a punch in the table: its path, and the stable states on a fixed mesh."""
+    case = random_punch(number)
+    found, states = outcome(Analysis(case.problem)), stable_states(case.problem, case.height)
+    complete = found.status == "complete"
+    return {
+        "number": number,
+        "seed": SEED,
+        "kind": case.kind,
+        "status": found.status,
+        "pull_off_force": f"{found.force:.12g}" if complete else "",
+        "u_num": f"{found.u_num:.2g}" if complete else "",
+        "brute_force": f"{states.pull_off_force:.6g}",
+        "retreat": displacements(states.retreat),
+        "approach": displacements(states.approach),
+    }
+
+
+if __name__ == "__main__":
+    with TABLE.open("w", newline="") as file:
+        writer = csv.DictWriter(file, list(table_row(0)), lineterminator="\n")
+        writer.writeheader()
+        for each in range(COUNT):
+            writer.writerow(table_row(each))

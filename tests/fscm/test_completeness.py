@@ -8,8 +8,9 @@ import pytest
 
 from fscm import Analysis, Problem, displacement_cycle, equilibria, trace
 from fscm._completeness import completed, may_hide
-from fscm._continuation import equilibrium_path, path_until
+from fscm._continuation import equilibrium_path
 from fscm._path_end import LeastLoad, displacement_of_compression
+from fscm._whole_path import path_until
 from fscm.custom_punch import CustomPunch
 from fscm.errors import NotConverged
 from fscm.experiment import load_controlled_retreat

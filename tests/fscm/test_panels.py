@@ -45,7 +45,7 @@ def test_distances_from_the_origin_are_exact() -> None:
     assert mesh.starts[0] == 0.0
     assert mesh.lengths[2:4] == pytest.approx([1e-20, 2e-20], rel=1e-14)
     values = np.where((mesh.places > 0.0) & (mesh.places < 1e-20), 1e20 * mesh.places, 0.0)
-    assert mesh.evaluate(values, np.array([0.25e-20]))[0] == pytest.approx(0.25, rel=1e-12)
+    assert mesh.evaluate_places(values, np.array([0.25e-20]))[0] == pytest.approx(0.25, rel=1e-12)
     finer = PanelMesh(np.insert(ends, 3, 0.5e-20), 5, origin=1.0)
     np.testing.assert_allclose(mesh.transfer(values, finer)[10:20], 1e20 * finer.places[10:20], rtol=1e-12)
     coarse, seen = PanelMesh(np.array([0.0, 0.5, 3.0]), 5), mesh.nodes**2

@@ -22,8 +22,9 @@ from fscm import (
 )
 from fscm._arc_length import parameter_of, rates_of
 from fscm._completeness import completed
-from fscm._continuation import equilibrium_path, moved, path_end, path_until
+from fscm._continuation import equilibrium_path, moved
 from fscm._meshes import Mesh, Meshes
+from fscm._whole_path import path_end, path_until
 from fscm.experiment import displacement_cycle, load_controlled_retreat
 
 

@@ -4,23 +4,25 @@ from __future__ import annotations
 
 import csv
 import math
+import re
 from functools import lru_cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
-from fscm import Analysis, CustomPunch, Problem, displacement_cycle
+from fscm import Analysis, CustomPunch, Problem, displacement_cycle, trace
 from fscm._bounds import EventErrors, energy_of_jump
 from fscm.path import EquilibriumPath, _with_events
-from tests.fscm.brute_force import BruteForce, least_load
-from tests.fscm.random_punches import COUNT, SEED, outcome, random_punch
+from tests.fscm.brute_force import BruteForce, stable_states
+from tests.fscm.random_punches import COUNT, SEED, TABLE, outcome, random_punch
 
-TABLE = Path(__file__).with_name("random_punches.csv")
-# The fixed mesh of the brute force does not resolve the contact edge: measured worst 4e-4 over eight punches.
-BRUTE_FORCE = 1e-2
-LIGHT = (0, 5, 6)
+# The fixed mesh of the brute force does not resolve the contact edge: measured worst 4e-4 over the hundred punches.
+BRUTE_FORCE = 1e-3
+# A branch is left at the end of a step of 2e-4, on that mesh: measured worst 6e-4.
+JUMP = 3e-3
+# One of each kind; the measured profiles were refused, or had folds that do not exist.
+LIGHT = (0, 2, 3, 4, 6, 9)
 
 
 @lru_cache(maxsize=1)
@@ -29,34 +31,65 @@ def table() -> dict[int, dict[str, str]]:
         return {int(row["number"]): row for row in csv.DictReader(file)}
 
 
+def heavy_but(light: tuple[int, ...]) -> list[object]:
+    """All numbers of the table; those that are not `light` are marked as heavy."""
+    return [*light, *(pytest.param(i, marks=pytest.mark.heavy) for i in range(COUNT) if i not in light)]
+
+
 def test_no_punch_of_the_table_is_silently_wrong() -> None:
     rows = table()
     assert list(rows) == list(range(COUNT))
     for number, row in rows.items():
         assert int(row["seed"]) == SEED
         assert row["kind"] == random_punch(number).kind
-        if row["status"] == "complete" and row["brute_force"]:
+        assert row["status"] in ("complete", "NotConverged")
+        assert float(row["brute_force"]) > 0.0
+        if row["status"] == "complete":
             assert float(row["pull_off_force"]) == pytest.approx(float(row["brute_force"]), rel=BRUTE_FORCE)
 
 
-@pytest.mark.parametrize(
-    "number", [*LIGHT, *(pytest.param(i, marks=pytest.mark.heavy) for i in range(COUNT) if i not in LIGHT)]
-)
+@pytest.mark.parametrize("number", heavy_but(LIGHT))
 def test_the_outcome_is_that_of_the_table(number: int) -> None:
-    row = table()[number]
-    status, force, _ = outcome(random_punch(number))
-    assert status == row["status"]
-    if status == "complete":
-        assert force == pytest.approx(float(row["pull_off_force"]), rel=1e-6)
+    """The path has the folds at which the stable states of a fixed mesh end as well; a refusal says why."""
+    row, analysis = table()[number], Analysis(random_punch(number).problem)
+    found = outcome(analysis)
+    assert found.status == row["status"]
+    if found.status != "complete":
+        assert re.search("has not reached|ends at delta|came back to separation|may hide", found.reason)
+        return
+    assert found.force == pytest.approx(float(row["pull_off_force"]), rel=1e-6)
+    for column, maximum in (("retreat", False), ("approach", True)):
+        folds = [f.displacement for f in analysis.folds if f.quantity == "displacement" and f.maximum == maximum]
+        for jump in map(float, row[column].split()):
+            assert min(abs(jump - fold) for fold in folds) < JUMP
 
 
-@pytest.mark.parametrize(
-    "number", [0, pytest.param(2, marks=pytest.mark.heavy), pytest.param(10, marks=pytest.mark.heavy)]
-)
-def test_a_path_on_a_fixed_mesh_from_the_other_end_has_the_same_least_load(number: int) -> None:
-    case = random_punch(number)
-    _, force, _ = outcome(case)
-    assert -least_load(case.problem, case.height) == pytest.approx(force, rel=BRUTE_FORCE)
+@pytest.mark.parametrize("number", heavy_but((0, 3)))
+def test_stable_states_on_a_fixed_mesh_have_the_least_load_and_the_jumps_of_the_table(number: int) -> None:
+    case, row = random_punch(number), table()[number]
+    found = stable_states(case.problem, case.height)
+    assert found.pull_off_force == pytest.approx(float(row["brute_force"]), rel=1e-4)
+    for column in ("retreat", "approach"):
+        jumps = [float(jump) for jump in row[column].split()]
+        assert list(getattr(found, column)) == pytest.approx(jumps, abs=JUMP)
+
+
+def test_no_fold_appears_where_the_edge_passes_a_kink() -> None:
+    """A mesh that follows the edge over the kinks of this profile adds two folds of the displacement."""
+    assert table()[9]["approach"] == ""
+    assert all(fold.quantity == "load" for fold in Analysis(random_punch(9).problem).folds)
+
+
+def test_a_path_has_an_edge_where_the_mesh_does_not_follow_it() -> None:
+    """The mesh of a measured profile has a fixed scale; its edge is where the gap is that of the largest tension."""
+    path = trace(random_punch(4).problem, "quick")
+    touching = ~np.isnan(path.edge_radius)
+    assert not touching[0]
+    assert touching[-1]
+    assert path.edge_radius[-1] > 3.0
+    edges = [fold.edge_radius for fold in path.folds]
+    assert len(edges) == 1
+    assert 0.0 < edges[0] < path.edge_radius[-1]
 
 
 def test_hysteresis_counts_every_jump_of_a_cycle() -> None:

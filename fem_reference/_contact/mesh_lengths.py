@@ -1,0 +1,114 @@
+"""Lengths of a mesh: the edge, the layer under the surface, the extent, from the problem and the width of the edge."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from fem_reference._elastic.compliance import scaled_modulus
+from fem_reference._elastic.depth_scales import depth_scales
+from fem_reference._elastic.exterior import exterior_error
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference.accuracy import Level
+from fem_reference.errors import NotConverged
+from fem_reference.problem import Problem
+from fem_reference.punch import radius_at_height
+
+__all__ = ["balance_length", "check_width", "mesh_spec"]
+
+APEX_WIDTH = 0.05
+"""Radial length resolved at r = 0, relative to the edge radius: a cone then has its pull-off force to
+3e-10."""
+
+LAYER_DEPTH = 0.02
+"""Depth resolved under the surface relative to the edge width, times min(1, 5 k): the first layer's error is
+linear in its thickness for 0 < k < 0.2, where z^(1-k) and z are hard to tell apart."""
+
+NARROWEST, WIDEST = 1e-6, 0.25
+"""Relative width of an edge: the smallest that is meshed (it costs an element for each factor of two), and the
+largest, which resolves a surface without one."""
+
+UNRESOLVED = 0.02
+"""Share of the narrowest edge below which an edge is refused: on elements that are longer the edge has several
+equilibria.  The value is chosen; edges of a hundredth of it are found at k above 0.85 and mu above 5."""
+
+FAR_HEIGHT = 1e4
+"""Height of the punch, in lengths of the law, at the end of the mesh, for a tension that falls as H^-3 or faster (a
+power 3/m of it for a slower H^-m): beyond it the traction enters P by a quadrature to infinity, and its displacement
+(below 1e-8 z0 even for a cone) is dropped."""
+
+LARGEST_EXTENT = 1e8
+"""Of a mesh, in units of its edge radius.  It costs an element for each factor of two."""
+
+EXTERIOR_ERROR = 5e-8
+"""Bound of the relative error of the displacement from the power law that the exterior takes: half of the accuracy
+"default", for all accuracies, because it falls with the square of the extent."""
+
+FINEST_SCALE = 1e-3
+"""Depth, relative to the one resolved under the surface, from which on changes of the modulus are searched for."""
+
+
+def mesh_spec(
+    problem: Problem, level: Level, width: float, size: float, smallest: float, far_share: float = 1.0
+) -> MeshSpec:
+    """Return the mesh for an edge of a relative width; lengths are rounded so that similar problems share a mesh.
+
+    Parameters
+    ----------
+    problem : Problem
+    level : Level
+    width : float
+        Of the edge, relative to its radius.
+    size : float
+        Radius of the edge of the mesh.
+    smallest : float
+        Radius of the edge where the mesh still ends where the punch is `FAR_HEIGHT` high.
+    far_share : float
+        As for `fem_reference._elastic.mesh.MeshSpec`.
+    """
+    modulus, law = problem.solid.modulus, problem.law
+    k = modulus.surface_exponent
+    width = 2.0 ** math.floor(math.log2(min(max(width, NARROWEST), WIDEST)))
+    depth = LAYER_DEPTH * width * min(1.0, 5.0 * k) if k > 0 else 0.3 * width
+    if math.isfinite(modulus.surface_depth):
+        depth = min(depth, 0.2 * modulus.surface_depth / size)
+    C, m = law.decay
+    height = FAR_HEIGHT ** max(1.0, 3.0 / m) if C != 0.0 else FAR_HEIGHT
+    far = radius_at_height(problem.punch, height * law.length)
+    extent = 2.0 ** math.ceil(math.log2(min(max(far / smallest, 50.0), LARGEST_EXTENT)))
+    while exterior_error(scaled_modulus(modulus, size), extent) > EXTERIOR_ERROR and extent < LARGEST_EXTENT:
+        extent *= 2.0
+    scales = depth_scales(modulus, FINEST_SCALE * depth * size, extent * size).scaled(size)
+    density, order = level.densities[0], level.order
+    return MeshSpec(width, depth, extent, density, order, APEX_WIDTH, scales, far_share)
+
+
+def balance_length(problem: Problem, radius: float) -> float:
+    """Return the length over which traction and stiffness balance, searched for from a contact of that radius."""
+    law, solid = problem.law, problem.solid
+    depth = np.array(radius)
+    # E(l) length / l = traction, by a fixed point in log l; a root finder moves the last digit, and with it the
+    # power of 2 to which `spec` rounds.
+    for _ in range(40):
+        E = float(solid.modulus(depth)) / (1.0 - solid.nu**2)
+        depth = np.sqrt(depth * E * law.length**2 / (2.0 * law.work_of_adhesion))
+    return float(depth)
+
+
+def check_width(width: float) -> None:
+    """Refuse an edge, of that width relative to its radius, that is far narrower than every mesh.
+
+    Raises
+    ------
+    NotConverged
+
+    Examples
+    --------
+    >>> check_width(1e-3)
+    """
+    if width < UNRESOLVED * NARROWEST:
+        raise NotConverged(
+            f"the contact edge needs elements of {width:.1e} of its radius, and the smallest that are meshed have "
+            f"{NARROWEST:g}: the solid is too soft at its surface; take a smaller k, or a stiffer solid"
+        )

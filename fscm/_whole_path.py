@@ -1,0 +1,137 @@
+"""Whole paths: from far separation to an end, on the meshes that the punch needs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+
+from fscm._adaptivity import end_radius
+from fscm._arc_length import Point
+from fscm._branches import SURPRISE
+from fscm._completeness import completed
+from fscm._continuation import EDGE, Tracking, equilibrium_path
+from fscm._equilibrium import State
+from fscm._meshes import Meshes
+from fscm._path_end import PathEnd, displacement_of_compression
+from fscm.errors import NotConverged
+from fscm.problem import Problem
+from fscm.punch import PowerPunch, kinks_of
+
+__all__ = ["MAX_POINTS", "bracketing_path", "path_by_any_mesh", "path_end", "path_until"]
+
+# Measured: at most 120 points of a bracketing path for n >= 1, but 300 to 750 at n = 0.67.  Each keeps its matrices:
+# 2 MB on such meshes.
+MAX_POINTS = 1500
+# Decimal logarithm of the width of the cohesive edge, in units of the first radius, from which on a mesh of fixed scale
+# resolves it on its way.  Measured: all punches with kinks, whose mesh is bent by each kink that a moving mesh passes.
+_WIDE = -1.5
+# Measured: two of a hundred random punches, a ring and waves, need the last one where two branches come close.
+_FIXED, _CAREFUL = Tracking(follow=False), Tracking(False, 0.1 * SURPRISE, 0.2)
+
+
+def _log_edge(problem: Problem) -> float:
+    """Decimal logarithm of the width of the cohesive edge."""
+    return -math.log10(EDGE * problem.compliance) / (1.0 - problem.k)
+
+
+def path_until(
+    problem: Problem,
+    order: int,
+    tolerance: float,
+    ended: Callable[[State], bool],
+    end: str,
+    most: int = MAX_POINTS,
+    longest_step: float = 0.5,
+    start_gap: float | None = None,
+    end_height: float = Meshes.end_height,
+    tracking: Tracking | None = None,
+) -> list[Point]:
+    """Points of the path up to the first state for which `ended` holds.
+
+    Parameters
+    ----------
+    problem, order, tolerance, longest_step, start_gap, end_height, tracking
+        As for `equilibrium_path`.
+    ended : callable
+        State -> bool; called once for each state, in their order.
+    end : str
+        Name of the end in the message of `NotConverged`.
+    most : int
+        Largest number of points.
+
+    Raises
+    ------
+    NotConverged
+        When the end is not reached.
+    """
+    points: list[Point] = []
+    for point in equilibrium_path(problem, order, tolerance, longest_step, start_gap, end_height, tracking):
+        points.append(point)
+        if ended(point.state):
+            return points
+        if len(points) > most:
+            break
+    last = points[-1].state
+    raise NotConverged(
+        f"the path of {problem} has not reached {end} in {most} steps: the last is at "
+        f"delta = {last.displacement:.6g}, P = {last.load:.6g}"
+    )
+
+
+def path_by_any_mesh(
+    problem: Problem,
+    order: int,
+    tolerance: float,
+    ended: Callable[[], Callable[[State], bool]],
+    end: str,
+    most: int = MAX_POINTS,
+    longest_step: float = 0.5,
+    start_gap: float | None = None,
+    end_height: float = Meshes.end_height,
+) -> list[Point]:
+    """Points of the path as of `path_until`, between which no turning point hides, by a moving mesh or a fixed one.
+
+    The mesh that follows the edge is the first choice, but for a punch with kinks.  A mesh of fixed scale is tried
+    where the edge is wide.
+
+    Parameters
+    ----------
+    problem, order, tolerance, end, most, longest_step, start_gap, end_height
+        As for `path_until`.
+    ended : callable
+        () -> the condition of the end of a new path.
+
+    Raises
+    ------
+    NotConverged
+        With the reason of the first choice.
+    """
+    choices = [Tracking()]
+    if not isinstance(problem.punch, PowerPunch) and _log_edge(problem) > _WIDE:
+        choices = [_FIXED, Tracking(), _CAREFUL] if kinks_of(problem.punch) else [Tracking(), _FIXED, _CAREFUL]
+    errors = []
+    for tracking in choices:
+        try:
+            known = ended(), end, most, longest_step, start_gap, end_height, tracking
+            return completed(path_until(problem, order, tolerance, *known), tolerance)
+        except NotConverged as error:
+            errors.append(error)
+    raise errors[0]
+
+
+def bracketing_path(problem: Problem, meshes: Meshes) -> list[Point]:
+    """The coarse path from far separation to a compressive load, which brackets every event."""
+    end = partial(path_end, problem, meshes.end_height)
+    return path_by_any_mesh(problem, *meshes.path, end, "a compressive load", end_height=meshes.end_height)
+
+
+def path_end(problem: Problem, end_height: float) -> PathEnd:
+    """The end of a path behind which no state carries tension; for one path only, since it keeps its largest delta."""
+    displacement = displacement_of_compression(problem, end_radius(problem, end_height))
+    if displacement == math.inf:
+        raise NotConverged(
+            f"of the path of {problem} it cannot be told where its last tension is: "
+            "up to the largest displacement that is examined, the attraction can still exceed the compression"
+        )
+    return PathEnd(displacement)

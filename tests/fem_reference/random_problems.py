@@ -1,0 +1,121 @@
+"""Random problems of the finite elements, and the table of their values, bounds and errors against a finer mesh.
+
+``python -m tests.fem_reference.random_problems [NUMBER ...]`` adds the problems that `random_problems.csv` lacks.  A
+row is a problem and a quantity; its status is "value", or the name of the exception that stands for it.
+"""
+
+from __future__ import annotations
+
+import csv
+import sys
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from fem_reference import LennardJones, NotConverged, PowerPunch, Problem, Solid, Solution, solve_together
+from fem_reference._contact.error_parts import events_on_meshes
+from fem_reference._contact.mesh_choice import chosen
+from fem_reference._contact.resolved import ResolvedEvents
+from fem_reference.quantities import TABLE as QUANTITIES
+from fem_reference.verification.reference_solutions import surface_constant
+
+SEED, COUNT = 20261122, 60
+TABLE = Path(__file__).with_suffix(".csv")
+COLUMNS = ("seed", "number", "n", "k", "mu", "nu", "quantity", "status", "value", "u_num", "error")
+
+ROUNDING = 1e-11
+"""Relative error below which the ratio of bound to error is that of rounding."""
+
+NAMES = ("zero_load_displacement", *(name for name in QUANTITIES if name != "zero_load_displacement"))
+"""All quantities; the first gives a mesh that is fine enough for the others."""
+
+Parameters = tuple[float, float, float, float]
+
+
+def problems(count: int = COUNT) -> list[Parameters]:
+    """n in [1, 10], k in [0, 0.9], mu in [0.05, 10] with their limits: a cone, a homogeneous solid, a weak gradient."""
+    rng = np.random.default_rng(SEED)
+    found = []
+    for i in range(count):
+        n = 10 ** rng.uniform(0.0, 1.0)
+        k = rng.uniform(0.0, 0.9)
+        mu = 10 ** rng.uniform(np.log10(0.05), 1.0)
+        nu = rng.uniform(0.0, 0.45)
+        if i % 10 == 5:
+            n = 1.0
+        if i % 7 == 0:
+            k = 0.0
+        if i % 7 == 1:
+            k = rng.uniform(0.0, 0.1)
+        found.append((float(n), float(k), float(mu), float(nu)))
+    return found
+
+
+def problem_of(n: float, k: float, mu: float, nu: float) -> Problem:
+    """Problem of Tabor's number mu whose lengths, forces and energies are those of Q = c0 = w = z0 = 1."""
+    E_star = surface_constant(k, nu) / (1 - k) / mu ** ((2 * n + k - 1) / n)
+    return Problem(Solid(E_star * (1 - nu**2), 1.0, k, nu), PowerPunch(n, 1.0), LennardJones(1.0, 1.0))
+
+
+def rows(number: int, accuracy: str = "quick") -> list[dict[str, object]]:
+    """Rows of one problem: the error is that against another degree, and every feature finer."""
+    parameters = problems(number + 1)[number]
+    problem = problem_of(*parameters)
+    head = {"seed": SEED, "number": number, **dict(zip(("n", "k", "mu", "nu"), parameters, strict=True))}
+    try:
+        found = solve_together(problem, NAMES, accuracy)
+    except NotConverged:
+        return [{**head, "quantity": name, "status": "NotConverged"} for name in NAMES]
+    choice, spec, size = chosen(problem, ("zero_load",), accuracy, events_on_meshes)
+    finer = replace(
+        spec,
+        order=spec.order + 1,
+        density=0.95 * choice.level.densities[-1],
+        surface_depth=spec.surface_depth / 4.0,
+        extent=2.0 * spec.extent,
+        apex_width=0.25 * (spec.apex_width or 0.0),
+    )
+    reference = ResolvedEvents(events_on_meshes(choice, spec, size).path, choice.contact(finer, size))
+    table: list[dict[str, object]] = []
+    for name, solution in found.items():
+        row = {**head, "quantity": name, "status": type(solution).__name__}
+        if isinstance(solution, Solution):
+            error = abs(QUANTITIES[name].functional(reference) - solution.value)
+            row |= {"status": "value", "value": solution.value, "u_num": solution.u_num, "error": error}
+        table.append(row)
+    return table
+
+
+def ratio(row: dict[str, object]) -> float:
+    """Bound over error; rounding limits the error from below."""
+    value, u_num, error = (float(str(row[name])) for name in ("value", "u_num", "error"))
+    return u_num / max(error, ROUNDING * (1.0 + abs(value)))
+
+
+def stored() -> list[dict[str, str]]:
+    """Rows of the table."""
+    if not TABLE.exists():
+        return []
+    with TABLE.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def main(numbers: Iterable[int]) -> None:
+    """Compute the problems that the table lacks."""
+    known = {int(row["number"]) for row in stored()}
+    for number in numbers:
+        if number in known:
+            continue
+        found = rows(number)
+        old = stored()
+        with TABLE.open("w", encoding="utf-8", newline="") as file:
+            writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+            writer.writeheader()
+            # The sort is stable: quantities keep their order.
+            writer.writerows(sorted([*old, *found], key=lambda row: int(str(row["number"]))))
+
+
+if __name__ == "__main__":
+    main([int(argument) for argument in sys.argv[1:]] or range(COUNT))

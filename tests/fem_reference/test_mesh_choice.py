@@ -1,0 +1,62 @@
+"""Choice of the mesh where contact begins on a small spot, where the edge is very narrow, and where a path fails."""
+
+import math
+
+import numpy as np
+import pytest
+
+from fem_reference import NotConverged, solve
+from fem_reference._contact.mesh_choice import FAR_SHARE, MeshChoice, chosen
+from fem_reference._elastic.mesh import graded_grid
+from fem_reference.accuracy import level_for
+from tests.fem_reference.random_problems import problem_of
+
+FLAT = (6.180836153861795, 0.526850329086271, 2.9502804518410177, 0.2754212941419664)
+"""A flat punch: contact begins at a thousandth of the radius it then has."""
+
+STEEP = (1.8642049904037405, 0.8684996649012666, 0.8644752757796659, 0.4063364687586083)
+"""On a coarse mesh the computed gap falls at the edge."""
+
+UNRESOLVED = (1.8234594621046147, 0.8778961468202925, 5.103826446508255, 0.3894883306671959)
+"""The edge is 1e-10 of its radius wide."""
+
+
+@pytest.mark.parametrize("parameters", [FLAT, STEEP])
+def test_the_edge_is_no_narrower_than_the_gap_needs(parameters):
+    """Both meshes had edges of a millionth, the narrowest; one path could not be traced for want of far elements."""
+    choice, spec, size = chosen(problem_of(*parameters), ("zero_load",), "quick")
+    assert choice.level == level_for("quick")
+    assert spec.far_share == FAR_SHARE
+    assert spec.edge_width > 1e-4
+    assert choice.traced(spec, size).pull_off.state.load < 0.0
+
+
+def test_an_edge_that_no_mesh_resolves_is_refused():
+    with pytest.raises(NotConverged, match="of its radius, and the smallest that are meshed"):
+        solve(problem_of(*UNRESOLVED), "pull_off_force", "quick")
+
+
+def test_finer_meshes_are_taken_where_only_the_finest_path_fails(monkeypatch):
+    monkeypatch.setattr(MeshChoice, "adapted", lambda choice, events: ("the mesh", 1.0))
+    tried = []
+
+    def usable(choice, *mesh):
+        tried.append(choice.level)
+        if choice.level != level_for("fine"):
+            raise NotConverged("the path stops")
+
+    choice, *_ = chosen(problem_of(2.0, 0.4, 1.0, 0.3), ("pull_off",), "quick", usable)
+    assert choice.level == level_for("fine")
+    assert tried == [level_for(name) for name in ("quick", "default", "fine")]
+
+
+def test_far_elements_have_a_share_of_the_density():
+    plain, finer = (graded_grid(1.0, 0.01, 0.01, 1000.0, 1.2, 0.05, far_share=share).r for share in (1.0, 0.5))
+    assert np.array_equal(graded_grid(1.0, 0.01, 0.01, 1000.0, 1.2, 0.05).r, plain)
+    far = finer[finer >= 2.0 * (1.0 - 1e-12)]
+    assert np.max(far[1:] / far[:-1]) <= math.exp(0.6) * (1.0 + 1e-12) < np.max(plain[-5:] / plain[-6:-1])
+    assert (finer[0], finer[-1]) == (0.0, 1000.0)
+    assert 1.0 in finer
+    for share in (0.0, 1.5):
+        with pytest.raises(ValueError, match="share of the density"):
+            graded_grid(far_share=share)
