@@ -143,12 +143,19 @@ def _on_common_mesh(a: Point, b: Point, arc: ArcLength) -> tuple[Point, Point]:
     if _kinked(a):
         return _resolved(a, arc), _resolved(b, arc)
     old, other = a.state.disc.mesh, b.state.disc.mesh
+    if a.state.disc is b.state.disc:
+        return _sharp(a, arc), _sharp(b, arc)
     ends = np.union1d(old.offsets, other.offsets + (other.origin - old.origin))
     mesh = PanelMesh(ends, old.order, old.origin)
     first = on_mesh(a.state, mesh)
     states = first, replace(on_mesh(b.state, mesh), disc=first.disc)
     solved = [newton(state, parameter_control(state, parameter_of(state))) for state in states]
     return _point(solved[0], a, arc), _point(solved[1], a, arc)
+
+
+def _sharp(point: Point, arc: ArcLength) -> Point:
+    state = newton(point.state, parameter_control(point.state, parameter_of(point.state)))
+    return _point(state, point, arc)
 
 
 def _kinked(point: Point) -> bool:

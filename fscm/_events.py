@@ -28,6 +28,7 @@ __all__ = [
     "load_fold",
     "locate",
     "sharpen",
+    "sharpened",
     "slowest",
     "zero_load",
 ]
@@ -38,13 +39,17 @@ Bracket = tuple[Point, Point]
 # The secant method ends one step after a step of the continuation parameter below this.  Without the last one the
 # displacement at zero load was wrong by 1.5e-11 (n = 3.2, k = 0.06, mu = 6.6), unseen by u_num.
 _PARAMETER_TOLERANCE = 1e-9
-_SECANT_STEPS = 15
+_SECANT_STEPS = 20
 # First step of the secant method: large against rounding of the derivative, small against its curvature.
 _FIRST_SECANT_STEP = 1e-4
 _COARSE_PARAMETER_TOLERANCE = 1e-6
 # The mesh is refined again when the pressure at the root is unresolved by this factor, at most so often.  Measured:
 # once at n = 300, k = 0, where the force was wrong by 4e-8.
 _UNRESOLVED, _REFITS = 10.0, 4
+# Tolerance where the root on the coarse mesh is a start only.
+_ROUGH = 1e-2
+# Step of the continuation parameter after which the mesh is refined again, where the pressure is not resolved.
+_FAR = 1e-3
 
 
 def load_fold(state: State, rates: Rates) -> float:
@@ -124,11 +129,19 @@ class _Between:
         return self._known[parameter]
 
 
-def locate(a: Point, b: Point, condition: Condition) -> State:
-    """Root of the condition between two neighbouring points, on their coarse mesh."""
+def locate(a: Point, b: Point, condition: Condition, tolerance: float = _COARSE_PARAMETER_TOLERANCE) -> State:
+    """Root of the condition between two neighbouring points, on their coarse mesh.
+
+    Parameters
+    ----------
+    a, b : Point
+    condition : callable
+    tolerance : float
+        Of the continuation parameter.
+    """
     between = _Between(a, b)
     root = scipy.optimize.brentq(
-        lambda x: condition(*between(x)), between.low, between.high, xtol=_COARSE_PARAMETER_TOLERANCE, rtol=1e-12
+        lambda x: condition(*between(x)), between.low, between.high, xtol=tolerance, rtol=1e-12
     )
     return between(root)[0]
 
@@ -171,6 +184,14 @@ def refined(state: State, order: int, tolerance: float) -> State:
     return fit(newton(on_mesh(state, mesh), control), control, tolerance, coarsen=True)
 
 
+def sharpened(bracket: Bracket, condition: Condition, order: int, tolerance: float) -> State:
+    """Root of the condition in a bracket, on a mesh of the given order refined to the tolerance."""
+    try:
+        return sharpen(locate(*bracket, condition, _ROUGH), condition, order, tolerance)
+    except NotConverged:  # from a better root on the coarse mesh
+        return sharpen(locate(*bracket, condition), condition, order, tolerance)
+
+
 def sharpen(state: State, condition: Condition, order: int, tolerance: float) -> State:
     """Root of the condition near a state, on a mesh of the given order refined to the tolerance.
 
@@ -181,7 +202,7 @@ def sharpen(state: State, condition: Condition, order: int, tolerance: float) ->
     """
     state = refined(state, order, tolerance)
     for _ in range(_REFITS):
-        state = _root(state, condition)
+        state = _root(state, condition, tolerance)
         if np.max(indicator(state)) <= _UNRESOLVED * tolerance:
             return state
         # The steep rise of a flat punch has left the panels that resolved it.
@@ -189,7 +210,7 @@ def sharpen(state: State, condition: Condition, order: int, tolerance: float) ->
     raise NotConverged("the mesh at an event does not resolve the pressure; the event moves with the mesh")
 
 
-def _root(state: State, condition: Condition) -> State:
+def _root(state: State, condition: Condition, tolerance: float) -> State:
     """Root of the condition on the mesh of a state, by the secant method."""
     iterations = state.iterations
     rates = rates_of(state)
@@ -197,6 +218,8 @@ def _root(state: State, condition: Condition) -> State:
     step, settled = _FIRST_SECANT_STEP, False
     for _ in range(_SECANT_STEPS):
         new = moved(state, rates, parameter_of(state) + step)
+        if abs(step) > _FAR:  # the mesh was refined at another place
+            new = fit(new, parameter_control(new, parameter_of(new)), tolerance)
         new_rates = rates_of(new)
         new_value = condition(new, new_rates)
         change = new_value - value

@@ -24,7 +24,7 @@ class Mesh(NamedTuple):
 
 
 # Meshes of the accuracy "default".
-_PATH, _CHECK, _VALUE = Mesh(10, 1e-4), Mesh(10, 3e-7), Mesh(12, 1e-7)
+_PATH, _CHECK, _VALUE = Mesh(8, 3e-3), Mesh(10, 3e-7), Mesh(12, 1e-7)
 _CURVE = Mesh(10, 1e-6)
 
 

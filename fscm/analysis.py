@@ -152,9 +152,8 @@ class Analysis:
         return self._pairs[name]
 
     def _pair(self, bracket: Bracket, condition: Condition) -> EventPair:
-        coarse = events.locate(*bracket, condition)
-        check = partial(events.sharpen, coarse, condition, *self.meshes.check)
-        return EventPair(events.sharpen(coarse, condition, *self.meshes.value), check)
+        check = partial(events.sharpened, bracket, condition, *self.meshes.check)
+        return EventPair(events.sharpened(bracket, condition, *self.meshes.value), check)
 
     @one_thread()
     def parts(self, event: str, functional: str) -> Parts:
