@@ -27,6 +27,7 @@ __all__ = [
     "edge_mesh",
     "end_radius",
     "fit",
+    "graded",
     "indicator",
     "initial_mesh",
     "on_mesh",
@@ -44,6 +45,10 @@ _LARGEST_RATIO = 8.0
 _JUMP = 0.02
 # On a steep punch the gap rises by at most this factor over a panel of the first mesh.
 _RISE = 64.0
+# On a mesh of an event neighbours differ by at most this factor in length: the pressure on a longer panel is no polynomial
+# next to a narrow edge, which its last coefficients do not show.  Without it, bounds at accuracy 1e-6 were up to 0.3 of
+# the pull-off force (n = 2.1, k = 0.85, mu = 19).
+_GRADING = 8.0
 # Share of superfluous breaks from which a mesh is made anew for their sake.
 _WORTH_MERGING = 0.2
 # Newton error beside the error of the mesh.
@@ -204,6 +209,17 @@ def resolving(
             break
         mesh = replace(mesh, offsets=ends)
     return mesh
+
+
+def graded(mesh: PanelMesh) -> PanelMesh:
+    """The mesh with panels halved until neighbours have similar lengths."""
+    while True:
+        h = mesh.lengths
+        shortest = np.minimum(np.append(h[1:], np.inf), np.append(np.inf, h[:-1]))
+        middles = mesh.middles[h > _GRADING * shortest]
+        if not middles.size:
+            return mesh
+        mesh = replace(mesh, offsets=np.sort(np.concatenate([mesh.offsets, middles])))
 
 
 def _unresolved(state: State, tolerance: float) -> Array:

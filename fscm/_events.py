@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 import scipy
 
-from fscm._adaptivity import fit, indicator, on_mesh
+from fscm._adaptivity import fit, graded, indicator, on_mesh, resolved
 from fscm._arc_length import Point, parameter_control, parameter_of, rates_of
 from fscm._continuation import moved
 from fscm._equilibrium import Rates, State
@@ -46,6 +46,8 @@ _COARSE_PARAMETER_TOLERANCE = 1e-6
 # The mesh is refined again when the pressure at the root is unresolved by this factor, at most so often.  Measured:
 # once at n = 300, k = 0, where the force was wrong by 4e-8.
 _UNRESOLVED, _REFITS = 10.0, 4
+# Above this tolerance the indicator does not see what a panel next to a much shorter one lacks: meshes are graded.
+_SEEN = 1e-6
 # Tolerance where the root on the coarse mesh is a start only.
 _ROUGH = 1e-2
 # Step of the continuation parameter after which the mesh is refined again, where the pressure is not resolved.
@@ -65,6 +67,10 @@ def displacement_fold(state: State, rates: Rates) -> float:
 def zero_load(state: State, rates: Rates) -> float:
     """P."""
     return state.load
+
+
+# The functional that is extreme where a condition vanishes.
+_FUNCTIONALS = {load_fold: "load", displacement_fold: "displacement"}
 
 
 def brackets(points: Sequence[Point], condition: Condition, rising: bool) -> list[Bracket]:
@@ -146,6 +152,29 @@ def locate(a: Point, b: Point, condition: Condition, tolerance: float = _COARSE_
     return between(root)[0]
 
 
+def _extreme(a: Point, b: Point, condition: Condition) -> State | None:
+    """About where a functional is extreme between two points, from the cubic through its values and rates."""
+    name = _FUNCTIONALS.get(condition)
+    if name is None:
+        return None
+    start, length = parameter_of(a.state), parameter_of(b.state) - parameter_of(a.state)
+    change = getattr(b.state, name) - getattr(a.state, name)
+    first, last = (length * getattr(rates_of(point.state), name) for point in (a, b))
+    # The rate is the line between both rates plus a bulge that accounts for the change.
+    bulge = 6.0 * (change - 0.5 * (first + last))
+    roots = np.roots([-bulge, last - first + bulge, first])
+    inside = [float(t.real) for t in roots if abs(t.imag) == 0.0 and 0.0 <= t.real <= 1.0]
+    if len(inside) != 1:
+        return None
+    near, far = (a, b) if inside[0] < 0.5 else (b, a)
+    for point in (near, far):
+        try:
+            return moved(point.state, rates_of(point.state), start + inside[0] * length, _COARSE_PARAMETER_TOLERANCE)
+        except NotConverged:
+            continue
+    return None
+
+
 def slowest(points: Sequence[Point]) -> tuple[Point, Point, Point, float]:
     """Where along the path the displacement rises most slowly, or falls.
 
@@ -180,14 +209,19 @@ def _least_rate(a: Point, b: Point) -> tuple[Point, Point, Point, float]:
 def refined(state: State, order: int, tolerance: float) -> State:
     """The state at the same continuation parameter, on a mesh of the given order refined to the tolerance."""
     control = parameter_control(state, parameter_of(state))
-    mesh = replace(state.disc.mesh, order=order)
-    return fit(newton(on_mesh(state, mesh), control), control, tolerance, coarsen=True)
+    mesh, narrow = replace(state.disc.mesh, order=order), tolerance > _SEEN
+    if narrow:
+        mesh = graded(mesh)
+    guess = resolved(on_mesh(state, mesh), tolerance)
+    return fit(newton(guess, control), control, tolerance, coarsen=not narrow)
 
 
 def sharpened(bracket: Bracket, condition: Condition, order: int, tolerance: float) -> State:
     """Root of the condition in a bracket, on a mesh of the given order refined to the tolerance."""
     try:
-        return sharpen(locate(*bracket, condition, _ROUGH), condition, order, tolerance)
+        rough = _extreme(*bracket, condition)
+        rough = locate(*bracket, condition, _ROUGH) if rough is None else rough
+        return sharpen(rough, condition, order, tolerance)
     except NotConverged:  # from a better root on the coarse mesh
         return sharpen(locate(*bracket, condition), condition, order, tolerance)
 

@@ -9,6 +9,7 @@ from functools import cached_property, partial
 
 from fscm import _events as events
 from fscm._arc_length import Point
+from fscm._completeness import completed, least_loads
 from fscm._bounds import EventErrors, bounds, energy_of_jump
 from fscm._defect import Errors
 from fscm._events import Bracket, Condition
@@ -69,6 +70,11 @@ class Analysis:
     @one_thread()
     def points(self) -> list[Point]:
         """The coarse path from far separation to its end; no turning point of load or displacement is left out."""
+        return completed(self._traced, self.meshes.path.tolerance)
+
+    @cached_property
+    def _traced(self) -> list[Point]:
+        """The coarse path, on which turning points may hide."""
         return bracketing_path(self.problem, self.meshes)
 
     @cached_property
@@ -102,7 +108,13 @@ class Analysis:
         )
 
     def _least_load(self) -> Bracket:
-        minima = events.brackets(self.points, events.load_fold, rising=True)
+        points = self._traced
+        # A minimum that is less deep than the load of some point is not looked for.
+        below = min(point.state.load for point in points)
+        below += _NEAR * (1.0 + abs(below))
+        points = completed(points, self.meshes.path.tolerance, below)
+        minima = events.brackets(points, events.load_fold, rising=True)
+        minima = [pair for pair in minima if least_loads(*pair) < below]
         if not minima:
             raise NotConverged(f"no minimum of the load was found on the path of {self.problem}")
         if len(minima) == 1:
