@@ -14,6 +14,7 @@ from fscm._bounds import EventErrors, bounds, energy_of_jump
 from fscm._defect import Errors
 from fscm._events import Bracket, Condition
 from fscm._meshes import Accuracy, Meshes
+from fscm._pull_off_path import pull_off_path
 from fscm._threads import one_thread
 from fscm._whole_path import bracketing_path
 from fscm.errors import NoSuchEvent, NotConverged
@@ -108,7 +109,9 @@ class Analysis:
         )
 
     def _least_load(self) -> Bracket:
-        points = self._traced
+        points = None if "_traced" in self.__dict__ else pull_off_path(self.problem, self.meshes)
+        if points is None:
+            points = self._traced
         # A minimum that is less deep than the load of some point is not looked for.
         below = min(point.state.load for point in points)
         below += _NEAR * (1.0 + abs(below))

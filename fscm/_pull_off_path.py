@@ -1,0 +1,103 @@
+r"""Short path under a power-law punch, on which the load is least: for a pull-off alone.
+
+It begins where the punch is so far away that no state farther out carries as much tension, and ends on the contact branch
+behind the minimum of the load.  While the punch is apart, the tension falls outwards and lifts the surface most at the
+center: H(r) >= f(r) + H_0.  With the largest tension t(H) at a gap H or a larger one,
+
+    -P <= int_0^oo t(f + H_0) 2 r dr,
+
+the load of the rigid solid, which falls with H_0.  As on any path, it is assumed that the states apart are told by their
+central gap, and that the load has one minimum once the center is compressed (see `fscm._path_end`).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from fscm._arc_length import Point
+from fscm._equilibrium import State
+from fscm._events import brackets, load_fold
+from fscm._meshes import Meshes
+from fscm._whole_path import path_until
+from fscm.errors import NotConverged
+from fscm.problem import Problem
+from fscm.punch import PowerPunch
+
+__all__ = ["PullOffEnd", "pull_off_path", "rigid_tension"]
+
+# Heights of the punch at which the tension is evaluated: first, last, number.
+_LOWEST, _HIGHEST, _HEIGHTS = 1e-4, 1e6, 500
+# Share of the tension of the rigid solid in contact that no pull-off is expected to fall below: up to n = 2 it falls
+# to the (3 + k)/4 of JKR, for flatter punches to less.  Where it does, the whole path is followed.
+_SHARE, _SHARE_OF_FLAT = 0.6, 0.3
+# Ratio of one central gap that is tried to the last one.
+_RATIO = 1.2
+# Points with rising load and compressed center behind the minimum.
+_BEHIND = 2
+
+
+@dataclass
+class PullOffEnd:
+    """Condition that ends the path: the center is compressed and the load rises."""
+
+    load: float = math.inf
+    rising: int = 0
+
+    def __call__(self, state: State) -> bool:
+        compressed = state.follows_edge and float(state.disc.problem.law.traction(np.array(state.central_gap))) > 0.0
+        self.rising = self.rising + 1 if compressed and state.load > self.load else 0
+        self.load = state.load
+        return self.rising >= _BEHIND
+
+
+def rigid_tension(problem: Problem, central_gap: float) -> float:
+    """Upper bound of -P of all states apart with at least this central gap.
+
+    Examples
+    --------
+    >>> problem = Problem(n=2, k=0.4, mu=1.0)
+    >>> 0.6 < rigid_tension(problem, 1.0) < 0.7  # 2 (1/3) (4 / 2^2 - 1 / 2^8) = 0.664
+    True
+    """
+    law = problem.law
+    f = np.concatenate([[0.0], np.geomspace(_LOWEST, _HIGHEST, _HEIGHTS)])
+    r = (problem.n * f) ** (1.0 / problem.n)
+    tension = -law.traction(np.maximum(f + central_gap, law.peak_gap))
+    C, m = law.decay
+    behind = 2.0 * C * _HIGHEST**-m * float(r[-1]) ** 2 / (m * problem.n - 2.0)
+    return float(tension[:-1] @ np.diff(r * r)) + behind
+
+
+def _start(problem: Problem) -> float:
+    """Central gap of the first state."""
+    enough = (_SHARE if problem.n <= 2.0 else _SHARE_OF_FLAT) * rigid_tension(problem, 0.0)
+    gap = problem.law.peak_gap
+    while rigid_tension(problem, gap) > enough:
+        gap *= _RATIO
+    return gap
+
+
+def pull_off_path(problem: Problem, meshes: Meshes) -> list[Point] | None:
+    """Points of the short path, between which turning points may hide.
+
+    Returns
+    -------
+    list of Point, or None
+        None where the whole path is needed: for any other punch, a law whose tension does not fall like a power, and
+        where the load found does not exceed that of the rigid solid farther out.
+    """
+    if not isinstance(problem.punch, PowerPunch) or problem.law.decay[1] * problem.n <= 2.0:
+        return None
+    start = _start(problem)
+    try:
+        points = path_until(
+            problem, *meshes.path, PullOffEnd(), "a load minimum", start_gap=start, end_height=meshes.end_height
+        )
+    except NotConverged:
+        return None
+    least = min(point.state.load for point in points)
+    found = brackets(points, load_fold, rising=True)
+    return points if found and -least > rigid_tension(problem, start) else None
