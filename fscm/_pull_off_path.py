@@ -21,6 +21,7 @@ from fscm._arc_length import Point
 from fscm._equilibrium import State
 from fscm._events import brackets, load_fold
 from fscm._meshes import Meshes
+from fscm._typing import Array
 from fscm._whole_path import path_until
 from fscm.errors import NotConverged
 from fscm.problem import Problem
@@ -33,6 +34,9 @@ _LOWEST, _HIGHEST, _HEIGHTS = 1e-4, 1e6, 500
 # Share of the tension of the rigid solid in contact that no pull-off is expected to fall below: up to n = 2 it falls
 # to the (3 + k)/4 of JKR, for flatter punches to less.  Where it does, the whole path is followed.
 _SHARE, _SHARE_OF_FLAT = 0.6, 0.3
+# Newton's method starts from the rigid solid where the deformation is at most this share of the gap's distance to the
+# singular gap.  Measured over 440 states: it never fails below 1, and in 8 of 35 between 2 and 5.
+_NEAR = 1.0
 # Ratio of one central gap that is tried to the last one.
 _RATIO = 1.2
 # Points with rising load and compressed center behind the minimum.
@@ -53,6 +57,14 @@ class PullOffEnd:
         return self.rising >= _BEHIND
 
 
+def _tension(problem: Problem, central_gap: float) -> tuple[Array, Array]:
+    """Radii, and the largest tension of a rigid solid behind each but the last."""
+    law = problem.law
+    f = np.concatenate([[0.0], np.geomspace(_LOWEST, _HIGHEST, _HEIGHTS)])
+    tension = -law.traction(np.maximum(f + central_gap, law.peak_gap))
+    return (problem.n * f) ** (1.0 / problem.n), tension[:-1]
+
+
 def rigid_tension(problem: Problem, central_gap: float) -> float:
     """Upper bound of -P of all states apart with at least this central gap.
 
@@ -62,20 +74,23 @@ def rigid_tension(problem: Problem, central_gap: float) -> float:
     >>> 0.6 < rigid_tension(problem, 1.0) < 0.7  # 2 (1/3) (4 / 2^2 - 1 / 2^8) = 0.664
     True
     """
-    law = problem.law
-    f = np.concatenate([[0.0], np.geomspace(_LOWEST, _HIGHEST, _HEIGHTS)])
-    r = (problem.n * f) ** (1.0 / problem.n)
-    tension = -law.traction(np.maximum(f + central_gap, law.peak_gap))
-    C, m = law.decay
+    r, tension = _tension(problem, central_gap)
+    C, m = problem.law.decay
     behind = 2.0 * C * _HIGHEST**-m * float(r[-1]) ** 2 / (m * problem.n - 2.0)
-    return float(tension[:-1] @ np.diff(r * r)) + behind
+    return float(tension @ np.diff(r * r)) + behind
+
+
+def _lift(problem: Problem, central_gap: float) -> float:
+    """About the deformation at the center by the tension of the rigid solid."""
+    r, tension = _tension(problem, central_gap)
+    return problem.compliance * float(tension @ np.diff(r ** (1.0 - problem.k)))
 
 
 def _start(problem: Problem) -> float:
     """Central gap of the first state."""
     enough = (_SHARE if problem.n <= 2.0 else _SHARE_OF_FLAT) * rigid_tension(problem, 0.0)
-    gap = problem.law.peak_gap
-    while rigid_tension(problem, gap) > enough:
+    gap, singular = problem.law.peak_gap, problem.law.singular_gap
+    while rigid_tension(problem, gap) > enough or _lift(problem, gap) > _NEAR * (gap - singular):
         gap *= _RATIO
     return gap
 
