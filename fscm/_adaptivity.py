@@ -43,6 +43,8 @@ _LARGEST_RATIO = 8.0
 # is about ten coefficients, and this is a fifth of one; it is large where a panel holds what no node of it sees.
 # (Gaps of 25 to 6e4 z0 were once on one panel, n = 2, k = 0, mu = 1e5: the pull-off force was wrong by 2e-3.)
 _JUMP = 0.02
+# Ends of the first panels of all meshes, in units of the radius at s = 1; farther out they grow by factors of four.
+_FIRST_ENDS = np.array([0.0, 0.5, 1.0, 2.0])
 # On a steep punch the gap rises by at most this factor over a panel of the first mesh.
 _RISE = 64.0
 # On a mesh of an event neighbours differ by at most this factor in length: the pressure on a longer panel is no polynomial
@@ -88,7 +90,7 @@ def _extended(offsets: Array, origin: float, end: float) -> Array:
 
 def initial_mesh(problem: Problem, order: int, end_height: float) -> PanelMesh:
     """A coarse mesh for the separated punch, scale 1, with a break at s = 1 and an end where f >= `end_height`."""
-    breaks = _extended(np.array([0.0, 0.5, 1.0, 2.0]), 0.0, end_radius(problem, end_height))
+    breaks = _extended(_FIRST_ENDS, 0.0, end_radius(problem, end_height))
     while problem.punch.growth > STEEP:
         f = problem.punch.height(breaks)
         # Farther out than the end height the pressure need not be resolved.
@@ -126,6 +128,16 @@ def _off_kinks(state: State) -> float:
     breaks = state.disc.mesh.breaks
     kinks = kinks[kinks < breaks[-1]]
     return float(np.max(np.min(np.abs(kinks[:, None] - breaks), axis=1))) if kinks.size else 0.0
+
+
+def _halves(mesh: PanelMesh) -> NDArray[np.bool_]:
+    """Whether neighbouring panels are the halves of one that came before: then the response of the merged one is known."""
+    first = _extended(_FIRST_ENDS, 0.0, float(mesh.breaks[-1])) - mesh.origin
+    starts, lengths = mesh.offsets[:-2], mesh.lengths
+    whole = first[np.searchsorted(first, starts, side="right") - 1]
+    number = (starts - whole) / lengths[:-1]
+    found: NDArray[np.bool_] = (lengths[:-1] == lengths[1:]) & (number % 2.0 == 0.0)
+    return found
 
 
 def edge_mesh(problem: Problem, order: int, scale: float, end_height: float) -> PanelMesh:
@@ -243,6 +255,8 @@ def _superfluous(state: State, tolerance: float) -> NDArray[np.intp]:
     keeps_edge = mesh.offsets[1:-1] != 1.0 - mesh.origin
     not_too_long = lengths <= (_LARGEST_RATIO - 1.0) * mesh.starts[:-1]
     removable = (effect < _MERGE_MARGIN * tolerance) & keeps_edge & not_too_long
+    if not kinks_of(state.disc.problem.punch):
+        removable &= _halves(mesh)
     chosen: list[int] = []
     for i in np.flatnonzero(removable) + 1:
         if not chosen or i > chosen[-1] + 1:
