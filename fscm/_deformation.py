@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from fscm._kernel import Kernel, box_cox
 from fscm._panels import PanelMesh, gauss_rule
-from fscm._response_store import blocks_of
+from fscm._response_store import known_blocks
 from fscm._typing import Array
 
 __all__ = ["axis_row", "response_blocks", "response_matrix"]
@@ -219,10 +219,8 @@ def response_blocks(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], 
 def response_matrix(kernel: Kernel, mesh: PanelMesh, previous: tuple[PanelMesh, Array] | None = None) -> Array:
     """The whole matrix W, shape (m q, m q); blocks that are known, here or from `previous`, are used again."""
     count, q = len(mesh.lengths), mesh.order
-    store = blocks_of(kernel, mesh, partial(response_blocks, kernel))
-    if store is not None:
-        blocks = store.of(mesh)
-    else:
+    blocks = known_blocks(kernel, mesh, partial(response_blocks, kernel))
+    if blocks is None:
         blocks = np.empty((count, count, q, q))
         known = np.zeros((count, count), bool)
         if previous is not None and (previous[0].order, previous[0].origin) == (q, mesh.origin):

@@ -130,7 +130,7 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE, mo
         After too many iterations, or when a gap is driven towards the singular gap.
     """
     state = guess
-    factor, last = state.disc.factor, math.inf
+    factor, last, stalled = state.disc.factor, math.inf, False
     for iteration in range(1, most + 1):
         system = Linearisation(state)
         row = system.row(control)
@@ -141,6 +141,10 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE, mo
             factor = None
         step, change = _step(state, factor, rhs, row) if factor is not None else (rhs, math.inf)
         kept = factor is not None and change < _CONTRACTION * last
+        if factor is not None and not kept and max(change, last) < tolerance:
+            if stalled:  # with new factors as well: the steps are rounding (n = 2, k = 0.98, mu = 1)
+                return replace(state, iterations=iteration)
+            stalled = True
         if not kept:
             factor = system.factor(control)
             step, change = _step(state, factor, rhs, row)

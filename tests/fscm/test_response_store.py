@@ -50,16 +50,22 @@ def test_only_blocks_that_lack_are_computed() -> None:
 
 def test_panels_that_do_not_come_back_are_not_kept() -> None:
     mesh = PanelMesh(OFFSETS + np.r_[0.0, np.full(len(OFFSETS) - 1, 0.1 / 3.0)], 6, 1.0)
-    assert store.blocks_of(Kernel(0.4), mesh, lambda *_: np.zeros(0)) is None
+    assert store.known_blocks(Kernel(0.4), mesh, lambda *_: np.zeros(0)) is None
 
 
-def test_memory_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(store, "BLOCKS_MEMORY", 2_000_000)
-    kernels = [Kernel(k) for k in (0.1, 0.2, 0.3)]
+@pytest.mark.parametrize("bound", [200_000, 2_000_000, 8_000_000])
+def test_memory_is_bounded(monkeypatch: pytest.MonkeyPatch, bound: int) -> None:
+    """By the stated number, after every matrix; a table that is full or thrown away changes no value."""
+    monkeypatch.setattr(store, "BLOCKS_MEMORY", bound)
+    kernels, most = [Kernel(k) for k in (0.1, 0.2, 0.3)], 0
     for kernel in kernels:
         mesh = PanelMesh(OFFSETS, 8, 1.0)
-        for i in (0, 4, 2, 9, 11, 1, 3, 5, 7):
-            mesh = split(mesh, i % len(mesh.lengths))
+        for i in range(30):
+            mesh = split(mesh, (7 * i) % len(mesh.lengths))
             response_matrix(kernel, mesh)
-    assert sum(blocks.memory for blocks in store._STORES.values()) <= 2 * store.BLOCKS_MEMORY
-    np.testing.assert_array_equal(response_matrix(kernels[0], mesh), response_matrix(Kernel(0.1), mesh))
+            most = max(most, store.memory())
+            assert store.memory() <= bound
+    assert most > bound // 8 or bound < 1_000_000
+    matrix = response_matrix(kernels[0], mesh)
+    store.clear()
+    np.testing.assert_array_equal(matrix, response_matrix(Kernel(0.1), mesh))
