@@ -28,7 +28,7 @@ from fscm.errors import NotConverged
 from fscm.problem import Problem
 from fscm.punch import PowerPunch, kinks_of
 
-__all__ = ["EDGE", "Tracking", "equilibrium_path", "moved"]
+__all__ = ["EDGE", "Tracking", "equilibrium_path", "moved", "usual_start"]
 
 _FIRST_STEP = 0.5
 _SMALLEST_STEP = 1e-6
@@ -156,7 +156,7 @@ def _check_edge(problem: Problem) -> None:
         )
 
 
-def _start_gap(problem: Problem) -> float:
+def usual_start(problem: Problem) -> float:
     """A central gap beyond the far branch at jump-out: JKR's C_out mu is at most sqrt(2 pi) mu (Eq. 55)."""
     return 3.0 + 3.0 * problem.mu
 
@@ -201,7 +201,7 @@ def equilibrium_path(
     _check_edge(problem)
     arc, tracking = ArcLength.of(problem), tracking or Tracking()
     longest_step = min(longest_step, tracking.longest_step)
-    gap = _start_gap(problem) if start_gap is None else start_gap
+    gap = usual_start(problem) if start_gap is None else start_gap
     gap += depth(problem, end_radius(problem, end_height))
     state = _far_state(problem, gap, order, tolerance, end_height)
     peak, singular = problem.law.peak_gap, problem.law.singular_gap

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fscm._arc_length import Point
+from fscm._continuation import usual_start
 from fscm._equilibrium import State
 from fscm._events import brackets, load_fold
 from fscm._meshes import Meshes
@@ -86,13 +87,15 @@ def _lift(problem: Problem, central_gap: float) -> float:
     return problem.compliance * float(tension @ np.diff(r ** (1.0 - problem.k)))
 
 
-def _start(problem: Problem) -> float:
-    """Central gap of the first state."""
+def _start(problem: Problem) -> float | None:
+    """Central gap of the first state; None where the whole path begins nearer."""
     gap, singular = problem.law.peak_gap, problem.law.singular_gap
     stiff = _lift(problem, gap) < _NEAR * (gap - singular)
     enough = (_SHARE if problem.n <= 2.0 or stiff else _SHARE_OF_FLAT) * rigid_tension(problem, 0.0)
     while rigid_tension(problem, gap) > enough or _lift(problem, gap) > _NEAR * (gap - singular):
         gap *= _RATIO
+        if gap > usual_start(problem):  # near n = 2/3 the tail alone carries more
+            return None
     return gap
 
 
@@ -108,6 +111,8 @@ def pull_off_path(problem: Problem, meshes: Meshes) -> list[Point] | None:
     if not isinstance(problem.punch, PowerPunch) or problem.law.decay[1] * problem.n <= 2.0:
         return None
     start = _start(problem)
+    if start is None:
+        return None
     try:
         points = path_until(
             problem, *meshes.path, PullOffEnd(), "a load minimum", start_gap=start, end_height=meshes.end_height
