@@ -49,9 +49,9 @@ _FIRST_ENDS = np.array([0.0, 0.5, 1.0, 2.0])
 _RISE = 64.0
 # With so many panels, as at a very narrow edge, fewer panels gain more than known ones.
 _MANY = 40
-# On a mesh of an event neighbours differ by at most this factor in length: the pressure on a longer panel is no polynomial
-# next to a narrow edge, which its last coefficients do not show.  Without it, bounds at accuracy 1e-6 were up to 0.3 of
-# the pull-off force (n = 2.1, k = 0.85, mu = 19).
+# On a graded mesh neighbours differ by at most this factor in length: the pressure on a longer panel is no polynomial
+# next to a narrow edge, which its last coefficients do not show.  Without it, bounds at accuracy 1e-6 were up to 0.3
+# of the pull-off force (n = 2.1, k = 0.85, mu = 19).
 _GRADING = 8.0
 # Share of superfluous breaks from which a mesh is made anew for their sake.
 _WORTH_MERGING = 0.2
@@ -133,7 +133,7 @@ def _off_kinks(state: State) -> float:
 
 
 def _halves(mesh: PanelMesh) -> NDArray[np.bool_]:
-    """Whether neighbouring panels are the halves of one that came before: then the response of the merged one is known."""
+    """Whether neighbouring panels are the halves of one that came before, whose response is then known."""
     first = _extended(_FIRST_ENDS, 0.0, float(mesh.breaks[-1])) - mesh.origin
     starts, lengths = mesh.offsets[:-2], mesh.lengths
     whole = first[np.searchsorted(first, starts, side="right") - 1]

@@ -70,7 +70,7 @@ def zero_load(state: State, rates: Rates) -> float:
 
 
 # The functional that is extreme where a condition vanishes.
-_FUNCTIONALS = {load_fold: "load", displacement_fold: "displacement"}
+_FUNCTIONALS: dict[Condition, str] = {load_fold: "load", displacement_fold: "displacement"}
 
 
 def brackets(points: Sequence[Point], condition: Condition, rising: bool) -> list[Bracket]:

@@ -1,13 +1,13 @@
 r"""Short path under a power-law punch, on which the load is least: for a pull-off alone.
 
-It begins where the punch is so far away that no state farther out carries as much tension, and ends on the contact branch
-behind the minimum of the load.  While the punch is apart, the tension falls outwards and lifts the surface most at the
-center: H(r) >= f(r) + H_0.  With the largest tension t(H) at a gap H or a larger one,
+It begins where the punch is so far away that no state farther out carries as much tension, and ends on the contact
+branch behind the minimum of the load.  While the punch is apart, the tension falls outwards and lifts the surface most
+at the center: H(r) >= f(r) + H_0.  With the largest tension t(H) at a gap H or a larger one,
 
     -P <= int_0^oo t(f + H_0) 2 r dr,
 
-the load of the rigid solid, which falls with H_0.  As on any path, it is assumed that the states apart are told by their
-central gap, and that the load has one minimum once the center is compressed (see `fscm._path_end`).
+the load of the rigid solid, which falls with H_0.  As on any path, it is assumed that the states apart are told by
+their central gap, and that the load has one minimum once the center is compressed (see `fscm._path_end`).
 """
 
 from __future__ import annotations

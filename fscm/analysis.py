@@ -9,8 +9,8 @@ from functools import cached_property, partial
 
 from fscm import _events as events
 from fscm._arc_length import Point
-from fscm._completeness import completed, least_loads
 from fscm._bounds import EventErrors, bounds, energy_of_jump
+from fscm._completeness import completed, least_loads
 from fscm._defect import Errors
 from fscm._events import Bracket, Condition
 from fscm._meshes import Accuracy, Meshes

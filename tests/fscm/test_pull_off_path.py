@@ -9,7 +9,16 @@ from fscm._meshes import Meshes
 from fscm._threads import one_thread
 
 # Rigid to soft; (2, 0.6, 3), (5, 0.6, 3) and (1.5, 0.4, 5) have several shallow folds before contact.
-CASES = [(2, 0, 0.01), (2, 0.4, 0.5), (1, 0.2, 1), (5, 0.2, 0.5), (0.9, 0.1, 2), (2, 0.6, 3), (5, 0.6, 3), (1.5, 0.4, 5)]
+CASES = [
+    (2, 0, 0.01),
+    (2, 0.4, 0.5),
+    (1, 0.2, 1),
+    (5, 0.2, 0.5),
+    (0.9, 0.1, 2),
+    (2, 0.6, 3),
+    (5, 0.6, 3),
+    (1.5, 0.4, 5),
+]
 
 
 @pytest.mark.parametrize("case", CASES)
