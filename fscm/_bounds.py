@@ -31,10 +31,6 @@ _SECOND_ORDER = 1.1
 # extreme, which varies fast near a critical Tabor number.  A step of 1e-2 gave a rate that was 7 times too small where
 # contact begins as a nucleus (n = 3.75, k = 0.82, mu = 1.9); 1e-3 and 1e-4 give the same.
 _ERROR_STEP, _CURVATURE_STEP = 1e-3, 1e-4
-# Two contributions of one panel may cancel in a value at the extreme of another functional: at the tip of a rigid
-# solid to 4e-4.  Each is itself unknown by this share, which does not cancel: measured at most 0.017 of their sum over
-# the 500 random problems of tests/fscm/random_problems.csv (n = 3.50, k = 0.43, mu = 0.025).
-_UNKNOWN = 0.025
 _FUNCTIONALS = ("load", "displacement", "central_gap")
 
 
@@ -159,9 +155,7 @@ class EventErrors:
         size = bounds(rate).total
         factor = root_shift(size, curvature, third) * abs(curvature) / size if size else 1.0
         here = self.controlled(functional, self.parameter)
-        change = -getattr(self.rates, functional) / curvature
-        left, moved_by = bounds(here, _UNKNOWN * factor), bounds(rate, abs(change) * _UNKNOWN * factor)
-        return bounds(here.plus(rate, change), factor).plus(left).plus(moved_by)
+        return bounds(here.plus(rate, -getattr(self.rates, functional) / curvature), factor)
 
     def prescribed(self, functional: str, control: str, value: float) -> Parts:
         """Bounds on the error of a functional at a prescribed value of a control, also next to its extreme."""

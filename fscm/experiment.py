@@ -29,6 +29,8 @@ class Cycle:
         Rows delta and P.  A jump is two consecutive columns of equal delta.
     jump_in, jump_out : ndarray, shape (2, 2), or None
         Columns before and after the first jump.
+    u_landing : float
+        Uncertainty of every load after a jump, which is interpolated on the path: 0 without a jump.
 
     Examples
     --------
@@ -42,13 +44,15 @@ class Cycle:
     unloading: Array
     jump_in: Array | None
     jump_out: Array | None
+    u_landing: float = 0.0
 
 
 def displacement_cycle(path: EquilibriumPath) -> Cycle:
     """The cycle under displacement control.
 
     A jump lands on the rising part of the path that is farthest in contact (on approach) or farthest apart (on retreat)
-    among those that have its displacement.
+    among those that have its displacement.  Its load is a cubic between the points of the path; `u_landing` adds up the
+    error of the path and the distance of that cubic from the straight line, which is less exact.
 
     Raises
     ------
@@ -66,22 +70,25 @@ def displacement_cycle(path: EquilibriumPath) -> Cycle:
     curve = np.array([path.displacement, path.load])
     if np.all(np.diff(path.displacement) > 0.0):
         return Cycle(curve, curve[:, ::-1], None, None)
-    loading, jump_in = _recorded(curve, "the displacement of jump-in", "max_load")
+    errors = path.u_displacement, path.u_load
+    loading, jump_in, u_in = _recorded(curve, errors, "the displacement of jump-in", "max_load")
     # A retreat is an approach of the curve turned by half a circle.
-    turned, jump = _recorded(-curve[:, ::-1], "the displacement of jump-out", "start_gap")
-    return Cycle(loading, -turned, jump_in, None if jump is None else -jump)
+    turned, jump, u_out = _recorded(-curve[:, ::-1], errors, "the displacement of jump-out", "start_gap")
+    return Cycle(loading, -turned, jump_in, None if jump is None else -jump, max(u_in, u_out))
 
 
-def _recorded(curve: Array, event: str, argument: str) -> tuple[Array, Array | None]:
-    """Columns of the curve that are recorded while the displacement rises, and the first jump."""
+def _recorded(
+    curve: Array, errors: tuple[float, float], event: str, argument: str
+) -> tuple[Array, Array | None, float]:
+    """Columns of the curve that are recorded while the displacement rises, the first jump, and `u_landing`."""
     d = curve[0]
     rising = np.diff(d) > 0.0
     stretches: list[Array] = []
-    jump, i = None, 0
+    jump, i, uncertainty = None, 0, 0.0
     while True:
         falls = np.flatnonzero(~rising[i:])
         if not falls.size:
-            return np.hstack([*stretches, curve[:, i:]]), jump
+            return np.hstack([*stretches, curve[:, i:]]), jump, uncertainty
         top = i + int(falls[0])
         after = np.flatnonzero((d[top:-1] <= d[top]) & (d[top + 1 :] > d[top]))
         if not after.size:
@@ -92,21 +99,28 @@ def _recorded(curve: Array, event: str, argument: str) -> tuple[Array, Array | N
                 f"trace it with a larger {argument}"
             )
         last = top + int(after[-1])
-        landing = _at(curve, d[top], last)
+        landing, curved, slope = _at(curve, d[top], last)
+        # The displacement of the fold is wrong by as much as that of the branch.
+        uncertainty = max(uncertainty, curved + errors[1] + 2.0 * slope * errors[0])
         stretches += [curve[:, i : top + 1], landing]
         jump = np.hstack([curve[:, [top]], landing]) if jump is None else jump
         i = last + 1
 
 
-def _at(curve: Array, displacement: float, column: int) -> Array:
-    """Column (delta, P) between a column and the next, interpolated on the part where delta rises around them."""
+def _at(curve: Array, displacement: float, column: int) -> tuple[Array, float, float]:
+    """Column (delta, P) between a column and the next, interpolated on the part where delta rises around them.
+
+    Also the distance of P from the straight line, and the size of the slope dP/d(delta).
+    """
     first, last = column, column + 2
     while first > 0 and curve[0, first - 1] < curve[0, first]:
         first -= 1
     while last < curve.shape[1] and curve[0, last] > curve[0, last - 1]:
         last += 1
-    load = scipy.interpolate.PchipInterpolator(*curve[:, first:last])(displacement)
-    return np.array([[displacement], [float(load)]])
+    cubic = scipy.interpolate.PchipInterpolator(*curve[:, first:last])
+    load = float(cubic(displacement))
+    straight = float(np.interp(displacement, *curve[:, column : column + 2]))
+    return np.array([[displacement], [load]]), abs(load - straight), abs(float(cubic(displacement, 1)))
 
 
 def load_controlled_retreat(path: EquilibriumPath) -> Array:

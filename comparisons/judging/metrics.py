@@ -11,7 +11,6 @@ from comparisons.judging.gates import Gate
 from comparisons.judging.selection import key_of
 from comparisons.judging.stored_results import StoredResults, UnusableResult
 from comparisons.numerics.bounds import combined
-from comparisons.numerics.curve_distance import curve_distance
 from comparisons.numerics.kappa import relative_difference
 from comparisons.runs.cases import Case
 
@@ -108,6 +107,9 @@ def _normalised(value: float, u_num: float, reference: float, u_reference: float
 
 
 def _distance(gate: Gate, case: Case, results: StoredResults) -> CaseError:
+    # Gates of numbers do not wait for SciPy's interpolation.
+    from comparisons.numerics.curve_distance import curve_distance
+
     x, y, u_candidate = results.points(key_of(gate.candidate, gate, case))
     *reference, u_points = results.points(key_of(gate.reference, gate, gate.reference_case(case)))
     try:

@@ -9,14 +9,15 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
-from typing import Any
-
-from matplotlib import rc_context
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING, Any
 
 from comparisons.judging.decision import Verdict
 from comparisons.runs.atomic_files import atomic
+
+# A command that draws nothing does not wait for Matplotlib.
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 __all__ = [
     "COLOURS",
@@ -27,6 +28,7 @@ __all__ = [
     "MODEL_NAMES",
     "VERDICT_SYMBOLS",
     "ModelStyle",
+    "empty_figure",
     "lettered",
     "model_label",
     "model_styles",
@@ -211,7 +213,16 @@ _METADATA = {
 
 def styled() -> Any:
     """Return the context in which figures are drawn and saved."""
+    from matplotlib import rc_context
+
     return rc_context(_SETTINGS)
+
+
+def empty_figure(width: float, height: float) -> Figure:
+    """Return a figure without panels, of this size in inches."""
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(width, height), layout="constrained")
 
 
 def lettered(axes: Axes, letter: str, words: str = "") -> None:

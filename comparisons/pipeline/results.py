@@ -19,7 +19,7 @@ from comparisons.runs.reevaluation import evaluate_again
 from comparisons.runs.rows import Key, Row
 from comparisons.runs.shipped_values import SHIPPED_MODELS, ShippedValues, load_shipped
 from comparisons.runs.tasks import Task
-from comparisons.runs.workers import Backend, processes
+from comparisons.runs.workers import Backend, Processes, processes
 
 __all__ = ["Results", "results"]
 
@@ -99,10 +99,13 @@ def results(
         return needed_keys(gates.gates, cases.grids, models, statuses)
 
     missing = [task for task in tasks if task.key not in known.rows]
-    completed = complete(missing, folder, jobs, retry_failed, backend, needed)
-    keys = needed(completed.rows)
-    used = {task: known.rows[task.key] for task in tasks if task.key in known.rows and task.key in keys}
-    entry = _entry(known, used, _confirmed(used, jobs)) if used else {}
+    # The processes that computed stay for the values that are computed again.
+    with Processes() as local:
+        on = local if isinstance(backend, Processes) else backend
+        completed = complete(missing, folder, jobs, retry_failed, on, needed)
+        keys = needed(completed.rows)
+        used = {task: known.rows[task.key] for task in tasks if task.key in known.rows and task.key in keys}
+        entry = _entry(known, used, _confirmed(used, jobs, local)) if used else {}
     return Results(completed, list(used.values()), entry)
 
 
@@ -116,11 +119,11 @@ def _fitting(tasks: list[Task]) -> ShippedValues:
     return known
 
 
-def _confirmed(used: dict[Task, Row], jobs: int) -> dict[str, Any]:
+def _confirmed(used: dict[Task, Row], jobs: int, backend: Backend) -> dict[str, Any]:
     """Compute a few shipped values of each model again; return which, as the record holds it."""
     seed = SystemRandom().randrange(2**32)
     try:
-        found = evaluate_again(used, seed, jobs)
+        found = evaluate_again(used, seed, jobs, backend)
     except BrokenExecutor:
         raise ComputationFailed(
             "a worker process ended early, perhaps for lack of memory, while it computed shipped values again"

@@ -22,7 +22,7 @@ from comparisons.runs.row_journal import RowJournal
 from comparisons.runs.rows import Key, Row
 from comparisons.runs.tasks import Task
 from comparisons.runs.time_left import TimeLeft
-from comparisons.runs.workers import LOST, Backend, processes
+from comparisons.runs.workers import LOST, Backend, Processes, processes
 
 __all__ = [
     "Completed",
@@ -124,12 +124,12 @@ def complete(
         journal.drop(lambda row: usable(row) and again(row))
         try:
             external = {wanted[row.key]: row for row in journal.items if usable(row) and row.model in versions}
-            evaluated_again = _checked(external, journal, jobs) if external else None
+            evaluated_again = _checked(external, journal, jobs, backend) if external else None
             stored = [row for row in journal.items if usable(row)]
             log_failures_used(Counter(row.model for row in stored if row.status == "failed"))
             known = {row.key for row in stored}
             missing = missing_of(known)
-            workers = f"{jobs} processes" if backend is processes else "a Dask cluster"
+            workers = f"{jobs} processes" if isinstance(backend, Processes) else "a Dask cluster"
             note(f"{len(missing)} computations on {workers}" + (f", {len(known)} are stored" if known else ""))
             while missing:
                 left = TimeLeft(missing)
@@ -153,10 +153,10 @@ def complete(
         return Completed(rows, resumed, journal.parts_of(rows), evaluated_again)
 
 
-def _checked(stored: dict[Task, Row], journal: RowJournal, jobs: int) -> dict[str, Any]:
+def _checked(stored: dict[Task, Row], journal: RowJournal, jobs: int, backend: Backend) -> dict[str, Any]:
     """Evaluate a few stored tasks again, and drop the rows of each model whose results have changed."""
     seed = SystemRandom().randrange(2**32)
-    found = evaluate_again(stored, seed, jobs)
+    found = evaluate_again(stored, seed, jobs, backend if isinstance(backend, Processes) else processes)
     for model, again in found.items():
         if again.difference:
             dropped = journal.drop_model(

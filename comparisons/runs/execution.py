@@ -82,11 +82,11 @@ def compute_with_environment(
                 yield row, one.environment
 
 
-def compute(tasks: list[Task], jobs: int) -> Generator[Row]:
-    """Evaluate tasks on processes of this machine and yield each row as it is finished.
+def compute(tasks: list[Task], jobs: int, backend: Backend = processes) -> Generator[Row]:
+    """Evaluate tasks and yield each row as it is finished.
 
     As `compute_with_environment`.
     """
-    with closing(compute_with_environment(tasks, jobs)) as computed:
+    with closing(compute_with_environment(tasks, jobs, backend)) as computed:
         for row, _ in computed:
             yield row

@@ -17,6 +17,7 @@ import numpy as np
 from comparisons.runs.execution import compute
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import Task
+from comparisons.runs.workers import Backend, processes
 
 __all__ = ["AT_MOST", "Reevaluation", "chosen", "evaluate_again", "same"]
 
@@ -62,7 +63,9 @@ def chosen(tasks: Iterable[Task], seed: int) -> list[Task]:
     return sorted(shuffled, key=turns.__getitem__)[:AT_MOST]
 
 
-def evaluate_again(stored: dict[Task, Row], seed: int, jobs: int) -> dict[str, Reevaluation]:
+def evaluate_again(
+    stored: dict[Task, Row], seed: int, jobs: int, backend: Backend = processes
+) -> dict[str, Reevaluation]:
     """Evaluate a few stored tasks of each model again and compare.
 
     Parameters
@@ -73,6 +76,8 @@ def evaluate_again(stored: dict[Task, Row], seed: int, jobs: int) -> dict[str, R
         Of the choice.
     jobs : int
         Number of processes.
+    backend : Backend
+        Where they are evaluated.
 
     Returns
     -------
@@ -81,7 +86,7 @@ def evaluate_again(stored: dict[Task, Row], seed: int, jobs: int) -> dict[str, R
     """
     models = sorted({task.model for task in stored})
     again = {model: chosen((task for task in stored if task.model == model), seed) for model in models}
-    rows = {row.key: row for row in compute([task for tasks in again.values() for task in tasks], jobs)}
+    rows = {row.key: row for row in compute([task for tasks in again.values() for task in tasks], jobs, backend)}
     return {
         model: Reevaluation(
             tasks, next(filter(None, (_difference(stored[task], rows[task.key]) for task in tasks)), "")

@@ -18,7 +18,7 @@ from threadpoolctl import threadpool_limits
 
 from comparisons.console.progress import log
 
-__all__ = ["LOST", "Backend", "each", "one_thread", "processes", "usable_cores"]
+__all__ = ["LOST", "Backend", "Processes", "each", "one_thread", "processes", "usable_cores"]
 
 Item = TypeVar("Item")
 Output = TypeVar("Output")
@@ -44,25 +44,65 @@ def _whole(item: Item) -> Iterable[Item]:
     return [item]
 
 
-def processes(
-    function: Callable[[Item], Output], items: Sequence[Item], jobs: int
-) -> Generator[tuple[Item, Output | None]]:
-    """Call a function on processes of this machine: a `Backend`.
+class Processes:
+    """Processes of this machine: a `Backend`.
 
-    A process that ends is replaced.  With one job the function is called in this process.
-
-    Raises
-    ------
-    concurrent.futures.BrokenExecutor
-        If many processes end one after the other.
+    A process that ends is replaced.  With one job the function is called in this process.  In a block
+    ``with Processes() as backend:`` one call after the other works on the same processes, which end with the block;
+    without a block they end with each call.
     """
-    if jobs == 1:
-        for item in items:
-            yield item, function(item)
-        return
+
+    def __init__(self) -> None:
+        # An executor for each process: if the process ends, that tells on which item it worked, and the others go on.
+        self._kept: list[ProcessPoolExecutor] | None = None
+
+    def __enter__(self) -> Processes:
+        self._kept = []
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        pools, self._kept = self._kept or [], None
+        _end(pools)
+
+    def __call__(
+        self, function: Callable[[Item], Output], items: Sequence[Item], jobs: int
+    ) -> Generator[tuple[Item, Output | None]]:
+        """Yield each item with its output, as `Backend` states.
+
+        Raises
+        ------
+        concurrent.futures.BrokenExecutor
+            If many processes end one after the other.
+        """
+        if jobs == 1:
+            for item in items:
+                yield item, function(item)
+            return
+        count = min(jobs, len(items))
+        kept, self._kept = self._kept, None if self._kept is None else []
+        pools = [*(kept or [])]
+        pools.extend(_pool() for _ in range(count - len(pools)))
+        finished = False
+        try:
+            yield from _outputs(function, items, pools, count)
+            finished = True
+        finally:
+            # What has not finished may still be at work.
+            if finished and self._kept is not None:
+                self._kept.extend(pools)
+            else:
+                _end(pools)
+
+
+#: Processes that end with each call.
+processes = Processes()
+
+
+def _outputs(
+    function: Callable[[Item], Output], items: Sequence[Item], pools: list[ProcessPoolExecutor], count: int
+) -> Generator[tuple[Item, Output | None]]:
+    """Work on the items by the first pools; a pool whose process ends is replaced in the list."""
     waiting = deque(items)
-    # An executor for each process: if the process ends, that tells on which item it worked, and the others go on.
-    pools = [_pool() for _ in range(min(jobs, len(items)))]
     running: dict[Future[Output], tuple[int, Item]] = {}
 
     def begin(slot: int) -> None:
@@ -75,30 +115,31 @@ def processes(
         running[future] = slot, item
 
     deaths = 0
-    try:
-        for slot in range(len(pools)):
-            begin(slot)
-        while running:
-            for future in wait(running, return_when=FIRST_COMPLETED).done:
-                slot, item = running.pop(future)
-                try:
-                    output = future.result()
-                    deaths = 0
-                except BrokenExecutor:
-                    output = None
-                    deaths += 1
-                    if deaths > _DEATHS_IN_SEQUENCE:
-                        raise BrokenExecutor(
-                            f"{deaths} worker processes one after the other ended early, perhaps for lack of memory"
-                        ) from None
-                    pools[slot].shutdown(wait=False)
-                    pools[slot] = _pool()
-                if waiting:
-                    begin(slot)
-                yield item, output
-    finally:
-        for pool in pools:
-            pool.shutdown(cancel_futures=True)
+    for slot in range(count):
+        begin(slot)
+    while running:
+        for future in wait(running, return_when=FIRST_COMPLETED).done:
+            slot, item = running.pop(future)
+            try:
+                output = future.result()
+                deaths = 0
+            except BrokenExecutor:
+                output = None
+                deaths += 1
+                if deaths > _DEATHS_IN_SEQUENCE:
+                    raise BrokenExecutor(
+                        f"{deaths} worker processes one after the other ended early, perhaps for lack of memory"
+                    ) from None
+                pools[slot].shutdown(wait=False)
+                pools[slot] = _pool()
+            if waiting:
+                begin(slot)
+            yield item, output
+
+
+def _end(pools: Sequence[ProcessPoolExecutor]) -> None:
+    for pool in pools:
+        pool.shutdown(cancel_futures=True)
 
 
 def each(

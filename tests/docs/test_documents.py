@@ -1,15 +1,22 @@
 """Documents: examples, code blocks, commands, links and formulas."""
 
+import io
+import math
 import re
 import shlex
 import subprocess
 import sys
+from contextlib import chdir, redirect_stdout
 from dataclasses import fields
+from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 
 import mpmath
+import numpy as np
 import pytest
 
+import fem_reference
 import fscm
 from comparisons.baseline import read_baseline
 from comparisons.cli import main as cli
@@ -45,20 +52,60 @@ def blocks(path, language):
 
 
 def printed_by(code, folder):
-    done = subprocess.run([sys.executable, "-c", code], cwd=folder, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    return done.stdout.splitlines()
+    """The lines that code prints in this process, in a folder."""
+    output = io.StringIO()
+    with chdir(folder), redirect_stdout(output):
+        exec(compile(code, "example", "exec"), {"__name__": "__main__"})
+    return output.getvalue().splitlines()
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=by_name)
+@pytest.fixture(scope="module", autouse=True)
+def solved_once():
+    """The examples and the tutorial share problems: each is solved once."""
+    with pytest.MonkeyPatch.context() as patch:
+        for package in (fscm, fem_reference):
+            patch.setattr(package, "solve", cache(package.solve))
+        yield
+
+
+#: Its solids take half a minute.
+LONG = "own_modulus.py"
+
+
+@pytest.mark.parametrize(
+    "path",
+    [pytest.param(path, marks=[pytest.mark.heavy] if path.name == LONG else [], id=path.name) for path in EXAMPLES],
+)
 def test_an_example_runs_and_prints_the_quoted_numbers(path, tmp_path):
     printed = "\n".join(printed_by(path.read_text(encoding="utf-8"), tmp_path))
     assert QUOTED[path.name]
     assert [text for text in QUOTED[path.name] if text not in printed] == []
 
 
+def test_the_long_example_poses_its_problems(tmp_path, monkeypatch):
+    """The force of its first solid, which other documents need too; of the others the problem alone."""
+    solve, posed = fem_reference.solve, []
+
+    def first_alone(problem, quantity, accuracy):
+        posed.append(problem)
+        made_up = SimpleNamespace(value=len(posed), u_num=0.0)
+        return made_up if len(posed) > 1 else solve(problem, quantity, accuracy=accuracy)
+
+    monkeypatch.setattr(fem_reference, "solve", first_alone)
+    printed = printed_by((DOCS / "examples" / LONG).read_text(encoding="utf-8"), tmp_path)
+    assert len(printed) == len(set(posed)) == len(QUOTED[LONG])
+    assert QUOTED[LONG][0] in printed[0]
+    # One nanometre deep, in GPa.
+    moduli = [problem.solid.modulus(np.array([1e-9]))[0] / 1e9 for problem in posed]
+    assert moduli == pytest.approx([2.0 * 1e-3**0.4, 2.0 * 6e-3**0.4, 1.0 + math.exp(-0.1), 1.0], rel=1e-9)
+
+
 def test_the_python_of_the_readme_runs(tmp_path):
-    (line, *_) = printed_by("".join(blocks(ROOT / "README.md", "python")), tmp_path)
+    """In a process of its own, as a reader runs it."""
+    code = "".join(blocks(ROOT / "README.md", "python"))
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    (line, *_) = done.stdout.splitlines()
     value, u_num = map(float, line.split())
     assert value == pytest.approx(1.78848171, abs=5e-9)
     assert 0.0 < u_num < 1e-9

@@ -74,8 +74,8 @@ def test_hankel_transform_of_a_layer():
     ("modulus", "n", "options"),
     [
         pytest.param(STIFF, 2.0, {"sharp": (1.0,), "radius": 22.0}, id="sharp 10:1"),
-        pytest.param(SOFT, 2.0, {"sharp": (1.0,)}, id="sharp 1:10"),
-        pytest.param(SMOOTH, 2.0, {"radius": 22.0}, id="transition of 0.02"),
+        pytest.param(SOFT, 2.0, {"sharp": (1.0,)}, id="sharp 1:10", marks=pytest.mark.heavy),
+        pytest.param(SMOOTH, 2.0, {"radius": 22.0}, id="transition of 0.02", marks=pytest.mark.heavy),
         pytest.param(
             EXPONENTIAL, 5.0, {"nearest": 2.0, "width": 0.125, "radius": 7.0, "wave": 40.0}, id="exponential, n = 5"
         ),
@@ -100,7 +100,9 @@ def test_displacement_does_not_depend_on_the_extent():
     assert far.load == pytest.approx(near.load, rel=1e-7)
 
 
+@pytest.mark.heavy
 def test_an_undeclared_interface_is_found():
+    """The lines of the mesh alone are compared in `test_jumps_of_a_callable`."""
     undeclared = CustomModulus(STIFF, 0.0, 0.0, surface_depth=1.0)
     declared = solve(_problem(STIFF), FORCE, "quick")
     found = solve(_problem(undeclared), FORCE, "quick")

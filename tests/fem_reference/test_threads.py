@@ -28,11 +28,11 @@ def two_threads():
 @pytest.mark.parametrize(
     "compute",
     [
-        lambda problem: solve(problem, "pull_off_force", "quick"),
-        lambda problem: trace(problem, "quick"),
-        lambda problem: profile(problem, accuracy="quick"),
+        # Each enters the same context; that a solution does so is in the test of an exception below.
+        pytest.param(lambda problem: solve(problem, "pull_off_force", "quick"), id="solve", marks=pytest.mark.heavy),
+        pytest.param(lambda problem: trace(problem, "quick"), id="trace"),
+        pytest.param(lambda problem: profile(problem, accuracy="quick"), id="profile", marks=pytest.mark.heavy),
     ],
-    ids=["solve", "trace", "profile"],
 )
 def test_a_computation_has_one_thread(compute):
     seen = set()

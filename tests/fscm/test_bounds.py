@@ -38,7 +38,12 @@ def _finer(problem: Problem, end_height: float = 1e7) -> Analysis:
 
 
 @pytest.mark.parametrize(
-    "problem", [Problem(0.75, 0, 0.3), Problem(2, 0, 1.0, law=Mie(3, 1.5)), Problem(2, 0.5, 1.0, law=Mie(3, 1.5))]
+    "problem",
+    [
+        pytest.param(Problem(0.75, 0, 0.3), marks=pytest.mark.heavy),
+        Problem(2, 0, 1.0, law=Mie(3, 1.5)),
+        Problem(2, 0.5, 1.0, law=Mie(3, 1.5)),
+    ],
 )
 def test_the_displacement_at_pull_off_does_not_depend_on_the_end_of_the_mesh(problem: Problem) -> None:
     """A tangent without the slope of the tail by delta was off by up to 40 times the bound."""
@@ -123,8 +128,8 @@ def test_the_gibson_solid_has_parts_too() -> None:
         (2.0, 0.4, 3.0, "pull_off_force"),
         (1.5, 0.6, 2.0, "zero_load_displacement"),
         (5.0, 0.2, 3.0, "jump_out_gap"),
-        (2.0, 0.1, 1.5, "hysteresis_energy"),
-        (3.0, 0.3, 2.0, "pull_off_displacement"),
+        pytest.param(2.0, 0.1, 1.5, "hysteresis_energy", marks=pytest.mark.heavy),
+        pytest.param(3.0, 0.3, 2.0, "pull_off_displacement", marks=pytest.mark.heavy),
     ],
 )
 def test_a_coarser_mesh_raises_the_part_of_the_mesh_with_the_error(
@@ -208,7 +213,9 @@ def test_a_soft_solid_has_more_rounding() -> None:
     assert soft.parts["rounding"] > 100.0 * stiff.parts["rounding"]
 
 
-@pytest.mark.parametrize(("n", "k"), [(2.0, 0.0), (1.3, 0.5), (3.3, 0.7)])
+@pytest.mark.parametrize(
+    ("n", "k"), [(2.0, 0.0), *(pytest.param(*solid, marks=pytest.mark.heavy) for solid in ((1.3, 0.5), (3.3, 0.7)))]
+)
 def test_the_bound_of_the_critical_tabor_number(n: float, k: float) -> None:
     solution = critical_tabor_number(Problem(n, k, 1.0))
     exact = critical_tabor_number(Problem(n, k, 1.0), Meshes(path=Mesh(10, 2e-5), value=Mesh(18, 1e-9)))

@@ -186,6 +186,17 @@ def test_a_landing_that_the_path_does_not_contain_is_told() -> None:
     assert cycle.jump_out[1, 1] == pytest.approx(-0.0840, abs=2e-4)
 
 
+@pytest.mark.parametrize("problem", [Problem(2, 0.4, 3.0), Problem(5, 0.6, 3.0)])
+def test_a_landing_is_within_its_bound(problem: Problem) -> None:
+    cycle = displacement_cycle(trace(problem))
+    assert 0.0 < cycle.u_landing < 1e-2
+    for jump in (cycle.jump_in, cycle.jump_out):
+        assert jump is not None
+        displacement, load = map(float, jump[:, 1])
+        states = equilibria(problem, "displacement", displacement)
+        assert min(abs(state.load - load) for state in states) <= cycle.u_landing
+
+
 def test_a_tensile_end_comes_after_pull_off() -> None:
     problem = Problem(2, 0.4, 3.0)
     path = trace(problem, max_load=-0.5)

@@ -29,7 +29,14 @@ from fscm.experiment import displacement_cycle, load_controlled_retreat
 
 
 @pytest.mark.parametrize(
-    ("n", "k", "mu"), [(2.0, 0.0, 0.3), (2.0, 0.4, 1.5), (1.5, 0.6, 1.0), (5.0, 0.3, 1.2), (1.0, 0.2, 0.5)]
+    ("n", "k", "mu"),
+    [
+        (2.0, 0.0, 0.3),
+        (2.0, 0.4, 1.5),
+        (5.0, 0.3, 1.2),
+        pytest.param(1.5, 0.6, 1.0, marks=pytest.mark.heavy),
+        pytest.param(1.0, 0.2, 0.5, marks=pytest.mark.heavy),
+    ],
 )
 def test_work_equals_change_of_energy(n: float, k: float, mu: float) -> None:
     """Elastic plus surface energy changes by the work of the load between all neighbours on the path.
@@ -162,7 +169,15 @@ def _finer(problem: Problem, quantity: str) -> float:
     return analysis.solution(quantity).value
 
 
-@pytest.mark.parametrize(("n", "k", "mu"), [(50.0, 0.0, 3.0), (100.0, 0.4, 1.0), (300.0, 0.2, 0.3), (300.0, 0.4, 1.0)])
+@pytest.mark.parametrize(
+    ("n", "k", "mu"),
+    [
+        (300.0, 0.2, 0.3),
+        (300.0, 0.4, 1.0),
+        pytest.param(50.0, 0.0, 3.0, marks=pytest.mark.heavy),
+        pytest.param(100.0, 0.4, 1.0, marks=pytest.mark.heavy),
+    ],
+)
 def test_steep_punches_are_solved(n: float, k: float, mu: float) -> None:
     """The deformation of a steep punch is kept beside its heights, which would round it away."""
     problem = Problem(n, k, mu)

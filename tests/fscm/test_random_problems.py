@@ -18,8 +18,8 @@ MEDIAN, WORST = 1e3, 1e5
 NARROW = "which needs too much memory"
 # Problems whose finer path was not solved either: k above 0.8 and mu above 5.
 UNSOLVED = 8
-# Problems of the quick test: one of each 25.
-EVERY = 25
+# Problems of the quick test: one of each 50.
+EVERY = 50
 # Numbers of problems with a bound that was up to 20 times too small.
 _ONCE_TOO_SMALL = (216, 260, 316)
 KNOWN = known()
@@ -74,7 +74,7 @@ def test_a_sample_of_the_random_problems() -> None:
 
 
 def test_bounds_that_were_once_too_small() -> None:
-    """Contributions that cancel at the tip of a rigid solid, and an error whose rate changes fast at a nucleus."""
+    """The tip of a rigid solid, and a nucleus at which the rate of an error changes fast."""
     judge([problems()[i] for i in _ONCE_TOO_SMALL])
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import math
-import re
 from functools import lru_cache
 
 import numpy as np
@@ -42,21 +41,16 @@ def test_no_punch_of_the_table_is_silently_wrong() -> None:
     for number, row in rows.items():
         assert int(row["seed"]) == SEED
         assert row["kind"] == random_punch(number).kind
-        assert row["status"] in ("complete", "NotConverged")
-        assert float(row["brute_force"]) > 0.0
-        if row["status"] == "complete":
-            assert float(row["pull_off_force"]) == pytest.approx(float(row["brute_force"]), rel=BRUTE_FORCE)
+        assert row["status"] == "complete"
+        assert float(row["pull_off_force"]) == pytest.approx(float(row["brute_force"]), rel=BRUTE_FORCE)
 
 
 @pytest.mark.parametrize("number", heavy_but(LIGHT))
 def test_the_outcome_is_that_of_the_table(number: int) -> None:
-    """The path has the folds at which the stable states of a fixed mesh end as well; a refusal says why."""
+    """The path has the folds at which the stable states of a fixed mesh end as well."""
     row, analysis = table()[number], Analysis(random_punch(number).problem)
     found = outcome(analysis)
-    assert found.status == row["status"]
-    if found.status != "complete":
-        assert re.search("has not reached|ends at delta|came back to separation|may hide", found.reason)
-        return
+    assert found.status == row["status"], found.reason
     assert found.force == pytest.approx(float(row["pull_off_force"]), rel=1e-6)
     for column, maximum in (("retreat", False), ("approach", True)):
         folds = [f.displacement for f in analysis.folds if f.quantity == "displacement" and f.maximum == maximum]

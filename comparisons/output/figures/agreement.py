@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from string import ascii_lowercase
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, MARKERS, lettered, model_label, styled
+from comparisons.output.style import COLOURS, MARKERS, empty_figure, lettered, model_label, styled
 from comparisons.quantities import QUANTITIES, title_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 __all__ = ["draw"]
 
@@ -33,7 +36,7 @@ def draw(agreement: pd.DataFrame) -> Figure:
     columns = min(_COLUMNS, len(quantities))
     rows = -(-len(quantities) // columns)
     with styled():
-        figure = Figure(figsize=(9.6, 0.8 + 2.3 * rows), layout="constrained")
+        figure = empty_figure(9.6, 0.8 + 2.3 * rows)
         panels = figure.subplots(rows, columns, sharey=True, squeeze=False)
         for letter, axes, quantity in zip(ascii_lowercase, panels.flat, quantities, strict=False):
             _panel(axes, agreement[agreement["quantity"] == quantity], sorted(agreement["n"].unique()))

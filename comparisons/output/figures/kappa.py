@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
-from comparisons.output.style import COLOURS, MARKERS, lettered, model_label, model_styles, styled
+from comparisons.output.style import COLOURS, MARKERS, empty_figure, lettered, model_label, model_styles, styled
 from comparisons.quantities import title_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
 
 __all__ = ["draw", "handles", "panels", "shown"]
 
@@ -42,7 +44,7 @@ def draw(kappa: pd.DataFrame, k: float = 0.4) -> Figure:
     """
     chosen = shown(kappa, k).sort_values("mu")
     with styled():
-        figure = Figure(figsize=(7.2, 4.2), layout="constrained")
+        figure = empty_figure(7.2, 4.2)
         whole, near = figure.subplots(1, 2)
         panels(whole, near, chosen)
         lettered(whole, "a", f"{title_of(_QUANTITY)}, $k$ = {k:g}")
@@ -59,6 +61,8 @@ def shown(kappa: pd.DataFrame, k: float = 0.4) -> pd.DataFrame:
 
 def handles(shapes: Iterable[float]) -> list[Line2D]:
     """Return what the legend shows: the colour and marker of each n, increasing, and the line of each model."""
+    from matplotlib.lines import Line2D
+
     found = [
         Line2D([], [], color=COLOURS[index], marker=MARKERS[index], ms=3.5, label=f"$n$ = {n:g}")
         for index, n in enumerate(sorted(shapes))

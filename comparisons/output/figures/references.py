@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING
 
-from comparisons.output.style import COLOURS, lettered, model_label, styled
+import pandas as pd
+
+from comparisons.output.style import COLOURS, empty_figure, lettered, model_label, styled
 from comparisons.quantities import CURVES
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 __all__ = ["draw"]
 
@@ -24,7 +28,7 @@ def draw(curves: pd.DataFrame) -> Figure:
         As a run stores them in ``curves.csv``.
     """
     with styled():
-        figure = Figure(figsize=(7.2, 4.0), layout="constrained")
+        figure = empty_figure(7.2, 4.0)
         for letter, axes, quantity in zip("ab", figure.subplots(1, 2), _PANELS, strict=True):
             _panel(axes, curves[(curves["quantity"] == quantity) & (curves["status"] == "ok")], quantity)
             lettered(axes, letter)

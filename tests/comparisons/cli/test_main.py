@@ -251,6 +251,7 @@ def test_as_a_process():
             ["solve", "--model", "jkr", "--quantity", "pull_off_force", *CASE],
             {"pandas", "pyarrow", "matplotlib", "scipy.optimize", "fem_reference"},
         ),
+        (["run", "--help"], {"matplotlib", "scipy.interpolate", "fem_reference"}),
     ],
 )
 def test_a_command_does_not_wait_for_libraries_that_it_does_not_need(arguments, unneeded):

@@ -17,9 +17,11 @@ from comparisons.external.scratch import Scratch, make_scratch, remove_scratch
 
 from .test_hostile_models import ended
 
-#: Loads a model, prints the id of its process, and is then busy with a case of it.
+#: Loads a model, prints the id of its process, and is then busy with a case of it.  SIGINT ends it also where the tests
+#: run in the background of a shell, which ignores that signal.
 PARENT = """
-import sys
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
 from comparisons.registry import create
 from fscm.problem import Problem
 model = create(sys.argv[1])

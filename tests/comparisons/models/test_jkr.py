@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import mpmath as mp
 import numpy as np
 import pytest
@@ -31,6 +33,7 @@ def printed_curve(n: float, k: float, mu: float, a: mp.mpf) -> tuple[mp.mpf, mp.
     return delta, P / mp.pi
 
 
+@cache
 def extreme(n: float, k: float, mu: float, which: int) -> mp.mpf:
     """Contact radius where the displacement (0) or the load (1) of the printed curve is smallest."""
     log_a = np.linspace(-12.0, 8.0, 2001)

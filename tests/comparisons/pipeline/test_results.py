@@ -2,6 +2,7 @@
 
 import json
 import sys
+from concurrent.futures import Future
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 
@@ -91,6 +92,24 @@ def test_a_value_that_is_not_confirmed_is_not_judged(shipped, tmp_path, monkeypa
     assert not (tmp_path / "new" / "run.json").exists()
     assert main(["run", "--jobs", "1", "--recompute", "--out", str(tmp_path / "new")]) == 0
     assert read_record(tmp_path / "new" / "run.json")["rows"]["all"] == 12
+
+
+def test_the_processes_that_computed_confirm_the_shipped_values(shipped, tmp_path, monkeypatch):
+    started = []
+
+    class InThisProcess:
+        def submit(self, function, item):
+            future = Future()
+            future.set_result(function(item))
+            return future
+
+        def shutdown(self, **_):
+            pass
+
+    monkeypatch.setattr("comparisons.runs.workers._pool", lambda: started.append(InThisProcess()) or started[-1])
+    finished = run("quick", folder=tmp_path / "new", jobs=2)
+    assert finished.counts["shipped"] == 4
+    assert len(started) == 2
 
 
 def test_a_process_that_dies_in_the_check_is_one_sentence(shipped, tmp_path, monkeypatch, capsys):

@@ -9,7 +9,7 @@ import pytest
 import threadpoolctl
 
 from comparisons.runs import workers
-from comparisons.runs.workers import each, processes
+from comparisons.runs.workers import Processes, each, processes
 
 
 def threads(_):
@@ -95,3 +95,68 @@ def test_a_process_that_ended_between_two_items_is_replaced(monkeypatch):
     pools = iter([Ended(), Sound(), Sound()])
     monkeypatch.setattr(workers, "_pool", lambda: next(pools))
     assert sorted(output for _, output in processes(str, [1, 2, 3], 2)) == ["1", "2", "3"]
+
+
+class InThisProcess:
+    """An executor without a process, which counts how many were started and ended."""
+
+    started, ended = 0, 0
+
+    def __init__(self):
+        InThisProcess.started += 1
+
+    def submit(self, function, item):
+        future = Future()
+        try:
+            future.set_result(function(item))
+        except ValueError as error:
+            future.set_exception(error)
+        return future
+
+    def shutdown(self, wait=True, **_):
+        InThisProcess.ended += wait
+
+
+@pytest.fixture
+def counted(monkeypatch):
+    monkeypatch.setattr(workers, "_pool", InThisProcess)
+    monkeypatch.setattr(InThisProcess, "started", 0)
+    monkeypatch.setattr(InThisProcess, "ended", 0)
+    return InThisProcess
+
+
+def test_one_call_after_the_other_works_on_the_same_processes(counted):
+    with Processes() as backend:
+        assert len(list(backend(str, [1, 2, 3], 2))) == 3
+        assert list(backend(str, [4], 2)) == [(4, "4")]
+        assert counted.started == 2
+        assert len(list(backend(str, [1, 2, 3], 3))) == 3
+        assert (counted.started, counted.ended) == (3, 0)
+    assert (counted.started, counted.ended) == (3, 3)
+
+
+def test_processes_that_may_still_be_at_work_are_not_kept(counted):
+    with Processes() as backend:
+        with pytest.raises(ValueError, match="is refused"):
+            list(backend(fail, [1, 2], 2))
+        assert (counted.started, counted.ended) == (2, 2)
+        assert len(list(backend(str, [1, 2], 2))) == 2
+        outputs = backend(str, [1, 2, 3], 2)
+        next(outputs)
+        outputs.close()
+        assert (counted.started, counted.ended) == (4, 4)
+
+
+def test_without_a_block_processes_end_with_each_call(counted):
+    for calls in (1, 2):
+        assert len(list(processes(str, [1, 2], 2))) == 2
+        assert (counted.started, counted.ended) == (2 * calls, 2 * calls)
+
+
+def test_processes_are_the_same_and_end_with_the_block():
+    with Processes() as backend:
+        first, second = ({process for _, (process, _) in backend(threads, [1, 2], 2)} for _ in range(2))
+    assert first == second
+    for process in first:
+        with pytest.raises(ProcessLookupError):
+            os.kill(process, 0)
