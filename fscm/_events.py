@@ -47,7 +47,8 @@ _COARSE_PARAMETER_TOLERANCE = 1e-6
 # once at n = 300, k = 0, where the force was wrong by 4e-8.
 _UNRESOLVED, _REFITS = 10.0, 4
 # Above this tolerance the indicator does not see what a panel next to a much shorter one lacks: meshes are graded.
-_SEEN = 1e-6
+# The same at any tolerance at edges narrower than this, in units of their radius (n = 2, k = 0.98, mu = 1).
+_SEEN, _NARROW = 1e-6, 1e-9
 # Tolerance where the root on the coarse mesh is a start only.
 _ROUGH = 1e-2
 # Step of the continuation parameter after which the mesh is refined again, where the pressure is not resolved.
@@ -209,7 +210,8 @@ def _least_rate(a: Point, b: Point) -> tuple[Point, Point, Point, float]:
 def refined(state: State, order: int, tolerance: float) -> State:
     """The state at the same continuation parameter, on a mesh of the given order refined to the tolerance."""
     control = parameter_control(state, parameter_of(state))
-    mesh, narrow = replace(state.disc.mesh, order=order), tolerance > _SEEN
+    mesh = replace(state.disc.mesh, order=order)
+    narrow = tolerance > _SEEN or float(np.min(mesh.lengths)) < _NARROW
     if narrow:
         mesh = graded(mesh)
     guess = resolved(on_mesh(state, mesh), tolerance)
