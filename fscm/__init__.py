@@ -4,25 +4,11 @@
 >>> solution = solve(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
 >>> round(solution.value, 8)
 1.78848171
+
+The public names are listed in `__init__.pyi`; a module is loaded when one of its names is first used.
 """
 
-from fscm._kernel import Phi, Psi, ring_response
-from fscm._meshes import ACCURACIES
-from fscm.analysis import EVENTS, Analysis
-from fscm.custom_punch import CustomPunch
-from fscm.errors import NoSuchEvent, NotConverged
-from fscm.experiment import Cycle, displacement_cycle, load_controlled_retreat
-from fscm.laws import LennardJones93, Mie, SurfaceLaw
-from fscm.measured_punch import MeasuredPunch
-from fscm.path import EquilibriumPath, trace
-from fscm.physical import PhysicalProblem
-from fscm.problem import Problem
-from fscm.punch import PowerPunch, PowerSum, PunchShape, RoundedCone
-from fscm.solution import Solution
-from fscm.solve import QUANTITIES, solve, solve_together
-from fscm.stability import Stability
-from fscm.states import EquilibriumState, RadialField, equilibria, profile
-from fscm.tabulated_law import TabulatedLaw
+import lazy_loader
 
 #: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
 LAYERS = (
@@ -35,42 +21,7 @@ LAYERS = (
     ("_events", "_bounds", "_completeness", "_whole_path", "folds", "stability"),
     ("path", "critical", "quantities", "analysis"),
     ("gibson", "stieltjes"),
-    ("experiment", "states", "solve"),
+    ("experiment", "states", "solver"),
 )
 
-__all__ = [
-    "ACCURACIES",
-    "EVENTS",
-    "QUANTITIES",
-    "Analysis",
-    "CustomPunch",
-    "Cycle",
-    "EquilibriumPath",
-    "EquilibriumState",
-    "LennardJones93",
-    "MeasuredPunch",
-    "Mie",
-    "NoSuchEvent",
-    "NotConverged",
-    "Phi",
-    "PhysicalProblem",
-    "PowerPunch",
-    "PowerSum",
-    "Problem",
-    "Psi",
-    "PunchShape",
-    "RadialField",
-    "RoundedCone",
-    "Solution",
-    "Stability",
-    "SurfaceLaw",
-    "TabulatedLaw",
-    "displacement_cycle",
-    "equilibria",
-    "load_controlled_retreat",
-    "profile",
-    "ring_response",
-    "solve",
-    "solve_together",
-    "trace",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
