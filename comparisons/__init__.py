@@ -26,6 +26,7 @@ LAYERS = (
     ("output",),
     ("paper",),
     ("pipeline",),
+    ("bench",),
     ("baseline",),
     ("cli",),
     ("__main__",),

@@ -1,10 +1,11 @@
 """Baseline: the committed results, as CSV with 17 digits so that every change is visible.
 
-``python -m comparisons.baseline FOLDER`` renews them from the folder of a finished ``fscm-bench run --recompute`` or
-``fscm-bench paper``.  A run of the quick tier gives the results, the curves, the largest errors and their pictures, and
-the values of the references that are shipped with the package (`comparisons.runs.shipped_values`).  A run of the full
-tier gives the agreement of the two references, of which the quick tier has a few cases only.  ``fscm-bench paper``
-gives the figures of the paper.
+``python -m comparisons.baseline FOLDER`` renews them from the folder of a finished ``fscm-bench run --recompute``,
+``fscm-bench paper`` or ``fscm-bench bench``.  A run of the quick tier gives the results, the curves, the largest errors
+and their pictures, and the values of the references that are shipped with the package
+(`comparisons.runs.shipped_values`).  A run of the full tier gives the agreement of the two references, of which the
+quick tier has a few cases only.  ``fscm-bench paper`` gives the figures of the paper, ``fscm-bench bench`` the
+benchmark.
 
 ``python -m comparisons.baseline --check FOLDER`` changes nothing.  It lists the results of a run of the quick tier, or
 the tables of the paper's figures, that differ from the committed ones.
@@ -20,6 +21,7 @@ from typing import Any
 
 import pandas as pd
 
+from comparisons.bench import baseline as bench_baseline
 from comparisons.console.exit_status import guarded
 from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA_FIGURE, LARGEST_KAPPA, REFERENCES, RESULTS
 from comparisons.paper import baseline as paper_baseline
@@ -200,14 +202,21 @@ def main(arguments: Sequence[str]) -> int:
 def _task(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m comparisons.baseline", description=__doc__)
     parser.add_argument("--check", action="store_true", help="change nothing, and list the results that differ")
-    parser.add_argument("folder", metavar="FOLDER", type=Path, help="of a finished run, or of the paper")
+    parser.add_argument(
+        "folder", metavar="FOLDER", type=Path, help="of a finished run, of the paper, or of the benchmark"
+    )
     args = parser.parse_args(arguments)
     of_paper = paper_baseline.has_figures(args.folder)
+    of_bench = bench_baseline.has_bench(args.folder)
     if args.check:
+        if of_bench:
+            raise ValueError(f"{args.folder} has a benchmark, whose times another run does not repeat: omit --check")
         different = paper_baseline.check(args.folder) if of_paper else check(args.folder)
         print(f"{args.folder} agrees with the baseline" if different.empty else csv_text(different))
         return 0 if different.empty else 1
-    if of_paper:
+    if of_bench:
+        renewed = f"{len(bench_baseline.renew(args.folder))} files of {bench_baseline.BENCH_BASELINE}"
+    elif of_paper:
         renewed = f"{len(paper_baseline.renew(args.folder))} files of {paper_baseline.PAPER_BASELINE}"
     else:
         record, tier = _computed_run(args.folder)

@@ -8,10 +8,11 @@ from dataclasses import replace
 import numpy as np
 import scipy
 
-from fscm._adaptivity import at_kinks, on_mesh, rescaled_mesh
+from fscm._adaptivity import at_kinks, edge_mesh, on_mesh, resolving
 from fscm._arc_length import ArcLength, Point
 from fscm._equilibrium import Discretisation, Rates, State
 from fscm._newton import shifted
+from fscm._panels import PanelMesh
 from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.punch import PowerPunch, kinks_of
@@ -22,6 +23,8 @@ __all__ = ["SURPRISE", "checked_sense", "edge_elsewhere", "follow_edge", "joined
 SURPRISE = 0.5
 # The gaps within this multiple of the edge radius tell the sense of the path.
 _NEAR_EDGE = 2.0
+# Times that the panels of a new mesh are split at the edge: it may be 1e-22 of the contact radius.
+_HAND_OVER_ROUNDS = 80
 
 
 def predicted(state: State, rates: Rates, step: float) -> State:
@@ -33,7 +36,7 @@ def predicted(state: State, rates: Rates, step: float) -> State:
     return on_mesh(moved, at_kinks(problem, old, state.scale, moved.scale))
 
 
-def follow_edge(state: State, end_height: float, edge_gap: float | None = None) -> State:
+def follow_edge(state: State, end_height: float, tolerance: float, edge_gap: float | None = None) -> State:
     """Guess on a mesh scaled so that the outermost edge gap, by default that of largest tension, sits at s = 1."""
     problem, mesh = state.disc.problem, state.disc.mesh
     target = problem.law.peak_gap if edge_gap is None else edge_gap
@@ -43,16 +46,28 @@ def follow_edge(state: State, end_height: float, edge_gap: float | None = None) 
         lambda s: mesh.evaluate_places(state.gap, np.array([s]))[0] - target, low, mesh.places[outer + 1]
     )
     ratio = mesh.origin + place
-    new = rescaled_mesh(problem, mesh, state.scale, state.scale * ratio, end_height)
-    known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
-    disc, scale, shape = Discretisation(problem, new), state.scale * ratio, problem.punch.height
+    scale, shape = state.scale * ratio, problem.punch.height
+    kinked = bool(kinks_of(problem.punch))
+
+    def known_on(new: PanelMesh) -> Array:
+        """Gaps, or deformations of a steep punch, at the nodes of a mesh that follows the edge."""
+        known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
+        if state.lift is not None:
+            return mesh.evaluate(state.lift, known)
+        if kinked:
+            return mesh.evaluate(state.gap - shape(state.radius), known) + shape(scale * new.nodes)
+        return mesh.evaluate(state.gap, known) + (shape(scale * new.nodes) - shape(state.scale * known))
+
+    def gap_on(new: PanelMesh) -> Array:
+        known = known_on(new)
+        return known if state.lift is None else state.disc.height(scale * new.nodes) - state.displacement + known
+
+    new = edge_mesh(problem, mesh.order, scale, end_height)
+    new = resolving(replace(state, scale=scale), new, tolerance, gap_on, _HAND_OVER_ROUNDS)
+    disc = Discretisation(problem, new)
     if state.lift is not None:
-        return State.lifted(disc, scale, mesh.evaluate(state.lift, known), state.displacement, True, edge_gap)
-    if kinks_of(problem.punch):
-        gap = mesh.evaluate(state.gap - shape(state.radius), known) + shape(scale * new.nodes)
-    else:
-        gap = mesh.evaluate(state.gap, known) + (shape(scale * new.nodes) - shape(state.scale * known))
-    return State(disc, scale, gap, state.displacement, True, edge_gap=edge_gap)
+        return State.lifted(disc, scale, known_on(new), state.displacement, True, edge_gap)
+    return State(disc, scale, known_on(new), state.displacement, True, edge_gap=edge_gap)
 
 
 def edge_elsewhere(state: State, hand_over: float) -> bool:

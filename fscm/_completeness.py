@@ -24,13 +24,15 @@ from fscm._panels import PanelMesh
 from fscm.errors import NotConverged
 from fscm.punch import kinks_of
 
-__all__ = ["completed", "may_hide"]
+__all__ = ["completed", "least_loads", "may_hide"]
 
 # The bulge of the cubic is wrong by the fourth derivative of f, which the factor stands for.
 _MARGIN = 2.0
 # Times that an interval is halved, and the change of load or displacement that may then hide in it, relative to
 # 1 + |f|: below the error of the meshes of the path.
 _HALVINGS, _NEGLIGIBLE = 12, 1e-7
+# Places between two points where the load is bounded from below.
+_PLACES = 65
 # A change of that size cannot be told from rounding: measured up to 2e-16 relative to 1 + |f| while the nucleus of
 # contact forms (n = 2, k = 0.98, mu = 1), where load and displacement stay the same to 1e-14.
 _ROUNDING = 1e-14
@@ -40,7 +42,7 @@ _FINE = 1e-8
 _NEWTON_MARGIN, _SMALLEST = 0.01, 1e-3
 
 
-def completed(points: list[Point], tolerance: float) -> list[Point]:
+def completed(points: list[Point], tolerance: float, below: float = math.inf) -> list[Point]:
     """The points of a path, with others between those that hide turning points of load or displacement.
 
     Parameters
@@ -48,6 +50,8 @@ def completed(points: list[Point], tolerance: float) -> list[Point]:
     points : list of Point
     tolerance : float
         Resolution of the pressure on the path (see `fscm._adaptivity`).
+    below : float
+        Only between points that may hide a load below this one.
 
     Raises
     ------
@@ -57,7 +61,7 @@ def completed(points: list[Point], tolerance: float) -> list[Point]:
     arc = ArcLength.of(points[0].state.disc.problem)
     found = [points[0]]
     for a, b in pairwise(points):
-        if a.stretch == b.stretch and _may_hide_any(a, b):
+        if a.stretch == b.stretch and _may_hide_any(a, b) and least_loads(a, b) < below:
             between = _parts(*_on_common_mesh(a, b, arc), arc, tolerance, _HALVINGS)
             counts = [sum(_turns(p, q, name) for p, q in pairwise(between)) for name in _RATES]
             if counts != [_turns(a, b, name) for name in _RATES]:
@@ -111,6 +115,21 @@ def may_hide(length: float, change: float, first: float, last: float) -> bool:
     return a + (b - a) * t - bulge * t * (1.0 - t) <= 0.0
 
 
+def least_loads(a: Point, b: Point) -> float:
+    """Lower bound of the load between two points, from all rates inside the band."""
+    if a.stretch != b.stretch:
+        return min(a.state.load, b.state.load)
+    x = _length(a, b)
+    first, last = x * _rate(a, "load"), x * _rate(b, "load")
+    bulge = 4.0 * _MARGIN * 1.5 * abs(_change(a, b, "load") - 0.5 * (first + last))
+    # Integrals of the lower and of the upper rate from the first point, and to the last one.
+    t = np.linspace(0.0, 1.0, _PLACES)
+    line, more = first * t + 0.5 * (last - first) * t**2, bulge * t**2 * (0.5 - t / 3.0)
+    after = a.state.load + line - more
+    before = b.state.load - (line[-1] - line) - (more[-1] - more)
+    return float(np.min(np.maximum(after, before))) - _ROUNDING * (1.0 + abs(a.state.load))
+
+
 def _length(a: Point, b: Point) -> float:
     return parameter_of(b.state) - parameter_of(a.state)
 
@@ -143,12 +162,19 @@ def _on_common_mesh(a: Point, b: Point, arc: ArcLength) -> tuple[Point, Point]:
     if _kinked(a):
         return _resolved(a, arc), _resolved(b, arc)
     old, other = a.state.disc.mesh, b.state.disc.mesh
+    if a.state.disc is b.state.disc:
+        return _sharp(a, arc), _sharp(b, arc)
     ends = np.union1d(old.offsets, other.offsets + (other.origin - old.origin))
     mesh = PanelMesh(ends, old.order, old.origin)
     first = on_mesh(a.state, mesh)
     states = first, replace(on_mesh(b.state, mesh), disc=first.disc)
     solved = [newton(state, parameter_control(state, parameter_of(state))) for state in states]
     return _point(solved[0], a, arc), _point(solved[1], a, arc)
+
+
+def _sharp(point: Point, arc: ArcLength) -> Point:
+    state = newton(point.state, parameter_control(point.state, parameter_of(point.state)))
+    return _point(state, point, arc)
 
 
 def _kinked(point: Point) -> bool:

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from fscm._adaptivity import end_radius, fit, initial_mesh
+from fscm._adaptivity import end_radius, fit, initial_mesh, resolved
 from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of
 from fscm._branches import SURPRISE, checked_sense, edge_elsewhere, follow_edge, joined, predicted, turned
 from fscm._equilibrium import Control, Discretisation, Rates, State
@@ -28,14 +28,16 @@ from fscm.errors import NotConverged
 from fscm.problem import Problem
 from fscm.punch import PowerPunch, kinks_of
 
-__all__ = ["EDGE", "Tracking", "equilibrium_path", "moved"]
+__all__ = ["EDGE", "Tracking", "equilibrium_path", "moved", "usual_start"]
 
-_FIRST_STEP = 0.25
+_FIRST_STEP = 0.5
 _SMALLEST_STEP = 1e-6
 # Newton iterations after which the next step is longer or shorter.
-_EASY, _HARD = 3, 6
+_EASY, _HARD = 6, 10
+# Iterations of a step of the path after which a shorter one is taken.
+_MOST_ITERATIONS = 14
 _NEWTON_MARGIN = 0.01  # Newton error beside the error of the mesh
-_LONGER, _SHORTER, _RETRY = 1.4, 0.7, 0.4
+_LONGER, _SHORTER, _RETRY = 2.0, 0.7, 0.4
 # A step over which the tangent turns by more than this cosine is taken again, shorter: a fold pair turns
 # the path twice and must not be stepped over.  Steps below _BLIND_STEP are taken whatever the turn.
 _LARGEST_TURN, _BLIND_STEP = 0.85, 0.02
@@ -44,7 +46,7 @@ _BLIND_STEP_OF_ASPERITIES = 0.002
 # Before contact, once the displacement makes up less than this share of the tangent, steps are at most this long:
 # the path may then run flat through several shallow folds, over which the tangent hardly turns.  Measured: n = 2,
 # k = 0.6, mu = 3 has three folds within 0.015 of displacement, and steps of 0.5 missed the first two.
-_FLAT_SHARE, _FLAT_STEP = 0.5, 0.1
+_FLAT_SHARE, _FLAT_STEP = 0.5, 0.2
 # The width of the cohesive edge is (1.03 M)^(-1/(1-k)) for the 9-3 law; decimal logarithm of the least width, relative
 # to a contact radius, that is computed.  Measured: 26 s of CPU at 10^-16 (n = 2, k = 0.98, mu = 1) and 55 s and 3 GB at
 # 10^-21 (k = 0.985; half the memory since); the number of panels grows with the logarithm.
@@ -110,7 +112,7 @@ def _far_state(problem: Problem, central_gap: float, order: int, tolerance: floa
     gap = central_gap + disc.height(disc.mesh.nodes)
     control = Control(central_gap, gap=1.0)
     lift = np.zeros(disc.mesh.size) if disc.steep else None
-    guess = State(disc, 1.0, gap, -central_gap, False, lift=lift)
+    guess = resolved(State(disc, 1.0, gap, -central_gap, False, lift=lift), tolerance)
     return fit(newton(guess, control), control, tolerance)
 
 
@@ -163,7 +165,7 @@ def _check_edge(problem: Problem) -> None:
         )
 
 
-def _start_gap(problem: Problem) -> float:
+def usual_start(problem: Problem) -> float:
     """A central gap beyond the far branch at jump-out: JKR's C_out mu is at most sqrt(2 pi) mu (Eq. 55)."""
     return 3.0 + 3.0 * problem.mu
 
@@ -208,7 +210,7 @@ def equilibrium_path(
     _check_edge(problem)
     arc, tracking = ArcLength.of(problem), tracking or Tracking()
     longest_step = min(longest_step, tracking.longest_step)
-    gap = _start_gap(problem) if start_gap is None else start_gap
+    gap = usual_start(problem) if start_gap is None else start_gap
     gap += depth(problem, end_radius(problem, end_height))
     state = _far_state(problem, gap, order, tolerance, end_height)
     peak, singular = problem.law.peak_gap, problem.law.singular_gap
@@ -224,7 +226,7 @@ def equilibrium_path(
         follow = tracking.follow or (kinked and _beyond_kinks(state, hand_over))
         nucleus = _nucleus_gap(state, point.rates) if follow else None
         if follow and (nucleus is not None or edge_elsewhere(state, hand_over)):
-            guess = follow_edge(state, end_height, nucleus)
+            guess = follow_edge(state, end_height, tolerance, nucleus)
             control = parameter_control(guess, parameter_of(guess))
             if nucleus is not None:  # it grows slowly at first: its gap tells states apart better than its radius
                 control = Control(state.central_gap, gap=1.0)
@@ -249,12 +251,12 @@ def equilibrium_path(
         if not state.follows_edge and abs(point.rates.displacement) < _FLAT_SHARE * arc.displacement_unit(state):
             step = min(step, _FLAT_STEP)
         while True:
-            guess = predicted(state, point.rates, step)
+            guess = resolved(predicted(state, point.rates, step), tolerance)
             control = arc.control(state, point.rates, step)
             if kinked and state.parameter == usual and abs(shares[usual]) > _GIVEN_SHARE:
                 control = parameter_control(guess, parameter_of(state) + step * rate_of(point.rates, state.parameter))
             try:
-                new = newton(guess, control, _NEWTON_MARGIN * tolerance)
+                new = newton(guess, control, _NEWTON_MARGIN * tolerance, _MOST_ITERATIONS)
                 used = new.iterations
                 new = fit(new, control, tolerance, coarsen=True)
                 after = Point(new, arc.tangent(new), point.stretch)

@@ -162,9 +162,9 @@ class Defect:
 
     def _factor(self, control: str) -> tuple[Array, Array]:
         if control not in self._factors:
-            matrix = self._system.matrix
+            matrix = self._system.bordered()
             matrix[-1] = self._gradient(control)
-            self._factors[control] = scipy.linalg.lu_factor(matrix, check_finite=False)
+            self._factors[control] = scipy.linalg.lu_factor(matrix, overwrite_a=True, check_finite=False)
         return self._factors[control]
 
     @cached_property
@@ -289,6 +289,6 @@ class Defect:
         tangent = np.abs(scipy.linalg.lu_solve(lu, right, check_finite=False))
         gradient = self._gradient(functional)
         adjoint = np.abs(scipy.linalg.lu_solve(lu, gradient, trans=1, check_finite=False))
-        matrix = np.abs(self._system.matrix)
+        matrix = np.abs(self._system.bordered())
         matrix[-1] = np.abs(self._gradient(control))
         return _ROUNDOFF * _ENTRY * float(adjoint @ (matrix @ tangent) + np.abs(gradient) @ tangent)

@@ -9,7 +9,7 @@ weights 1, u^-k and (u^-k - 1)/k, in which the two parts of the kernel (`Kernel.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import pairwise
 
 import numpy as np
@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 
 from fscm._kernel import Kernel, box_cox
 from fscm._panels import PanelMesh, gauss_rule
+from fscm._response_store import known_blocks
 from fscm._typing import Array
 
-__all__ = ["axis_row", "response_block", "response_matrix"]
+__all__ = ["axis_row", "response_blocks", "response_matrix"]
 
 # A panel is near when it is closer than its own length: then the Gauss rule of q nodes leaves at most
 # (3 + sqrt 8)^-2q times the strength of a weak singularity.
@@ -90,16 +91,27 @@ def _doubling_pieces(
 
 def _moments(pieces: _Pieces, values: Array, u: Array, h: Array, order: int, count: int) -> Array:
     """Legendre moments, shape (count, order), of weighted kernel `values` (pieces, nodes), summed by pair."""
-    local = pieces.xi[:, None] + (pieces.sign * pieces.length / h[pieces.pair])[:, None] * u
-    x = 2.0 * local - 1.0
-    out = np.zeros((count, order))
-    previous, current = np.ones_like(x), x
+    x = (pieces.sign * pieces.length / h[pieces.pair])[:, None] * u
+    x += pieces.xi[:, None]
+    x *= 2.0
+    x -= 1.0
+    out = np.empty((order, count))
+    # The recurrence of the Legendre polynomials, on the products with the values.
+    previous, current = values, x * values
+    work = np.empty_like(x)
     for m in range(order):
-        polynomial = previous if m == 0 else current
-        out[:, m] = np.bincount(pieces.pair, np.einsum("ij,ij->i", values, polynomial), minlength=count)
-        if m >= 1:
-            previous, current = current, ((2 * m + 1) * x * current - m * previous) / (m + 1)
-    return out
+        if m >= 2:
+            np.multiply(x, current, out=work)
+            work *= (2 * m - 1) / m
+            if m == 2:
+                previous = values * (1.0 - 1.0 / m)
+            else:
+                previous *= 1.0 - 1.0 / m
+            work -= previous
+            previous, current, work = current, work, previous
+        term = values if m == 0 else current
+        out[m] = np.bincount(pieces.pair, term.sum(axis=1), minlength=count)
+    return out.T
 
 
 def _near_rows(
@@ -154,81 +166,75 @@ def _near_rows(
     return moments @ gauss_rule(order).to_modes
 
 
-def response_block(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], sources: NDArray[np.intp]) -> Array:
-    """Block of the response matrix between two sets of panels.
+def response_blocks(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], sources: NDArray[np.intp]) -> Array:
+    """Blocks of the response matrix between pairs of panels.
 
     Parameters
     ----------
-    targets, sources : ndarray of int
+    targets, sources : ndarray of int, shape (p,)
         Panel indices.
 
     Returns
     -------
-    ndarray, shape (len(targets) q, len(sources) q)
-        Dimension radius^(1-k): displacement / ((1-k) M) per nodal pressure.
+    ndarray, shape (p, q, q)
+        Dimension radius^(1-k): displacement / ((1-k) M) at each node of the target per nodal pressure of the source.
     """
     q = mesh.order
     v, w = mesh.rule.nodes, mesh.rule.weights
     # Less the origin: clearances come from exact differences.
     a, b, h = mesh.offsets[:-1], mesh.offsets[1:], mesh.lengths
-    at, bt, ht = a[targets, None], b[targets, None], h[targets, None]  # (T, 1)
-    as_, bs, hs = a[None, sources], b[None, sources], h[None, sources]  # (1, S)
-    # Clearance of each target node from each source panel: (T, S, q).
-    left = (at - bs)[:, :, None] + (ht * v)[:, None, :]  # panel to the left of the node
-    right = (as_ - bt)[:, :, None] + (ht * v[::-1])[:, None, :]  # panel to the right
-    own = (targets[:, None] == sources[None, :])[:, :, None]
-    is_left = at >= bs
-    gap = np.where(is_left[:, :, None], left, right)
-    gap = np.where(own, 0.0, gap)
-    near = gap < _NEAR * hs[:, :, None]
-
+    # Clearance of each target node from the source panel, shape (p, q).
+    is_left = a[targets] >= b[sources]  # the panel is to the left of the node
+    left = (a[targets] - b[sources])[:, None] + h[targets, None] * v
+    right = (a[sources] - b[targets])[:, None] + h[targets, None] * v[::-1]
+    gap = np.where(is_left[:, None], left, right)
+    gap[targets == sources] = 0.0
+    near = gap < _NEAR * h[sources, None]
     nodes = mesh.nodes.reshape(-1, q)
-    r = nodes[targets, None, :, None]  # (T, 1, q, 1)
-    t = nodes[None, sources, None, :]  # (1, S, 1, q)
-    beyond = np.where(is_left[:, :, None], (hs.T * v[::-1])[None, :, :], (hs.T * v)[None, :, :])
-    distance = gap[:, :, :, None] + beyond[:, :, None, :]
-    far = np.broadcast_to(~near[:, :, :, None], distance.shape)
-    block = np.zeros(distance.shape)
-    rb, tb = np.broadcast_to(r, distance.shape), np.broadcast_to(t, distance.shape)
-    block[far] = kernel.response(rb[far], tb[far], distance[far])
-    block *= (hs.T * w)[None, :, None, :]
+    blocks = np.empty((len(targets), q, q))
 
-    T, S, Q = np.nonzero(near)
-    if T.size:
-        own_pair = targets[T] == sources[S]
-        block[T, S, Q] = _near_rows(
+    pair, node = np.nonzero(~near)
+    if pair.size:
+        panel = sources[pair]
+        distance = gap[pair, node, None] + h[panel, None] * np.where(is_left[pair, None], v[::-1], v)
+        radius = np.broadcast_to(nodes[targets[pair], node][:, None], distance.shape)
+        blocks[pair, node] = kernel.response(radius, nodes[panel], distance) * (h[panel, None] * w)
+
+    pair, node = np.nonzero(near)
+    if pair.size:
+        panel = sources[pair]
+        blocks[pair, node] = _near_rows(
             kernel,
-            nodes[targets[T], Q],
-            gap[T, S, Q],
-            np.where(is_left[T, S], -1.0, 1.0),
-            own_pair,
-            v[Q],
-            h[sources[S]],
+            nodes[targets[pair], node],
+            gap[pair, node],
+            np.where(is_left[pair], -1.0, 1.0),
+            targets[pair] == panel,
+            v[node],
+            h[panel],
             q,
         )
-    return block.transpose(0, 2, 1, 3).reshape(len(targets) * q, len(sources) * q)
+    return blocks
 
 
 def response_matrix(kernel: Kernel, mesh: PanelMesh, previous: tuple[PanelMesh, Array] | None = None) -> Array:
-    """The whole matrix W, shape (m q, m q); blocks between panels that `previous` has too are reused."""
+    """The whole matrix W, shape (m q, m q); blocks that are known, here or from `previous`, are used again."""
     count, q = len(mesh.lengths), mesh.order
-    everything = np.arange(count)
-    if previous is None or (previous[0].order, previous[0].origin) != (q, mesh.origin):
-        return response_block(kernel, mesh, everything, everything)
-    old, old_matrix = previous
-    where = {edges: i for i, edges in enumerate(pairwise(old.offsets))}
-    match = np.array([where.get(edges, -1) for edges in pairwise(mesh.offsets)])
-    kept, fresh = np.flatnonzero(match >= 0), np.flatnonzero(match < 0)
-    W = np.empty((count, q, count, q))
-    W[np.ix_(kept, np.arange(q), kept, np.arange(q))] = old_matrix.reshape(len(old.lengths), q, len(old.lengths), q)[
-        np.ix_(match[kept], np.arange(q), match[kept], np.arange(q))
-    ]
-    if fresh.size:
-        W[fresh] = response_block(kernel, mesh, fresh, everything).reshape(len(fresh), q, count, q)
-        if kept.size:
-            block = response_block(kernel, mesh, kept, fresh).reshape(len(kept), q, len(fresh), q)
-            W[np.ix_(kept, np.arange(q), fresh, np.arange(q))] = block
-    return W.reshape(count * q, count * q)
+    blocks = known_blocks(kernel, mesh, partial(response_blocks, kernel))
+    if blocks is None:
+        blocks = np.empty((count, count, q, q))
+        known = np.zeros((count, count), bool)
+        if previous is not None and (previous[0].order, previous[0].origin) == (q, mesh.origin):
+            old, old_matrix = previous
+            where = {edges: i for i, edges in enumerate(pairwise(old.offsets.tolist()))}
+            match = np.array([where.get(edges, -1) for edges in pairwise(mesh.offsets.tolist())])
+            kept, panels = np.flatnonzero(match >= 0), len(old.lengths)
+            old_blocks = old_matrix.reshape(panels, q, panels, q).transpose(0, 2, 1, 3)
+            blocks[np.ix_(kept, kept)] = old_blocks[np.ix_(match[kept], match[kept])]
+            known[np.ix_(kept, kept)] = True
+        lacking = np.nonzero(~known)
+        blocks[lacking] = response_blocks(kernel, mesh, *lacking)
+    # In Fortran order, like the tangent that is made of it.
+    return blocks.transpose(1, 3, 0, 2).reshape(count * q, count * q).T
 
 
 def axis_row(kernel: Kernel, mesh: PanelMesh) -> Array:
@@ -236,18 +242,14 @@ def axis_row(kernel: Kernel, mesh: PanelMesh) -> Array:
     q = mesh.order
     row = mesh.weights * mesh.nodes ** (-kernel.k)
     row[:q] = mesh.lengths[0] ** (1.0 - kernel.k) * _singular_rule(q, kernel.k)[1]
-    near = np.flatnonzero(mesh.starts[1:] < _NEAR * mesh.lengths[1:]) + 1
-    if near.size:
-        zeros = np.zeros(near.size)
-        rows = _near_rows(
-            kernel,
-            zeros,
-            mesh.starts[near],
-            zeros + 1.0,
-            np.zeros(near.size, bool),
-            zeros,
-            mesh.lengths[near],
-            q,
-        )
-        row.reshape(-1, q)[near] = rows
+    for i in np.flatnonzero(mesh.starts[1:] < _NEAR * mesh.lengths[1:]) + 1:
+        row[i * q : (i + 1) * q] = _near_axis_row(kernel, float(mesh.starts[i]), float(mesh.lengths[i]), q)
     return row
+
+
+@lru_cache(maxsize=4096)
+def _near_axis_row(kernel: Kernel, start: float, length: float, order: int) -> Array:
+    """Weights, shape (order,), of the displacement on the axis for a panel that is longer than its distance to it."""
+    one, zero = np.ones(1), np.zeros(1)
+    none = np.zeros(1, bool)
+    return _near_rows(kernel, zero, start * one, one, none, zero, length * one, order)[0]

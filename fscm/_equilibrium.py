@@ -18,14 +18,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import scipy
 
+from fscm._bordered_factor import BorderedFactor
 from fscm._deformation import axis_row, response_matrix
 from fscm._kernel import kernel_of
 from fscm._panels import PanelMesh
 from fscm._tail import Tail, tail_energy, tail_of
 from fscm._typing import Array
-from fscm.errors import NotConverged
 from fscm.problem import Problem
 
 __all__ = ["STEEP", "Control", "Discretisation", "Linearisation", "Rates", "State"]
@@ -35,6 +34,12 @@ __all__ = ["STEEP", "Control", "Discretisation", "Linearisation", "Rates", "Stat
 STEEP = 10.0
 # Heights of a steep punch above this one count as this one: its tension, 1e-180 for the 9-3 law, is zero anyway.
 _HIGHEST = 1e60
+# Largest sum of a row of the difference of two tangents, of which one can stand for the other.
+_NEAR = 0.1
+# A tangent from the factors of a state nearby is corrected as long as each correction is smaller than the one before by
+# the first number; it is at rounding when the last correction is below the second, relative to its largest
+# component (of gaps relative to 1 + |H|).
+_CONVERGING, _ROUNDED, _CORRECTIONS = 0.1, 1e-14, 12
 
 
 @dataclass(frozen=True)
@@ -66,6 +71,8 @@ class Discretisation:
         known = (previous.mesh, previous.matrix) if previous is not None and previous.problem.k == problem.k else None
         self.matrix: Array = response_matrix(kernel, mesh, known)
         self.axis = axis_row(kernel, mesh)
+        #: The last factors of a tangent on this mesh: they serve states nearby.
+        self.factor: BorderedFactor | None = None
         edge = int(np.searchsorted(mesh.offsets, 1.0 - mesh.origin))
         self.edge = mesh.row_at_end(max(edge - 1, 0), 1.0)
 
@@ -246,7 +253,7 @@ class Rates:
 
 
 class Linearisation:
-    """Residual, tangent and functionals at a state (which need not be in equilibrium)."""
+    """Residual, tangent and functionals at a state (which need not be in equilibrium); no matrix is made for it."""
 
     def __init__(self, state: State) -> None:
         self.state = s = state
@@ -260,23 +267,14 @@ class Linearisation:
             self.residual = s.gap + s.displacement - d.height(s.radius) - s.deformation
         else:
             self.residual = s.lift - s.deformation
-        # dR / d log c
+        # dR / d delta and dR / d log c
         elastic = s.deformation - s.tail.displacement
+        self._stiffness_slope = K * slope
+        self._displacement_column: float | Array = 1.0 - s.tail.displacement_slope
         self.scale_column = -(rise + (1.0 - k) * elastic + s.tail.displacement_rate)
-        N = mesh.size
-        self.matrix = np.empty((N + 2, N + 2), order="F")
-        J = self.matrix[:N, :N]
-        np.multiply(d.matrix, -K * slope, out=J)
-        J[np.arange(N), np.arange(N)] += 1.0
-        self.matrix[:N, N] = 1.0 - s.tail.displacement_slope
-        self.matrix[:N, N + 1] = self.scale_column
-        self.matrix[N, :] = 0.0
-        if s.follows_edge:
-            self.matrix[N, :N] = d.edge
-            self.anchor = float(d.edge @ s.gap) - s.gap_at_edge
-        else:
-            self.matrix[N, N + 1] = 1.0
-            self.anchor = 0.0
+        # Derivatives of the anchor by delta and log c.
+        self._anchor_ends = 0.0, 0.0 if s.follows_edge else 1.0
+        self.anchor = float(d.edge @ s.gap) - s.gap_at_edge if s.follows_edge else 0.0
         area = 2.0 * s.scale**2 * mesh.weights * mesh.nodes
         self.load_row = area * slope
         self.load_slope = s.tail.load_slope
@@ -292,32 +290,66 @@ class Linearisation:
     def _unknown_is_lift(self, lift: Array, stiffness: Array, rise: Array, elastic: Array) -> None:
         """Columns for the unknowns (w, delta, log c), H = f(c s) - delta + w, without the large heights."""
         s, d = self.state, self.state.disc
-        N = d.mesh.size
-        self.matrix[:N, N] = d.matrix @ stiffness - s.tail.displacement_slope
+        self._displacement_column = d.matrix @ stiffness - s.tail.displacement_slope
         self.scale_column = -(d.matrix @ (stiffness * rise) + (1.0 - d.problem.k) * elastic + s.tail.displacement_rate)
-        self.matrix[:N, N + 1] = self.scale_column
         if s.follows_edge:
             edge = np.array([s.scale])
             self.anchor = float(d.height(edge)[0] - s.displacement + d.edge @ lift) - s.gap_at_edge
-            self.matrix[N, N], self.matrix[N, N + 1] = -1.0, float(d.rise(edge)[0])
+            self._anchor_ends = -1.0, float(d.rise(edge)[0])
         self.load_slope -= float(self.load_row.sum())
         self.load_scale += float(self.load_row @ rise)
         self.axis_gap_slope += float(self.axis_gap_row.sum())
         self.axis_gap_scale += float(self.axis_gap_row @ rise)
 
-    def solve(self, control: Control, rhs: Array) -> Array:
-        """Solve the bordered system with the control as its last row."""
-        N = len(rhs) - 2
-        row = self.matrix[N + 1]
+    def bordered(self) -> Array:
+        """The bordered matrix, in Fortran order, shape (N + 2, N + 2); its last row is left to the control."""
+        d = self.state.disc
+        N = d.mesh.size
+        matrix = np.empty((N + 2, N + 2), order="F")
+        J = matrix[:N, :N]
+        np.multiply(d.matrix, -self._stiffness_slope, out=J)
+        J[np.arange(N), np.arange(N)] += 1.0
+        matrix[:N, N] = self._displacement_column
+        matrix[:N, N + 1] = self.scale_column
+        matrix[N, :N] = d.edge if self.state.follows_edge else 0.0
+        matrix[N, N:] = self._anchor_ends
+        return matrix
+
+    def near(self, factor: BorderedFactor) -> bool:
+        """Whether factors of another state's tangent are good enough here."""
+        change = np.abs(self._stiffness_slope - factor.stiffness_slope)
+        return bool(np.max(self.state.disc.matrix @ change) < _NEAR)
+
+    def times(self, x: Array) -> Array:
+        """All rows of the bordered matrix but the last, times a vector; shape (N + 1,)."""
+        d, dH = self.state.disc, x[:-2]
+        product = np.empty(len(x) - 1)
+        product[:-1] = dH - d.matrix @ (self._stiffness_slope * dH)
+        product[:-1] += self._displacement_column * x[-2] + self.scale_column * x[-1]
+        product[-1] = self._anchor_ends[0] * x[-2] + self._anchor_ends[1] * x[-1]
+        if self.state.follows_edge:
+            product[-1] += d.edge @ dH
+        return product
+
+    def row(self, control: Control) -> Array:
+        """Derivatives of the left side of a control by the unknowns, shape (N + 2,)."""
+        N = len(self.residual)
+        row = np.empty(N + 2)
         row[:N] = control.gap * self.axis_gap_row + control.load * self.load_row
         row[N] = control.displacement - control.gap * self.axis_gap_slope + control.load * self.load_slope
         row[N + 1] = control.log_scale + control.gap * self.axis_gap_scale + control.load * self.load_scale
-        # dgesv directly: the rows differ by many orders of magnitude on purpose, which partial pivoting does
-        # not mind, while the condition estimate of the wrapper does.
-        *_, x, info = scipy.linalg.lapack.dgesv(self.matrix, rhs)
-        if info != 0:
-            raise NotConverged("Newton met a singular tangent; use another control")
-        return x
+        return row
+
+    def factor(self, control: Control) -> BorderedFactor:
+        """Factors of the bordered matrix with a control, kept for states nearby on the same mesh."""
+        return self._factored(self.row(control))
+
+    def _factored(self, row: Array) -> BorderedFactor:
+        matrix = self.bordered()
+        matrix[-1] = row
+        self.state.disc.factor = None  # its memory is free before the new one is made
+        self.state.disc.factor = BorderedFactor(matrix, self._stiffness_slope)
+        return self.state.disc.factor
 
     def violation(self, control: Control) -> float:
         """Left side of the control minus its value."""
@@ -333,9 +365,7 @@ class Linearisation:
     def rates(self, control: Control) -> Rates:
         """Derivatives along the path by the left side of the control."""
         N = len(self.residual)
-        rhs = np.zeros(N + 2)
-        rhs[N + 1] = 1.0
-        x = self.solve(control, rhs)
+        x = self._tangent(self.row(control))
         dH, dd, dc = x[:N], float(x[N]), float(x[N + 1])
         return Rates(
             dH,
@@ -344,3 +374,21 @@ class Linearisation:
             float(self.axis_gap_row @ dH) - self.axis_gap_slope * dd + self.axis_gap_scale * dc,
             float(self.load_row @ dH) + self.load_slope * dd + self.load_scale * dc,
         )
+
+    def _tangent(self, row: Array) -> Array:
+        """Tangent of unit product with a row: from the factors of a state nearby, corrected, or from new ones."""
+        known = self.state.disc.factor
+        if known is not None and self.near(known):
+            x, last = known.tangent, np.inf
+            # Far out the gaps, and their rates, are larger by many decades than near the edge.
+            size = np.append(1.0 + np.abs(self.state.gap), [1.0, 1.0])
+            for _ in range(_CORRECTIONS):
+                x = x / float(row @ x)
+                correction = known.solve(np.append(self.times(x), 0.0), row)
+                change = float(np.max(np.abs(correction) / size) / np.max(np.abs(x) / size))
+                if not change < _CONVERGING * last:
+                    if last < _ROUNDED:
+                        return x
+                    break
+                x, last = x - correction, change
+        return self._factored(row).tangent

@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 import scipy
 
-from fscm._adaptivity import fit, indicator, on_mesh
+from fscm._adaptivity import fit, graded, indicator, on_mesh, resolved
 from fscm._arc_length import Point, parameter_control, parameter_of, rates_of
 from fscm._continuation import moved
 from fscm._equilibrium import Rates, State
@@ -28,6 +28,7 @@ __all__ = [
     "load_fold",
     "locate",
     "sharpen",
+    "sharpened",
     "slowest",
     "zero_load",
 ]
@@ -38,13 +39,20 @@ Bracket = tuple[Point, Point]
 # The secant method ends one step after a step of the continuation parameter below this.  Without the last one the
 # displacement at zero load was wrong by 1.5e-11 (n = 3.2, k = 0.06, mu = 6.6), unseen by u_num.
 _PARAMETER_TOLERANCE = 1e-9
-_SECANT_STEPS = 15
+_SECANT_STEPS = 20
 # First step of the secant method: large against rounding of the derivative, small against its curvature.
 _FIRST_SECANT_STEP = 1e-4
 _COARSE_PARAMETER_TOLERANCE = 1e-6
 # The mesh is refined again when the pressure at the root is unresolved by this factor, at most so often.  Measured:
 # once at n = 300, k = 0, where the force was wrong by 4e-8.
 _UNRESOLVED, _REFITS = 10.0, 4
+# Above this tolerance the indicator does not see what a panel next to a much shorter one lacks: meshes are graded.
+# The same at any tolerance at edges narrower than this, in units of their radius (n = 2, k = 0.98, mu = 1).
+_SEEN, _NARROW = 1e-6, 1e-9
+# Tolerance where the root on the coarse mesh is a start only.
+_ROUGH = 1e-2
+# Step of the continuation parameter after which the mesh is refined again, where the pressure is not resolved.
+_FAR = 1e-3
 
 
 def load_fold(state: State, rates: Rates) -> float:
@@ -60,6 +68,10 @@ def displacement_fold(state: State, rates: Rates) -> float:
 def zero_load(state: State, rates: Rates) -> float:
     """P."""
     return state.load
+
+
+# The functional that is extreme where a condition vanishes.
+_FUNCTIONALS: dict[Condition, str] = {load_fold: "load", displacement_fold: "displacement"}
 
 
 def brackets(points: Sequence[Point], condition: Condition, rising: bool) -> list[Bracket]:
@@ -124,13 +136,44 @@ class _Between:
         return self._known[parameter]
 
 
-def locate(a: Point, b: Point, condition: Condition) -> State:
-    """Root of the condition between two neighbouring points, on their coarse mesh."""
+def locate(a: Point, b: Point, condition: Condition, tolerance: float = _COARSE_PARAMETER_TOLERANCE) -> State:
+    """Root of the condition between two neighbouring points, on their coarse mesh.
+
+    Parameters
+    ----------
+    a, b : Point
+    condition : callable
+    tolerance : float
+        Of the continuation parameter.
+    """
     between = _Between(a, b)
     root = scipy.optimize.brentq(
-        lambda x: condition(*between(x)), between.low, between.high, xtol=_COARSE_PARAMETER_TOLERANCE, rtol=1e-12
+        lambda x: condition(*between(x)), between.low, between.high, xtol=tolerance, rtol=1e-12
     )
     return between(root)[0]
+
+
+def _extreme(a: Point, b: Point, condition: Condition) -> State | None:
+    """About where a functional is extreme between two points, from the cubic through its values and rates."""
+    name = _FUNCTIONALS.get(condition)
+    if name is None:
+        return None
+    start, length = parameter_of(a.state), parameter_of(b.state) - parameter_of(a.state)
+    change = getattr(b.state, name) - getattr(a.state, name)
+    first, last = (length * getattr(rates_of(point.state), name) for point in (a, b))
+    # The rate is the line between both rates plus a bulge that accounts for the change.
+    bulge = 6.0 * (change - 0.5 * (first + last))
+    roots = np.roots([-bulge, last - first + bulge, first])
+    inside = [float(t.real) for t in roots if abs(t.imag) == 0.0 and 0.0 <= t.real <= 1.0]
+    if len(inside) != 1:
+        return None
+    near, far = (a, b) if inside[0] < 0.5 else (b, a)
+    for point in (near, far):
+        try:
+            return moved(point.state, rates_of(point.state), start + inside[0] * length, _COARSE_PARAMETER_TOLERANCE)
+        except NotConverged:
+            continue
+    return None
 
 
 def slowest(points: Sequence[Point]) -> tuple[Point, Point, Point, float]:
@@ -168,7 +211,21 @@ def refined(state: State, order: int, tolerance: float) -> State:
     """The state at the same continuation parameter, on a mesh of the given order refined to the tolerance."""
     control = parameter_control(state, parameter_of(state))
     mesh = replace(state.disc.mesh, order=order)
-    return fit(newton(on_mesh(state, mesh), control), control, tolerance, coarsen=True)
+    narrow = tolerance > _SEEN or float(np.min(mesh.lengths)) < _NARROW
+    if narrow:
+        mesh = graded(mesh)
+    guess = resolved(on_mesh(state, mesh), tolerance)
+    return fit(newton(guess, control), control, tolerance, coarsen=not narrow)
+
+
+def sharpened(bracket: Bracket, condition: Condition, order: int, tolerance: float) -> State:
+    """Root of the condition in a bracket, on a mesh of the given order refined to the tolerance."""
+    try:
+        rough = _extreme(*bracket, condition)
+        rough = locate(*bracket, condition, _ROUGH) if rough is None else rough
+        return sharpen(rough, condition, order, tolerance)
+    except NotConverged:  # from a better root on the coarse mesh
+        return sharpen(locate(*bracket, condition), condition, order, tolerance)
 
 
 def sharpen(state: State, condition: Condition, order: int, tolerance: float) -> State:
@@ -181,7 +238,7 @@ def sharpen(state: State, condition: Condition, order: int, tolerance: float) ->
     """
     state = refined(state, order, tolerance)
     for _ in range(_REFITS):
-        state = _root(state, condition)
+        state = _root(state, condition, tolerance)
         if np.max(indicator(state)) <= _UNRESOLVED * tolerance:
             return state
         # The steep rise of a flat punch has left the panels that resolved it.
@@ -189,7 +246,7 @@ def sharpen(state: State, condition: Condition, order: int, tolerance: float) ->
     raise NotConverged("the mesh at an event does not resolve the pressure; the event moves with the mesh")
 
 
-def _root(state: State, condition: Condition) -> State:
+def _root(state: State, condition: Condition, tolerance: float) -> State:
     """Root of the condition on the mesh of a state, by the secant method."""
     iterations = state.iterations
     rates = rates_of(state)
@@ -197,6 +254,8 @@ def _root(state: State, condition: Condition) -> State:
     step, settled = _FIRST_SECANT_STEP, False
     for _ in range(_SECANT_STEPS):
         new = moved(state, rates, parameter_of(state) + step)
+        if abs(step) > _FAR:  # the mesh was refined at another place
+            new = fit(new, parameter_control(new, parameter_of(new)), tolerance)
         new_rates = rates_of(new)
         new_value = condition(new, new_rates)
         change = new_value - value

@@ -25,7 +25,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import mpmath
 import numpy as np
@@ -127,8 +127,22 @@ class Kernel:
             self._near_D = _polynomial([x + y for x, y in zip(A, B, strict=True)], _NEAR_LIMIT)
             self._near_C = _polynomial([x * q / 2 for x in B], _NEAR_LIMIT)
             self._far = np.array([float(c) for c in _gauss_series(a, a, mpmath.mpf(1), 12)])
-            self._inner = _Primitive(a, a, mpmath.mpf(2), q)
-            self._outer = _Primitive(a, a - 1, mpmath.mpf(1), q)
+
+    def _made(self, less: int, c: int) -> _Primitive:
+        with mpmath.workdps(_DIGITS):
+            q = mpmath.mpf(self.k) if self.k > 0 else mpmath.mpf(_ZERO_K)
+            a = (1 + q) / 2
+            return _Primitive(a, a - less, mpmath.mpf(c), q)
+
+    @cached_property
+    def _inner(self) -> _Primitive:
+        """F of Phi within the ring; the primitives take as long as the rest, and the panels do not need them."""
+        return self._made(0, 2)
+
+    @cached_property
+    def _outer(self) -> _Primitive:
+        """F of Phi beyond the ring."""
+        return self._made(1, 1)
 
     def near_parts(self, r: Array, t: Array, distance: Array) -> tuple[Array, Array]:
         """Factors (S, C) of G = S + C L_k(distance / (r + t)), smooth in t across t = r.

@@ -186,14 +186,25 @@ class PanelMesh:
         Local coordinates come from offsets to the panel starts, so panels far below the rounding of the
         radius are handled to full relative accuracy.
         """
-        q = other.order
-        shift = other.origin - self.origin
-        panel = np.repeat(self.locate(other.middles + shift), q)
-        start = other.offsets[:-1] + shift - self.offsets[panel[::q]]
-        offset = start[:, None] + other.lengths[:, None] * other.rule.nodes
-        u = offset.ravel() / self.lengths[panel]
-        inside = (u >= 0.0) & (u <= 1.0)
-        out = np.einsum("ij,ij->i", self.rule.interpolation(u), values.reshape(-1, self.order)[panel])
-        if not inside.all():  # `other` merged panels: its nodes fall into several of ours
-            out[~inside] = self.evaluate_places(values, other.seen_from(self.origin)[~inside])
-        return out
+        q, shift = other.order, other.origin - self.origin
+        own = values.reshape(-1, self.order)
+        panel = self.locate(other.middles + shift)
+        out = np.empty((len(panel), q))
+        kept = np.zeros(len(panel), bool)
+        if q == self.order and shift == 0.0:
+            kept = (self.offsets[panel] == other.offsets[:-1]) & (self.offsets[panel + 1] == other.offsets[1:])
+            out[kept] = own[panel[kept]]
+        new = np.flatnonzero(~kept)
+        if not new.size:
+            return out.ravel()
+        panel = panel[new]
+        start = other.offsets[new] + shift - self.offsets[panel]
+        u = (start[:, None] + other.lengths[new, None] * other.rule.nodes) / self.lengths[panel, None]
+        rows = self.rule.interpolation(u.ravel()).reshape(len(new), q, self.order)
+        out[new] = (rows @ own[panel][:, :, None])[:, :, 0]
+        outside = ((u < 0.0) | (u > 1.0)).any(axis=1)
+        if outside.any():  # `other` merged panels: its nodes fall into several of ours
+            merged = new[outside]
+            places = other.seen_from(self.origin).reshape(-1, q)[merged]
+            out[merged] = self.evaluate_places(values, places.ravel()).reshape(-1, q)
+        return out.ravel()

@@ -89,6 +89,7 @@ def path_by_any_mesh(
     longest_step: float = 0.5,
     start_gap: float | None = None,
     end_height: float = Meshes.end_height,
+    complete: Callable[[list[Point]], list[Point]] | None = None,
 ) -> list[Point]:
     """Points of the path as of `path_until`, between which no turning point hides, by a moving mesh or a fixed one.
 
@@ -101,12 +102,15 @@ def path_by_any_mesh(
         As for `path_until`.
     ended : callable
         () -> the condition of the end of a new path.
+    complete : callable, optional
+        Puts points where turning points may hide; by default `fscm._completeness.completed`.
 
     Raises
     ------
     NotConverged
         With the reason of the first choice.
     """
+    complete = partial(completed, tolerance=tolerance) if complete is None else complete
     choices = [Tracking()]
     if not isinstance(problem.punch, PowerPunch) and _log_edge(problem) > _WIDE:
         choices = [_FIXED, Tracking(), _CAREFUL] if kinks_of(problem.punch) else [Tracking(), _FIXED, _CAREFUL]
@@ -114,16 +118,23 @@ def path_by_any_mesh(
     for tracking in choices:
         try:
             known = ended(), end, most, longest_step, start_gap, end_height, tracking
-            return completed(path_until(problem, order, tolerance, *known), tolerance)
+            return complete(path_until(problem, order, tolerance, *known))
         except NotConverged as error:
             errors.append(error)
     raise errors[0]
 
 
 def bracketing_path(problem: Problem, meshes: Meshes) -> list[Point]:
-    """The coarse path from far separation to a compressive load, which brackets every event."""
+    """The coarse path from far separation to a compressive load.
+
+    Under a power-law punch turning points may hide between its points; no other path is told from a wrong one without
+    the test for them, so that it is complete.
+    """
     end = partial(path_end, problem, meshes.end_height)
-    return path_by_any_mesh(problem, *meshes.path, end, "a compressive load", end_height=meshes.end_height)
+    complete = list if isinstance(problem.punch, PowerPunch) else None
+    return path_by_any_mesh(
+        problem, *meshes.path, end, "a compressive load", end_height=meshes.end_height, complete=complete
+    )
 
 
 def path_end(problem: Problem, end_height: float) -> PathEnd:

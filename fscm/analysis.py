@@ -10,9 +10,11 @@ from functools import cached_property, partial
 from fscm import _events as events
 from fscm._arc_length import Point
 from fscm._bounds import EventErrors, bounds, energy_of_jump
+from fscm._completeness import completed, least_loads
 from fscm._defect import Errors
 from fscm._events import Bracket, Condition
 from fscm._meshes import Accuracy, Meshes
+from fscm._pull_off_path import pull_off_path
 from fscm._threads import one_thread
 from fscm._whole_path import bracketing_path
 from fscm.errors import NoSuchEvent, NotConverged
@@ -69,6 +71,11 @@ class Analysis:
     @one_thread()
     def points(self) -> list[Point]:
         """The coarse path from far separation to its end; no turning point of load or displacement is left out."""
+        return completed(self._traced, self.meshes.path.tolerance)
+
+    @cached_property
+    def _traced(self) -> list[Point]:
+        """The coarse path, on which turning points may hide."""
         return bracketing_path(self.problem, self.meshes)
 
     @cached_property
@@ -102,7 +109,15 @@ class Analysis:
         )
 
     def _least_load(self) -> Bracket:
-        minima = events.brackets(self.points, events.load_fold, rising=True)
+        points = None if "_traced" in self.__dict__ else pull_off_path(self.problem, self.meshes)
+        if points is None:
+            points = self._traced
+        # A minimum that is less deep than the load of some point is not looked for.
+        below = min(point.state.load for point in points)
+        below += _NEAR * (1.0 + abs(below))
+        points = completed(points, self.meshes.path.tolerance, below)
+        minima = events.brackets(points, events.load_fold, rising=True)
+        minima = [pair for pair in minima if least_loads(*pair) < below]
         if not minima:
             raise NotConverged(f"no minimum of the load was found on the path of {self.problem}")
         if len(minima) == 1:
@@ -152,9 +167,8 @@ class Analysis:
         return self._pairs[name]
 
     def _pair(self, bracket: Bracket, condition: Condition) -> EventPair:
-        coarse = events.locate(*bracket, condition)
-        check = partial(events.sharpen, coarse, condition, *self.meshes.check)
-        return EventPair(events.sharpen(coarse, condition, *self.meshes.value), check)
+        check = partial(events.sharpened, bracket, condition, *self.meshes.check)
+        return EventPair(events.sharpened(bracket, condition, *self.meshes.value), check)
 
     @one_thread()
     def parts(self, event: str, functional: str) -> Parts:

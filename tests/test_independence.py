@@ -31,6 +31,9 @@ ALLOWED = {
     "comparisons.paper.figures.fig05_07_pull_off_surfaces": ("fscm",),
     # Both jumps of one path, at every Tabor number, in half the time of two computations.
     "comparisons.paper.figures.fig08_jumps": ("fscm",),
+    # Measure a solver at every accuracy, the others beside it, and the linear solvers inside the finite elements.
+    "comparisons.bench.pull_off": ("fscm", "fem_reference"),
+    "comparisons.bench.linear_systems": ("fem_reference",),
     # Changes one ingredient of the Stieltjes scheme at a time.
     "comparisons.paper.values.scheme_ingredients": ("fscm",),
     # Only the adapters know the solvers.

@@ -53,7 +53,9 @@ def external(*folders: str) -> set[str]:
 
 def test_every_import_of_the_packages_is_declared_and_nothing_else():
     # An optional package is imported where it is used.
-    assert external(*PACKAGES) == {canonical(requirement) for requirement in RUNTIME + EXTRAS["cluster"]}
+    assert external(*PACKAGES) == {
+        canonical(requirement) for requirement in RUNTIME + EXTRAS["cluster"] + EXTRAS["bench"]
+    }
 
 
 def test_the_tests_need_every_extra():

@@ -34,7 +34,7 @@ _COMMANDS = {
     "list": ("listing", "list the models, quantities, cases or gates"),
     "check-model": ("check_model", "check that an external model keeps the contract"),
     "new-model": ("new_model", "write a template for a model of your own"),
-    "bench": ("bench", "measure time, memory and error beside the paper's own scheme"),
+    "bench": ("bench", "measure error, time and memory of the solvers on this machine, as ratios"),
 }
 
 

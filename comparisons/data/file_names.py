@@ -4,6 +4,8 @@ from __future__ import annotations
 
 __all__ = [
     "AGREEMENT",
+    "BENCH",
+    "BENCH_SUMMARY",
     "CALLS",
     "CURVES",
     "FIGURES",
@@ -16,6 +18,7 @@ __all__ = [
     "KAPPA_FIGURE",
     "LARGEST_KAPPA",
     "LOCK",
+    "MEASUREMENTS",
     "RECORD",
     "REFERENCES",
     "REPORT",
@@ -32,6 +35,9 @@ __all__ = [
 
 #: The record of the run, the journals of its rows and of the function calls of the paper, and the lock.
 RECORD, JOURNAL, CALLS, LOCK = "run.json", "journal.jsonl", "calls.jsonl", ".lock"
+
+#: The record of a benchmark, the journal of its measurements, and its summary.
+BENCH, MEASUREMENTS, BENCH_SUMMARY = "bench.json", "bench.jsonl", "bench.txt"
 
 #: Copies of the gates and of the grids of the run, whose own files may change.
 GATES_TEXT, GRID_TEXT = "gates.toml", "grid.toml"

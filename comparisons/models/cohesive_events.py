@@ -10,8 +10,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.models.closed_form import EPS
@@ -161,7 +161,7 @@ class CohesiveEvents:
             high += _SCAN_STEP
         if not relative(low) < 0.0 < relative(high):
             return None
-        w, report = brentq(relative, low, high, xtol=4.0 * EPS, rtol=4.0 * EPS, full_output=True)
+        w, report = scipy.optimize.brentq(relative, low, high, xtol=4.0 * EPS, rtol=4.0 * EPS, full_output=True)
         around = self.contact.at(w + _DIFFERENCE * np.array([-1.0, 0.0, 1.0]))
         values, scales = function(around)
         slope = abs(float(values[2] - values[0])) / (2.0 * _DIFFERENCE)
@@ -223,7 +223,7 @@ def _end_of_scan(contact: CohesiveContact) -> float:
         low, step = low - step, 2.0 * step
     while excess(high) < 0.0:
         high, step = high + step, 2.0 * step
-    w = float(brentq(excess, low, high, xtol=1e-3))
+    w = float(scipy.optimize.brentq(excess, low, high, xtol=1e-3))
     while not float(contact.at(np.array([w]), COARSE).load[0]) > zone:
         w += 1.0
     return w

@@ -8,7 +8,7 @@ agree, those equations are right as well.  No scale is 1 and no two are equal: a
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import fem_reference
 from comparisons.model import Curve, NotApplicable, RadialField, Result
@@ -17,11 +17,13 @@ from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.numerics.grid_convergence import three_grids
 from comparisons.quantities import QUANTITIES
 from comparisons.quantities.points import near
-from fem_reference import export
 from fscm.laws import LennardJones93
 from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
+
+if TYPE_CHECKING:
+    from fem_reference import export
 
 __all__ = ["FiniteElements"]
 
@@ -96,6 +98,8 @@ class FiniteElements:
         radius : float
             Where the tension at the surface is largest, in the transverse length.
         """
+        from fem_reference import export  # loads Matplotlib
+
         physical, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             spec, point = fem_reference.event_state(body, event)

@@ -11,8 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 __all__ = ["CurveDistance", "curve_distance", "mesh_difference"]
 
@@ -116,7 +116,7 @@ def _dense(points: Array) -> Array:
     points, length = points[kept], np.concatenate([[0.0], np.cumsum(steps[kept[1:]])])
     between = np.linspace(0.0, 1.0, _SAMPLES, endpoint=False)
     samples = (length[:-1, None] + np.diff(length)[:, None] * between).ravel()
-    return np.vstack([CubicSpline(length, points)(samples), points[-1]])
+    return np.vstack([scipy.interpolate.CubicSpline(length, points)(samples), points[-1]])
 
 
 def _lengths(polyline: Array) -> Array:

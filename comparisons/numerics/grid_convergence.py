@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 __all__ = [
     "CAUTIOUS_SAFETY",
@@ -140,4 +140,4 @@ def _observed_order(r21: float, r32: float, ratio: float) -> float:
 
     end = _LARGEST_POWER / max(a, b)
     start = -end if ratio > 0.0 else 0.0
-    return brentq(misfit, start, end, xtol=1e-13) if misfit(start) <= 0.0 < misfit(end) else math.nan
+    return scipy.optimize.brentq(misfit, start, end, xtol=1e-13) if misfit(start) <= 0.0 < misfit(end) else math.nan

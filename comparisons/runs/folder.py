@@ -39,6 +39,21 @@ class RunFolder:
         return self.path / file_names.CALLS
 
     @property
+    def bench(self) -> Path:
+        """The record of a benchmark: code and machine."""
+        return self.path / file_names.BENCH
+
+    @property
+    def bench_summary(self) -> Path:
+        """The ratios of a benchmark, as they are printed."""
+        return self.path / file_names.BENCH_SUMMARY
+
+    @property
+    def measurements(self) -> Path:
+        """The journal of the finished measurements of a benchmark."""
+        return self.path / file_names.MEASUREMENTS
+
+    @property
     def lock(self) -> Path:
         """The file that keeps two processes from computing into the folder."""
         return self.path / file_names.LOCK

@@ -18,7 +18,16 @@ from threadpoolctl import threadpool_limits
 
 from comparisons.console.progress import log
 
-__all__ = ["LOST", "Backend", "Processes", "each", "one_thread", "processes", "usable_cores"]
+__all__ = [
+    "LOST",
+    "Backend",
+    "Processes",
+    "each",
+    "one_thread",
+    "processes",
+    "start_worker",
+    "usable_cores",
+]
 
 Item = TypeVar("Item")
 Output = TypeVar("Output")
@@ -204,11 +213,11 @@ def one_thread() -> None:
 
 def _pool() -> ProcessPoolExecutor:
     # "spawn": a fresh interpreter, the same on every platform, and safe beside the threads of a progress bar.
-    return ProcessPoolExecutor(1, get_context("spawn"), initializer=_start_worker)
+    return ProcessPoolExecutor(1, get_context("spawn"), initializer=start_worker)
 
 
-def _start_worker() -> None:
-    """Prepare a worker: one thread, and an end as soon as the parent ends."""
+def start_worker() -> None:
+    """Prepare a worker process: one thread, and an end as soon as the parent ends."""
     one_thread()
     # Ctrl-C reaches the whole process group: end at once, without a traceback; the parent writes the message.
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:

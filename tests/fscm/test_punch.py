@@ -14,7 +14,7 @@ from fscm.custom_punch import CustomPunch
 from fscm.measured_punch import MeasuredPunch
 from fscm.problem import Problem
 from fscm.punch import PowerPunch, PowerSum, PunchShape, RoundedCone, kinks_of
-from fscm.solve import solve
+from fscm.solver import solve
 
 RADII = np.array([1e-3, 0.1, 0.5, 1.0, 2.0, 30.0, 1e3])
 

@@ -10,7 +10,7 @@ from fscm.errors import NoSuchEvent, NotConverged
 from fscm.laws import Mie
 from fscm.problem import Problem
 from fscm.punch import RoundedCone
-from fscm.solve import solve
+from fscm.solver import solve
 from fscm.stieltjes import STIELTJES_QUANTITIES, StieltjesScheme, find_event, stieltjes_solution
 from tests.reference_values import REFERENCE_VALUES
 

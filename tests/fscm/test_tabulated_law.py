@@ -10,7 +10,7 @@ from scipy.integrate import quad
 
 from fscm.laws import LennardJones93, Mie, SurfaceLaw
 from fscm.problem import Problem
-from fscm.solve import solve
+from fscm.solver import solve
 from fscm.tabulated_law import TabulatedLaw
 
 LJ = LennardJones93()

@@ -97,13 +97,13 @@ def test_a_changed_file_is_refused(tmp_path):
 
 def test_the_digest_covers_both_solvers_and_their_models(tmp_path):
     for path in (
-        *("fscm/solve.py", "fscm/tables/values.toml", "fem_reference/mesh.py"),
+        *("fscm/solver.py", "fscm/tables/values.toml", "fem_reference/mesh.py"),
         *(f"comparisons/{name}" for name in code_files.SOLVER_MODULES),
     ):
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text("x = 1\n")
     digests = {code_files.solver_digest(tmp_path)}
-    for path in ("fscm/solve.py", "fscm/tables/values.toml", "fem_reference/mesh.py", "comparisons/model.py"):
+    for path in ("fscm/solver.py", "fscm/tables/values.toml", "fem_reference/mesh.py", "comparisons/model.py"):
         (tmp_path / path).write_text("x = 2\n")
         digests.add(code_files.solver_digest(tmp_path))
     assert len(digests) == 5

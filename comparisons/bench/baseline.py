@@ -1,0 +1,50 @@
+"""Committed benchmark: renewed from a folder of ``fscm-bench bench``."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from comparisons.bench.registry import chosen
+from comparisons.runs.atomic_files import atomic
+from comparisons.runs.folder import RunFolder
+
+__all__ = ["BENCH_BASELINE", "has_bench", "renew"]
+
+#: Folder of the committed benchmark, in a clone of the repository.
+BENCH_BASELINE = Path("results", "baseline", "bench")
+
+
+def has_bench(folder: Path) -> bool:
+    """Whether a folder is that of a finished ``fscm-bench bench``."""
+    return RunFolder(folder).bench.is_file()
+
+
+def renew(folder: Path, target: Path = BENCH_BASELINE) -> list[Path]:
+    """Replace the committed tables, figures, summary and record by those of a run of all parts; return their paths.
+
+    Raises
+    ------
+    ValueError
+        If the run lacks a part, or a measurement failed; nothing is changed then.
+    """
+    stored = RunFolder(folder)
+    record = stored.bench
+    content = json.loads(record.read_text(encoding="utf-8"))
+    sources = [record, stored.bench_summary, *(path for part in chosen(None) for path in part.files(folder))]
+    if missing := [path.name for path in sources if not path.is_file()]:
+        raise ValueError(
+            f"{folder} lacks {', '.join(missing)}: renew the baseline from the folder of a `fscm-bench bench` without "
+            "--only"
+        )
+    if content["failures"]:
+        raise ValueError(
+            f"{folder} has {content['failures']} failed measurements: repeat `fscm-bench bench --retry-failed`"
+        )
+    target.mkdir(parents=True, exist_ok=True)
+    for stale in target.iterdir():
+        stale.unlink()
+    for source in sources:
+        with atomic(target / source.name) as file:
+            file.write(source.read_bytes())
+    return [target / source.name for source in sources]

@@ -1,0 +1,138 @@
+"""Pull-off force of one problem by each solver, with its CPU time."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+import fem_reference
+import fscm
+from comparisons.bench import adhesion_package
+from comparisons.bench.measuring import cpu_seconds
+from comparisons.bench.part import Numbers, Settings
+from fscm.physical import PhysicalProblem
+from fscm.problem import Problem
+from fscm.stieltjes import StieltjesScheme, find_event
+
+__all__ = ["FSCM_ACCURACIES", "edge_width", "measure", "setting_text", "solved"]
+
+#: Relative errors that `fscm` accepts, from the coarsest to the finest.
+FSCM_ACCURACIES = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
+
+#: Before anything is timed, a neighbouring problem is solved: its Tabor number differs by this factor.
+_WARM = 1.1
+#: Repetitions have Tabor numbers that differ by this much, so that no stored solution serves them.
+_APART = 1e-6
+
+#: Scales of the physical problem that the finite elements get; no result depends on them.
+_SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25, "nu": 0.3}
+
+
+def measure(settings: Settings) -> Numbers:
+    """Return the pull-off force of a problem by a solver: value, bound, unknowns and CPU time.
+
+    Parameters
+    ----------
+    settings : dict
+        ``model``, ``n``, ``k``, ``mu``, and by model: ``accuracy`` (fscm, fem), ``segments`` (fscm-stieltjes),
+        ``half_width`` and ``points`` (adhesion).
+    """
+    return _MODELS[settings["model"]](settings)
+
+
+def setting_text(settings: Settings) -> str:
+    """Return in words with which setting of its solver a problem is solved.
+
+    Examples
+    --------
+    >>> setting_text({"model": "fscm-stieltjes", "segments": 2500}), setting_text({"model": "fscm", "accuracy": 1e-6})
+    ('N = 2500', '1e-06')
+    """
+    if settings["model"] == "fscm-stieltjes":
+        return f"N = {settings['segments']:.0f}"
+    if settings["model"] == "adhesion":
+        return f"{settings['points']:.0f} x {settings['points']:.0f}"
+    accuracy = settings["accuracy"]
+    return accuracy if isinstance(accuracy, str) else f"{accuracy:.0e}"
+
+
+def _problem(settings: Settings, repetition: int = 0) -> Problem:
+    return Problem(settings["n"], settings["k"], settings["mu"] * (1.0 + _APART * repetition))
+
+
+def solved(settings: Settings) -> Numbers:
+    """Solve a problem by `fscm` at an accuracy."""
+    accuracy = settings["accuracy"]
+    fscm.solve(_problem({**settings, "mu": _WARM * settings["mu"]}), "pull_off_force", accuracy)
+    solution, seconds = cpu_seconds(lambda i: fscm.solve(_problem(settings, i), "pull_off_force", accuracy))
+    return {
+        "value": solution.value,
+        "u_num": solution.u_num,
+        "unknowns": solution.size,
+        "cpu_seconds": seconds,
+    }
+
+
+def _elements(settings: Settings) -> Numbers:
+    """Solve by the finite elements; the problem is physical, with its load in the unit of the pull-off force."""
+    accuracy = settings["accuracy"]
+
+    def solve(repetition: int) -> tuple[Any, float]:
+        physical = PhysicalProblem.from_problem(_problem(settings, repetition), **_SCALES)
+        body = fem_reference.Problem(
+            fem_reference.Solid(E0=physical.E0, c0=physical.c0, k=physical.k, nu=physical.nu),
+            fem_reference.PowerPunch(n=physical.n, Q=physical.Q),
+            fem_reference.LennardJones(work_of_adhesion=physical.work_of_adhesion, z0=physical.z0),
+        )
+        return fem_reference.solve(body, "pull_off_force", accuracy), physical.scales["load"]
+
+    (solution, unit), seconds = cpu_seconds(solve)
+    return {
+        "value": solution.value / unit,
+        "u_num": solution.u_num / unit,
+        "unknowns": solution.size,
+        "cpu_seconds": seconds,
+    }
+
+
+def _stieltjes(settings: Settings) -> Numbers:
+    """Solve by the Stieltjes scheme; its table of the kernel, which depends on k and N only, is made before."""
+    segments = settings["segments"]
+    StieltjesScheme(_problem(settings), segments).solve(10.0)
+    event, seconds = cpu_seconds(lambda i: find_event(StieltjesScheme(_problem(settings, i), segments), "pull_off"))
+    return {"value": -event.load, "u_num": None, "unknowns": segments, "cpu_seconds": seconds}
+
+
+def _fft(settings: Settings) -> Numbers:
+    """Solve by the package `adhesion`, which gets the displacement at pull-off from `fscm`."""
+    mu, half_width, points = settings["mu"], settings["half_width"], settings["points"]
+    displacement = fscm.solve(_problem(settings), "pull_off_displacement").value
+    # The first call imports the package.
+    adhesion_package.pull_off(mu, half_width, 8, displacement)
+    found, seconds = cpu_seconds(lambda _: adhesion_package.pull_off(mu, half_width, points, displacement))
+    return {
+        "value": found.force,
+        "u_num": None,
+        "unknowns": points**2,
+        "cpu_seconds": seconds,
+        "evaluations": found.evaluations,
+    }
+
+
+_MODELS = {"fscm": solved, "fem": _elements, "fscm-stieltjes": _stieltjes, "adhesion": _fft}
+
+
+def edge_width(problem: Problem) -> float:
+    """Width of the cohesive edge at pull-off relative to its radius: from the largest tension to one z0 farther apart.
+
+    Examples
+    --------
+    >>> edge_width(Problem(2, 0, 5.0)) < edge_width(Problem(2, 0, 1.0)) < 1.0
+    True
+    """
+    surface = fscm.profile(problem)
+    peak = problem.law.peak_gap
+    outside = slice(int(np.flatnonzero(surface.gap <= peak)[-1]), None)
+    inner, outer = np.interp([peak, peak + 1.0], surface.gap[outside], surface.radius[outside])
+    return float(outer / inner - 1.0)

@@ -1,0 +1,28 @@
+"""Public names, each from its module; `__init__.py` loads a module when one of its names is first used."""
+
+from .accuracy import ACCURACIES as ACCURACIES
+from .coating import CoatingModulus as CoatingModulus
+from .errors import NoSuchEvent as NoSuchEvent, NotConverged as NotConverged
+from .laws import LennardJones as LennardJones, SurfaceLaw as SurfaceLaw
+from .modulus import (
+    CustomModulus as CustomModulus,
+    Interface as Interface,
+    Modulus as Modulus,
+    OffsetPowerLawModulus as OffsetPowerLawModulus,
+    PowerLawModulus as PowerLawModulus,
+)
+from .problem import Problem as Problem
+from .punch import CustomPunch as CustomPunch, PowerPunch as PowerPunch, Punch as Punch
+from .quantities import LOSSES as LOSSES, QUANTITIES as QUANTITIES
+from .solid import CustomSolid as CustomSolid, Solid as Solid
+from .solution import Solution as Solution, solve as solve, solve_together as solve_together
+from .states import (
+    EVENTS as EVENTS,
+    EquilibriumPath as EquilibriumPath,
+    RadialField as RadialField,
+    event_state as event_state,
+    profile as profile,
+    trace as trace,
+)
+
+LAYERS: tuple[tuple[str, ...], ...]

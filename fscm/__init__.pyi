@@ -1,0 +1,31 @@
+"""Public names, each from its module; `__init__.py` loads a module when one of its names is first used."""
+
+from ._kernel import Phi as Phi, Psi as Psi, ring_response as ring_response
+from ._meshes import ACCURACIES as ACCURACIES
+from .analysis import EVENTS as EVENTS, Analysis as Analysis
+from .custom_punch import CustomPunch as CustomPunch
+from .errors import NoSuchEvent as NoSuchEvent, NotConverged as NotConverged, OutsideAtlas as OutsideAtlas
+from .experiment import (
+    Cycle as Cycle,
+    displacement_cycle as displacement_cycle,
+    load_controlled_retreat as load_controlled_retreat,
+)
+from .interpolation.atlas import ATLAS_QUANTITIES as ATLAS_QUANTITIES, AtlasValue as AtlasValue, atlas as atlas
+from .laws import LennardJones93 as LennardJones93, Mie as Mie, SurfaceLaw as SurfaceLaw
+from .measured_punch import MeasuredPunch as MeasuredPunch
+from .path import EquilibriumPath as EquilibriumPath, trace as trace
+from .physical import PhysicalProblem as PhysicalProblem
+from .problem import Problem as Problem
+from .punch import PowerPunch as PowerPunch, PowerSum as PowerSum, PunchShape as PunchShape, RoundedCone as RoundedCone
+from .solution import Solution as Solution
+from .solver import QUANTITIES as QUANTITIES, solve as solve, solve_together as solve_together
+from .stability import Stability as Stability
+from .states import (
+    EquilibriumState as EquilibriumState,
+    RadialField as RadialField,
+    equilibria as equilibria,
+    profile as profile,
+)
+from .tabulated_law import TabulatedLaw as TabulatedLaw
+
+LAYERS: tuple[tuple[str, ...], ...]

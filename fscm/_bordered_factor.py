@@ -1,0 +1,67 @@
+"""LU factors of the bordered tangent, used again for other controls and for states nearby."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+import scipy
+
+from fscm._typing import Array
+from fscm.errors import NotConverged
+
+__all__ = ["BorderedFactor"]
+
+
+class BorderedFactor:
+    """LU factors of a bordered matrix, whose last row is a control.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (N + 2, N + 2)
+        In Fortran order; it is overwritten.
+    stiffness_slope : ndarray, shape (N,)
+        Factors of the columns of the response in the matrix.
+
+    Raises
+    ------
+    NotConverged
+        When the matrix is singular.
+    """
+
+    def __init__(self, matrix: Array, stiffness_slope: Array) -> None:
+        self.stiffness_slope = stiffness_slope
+        # dgetrf directly: the rows differ by many orders of magnitude on purpose, which partial pivoting does
+        # not mind, while the condition estimate of the wrapper does.
+        self._lu, self._pivots, info = scipy.linalg.lapack.dgetrf(matrix, overwrite_a=1)
+        if info != 0:
+            raise NotConverged("Newton met a singular tangent; use another control")
+
+    def _back(self, right: Array) -> Array:
+        found: Array = scipy.linalg.lapack.dgetrs(self._lu, self._pivots, right, overwrite_b=1)[0]
+        return found
+
+    @cached_property
+    def tangent(self) -> Array:
+        """The direction that all rows but the last map to zero, and the last one to 1."""
+        right = np.zeros(len(self.stiffness_slope) + 2)
+        right[-1] = 1.0
+        return self._back(right)
+
+    def solve(self, right: Array, row: Array) -> Array:
+        """Solution with another last row.
+
+        Parameters
+        ----------
+        right : ndarray, shape (N + 2,)
+        row : ndarray, shape (N + 2,)
+            In place of the last row of the matrix.
+        """
+        top = right.copy()
+        top[-1] = 0.0
+        found = self._back(top)
+        along = float(row @ self.tangent)
+        if along == 0.0:
+            raise NotConverged("Newton met a singular tangent; use another control")
+        found += (float(right[-1]) - float(row @ found)) / along * self.tangent
+        return found

@@ -1,0 +1,75 @@
+"""The short path to a pull-off against the whole path, and the bound that it begins with."""
+
+import numpy as np
+import pytest
+
+from fscm import Analysis, Problem, RoundedCone, solve
+from fscm import _pull_off_path as short
+from fscm._meshes import Meshes
+from fscm._threads import one_thread
+
+# Rigid to soft; (2, 0.6, 3), (5, 0.6, 3) and (1.5, 0.4, 5) have several shallow folds before contact.
+CASES = [
+    (2, 0, 0.01),
+    (2, 0.4, 0.5),
+    (1, 0.2, 1),
+    (5, 0.2, 0.5),
+    (0.9, 0.1, 2),
+    (2, 0.6, 3),
+    (5, 0.6, 3),
+    (1.5, 0.4, 5),
+]
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_pull_off_is_that_of_the_whole_path(case: tuple[float, float, float]) -> None:
+    problem = Problem(*case)
+    with one_thread():
+        path = short.pull_off_path(problem, Meshes())
+    assert path is not None
+    whole = Analysis(problem)
+    assert len(whole.points) >= len(path)
+    for quantity in ("pull_off_force", "pull_off_displacement"):
+        found, expected = solve(problem, quantity), whole.solution(quantity)
+        assert abs(found.value - expected.value) <= found.u_num + expected.u_num
+
+
+@pytest.mark.parametrize("case", CASES[1:6])
+def test_no_state_apart_carries_more_tension_than_the_rigid_solid(case: tuple[float, float, float]) -> None:
+    problem = Problem(*case)
+    states = [point.state for point in Analysis(problem).points if not point.state.follows_edge]
+    states = [state for state in states if state.central_gap > problem.law.peak_gap]
+    assert states
+    for state in states:
+        assert -state.load <= short.rigid_tension(problem, state.central_gap)
+
+
+def test_the_bound_is_close_to_the_closed_form() -> None:
+    """n = 2: 2 int t(H) dH = 2 [4 / (1 + H)^2 - 1 / (1 + H)^8] / 3."""
+    for gap in (0.3, 1.0, 3.0):
+        exact = 2.0 * (4.0 / (1.0 + gap) ** 2 - 1.0 / (1.0 + gap) ** 8) / 3.0
+        assert exact <= short.rigid_tension(Problem(2, 0.4, 1.0), gap) < 1.05 * exact
+
+
+def test_the_whole_path_is_followed_where_the_rigid_solid_might_carry_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    problem = Problem(2, 0.4, 0.5)
+    expected = solve(problem, "pull_off_force")
+    monkeypatch.setattr(short, "_start", lambda problem: 0.5)
+    monkeypatch.setattr(short, "rigid_tension", lambda problem, gap: 2.0)
+    with one_thread():
+        assert short.pull_off_path(problem, Meshes()) is None
+    model = Analysis(problem)
+    found = model.solution("pull_off_force")
+    assert "_traced" in model.__dict__
+    assert abs(found.value - expected.value) <= found.u_num + expected.u_num
+
+
+def test_another_punch_takes_the_whole_path() -> None:
+    assert short.pull_off_path(Problem(1, 0.2, 1.0, punch=RoundedCone(2.0)), Meshes()) is None
+
+
+def test_a_narrow_edge_has_a_small_bound_at_a_low_accuracy() -> None:
+    """Without graded panels the bound was 4e-5 of the force."""
+    found = solve(Problem(7.9582, 0.8704, 1.824), "pull_off_force", 1e-6)
+    assert found.u_num <= 1e-6 * found.value
+    assert np.isfinite(found.value)
