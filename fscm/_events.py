@@ -43,6 +43,8 @@ _SECANT_STEPS = 20
 # First step of the secant method: large against rounding of the derivative, small against its curvature.
 _FIRST_SECANT_STEP = 1e-4
 _COARSE_PARAMETER_TOLERANCE = 1e-6
+# How far beyond its bracket a root may be, relative to the bracket: the bracket is that of a coarser mesh.
+_BESIDE = 0.1
 # The mesh is refined again when the pressure at the root is unresolved by this factor, at most so often.  Measured:
 # once at n = 300, k = 0, where the force was wrong by 4e-8.
 _UNRESOLVED, _REFITS = 10.0, 4
@@ -219,13 +221,26 @@ def refined(state: State, order: int, tolerance: float) -> State:
 
 
 def sharpened(bracket: Bracket, condition: Condition, order: int, tolerance: float) -> State:
-    """Root of the condition in a bracket, on a mesh of the given order refined to the tolerance."""
+    """Root of the condition in a bracket, on a mesh of the given order refined to the tolerance.
+
+    Near a critical Tabor number the secant method may leave the bracket for the other fold, which is another event.
+    """
+    low, high = sorted(parameter_of(point.state) for point in bracket)
     try:
         rough = _extreme(*bracket, condition)
         rough = locate(*bracket, condition, _ROUGH) if rough is None else rough
-        return sharpen(rough, condition, order, tolerance)
-    except NotConverged:  # from a better root on the coarse mesh
-        return sharpen(locate(*bracket, condition), condition, order, tolerance)
+        found = sharpen(rough, condition, order, tolerance)
+        if low <= parameter_of(found) <= high:
+            return found
+    except NotConverged:
+        pass
+    # From a better root on the coarse mesh.
+    start = locate(*bracket, condition)
+    found = sharpen(start, condition, order, tolerance)
+    beyond = max(low - parameter_of(found), parameter_of(found) - high)
+    if beyond > _BESIDE * (high - low):
+        raise NotConverged("the root of an event is outside its bracket: the secant method went to another event")
+    return found
 
 
 def sharpen(state: State, condition: Condition, order: int, tolerance: float) -> State:
