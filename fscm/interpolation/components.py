@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["COMPONENTS", "CRITICAL", "QUANTITIES", "RELATIVE", "Component", "Composition"]
+__all__ = ["COMPONENTS", "CRITICAL", "FOLD_GAPS", "QUANTITIES", "RELATIVE", "Component", "Composition"]
 
 #: Name of the series of the critical Tabor number.
 CRITICAL = "critical_tabor_number"
@@ -53,6 +53,9 @@ class Composition:
 
 
 _IN_D, _OUT_D, _IN_G, _OUT_G = (f"jump_{way}_{what}" for what in ("displacement", "gap") for way in ("in", "out"))
+
+#: Central gaps of the two folds that merge at the critical Tabor number.
+FOLD_GAPS = (_IN_G, _OUT_G)
 
 COMPONENTS: dict[str, Component] = {
     "pull_off_force.lower": Component(False, "force", "pull_off_force"),

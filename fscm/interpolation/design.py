@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from fscm._typing import Array
-from fscm.interpolation.components import CRITICAL, QUANTITIES
+from fscm.interpolation.components import CRITICAL, FOLD_GAPS, QUANTITIES
 from fscm.interpolation.coordinates import BOX, LEAST_MU, MOST_MU, seam
 from fscm.interpolation.nodes import Nodes
 
@@ -23,7 +23,7 @@ SEEDS = {"lower": 20261122, "upper": 20261123, "critical": 20261124, "verificati
 _DIGITS = 6
 # Upper nodes keep this relative distance from the critical Tabor number, where the two folds merge.
 _DISTANCE = 5e-4
-_PATH = ("pull_off_force", "pull_off_displacement", "zero_load_displacement")
+_PATH = tuple(name for name, composition in QUANTITIES.items() if not composition.jumps)
 Node = tuple[float, float, float]
 
 
@@ -119,7 +119,7 @@ def sweep_of(nodes: Nodes) -> str:
         some = nodes.with_value(quantity)
         return list(zip(some.n.tolist(), some.k.tolist(), some.mu.tolist(), strict=True))
 
-    return sweep_text(having(CRITICAL), having(_PATH[0]), having("jump_in_gap"))
+    return sweep_text(having(CRITICAL), having(_PATH[0]), having(FOLD_GAPS[0]))
 
 
 def sweep_text(critical: list[Node], path: list[Node], jumps: list[Node]) -> str:

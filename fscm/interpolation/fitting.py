@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fscm._typing import Array
-from fscm.interpolation.components import COMPONENTS, CRITICAL, RELATIVE, Component
+from fscm.interpolation.components import COMPONENTS, CRITICAL, FOLD_GAPS, RELATIVE, Component
 from fscm.interpolation.coordinates import LEAST_MU, MOST_MU, Coordinates, seam
 from fscm.interpolation.forms import FORMS, Place, critical_of_smooth, smooth_of_critical
 from fscm.interpolation.nodes import Nodes
@@ -133,7 +133,7 @@ def nodes_of(name: str, nodes: Nodes, critical: Array) -> NDArray[np.bool_]:
     usable = np.logical_and(inside, np.isfinite(value))
     if component.first.startswith(("jump", "hysteresis")):
         with np.errstate(invalid="ignore"):
-            usable &= nodes.values["jump_in_gap"] - nodes.values["jump_out_gap"] > _DISTINCT
+            usable &= nodes.values[FOLD_GAPS[0]] - nodes.values[FOLD_GAPS[1]] > _DISTINCT
     return usable
 
 

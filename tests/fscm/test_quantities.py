@@ -15,7 +15,7 @@ from fscm.quantities import TABLE
 STIFF, SOFT = Problem(2, 0, 0.1), Problem(2, 0.4, 1.0)
 PATH_QUANTITIES = [name for name, row in TABLE.items() if row.needs]
 # Modules that define quantities: the table, and the same for the Gibson solid.
-DEFINING = ("quantities.py", "solid.py")
+DEFINING = ("components.py", "quantities.py", "solid.py")
 
 
 def test_every_quantity_needs_known_events() -> None:
