@@ -43,8 +43,6 @@ _SECANT_STEPS = 20
 # First step of the secant method: large against rounding of the derivative, small against its curvature.
 _FIRST_SECANT_STEP = 1e-4
 _COARSE_PARAMETER_TOLERANCE = 1e-6
-# How far beyond its bracket a root may be, relative to the bracket: the bracket is that of a coarser mesh.
-_BESIDE = 0.1
 # The mesh is refined again when the pressure at the root is unresolved by this factor, at most so often.  Measured:
 # once at n = 300, k = 0, where the force was wrong by 4e-8.
 _UNRESOLVED, _REFITS = 10.0, 4
@@ -225,22 +223,35 @@ def sharpened(bracket: Bracket, condition: Condition, order: int, tolerance: flo
 
     Near a critical Tabor number the secant method may leave the bracket for the other fold, which is another event.
     """
-    low, high = sorted(parameter_of(point.state) for point in bracket)
     try:
         rough = _extreme(*bracket, condition)
         rough = locate(*bracket, condition, _ROUGH) if rough is None else rough
         found = sharpen(rough, condition, order, tolerance)
-        if low <= parameter_of(found) <= high:
+        if _belongs(found, bracket, condition):
             return found
     except NotConverged:
         pass
     # From a better root on the coarse mesh.
-    start = locate(*bracket, condition)
-    found = sharpen(start, condition, order, tolerance)
-    beyond = max(low - parameter_of(found), parameter_of(found) - high)
-    if beyond > _BESIDE * (high - low):
-        raise NotConverged("the root of an event is outside its bracket: the secant method went to another event")
+    found = sharpen(locate(*bracket, condition), condition, order, tolerance)
+    if not _belongs(found, bracket, condition):
+        raise NotConverged("the secant method left the bracket of an event for another one")
     return found
+
+
+def _belongs(state: State, bracket: Bracket, condition: Condition) -> bool:
+    """Whether a root is the one in a bracket: it is inside, or the condition changes in the same sense there.
+
+    The bracket is of a coarser mesh, so that its root may be outside by the error of that mesh.
+    """
+    first, last = (parameter_of(point.state) for point in bracket)
+    here = parameter_of(state)
+    if min(first, last) <= here <= max(first, last):
+        return True
+    rates = rates_of(state)
+    beside = moved(state, rates, here + _FIRST_SECANT_STEP)
+    rise = condition(beside, rates_of(beside)) - condition(state, rates)
+    before, after = (condition(point.state, rates_of(point.state)) for point in bracket)
+    return rise * (after - before) * (last - first) > 0.0
 
 
 def sharpen(state: State, condition: Condition, order: int, tolerance: float) -> State:
