@@ -39,7 +39,7 @@ def verification():
     return Nodes.read(TABLES / "verification.csv")
 
 
-@pytest.mark.parametrize("quantity", QUANTITIES)
+@pytest.mark.parametrize("quantity", ATLAS_QUANTITIES)
 def test_no_bound_is_exceeded_at_problems_that_were_not_used(verification, quantity):
     some = verification.with_value(quantity)
     assert len(some.n) >= 30
