@@ -19,7 +19,7 @@ _UPPER, _FEWEST = 1.0 / 3.0, 6
 # Probability that a point of the cell has a larger deviation.
 _EXCEEDED = 1e-5
 #: The bound is at least this many times the largest member: the nodes of a cell are few.
-FACTOR = 2.0
+FACTOR = 3.0
 
 
 def tail_bound(sample: Array) -> float:
