@@ -58,7 +58,8 @@ def finer(problem: Problem) -> Analysis:
     end = path_end(problem, MESHES.end_height)
     longest = 0.5 / STEPS
     path = continuation.equilibrium_path(problem, *MESHES.path, longest, end_height=MESHES.end_height)
-    model.__dict__["points"] = completed(_thinned(path, end), MESHES.path.tolerance)
+    points = completed(_thinned(path, end), MESHES.path.tolerance)
+    model.__dict__.update(_traced=points, points=points)
     return model
 
 

@@ -165,7 +165,8 @@ def _finer(problem: Problem, quantity: str) -> float:
     analysis = Analysis(problem, meshes)
     end = path_end(problem, meshes.end_height)
     points = path_until(problem, *meshes.path, end, "its end", 12000, 0.5 / 8.0, end_height=meshes.end_height)
-    analysis.__dict__["points"] = completed(points, meshes.path.tolerance)
+    points = completed(points, meshes.path.tolerance)
+    analysis.__dict__.update(_traced=points, points=points)
     return analysis.solution(quantity).value
 
 
