@@ -1,5 +1,7 @@
 """Settings of all tests: one thread for the linear algebra, whose processes share the cores, and no deadlines."""
 
+import signal
+
 import pytest
 import scipy.linalg  # noqa: F401  # what is not loaded cannot be limited
 from hypothesis import settings
@@ -15,3 +17,11 @@ def one_thread():
     """Limit every library for the whole session."""
     with threadpool_limits(1):
         yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def interruptible():
+    """Processes that tests start obey SIGINT, also where the tests run in the background of a shell that ignores it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)

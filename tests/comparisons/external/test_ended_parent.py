@@ -17,11 +17,9 @@ from comparisons.external.scratch import Scratch, make_scratch, remove_scratch
 
 from .test_hostile_models import ended
 
-#: Loads a model, prints the id of its process, and is then busy with a case of it.  SIGINT ends it also where the tests
-#: run in the background of a shell, which ignores that signal.
+#: Loads a model, prints the id of its process, and is then busy with a case of it.
 PARENT = """
-import signal, sys
-signal.signal(signal.SIGINT, signal.default_int_handler)
+import sys
 from comparisons.registry import create
 from fscm.problem import Problem
 model = create(sys.argv[1])
