@@ -20,6 +20,7 @@ from fscm._whole_path import bracketing_path
 from fscm.errors import NoSuchEvent, NotConverged
 from fscm.folds import Fold, folds_of
 from fscm.problem import Problem
+from fscm.punch import PowerPunch
 from fscm.quantities import quantity_named
 from fscm.solution import EventPair, Parts, Solution
 
@@ -103,9 +104,12 @@ class Analysis:
         before, at, after, rate = events.slowest(self.points)
         if rate < 0.0:
             return (before, at), (at, after)
+        end = self.points[-1].state
+        beyond = "below the critical Tabor number"
+        if not isinstance(self.problem.punch, PowerPunch):
+            beyond = f"up to delta = {end.displacement:.4g}, P = {end.load:.4g}, beyond which no state carries tension"
         raise NoSuchEvent(
-            f"the displacement rises monotonically along the path at mu = {self.problem.mu}: there is no "
-            "jump below the critical Tabor number"
+            f"the displacement rises monotonically along the path at mu = {self.problem.mu}: there is no jump {beyond}"
         )
 
     def _least_load(self) -> Bracket:

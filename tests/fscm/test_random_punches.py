@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
-from fscm import Analysis, CustomPunch, Problem, displacement_cycle, trace
+from fscm import Analysis, CustomPunch, NoSuchEvent, Problem, displacement_cycle, trace
 from fscm._bounds import EventErrors, energy_of_jump
 from fscm.path import EquilibriumPath, _with_events
 from tests.fscm.brute_force import BruteForce, stable_states
@@ -47,7 +47,7 @@ def test_no_punch_of_the_table_is_silently_wrong() -> None:
 
 @pytest.mark.parametrize("number", heavy_but(LIGHT))
 def test_the_outcome_is_that_of_the_table(number: int) -> None:
-    """The path has the folds at which the stable states of a fixed mesh end as well."""
+    """The path has the folds at which the stable states of a fixed mesh end as well, up to its own end."""
     row, analysis = table()[number], Analysis(random_punch(number).problem)
     found = outcome(analysis)
     assert found.status == row["status"], found.reason
@@ -55,7 +55,18 @@ def test_the_outcome_is_that_of_the_table(number: int) -> None:
     for column, maximum in (("retreat", False), ("approach", True)):
         folds = [f.displacement for f in analysis.folds if f.quantity == "displacement" and f.maximum == maximum]
         for jump in map(float, row[column].split()):
-            assert min(abs(jump - fold) for fold in folds) < JUMP
+            if jump < analysis.points[-1].state.displacement:
+                assert min(abs(jump - fold) for fold in folds) < JUMP
+
+
+def test_jumps_farther_in_than_the_last_tension_are_not_part_of_the_path() -> None:
+    """Brute force finds one at delta = 17.2, where every state is compressed; the message states the end of the path."""
+    analysis = Analysis(random_punch(67).problem)
+    assert float(table()[67]["approach"]) > analysis.points[-1].state.displacement
+    with pytest.raises(
+        NoSuchEvent, match=r"no jump up to delta = 1\d\.\d+, P = \d+\.\d+, beyond which no state carries"
+    ):
+        analysis.solution("jump_in_displacement")
 
 
 @pytest.mark.parametrize("number", heavy_but((0, 3)))
