@@ -60,7 +60,7 @@ def test_the_outcome_is_that_of_the_table(number: int) -> None:
 
 
 def test_jumps_farther_in_than_the_last_tension_are_not_part_of_the_path() -> None:
-    """Brute force finds one at delta = 17.2, where every state is compressed; the message states the end of the path."""
+    """Brute force finds one at delta = 17.2, where every state is compressed; the message has the end of the path."""
     analysis = Analysis(random_punch(67).problem)
     assert float(table()[67]["approach"]) > analysis.points[-1].state.displacement
     with pytest.raises(
