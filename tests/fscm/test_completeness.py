@@ -189,7 +189,7 @@ def test_a_landing_that_the_path_does_not_contain_is_told() -> None:
 @pytest.mark.parametrize("problem", [Problem(2, 0.4, 3.0), Problem(5, 0.6, 3.0)])
 def test_a_landing_is_within_its_bound(problem: Problem) -> None:
     cycle = displacement_cycle(trace(problem))
-    assert 0.0 < cycle.u_landing < 1e-2
+    assert 0.0 < cycle.u_landing < 5e-3  # measured 4.1e-3 and 1.2e-3
     for jump in (cycle.jump_in, cycle.jump_out):
         assert jump is not None
         displacement, load = map(float, jump[:, 1])
