@@ -18,7 +18,7 @@ from typing import Any
 #: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
 LAYERS = (
     ("model", "quantities", "console"),
-    ("data", "numerics"),
+    ("data", "numerics", "domain"),
     ("models", "external"),
     ("registry",),
     ("runs",),

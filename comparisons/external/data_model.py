@@ -64,6 +64,8 @@ class DataModel:
     """
 
     physical = False
+    #: Its manifest lists cases and no ranges.
+    applies_to = None
 
     def __init__(self, submission: Submission) -> None:
         self.submission = submission

@@ -7,7 +7,7 @@ The two models differ in the cohesive stress alone: `MaugisDugdaleOriginal` take
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -30,6 +30,8 @@ _POINTS = 401
 _FIRST_RADIUS = 1e-4
 # Hertz's load at pull-off has fallen to exp(-3) of itself this far (over n) below in log(a).
 _NEAR = 3.0
+
+_DEFINED = ["pull_off_force", "pull_off_displacement", "jump_out_displacement", "zero_load_displacement", "force_curve"]
 
 
 class _MaugisDugdale(ClosedForm):
@@ -148,6 +150,7 @@ class MaugisDugdaleOriginal(_MaugisDugdale):
     name = "md-original"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 63-73; Jin, Tang, Guo & Gao, J. Mech. Phys. Solids 154 (2021) 104509"
     domain = "n > (1-k)/2, 0 <= k <= 1; cohesive stress 16 sqrt(3)/27"
+    applies_to: ClassVar[dict[str, list[Any]]] = {"quantities": _DEFINED}
 
     def cohesive_stress(self, problem: Problem) -> float:
         """sigma_0 = 16 sqrt(3) / 27, in dgamma / z0."""
@@ -166,6 +169,7 @@ class MaugisDugdaleImproved(_MaugisDugdale):
     name = "md-improved"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 63-78; Zheng & Yu, J. Colloid Interface Sci. 310 (2007) 27-34"
     domain = "n > 2/3, 0 <= k <= 1; cohesive stress eta(n)"
+    applies_to: ClassVar[dict[str, list[Any]]] = {"quantities": _DEFINED, "n": [0.667, None]}
 
     def cohesive_stress(self, problem: Problem) -> float:
         """sigma_0 = eta(n), in dgamma / z0."""

@@ -10,7 +10,7 @@ from pathlib import Path
 import pandas as pd
 
 from comparisons.judging.gates import Gate
-from comparisons.judging.summary import summarise
+from comparisons.judging.summary import COVERAGE, coverage_text, summarise
 from comparisons.numerics.number_text import error_text, exact, limits_text, value_text
 from comparisons.output.junit import junit
 from comparisons.output.latex import latex
@@ -59,8 +59,8 @@ def command(row: pd.Series, specs: Mapping[str, str]) -> str:
 def matrix(gates: pd.DataFrame, specs: Mapping[str, str]) -> pd.DataFrame:
     """Return one row of texts for each row of a summary (`comparisons.judging.summary.summarise`), in its order.
 
-    Columns: verdict, gate, candidate, reference, cases (how many, and of them those that did not apply),
-    error of the worst case with its U in brackets, limits, the command that computes that case again, and the
+    Columns: verdict, gate, candidate, reference, coverage (in how many cases the candidate has a value, of how many in
+    which it is evaluated), error of the worst case with its U in brackets, limits, the command that computes that case again, and the
     reason.
     """
     return pd.DataFrame(
@@ -69,9 +69,7 @@ def matrix(gates: pd.DataFrame, specs: Mapping[str, str]) -> pd.DataFrame:
             "gate": gates["gate"],
             "candidate": gates["candidate"],
             "reference": gates["reference"],
-            "cases": [
-                f"{a}" + (f" ({b} n/a)" if b else "") for a, b in zip(gates["cases"], gates["skipped"], strict=True)
-            ],
+            "coverage": [coverage_text(row) for row in gates[list(COVERAGE)].to_dict("records")],
             "worst E(U)": _errors(gates),
             "limits": [limits_text(*limits) for limits in zip(gates["lower"], gates["upper"], strict=True)],
             "command": [command(row, specs) for _, row in gates.iterrows()],

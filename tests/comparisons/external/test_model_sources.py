@@ -220,7 +220,7 @@ def test_a_folder_without_predictions_does_not_hide_an_installed_model(installed
     monkeypatch.chdir(tmp_path)
     (tmp_path / installed_example).mkdir()
     assert create(installed_example).name == installed_example
-    with pytest.raises(ValueError, match=r"neither FILE.py:CLASS nor a folder"):
+    with pytest.raises(ValueError, match=r"neither FILE.py:CLASS nor a program nor a folder"):
         create(f"./{installed_example}")
 
 
