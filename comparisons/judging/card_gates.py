@@ -20,9 +20,11 @@ from comparisons.judging.fresh_cases import RANDOM
 from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.judge import Judged
 
-__all__ = ["INDEPENDENT", "SAME_AGAIN", "WORSE", "card_gates", "compare_with_standing", "every_verdict", "judge_cards"]
+__all__ = ["CARD", "INDEPENDENT", "SAME_AGAIN", "WORSE", "card_gates", "compare_with_standing", "every_verdict", "judge_cards"]
 
-SAME_AGAIN, INDEPENDENT = "CARD-SAME-AGAIN", "CARD-INDEPENDENT"
+#: How the ids of these gates begin.
+CARD = "CARD-"
+SAME_AGAIN, INDEPENDENT = f"{CARD}SAME-AGAIN", f"{CARD}INDEPENDENT"
 
 #: The errors in fresh cases may be so many times the errors in the standing cases.  Those of a formula that is fitted or
 #: derived differ by a factor of 2 or 3 between two samples of one domain (the published models: at most 1.4).
@@ -107,7 +109,7 @@ def _repeated(name: str, repeated: Mapping[str, Any]) -> Iterator[Judged]:
             "u_reference": 0.0,
             "error": None if again is None else again - first,
             "uncertainty": 0.0,
-            "lower": -allowed,
+            "lower": 0.0 - allowed,
             "upper": allowed,
             "status": "ok",
         }
@@ -168,9 +170,7 @@ def _between(standing: pd.DataFrame, fresh: pd.DataFrame) -> str:
 
 def _errors(table: pd.DataFrame) -> NDArray[np.float64]:
     """Return the sizes of the errors and their bounds, in two columns."""
-    numbers = table[["error", "uncertainty"]].to_numpy(dtype=float)
-    numbers[:, 0] = np.abs(numbers[:, 0])
-    return numbers
+    return np.abs(table[["error", "uncertainty"]].to_numpy(dtype=float))
 
 
 def _is_much_worse(standing: NDArray[np.float64], fresh: NDArray[np.float64]) -> bool:
@@ -180,7 +180,7 @@ def _is_much_worse(standing: NDArray[np.float64], fresh: NDArray[np.float64]) ->
 
 def _one(id: str, name: str, verdict: Verdict, reason: str, **facts: Any) -> Judged:
     blank: dict[str, Any] = dict.fromkeys(Judged.__slots__)
-    limits = {"lower": 0.0, "upper": 0.0, "status": "", "quantity": ""}
+    limits = {"lower": math.nan, "upper": math.nan, "status": "", "quantity": ""}
     known = {"gate": id, "candidate": name, "reference": name, "verdict": verdict, "reason": reason}
     return Judged(**blank | limits | known | facts)
 

@@ -60,7 +60,7 @@ def _checks(card: Mapping[str, Any]) -> list[tuple[str, str]]:
     findings = card["check_model"]
     wrong = [f"{finding['check']}: {finding['text']}" for finding in findings if finding["status"] in ("wrong", "failed")]
     kept = sum(finding["status"] == "ok" for finding in findings)
-    words = f"{kept} checks are kept" + (f", {len(wrong)} are not: {'; '.join(wrong)}" if wrong else "")
+    words = f"kept: {kept} of {kept + len(wrong)} checks" + (f"; not kept: {'; '.join(wrong)}" if wrong else "")
     return [*lines, ("check-model", words)]
 
 

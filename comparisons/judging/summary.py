@@ -39,6 +39,8 @@ def coverage_text(numbers: Mapping[str, Any]) -> str:
     >>> coverage_text({"asked": 12, "answered": 4, "not_applicable": 7, "failed": 1, "outside": 3})
     '4 of 12 (7 n/a, 1 failed, 3 outside)'
     """
+    if not any(numbers[name] for name in COVERAGE):
+        return ""
     words = {"not_applicable": "n/a", "failed": "failed", "outside": "outside"}
     others = ", ".join(f"{int(numbers[name])} {word}" for name, word in words.items() if numbers[name])
     return f"{int(numbers['answered'])} of {int(numbers['asked'])}" + (f" ({others})" if others else "")

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from comparisons.judging.card_gates import CARD
 from comparisons.judging.gates import Gate
 from comparisons.judging.summary import COVERAGE, coverage_text, summarise
 from comparisons.numerics.number_text import error_text, exact, limits_text, value_text
@@ -49,9 +50,11 @@ def command(row: pd.Series, specs: Mapping[str, str]) -> str:
     'fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0 --mu 5'
     """
     case = " ".join(f"--{name} {exact(row[name])}" for name in ("n", "k", "mu", "nu") if pd.notna(row[name]))
-    if not case:
+    if not case and not str(row.get("gate", "")).startswith(CARD):
         return "fscm-bench list gates"
     model = shlex.quote(specs.get(row["candidate"], row["candidate"]))
+    if not case:
+        return f"fscm-bench check-model {model}"
     verb = "curve" if row["quantity"] in CURVES else "solve"
     return f"fscm-bench {verb} --model {model} --quantity {row['quantity']} {case}"
 

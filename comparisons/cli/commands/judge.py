@@ -30,6 +30,9 @@ STATUS = {
     Verdict.PASS: OK,
 }
 
+#: On a console with fewer columns the table of verdicts is without the reference, which the gates have.
+_WIDE = 110
+
 
 def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
@@ -53,7 +56,11 @@ def print_verdicts(judgement: Judgement) -> None:
         log("no gate was evaluated")
         return
     shown = matrix(summarise(judgement.verdicts), judgement.specs)
-    console.print(rich_table(shown.drop(columns=["command", "reason"]), "verdicts, worst first"))
+    narrow = ["reference"] if console.width < _WIDE else []
+    table = rich_table(shown.drop(columns=["command", "reason", *narrow]), "verdicts, worst first")
+    for column in table.columns:
+        column.overflow = "fold"
+    console.print(table)
     width = shown["gate"].str.len().max()
     console.print("the worst case of each gate is computed again by", style="bold")
     for gate, line, reason in zip(shown["gate"], shown["command"], shown["reason"], strict=True):

@@ -65,6 +65,8 @@ def _numbers(row: pd.Series) -> tuple[Cell, ...]:
 
 def _limits(row: pd.Series) -> Cell:
     lower, upper = row["lower"], row["upper"]
+    if pd.isna(lower):
+        return Cell("")
     if lower == float("-inf"):
         return Cell(f"≤ {exact(upper)}")
     return Cell(f"≥ {exact(lower)}" if upper == float("inf") else limits_text(lower, upper))
