@@ -170,7 +170,9 @@ def declared_domain(model: object) -> Domain | None:
 def _table(table: Mapping[Any, Any]) -> Range:
     for key in table:
         if key not in (_QUANTITIES, *PARAMETERS):
-            raise ValueError(f"applies_to: unknown key {key!a:.60}; the keys are {_QUANTITIES}, {', '.join(PARAMETERS)}")
+            raise ValueError(
+                f"applies_to: unknown key {key!a:.60}; the keys are {_QUANTITIES}, {', '.join(PARAMETERS)}"
+            )
     quantities = table.get(_QUANTITIES)
     if not isinstance(quantities, tuple | list) or not quantities:
         raise ValueError(f"applies_to: {_QUANTITIES} = {quantities!a:.60} is not a list of at least one quantity")

@@ -1,4 +1,4 @@
-"""Observation of a model's imports and files, in its process: does it use what it is compared with?
+"""Observation of a model's imports and files: use of the references that it is compared with.
 
 A hook of the interpreter (`sys.addaudithook`), which no Python code can remove, sees every import and every file that
 Python opens.  It does not see what another program or a library in C opens.

@@ -101,7 +101,6 @@ class ExternalModel:
         reason = one_line(str(reply.get("reason", ""))) or "the model gave no reason"
         raise (NotApplicable if reply["status"] == "not-applicable" else ComputationFailed)(reason)
 
-
     def _note(self, reply: dict[str, Any]) -> None:
         seen = reply.get("uses")
         if isinstance(seen, list):

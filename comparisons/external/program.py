@@ -106,7 +106,9 @@ class ProgramModelWithCurve(ProgramModel):
             raise ComputationFailed(f"the program gave {kind(more)} as columns, which is not a JSON object of lists")
         columns = {name: np.asarray(column(name, values)) for name, values in more.items()}
         return Curve(
-            np.asarray(column("displacement", reply["displacement"])), np.asarray(column("load", reply["load"])), columns
+            np.asarray(column("displacement", reply["displacement"])),
+            np.asarray(column("load", reply["load"])),
+            columns,
         )
 
 
@@ -136,7 +138,8 @@ class _Process:
     """The running program, with its standard error in a file of the scratch folder."""
 
     def __init__(self, file: Path) -> None:
-        self._errors: IO[bytes] = tempfile.TemporaryFile(dir=Path.cwd())
+        # Closed in `end`.
+        self._errors: IO[bytes] = tempfile.TemporaryFile(dir=Path.cwd())  # noqa: SIM115
         try:
             self._process = subprocess.Popen(
                 [str(file)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors, bufsize=0
@@ -270,5 +273,3 @@ def _require(reply: dict[str, Any], names: tuple[str, ...]) -> None:
 def _refuse_constant(name: str) -> NoReturn:
     """Refuse NaN and Infinity, which JSON does not have."""
     raise ComputationFailed(f"the program wrote {name}, which is not a finite number, and which JSON does not have")
-
-

@@ -1,7 +1,7 @@
 """Gates of the report card of an external model: the same results again, independence, fresh cases.
 
-They are judged from what the run has recorded of the model (`comparisons.pipeline.report_cards`), and stand in the tables
-of verdicts beside the gates of the run.
+They are judged from what the run has recorded of the model (`comparisons.pipeline.report_cards`), and stand in the
+tables of verdicts beside the gates of the run.
 """
 
 from __future__ import annotations
@@ -20,14 +20,23 @@ from comparisons.judging.fresh_cases import RANDOM
 from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.judge import Judged
 
-__all__ = ["CARD", "INDEPENDENT", "SAME_AGAIN", "WORSE", "card_gates", "compare_with_standing", "every_verdict", "judge_cards"]
+__all__ = [
+    "CARD",
+    "INDEPENDENT",
+    "SAME_AGAIN",
+    "WORSE",
+    "card_gates",
+    "compare_with_standing",
+    "every_verdict",
+    "judge_cards",
+]
 
 #: How the ids of these gates begin.
 CARD = "CARD-"
 SAME_AGAIN, INDEPENDENT = f"{CARD}SAME-AGAIN", f"{CARD}INDEPENDENT"
 
-#: The errors in fresh cases may be so many times the errors in the standing cases.  Those of a formula that is fitted or
-#: derived differ by a factor of 2 or 3 between two samples of one domain (the published models: at most 1.4).
+#: The errors in fresh cases may be so many times the errors in the standing cases.  Those of a formula differ little
+#: between two samples of one range: measured at most 0.93 times, md-original in 150 fresh cases.
 WORSE = 10.0
 
 _REQUIREMENTS = {
@@ -146,8 +155,8 @@ def _between(standing: pd.DataFrame, fresh: pd.DataFrame) -> str:
     shares = [(table["status"] == "ok").mean() for table in (standing[standing["status"] != "outside"], asked)]
     if len(asked) and shares[1] < 0.5 * shares[0]:
         return (
-            f"it has a value in {len(known)} standing cases, and in {len(new)} of the {len(asked)} fresh ones: it knows "
-            "the standing cases only"
+            f"it has a value in {len(known)} standing cases, and in {len(new)} of the {len(asked)} fresh ones: it "
+            "knows the standing cases only"
         )
     if new.empty:
         return ""
@@ -163,8 +172,8 @@ def _between(standing: pd.DataFrame, fresh: pd.DataFrame) -> str:
     where = "between them" if much_worse or between[wrong.index].any() else "elsewhere in its domain"
     beyond = f", beyond the limits in {len(wrong)}" if len(wrong) else ""
     return (
-        f"right at the standing cases and wrong {where}: the error is at most {largest[:, 0].max():.2g} in {len(known)} "
-        f"standing cases and {_errors(new)[:, 0].max():.2g} in {len(new)} fresh ones{beyond}"
+        f"right at the standing cases and wrong {where}: the error is at most {largest[:, 0].max():.2g} in "
+        f"{len(known)} standing cases and {_errors(new)[:, 0].max():.2g} in {len(new)} fresh ones{beyond}"
     )
 
 

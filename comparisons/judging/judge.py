@@ -32,9 +32,9 @@ _REMEDY = 'name the cases it applies to in the gate, e.g. cases = { k = [0, 0] }
 class Judged:
     """One gate in one case; n, k and mu are None where the gate as a whole could not be judged.
 
-    `error`, `uncertainty`, `lower` and `upper` are in the unit of the gate's metric.  `status` is that of the candidate's
-    result; "outside" where the case is not in the domain that the candidate declares, "no-event" where neither it nor the
-    reference has a value, and empty for the gate as a whole.
+    `error`, `uncertainty`, `lower` and `upper` are in the unit of the gate's metric.  `status` is that of the
+    candidate's result; "outside" where the case is not in the domain that the candidate declares, "no-event" where
+    neither it nor the reference has a value, and empty for the gate as a whole.
     """
 
     gate: str
@@ -106,7 +106,12 @@ def judge(
         one
         for gate in chosen
         for one in _judge_gate(
-            gate, grids, points if gate.metric == "curve" else numbers, expected, named, (domains or {}).get(gate.candidate)
+            gate,
+            grids,
+            points if gate.metric == "curve" else numbers,
+            expected,
+            named,
+            (domains or {}).get(gate.candidate),
         )
     ]
     return pd.DataFrame([asdict(one) for one in judged], columns=list(Judged.__slots__))
@@ -162,7 +167,9 @@ def _judge_case(gate: Gate, case: Case, results: StoredResults, scale: float, do
         verdict, reason = unusable.verdict, unusable.reason
         if domain is not None and status == "not-applicable":
             if results.status(key_of(gate.reference, gate, gate.reference_case(case))) == "not-applicable":
-                return replace(one, verdict=Verdict.NOT_APPLICABLE, status=NO_EVENT, reason=f"{reason}; as the reference")
+                return replace(
+                    one, verdict=Verdict.NOT_APPLICABLE, status=NO_EVENT, reason=f"{reason}; as the reference"
+                )
             return replace(one, verdict=Verdict.FAIL, reason=f"{reason} (inside the domain that the model declares)")
         if verdict is Verdict.NOT_APPLICABLE and gate.not_applicable == "error":
             verdict, reason = Verdict.ERROR, f"{reason} ({_REMEDY})"

@@ -38,7 +38,9 @@ def card_lines(
     lines = [("domain", str(domain) if domain else _undeclared(card))]
     for gate, rows in own.groupby("gate", sort=False):
         if gate not in _CARD_GATES:
-            lines.append((str(gate), f"{roll_up(rows['verdict'])}, a value in {coverage_text(coverage(rows['status']))}"))
+            lines.append(
+                (str(gate), f"{roll_up(rows['verdict'])}, a value in {coverage_text(coverage(rows['status']))}")
+            )
     return [*lines, *(_checks(card) if card else ()), ("verdict", verdict_sentence(name, verdicts))]
 
 
@@ -55,10 +57,14 @@ def _checks(card: Mapping[str, Any]) -> list[tuple[str, str]]:
         found = repeated["cause"] or f"{count} results are the same in a new process and in another order"
         lines.append(("evaluated again", found))
     else:
-        lines.append(("evaluated again", "nothing: data do not change" if card["kind"] == "data" else "it has no value"))
+        lines.append(
+            ("evaluated again", "nothing: data do not change" if card["kind"] == "data" else "it has no value")
+        )
     lines.append(("independence", _independence(card)))
     findings = card["check_model"]
-    wrong = [f"{finding['check']}: {finding['text']}" for finding in findings if finding["status"] in ("wrong", "failed")]
+    wrong = [
+        f"{finding['check']}: {finding['text']}" for finding in findings if finding["status"] in ("wrong", "failed")
+    ]
     kept = sum(finding["status"] == "ok" for finding in findings)
     words = f"kept: {kept} of {kept + len(wrong)} checks" + (f"; not kept: {'; '.join(wrong)}" if wrong else "")
     return [*lines, ("check-model", words)]
@@ -117,7 +123,8 @@ def _reason(own: pd.DataFrame, verdict: Verdict) -> str:
     largest = worst.loc[worst["error"].astype(float).abs().idxmax()]
     total = int(own["error"].notna().sum())
     return (
-        f"its error is beyond the limits in {len(worst)} of {total} cases, at worst {largest['error']:.3g} in {largest['gate']}"
+        f"its error is beyond the limits in {len(worst)} of {total} cases, "
+        f"at worst {largest['error']:.3g} in {largest['gate']}"
     )
 
 

@@ -13,8 +13,8 @@ from comparisons.judging.decision import Verdict, roll_up
 
 __all__ = ["COVERAGE", "coverage", "coverage_text", "summarise", "worst_first"]
 
-#: Numbers of cases in which a candidate was evaluated, has a value (or there is none), is not applicable, has failed or has no row, and
-#: was not evaluated since they are outside its domain.
+#: Numbers of cases in which a candidate was evaluated, has a value (or there is none), is not applicable, has failed or
+#: has no row, and was not evaluated since they are outside its domain.
 COVERAGE = ("asked", "answered", "not_applicable", "failed", "outside")
 
 
@@ -27,7 +27,11 @@ def coverage(statuses: Iterable[str]) -> dict[str, int]:
     {'asked': 4, 'answered': 2, 'not_applicable': 1, 'failed': 1, 'outside': 1}
     """
     found = Counter(statuses)
-    answered, refused, failed = found["ok"] + found["no-event"], found["not-applicable"], found["failed"] + found["missing"]
+    answered, refused, failed = (
+        found["ok"] + found["no-event"],
+        found["not-applicable"],
+        found["failed"] + found["missing"],
+    )
     return dict(zip(COVERAGE, (answered + refused + failed, answered, refused, failed, found["outside"]), strict=True))
 
 

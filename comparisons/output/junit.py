@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 import pandas as pd
 
 from comparisons.judging.decision import Verdict
+from comparisons.judging.summary import coverage
 from comparisons.numerics.number_text import limits_text
 
 __all__ = ["junit"]
@@ -40,10 +41,19 @@ def junit(judged: pd.DataFrame, command: Callable[[pd.Series], str]) -> bytes:
     root = ElementTree.Element("testsuites", {"name": "fscm-bench"} | _counts(judged))
     for gate, group in judged.groupby("gate", sort=False):
         suite = ElementTree.SubElement(root, "testsuite", {"name": _text(gate)} | _counts(group))
+        _coverage(suite, group)
         for _, row in group.iterrows():
             _case(suite, row, command)
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="utf-8", xml_declaration=True) + b"\n"
+
+
+def _coverage(suite: ElementTree.Element, group: pd.DataFrame) -> None:
+    """State in how many cases each candidate was evaluated and has a value."""
+    properties = ElementTree.SubElement(suite, "properties")
+    for candidate, rows in group.groupby("candidate", sort=False):
+        for name, number in coverage(rows["status"]).items():
+            ElementTree.SubElement(properties, "property", name=_text(f"{candidate} {name}"), value=str(number))
 
 
 def _case(suite: ElementTree.Element, row: pd.Series, command: Callable[[pd.Series], str]) -> None:

@@ -63,8 +63,8 @@ def matrix(gates: pd.DataFrame, specs: Mapping[str, str]) -> pd.DataFrame:
     """Return one row of texts for each row of a summary (`comparisons.judging.summary.summarise`), in its order.
 
     Columns: verdict, gate, candidate, reference, coverage (in how many cases the candidate has a value, of how many in
-    which it is evaluated), error of the worst case with its U in brackets, limits, the command that computes that case again, and the
-    reason.
+    which it is evaluated), error of the worst case with its U in brackets, limits, the command that computes that case
+    again, and the reason.
     """
     return pd.DataFrame(
         {

@@ -72,7 +72,6 @@ class Judgement:
         """The verdict over all and how many cases have each, as the record of a run holds them."""
         return {"all": str(self.verdict), **Counter(map(str, self.verdicts["verdict"]))}
 
-
     @property
     def coverage(self) -> list[dict[str, Any]]:
         """Verdict and coverage of each gate and candidate, as the record of a run holds them."""
@@ -155,7 +154,9 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
     # Only their SPECs are needed: nothing is computed.
     external = {name: ExternalIdentity(name, "", spec, citation="", domain="") for name, spec in specs.items()}
     domains = {name: Domain.of(tables) for name, tables in record.get("domains", {}).items()}
-    fresh = FreshCases.of_json(record["fresh"], relevant(chosen.gates, cases.grids, models)) if "fresh" in record else None
+    fresh = (
+        FreshCases.of_json(record["fresh"], relevant(chosen.gates, cases.grids, models)) if "fresh" in record else None
+    )
     inputs = RunInputs(cases, chosen, models, external, domains, fresh)
     _warn_of_missing(inputs, results, curves, folder)
     judgement = judge_and_write(stored, inputs, results, curves, record.get("cards", {}))

@@ -131,8 +131,13 @@ def run(
         recompute=recompute,
         backend=workers,
     )
-    others = {"backend": None if backend == "processes" else backend, "scheduler": scheduler, "shard": shard}
-    others |= {"random": fresh.count, "seed": fresh.seed} if fresh else {}
+    others: dict[str, str | int | None] = {
+        "backend": None if backend == "processes" else backend,
+        "scheduler": scheduler,
+        "shard": shard,
+        "random": fresh.count if fresh else None,
+        "seed": fresh.seed if fresh else None,
+    }
     arguments = {"jobs": jobs, **{name: value for name, value in others.items() if value is not None}}
     return write_run(target, inputs, found, arguments, start)
 
@@ -161,7 +166,9 @@ def _fresh(
     able = [name for name in models if name not in external or source_of(external[name].spec)["kind"] != "data"]
     for name in sorted(set(models) - set(able)):
         log(f"{name} has no fresh cases: it is data")
-    fresh = draw(gates.gates, cases.grids, able, domains, count, SystemRandom().randrange(2**32) if seed is None else seed)
+    fresh = draw(
+        gates.gates, cases.grids, able, domains, count, SystemRandom().randrange(2**32) if seed is None else seed
+    )
     if not fresh.parts:
         raise ValueError("--random: no gate of this run can be judged in fresh cases of a given model")
     log(f"{sum(len(part.grid.cases) for part in fresh.parts)} fresh cases, --seed {fresh.seed}")

@@ -30,7 +30,7 @@ STATUS = {
     Verdict.PASS: OK,
 }
 
-#: On a console with fewer columns the table of verdicts is without the reference, which the gates have.
+#: On a console with fewer columns the table of verdicts is without what the gates and the command line have.
 _WIDE = 110
 
 
@@ -56,8 +56,10 @@ def print_verdicts(judgement: Judgement) -> None:
         log("no gate was evaluated")
         return
     shown = matrix(summarise(judgement.verdicts), judgement.specs)
-    narrow = ["reference"] if console.width < _WIDE else []
-    table = rich_table(shown.drop(columns=["command", "reason", *narrow]), "verdicts, worst first")
+    hidden = ["command", "reason"]
+    if console.width < _WIDE:
+        hidden += ["reference", "limits"] + ["candidate"] * (shown["candidate"].nunique() == 1)
+    table = rich_table(shown.drop(columns=hidden), "verdicts, worst first")
     for column in table.columns:
         column.overflow = "fold"
     console.print(table)

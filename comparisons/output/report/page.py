@@ -8,7 +8,7 @@ from typing import Any
 
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.output.latex import latex
-from comparisons.output.report import number_tables, plots, verdict_tables
+from comparisons.output.report import card_table, number_tables, plots, verdict_tables
 from comparisons.output.report.plot import Plot
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.report.table import Table, table_tex
@@ -84,6 +84,7 @@ def make_page(stored: Stored) -> Page:
         verdict_tables.matrix(stored),
         verdict_tables.offenders(stored, specs),
         verdict_tables.all_verdicts(stored),
+        card_table.cards(stored),
     ]
     made = [
         *(of_verdicts if stored.judged else ()),
