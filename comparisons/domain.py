@@ -66,7 +66,8 @@ class Domain:
     Attributes
     ----------
     tables : tuple of Range
-        A case is inside if it is inside one of them.
+        A case is inside if it is inside one of them.  Without tables the domain is a list of cases that the model
+        itself has: predictions as data.
 
     Examples
     --------
@@ -103,6 +104,16 @@ class Domain:
             raise ValueError(f"applies_to has {len(tables)} tables, outside 1 to {MOST_TABLES}: people read it")
         return cls(tuple(_table(table) for table in tables))
 
+    @classmethod
+    def of_json(cls, tables: list[dict[str, Any]]) -> Domain:
+        """Return the domain that `as_json` has written."""
+        return cls.of(tables) if tables else cls(())
+
+    @property
+    def is_list(self) -> bool:
+        """Whether the domain is a list of cases that the model itself has."""
+        return not self.tables
+
     def of_quantity(self, quantity: str) -> list[Range]:
         """Return the tables that have a quantity."""
         return [table for table in self.tables if quantity in table.quantities]
@@ -116,7 +127,7 @@ class Domain:
         case : mapping
             n, k, mu and perhaps nu.
         """
-        return any(table.within(case) for table in self.of_quantity(quantity))
+        return self.is_list or any(table.within(case) for table in self.of_quantity(quantity))
 
     def refusal(self, quantity: str) -> str:
         """Return why a quantity is not evaluated in a case that is not inside.
@@ -147,7 +158,7 @@ class Domain:
         ]
 
     def __str__(self) -> str:
-        return "; ".join(map(str, self.tables))
+        return "; ".join(map(str, self.tables)) or "the cases of its data"
 
 
 def declared_domain(model: object) -> Domain | None:

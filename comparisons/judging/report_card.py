@@ -35,19 +35,15 @@ def card_lines(
         The domain that it declares.
     """
     own = verdicts[verdicts["candidate"] == name]
-    lines = [("domain", str(domain) if domain else _undeclared(card))]
+    lines = [
+        ("domain", "it declares none (applies_to), and is evaluated in every case" if domain is None else str(domain))
+    ]
     for gate, rows in own.groupby("gate", sort=False):
         if gate not in _CARD_GATES:
             lines.append(
                 (str(gate), f"{roll_up(rows['verdict'])}, a value in {coverage_text(coverage(rows['status']))}")
             )
     return [*lines, *(_checks(card) if card else ()), ("verdict", verdict_sentence(name, verdicts))]
-
-
-def _undeclared(card: Mapping[str, Any] | None) -> str:
-    if card and card["kind"] == "data":
-        return "the cases of its data"
-    return "it declares none (applies_to), and is evaluated in every case"
 
 
 def _checks(card: Mapping[str, Any]) -> list[tuple[str, str]]:

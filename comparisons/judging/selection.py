@@ -97,7 +97,7 @@ def needed_keys(
             candidate = key_of(gate.candidate, gate, case)
             needed.add(candidate)
             status, domain = statuses.get(candidate), (domains or {}).get(gate.candidate)
-            promised = domain is not None and domain.contains(gate.quantity, case.parameters)
+            promised = domain is not None and not domain.is_list and domain.contains(gate.quantity, case.parameters)
             # The range of the reference is over all cases.
             if status == "ok" or (status == "not-applicable" and promised) or gate.metric == "range-relative":
                 needed.add(key_of(gate.reference, gate, gate.reference_case(case)))

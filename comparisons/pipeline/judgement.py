@@ -153,7 +153,7 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
         arguments["gates"], own = label, True
     # Only their SPECs are needed: nothing is computed.
     external = {name: ExternalIdentity(name, "", spec, citation="", domain="") for name, spec in specs.items()}
-    domains = {name: Domain.of(tables) for name, tables in record.get("domains", {}).items()}
+    domains = {name: Domain.of_json(tables) for name, tables in record.get("domains", {}).items()}
     fresh = (
         FreshCases.of_json(record["fresh"], relevant(chosen.gates, cases.grids, models)) if "fresh" in record else None
     )

@@ -18,7 +18,7 @@ def cards(stored: Stored) -> Table:
         Row((Cell(name), Cell(label), Cell(text)))
         for name in given_models(record["arguments"].get("model"), stored.verdicts)
         for label, text in card_lines(
-            name, stored.verdicts, found.get(name), Domain.of(domains[name]) if name in domains else None
+            name, stored.verdicts, found.get(name), Domain.of_json(domains[name]) if name in domains else None
         )
     ]
     columns = (Column("model", "head"), Column("item"), Column("found", "prose"))
