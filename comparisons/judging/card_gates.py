@@ -39,6 +39,12 @@ SAME_AGAIN, INDEPENDENT = f"{CARD}SAME-AGAIN", f"{CARD}INDEPENDENT"
 #: between two samples of one range: measured at most 0.93 times, md-original in 150 fresh cases.
 WORSE = 10.0
 
+#: Columns of numbers of a table of verdicts.
+_NUMBERS = (
+    *("n", "k", "mu", "nu", "value", "u_num", "reference_value", "u_reference"),
+    *("error", "uncertainty", "lower", "upper"),
+)
+
 _REQUIREMENTS = {
     SAME_AGAIN: (
         "The model gives the same number again in a new process with the evaluations in another order.",
@@ -195,7 +201,8 @@ def _one(id: str, name: str, verdict: Verdict, reason: str, **facts: Any) -> Jud
 
 
 def every_verdict(tables: Iterable[pd.DataFrame]) -> pd.DataFrame:
-    """Return tables of verdicts as one, without a change of the types of an empty one."""
+    """Return tables of verdicts as one; its columns of numbers have the type of numbers whatever is missing in them."""
     every = list(tables)
-    filled = [table.astype(object) for table in every if len(table)]
-    return pd.concat(filled, ignore_index=True).infer_objects() if len(filled) > 1 else (filled or every)[0]
+    filled = [table.astype(object) for table in every if len(table)] or every[:1]
+    joined = pd.concat(filled, ignore_index=True)
+    return joined.assign(**{name: pd.to_numeric(joined[name]).astype(float) for name in _NUMBERS})
