@@ -162,7 +162,7 @@ def _fresh(
         return None
     if gates is None or not models:
         raise ValueError("--random needs --model: fresh cases are drawn from the domain of a given model")
-    # Predictions as data have no value in a case that nobody knew before.
+    # Predictions as data have no value in other cases than their own.
     able = [name for name in models if name not in external or source_of(external[name].spec)["kind"] != "data"]
     for name in sorted(set(models) - set(able)):
         log(f"{name} has no fresh cases: it is data")
