@@ -137,9 +137,41 @@ def test_the_reference_may_be_taken_at_other_parameters():
         ),
         (
             '"derived"',
-            '"measured"\nexpected_failure = "Known."\nworst_measured = 0.1',
+            '"measured"\nexpected_failure = "Known."\nworst_measured = 0.1\nmeasured_range = [0.09, 0.11]',
             "worst_measured = 0.1 is within the limits -0.1 to 0.1",
         ),
+        (
+            '"derived"',
+            '"measured"\nexpected_failure = "Known."\nworst_measured = 0.2',
+            "expected_failure needs measured_range = [low, high]",
+        ),
+        ("min_cases = 3", "min_cases = 3\nmeasured_range = [0, 0.1]", "states its worst_measured"),
+        (
+            '"derived"',
+            '"measured"\nworst_measured = 0.01\nmeasured_range = [0, 0.0099]',
+            "measured_range = [0, 0.0099] must contain worst_measured, which is 0.01",
+        ),
+        (
+            '"derived"',
+            '"measured"\nworst_measured = 0.01\nmeasured_range = [0.02, 0.01]',
+            "must contain worst_measured",
+        ),
+        (
+            '"derived"',
+            '"measured"\nworst_measured = 0.01\nmeasured_range = [nan, 0.02]',
+            "must contain worst_measured",
+        ),
+        (
+            '"derived"',
+            '"measured"\nworst_measured = 0.01\nmeasured_range = [-0.1001, 0.02]',
+            "reaches beyond 10 times worst_measured = 0.01",
+        ),
+        (
+            '"derived"',
+            '"measured"\nworst_measured = 0.01\nmeasured_range = [0, inf]',
+            "reaches beyond 10 times worst_measured = 0.01",
+        ),
+        ("min_cases = 3", "min_cases = 3\nmeasured_range = 0.1", "[low, high]"),
         ("A limit.", "", "grounds = '' is empty"),
         ("A limit.", " \\n\\t ", "is empty"),
         ("JKR is right.", "  ", "requirement = '  ' is empty"),
@@ -188,7 +220,11 @@ def test_what_is_wrong_is_refused_and_named(old, new, sentence, tmp_path, capsys
         ("lower = -0.1\nupper = 0.1", "lower = -1000\nupper = inf"),
         ('metric = "rel"\nlower = -0.1', 'metric = "abs"\nlower = -1e6'),
         ('"derived"', '"measured"\nworst_measured = -0.1'),
-        ('"derived"', '"measured"\nexpected_failure = "Known."\nworst_measured = 0.1001'),
+        (
+            '"derived"',
+            '"measured"\nexpected_failure = "Known."\nworst_measured = 0.1001\nmeasured_range = [0.1001, 1.001]',
+        ),
+        ('"derived"', '"derived"\nworst_measured = -0.01\nmeasured_range = [-0.1, 0.1]'),
         ('metric = "rel"', 'metric = "en"\nmax_candidate_uncertainty = 0.999'),
         ("1e-6", "1e-6\nmax_candidate_uncertainty = 7"),
     ],
@@ -256,7 +292,7 @@ def test_a_standing_gate_is_fit_to_be_cited(gate):
         assert text.endswith(".")
     assert gate.candidate in {*MODELS, GIVEN}
     if gate.worst_measured is not None:
-        assert gate.lower <= gate.worst_measured <= gate.upper
+        assert (gate.lower <= gate.worst_measured <= gate.upper) is (gate.expected_failure is None)
     declared = {
         case
         for grid in grids(gate.tier)
