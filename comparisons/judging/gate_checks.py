@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 import re
 import unicodedata
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from comparisons.numerics.number_text import exact
+from comparisons.runs.cases import Case
 
 if TYPE_CHECKING:
     from comparisons.judging.gates import Gate
@@ -95,6 +97,10 @@ def check_numbers(gate: Gate, where: str) -> None:
     for name, value in gate.reference_at.items():
         if not math.isfinite(value):
             raise ValueError(f"{where}: reference_at.{name} = {value!r} must be a finite number")
+    try:
+        replace(Case(2.0, 0.0, 1.0), **gate.reference_at)
+    except ValueError as refusal:
+        raise ValueError(f"{where}: reference_at: {refusal}") from None
 
 
 def _check_limits(gate: Gate, where: str) -> None:
@@ -105,6 +111,8 @@ def _check_limits(gate: Gate, where: str) -> None:
         )
     if gate.metric == "curve" and gate.lower != -math.inf:
         raise ValueError(f"{where}: a distance has no lower limit; state lower = -inf")
+    if gate.metric == "curve" and gate.upper <= 0.0:
+        raise ValueError(f"{where}: upper = {exact(gate.upper)} must be positive: no distance is smaller")
     largest = _LARGEST_LIMIT[gate.metric]
     for name, limit in (("lower", gate.lower), ("upper", gate.upper)):
         if math.isfinite(limit) and abs(limit) > largest:
@@ -137,9 +145,7 @@ def _check_uncertainties(gate: Gate, where: str) -> None:
 def _check_worst_measured(gate: Gate, where: str) -> None:
     worst = gate.worst_measured
     if (gate.basis == "measured" or gate.measured_range is not None) != (worst is not None):
-        raise ValueError(
-            f"{where}: a measured basis or a measured_range, and nothing else, states its worst_measured"
-        )
+        raise ValueError(f"{where}: a measured basis or a measured_range, and nothing else, states its worst_measured")
     if worst is None:
         return
     limits = f"the limits {exact(gate.lower)} to {exact(gate.upper)}"
@@ -174,6 +180,6 @@ def _check_measured_range(gate: Gate, where: str) -> None:
         raise ValueError(f"{where}: {text} must contain worst_measured, which is {stated}")
     if not max(abs(low), abs(high)) <= LARGEST_MARGIN * abs(worst):
         raise ValueError(
-            f"{where}: {text} reaches beyond {LARGEST_MARGIN:g} times worst_measured = {exact(worst)}, so that it would "
-            "notice no change; state the errors that were measured, with a margin"
+            f"{where}: {text} reaches beyond {LARGEST_MARGIN:g} times worst_measured = {exact(worst)}, so that it "
+            "would notice no change; state the errors that were measured, with a margin"
         )

@@ -115,6 +115,12 @@ def test_the_reference_may_be_taken_at_other_parameters():
         ("lower = -0.1", "lower = -1" + "0" * 400, "must be a number, or -inf for no limit"),
         ("min_cases = 3", 'min_cases = 3\nreference_at = { k = "1" }', "must be a number"),
         ("min_cases = 3", "min_cases = 3\nreference_at = { k = nan }", "reference_at.k = nan must be a finite number"),
+        ("min_cases = 3", "min_cases = 3\nreference_at = { n = -4 }", "reference_at: shape index n = -4.0 is outside"),
+        (
+            "min_cases = 3",
+            "min_cases = 3\nreference_at = { k = 1.5 }",
+            "reference_at: gradient exponent k = 1.5",
+        ),
         ('metric = "rel"', 'metric = "en"', "the metric en needs max_candidate_uncertainty"),
         ('metric = "rel"', 'metric = "en"\nmax_candidate_uncertainty = 1', "must be below 1 with the metric en"),
         ("1e-6", "1e-6\nmax_candidate_uncertainty = 0", "max_candidate_uncertainty = 0 must be positive"),
@@ -232,6 +238,14 @@ def test_what_is_wrong_is_refused_and_named(old, new, sentence, tmp_path, capsys
 def test_what_can_fail_is_read(old, new):
     assert GATE.replace(old, new) != GATE
     assert len(load_gates(GATE.replace(old, new))) == 1
+
+
+@pytest.mark.parametrize("upper", ["0", "-0.1"])
+def test_a_distance_that_must_be_negative_is_refused(upper):
+    curve = GATE.replace('"rel"', '"curve"').replace("pull_off_force", "force_curve").replace("= -0.1", "= -inf")
+    assert load_gates(curve)
+    with pytest.raises(ValueError, match=f"upper = {upper} must be positive: no distance is smaller"):
+        load_gates(curve.replace("upper = 0.1", f"upper = {upper}"))
 
 
 def test_the_candidate_at_its_own_parameters_is_no_other_reference():

@@ -339,3 +339,11 @@ def test_drift_is_seen():
     assert len(drift(ROWS, moved)) == 3
     assert len(drift(ROWS, some.assign(mu=some["mu"] + 77.0))) == 3
     assert len(drift(ROWS, some.assign(status="failed"))) == 3
+
+
+@pytest.mark.parametrize(("factor", "seen"), [(0.3, True), (0.5, False), (2.0, False), (3.5, True)])
+def test_drift_of_a_bound_is_seen(factor, seen):
+    for model in ("fscm", "fem", "md-improved", "bradley"):
+        some = ROWS[(ROWS["model"] == model) & (ROWS["u_num"] > 0)].head(3)
+        assert len(some) == 3
+        assert len(drift(ROWS, some.assign(u_num=factor * some["u_num"]))) == 3 * seen
