@@ -164,6 +164,7 @@ def _part(gate: Gate, candidate: str, reference: str, cases: tuple[Case, ...]) -
         min_cases=0,
         max_reference_uncertainty=max(gate.max_reference_uncertainty, least),
         expected_failure=None,
+        measured_range=None,
         not_applicable="leave-out",
     )
     title = f"Fresh cases of {candidate} for {gate.id}"
