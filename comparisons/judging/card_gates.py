@@ -99,8 +99,8 @@ def judge_cards(cards: Mapping[str, Any]) -> pd.DataFrame:
     Examples
     --------
     >>> table = judge_cards({"mine": {"uses": ["imports fscm"]}})
-    >>> table["verdict"].tolist(), table["reason"].tolist()
-    ([<Verdict.INCONCLUSIVE: 'INCONCLUSIVE'>], ['mine is not independent: it imports fscm'])
+    >>> [*table["verdict"].map(str), *table["reason"]]
+    ['INCONCLUSIVE', 'mine is not independent: it imports fscm']
     """
     judged: list[Judged] = []
     for name, card in cards.items():

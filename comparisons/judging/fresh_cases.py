@@ -14,7 +14,7 @@ from zlib import crc32
 
 from comparisons.console.progress import log
 from comparisons.domain import Domain, declared_domain
-from comparisons.judging.gates import Gate
+from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.selection import cases_of, relevant
 from comparisons.registry import ExternalIdentity, create
 from comparisons.runs.cases import TIERS, Case, Grid
@@ -111,6 +111,8 @@ def draw(
 ) -> FreshCases:
     """Draw fresh cases for every gate of every model that compares one value with one reference.
 
+    A gate of one model whose cases have tags has none.
+
     Parameters
     ----------
     gates, grids, models
@@ -131,7 +133,10 @@ def draw(
     """
     parts: list[Part] = []
     passed_over = 0
-    for gate in relevant(gates, grids, list(models)):
+    # Tags select cases that were chosen for a gate of one model, as those near a limit: no others are like them.
+    for gate in relevant(
+        [gate for gate in gates if gate.candidate == GIVEN or "tags" not in gate.cases], grids, models
+    ):
         if gate.candidate not in models:
             continue
         if gate.metric not in _METRICS or gate.rival or gate.reference_at:
@@ -148,7 +153,7 @@ def draw(
             by_reference.setdefault(_reference(gate, case), []).append(case)
         parts += [_part(gate, gate.candidate, name, tuple(sorted(own))) for name, own in sorted(by_reference.items())]
     if passed_over:
-        log(f"{passed_over} gates have no fresh cases: they compare curves, or more than one value with a reference")
+        log(f"{passed_over} gates have no fresh cases: they compare curves, or have a rival or a reference_at")
     return FreshCases(count, seed, tuple(parts))
 
 

@@ -169,8 +169,8 @@ def evaluate_task(task: Task) -> Row:
 
     Examples
     --------
-    >>> evaluate_task(Task("jkr", "pull_off_force", Case(2, 0, 1))).value
-    1.5
+    >>> evaluate_task(Task("bradley", "pull_off_force", Case(2, 0, 1))).value
+    2.0
     """
     started = time.perf_counter()
     model = task.external or create(task.model, task.case.nu)
