@@ -10,7 +10,7 @@ from pathlib import Path
 from comparisons.domain import Domain, declared_domain
 from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
-from comparisons.judging.selection import load_user_gates, needed_keys
+from comparisons.judging.selection import cases_of, load_user_gates, needed_keys
 from comparisons.registry import ExternalIdentity, create
 from comparisons.runs.cases import TIERS, Grid, cases_text, grids, grids_for, load_grids
 from comparisons.runs.rows import Key
@@ -182,9 +182,21 @@ def read_gates(
     """
     text = gates if isinstance(gates, str) else gates_text(gates)
     if gates is None or standing:
-        return Gates(of_tier(load_gates(text), cases.tier_of_gates), text, None)
+        return Gates(_computed(of_tier(load_gates(text), cases.tier_of_gates), cases, models), text, None)
     source = str(gates) if isinstance(gates, Path) else _TEXT
     return Gates(load_user_gates(text, source, cases.tier_of_gates, cases.grids, models), text, source)
+
+
+def _computed(gates: list[Gate], cases: Cases, models: Sequence[str] | None) -> list[Gate]:
+    """Return the standing gates without those whose cases verify the references: chosen models do not compute them."""
+    if models is None or cases.tier is None:
+        return gates
+    every = grids(cases.tier)
+    return [
+        gate
+        for gate in gates
+        if gate.candidate not in models or cases_of(gate, cases.grids, models) or not cases_of(gate, every, models)
+    ]
 
 
 def _read(path: Path) -> str:

@@ -10,6 +10,7 @@ from comparisons.judging.gates import gates_text, load_gates
 from comparisons.judging.judge import judge
 from comparisons.judging.selection import needed_keys
 from comparisons.judging.summary import summarise
+from comparisons.pipeline.inputs import load_cases, read_gates
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import MODELS, create
 from comparisons.runs.cases import Case, load_grids
@@ -198,3 +199,11 @@ def test_jkr_that_refuses_its_hard_cases_does_not_pass_the_standing_gate():
     """Four answers of 192 passed once."""
     (gate,) = (gate for gate in load_gates(gates_text()) if gate.id == "GIVEN-PULL-OFF-FORCE")
     assert gate.min_coverage > 4 / 192
+
+
+def test_a_run_of_a_closed_form_has_no_standing_gate_whose_cases_it_does_not_compute():
+    """`fscm-bench run --model jkr` was in error for want of the cases of verification."""
+    judged = {gate.id for gate in read_gates(None, load_cases("quick", ["jkr"]), ["jkr"]).gates}
+    every = {gate.id for gate in read_gates(None, load_cases("quick", None), None).gates}
+    assert "JKR-JUMP-OUT" in every - judged
+    assert "JKR-LIMIT-PULL-OFF" in judged
