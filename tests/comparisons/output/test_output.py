@@ -34,6 +34,7 @@ ROW = {
     "upper": 0.1,
     "verdict": "PASS",
     "reason": "",
+    "status": "ok",
 }
 JUDGED = pd.DataFrame(
     [
@@ -45,6 +46,7 @@ JUDGED = pd.DataFrame(
             "gate": "TWO",
             "verdict": "NOT-APPLICABLE",
             "reason": "jkr: no \x00 such | thing",
+            "status": "not-applicable",
             "error": math.nan,
         },
         ROW
@@ -55,6 +57,7 @@ JUDGED = pd.DataFrame(
             "mu": None,
             "verdict": "ERROR",
             "reason": "0 cases",
+            "status": "",
             "error": None,
         },
         ROW | {"gate": "FOUR", "verdict": "INCONCLUSIVE", "nu": 0.25},
@@ -153,6 +156,14 @@ def test_junit_has_one_test_case_a_gate_and_case():
     cases = root.findall(".//testcase")
     assert len(cases) == len(JUDGED)
     assert len({(case.get("classname"), case.get("name")) for case in cases}) >= 5
+    stated = {one.get("name"): one.get("value") for one in root[1].find("properties")}
+    assert stated == {
+        "jkr asked": "2",
+        "jkr answered": "1",
+        "jkr not_applicable": "1",
+        "jkr failed": "0",
+        "jkr outside": "0",
+    }
     assert [[child.tag for child in case] for case in cases] == [
         ["system-out"],
         ["failure"],
@@ -179,7 +190,7 @@ def test_the_command_of_a_row():
 def test_the_matrix_is_worst_first():
     shown = matrix(summarise(JUDGED), {})
     assert shown["verdict"].tolist() == ["ERROR", "FAIL", "INCONCLUSIVE", "XFAIL"]
-    assert shown["cases"].tolist() == ["0", "2", "1", "1 (1 n/a)"]
+    assert shown["coverage"].tolist() == ["", "2 of 2", "1 of 1", "1 of 2 (1 n/a)"]
 
 
 def test_the_files(tmp_path):
