@@ -179,7 +179,7 @@ class CohesiveContact:
         return float(2.0 * self.maugis_number * cohesive_width ** (2.0 * self.punch.s))
 
     def opening(self, remainder: Array, opened: Array) -> Array:
-        """Return the share of the amplitude in the excess e(x): 1 - v^s, v = (c^2-x^2)/L^2 = `remainder` = 1 - `opened`.
+        """Return the share of the amplitude in e(x): 1 - v^s at v = (c^2-x^2)/L^2 = `remainder` = 1 - `opened`.
 
         Each of the two numbers is accurate where it is small.
         """

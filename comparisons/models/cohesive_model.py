@@ -22,6 +22,8 @@ from fscm.problem import Problem
 __all__ = ["CohesiveModel"]
 
 _POINTS = 401
+# Radii of a stored profile in each of its three parts.
+_PROFILE_POINTS = 60
 # The curve starts at a = 0 and then at this fraction of its largest contact radius.
 _FIRST_RADIUS = 1e-4
 # Hertz's load at pull-off has fallen to exp(-3) of itself this far (over n) below in log(a).
@@ -117,7 +119,7 @@ class CohesiveModel(ClosedForm):
             },
         )
 
-    def profiles(self, problem: Problem) -> CohesiveProfiles:
+    def profiles(self, problem: Problem, points: int = 200) -> CohesiveProfiles:
         """Return contact radius, cohesive radius, pressure and gap at the pull-off, in barred variables.
 
         Raises
@@ -130,11 +132,11 @@ class CohesiveModel(ClosedForm):
             raise NotApplicable(f"{self.name} has no cohesive zone at k = 1 and mu = {problem.mu}: its edge is JKR's")
         contact = self._contact(problem)
         event = CohesiveEvents.scan(contact).pull_off()
-        return cohesive_profiles(contact, event.state, GradedPunch.of(problem).scales(problem.mu))
+        return cohesive_profiles(contact, event.state, GradedPunch.of(problem).scales(problem.mu), points)
 
     def pull_off_profile(self, problem: Problem) -> RadialField:
         """Return the surface where P is smallest, out to a gap of 10, or raise as `profiles`."""
-        found = self.profiles(problem)
+        found = self.profiles(problem, _PROFILE_POINTS)
         return RadialField(found.radius, found.pressure, found.gap, PROFILE_ROUNDING, PROFILE_ROUNDING)
 
     def _is_jkr(self, problem: Problem) -> bool:

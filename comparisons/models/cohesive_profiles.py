@@ -26,8 +26,8 @@ __all__ = ["PROFILE_ROUNDING", "CohesiveProfiles", "cohesive_profiles", "gap", "
 
 Array = NDArray[np.float64]
 
-#: Bound on the error of pressure and gap, as a fraction of their ranges: measured worst 0 against 30-digit arithmetic.
-PROFILE_ROUNDING = 1e-10
+#: Bound on the error of pressure and gap as a fraction of their ranges: measured worst 1.2e-13 against 25 digits.
+PROFILE_ROUNDING = 1e-12
 
 _POINTS_A_ZONE = 200
 # The profiles end beyond this many cohesive radii and beyond this gap, in z0.
@@ -130,8 +130,12 @@ def gap(contact: CohesiveContact, state: ContactState, r: Array) -> Array:
     return H
 
 
-def cohesive_profiles(contact: CohesiveContact, state: ContactState, scale: Scales) -> CohesiveProfiles:
+def cohesive_profiles(
+    contact: CohesiveContact, state: ContactState, scale: Scales, points: int = _POINTS_A_ZONE
+) -> CohesiveProfiles:
     """Return the profiles of a state of one element, in barred variables.
+
+    There are `points` radii each inside the contact, in the cohesive zone and beyond it.
 
     Raises
     ------
@@ -152,8 +156,8 @@ def cohesive_profiles(contact: CohesiveContact, state: ContactState, scale: Scal
         raise NotApplicable(
             f"the cohesive zone of radius {c:.6g} has a width below {_NARROWEST} of it: the edge is JKR's"
         )
-    dense = np.sin(np.linspace(0.0, 0.5 * np.pi, _POINTS_A_ZONE))
-    both = np.sin(np.linspace(0.0, 0.5 * np.pi, _POINTS_A_ZONE)) ** 2
+    dense = np.sin(np.linspace(0.0, 0.5 * np.pi, points))
+    both = np.sin(np.linspace(0.0, 0.5 * np.pi, points)) ** 2
     inside = _NEAREST * c + (a - _NEAREST * c) * dense if a > _NEAREST * c else np.array([_NEAREST * c])
     # H = r^n/n - delta + w, and the traction lifts the surface by less than the amplitude.
     n, height = contact.punch.n, _FARTHEST_GAP / scale.displacement + abs(float(state.displacement[0]))

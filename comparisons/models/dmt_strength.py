@@ -5,7 +5,7 @@ It is the limit Lambda -> 0 of the original Maugis-Dugdale model, so that it nee
     P = Hertz(a) - n^(2/n) sigma_th^(1 - 2/n),    sigma_th = 16 sqrt(3) / 27.
 
 For n = 2 the strength has no influence, and the model is that of Derjaguin, Muller and Toporov.  For other n its
-pull-off force is not that of the rigid punch with the 9-3 law, which is what the consistency condition (Eq. 74) corrects.
+pull-off force is not that of the rigid punch with the 9-3 law; the consistency condition (Eq. 74) corrects this.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class DMTStrength(DMT):
 
     name = "dmt-strength"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 73 and 75; Jin, Tang, Guo & Gao, J. Mech. Phys. Solids 154 (2021) 104509"
-    domain = "n > 0, 0 <= k <= 1; cohesive stress 16 sqrt(3)/27"
+    domain = "n > 2/3, 0 <= k <= 1; cohesive stress 16 sqrt(3)/27"
 
     def cohesive_stress(self, problem: Problem) -> float:
         """sigma_0 = 16 sqrt(3) / 27, in dgamma / z0."""

@@ -37,7 +37,7 @@ class HomogeneousSphere(ClosedForm):
     >>> from comparisons.models.schwarz import Schwarz
     >>> Schwarz().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
     Traceback (most recent call last):
-    comparisons.model.NotApplicable: schwarz is for a paraboloid on a homogeneous solid, n = 2 and k = 0, not for k = 0.4
+    comparisons.model.NotApplicable: schwarz is for n = 2 and k = 0, a sphere on a homogeneous solid, not for k = 0.4
     """
 
     undefined: ClassVar[dict[str, str]] = dict.fromkeys(
@@ -51,5 +51,5 @@ class HomogeneousSphere(ClosedForm):
         for name, value, only in (("n", problem.n, 2.0), ("k", problem.k, 0.0)):
             if float(value) != only:
                 raise NotApplicable(
-                    f"{self.name} is for a paraboloid on a homogeneous solid, n = 2 and k = 0, not for {name} = {value:g}"
+                    f"{self.name} is for n = 2 and k = 0, a sphere on a homogeneous solid, not for {name} = {value:g}"
                 )

@@ -1,9 +1,9 @@
 """The hysteresis energy from the asymptotes of the two jumps.
 
 Sec. 3.3 of Zhu, Zheng, Huang and Yu names this use of the asymptotes.  At a large Tabor number the cycle follows the
-semi-rigid branch (Eqs. 43-44) up to its fold delta_in (Eq. 46), jumps to the JKR branch (Eqs. 50-51), follows it back to
-its fold delta_out (Eq. 53), and jumps to the semi-rigid branch again.  With U, dU = P d delta, the energy of a branch, zero
-far away and at a = 0, the jumps lose
+semi-rigid branch (Eqs. 43-44) up to its fold delta_in (Eq. 46), jumps to the JKR branch (Eqs. 50-51), follows it back
+to its fold delta_out (Eq. 53), and jumps to the semi-rigid branch again.  With U, dU = P d delta, the energy of a
+branch, zero far away and at a = 0, the jumps lose
 
     W = [U_s(delta_in) - U_J(delta_in)] + [U_J(delta_out) - U_s(delta_out)].
 
@@ -24,7 +24,6 @@ from scipy.special import beta
 
 from comparisons.model import Curve, NotApplicable
 from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, ClosedForm, Estimate
-from comparisons.models.cohesive_stress import SMALLEST_SHAPE_INDEX
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.models.semi_rigid import SemiRigid, attraction_coefficient
@@ -41,7 +40,7 @@ class JumpAsymptotes(ClosedForm):
     Examples
     --------
     >>> round(JumpAsymptotes().evaluate(Problem(n=2, k=0.0, mu=5.0), "hysteresis_energy").value, 6)
-    0.0
+    4.462498
     """
 
     name = "jump-asymptotes"
@@ -70,16 +69,14 @@ class JumpAsymptotes(ClosedForm):
     def hysteresis_energy(self, problem: Problem) -> Estimate:
         """Energy that the two jumps lose."""
         n, k = float(problem.n), float(problem.k)
-        if not n > SMALLEST_SHAPE_INDEX:
-            raise NotApplicable(f"the load on the semi-rigid branch is infinite at n = {n:g}: {self.name} needs n > 2/3")
         jump_in, jump_out = self.jump_in_displacement(problem).value, self.jump_out_displacement(problem).value
         if not jump_in > jump_out:
             raise NotApplicable(
-                f"at mu = {problem.mu:g} the asymptote of the jump-in, {jump_in:.4g}, is not above that of the jump-out, "
-                f"{jump_out:.4g}: there is no cycle between them"
+                f"at mu = {problem.mu:g} the asymptote of the jump-in, {jump_in:.4g}, is not above that of the "
+                f"jump-out, {jump_out:.4g}: there is no cycle between them"
             )
         far, far_scale = _far_energy(problem, jump_out)
-        near, near_scale = _contact_energy(GradedPunch(n, k), jump_in / problem.mu, jump_out / problem.mu)
+        near, near_scale = _contact_energy(GradedPunch(n, k), jump_in / problem.mu)
         scale = GradedPunch(n, k).scales(problem.mu)
         unit = scale.load * scale.displacement
         # The ends are folds or roots to rounding; their errors count by the load there, which the scales contain.
@@ -90,7 +87,7 @@ class JumpAsymptotes(ClosedForm):
         """Raise `NotApplicable`: the cycle consists of two branches of other models."""
         self.check(problem)
         raise NotApplicable(
-            f"the cycle of {self.name} has no curve of its own: its branches are those of semi-rigid and jkr"
+            f"{self.name} has no force-displacement curve of its own: its branches are those of semi-rigid and jkr"
         )
 
 
@@ -114,7 +111,7 @@ def _far_energy(problem: Problem, jump_out: float) -> tuple[float, float]:
     return -B * (rigid - lifted), B * (abs(rigid) + abs(lifted))
 
 
-def _contact_energy(punch: GradedPunch, jump_in: float, jump_out: float) -> tuple[float, float]:
+def _contact_energy(punch: GradedPunch, jump_in: float) -> tuple[float, float]:
     """U_J(delta_in) - U_J(delta_out) in tilde units, and the magnitude of its terms."""
     n, k, s = punch.n, punch.k, punch.s
     D, K = punch.flattening, punch.adhesion

@@ -47,7 +47,9 @@ class PietrementTroyon(HomogeneousSphere):
         "Pietrement & Troyon, J. Colloid Interface Sci. 226 (2000) 166-171; "
         "alpha: Carpick, Ogletree & Salmeron, J. Colloid Interface Sci. 211 (1999) 395-400, Eq. 10"
     )
-    domain = "n = 2, k = 0; displacements for alpha >= 0.01 (mu >= 0.0082); fit to Maugis-Dugdale with lambda = 1.157 mu"
+    domain = (
+        "n = 2, k = 0; displacements for alpha >= 0.01 (mu >= 0.0082); fit to Maugis-Dugdale with lambda = 1.157 mu"
+    )
     undefined: ClassVar[dict[str, str]] = HomogeneousSphere.undefined | {
         "jump_out_displacement": "its equations hold above the pull-off, and the fold lies below"
     }
@@ -82,8 +84,8 @@ class PietrementTroyon(HomogeneousSphere):
         alpha = transition_parameter(float(problem.mu))
         if alpha < _SMALLEST_ALPHA:
             raise NotApplicable(
-                f"the displacement of {self.name} needs alpha >= {_SMALLEST_ALPHA}, below which its fit turns negative, "
-                f"but alpha = {alpha:.3g} at mu = {problem.mu:g}"
+                f"the displacement of {self.name} needs alpha >= {_SMALLEST_ALPHA}, below which its fit turns "
+                f"negative, but alpha = {alpha:.3g} at mu = {problem.mu:g}"
             )
         return alpha
 

@@ -5,8 +5,8 @@ The part w_1 = x dgamma acts at the contact edge (JKR), the rest w_2 as a load 2
     delta = a^2 - sqrt(2 pi x a),    P = (4 / (3 pi)) a^3 - sqrt(8 x a^3 / pi) - 2 (1 - x),
 
 so that -P_c = 2 - x/2.  The contact radius then has the form of Carpick, Ogletree and Salmeron in the load, with
-alpha^2 = 3 x / (4 - x), whence -P_c = 6 / (3 + alpha^2) (Eq. 34).  Schwarz leaves x open; alpha is here that of Carpick,
-Ogletree and Salmeron at Maugis's lambda.
+alpha^2 = 3 x / (4 - x), whence -P_c = 6 / (3 + alpha^2) (Eq. 34).  Schwarz leaves x open; alpha is here that of
+Carpick, Ogletree and Salmeron at Maugis's lambda.
 """
 
 from __future__ import annotations
