@@ -234,3 +234,17 @@ def test_profile_reaches_the_gap_that_is_stored(model, n: float, k: float, mu: f
     assert np.all(np.diff(profile.radius) > 0)
     load = np.sum(np.diff(profile.radius**2) * 0.5 * (profile.pressure[1:] + profile.pressure[:-1]))
     assert -load == pytest.approx(model.evaluate(Problem(n, k, mu), "pull_off_force").value, rel=2e-2)
+
+
+@pytest.mark.parametrize(
+    ("n", "k", "mu"),
+    [(0.8, 0.2, 0.05), (1.0, 0.6, 5.0), (1.5, 0.0, 0.7), (3.0, 0.9, 0.3), (7.0, 0.4, 0.02), (12.0, 0.1, 2.0)],
+)
+def test_pull_off_is_the_lowest_of_a_dense_sample(n: float, k: float, mu: float) -> None:
+    punch = GradedPunch(n, k)
+    contact = DoubleHertzContact(punch, THEORETICAL_STRENGTH * mu)
+    w = np.concatenate(([-np.inf], np.linspace(-12.0, 25.0, 8001)))
+    lowest = float(contact.at(w).load.min()) * punch.scales(mu).load
+    found = -MODEL.evaluate(Problem(n, k, mu), "pull_off_force").value
+    assert found <= lowest + 1e-12 * abs(lowest)
+    assert found == pytest.approx(lowest, rel=1e-4)
