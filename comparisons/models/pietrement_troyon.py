@@ -7,7 +7,8 @@ pi R dgamma, radius (pi dgamma R^2 / K)^(1/3), displacement radius^2 / R, K = 4 
 
 with F the pull-off force, a_0 the contact radius without load, and S and beta functions of alpha.  alpha is that of
 Carpick, Ogletree and Salmeron at Maugis's lambda.  For alpha = 1 the coefficients give JKR to their digits: F = 1.5,
-a_0 = 6^(1/3), S = 2/3 and beta = 1/2.
+a_0 = 6^(1/3), S = 2/3 and beta = 1/2.  The coefficients were checked against these limits and against the model that
+they fit, over its whole range, but not against the printed page.
 """
 
 from __future__ import annotations
