@@ -72,16 +72,16 @@ def test_closed_forms_declare_their_domain():
 def test_a_model_has_a_value_everywhere_in_the_domain_that_it_declares(name):
     model = create(name)
     domain = declared_domain(model)
-    inside = 0
-    for point in latin_hypercube({"count": 12, "seed": 5, **BOX}, "the test"):
-        case = Case(*point)
-        for quantity in QUANTITIES:
-            if domain.contains(quantity, case.parameters):
+    for table in domain.tables:
+        box = {
+            name: [max(low, table.ends(name)[0]), min(high, table.ends(name)[1])] for name, (low, high) in BOX.items()
+        }
+        for point in latin_hypercube({"count": 8, "seed": 5, **box}, "the test"):
+            case = Case(*point)
+            for quantity in set(table.quantities) & set(QUANTITIES):
                 row = evaluate(model, quantity, case)
                 expected = {"ok", "not-applicable"} if quantity in MAY_BE_MISSING else {"ok"}
                 assert row.status in expected, (quantity, case.label, row.reason)
-                inside += 1
-    assert inside > 0
 
 
 def test_a_model_is_not_evaluated_outside_its_domain(toys, monkeypatch):
