@@ -21,10 +21,10 @@ from fem_reference.modulus import PowerLawModulus
 from fem_reference.verification.solver_study import FULL_STUDY, QUICK_STUDY, solver_table
 
 ITERATIONS = 10
-"""Measured 7 to 9 at 1e4 unknowns."""
+"""Measured 6 to 9 for 1e4 to 5e5 unknowns."""
 
 GROWTH = 1.5
-"""Iterations with the most unknowns over those with the fewest of one material: measured 1.1 to 1.3."""
+"""Iterations with the most unknowns over those with the fewest of one material: measured 1.2 at most."""
 
 REDUCTION = 0.8
 """Error that a cycle of the vertex hierarchy leaves: measured 0.5 to 0.7.  With pyamg's smoother, which changes one
@@ -54,7 +54,7 @@ def test_full_study():
     assert min(r.unknowns for r in rows) < 1.1e4
     assert max(r.unknowns for r in rows) > 2.5e5
     for row in rows:
-        assert row.iterations <= 25, row
+        assert row.iterations <= ITERATIONS, row
         assert row.agreement <= AGREEMENT, row
         assert row.megabytes <= 4000, row
         fewest = min((r for r in rows if (r.k, r.nu, r.edge_width) == (row.k, row.nu, row.edge_width)), key=_unknowns)
