@@ -43,7 +43,7 @@ RATIO = {
     "jump_in_gap": 921,
     "jump_out_gap": 130,
     "hysteresis_energy": 73,
-    CRITICAL: 260,
+    CRITICAL: 220,
 }
 RATIO_RANGE = 0.85, 1.5
 # What the atlas is made for: largest error of a quantity, away from the critical Tabor number.
