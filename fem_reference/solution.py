@@ -145,8 +145,9 @@ def solve_together(
     problem, accuracy
         As for `solve`.
     quantities : iterable of str
-        Of `QUANTITIES` and `LOSSES`, and `CRITICAL_MODULUS`, which is solved on meshes of its own; all of `QUANTITIES` by default.  The mesh suits the first of them that exists: in
-        a solid that is no power law, others whose contact edge is elsewhere have a larger `u_num`.
+        Of `QUANTITIES`, `LOSSES` and `CRITICAL_MODULUS`; all of `QUANTITIES` by default.  The mesh suits the first of
+        them that exists: in a solid that is no power law, others whose contact edge is elsewhere have a larger `u_num`.
+        The critical modulus has meshes of its own.
 
     Returns
     -------
@@ -186,18 +187,18 @@ def _critical_modulus(problem: Problem, accuracy: float | str) -> Solution | NoS
     """Compute the critical modulus on the meshes of a slightly stiffer problem."""
     begin = time.perf_counter()
     try:
-        stiffer, start = stiffer_than_critical(problem, accuracy)
+        near = stiffer_than_critical(problem, accuracy)
     except NoSuchEvent as reason:
         return reason.with_traceback(None)
-    row = critical_quantity(stiffer.solid.E0)
-    found = _solved_together(stiffer, {CRITICAL_MODULUS: row}, accuracy, start)[CRITICAL_MODULUS]
+    row = critical_quantity(near.E0)
+    found = _solved_together(near.problem, {CRITICAL_MODULUS: row}, accuracy, near.start)[CRITICAL_MODULUS]
     return replace(found, seconds=time.perf_counter() - begin) if isinstance(found, Solution) else found
 
 
 def _solved_together(
     problem: Problem, rows: Mapping[str, Quantity], accuracy: float | str, start: tuple[MeshSpec, float] | None = None
 ) -> dict[str, Solution | NoSuchEvent]:
-    """Compute quantities whose path is that of the problem, on meshes found from those of a similar one, if given."""
+    """Compute quantities whose path is that of the problem, on meshes found from `start`."""
     begin = time.perf_counter()
     found: dict[str, Solution | NoSuchEvent] = {}
     for name, row in rows.items():

@@ -12,6 +12,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.cusp import cusp_from, slowest
 from fem_reference._contact.events import CUSP
@@ -24,7 +26,7 @@ from fem_reference.problem import Problem
 from fem_reference.punch import radius_at_height
 from fem_reference.solid import Solid
 
-__all__ = ["stiffer_than_critical"]
+__all__ = ["NearCritical", "stiffer_than_critical"]
 
 SHARE = 0.68
 """Displacement of the solid, in lengths of the law, under its work of adhesion over that length, spread over the radius
@@ -44,6 +46,24 @@ MARGIN = 1.01
 
 
 @dataclass(frozen=True, slots=True)
+class NearCritical:
+    """A problem slightly stiffer than the critical one.
+
+    Attributes
+    ----------
+    problem : Problem
+    E0 : float
+        Modulus of its solid.
+    start : tuple of MeshSpec and float
+        The mesh and the size of the search, from which those of the problem are found.
+    """
+
+    problem: Problem
+    E0: float
+    start: tuple[MeshSpec, float]
+
+
+@dataclass(frozen=True, slots=True)
 class _Trial:
     """The slowest point of the path at one modulus."""
 
@@ -56,8 +76,8 @@ class _Trial:
         return self.point.displacement_rate
 
 
-def stiffer_than_critical(problem: Problem, accuracy: float | str) -> tuple[Problem, tuple[MeshSpec, float]]:
-    """Return the problem with a modulus slightly above the critical one, below which the contact jumps, and its mesh.
+def stiffer_than_critical(problem: Problem, accuracy: float | str) -> NearCritical:
+    """Return the problem with a modulus slightly above the critical one, below which the contact jumps.
 
     Parameters
     ----------
@@ -68,9 +88,7 @@ def stiffer_than_critical(problem: Problem, accuracy: float | str) -> tuple[Prob
 
     Returns
     -------
-    problem : Problem
-    start : tuple of MeshSpec and float
-        The mesh and the size of the search, from which those of the problem are found.
+    NearCritical
 
     Raises
     ------
@@ -86,7 +104,8 @@ def stiffer_than_critical(problem: Problem, accuracy: float | str) -> tuple[Prob
         raise ValueError(
             f"solid = {solid!r} has no reference modulus E0, which the critical modulus is a value of; take a Solid"
         )
-    estimate = replace(problem, solid=replace(solid, E0=_estimate(problem, solid)))
+    E0 = _estimate(problem, solid)
+    estimate = replace(problem, solid=replace(solid, E0=E0))
     choice, spec, size = chosen(estimate, (CUSP,), accuracy)
     contact = choice.contact(spec, size)
 
@@ -94,15 +113,15 @@ def stiffer_than_critical(problem: Problem, accuracy: float | str) -> tuple[Prob
         stiffer = replace(contact, compliance=contact.compliance.stiffened(math.exp(log_ratio)))
         return _Trial(log_ratio, slowest(traced(stiffer)))
 
-    E0 = estimate.solid.E0 * _stiffness(_cusp_between(*_bracket(trial), trial).branch.contact)
-    return replace(problem, solid=replace(solid, E0=MARGIN * E0)), (spec, size)
+    E0 *= MARGIN * _stiffness(_cusp_between(*_bracket(trial), trial).branch.contact)
+    return NearCritical(replace(problem, solid=replace(solid, E0=E0)), E0, (spec, size))
 
 
 def _estimate(problem: Problem, solid: Solid) -> float:
     """Estimate the critical modulus: there the tension of the law moves the solid by `SHARE` lengths of the law."""
     law = problem.law
     radius = radius_at_height(problem.punch, law.length)
-    relative = float(replace(solid, E0=1.0).modulus(radius)) / (1.0 - solid.nu**2)
+    relative = float(replace(solid, E0=1.0).modulus(np.array(radius))) / (1.0 - solid.nu**2)
     return law.work_of_adhesion * radius / (SHARE * law.length**2 * relative)
 
 

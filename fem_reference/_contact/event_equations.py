@@ -14,7 +14,6 @@ from typing import Self
 import numpy as np
 from scipy import linalg
 
-from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import Control, EdgeRadius
 from fem_reference._contact.cusp import displacement_rates
 from fem_reference._contact.events import CUSP
@@ -49,8 +48,8 @@ class EventEquations:
     parameter : float
         Of the second control.
     contact : Contact
-        The condensed contact, of the modulus reached if the event is the cusp: there the modulus is the unknown, and the
-        parameter stays what it is, since the rate is stationary in it.
+        The condensed contact.  At the cusp its modulus is the unknown, and the parameter stays what it is: the rate is
+        stationary in it.
     """
 
     def __init__(self, name: str, point: Point) -> None:
