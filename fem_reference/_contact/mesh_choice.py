@@ -106,9 +106,10 @@ class MeshChoice:
         """
         punch, law = self.problem.punch, self.problem.law
         scaling = isinstance(self.problem.solid.modulus, PowerLawModulus)
-        size = 2.0 * radius_at_height(punch, law.length)
-        balance = balance_length(self.problem, size)
         first = smallest = radius_at_height(punch, EDGE_RISE * law.length)
+        # The folds merge before there is a sharp edge: the mesh of a solid that scales is fine at this radius, too.
+        size = first if events == (CUSP,) and not scaling else 2.0 * radius_at_height(punch, law.length)
+        balance = balance_length(self.problem, size)
         check_width(0.5 * balance / size)
         spec = self.spec(0.5 * balance / size, size, smallest)
         if start is not None:
@@ -152,7 +153,9 @@ class MeshChoice:
             if resolved and far_share >= spec.far_share:
                 if scaling:
                     return spec, size
-                point = points[-2] if events == (CUSP,) else path.at(events[0])
+                if events == (CUSP,):
+                    return spec, size
+                point = path.at(events[0])
                 if not point.branch.touching or abs(point.edge_radius / size - 1.0) <= 0.5 * spec.edge_width:
                     return spec, size
                 size = point.edge_radius
