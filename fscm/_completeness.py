@@ -41,8 +41,12 @@ _FINE = 1e-8
 # Newton error beside the error of the mesh, and the smallest step to a middle, in units of its distance.
 _NEWTON_MARGIN, _SMALLEST = 0.01, 1e-3
 
+_RATES = ("load", "displacement")
 
-def completed(points: list[Point], tolerance: float, below: float = math.inf) -> list[Point]:
+
+def completed(
+    points: list[Point], tolerance: float, below: float = math.inf, names: tuple[str, ...] = _RATES
+) -> list[Point]:
     """The points of a path, with others between those that hide turning points of load or displacement.
 
     Parameters
@@ -52,6 +56,8 @@ def completed(points: list[Point], tolerance: float, below: float = math.inf) ->
         Resolution of the pressure on the path (see `fscm._adaptivity`).
     below : float
         Only between points that may hide a load below this one.
+    names : tuple of str
+        What may turn: "load", "displacement" or both.
 
     Raises
     ------
@@ -61,16 +67,13 @@ def completed(points: list[Point], tolerance: float, below: float = math.inf) ->
     arc = ArcLength.of(points[0].state.disc.problem)
     found = [points[0]]
     for a, b in pairwise(points):
-        if a.stretch == b.stretch and _may_hide_any(a, b) and least_loads(a, b) < below:
-            between = _parts(*_on_common_mesh(a, b, arc), arc, tolerance, _HALVINGS)
-            counts = [sum(_turns(p, q, name) for p, q in pairwise(between)) for name in _RATES]
-            if counts != [_turns(a, b, name) for name in _RATES]:
+        if a.stretch == b.stretch and _may_hide_any(a, b, names) and least_loads(a, b) < below:
+            between = _parts(*_on_common_mesh(a, b, arc), arc, tolerance, _HALVINGS, names)
+            counts = [sum(_turns(p, q, name) for p, q in pairwise(between)) for name in names]
+            if counts != [_turns(a, b, name) for name in names]:
                 found += between[1:-1]
         found.append(b)
     return found
-
-
-_RATES = ("load", "displacement")
 
 
 def _parameter_rate(point: Point) -> float:
@@ -138,8 +141,8 @@ def _change(a: Point, b: Point, name: str) -> float:
     return float(getattr(b.state, name) - getattr(a.state, name))
 
 
-def _may_hide_any(a: Point, b: Point) -> bool:
-    return any(_may_hide(a, b, name) for name in _RATES)
+def _may_hide_any(a: Point, b: Point, names: tuple[str, ...]) -> bool:
+    return any(_may_hide(a, b, name) for name in names)
 
 
 def _may_hide(a: Point, b: Point, name: str) -> bool:
@@ -250,12 +253,12 @@ def _resolved_middle(a: Point, b: Point, arc: ArcLength, tolerance: float) -> Po
     return _point(state, a, arc)
 
 
-def _parts(a: Point, b: Point, arc: ArcLength, tolerance: float, halvings: int) -> list[Point]:
+def _parts(a: Point, b: Point, arc: ArcLength, tolerance: float, halvings: int, names: tuple[str, ...]) -> list[Point]:
     """Points from a to b between which nothing can hide."""
-    if not _may_hide_any(a, b):
+    if not _may_hide_any(a, b, names):
         return [a, b]
     if halvings == 0:
-        for name in _RATES:
+        for name in names:
             if _hidden(a, b, name) > _NEGLIGIBLE:
                 raise NotConverged(
                     f"the path of {a.state.disc.problem} may hide turning points of the {name} near "
@@ -267,5 +270,5 @@ def _parts(a: Point, b: Point, arc: ArcLength, tolerance: float, halvings: int) 
     if middle.state.disc is not a.state.disc and not _kinked(a):
         # The mesh of the two ends does not resolve the edge between them; it would pin the edge, and turn falsely.
         halves = _on_common_mesh(a, middle, arc), _on_common_mesh(middle, b, arc)
-    first, last = (_parts(*half, arc, tolerance, halvings - 1) for half in halves)
+    first, last = (_parts(*half, arc, tolerance, halvings - 1, names) for half in halves)
     return [*first[:-1], *last]

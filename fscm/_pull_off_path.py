@@ -18,9 +18,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from fscm._arc_length import Point
-from fscm._continuation import usual_start
-from fscm._equilibrium import State
-from fscm._events import brackets, load_fold
+from fscm._continuation import Tracking, usual_start
+from fscm._equilibrium import STEEP, State
+from fscm._events import brackets, load_fold, with_minima
 from fscm._meshes import Meshes
 from fscm._typing import Array
 from fscm._whole_path import path_until
@@ -40,22 +40,23 @@ _SHARE, _SHARE_OF_FLAT = 0.6, 0.3
 _NEAR = 1.0
 # Ratio of one central gap that is tried to the last one.
 _RATIO = 1.2
-# Points with rising load and compressed center behind the minimum.
-_BEHIND = 2
+# The mesh ends at this height: the error of the closed tail behind it, 1e-6 of the tail, does not move a bracket.
+_END = 1e3
+# A step is refused for a turn of the tangent above 60 degrees only, because `completed` finds what hides between two
+# points.  The last step of Newton's method is below 1e-3 of the gaps, the error that is left about its square.
+_TRACKING = Tracking(newton=1e-3, largest_turn=0.5, given=True)
 
 
 @dataclass
 class PullOffEnd:
-    """Condition that ends the path: the center is compressed and the load rises."""
+    """Condition that ends the path: the center is compressed and the load is larger than that before."""
 
     load: float = math.inf
-    rising: int = 0
 
     def __call__(self, state: State) -> bool:
         compressed = state.follows_edge and float(state.disc.problem.law.traction(np.array(state.central_gap))) > 0.0
-        self.rising = self.rising + 1 if compressed and state.load > self.load else 0
-        self.load = state.load
-        return self.rising >= _BEHIND
+        before, self.load = self.load, state.load
+        return compressed and self.load > before
 
 
 def _tension(problem: Problem, central_gap: float) -> tuple[Array, Array]:
@@ -100,7 +101,7 @@ def _start(problem: Problem) -> float | None:
 
 
 def pull_off_path(problem: Problem, meshes: Meshes) -> list[Point] | None:
-    """Points of the short path, between which turning points may hide.
+    """Points of the short path, the minimum of the load among them; between them turning points may hide.
 
     Returns
     -------
@@ -115,10 +116,17 @@ def pull_off_path(problem: Problem, meshes: Meshes) -> list[Point] | None:
         return None
     try:
         points = path_until(
-            problem, *meshes.path, PullOffEnd(), "a load minimum", start_gap=start, end_height=meshes.end_height
+            problem,
+            *meshes.path,
+            PullOffEnd(),
+            "a load minimum",
+            start_gap=start,
+            end_height=meshes.end_height if problem.punch.growth > STEEP else min(_END, meshes.end_height),
+            tracking=_TRACKING,
         )
     except NotConverged:
         return None
+    points = with_minima(points)
     least = min(point.state.load for point in points)
     found = brackets(points, load_fold, rising=True)
     return points if found and -least > rigid_tension(problem, start) else None
