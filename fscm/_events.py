@@ -172,12 +172,16 @@ def extreme(a: Point, b: Point, condition: Condition) -> State | None:
     bulge = 6.0 * (change - 0.5 * (first + last))
     roots = np.roots([-bulge, last - first + bulge, first])
     inside = [float(t.real) for t in roots if abs(t.imag) == 0.0 and 0.0 <= t.real <= 1.0]
-    if len(inside) != 1:
+    if len(inside) == 1:
+        place = inside[0]
+    elif first * last < 0.0:  # the cubic does not tell
+        place = first / (first - last)
+    else:
         return None
-    near, far = (a, b) if inside[0] < 0.5 else (b, a)
+    near, far = (a, b) if place < 0.5 else (b, a)
     for point in (near, far):
         try:
-            return moved(point.state, rates_of(point.state), start + inside[0] * length, _COARSE_PARAMETER_TOLERANCE)
+            return moved(point.state, rates_of(point.state), start + place * length, _COARSE_PARAMETER_TOLERANCE)
         except NotConverged:
             continue
     return None
