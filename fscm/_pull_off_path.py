@@ -59,12 +59,30 @@ class PullOffEnd:
         return compressed and self.load > before
 
 
-def _tension(problem: Problem, central_gap: float) -> tuple[Array, Array]:
-    """Radii, and the largest tension of a rigid solid behind each but the last."""
-    law = problem.law
-    f = np.concatenate([[0.0], np.geomspace(_LOWEST, _HIGHEST, _HEIGHTS)])
-    tension = -law.traction(np.maximum(f + central_gap, law.peak_gap))
-    return (problem.n * f) ** (1.0 / problem.n), tension[:-1]
+class _RigidSolid:
+    """Load and deformation by the tension of a rigid solid, at heights that are evaluated once."""
+
+    def __init__(self, problem: Problem) -> None:
+        n, law = problem.n, problem.law
+        self._law, self._compliance = law, problem.compliance
+        self._heights = np.concatenate([[0.0], np.geomspace(_LOWEST, _HIGHEST, _HEIGHTS)])
+        r = (n * self._heights) ** (1.0 / n)
+        self._areas, self._lengths = np.diff(r * r), np.diff(r ** (1.0 - problem.k))
+        C, m = law.decay
+        self._behind = 2.0 * C * _HIGHEST**-m * float(r[-1]) ** 2 / (m * n - 2.0)
+
+    def _tension(self, central_gap: float) -> Array:
+        """The largest tension behind each radius but the last."""
+        gap = np.maximum(self._heights[:-1] + central_gap, self._law.peak_gap)
+        return -self._law.traction(gap)
+
+    def load(self, central_gap: float) -> float:
+        """Upper bound of -P of all states apart with at least this central gap."""
+        return float(self._tension(central_gap) @ self._areas) + self._behind
+
+    def lift(self, central_gap: float) -> float:
+        """About the deformation at the center by the tension."""
+        return self._compliance * float(self._tension(central_gap) @ self._lengths)
 
 
 def rigid_tension(problem: Problem, central_gap: float) -> float:
@@ -76,24 +94,15 @@ def rigid_tension(problem: Problem, central_gap: float) -> float:
     >>> 0.6 < rigid_tension(problem, 1.0) < 0.7  # 2 (1/3) (4 / 2^2 - 1 / 2^8) = 0.664
     True
     """
-    r, tension = _tension(problem, central_gap)
-    C, m = problem.law.decay
-    behind = 2.0 * C * _HIGHEST**-m * float(r[-1]) ** 2 / (m * problem.n - 2.0)
-    return float(tension @ np.diff(r * r)) + behind
-
-
-def _lift(problem: Problem, central_gap: float) -> float:
-    """About the deformation at the center by the tension of the rigid solid."""
-    r, tension = _tension(problem, central_gap)
-    return problem.compliance * float(tension @ np.diff(r ** (1.0 - problem.k)))
+    return _RigidSolid(problem).load(central_gap)
 
 
 def _start(problem: Problem) -> float | None:
     """Central gap of the first state; None where the whole path begins nearer."""
-    gap, singular = problem.law.peak_gap, problem.law.singular_gap
-    stiff = _lift(problem, gap) < _NEAR * (gap - singular)
-    enough = (_SHARE if problem.n <= 2.0 or stiff else _SHARE_OF_FLAT) * rigid_tension(problem, 0.0)
-    while rigid_tension(problem, gap) > enough or _lift(problem, gap) > _NEAR * (gap - singular):
+    gap, singular, rigid = problem.law.peak_gap, problem.law.singular_gap, _RigidSolid(problem)
+    stiff = rigid.lift(gap) < _NEAR * (gap - singular)
+    enough = (_SHARE if problem.n <= 2.0 or stiff else _SHARE_OF_FLAT) * rigid.load(0.0)
+    while rigid.load(gap) > enough or rigid.lift(gap) > _NEAR * (gap - singular):
         gap *= _RATIO
         if gap > usual_start(problem):  # near n = 2/3 the tail alone carries more
             return None
