@@ -147,7 +147,7 @@ def test_finer_meshes_are_taken_where_a_path_cannot_be_traced(monkeypatch, trace
     """As that of n = 5, k = 0.6, mu = 3, whose contact begins on a spot a 500th of the rim."""
     tried = []
 
-    def adapted(choice, events):
+    def adapted(choice, events, start=None):
         tried.append(choice.level)
         if traceable is None or choice.level != level_for(traceable):
             raise NotConverged("the path stops")
