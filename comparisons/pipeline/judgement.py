@@ -14,6 +14,7 @@ from comparisons.data.file_names import VERDICT_FILES
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.judge import judge
 from comparisons.judging.selection import needed_keys
+from comparisons.output.junit import evaluation_seconds
 from comparisons.output.verdicts import write_verdicts
 from comparisons.pipeline.inputs import Cases, Gates, load_cases, read_gates
 from comparisons.runs.atomic_files import atomic
@@ -68,7 +69,7 @@ def judge_and_write(
 ) -> Judgement:
     """Judge results and write the verdicts and their summary beside them."""
     verdicts = judge(gates.gates, cases.grids, results, curves, models)
-    markdown = write_verdicts(folder.path, verdicts, gates.gates, specs)
+    markdown = write_verdicts(folder.path, verdicts, gates.gates, specs, evaluation_seconds(results, curves))
     return Judgement(folder.path, verdicts, specs, markdown)
 
 
