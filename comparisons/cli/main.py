@@ -27,6 +27,7 @@ _COMMANDS = {
     "report": ("report", "write a run as one HTML page"),
     "paper": ("paper", "compute the figures and numbers of the paper again"),
     "sweep": ("sweep", "compute grids of one's own"),
+    "compare": ("compare", "compare models with a reference in cases of one's own: one table, one figure"),
     "merge": ("merge", "put the shards of a sweep into one folder"),
     "solve": ("solve", "compute one quantity of one problem by one model"),
     "curve": ("curve", "compute curves or surfaces at pull-off, as CSV and as a plot"),
