@@ -25,6 +25,7 @@ _COMMANDS = {
     "run": ("run", "compute the standing cases and judge them"),
     "judge": ("judge", "judge stored results again without computing"),
     "report": ("report", "write a run as one HTML page"),
+    "leaderboard": ("leaderboard", "write any number of runs as one sortable HTML table"),
     "paper": ("paper", "compute the figures and numbers of the paper again"),
     "sweep": ("sweep", "compute grids of one's own"),
     "compare": ("compare", "compare models with a reference in cases of one's own: one table, one figure"),

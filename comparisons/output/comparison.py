@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from rich import box
+from rich.console import Group
 from rich.table import Table
 from rich.text import Text
 
@@ -162,7 +163,7 @@ def wide(table: pd.DataFrame) -> Iterator[tuple[str, str, pd.DataFrame]]:
         yield quantity, reference, pd.DataFrame(rows, columns=[*cases, reference, *models], dtype=object)
 
 
-def terminal_tables(table: pd.DataFrame, summary: pd.DataFrame, every: bool = False) -> list[Table]:
+def terminal_tables(table: pd.DataFrame, summary: pd.DataFrame, every: bool = False) -> list[Group]:
     """Return the tables of a comparison for a terminal: errors in blocks of as many models as fit, and the summary.
 
     Parameters
@@ -178,7 +179,7 @@ def terminal_tables(table: pd.DataFrame, summary: pd.DataFrame, every: bool = Fa
     return [*shown, *(_summary(*key, group) for key, group in summary.groupby(["quantity", "reference"], sort=False))]
 
 
-def _blocks(quantity: str, reference: str, texts: pd.DataFrame, every: bool) -> Iterator[Table]:
+def _blocks(quantity: str, reference: str, texts: pd.DataFrame, every: bool) -> Iterator[Group]:
     """Yield tables that are at most `WIDTH` wide; each has the case and the reference."""
     fixed = list(texts.columns[: list(texts.columns).index(reference) + 1])
     widths = {
@@ -186,7 +187,7 @@ def _blocks(quantity: str, reference: str, texts: pd.DataFrame, every: bool) -> 
     }
     room = WIDTH - _EDGES - sum(widths[column] for column in fixed)
     block: list[str] = []
-    title = f"{quantity}: kappa in percent, with its uncertainty, against {reference}"
+    title = f"{quantity}: kappa in percent (uncertainty) against {reference}"
     for model in texts.columns[len(fixed) :]:
         if block and sum(widths[column] for column in (*block, model)) > room:
             yield _shown(title, texts[[*fixed, *block]], every)
@@ -195,14 +196,14 @@ def _blocks(quantity: str, reference: str, texts: pd.DataFrame, every: bool) -> 
     yield _shown(title, texts[[*fixed, *block]], every)
 
 
-def _shown(title: str, texts: pd.DataFrame, every: bool) -> Table:
+def _shown(title: str, texts: pd.DataFrame, every: bool) -> Group:
     rows = texts if every else texts.head(_ROWS)
     if len(rows) < len(texts):
         title += f" (the first {len(rows)} of {len(texts)} cases)"
     return _table(title, rows, left=())
 
 
-def _summary(quantity: str, reference: str, group: pd.DataFrame) -> Table:
+def _summary(quantity: str, reference: str, group: pd.DataFrame) -> Group:
     texts = pd.DataFrame(
         {
             "model": group["model"],
@@ -216,12 +217,11 @@ def _summary(quantity: str, reference: str, group: pd.DataFrame) -> Table:
     return _table(f"{quantity}: coverage, largest and root mean square kappa in percent", texts, left=("model", "at"))
 
 
-def _table(title: str, texts: pd.DataFrame, left: Sequence[str]) -> Table:
-    shown = Table(
-        title=Text(title), title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, padding=(0, _GAP - 1, 0, 0)
-    )
+def _table(title: str, texts: pd.DataFrame, left: Sequence[str]) -> Group:
+    """Return a table below its title, which may be wider than the table."""
+    shown = Table(box=box.SIMPLE_HEAD, padding=(0, _GAP - 1, 0, 0))
     for name in texts.columns:
         shown.add_column(Text(str(name)), justify="left" if name in left else "right", overflow="fold")
     for row in texts.itertuples(index=False):
         shown.add_row(*(Text(str(cell)) for cell in row))
-    return shown
+    return Group(Text(title, style="bold"), shown)
