@@ -28,7 +28,7 @@ LAYERS = (
     ("pipeline",),
     ("bench",),
     ("baseline",),
-    ("cli",),
+    ("cli", "pytest_entry"),
     ("__main__",),
 )
 
