@@ -176,7 +176,7 @@ def terminal_tables(table: pd.DataFrame, summary: pd.DataFrame, every: bool = Fa
     shown = [
         block for quantity, reference, texts in wide(table) for block in _blocks(quantity, reference, texts, every)
     ]
-    return [*shown, *(_summary(*key, group) for key, group in summary.groupby(["quantity", "reference"], sort=False))]
+    return [*shown, *(_summary(str(quantity), group) for quantity, group in summary.groupby("quantity", sort=False))]
 
 
 def _blocks(quantity: str, reference: str, texts: pd.DataFrame, every: bool) -> Iterator[Group]:
@@ -203,10 +203,11 @@ def _shown(title: str, texts: pd.DataFrame, every: bool) -> Group:
     return _table(title, rows, left=())
 
 
-def _summary(quantity: str, reference: str, group: pd.DataFrame) -> Group:
+def _summary(quantity: str, group: pd.DataFrame) -> Group:
     texts = pd.DataFrame(
         {
             "model": group["model"],
+            **({"reference": group["reference"]} if group["reference"].nunique() > 1 else {}),
             "a value in": [coverage_words(row) for _, row in group.iterrows()],
             "largest": [percent(*pair) for pair in zip(group["largest"], group["u_largest"], strict=True)],
             "at": [place_text(row) for _, row in group.iterrows()],
@@ -214,7 +215,9 @@ def _summary(quantity: str, reference: str, group: pd.DataFrame) -> Group:
         },
         dtype=object,
     )
-    return _table(f"{quantity}: coverage, largest and root mean square kappa in percent", texts, left=("model", "at"))
+    return _table(
+        f"{quantity}: coverage, largest and root mean square kappa in percent", texts, left=("model", "reference", "at")
+    )
 
 
 def _table(title: str, texts: pd.DataFrame, left: Sequence[str]) -> Group:

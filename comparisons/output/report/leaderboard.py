@@ -193,7 +193,7 @@ def _package(record: dict[str, Any]) -> str:
 
 def _sets(entries: Sequence[Entry], letters: Sequence[str]) -> list[tuple[str, str]]:
     """Return the letter and the description of each set of cases; nothing if there is only one."""
-    described = {}
+    described: dict[str, str] = {}
     for entry, letter in zip(entries, letters, strict=True):
         cases, tier, gates, chosen = entry.facts
         words = f"the standing cases of the tier {tier}" if tier else "cases of a user"

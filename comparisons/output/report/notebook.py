@@ -29,7 +29,8 @@ def notebook_html(table: pd.DataFrame, summary: pd.DataFrame) -> str:
     >>> "<table" in notebook_html(empty, empty)
     False
     """
-    tables = [_summary(*key, group) for key, group in summary.groupby(["quantity", "reference"], sort=False)]
+    groups = summary.groupby(["quantity", "reference"], sort=False)
+    tables = [_summary(str(quantity), str(reference), group) for (quantity, reference), group in groups]
     tables += [_errors(quantity, reference, texts, table) for quantity, reference, texts in wide(table)]
     return environment().get_template("notebook.html").render(tables=tables)
 
@@ -45,8 +46,13 @@ def _summary(quantity: str, reference: str, group: pd.DataFrame) -> Table:
         )
         for _, row in group.iterrows()
     ]
-    columns = (Column("model", "head"), Column("a value in", "number"), Column("largest κ (%)", "number"))
-    columns += (Column("at"), Column("rms κ (%)", "number"))
+    columns = (
+        Column("model", "head"),
+        Column("a value in", "number"),
+        Column("largest κ (%)", "number"),
+        Column("at"),
+        Column("rms κ (%)", "number"),
+    )
     return Table("summary", f"{quantity}: coverage and errors against {reference}", columns, rows)
 
 
@@ -59,7 +65,7 @@ def _errors(quantity: str, reference: str, texts: pd.DataFrame, table: pd.DataFr
     of_table = table[(table["quantity"] == quantity) & (table["reference"] == reference)]
     case = ["n", "k", "mu", "nu"]
     models = list(texts.columns[list(texts.columns).index(reference) + 1 :])
-    rows = []
+    rows: list[Row] = []
     cases = of_table.groupby(case, sort=False, dropna=False)
     for (_, group), shown in zip(cases, texts.itertuples(index=False), strict=True):
         if len(rows) == _MOST_ROWS:

@@ -55,8 +55,9 @@ def pytest_configure(config: pytest.Config) -> None:
     if not path.is_file():
         raise pytest.UsageError(f"the gates file {path} does not exist")
     config.pluginmanager.register(_Collection(config, path, models), "fscm-bench-gates")
+    named = [(config.invocation_params.dir / argument.partition("::")[0]).resolve() for argument in config.args]
     # An entry of an ini file adds no tests to those that are named on the command line.
-    if (option or config.args_source is not pytest.Config.ArgsSource.ARGS) and str(path) not in config.args:
+    if (option or config.args_source is not pytest.Config.ArgsSource.ARGS) and path not in named:
         config.args.append(str(path))
 
 
@@ -109,7 +110,7 @@ class GatesFile(pytest.File):
         from comparisons.pipeline.expected_verdicts import expected_verdicts
 
         try:
-            expected = expected_verdicts(self._gates.path, self._gates.models, self._gates.tier)
+            expected = list(expected_verdicts(self._gates.path, self._gates.models, self._gates.tier))
         except ValueError as refusal:
             raise self.CollectError(str(refusal)) from None
         for one in expected:

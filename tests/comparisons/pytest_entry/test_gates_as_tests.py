@@ -86,7 +86,7 @@ def test_one_gate_can_be_chosen_and_the_folder_kept(small_grid, pytester):
     chosen = pytester.runpytest_inprocess(
         "-p", PLUGIN, "--fscm-bench-gates=gates.toml", "--fscm-bench-model=ten-percent", "gates.toml::other verdicts"
     )
-    assert chosen.ret == 0
+    chosen.assert_outcomes(failed=0, passed=1)
 
 
 def test_an_ini_file_names_them(small_grid, pytester):
@@ -117,7 +117,7 @@ def test_a_gate_that_cannot_be_used_is_one_sentence(small_grid, pytester):
     result = run(pytester, EVERY.replace("0.15", "2e9"))
     result.assert_outcomes(errors=1)
     result.stdout.fnmatch_lines(["*upper = 2000000000 is beyond 1000 in size*"])
-    result.stdout.no_fnmatch_line("*Traceback*")
+    result.stdout.no_fnmatch_line("*check_numbers*")
 
 
 def test_a_run_that_cannot_compute_fails_every_test_with_its_sentence(small_grid, pytester):
