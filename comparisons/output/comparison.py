@@ -199,7 +199,7 @@ def _blocks(quantity: str, reference: str, texts: pd.DataFrame, every: bool) -> 
 def _shown(title: str, texts: pd.DataFrame, every: bool) -> Group:
     rows = texts if every else texts.head(_ROWS)
     if len(rows) < len(texts):
-        title += f" (the first {len(rows)} of {len(texts)} cases)"
+        title += f", first {len(rows)} of {len(texts)} cases"
     return _table(title, rows, left=())
 
 

@@ -55,7 +55,7 @@ def error_summary(table: pd.DataFrame) -> pd.DataFrame:
 def _errors(known: pd.DataFrame) -> dict[str, float]:
     if known.empty:
         return dict.fromkeys(("largest", "u_largest", *_CASE, "rms", "u"), np.nan)
-    worst = known.loc[known["kappa"].abs().idxmax()]
+    worst = known.iloc[int(known["kappa"].abs().to_numpy().argmax())]
     return {
         "largest": worst["kappa"],
         "u_largest": worst["u_kappa"],
