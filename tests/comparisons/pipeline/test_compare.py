@@ -179,7 +179,7 @@ def test_the_figure_is_over_the_parameter_with_most_values():
         (["jkr", "--n", "2", "--k", "0", "--mu", "nan"], "nan"),
         (["jkr", "--grid", "GRID", "--mu", "1"], "--grid states the cases"),
         (["jkr", "--grid", "GRID", "--quantity", "pull_off_force"], "leave out --quantity"),
-        (["nobody-has-this", "--n", "2", "--k", "0", "--mu", "1"], "unknown model"),
+        (["no-such-model", "--n", "2", "--k", "0", "--mu", "1"], "unknown model"),
     ],
 )
 def test_what_cannot_be_compared_is_one_sentence(tmp_path, capsys, arguments, sentence):
