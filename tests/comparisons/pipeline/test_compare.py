@@ -2,6 +2,8 @@
 
 import json
 import re
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -9,6 +11,7 @@ import pytest
 from rich.console import Console
 
 import comparisons
+from comparisons.baseline import read_baseline
 from comparisons.cli.main import main
 from comparisons.output.comparison import WIDTH, comparison_table, terminal_tables, wide
 from comparisons.output.error_summary import coverage_words, error_summary
@@ -19,6 +22,8 @@ from comparisons.runs.frames import frame
 from comparisons.runs.record import check_files, read_record
 from comparisons.runs.rows import Row
 from comparisons.runs.tables import read_table
+
+ROOT = Path(__file__).resolve().parents[3]
 
 GRID = """
 [[grid]]
@@ -210,3 +215,15 @@ def test_coverage_is_beside_the_errors():
     assert coverage_words(summary.loc["a"]) == "3 of 3"
     assert coverage_words(summary.loc["b"]) == "1 of 3 (1 n/a, 1 failed)"
     assert summary.loc["b", "cases"] == 1
+
+
+def test_the_printed_table_of_the_document_is_the_one_of_the_baseline():
+    text = (ROOT / "docs" / "compare.md").read_text(encoding="utf-8")
+    grid = load_grids(GRID.replace('"exact"', '"fscm"').replace("[0, 0.4]", "[0.4]"), "quick")
+    rows, _ = read_baseline(ROOT / "results" / "baseline")
+    known = rows[rows["quantity"] == "pull_off_force"].assign(nu=np.nan, reason="")
+    force = replace(grid[0], quantities=("pull_off_force",))
+    table = comparison_table(known, [force], ["jkr", "md-improved"])
+    ((_, _, texts),) = wide(table)
+    for row in texts.itertuples(index=False):
+        assert "  ".join(row).split() in [line.split() for line in text.splitlines()]
