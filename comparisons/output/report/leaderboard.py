@@ -118,7 +118,8 @@ def standing(entry: Entry) -> pd.DataFrame:
 
 
 def _verdict(verdicts: pd.DataFrame, model: str, quantity: str) -> str:
-    own = verdicts[(verdicts["candidate"] == model) & (verdicts["quantity"] == quantity)]
+    """Return the worst verdict on a model about a quantity; one without a quantity is on the model as a whole."""
+    own = verdicts[(verdicts["candidate"] == model) & verdicts["quantity"].isin([quantity, ""])]
     return "" if own.empty else str(roll_up(own["verdict"]))
 
 

@@ -3,6 +3,7 @@
 import json
 import math
 import re
+from dataclasses import replace
 
 import pandas as pd
 import pytest
@@ -139,6 +140,18 @@ def test_cases_of_the_verification_and_fresh_ones_do_not_count():
         assert (row["asked"], row["answered"], row["cases"], row["mu"], row["largest"]) == (asked, asked, 2, 0.2, 0.4)
         assert row["rms"] == pytest.approx(math.sqrt(0.125))
         assert row["u"] == 1e-9
+
+
+def test_a_verdict_on_the_whole_model_counts_for_every_quantity():
+    case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "mu": 1.0, "nu": math.nan, "status": "ok"}
+    results = pd.DataFrame([case | {"model": "a", "model_version": "1"}])
+    kappa = [("pull_off_force", "a", 2.0, 0.0, 1.0, math.nan, "exact", 0.0, 0.0)]
+    rows = [("a", "pull_off_force", "PASS"), ("a", "jump_in_gap", "ERROR"), ("b", "pull_off_force", "FAIL")]
+    for more, expected in (([], "PASS"), ([("a", "", "INCONCLUSIVE")], "INCONCLUSIVE")):
+        one = entry(record(), kappa, results)
+        verdicts = pd.DataFrame([*rows, *more], columns=["candidate", "quantity", "verdict"])
+        (row,) = standing(replace(one, stored=replace(one.stored, verdicts=verdicts))).to_dict("records")
+        assert row["verdict"] == expected
 
 
 def test_texts_of_others_are_escaped_and_there_is_no_network(run_folder, hostile, tmp_path):
