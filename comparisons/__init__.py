@@ -28,7 +28,7 @@ LAYERS = (
     ("pipeline",),
     ("bench",),
     ("baseline",),
-    ("cli",),
+    ("cli", "pytest_entry"),
     ("__main__",),
 )
 
@@ -45,6 +45,7 @@ _EXPORTS = {
     "Case": "comparisons.runs.cases",
     "evaluate": "comparisons.runs.tasks",
     "errors": "comparisons.pipeline.errors",
+    "compare": "comparisons.pipeline.compare",
     "run": "comparisons.pipeline.run",
     "judge": "comparisons.judging.judge",
     "judge_folder": "comparisons.pipeline.judgement",

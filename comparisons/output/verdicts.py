@@ -19,6 +19,7 @@ from comparisons.output.markdown import markdown
 from comparisons.quantities import CURVES
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.folder import RunFolder
+from comparisons.runs.rows import Key
 from comparisons.runs.tables import write_table
 
 __all__ = [
@@ -104,8 +105,14 @@ def worst_cases(gates: pd.DataFrame) -> pd.DataFrame:
     )
 
 
-def write_verdicts(folder: Path, judged: pd.DataFrame, gates: list[Gate], specs: Mapping[str, str]) -> str:
-    """Write the verdicts as CSV, Parquet, Markdown, LaTeX and JUnit XML; return the Markdown.
+def write_verdicts(
+    folder: Path,
+    judged: pd.DataFrame,
+    gates: list[Gate],
+    specs: Mapping[str, str],
+    seconds: Mapping[Key, float] | None = None,
+) -> str:
+    """Write the verdicts as CSV, Parquet, Markdown, LaTeX and JUnit XML (with `seconds`); return the Markdown.
 
     The summary by gate, and what the gates required, go beside them as CSV and Parquet: a gates file may change
     later.
@@ -130,5 +137,5 @@ def write_verdicts(folder: Path, judged: pd.DataFrame, gates: list[Gate], specs:
         with atomic(path) as file:
             file.write(text.encode())
     with atomic(files.junit) as file:
-        file.write(junit(judged, partial(command, specs=specs)))
+        file.write(junit(judged, partial(command, specs=specs), seconds))
     return page

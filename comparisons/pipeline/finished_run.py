@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from comparisons.data.file_names import GATES_TEXT, GRID_TEXT, VERDICT_FILES
+from comparisons.data.file_names import COMPARISON_FILES, GATES_TEXT, GRID_TEXT, VERDICT_FILES
 from comparisons.judging.decision import Verdict
 from comparisons.pipeline.inputs import Cases, Gates, RunInputs
 from comparisons.pipeline.judgement import Judgement, judge_and_write
@@ -89,7 +89,7 @@ def write_run(
         cards = make_cards(external, rows, completed.parts)
         judgement = judge_and_write(target, inputs, tables.results, tables.curves, cards)
     stale = {GRID_TEXT} if rules is not None else {GATES_TEXT, *VERDICT_FILES}
-    _remove_stale(target, stale - {path.name for path in texts})
+    _remove_stale(target, {*stale, *COMPARISON_FILES} - {path.name for path in texts})
     shipped = {"shipped": len(found.shipped)} if found.shipped else {}
     counts = {"all": len(rows), "resumed": completed.resumed, **shipped, **_statuses(rows)}
     content = record_content(

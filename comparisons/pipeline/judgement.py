@@ -19,6 +19,7 @@ from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.judge import judge
 from comparisons.judging.selection import relevant
 from comparisons.judging.summary import COVERAGE, summarise
+from comparisons.output.junit import evaluation_seconds
 from comparisons.output.verdicts import write_verdicts
 from comparisons.pipeline.inputs import RunInputs, load_cases, read_gates
 from comparisons.registry import ExternalIdentity
@@ -103,7 +104,7 @@ def judge_and_write(
     verdicts = every_verdict([*tables, judge_cards(cards)])
     specs = {name: model.spec for name, model in inputs.external.items()}
     written = [*gates, *{part.gate.id: part.gate for part in fresh}.values(), *card_gates(cards)]
-    markdown = write_verdicts(folder.path, verdicts, written, specs)
+    markdown = write_verdicts(folder.path, verdicts, written, specs, evaluation_seconds(results, curves))
     return Judgement(folder.path, verdicts, specs, markdown, cards, inputs.domains, inputs.models)
 
 

@@ -10,7 +10,7 @@ import pytest
 from comparisons.data.file_names import VERDICT_FILES
 from comparisons.judging.summary import summarise
 from comparisons.numerics.number_text import exact, limits_text, short
-from comparisons.output.junit import junit
+from comparisons.output.junit import evaluation_seconds, junit
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown, to_step_summary
 from comparisons.output.verdicts import command, matrix, write_verdicts
@@ -151,7 +151,8 @@ def test_latex_is_booktabs_and_escapes_what_is_special():
 
 def test_junit_has_one_test_case_a_gate_and_case():
     root = ElementTree.fromstring(junit(JUDGED, partial(command, specs={})))
-    assert root.attrib == {"name": "fscm-bench", "tests": "6", "errors": "1", "failures": "2", "skipped": "2"}
+    counts = {"tests": "6", "errors": "1", "failures": "2", "skipped": "2"}
+    assert root.attrib == {"name": "fscm-bench", **counts, "time": "0.000000"}
     assert [suite.get("name") for suite in root] == ["ONE", "TWO", "THREE", "FOUR"]
     cases = root.findall(".//testcase")
     assert len(cases) == len(JUDGED)
@@ -174,6 +175,16 @@ def test_junit_has_one_test_case_a_gate_and_case():
     ]
     failure = root.find(".//failure")
     assert "fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0.4 --mu 5" in failure.text
+
+
+def test_junit_has_the_time_of_each_evaluation():
+    timed = JUDGED.iloc[:2].assign(mu=[1.0, 5.0])
+    rows = timed.rename(columns={"candidate": "model"}).assign(seconds=[0.25, 1e-6])
+    root = ElementTree.fromstring(junit(timed, partial(command, specs={}), evaluation_seconds(rows)))
+    assert [case.get("time") for case in root.findall(".//testcase")] == ["0.250000", "0.000001"]
+    suites = [suite.get("time") for suite in root]
+    assert root.get("time") == "0.250001"
+    assert sum(map(float, suites)) == pytest.approx(0.250001, abs=1e-9)
 
 
 def test_the_command_of_a_row():
