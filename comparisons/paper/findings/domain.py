@@ -62,7 +62,7 @@ def _draw(tables: Tables) -> Figure:
             fem["n"].map(places), 100.0 * fem["lacking"], ls="none", marker="x", ms=8, color="0.2", label="against fem"
         )
         axes.axhline(_LIMIT, color=COLOURS[1], lw=1.0, ls="--", label="0.1 %")
-        axes.set(yscale="log", ylim=(0.01, 10.0), ylabel="pull-off force that the scheme lacks (%)")
+        axes.set(yscale="log", ylim=(1e-3, 10.0), ylabel="pull-off force that the scheme lacks (%)")
         axes.set_xticks(
             list(places.values()),
             [f"$n$ = {n:g}\n$\\mu$ = {mu:g}" for n, mu in zip(exact["n"], exact["mu"], strict=True)],

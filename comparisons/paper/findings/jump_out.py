@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -31,11 +32,11 @@ def _tasks() -> Sequence[CachedCall]:
 
 
 def _tables(results: Results) -> Tables:
-    rows = []
+    rows: list[dict[str, Any]] = []
     for model, case in _cases():
         found = number(results, model, _NAME, case)
         values = {"displacement": found.value, "u_displacement": found.u, "over_mu": -found.value / case[2]}
-        rows.append({"model": model} | dict(zip(("n", "k", "mu"), case, strict=True)) | values)
+        rows.append({"model": model, **dict(zip(("n", "k", "mu"), case, strict=True)), **values})
     return {"": pd.DataFrame(rows)}
 
 

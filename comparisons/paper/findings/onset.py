@@ -63,8 +63,8 @@ def _draw(tables: Tables) -> Figure:
         ):
             part = fem[fem["status"] == status]
             axes.plot(part["k"], part["mu"], ls="none", marker="s", ms=7, color=COLOURS[2], mfc=face, label=label)
-        axes.set(xlabel="gradient exponent $k$", ylabel=r"Tabor number $\mu$", ylim=(0.45, 1.1), xlim=(-0.03, 0.63))
-        axes.legend(loc="upper left", fontsize=8)
+        axes.set(xlabel="gradient exponent $k$", ylabel=r"Tabor number $\mu$", ylim=(0.2, 1.1), xlim=(-0.03, 0.63))
+        axes.legend(loc="lower left", fontsize=8)
     return figure
 
 

@@ -94,8 +94,11 @@ def _distances(case: Case, reference: str, results: Results) -> list[Evidence]:
     inner = min(found["contact_radius"] for found in zones.values())
     outer = max(found["cohesive_radius"] for found in zones.values())
     rows = []
-    for clause, ends in (("inside the contact", (radius[0], inner)), ("outside the cohesive zone", (outer, _FARTHEST))):
-        r = np.linspace(*ends, _SAMPLES)
+    for clause, start, end in (
+        ("inside the contact", float(radius[0]), inner),
+        ("outside the cohesive zone", outer, _FARTHEST),
+    ):
+        r = np.linspace(start, end, _SAMPLES)
         # The deformation is w = H + delta - f (Eq. 4); f is the same everywhere.
         own = CubicSpline(radius, gap)(r) + displacement.value
         errors = []

@@ -12,7 +12,7 @@ from scipy.interpolate import CubicSpline
 
 from comparisons.data.paper_statements import PaperStatement
 from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.statements.evidence import Evidence, Number, decisive
+from comparisons.paper.statements.evidence import REFERENCES, Evidence, Number, decisive
 from comparisons.paper.statements.sources import Case, StatementTest, case_label, grid, shape
 from comparisons.paper.tasks import curve
 
@@ -59,15 +59,21 @@ def _evidence(of_path: Callable[[str, Case, Json], list[Evidence]]) -> Statement
     """Return the test that compares numbers of one path."""
 
     def evidence(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
+        witnesses = _witnesses(statement)
+
+        def comparisons(model: str, cases: Sequence[Case]) -> list[Evidence]:
+            return [row for case in cases for row in of_path(model, case, results[CachedCall.of(curve, model, *case)])]
+
         rows = []
         for n in statement.numbers("n"):
-            for model, cases in (("fscm", grid(statement)), ("fem", _witnesses(statement))):
-                own = [case for case in cases if case[0] == n]
-                found = [
-                    row for case in own for row in of_path(model, case, results[CachedCall.of(curve, model, *case)])
-                ]
-                if found:
-                    rows.append(replace(decisive(found), beyond=statement.beyond(n)))
+            # What both references compute is shown case by case, the other cases by the one that decides.
+            groups = [(model, [case]) for case in witnesses if case[0] == n for model in REFERENCES]
+            groups.append(("fscm", [case for case in grid(statement) if case[0] == n and case not in witnesses]))
+            rows += [
+                replace(decisive(comparisons(model, cases)), beyond=statement.beyond(n))
+                for model, cases in groups
+                if cases
+            ]
         return rows
 
     return StatementTest(_tasks, evidence)
