@@ -7,8 +7,8 @@ and their pictures, and the values of the references that are shipped with the p
 quick tier has a few cases only.  ``fscm-bench paper`` gives the figures of the paper, ``fscm-bench bench`` the
 benchmark.
 
-``python -m comparisons.baseline --check FOLDER`` changes nothing.  It lists the results of a run of the quick tier, or
-the tables of the paper's figures, that differ from the committed ones.
+``python -m comparisons.baseline --check FOLDER`` changes nothing.  It lists the results of a run, or the tables of the
+paper's figures, that differ from the committed ones: values by more than their bounds, or bounds by a factor.
 """
 
 from __future__ import annotations
@@ -65,6 +65,12 @@ _COPIES = {
     "full": {f"references_agreement.{suffix}": f"{AGREEMENT}.{suffix}" for suffix in ("csv", "png")},
 }
 _TEXTS = ("model", "quantity", "status", "reason")
+
+#: A bound that is so many times the stored one, or so small a part of it, has drifted.  On one machine bounds repeat
+#: to the last digits; the rounding part of the smallest differs between machines by less than this.
+LARGEST_CHANGE_OF_BOUND = 3.0
+#: Least part of a value of size one that counts as a bound: the unit roundoff. A bound may be zero.
+_ROUNDING = 1e-16
 
 
 def renew(folder: Path, target: Path = BASELINE) -> list[Path]:
@@ -155,7 +161,7 @@ def read_baseline(target: Path = BASELINE) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 def drift(stored: pd.DataFrame, computed: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows of `computed` that differ from the stored ones by more than both uncertainties.
+    """Return the rows of `computed` that differ from the stored ones by more than both uncertainties, or in them.
 
     Parameters
     ----------
@@ -169,22 +175,52 @@ def drift(stored: pd.DataFrame, computed: pd.DataFrame) -> pd.DataFrame:
     """
     both = computed.merge(stored, on=_KEY, how="left", suffixes=("", "_stored"), validate="one_to_one")
     apart = (both["value"] - both["value_stored"]).abs() > both["u_num"] + both["u_num_stored"]
-    drifted = apart | (both["status"] != both["status_stored"])
+    least = _ROUNDING * both["value"].abs().clip(lower=1.0)
+    bound, bound_stored = (both[name].clip(lower=least) for name in ("u_num", "u_num_stored"))
+    change = bound / bound_stored
+    drifted = apart | (change > LARGEST_CHANGE_OF_BOUND) | (change < 1.0 / LARGEST_CHANGE_OF_BOUND)
+    drifted |= both["status"] != both["status_stored"]
     return both.loc[drifted, [*_KEY, "value", "value_stored", "u_num", "u_num_stored", "status", "status_stored"]]
 
 
 def check(folder: Path) -> pd.DataFrame:
-    """Return the results of a run of the quick tier that differ from the committed ones, as `drift` does.
+    """Return the results of a run with ``--recompute`` that differ from the committed ones, as `drift` does.
+
+    A run of the quick tier is compared with `read_baseline`, one of the full tier with the committed agreement of both
+    references.
 
     Raises
     ------
     ValueError
-        If it is no finished run of that tier with ``--recompute``, or a file of it was changed.
+        If it is no finished run with ``--recompute``, or a file of it was changed.
     """
     _, tier = _computed_run(folder)
-    if tier != "quick":
-        raise ValueError(f"{folder} is a run of the {tier} tier; the committed results are of the quick tier")
-    return drift(read_baseline()[0], read_table(RunFolder(folder).parquet(RunFolder(folder).results)))
+    if tier == "quick":
+        return drift(read_baseline()[0], read_table(RunFolder(folder).parquet(RunFolder(folder).results)))
+    stored, computed = (
+        _by_model(read_csv(path, ("model", "quantity", "reference")))
+        for path in (_agreement(), folder / f"{AGREEMENT}.csv")
+    )
+    missing = stored.merge(computed[_KEY], on=_KEY, how="left", indicator=True)["_merge"] == "left_only"
+    lost = stored[missing].assign(status="missing", value=float("nan"), u_num=float("nan"))
+    return drift(stored, pd.concat([computed, lost], ignore_index=True))
+
+
+def _agreement() -> Path:
+    """Return the path of the committed agreement of both references."""
+    path = BASELINE / f"references_{AGREEMENT}.csv"
+    if not path.is_file():
+        raise ValueError(f"there is no file {path}: it is in a clone of the repository only; call this in its root")
+    return path
+
+
+def _by_model(agreement: pd.DataFrame) -> pd.DataFrame:
+    """Return the results of both references in a table of their agreement, with the columns of `drift`."""
+    of_reference = agreement.drop(columns=["model", "value", "u_num", "nu"]).rename(
+        columns={"reference": "model", "reference_value": "value", "u_reference": "u_num"}
+    )
+    both = pd.concat([agreement, of_reference.assign(nu=float("nan"))], ignore_index=True)
+    return both[[*_KEY, "value", "u_num"]].drop_duplicates(_KEY).assign(status="ok")
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -5,14 +5,16 @@ from __future__ import annotations
 import math
 import re
 import unicodedata
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from comparisons.numerics.number_text import exact
+from comparisons.runs.cases import Case
 
 if TYPE_CHECKING:
     from comparisons.judging.gates import Gate
 
-__all__ = ["PARAMETERS", "check_compared", "check_numbers", "plain_text"]
+__all__ = ["LARGEST_MARGIN", "PARAMETERS", "check_compared", "check_numbers", "plain_text"]
 
 PARAMETERS = ("n", "k", "mu", "nu")
 
@@ -24,6 +26,10 @@ _HIDDEN = ("Cc", "Cf", "Zl", "Zp")
 #: limit beyond can only let such a model pass; values themselves, which "abs" limits, are below 100 in every standing
 #: case, and a million leaves room for extreme ones.
 _LARGEST_LIMIT = {"rel": 1e3, "abs": 1e6, "range-relative": 1e3, "en": 1e3, "curve": 1e3}
+
+#: Size of the ends of a measured range over the worst error measured.  The difference of two accurate references is
+#: numerical noise, of which another machine has several times as much; beyond ten times the code has changed.
+LARGEST_MARGIN = 10.0
 
 
 def plain_text(key: str, text: str, where: str) -> str:
@@ -84,12 +90,17 @@ def check_numbers(gate: Gate, where: str) -> None:
     _check_limits(gate, where)
     _check_uncertainties(gate, where)
     _check_worst_measured(gate, where)
+    _check_measured_range(gate, where)
     for name, limits in gate.cases.items():
         if name != "tags" and not limits[0] <= limits[1]:
             raise ValueError(f"{where}: cases.{name} = {limits!r} must be [low, high], two numbers with low <= high")
     for name, value in gate.reference_at.items():
         if not math.isfinite(value):
             raise ValueError(f"{where}: reference_at.{name} = {value!r} must be a finite number")
+    try:
+        replace(Case(2.0, 0.0, 1.0), **gate.reference_at)
+    except ValueError as refusal:
+        raise ValueError(f"{where}: reference_at: {refusal}") from None
 
 
 def _check_limits(gate: Gate, where: str) -> None:
@@ -100,6 +111,8 @@ def _check_limits(gate: Gate, where: str) -> None:
         )
     if gate.metric == "curve" and gate.lower != -math.inf:
         raise ValueError(f"{where}: a distance has no lower limit; state lower = -inf")
+    if gate.metric == "curve" and gate.upper <= 0.0:
+        raise ValueError(f"{where}: upper = {exact(gate.upper)} must be positive: no distance is smaller")
     largest = _LARGEST_LIMIT[gate.metric]
     for name, limit in (("lower", gate.lower), ("upper", gate.upper)):
         if math.isfinite(limit) and abs(limit) > largest:
@@ -131,8 +144,8 @@ def _check_uncertainties(gate: Gate, where: str) -> None:
 
 def _check_worst_measured(gate: Gate, where: str) -> None:
     worst = gate.worst_measured
-    if (gate.basis == "measured") != (worst is not None):
-        raise ValueError(f"{where}: a measured basis, and no other, states its worst_measured")
+    if (gate.basis == "measured" or gate.measured_range is not None) != (worst is not None):
+        raise ValueError(f"{where}: a measured basis or a measured_range, and nothing else, states its worst_measured")
     if worst is None:
         return
     limits = f"the limits {exact(gate.lower)} to {exact(gate.upper)}"
@@ -148,4 +161,25 @@ def _check_worst_measured(gate: Gate, where: str) -> None:
         raise ValueError(
             f"{where}: worst_measured = {exact(worst)} is within {limits}, although expected_failure states that every "
             "case fails; correct one of them"
+        )
+
+
+def _check_measured_range(gate: Gate, where: str) -> None:
+    if gate.measured_range is None:
+        if gate.expected_failure is not None:
+            raise ValueError(
+                f"{where}: expected_failure needs measured_range = [low, high], the errors that were measured: without "
+                "it every wrong value would be accepted as the known failure"
+            )
+        return
+    low, high = gate.measured_range
+    text = f"measured_range = [{exact(low)}, {exact(high)}]"
+    worst = gate.worst_measured
+    if worst is None or not low <= worst <= high:
+        stated = "missing" if worst is None else exact(worst)
+        raise ValueError(f"{where}: {text} must contain worst_measured, which is {stated}")
+    if not max(abs(low), abs(high)) <= LARGEST_MARGIN * abs(worst):
+        raise ValueError(
+            f"{where}: {text} reaches beyond {LARGEST_MARGIN:g} times worst_measured = {exact(worst)}, so that it "
+            "would notice no change; state the errors that were measured, with a margin"
         )

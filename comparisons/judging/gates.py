@@ -69,7 +69,10 @@ class Gate:
     tier : str
         The first of `TIERS` that judges it.
     worst_measured : float or None
-        For "measured": the error of largest size when the limits were set.
+        For "measured", or with a `measured_range`: the error of largest size when the gate was made.
+    measured_range : tuple of float or None
+        (low, high) of the error E itself when the gate was made, with a margin.  An error outside has changed: a FAIL
+        whatever its uncertainty, also of a gate that is declared to fail.
     reference_at : dict
         Parameters at which the reference is taken instead of those of the case, e.g. ``{k = 1}``.
     rival : str or None
@@ -77,7 +80,8 @@ class Gate:
     not_applicable : str
         "error", or "leave-out" for a case to which a model does not apply.
     expected_failure : str or None
-        Why every case is known to fail; one that passes is then reported.
+        Why every case is known to fail; one that passes is then reported.  It needs a `measured_range`, or every wrong
+        value would be accepted as the known failure.
     """
 
     id: str
@@ -96,6 +100,7 @@ class Gate:
     tier: str
     max_candidate_uncertainty: float | None = None
     worst_measured: float | None = None
+    measured_range: tuple[float, float] | None = None
     reference_at: Mapping[str, float] = field(default_factory=dict)
     rival: str | None = None
     not_applicable: str = "error"
@@ -180,6 +185,9 @@ def _gate(table: dict[str, Any], where: str, models: set[str], shared: Mapping[s
     if name is not None:
         known_name("shared grounds", name, shared, where)
         table["grounds"] = shared[name]
+    if "measured_range" in table:
+        low, high = table["measured_range"]
+        table["measured_range"] = (float(low), float(high))
     gate = Gate(**table | {key: plain_text(key, table[key], where) for key in _TEXTS if key in table})
     check_compared(gate, where)
     for key in ("candidate", "reference", "rival"):

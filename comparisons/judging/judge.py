@@ -135,7 +135,17 @@ def _judge_case(gate: Gate, case: Case, results: StoredResults, scale: float) ->
     if gate.expected_failure:
         verdict = expecting_failure(verdict)
         reason = reason or gate.expected_failure
+    if verdict not in (Verdict.ERROR, Verdict.XPASS) and (changed := _change(gate, found.error)):
+        verdict, reason = Verdict.FAIL, changed
     return replace(one, **found.facts, error=found.error, uncertainty=found.uncertainty, verdict=verdict, reason=reason)
+
+
+def _change(gate: Gate, error: float) -> str:
+    """Return why an error is none of those that were measured when the gate was made; empty if it is one."""
+    if gate.measured_range is None or gate.measured_range[0] <= error <= gate.measured_range[1]:
+        return ""
+    low, high = map(exact, gate.measured_range)
+    return f"E = {error:.6g} has changed: the errors measured when the gate was made are between {low} and {high}"
 
 
 def _limited_uncertainties(gate: Gate, found: CaseError) -> list[tuple[str, float, float | None]]:

@@ -201,9 +201,40 @@ def test_a_run_is_compared_with_what_is_committed(tmp_path, monkeypatch, capsys)
     write_record(read_record(run / "run.json"), run / "run.json")
     assert main(["--check", str(run)]) == 1
     assert "1.500000003" in capsys.readouterr().out
-    full = made_up(tmp_path / "full", "full")
-    assert main(["--check", str(full)]) == 2
-    assert "quick" in capsys.readouterr().err
+
+
+def agreement_csv(path, *, fem=(1.5, 1e-7), fscm=(1.5, 1e-9), mus=(1.0, 2.0)):
+    rows = [
+        ["pull_off_force", "fem", 2.0, 0.4, mu, "", fem[0] * mu, fem[1], "fscm", fscm[0] * mu, fscm[1], 0, 0, 0]
+        for mu in mus
+    ]
+    names = "quantity model n k mu nu value u_num reference reference_value u_reference difference claimed en"
+    pd.DataFrame(rows, columns=names.split()).to_csv(path, index=False)
+
+
+@pytest.mark.parametrize(
+    ("changes", "seen"),
+    [
+        ({}, 0),
+        ({"fem": (1.5 + 1.5e-7, 1e-7)}, 1),  # within both bounds at mu = 1 only
+        ({"fscm": (1.5 + 3e-9, 1e-9)}, 2),
+        ({"fem": (1.5, 4e-7)}, 2),
+        ({"fscm": (1.5, 2e-10)}, 2),
+        ({"mus": (1.0,)}, 2),
+    ],
+)
+def test_both_references_of_a_full_run_are_compared(changes, seen, tmp_path, monkeypatch, capsys):
+    clone, run = tmp_path / "clone", made_up(tmp_path / "full", "full")
+    (clone / BASELINE).mkdir(parents=True)
+    agreement_csv(clone / BASELINE / "references_agreement.csv")
+    agreement_csv(run / "agreement.csv", **changes)
+    write_record(read_record(run / "run.json"), run / "run.json")
+    monkeypatch.chdir(tmp_path)
+    assert main(["--check", str(run)]) == 2
+    assert "clone of the repository" in capsys.readouterr().err
+    monkeypatch.chdir(clone)
+    assert main(["--check", str(run)]) == (1 if seen else 0)
+    assert capsys.readouterr().out.count("pull_off_force") == seen
 
 
 def test_a_run_of_chosen_gates_is_refused(tmp_path, target):

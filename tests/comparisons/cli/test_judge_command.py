@@ -51,6 +51,11 @@ def test_judging_again_gives_the_same_and_computes_nothing(folder, monkeypatch, 
     assert shown[0].rstrip().endswith("PASS: 1 gates, 4 cases PASS")
 
 
+#: The error of the model, and another one.
+MEASURED = "worst_measured = 0.1\nmeasured_range = [0.0999, 0.1001]"
+OTHER = "worst_measured = 0.2\nmeasured_range = [0.15, 0.25]"
+
+
 @pytest.mark.parametrize(
     ("changes", "status", "verdict"),
     [
@@ -62,11 +67,16 @@ def test_judging_again_gives_the_same_and_computes_nothing(folder, monkeypatch, 
         ([("mu = [0.1, 1]", "mu = [2, 3]")], 4, "ERROR"),
         ([('tier = "quick"', 'tier = "full"')], 4, "ERROR"),
         (
-            [("upper = 0.11", "upper = 0.095"), ("min_cases", 'expected_failure = "known"\nmin_cases')],
+            [("upper = 0.11", "upper = 0.095"), ("min_cases", f'expected_failure = "known"\n{MEASURED}\nmin_cases')],
             0,
             "XFAIL",
         ),
-        ([("min_cases", 'expected_failure = "known"\nmin_cases')], 1, "XPASS"),
+        (
+            [("upper = 0.11", "upper = 0.095"), ("min_cases", f'expected_failure = "known"\n{OTHER}\nmin_cases')],
+            1,
+            "FAIL",
+        ),
+        ([("min_cases", f'expected_failure = "known"\n{OTHER}\nmin_cases')], 1, "XPASS"),
         ([('"ten-percent"', '"refuses"')], 4, "ERROR"),
     ],
 )

@@ -115,6 +115,12 @@ def test_the_reference_may_be_taken_at_other_parameters():
         ("lower = -0.1", "lower = -1" + "0" * 400, "must be a number, or -inf for no limit"),
         ("min_cases = 3", 'min_cases = 3\nreference_at = { k = "1" }', "must be a number"),
         ("min_cases = 3", "min_cases = 3\nreference_at = { k = nan }", "reference_at.k = nan must be a finite number"),
+        ("min_cases = 3", "min_cases = 3\nreference_at = { n = -4 }", "reference_at: shape index n = -4.0 is outside"),
+        (
+            "min_cases = 3",
+            "min_cases = 3\nreference_at = { k = 1.5 }",
+            "reference_at: gradient exponent k = 1.5",
+        ),
         ('metric = "rel"', 'metric = "en"', "the metric en needs max_candidate_uncertainty"),
         ('metric = "rel"', 'metric = "en"\nmax_candidate_uncertainty = 1', "must be below 1 with the metric en"),
         ("1e-6", "1e-6\nmax_candidate_uncertainty = 0", "max_candidate_uncertainty = 0 must be positive"),
@@ -137,9 +143,41 @@ def test_the_reference_may_be_taken_at_other_parameters():
         ),
         (
             '"derived"',
-            '"measured"\nexpected_failure = "Known."\nworst_measured = 0.1',
+            '"measured"\nexpected_failure = "Known."\nworst_measured = 0.1\nmeasured_range = [0.09, 0.11]',
             "worst_measured = 0.1 is within the limits -0.1 to 0.1",
         ),
+        (
+            '"derived"',
+            '"measured"\nexpected_failure = "Known."\nworst_measured = 0.2',
+            "expected_failure needs measured_range = [low, high]",
+        ),
+        ("min_cases = 3", "min_cases = 3\nmeasured_range = [0, 0.1]", "states its worst_measured"),
+        (
+            '"derived"',
+            '"measured"\nworst_measured = 0.01\nmeasured_range = [0, 0.0099]',
+            "measured_range = [0, 0.0099] must contain worst_measured, which is 0.01",
+        ),
+        (
+            '"derived"',
+            '"measured"\nworst_measured = 0.01\nmeasured_range = [0.02, 0.01]',
+            "must contain worst_measured",
+        ),
+        (
+            '"derived"',
+            '"measured"\nworst_measured = 0.01\nmeasured_range = [nan, 0.02]',
+            "must contain worst_measured",
+        ),
+        (
+            '"derived"',
+            '"measured"\nworst_measured = 0.01\nmeasured_range = [-0.1001, 0.02]',
+            "reaches beyond 10 times worst_measured = 0.01",
+        ),
+        (
+            '"derived"',
+            '"measured"\nworst_measured = 0.01\nmeasured_range = [0, inf]',
+            "reaches beyond 10 times worst_measured = 0.01",
+        ),
+        ("min_cases = 3", "min_cases = 3\nmeasured_range = 0.1", "[low, high]"),
         ("A limit.", "", "grounds = '' is empty"),
         ("A limit.", " \\n\\t ", "is empty"),
         ("JKR is right.", "  ", "requirement = '  ' is empty"),
@@ -188,7 +226,11 @@ def test_what_is_wrong_is_refused_and_named(old, new, sentence, tmp_path, capsys
         ("lower = -0.1\nupper = 0.1", "lower = -1000\nupper = inf"),
         ('metric = "rel"\nlower = -0.1', 'metric = "abs"\nlower = -1e6'),
         ('"derived"', '"measured"\nworst_measured = -0.1'),
-        ('"derived"', '"measured"\nexpected_failure = "Known."\nworst_measured = 0.1001'),
+        (
+            '"derived"',
+            '"measured"\nexpected_failure = "Known."\nworst_measured = 0.1001\nmeasured_range = [0.1001, 1.001]',
+        ),
+        ('"derived"', '"derived"\nworst_measured = -0.01\nmeasured_range = [-0.1, 0.1]'),
         ('metric = "rel"', 'metric = "en"\nmax_candidate_uncertainty = 0.999'),
         ("1e-6", "1e-6\nmax_candidate_uncertainty = 7"),
     ],
@@ -196,6 +238,14 @@ def test_what_is_wrong_is_refused_and_named(old, new, sentence, tmp_path, capsys
 def test_what_can_fail_is_read(old, new):
     assert GATE.replace(old, new) != GATE
     assert len(load_gates(GATE.replace(old, new))) == 1
+
+
+@pytest.mark.parametrize("upper", ["0", "-0.1"])
+def test_a_distance_that_must_be_negative_is_refused(upper):
+    curve = GATE.replace('"rel"', '"curve"').replace("pull_off_force", "force_curve").replace("= -0.1", "= -inf")
+    assert load_gates(curve)
+    with pytest.raises(ValueError, match=f"upper = {upper} must be positive: no distance is smaller"):
+        load_gates(curve.replace("upper = 0.1", f"upper = {upper}"))
 
 
 def test_the_candidate_at_its_own_parameters_is_no_other_reference():
@@ -256,7 +306,7 @@ def test_a_standing_gate_is_fit_to_be_cited(gate):
         assert text.endswith(".")
     assert gate.candidate in {*MODELS, GIVEN}
     if gate.worst_measured is not None:
-        assert gate.lower <= gate.worst_measured <= gate.upper
+        assert (gate.lower <= gate.worst_measured <= gate.upper) is (gate.expected_failure is None)
     declared = {
         case
         for grid in grids(gate.tier)

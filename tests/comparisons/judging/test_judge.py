@@ -338,9 +338,29 @@ def test_a_failed_computation_is_an_error_even_where_not_applicable_is_left_out(
 
 
 def test_an_expected_failure_is_strict_in_every_case():
-    gate = GATE + 'expected_failure = "known"\n'
+    gate = GATE + 'expected_failure = "known"\nworst_measured = 0.25\nmeasured_range = [0.24, 0.26]\n'
     assert verdict(results(fscm=2.0, jkr=2.5), gate)[0] == "XFAIL"
     assert verdict(results(fscm=2.0, jkr=lambda k, mu: 2.0 if k else 2.5), gate)[0] == "XPASS"
+
+
+@pytest.mark.parametrize("failure", ["", 'expected_failure = "known"\n'])
+@pytest.mark.parametrize("value", [2.47, 2.53, 1.5, 19.0])
+def test_an_error_that_was_not_measured_fails_although_it_keeps_the_limits_or_is_declared_to_fail(failure, value):
+    limits = "lower = -0.1\nupper = 0.1" if failure else "lower = -9\nupper = 9"
+    gate = GATE.replace("lower = -0.1\nupper = 0.1", limits) + failure
+    gate += "worst_measured = 0.25\nmeasured_range = [0.24, 0.26]\n"
+    assert verdict(results(fscm=2.0, jkr=2.5), gate)[0] == ("XFAIL" if failure else "PASS")
+    found, judged = verdict(results(fscm=2.0, jkr=value), gate)
+    assert found == "FAIL"
+    assert judged["reason"].str.endswith("errors measured when the gate was made are between 0.24 and 0.26").all()
+
+
+def test_an_uncertainty_does_not_hide_a_change():
+    gate = GATE.replace("lower = -0.1\nupper = 0.1", "lower = -9\nupper = 9").replace("1e-3", "3.0")
+    gate += "worst_measured = 0.25\nmeasured_range = [0.24, 0.26]\n"
+    rows = results(fscm=2.0, jkr=2.6)
+    rows["u_num"] = 2.0
+    assert verdict(rows, gate)[0] == "FAIL"
 
 
 @pytest.mark.parametrize(("rival", "expected"), [(2.2, "PASS"), (1.8, "PASS"), (2.1, "INCONCLUSIVE"), (2.05, "FAIL")])
