@@ -74,7 +74,7 @@ class Evidence:
 
     @property
     def margin(self) -> float:
-        """Distance from the limit, positive on the side that the statement claims."""
+        """Distance from the limit, positive on the side that the statement names."""
         return _SIGNS[self.relation] * (self.value.value - self.limit.value)
 
     @property

@@ -23,7 +23,7 @@ from comparisons.paper.statements.evidence import (
     evidence_frame,
     verdict,
 )
-from comparisons.paper.statements.registry import test_of
+from comparisons.paper.statements.registry import find_test
 
 __all__ = ["PAPER_STATEMENTS", "judged", "readable"]
 
@@ -88,11 +88,11 @@ def _number(value: float, u: float) -> str:
 
 
 def _tasks() -> Sequence[CachedCall]:
-    return list(dict.fromkeys(call for one in paper_statements() for call in test_of(one).tasks(one)))
+    return list(dict.fromkeys(call for one in paper_statements() for call in find_test(one).tasks(one)))
 
 
 def _tables(results: Results) -> Tables:
-    evidence = [(one, test_of(one).evidence(one, results)) for one in paper_statements()]
+    evidence = [(one, find_test(one).evidence(one, results)) for one in paper_statements()]
     rows = [judged(one, found) for one, found in evidence]
     frames = [evidence_frame(one.id, found) for one, found in evidence]
     return {"": pd.DataFrame(rows), "evidence": pd.concat(frames, ignore_index=True)}

@@ -17,7 +17,7 @@ from comparisons.paper.statements import (
 )
 from comparisons.paper.statements.sources import StatementTest
 
-__all__ = ["TESTS", "test_of"]
+__all__ = ["TESTS", "find_test"]
 
 _GROUPS = (
     trends,
@@ -36,7 +36,7 @@ _GROUPS = (
 TESTS: dict[str, StatementTest] = {name: test for group in _GROUPS for name, test in group.TESTS.items()}
 
 
-def test_of(statement: PaperStatement) -> StatementTest:
+def find_test(statement: PaperStatement) -> StatementTest:
     """Return the test of a statement.
 
     Raises

@@ -78,10 +78,12 @@ def without_place(paper_value: PaperValue, model: TaborCurve, exact: TaborCurve)
     half = 0.5 * 10.0 ** -len(paper_value.text.partition(".")[2])
     mu = np.geomspace(*RANGE, _SEARCH)
     size = 100.0 * np.abs(model(mu) / exact(mu) - 1.0)
-    above = size >= paper_value.value + half
+    # With its bound, so that the error beside the interval certainly rounds to the printed one.
+    above = size + 100.0 * (1.0 + 0.01 * size) * (model.error + exact.error) >= paper_value.value + half
     if not above.any() or above[0] or above[-1]:
         return None
     step = 10.0**-_DIGITS
-    low, high = math.floor(mu[above][0] / step) * step, math.ceil(mu[above][-1] / step) * step
+    first, last = np.flatnonzero(above)[[0, -1]]
+    low, high = math.floor(mu[first - 1] / step) * step, math.ceil(mu[last + 1] / step) * step
     sides = (largest_error(model, exact, high=low), largest_error(model, exact, low=high))
     return low, high, max(sides, key=lambda found: abs(found.kappa))

@@ -15,7 +15,7 @@ from comparisons.paper.registry import paper_figures
 from comparisons.paper.statements import registry
 from comparisons.paper.statements.evidence import FAILS, FALSE, IN_PART, REFERENCES, Number, evidence_of
 from comparisons.paper.statements.judgement import PAPER_STATEMENTS, judged
-from comparisons.paper.statements.registry import TESTS, test_of
+from comparisons.paper.statements.registry import TESTS, find_test
 
 ROOT = Path(__file__).parents[4]
 FOLDER = ROOT / PAPER_BASELINE
@@ -36,8 +36,8 @@ def evidence():
 
 @by_id
 def test_every_statement_has_a_test_with_the_same_tasks_every_time(statement):
-    tasks = test_of(statement).tasks(statement)
-    assert list(tasks) == list(test_of(statement).tasks(statement))
+    tasks = find_test(statement).tasks(statement)
+    assert list(tasks) == list(find_test(statement).tasks(statement))
 
 
 def test_every_test_is_used_and_no_group_hides_another():
@@ -47,7 +47,7 @@ def test_every_test_is_used_and_no_group_hides_another():
 
 def test_an_unknown_test_is_refused():
     with pytest.raises(ValueError, match="statement far-apart has no test 'trends'; there are trend, "):
-        test_of(replace(STATEMENTS["far-apart"], test="trends"))
+        find_test(replace(STATEMENTS["far-apart"], test="trends"))
 
 
 @by_id
@@ -58,9 +58,11 @@ def test_a_committed_verdict_follows_from_its_evidence(statement, committed, evi
 
 @by_id
 def test_other_evidence_gives_another_verdict(statement, evidence):
-    """The value of every stated row on the other side of its limit."""
+    """The value of every row that decides on the other side of its limit."""
 
     def mirrored(row):
+        if before == FALSE and row.outcome != FAILS:
+            return row
         value = 2.0 * row.limit.value - row.value.value
         return replace(row, value=Number(value, row.value.u, row.value.what))
 
@@ -135,7 +137,7 @@ class MadeUp(Results):
 
 def made_up_verdict(id, formula):
     statement = STATEMENTS[id]
-    return judged(statement, test_of(statement).evidence(statement, MadeUp(formula)))["verdict"]
+    return judged(statement, find_test(statement).evidence(statement, MadeUp(formula)))["verdict"]
 
 
 @pytest.mark.parametrize(
@@ -166,7 +168,7 @@ def test_a_model_is_near_or_not():
 @pytest.mark.parametrize("id", ["kernel-continuous", "psi-bounded", "coefficients-limits", "eta", "insensitive-ranges"])
 def test_formulas_give_the_committed_verdict(id, committed):
     statement = STATEMENTS[id]
-    found = judged(statement, test_of(statement).evidence(statement, Results()))
+    found = judged(statement, find_test(statement).evidence(statement, Results()))
     assert found["verdict"] == committed.set_index("id")["verdict"][id]
 
 
