@@ -33,8 +33,8 @@ def statements() -> Table:
         for row in sorted(found, key=lambda row: _ORDER.index(row["verdict"]))
     ]
     columns = (
-        Column("verdict", "number"),
-        Column("statement, in words of our own", "head"),
+        Column("verdict"),
+        Column("statement, in words of our own", "prose"),
         Column("test and evidence", "prose"),
         Column("fails for", "prose"),
         Column("computed again by", "code"),

@@ -81,10 +81,10 @@ def _evidence(of_path: Callable[[str, Case, Json], list[Evidence]]) -> Statement
 
 def _single_valued(model: str, case: Case, path: Json) -> list[Evidence]:
     gap = np.array(path["columns"]["central_gap"], float)
-    # A step between two points is certain where it is above the bounds of both.
-    step = float(np.diff(gap).max())
+    # The gap is as certain as the displacement: delta = -H_0 + w(0) (Eq. 33).
+    step, u = float(np.diff(gap).max()), 2.0 * float(path["u_displacement"])
     what = f"largest step of the central gap along the path, {case_label(case)}"
-    return [Evidence(shape(case[0]), model, Number(step, 0.0, what), "<", Number(0.0, 0.0, "falls at every step"))]
+    return [Evidence(shape(case[0]), model, Number(step, u, what), "<", Number(0.0, 0.0, "falls at every step"))]
 
 
 def _two_turns(model: str, case: Case, path: Json) -> list[Evidence]:

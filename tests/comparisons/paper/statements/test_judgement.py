@@ -9,7 +9,7 @@ import pytest
 
 from comparisons.cli import main as cli
 from comparisons.data.paper_statements import paper_statements, verdicts
-from comparisons.paper.baseline import PAPER_BASELINE, SHIPPED_STATEMENTS
+from comparisons.paper.baseline import PAPER_BASELINE, SHIPPED_STATEMENTS, renew
 from comparisons.paper.cache import CachedCall, CallCache, Results
 from comparisons.paper.registry import paper_figures
 from comparisons.paper.statements import registry
@@ -179,3 +179,18 @@ def test_the_verdicts_are_those_committed(tmp_path, committed):
     table = PAPER_STATEMENTS.tables(cache.results)[""]
     columns = ["id", "verdict", "fails_for", "beyond_paper"]
     assert table[columns].to_dict("records") == committed[columns].to_dict("records")
+
+
+def test_a_renewed_baseline_ships_the_verdicts(tmp_path, monkeypatch):
+    made = tmp_path / "made"
+    made.mkdir()
+    (tmp_path / SHIPPED_STATEMENTS.parent).mkdir(parents=True)
+    for figure in paper_figures():
+        (made / f"{figure.stem}.csv").write_text(figure.name)
+    monkeypatch.chdir(tmp_path)
+    assert SHIPPED_STATEMENTS in renew(made)
+    assert SHIPPED_STATEMENTS.read_text() == (PAPER_BASELINE / "paper_statements.csv").read_text() == "statements"
+    # Another target is not the baseline: nothing is shipped.
+    SHIPPED_STATEMENTS.unlink()
+    renew(made, tmp_path / "elsewhere")
+    assert not SHIPPED_STATEMENTS.exists()
