@@ -35,6 +35,13 @@ _FIRST = (
     "dmt",
     "bradley",
     "semi_rigid",
+    "double_hertz",
+    "maugis_dugdale_jin",
+    "dmt_strength",
+    "carpick_ogletree_salmeron",
+    "pietrement_troyon",
+    "schwarz",
+    "jump_asymptotes",
 )
 
 

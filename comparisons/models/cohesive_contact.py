@@ -24,6 +24,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import betainc
 
 from comparisons.model import ComputationFailed
 from comparisons.models.graded_punch import GradedPunch
@@ -132,7 +133,7 @@ class CohesiveContact:
             If Griffith's relation was not solved.
         """
         n, k, s = self.punch.n, self.punch.k, self.punch.s
-        edge = edge_integrals(self.punch, w, rule)
+        edge = self._edge(w, rule)
         log_c = self._griffith(edge)
         log_c_slope, log_c_slope_scale = self._cohesive_growth(edge, log_c)
         log_a, log_L = log_c + edge.log_contact, log_c + edge.log_width
@@ -166,8 +167,34 @@ class CohesiveContact:
 
     def log_contact_radius(self, w: float) -> float:
         """Return log(a) at log(a/L) = `w`, finite where a itself would overflow."""
-        edge = edge_integrals(self.punch, np.array([w]), COARSE)
+        edge = self._edge(np.array([w]), COARSE)
         return float(self._griffith(edge)[0] + edge.log_contact[0])
+
+    def _edge(self, w: Array, rule: UnitRule) -> EdgeIntegrals:
+        """Return the integrals over the cohesive zone of this traction."""
+        return edge_integrals(self.punch, w, rule)
+
+    def amplitude(self, cohesive_width: float) -> float:
+        """Return the displacement by which the traction lifts the surface at the contact, tilde: 2 Lambda L^(2s)."""
+        return float(2.0 * self.maugis_number * cohesive_width ** (2.0 * self.punch.s))
+
+    def opening(self, remainder: Array, opened: Array) -> Array:
+        """Return the share of the amplitude in e(x): 1 - v^s at v = (c^2-x^2)/L^2 = `remainder` = 1 - `opened`.
+
+        Each of the two numbers is accurate where it is small.
+        """
+        with np.errstate(divide="ignore"):
+            log_v = np.where(remainder < 0.5, np.log(remainder), np.log1p(-np.minimum(opened, 0.75)))
+        return np.asarray(-np.expm1(self.punch.s * log_v))
+
+    def zone_share(self, remainder: Array) -> Array:
+        """Return the traction of the cohesive zone over its largest value, at (c^2-r^2)/L^2 = `remainder`: 1."""
+        return np.ones_like(remainder)
+
+    def contact_share(self, inside: Array) -> Array:
+        """Return the traction inside the contact over its largest value, at (a^2-r^2)/L^2 = `inside`."""
+        s = self.punch.s
+        return np.asarray(betainc(s, 1.0 - s, 1.0 / (1.0 + inside))) if s > 0.0 else np.ones_like(inside)
 
     def _griffith(self, edge: EdgeIntegrals) -> Array:
         """Solve Griffith's relation, Lambda H(c) = 1, for log(c); shape (m,)."""

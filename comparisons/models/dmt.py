@@ -64,13 +64,17 @@ class DMT(ClosedForm):
         "its displacement grows with the contact radius throughout, so it has no folds",
     )
 
+    def cohesive_stress(self, problem: Problem) -> float:
+        """sigma_0 = eta(n), in dgamma / z0."""
+        return eta(float(problem.n))
+
     def pull_off_force(self, problem: Problem) -> Estimate:
         """Rigid pull-off force (Eq. 75)."""
-        return dmt_pull_off(float(problem.n), eta(float(problem.n)))
+        return dmt_pull_off(float(problem.n), self.cohesive_stress(problem))
 
     def pull_off_displacement(self, problem: Problem) -> Estimate:
         """Zero: the pull-off sits at the point of first contact."""
-        eta(float(problem.n))
+        self.cohesive_stress(problem)
         GradedPunch.of(problem)
         return Estimate(0.0, 0.0)
 

@@ -21,7 +21,7 @@ from comparisons.models.bradley import rigid_load
 from comparisons.models.closed_form import EPS, ClosedForm, Estimate, monomial
 from fscm.problem import Problem
 
-__all__ = ["SemiRigid", "jump_in_coefficient"]
+__all__ = ["SemiRigid", "attraction_coefficient", "jump_in_coefficient"]
 
 MODELS = {"semi-rigid": "SemiRigid"}
 
@@ -35,15 +35,21 @@ def _reach(n: float, k: float, j: int) -> float:
     return n * float(gamma(j - b) * gamma(1.0 + b)) / math.factorial(j - 1)
 
 
-def _pull(n: float, k: float) -> float:
-    """Coefficient of mu^(2-b) q^(3-b) in Eq. 43."""
+def attraction_coefficient(n: float, k: float) -> float:
+    """Coefficient of mu^(2-b) q^(3-b) in Eq. 43, b = (1-k)/n, dimensionless.
+
+    Examples
+    --------
+    >>> round(attraction_coefficient(5.0, 1.0), 12)        # 16/3 at k = 1, whatever n
+    5.333333333333
+    """
     return 16.0 / 3.0 * n ** ((1.0 - k) / n - 1.0) * _reach(n, k, 3)
 
 
 def _fold(n: float, k: float, mu: float) -> Estimate:
     """H0 + 1 at the fold of Eq. 43 (Eq. 46)."""
     b = (1.0 - k) / n
-    return monomial(((3.0 - b) * _pull(n, k), 1.0 / (4.0 - b)), (mu, (2.0 - b) / (4.0 - b)))
+    return monomial(((3.0 - b) * attraction_coefficient(n, k), 1.0 / (4.0 - b)), (mu, (2.0 - b) / (4.0 - b)))
 
 
 def jump_in_coefficient(n: float, k: float) -> float:
@@ -108,7 +114,7 @@ class SemiRigid(ClosedForm):
         H0 = np.geomspace(max(_FARTHEST_GAP + 1.0, 2.0 * nearest), nearest, _POINTS) - 1.0
         b, c = (1.0 - k) / n, 2.0 / n
         q = 1.0 / (H0 + 1.0)
-        pull = _pull(n, k) * mu ** (2.0 - b) * q ** (3.0 - b)
+        pull = attraction_coefficient(n, k) * mu ** (2.0 - b) * q ** (3.0 - b)
         push = pull * (_reach(n, k, 9) / _reach(n, k, 3)) * q**6
         load = rigid_load(n, H0)
         far_load = -16.0 / 3.0 * n ** (c - 1.0) * float(beta(3.0 - c, c)) * q ** (3.0 - c)

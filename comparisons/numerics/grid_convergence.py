@@ -1,8 +1,8 @@
 """Bound on the error of a number from its values on several grids.
 
-`three_grids` is the procedure of Celik et al. (J. Fluids Eng. 130 (2008) 078001), with Roache's grid convergence index;
-`comparisons.numerics.least_squares` is one for four grids or more.  Both take the order of convergence as *declared*
-for the quantity, since it is decided by singularities at a cohesive edge and not by the polynomials of an element.
+`three_grids` is the procedure of Celik et al. (J. Fluids Eng. 130 (2008) 078001), with Roache's grid convergence index.
+It takes the order of convergence as *declared* for the quantity, since it is decided by singularities at a cohesive
+edge and not by the polynomials of an element.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ def three_grids(sizes: Sequence[float], values: Sequence[float], declared: float
     """
     h, f = checked(sizes, values, 3)
     if len(h) != 3:
-        raise ValueError(f"{len(h)} grids are not three: use least_squares")
+        raise ValueError(f"{len(h)} grids are not three: the procedure takes the finest three")
     (h1, h2, h3), (f1, f2, f3) = h.tolist(), f.tolist()
     fine, coarse = f2 - f1, f3 - f2
     noise = NOISE * max(abs(f1), abs(f2), abs(f3))

@@ -85,6 +85,13 @@ _MODELS = {
     "semi-rigid": ("semi-rigid", _SOLID),
     "fscm-stieltjes": ("fscm-stieltjes", _DOTTED),
     "fscm-stieltjes-400": ("fscm-stieltjes-400", _DOTTED),
+    "double-hertz-n-k": (r"double-Hertz-$n$-$k$", _DASHDOT),
+    "md-jin": (r"M-D-$n$-$k$, $\sigma_0 = 1$", _DOTTED),
+    "dmt-strength": (r"dmt, $\sigma_0 = \sigma_{th}$", _DOTTED),
+    "carpick-ogletree-salmeron": ("Carpick-Ogletree-Salmeron", _DOTTED),
+    "pietrement-troyon": ("Pietrement-Troyon", _DOTTED),
+    "schwarz": ("Schwarz", _DASHDOT),
+    "jump-asymptotes": ("jump asymptotes", _DASHDOT),
 }
 
 #: The model whose curve is broad and pale, below the others: where they are right they cover it.

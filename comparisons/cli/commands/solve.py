@@ -74,6 +74,11 @@ def _text(row: Row) -> str:
     else:
         unit = "" if quantity.unit == "1" else f" {quantity.unit}"
         lines.append(f"  {quantity.symbol} = {short(row.value, row.u_num)}{unit}  ({row.seconds:.2g} s)")
+    if (row.n, row.k) == (2.0, 0.0):
+        # Imported here: the other formats and problems do not need it.
+        from comparisons.models.maugis_parameter import maugis_parameter
+
+        lines.append(f"  Maugis's lambda = {maugis_parameter(row.mu):.4g} with the strength 16 sqrt(3)/27 dgamma / z0")
     return "\n".join(lines) + "\n"
 
 

@@ -48,6 +48,12 @@ def test_text_shows_the_digits_the_uncertainty_leaves(toys, capsys):
     assert "-P_c = 2.0000000000(10) pi Q^(2/n)" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(("k", "shown"), [("0", True), ("0.4", False)])
+def test_text_shows_maugis_lambda_beside_the_tabor_number(capsys, k, shown):
+    assert solve("jkr", case=["--n", "2", "--k", k, "--mu", "2"]) == 0
+    assert ("Maugis's lambda = 2.314 with the strength" in capsys.readouterr().out) == shown
+
+
 def test_csv_is_a_header_and_a_row(capsys):
     assert solve("jkr", "--format", "csv") == 0
     table = pd.read_csv(io.StringIO(capsys.readouterr().out))

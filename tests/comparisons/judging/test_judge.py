@@ -2,12 +2,14 @@
 
 import math
 
+import numpy as np
 import pandas as pd
 import pytest
 
 from comparisons.judging.decision import roll_up
 from comparisons.judging.gates import load_gates
 from comparisons.judging.judge import judge
+from comparisons.judging.stored_results import UnusableResult, stored_curves
 from comparisons.judging.summary import summarise
 from comparisons.runs.cases import load_grids
 
@@ -367,6 +369,41 @@ def test_an_uncertainty_does_not_hide_a_change():
 def test_a_rival_is_beaten_by_size_of_error(rival, expected):
     gate = GATE.replace("lower = -0.1\nupper = 0.1", "lower = -inf\nupper = 0.0") + 'rival = "dmt"\n'
     assert verdict(results(fscm=2.0, jkr=1.9, dmt=rival), gate)[0] == expected
+
+
+def test_the_bound_against_a_rival_has_the_reference_once_for_each_of_the_two():
+    gate = GATE.replace("lower = -0.1\nupper = 0.1", "lower = -inf\nupper = 0.0") + 'rival = "dmt"\n'
+    rows = results(fscm=2.0, jkr=1.8, dmt=2.4)
+    rows["u_num"] = rows["model"].map({"fscm": 1e-4, "jkr": 1e-5, "dmt": 1e-6})
+    # Relative to the reference, whose own u counts abs(value / reference) times for each of the two.
+    expected = (1e-5 + 1e-6 + (0.9 + 1.2) * 1e-4) / 2.0
+    assert verdict(rows, gate)[1]["uncertainty"].tolist() == pytest.approx([expected] * 4)
+
+
+def test_a_failed_row_is_no_result_although_it_has_a_number():
+    rows = results(fscm=2.0, jkr=2.0)
+    rows.loc[rows["model"] == "jkr", ["status", "reason"]] = "failed", "no root"
+    found, judged = verdict(rows)
+    assert found == "ERROR"
+    assert (judged["reason"] == "jkr: failed: no root").all()
+
+
+@pytest.mark.parametrize(
+    ("first", "last", "expected"),
+    [(1e-3, 2e-3, 2e-3), (2e-3, 1e-3, 2e-3), (math.nan, 1e-3, None), (1e-3, math.nan, None), (-1e-3, -1e-3, None)],
+)
+def test_the_bound_of_a_curve_is_the_largest_of_its_points_and_each_has_one(first, last, expected):
+    t = np.linspace(0.0, 1.0, 21)
+    case = {"model": "jkr", "quantity": "force_curve", "n": 2.0, "k": 0.0, "mu": 1.0, "nu": math.nan}
+    u = np.where(t < 0.5, first, last)
+    table = pd.DataFrame(case | {"x": t, "y": t, "u_distance": u, "status": "ok", "reason": ""})
+    stored = stored_curves(table, ["force_curve"])
+    key = ("jkr", "force_curve", 2.0, 0.0, 1.0, None)
+    if expected is not None:
+        assert stored.points(key)[2] == expected
+    else:
+        with pytest.raises(UnusableResult, match="states the uncertainty"):
+            stored.points(key)
 
 
 def test_a_reference_elsewhere():

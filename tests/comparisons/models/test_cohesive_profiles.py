@@ -2,69 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from itertools import pairwise
-
+import mpmath as mp
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.special import ellipkm1, gamma, hyp2f1
 
 from comparisons.model import NotApplicable
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_events import CohesiveEvents
-from comparisons.models.cohesive_profiles import gap, pressure
+from comparisons.models.cohesive_profiles import PROFILE_ROUNDING, gap, pressure
 from comparisons.models.cohesive_stress import eta
+from comparisons.models.double_hertz_contact import DoubleHertzContact
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
 from fscm.problem import Problem
 
+from .kernel_gap import integrate, kernel_gap
+
 Array = NDArray[np.float64]
 CASES = [(2.0, 0.0, 1.0), (2.0, 0.4, 1.0), (1.0, 0.3, 0.3), (5.0, 0.6, 2.0), (1.5, 0.2, 4.0)]
-
-T = np.linspace(-4.3, 4.3, 401)
-FRACTION = 1.0 / (1.0 + np.exp(-np.pi * np.sinh(T)))
-REST = 1.0 / (1.0 + np.exp(np.pi * np.sinh(T)))
-WEIGHT = np.pi * np.cosh(T) * FRACTION * REST * (T[1] - T[0])
-
-
-def integrate(f: Callable[[Array, Array, Array], Array], low: float, high: float) -> float:
-    """Tanh-sinh rule; f gets t and its distances from `low` and from `high`, both without cancellation."""
-    size = high - low
-    return float(np.sum(f(low + size * FRACTION, size * FRACTION, size * REST) * WEIGHT) * size)
-
-
-def ring(k: float, r: float, t: Array, distance: Array) -> Array:
-    """Eq. 6 over 2 b c0^k / E*, distance = |r - t|: F((k+1)/2, (k+1)/2; 1; x^2) about x = 1 (DLMF 15.8.4)."""
-    big = np.maximum(r, t)
-    x2, y = (np.minimum(r, t) / big) ** 2, distance * (r + t) / big**2
-    a, b = (1 + k) / 2, (1 - k) / 2
-    if k == 0:
-        F = 2 / np.pi * ellipkm1(y)
-    else:
-        z = np.minimum(y, 0.5)
-        near = gamma(-k) / gamma(b) ** 2 * hyp2f1(a, a, 1 + k, z)
-        near += z**-k * gamma(k) / gamma(a) ** 2 * hyp2f1(b, b, 1 - k, z)
-        F = np.where(y < 0.3, near, hyp2f1(a, a, 1.0, np.minimum(x2, 0.75)))
-    return np.where(r < t, t**-k, t * r ** -(k + 1.0)) * F
-
-
-def kernel_gap(contact: CohesiveContact, state, r: float) -> float:
-    """H(r) = -delta + r^n / n + 2 (1 - k) integral of p G_k dt, tilde variables."""
-    n, k = contact.punch.n, contact.punch.k
-    a, c = float(state.contact_radius[0]), float(state.cohesive_radius[0])
-    points = sorted({0.0, a, c, min(r, c)})
-    w = 0.0
-    for low, high in pairwise(points):
-
-        def integrand(t: Array, up: Array, down: Array, low: float = low, high: float = high) -> Array:
-            # One-sided values: the pressure of this interval even where t rounds to its end.
-            p = pressure(contact, state, np.clip(t, np.nextafter(low, high), np.nextafter(high, low)))
-            distance = up if r == low else down if r == high else np.abs(r - t)
-            return p * ring(k, r, t, distance)
-
-        w += integrate(integrand, low, high)
-    return -float(state.displacement[0]) + r**n / n + 2 * (1 - k) * w
 
 
 def pull_off_state(n: float, k: float, mu: float):
@@ -143,3 +99,49 @@ def test_profiles_in_barred_variables(model: MaugisDugdaleOriginal, n: float, k:
 def test_refuses_an_edge_without_width(k: float, mu: float, reason: str) -> None:
     with pytest.raises(NotApplicable, match=reason):
         MaugisDugdaleOriginal().profiles(Problem(2, k, mu))
+
+
+@pytest.mark.parametrize("contact_type", [CohesiveContact, DoubleHertzContact])
+@pytest.mark.parametrize(
+    ("n", "k", "Lambda", "w"),
+    [(2.0, 0.0, 1.0, 0.0), (1.0, 0.3, 0.3, -2.0), (5.0, 0.6, 2.0, 1.0), (1.5, 0.2, 4.0, 3.0), (2.0, 0.9, 0.5, 0.0)],
+)
+def test_profiles_against_many_digits(contact_type, n: float, k: float, Lambda: float, w: float) -> None:
+    """The integrals of the two module texts by another rule in 25 digits."""
+    contact = contact_type(GradedPunch(n, k), Lambda)
+    state = contact.at(np.array([w]))
+    a_, c_, L_ = (float(x[0]) for x in (state.contact_radius, state.cohesive_radius, state.cohesive_width))
+    radii = np.array([a_ + share * (c_ - a_) for share in (0.1, 0.5, 0.9)] + [1.05 * c_, 3.0 * c_])
+    inner = a_ * np.array([0.1, 0.5, 0.9, 0.99])
+    constant = contact_type is CohesiveContact
+    with mp.workdps(25):
+        a, c, L, n, k = (mp.mpf(x) for x in (a_, c_, L_, n, k))
+        s, D = (1 - k) / 2, mp.beta(n / 2, (1 + k) / 2) / 2
+        S = mp.sin(mp.pi * s) / (mp.pi * s)
+        lift = 2 * Lambda * L ** (2 * s) if constant else Lambda * (1 + k) / S * L ** (2 * s)
+
+        def excess(x):
+            v = max(c - x, 0) * (c + x) / L**2
+            return D * (x**n - a**n) + lift * (1 - (v**s if constant else v))
+
+        def deformed_gap(r):
+            # With v = (r^2-x^2)^s the kernel (r^2-x^2)^(s-1) x dx is -dv / (2 s).
+            def integrand(v):
+                x = mp.sqrt(r * r - v ** (1 / s))
+                return x ** (k - 1) * excess(x)
+
+            ends = [(r * r - x * x) ** s for x in ([r, c, a] if r > c else [r, a])]
+            return mp.cos(k * mp.pi / 2) / (mp.pi * s) * mp.quad(integrand, ends)
+
+        def contact_pressure(r):
+            hertz = S / 2 * n * D * mp.quad(lambda x: x ** (n - 1) * (x * x - r * r) ** -s, [r, a])
+            if constant:
+                share = mp.betainc(s, 1 - s, 0, L**2 / (c * c - r * r), regularized=True)
+            else:
+                share = ((c * c - r * r) ** (1 - s) - (a * a - r * r) ** (1 - s)) / L ** (2 - 2 * s)
+            return hertz - Lambda * share
+
+        gaps = [float(deformed_gap(mp.mpf(float(r)))) for r in radii]
+        pressures = [float(contact_pressure(mp.mpf(float(r)))) for r in inner]
+    np.testing.assert_allclose(gap(contact, state, radii), gaps, rtol=0, atol=PROFILE_ROUNDING * (1.0 + max(gaps)))
+    np.testing.assert_allclose(pressure(contact, state, inner), pressures, rtol=0, atol=PROFILE_ROUNDING * Lambda)

@@ -80,3 +80,11 @@ def test_the_difference_of_two_computations_bounds_the_better_one():
 
     exact = curve_distance(*computed(1e-4), *s_curve(400), interpolated=False).value
     assert mesh_difference(*computed(4e-4), *computed(1e-4)) > exact
+
+
+def test_the_difference_of_two_meshes_counts_twice():
+    t = np.linspace(0.0, 1.0, 41)
+    shift = 1e-3
+    distance = mesh_difference(t, 2.0 * t + shift, t, 2.0 * t)
+    # The ordinate is scaled by its range of 2; beyond the end of the reference its end is the nearest point.
+    assert distance == pytest.approx(2.0 * shift / 2.0, rel=1e-6)

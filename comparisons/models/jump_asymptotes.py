@@ -1,0 +1,146 @@
+"""The hysteresis energy from the asymptotes of the two jumps.
+
+Sec. 3.3 of Zhu, Zheng, Huang and Yu names this use of the asymptotes.  At a large Tabor number the cycle follows the
+semi-rigid branch (Eqs. 43-44) up to its fold delta_in (Eq. 46), jumps to the JKR branch (Eqs. 50-51), follows it back
+to its fold delta_out (Eq. 53), and jumps to the semi-rigid branch again.  With U, dU = P d delta, the energy of a
+branch, zero far away and at a = 0, the jumps lose
+
+    W = [U_s(delta_in) - U_J(delta_in)] + [U_J(delta_out) - U_s(delta_out)].
+
+On the semi-rigid branch, with q = 1/(H0 + 1), b = (1-k)/n and c = 2/n,
+
+    delta = 1 - 1/q - A q^(3-b),    P = -B q^(3-c),    U_s = -B [ q^(2-c)/(2-c) - (3-b) A q^(6-b-c)/(6-b-c) ],
+
+and only differences of U_s enter: for n <= 1 that to infinity is infinite.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import ClassVar
+
+import scipy
+from scipy.special import beta
+
+from comparisons.model import Curve, NotApplicable
+from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, ClosedForm, Estimate
+from comparisons.models.graded_punch import GradedPunch
+from comparisons.models.jkr import JKR
+from comparisons.models.semi_rigid import SemiRigid, attraction_coefficient
+from fscm.problem import Problem
+
+__all__ = ["JumpAsymptotes"]
+
+MODELS = {"jump-asymptotes": "JumpAsymptotes"}
+
+
+class JumpAsymptotes(ClosedForm):
+    """The cycle between the semi-rigid branch and the JKR branch.
+
+    Examples
+    --------
+    >>> round(JumpAsymptotes().evaluate(Problem(n=2, k=0.0, mu=5.0), "hysteresis_energy").value, 6)
+    4.462498
+    """
+
+    name = "jump-asymptotes"
+    citation = "Zhu, Zheng, Huang & Yu, Eqs. 43-55 and Sec. 3.3; the energy of the cycle: docs/theory.md"
+    domain = "n > 2/3, 0 <= k <= 1; where the asymptote of the jump-in lies above that of the jump-out"
+    undefined: ClassVar[dict[str, str]] = {
+        "pull_off_force": "jkr has that of its branch in contact",
+        "pull_off_displacement": "jkr has that of its branch in contact",
+        "zero_load_displacement": "jkr has that of its branch in contact",
+        "jump_out_gap": "the gap is zero by assumption on the branch in contact",
+        "critical_tabor_number": "both asymptotes are for large Tabor numbers, far above the critical one",
+    }
+
+    def jump_in_displacement(self, problem: Problem) -> Estimate:
+        """Displacement at the fold of the semi-rigid branch (Eqs. 47-48)."""
+        return SemiRigid().jump_in_displacement(problem)
+
+    def jump_in_gap(self, problem: Problem) -> Estimate:
+        """Central gap at the fold of the semi-rigid branch (Eq. 46)."""
+        return SemiRigid().jump_in_gap(problem)
+
+    def jump_out_displacement(self, problem: Problem) -> Estimate:
+        """Displacement at the fold of the JKR branch (Eqs. 54-55)."""
+        return JKR().jump_out_displacement(problem)
+
+    def hysteresis_energy(self, problem: Problem) -> Estimate:
+        """Energy that the two jumps lose."""
+        n, k = float(problem.n), float(problem.k)
+        jump_in, jump_out = self.jump_in_displacement(problem).value, self.jump_out_displacement(problem).value
+        if not jump_in > jump_out:
+            raise NotApplicable(
+                f"at mu = {problem.mu:g} the asymptote of the jump-in, {jump_in:.4g}, is not above that of the "
+                f"jump-out, {jump_out:.4g}: there is no cycle between them"
+            )
+        far, far_scale = _far_energy(problem, jump_out)
+        near, near_scale = _contact_energy(GradedPunch(n, k), jump_in / problem.mu)
+        scale = GradedPunch(n, k).scales(problem.mu)
+        unit = scale.load * scale.displacement
+        # The ends are folds or roots to rounding; their errors count by the load there, which the scales contain.
+        rounding = 4.0 * FACTOR_ROUNDING * (far_scale + unit * near_scale)
+        return Estimate(far - unit * near, rounding)
+
+    def curve(self, problem: Problem) -> Curve:
+        """Raise `NotApplicable`: the cycle consists of two branches of other models."""
+        self.check(problem)
+        raise NotApplicable(
+            f"{self.name} has no force-displacement curve of its own: its branches are those of semi-rigid and jkr"
+        )
+
+
+def _far_energy(problem: Problem, jump_out: float) -> tuple[float, float]:
+    """U_s(delta_in) - U_s(delta_out) in barred units, and the magnitude of its terms."""
+    n, mu = float(problem.n), float(problem.mu)
+    b, c = (1.0 - problem.k) / n, 2.0 / n
+    A = attraction_coefficient(n, float(problem.k)) * mu ** (2.0 - b)
+    B = 16.0 / 3.0 * n ** (c - 1.0) * float(beta(3.0 - c, c))
+    fold = ((3.0 - b) * A) ** (-1.0 / (4.0 - b))
+
+    def distance(log_q: float) -> float:
+        q = math.exp(log_q)
+        return 1.0 - 1.0 / q - A * q ** (3.0 - b) - jump_out
+
+    # At q = 1/(1 - delta_out) the displacement is below delta_out; it rises up to the fold.
+    low, high = -math.log(1.0 - jump_out) - 1.0, math.log(fold)
+    q = math.exp(scipy.optimize.brentq(distance, low, high, xtol=4.0 * EPS, rtol=4.0 * EPS))
+    rigid = _power_integral(q, fold, 2.0 - c)
+    lifted = (3.0 - b) * A * _power_integral(q, fold, 6.0 - b - c)
+    return -B * (rigid - lifted), B * (abs(rigid) + abs(lifted))
+
+
+def _contact_energy(punch: GradedPunch, jump_in: float) -> tuple[float, float]:
+    """U_J(delta_in) - U_J(delta_out) in tilde units, and the magnitude of its terms."""
+    n, k, s = punch.n, punch.k, punch.s
+    D, K = punch.flattening, punch.adhesion
+    pull = punch.stiffness * K / (1.0 + k)
+    first = (s * K / (n * D)) ** (1.0 / (n - s)) if s > 0.0 else 0.0
+
+    def distance(a: float) -> float:
+        return D * a**n - K * a**s - jump_in
+
+    last = 2.0 * max(first, 1.0)
+    while distance(last) < 0.0:
+        last *= 2.0
+    a = float(scipy.optimize.brentq(distance, first, last, xtol=4.0 * EPS, rtol=4.0 * EPS))
+    heavy, light = n + k + 1.0, s + k + 1.0
+    terms = [
+        sign * factor * _power_integral(first, a, power)
+        for sign, factor, power in (
+            (1.0, punch.hertz_load * n * D, heavy + n),
+            (-1.0, punch.hertz_load * s * K, heavy + s),
+            (-1.0, pull * n * D, light + n),
+            (1.0, pull * s * K, light + s),
+        )
+    ]
+    return sum(terms), sum(abs(term) for term in terms)
+
+
+def _power_integral(low: float, high: float, power: float) -> float:
+    """Integral of x^(power - 1) from low to high, its logarithm for power = 0."""
+    if low == 0.0:
+        return high**power / power
+    ratio = math.log(high / low)
+    return low**power * (math.expm1(power * ratio) / power if power != 0.0 else ratio)

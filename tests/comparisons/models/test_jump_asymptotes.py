@@ -1,0 +1,127 @@
+"""The energy of the cycle between the two asymptotic branches against quadrature of the load, and its domain."""
+
+from __future__ import annotations
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+from comparisons.model import NotApplicable
+from comparisons.models.graded_punch import GradedPunch
+from comparisons.models.jkr import JKR
+from comparisons.models.jump_asymptotes import JumpAsymptotes
+from comparisons.models.semi_rigid import SemiRigid
+from fscm.problem import Problem
+
+MODEL = JumpAsymptotes()
+CASES = [
+    (2.0, 0.0, 3.0),
+    (1.5, 0.4, 5.0),
+    (5.0, 0.2, 2.0),
+    (1.0, 0.0, 20.0),
+    (0.9, 0.3, 20.0),
+    (3.0, 0.9, 2.0),
+    (2, 1, 4),
+]
+
+
+def branches(problem: Problem):
+    """delta and P on both branches as printed (Eqs. 43-44 over H0, 50-51 over the radius with Q = dgamma = z0 = 1)."""
+    n, k, mu = (mp.mpf(float(x)) for x in (problem.n, problem.k, problem.mu))
+    M = mu ** ((2 * n + k - 1) / n)
+    if k < 1:
+        b = (1 - k) / n
+        pull = 16 * (1 - k) * M / (3 * n ** (1 - b)) * mp.beta(3 - b, b)
+        stiffness = mp.cos(k * mp.pi / 2) / (1 - k)
+    else:
+        pull, stiffness, b = 16 * M / 3, mp.pi / 2, mp.mpf(0)
+    c = 2 / n
+
+    def far(H):
+        return -H - pull / (H + 1) ** (3 - b), -16 * n ** (c - 1) / (3 * (H + 1) ** (3 - c)) * mp.beta(3 - c, c)
+
+    # (1-k) E* / (b c0^k) = 1 / M in units of z0 and (Q z0)^(1/n).
+    modulus = stiffness / M
+    half = mp.beta(n / 2, (1 + k) / 2) / 2
+
+    def near(a):
+        delta = half * a**n - mp.sqrt(2 * mp.pi / modulus) * a ** ((1 - k) / 2)
+        load = modulus / (1 + k) * mp.beta(1 + n / 2, (1 + k) / 2) * a ** (n + k + 1)
+        load -= mp.sqrt(8 * mp.pi * modulus / (1 + k) ** 2) * a ** ((3 + k) / 2)
+        return delta, load / mp.pi
+
+    return far, near
+
+
+def cycle(problem: Problem) -> mp.mpf:
+    """Work on approach less that on retreat, by quadrature of P d delta between the two folds."""
+    far, near = branches(problem)
+    delta_in = SemiRigid().jump_in_displacement(problem).value
+    H_in = SemiRigid().jump_in_gap(problem).value
+    a_out = JKR().jump_out_radius(problem).value
+    delta_out = near(mp.mpf(a_out))[0] if a_out else JKR().jump_out_displacement(problem).value
+    H_out = mp.findroot(lambda H: far(H)[0] - delta_out, mp.mpf(-float(delta_out)))
+    a = mp.findroot(
+        lambda a: near(a)[0] - delta_in, (2 * GradedPunch.of(problem).scales(problem.mu).radius) * mp.mpf(1.2)
+    )
+    approach = mp.quad(lambda H: far(H)[1] * mp.diff(lambda x: far(x)[0], H), [H_out, H_in])
+    retreat = mp.quad(lambda x: near(x)[1] * mp.diff(lambda y: near(y)[0], x), [mp.mpf(a_out), a])
+    return approach - retreat
+
+
+@pytest.mark.parametrize(("n", "k", "mu"), CASES)
+def test_energy_is_the_quadrature_of_the_printed_branches(n: float, k: float, mu: float) -> None:
+    problem = Problem(n, k, mu)
+    result = MODEL.evaluate(problem, "hysteresis_energy")
+    with mp.workdps(25):
+        expected = cycle(problem)
+    assert result.value == pytest.approx(float(expected), rel=1e-9)
+    assert 0.0 < result.u_num < 1e-11 * max(1.0, result.value)
+
+
+def test_error_bound_holds_against_many_digits() -> None:
+    for n, k, mu in CASES[:3]:
+        problem = Problem(n, k, mu)
+        result = MODEL.evaluate(problem, "hysteresis_energy")
+        with mp.workdps(30):
+            # The folds are rounded, which is of second order; the quadrature is good to 20 digits.
+            assert abs(result.value - float(cycle(problem))) <= result.u_num
+
+
+def test_the_area_between_the_curves_of_both_models() -> None:
+    """The polygon of the two curves, closed at the two jumps."""
+    problem = Problem(2, 0.4, 5.0)
+    approach, contact = SemiRigid().curve(problem), JKR().curve(problem)
+    far_x, far_y = (approach.columns[f"asymptotic_{name}"] for name in ("displacement", "load"))
+    delta_in, delta_out = (
+        model.evaluate(problem, name).value
+        for model, name in ((SemiRigid(), "jump_in_displacement"), (JKR(), "jump_out_displacement"))
+    )
+    fold = int(np.argmin(contact.displacement))
+    x = np.linspace(delta_out, delta_in, 20001)
+    upper = np.interp(x, far_x, far_y)
+    lower = np.interp(x, contact.displacement[fold:], contact.load[fold:])
+    area = float(np.sum(0.5 * (upper - lower)[1:] + 0.5 * (upper - lower)[:-1]) * (x[1] - x[0]))
+    assert MODEL.evaluate(problem, "hysteresis_energy").value == pytest.approx(area, rel=5e-3)
+
+
+def test_it_has_the_jumps_of_the_two_models() -> None:
+    problem = Problem(2, 0.4, 5.0)
+    for name, model in (
+        ("jump_in_displacement", SemiRigid()),
+        ("jump_in_gap", SemiRigid()),
+        ("jump_out_displacement", JKR()),
+    ):
+        assert MODEL.evaluate(problem, name).value == model.evaluate(problem, name).value
+
+
+@pytest.mark.parametrize(
+    ("problem", "reason"),
+    [
+        (Problem(2, 0, 1), "is not above that of the jump-out, -1.6"),
+        (Problem(2, 0, 1e-3), "needs a positive one"),
+    ],
+)
+def test_refusals(problem: Problem, reason: str) -> None:
+    with pytest.raises(NotApplicable, match=reason):
+        MODEL.evaluate(problem, "hysteresis_energy")

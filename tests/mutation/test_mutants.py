@@ -1,0 +1,25 @@
+"""The mutants are changes of the present code, and the committed score is theirs."""
+
+import pytest
+
+from tests.mutation.score import NOTICED, ROOT, mutants, stored
+
+#: Least share of the mutants that the tests must notice, and least number of mutants.
+LEAST_SCORE, FEWEST = 0.95, 120
+
+
+@pytest.mark.parametrize("mutant", mutants(), ids=lambda mutant: f"{mutant.path}: {mutant.old[:40]}")
+def test_a_mutant_changes_one_place_of_a_file_and_names_tests(mutant):
+    text = mutant.text()
+    assert text != (ROOT / mutant.path).read_text(encoding="utf-8")
+    if mutant.path.endswith(".py"):
+        compile(text, mutant.path, "exec")
+    assert mutant.tests
+    assert all((ROOT / test).exists() for test in mutant.tests)
+
+
+def test_each_mutant_has_an_outcome_and_nearly_all_are_noticed():
+    every, rows = mutants(), stored()
+    assert len({mutant.key for mutant in every}) == len(every) >= FEWEST
+    assert {mutant.key for mutant in every} == rows.keys()
+    assert sum(row["outcome"] == NOTICED for row in rows.values()) >= LEAST_SCORE * len(every)
