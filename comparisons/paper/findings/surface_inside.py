@@ -72,4 +72,5 @@ SURFACE_INSIDE = PaperFigure(
     tasks=_tasks,
     tables=_tables,
     draw=_draw,
+    follows_path=True,
 )

@@ -18,6 +18,7 @@ from comparisons.paper.figures.fig11_gradient_effect import largest_chi
 from comparisons.paper.statements.evidence import Evidence, Number, decisive
 from comparisons.paper.statements.sources import StatementTest, shape
 from comparisons.paper.statements.trends import one_way
+from comparisons.paper.tasks import quantity
 from comparisons.runs.cases import Case
 from fscm.physical import PhysicalProblem
 
@@ -170,8 +171,6 @@ def _chi(statement: PaperStatement) -> Sequence[Evidence]:
 
 def _one_shape(statement: PaperStatement) -> Sequence[Evidence]:
     """A force without k: the Bradley limit has one value for every gradient exponent."""
-    from comparisons.paper.tasks import quantity
-
     rows = []
     for n in statement.numbers("n"):
         values = [quantity("bradley", "pull_off_force", n, k, 1.0)["value"] for k in statement.numbers("k")]

@@ -124,4 +124,6 @@ PAPER_STATEMENTS = PaperFigure(
     draw=None,
     texts=_texts,
     shown=_shown,
+    # The turning points are counted at the points that the solver places.
+    follows_path=True,
 )
