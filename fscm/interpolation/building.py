@@ -40,7 +40,7 @@ def build(nodes: Nodes, of_component: dict[str, Layout]) -> Stored:
     ----------
     nodes : Nodes
     of_component : dict of str to Layout
-        Of every component and of the critical Tabor number.
+        Of the critical Tabor number, and of every component that is fitted.  A bound needs all those of its quantity.
     """
     on_plane = nodes.with_value(CRITICAL)
     fit = fit_critical(of_component[CRITICAL], on_plane)
@@ -61,9 +61,11 @@ def build(nodes: Nodes, of_component: dict[str, Layout]) -> Stored:
         series[name] = fit.series
         deviations[name] = np.full(len(nodes.n), math.nan)
         deviations[name][which] = fit.deviations
-        record[name] = {"nodes": int(which.sum()), "terms": fit.terms}
+        record[name] = {"nodes": int(which.sum()), "terms": fit.terms, "rate": fit.rate}
     for quantity, composition in QUANTITIES.items():
         for patch in ("upper",) if composition.jumps else ("lower", "upper"):
+            if not _components(composition, patch == "upper") <= deviations.keys():
+                continue
             of_quantity = _relative(quantity, composition, patch == "upper", nodes, deviations)
             known = np.isfinite(of_quantity)
             some = nodes.chosen(known)
@@ -73,6 +75,11 @@ def build(nodes: Nodes, of_component: dict[str, Layout]) -> Stored:
             record[f"{quantity}.{patch}.deviations"] = _sizes(of_quantity[known])
     coordinates = {name: layout.coordinates for name, layout in of_component.items()}
     return Stored(coordinates, series, bounds, record)
+
+
+def _components(composition: Composition, upper: bool) -> set[str]:
+    """Names of the components of a quantity in a patch."""
+    return {composition.upper if upper else composition.lower, composition.difference} - {""}
 
 
 def _relative(
@@ -116,4 +123,4 @@ def _sizes(relative: Array) -> dict[str, float]:
 
 
 def _summary(fit: Fit, relative: Array) -> dict[str, Any]:
-    return {"nodes": len(relative), "terms": fit.terms} | _sizes(relative)
+    return {"nodes": len(relative), "terms": fit.terms, "rate": fit.rate} | _sizes(relative)

@@ -60,7 +60,7 @@ FOLD_GAPS = (_IN_G, _OUT_G)
 COMPONENTS: dict[str, Component] = {
     "pull_off_force.lower": Component(False, "force", "pull_off_force"),
     "pull_off_force.upper": Component(True, "force", "pull_off_force"),
-    "pull_off_displacement.lower": Component(False, "displacement", "pull_off_displacement"),
+    "pull_off_displacement.lower": Component(False, "plain", "pull_off_displacement"),
     "pull_off_displacement.upper": Component(True, "displacement", "pull_off_displacement"),
     "zero_load_displacement.lower": Component(False, "logarithm", "zero_load_displacement"),
     "zero_load_displacement.upper": Component(True, "logarithm", "zero_load_displacement"),

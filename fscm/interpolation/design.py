@@ -15,7 +15,16 @@ from fscm.interpolation.components import CRITICAL, FOLD_GAPS, QUANTITIES
 from fscm.interpolation.coordinates import BOX, LEAST_MU, MOST_MU, seam
 from fscm.interpolation.nodes import Nodes
 
-__all__ = ["SEEDS", "critical_nodes", "lower_nodes", "random_problems", "sweep_of", "sweep_text", "upper_nodes"]
+__all__ = [
+    "SEEDS",
+    "critical_nodes",
+    "lower_nodes",
+    "near_critical_problems",
+    "random_problems",
+    "sweep_of",
+    "sweep_text",
+    "upper_nodes",
+]
 
 #: Seeds of the Sobol sequences.
 SEEDS = {"lower": 20261122, "upper": 20261123, "critical": 20261124, "verification": 13}
@@ -109,6 +118,21 @@ def random_problems(count: int) -> list[Node]:
             _rounded(LEAST_MU * (MOST_MU / LEAST_MU) ** c, LEAST_MU, MOST_MU),
         )
         for a, b, c in unit.tolist()
+    ]
+
+
+def near_critical_problems(count: int, critical: Callable[[float, float], float]) -> list[Node]:
+    """Problems for the verification from 1e-3 to 1e-2 above the critical Tabor number, with the n and k of random ones.
+
+    Examples
+    --------
+    >>> all(0.7007 <= mu <= 0.707 for _, _, mu in near_critical_problems(8, lambda n, k: 0.7))
+    True
+    """
+    decades = np.log10(MOST_MU / LEAST_MU)
+    return [
+        (n, k, _rounded(critical(n, k) * (1.0 + 10.0 ** (-3.0 + np.log10(mu / LEAST_MU) / decades)), LEAST_MU, MOST_MU))
+        for n, k, mu in random_problems(count)
     ]
 
 

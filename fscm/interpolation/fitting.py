@@ -23,7 +23,7 @@ from fscm.interpolation.series import Series, degrees_within, design_matrix
 __all__ = ["Fit", "Layout", "fit_component", "fit_critical", "least_squares", "nodes_of"]
 
 # Terms for each node; rates at which coefficients may fall; squared noise of the nodes, relative to the series.
-_TERMS, _RATES, _RIDGE = 1.6, (0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2), 1e-11
+_TERMS, _RATES, _RIDGE = 1.6, (0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2), 1e-11
 # A node whose relative bound is larger counts less.
 _NOISE = 1e-7
 # Near the critical Tabor number the solver may find one fold twice: then the gaps differ by rounding only.
@@ -59,15 +59,20 @@ class Fit:
     series : Series
     deviations : ndarray, shape (m,)
     terms : int
+    rate : float
+        At which the coefficients are expected to fall.
     """
 
     series: Series
     deviations: Array
     terms: int
+    rate: float
 
 
 def least_squares(cube: Array, smooth: Array, weight: Array, layout: Layout) -> Fit:
     """Regularised least squares: the deviations from each node are smallest for the best of several rates.
+
+    The rates are tried from the smallest one, as long as the deviations become smaller.
 
     The series has more terms than there are nodes.  Of those that pass the nodes, to their noise, it is the one whose
     coefficients are smallest when each is divided by exp(-rate * degree).  So it uses every node, and the terms of
@@ -96,7 +101,7 @@ def least_squares(cube: Array, smooth: Array, weight: Array, layout: Layout) -> 
     matrix = design_matrix(cube, degrees) * weight[:, None]
     mean = float(weight @ (weight * smooth) / (weight @ weight))
     wanted = weight * (smooth - mean)
-    best: tuple[float, Array, Array] = math.inf, wanted, degree
+    best: tuple[float, Array, Array, float] = math.inf, wanted, degree, 0.0
     for rate in _RATES:
         expected = np.exp(-rate * degree)
         scaled = matrix * expected
@@ -107,12 +112,13 @@ def least_squares(cube: Array, smooth: Array, weight: Array, layout: Layout) -> 
         multipliers = np.linalg.solve(gram, wanted)
         deviations = multipliers / np.diag(np.linalg.inv(gram))
         size = float(np.sqrt(np.mean(deviations**2)))
-        if size < best[0]:
-            factor = float(np.sum(scaled * scaled)) / count
-            best = size, deviations / weight, expected * (scaled.T @ multipliers) / factor
+        if size >= best[0]:
+            break
+        factor = float(np.sum(scaled * scaled)) / count
+        best = size, deviations / weight, expected * (scaled.T @ multipliers) / factor, rate
     coefficients = best[2]
     coefficients[0] += mean
-    return Fit(Series.of(degrees, coefficients), best[1], len(degrees))
+    return Fit(Series.of(degrees, coefficients), best[1], len(degrees), best[3])
 
 
 def _sizes(shape: tuple[float, ...]) -> Iterator[tuple[int, ...]]:
@@ -167,7 +173,7 @@ def fit_component(name: str, layout: Layout, nodes: Nodes, critical: Array) -> F
     slope = (form.value(smooth + _STEP, at) - form.value(smooth - _STEP, at)) / (2.0 * _STEP)
     weight = np.abs(slope) / scale / np.hypot(1.0, bound / scale / _NOISE)
     fit = least_squares(coordinates.cube(nodes.n, nodes.k, part), smooth, weight, layout)
-    return Fit(fit.series, value - form.value(smooth - fit.deviations, at), fit.terms)
+    return Fit(fit.series, value - form.value(smooth - fit.deviations, at), fit.terms, fit.rate)
 
 
 def fit_critical(layout: Layout, nodes: Nodes) -> Fit:
@@ -176,4 +182,4 @@ def fit_critical(layout: Layout, nodes: Nodes) -> Fit:
     smooth = smooth_of_critical(nodes.n, nodes.k, value)
     plane = layout.coordinates.plane(nodes.n, nodes.k)
     fit = least_squares(plane, smooth, np.ones(len(value)), layout)
-    return Fit(fit.series, value - critical_of_smooth(nodes.n, nodes.k, smooth - fit.deviations), fit.terms)
+    return Fit(fit.series, value - critical_of_smooth(nodes.n, nodes.k, smooth - fit.deviations), fit.terms, fit.rate)

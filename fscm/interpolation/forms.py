@@ -69,6 +69,8 @@ FORMS: dict[str, Form] = {
     "force": Form(
         lambda value, at: np.log(value / _force_factor(at)), lambda smooth, at: np.exp(smooth) * _force_factor(at)
     ),
+    # For small mu a value is smooth in M', of which mu is another power.
+    "plain": Form(lambda value, at: value, lambda smooth, at: smooth),
     "displacement": Form(lambda value, at: value / (1.0 + at.mu), lambda smooth, at: smooth * (1.0 + at.mu)),
     "logarithm": _power(0.0),
     "minus_logarithm": Form(lambda value, at: np.log(-value), lambda smooth, at: -np.exp(smooth)),

@@ -25,6 +25,9 @@ __all__ = ["Stored", "coordinates_of", "data_digest", "read", "stored", "write"]
 
 _LAYOUTS, _RECORD, _COEFFICIENTS, _BOUNDS = "layouts.json", "record.json", "coefficients.csv", "bounds.csv"
 
+# Decimals of a coefficient.  The rounding changes a series of 4000 coefficients by 2e-10 at most, by 2e-12 usually.
+_DECIMALS = 13
+
 
 @dataclass(frozen=True)
 class Stored:
@@ -109,9 +112,10 @@ def write(folder: Path, found: Stored) -> None:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["component", "of_n", "of_k", "of_mu", "value"])
         for name, series in found.series.items():
-            for degrees in np.argwhere(series.coefficients != 0.0):
+            rounded = np.round(series.coefficients, _DECIMALS)
+            for degrees in np.argwhere(rounded != 0.0):
                 padded = [*degrees.tolist(), "", ""][:3]
-                table.writerow([name, *padded, repr(float(series.coefficients[tuple(degrees)]))])
+                table.writerow([name, *padded, repr(float(rounded[tuple(degrees)]))])
     with (folder / _BOUNDS).open("w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["quantity", "patch", "cell_of_n", "cell_of_k", "cell_of_mu", "bound"])
