@@ -18,7 +18,7 @@ from typing import Any
 #: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
 LAYERS = (
     ("model", "quantities", "console"),
-    ("data", "numerics"),
+    ("data", "numerics", "domain"),
     ("models", "external"),
     ("registry",),
     ("runs",),
@@ -28,7 +28,7 @@ LAYERS = (
     ("pipeline",),
     ("bench",),
     ("baseline",),
-    ("cli",),
+    ("cli", "pytest_entry"),
     ("__main__",),
 )
 
@@ -45,6 +45,7 @@ _EXPORTS = {
     "Case": "comparisons.runs.cases",
     "evaluate": "comparisons.runs.tasks",
     "errors": "comparisons.pipeline.errors",
+    "compare": "comparisons.pipeline.compare",
     "run": "comparisons.pipeline.run",
     "judge": "comparisons.judging.judge",
     "judge_folder": "comparisons.pipeline.judgement",

@@ -150,7 +150,9 @@ class RadialField:
 class Model(Protocol):
     """The contract of every model of this repository and of every external model.
 
-    Attributes are plain data; `evaluate` is a pure function of its arguments.
+    Attributes are plain data; `evaluate` is a pure function of its arguments.  A model may have the attribute
+    `applies_to`, the domain for which it promises a result (`comparisons.domain`): it is not evaluated outside, and
+    inside `NotApplicable` counts as a failure.
 
     Examples
     --------

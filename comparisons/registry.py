@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from importlib.resources import files
 
+from comparisons.domain import Domain, declared_domain
 from comparisons.external.model_source import load_model, source_of
 from comparisons.model import Model
 
@@ -159,6 +160,8 @@ class ExternalIdentity:
     domain: str
     #: The files that the digest in the version covers, in words.
     hashed: str = ""
+    #: The domain that it declares.
+    applies_to: Domain | None = None
 
 
 def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, ExternalIdentity]]:
@@ -184,7 +187,7 @@ def identify(specs: Iterable[str]) -> tuple[list[str], dict[str, ExternalIdentit
         if spec not in MODELS:
             hashed = str(getattr(model, "hashed", ""))
             external[model.name] = ExternalIdentity(
-                model.name, model.version, spec, model.citation, model.domain, hashed
+                model.name, model.version, spec, model.citation, model.domain, hashed, declared_domain(model)
             )
     return names, external
 

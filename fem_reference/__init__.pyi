@@ -13,7 +13,7 @@ from .modulus import (
 )
 from .problem import Problem as Problem
 from .punch import CustomPunch as CustomPunch, PowerPunch as PowerPunch, Punch as Punch
-from .quantities import LOSSES as LOSSES, QUANTITIES as QUANTITIES
+from .quantities import CRITICAL_MODULUS as CRITICAL_MODULUS, LOSSES as LOSSES, QUANTITIES as QUANTITIES
 from .solid import CustomSolid as CustomSolid, Solid as Solid
 from .solution import Solution as Solution, solve as solve, solve_together as solve_together
 from .states import (

@@ -9,7 +9,7 @@ from typing import Literal, Protocol
 from fem_reference._contact.events import LANDING
 from fem_reference._contact.path import Point
 
-__all__ = ["LOSSES", "QUANTITIES", "TABLE", "Quantity", "quantity_named"]
+__all__ = ["CRITICAL_MODULUS", "LOSSES", "QUANTITIES", "TABLE", "Quantity", "critical_quantity", "quantity_named"]
 
 GAP_ORDER = 2.0
 """Declared order of the central gap at jump-out, in contact: under the tip of a cone the pressure has a kink, the
@@ -41,6 +41,11 @@ class Events(Protocol):
         ...
 
     @property
+    def cusp(self) -> Point:
+        """The point where the two folds merge, at the modulus at which they do."""
+        ...
+
+    @property
     def jump_in_loss(self) -> float:
         """Energy lost by the jump into contact."""
         ...
@@ -61,7 +66,7 @@ class Quantity:
         The events that it needs.  The mesh is finest at the contact edge of the first.
     functional : callable
         Its value from the events of a path, in the units of the problem.
-    kind : {"force", "length", "energy"}
+    kind : {"force", "length", "energy", "modulus"}
         A length near zero is measured by the length of the surface law.
     order : float, optional
         Declared order of convergence; that of the element by default.
@@ -69,7 +74,7 @@ class Quantity:
 
     events: tuple[str, ...]
     functional: Callable[[Events], float]
-    kind: Literal["force", "length", "energy"]
+    kind: Literal["force", "length", "energy", "modulus"]
     order: float | None = None
 
 
@@ -95,6 +100,22 @@ QUANTITIES = tuple(name for name in TABLE if name not in LOSSES)
 """Names of the quantities of a problem; `solve` takes those of `LOSSES` too."""
 
 
+CRITICAL_MODULUS = "critical_modulus"
+"""The modulus E0 below which the contact jumps, at the punch, the law and the solid's other parameters of the problem:
+the two folds of the displacement merge there.  `solve` takes it too; the modulus of the problem is not used."""
+
+
+def critical_quantity(E0: float) -> Quantity:
+    """Return the row of the critical modulus, computed from the path of a modulus near it.
+
+    Parameters
+    ----------
+    E0 : float
+        Modulus of that path.
+    """
+    return Quantity(("cusp",), lambda events: E0 * events.cusp.branch.contact.compliance.stiffness, "modulus")
+
+
 def quantity_named(name: str) -> Quantity:
     """Return a row of the table.
 
@@ -108,6 +129,8 @@ def quantity_named(name: str) -> Quantity:
     >>> quantity_named("jump_out_gap").events
     ('jump_out',)
     """
+    if name == CRITICAL_MODULUS:
+        return critical_quantity(1.0)
     if name not in TABLE:
-        raise ValueError(f"quantity {name!r} is unknown; choose one of {', '.join(TABLE)}")
+        raise ValueError(f"quantity {name!r} is unknown; choose one of {', '.join((*TABLE, CRITICAL_MODULUS))}")
     return TABLE[name]

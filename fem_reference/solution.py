@@ -7,14 +7,16 @@ import time
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
+from fem_reference._contact.critical import stiffer_than_critical
 from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.uncondensed import UncondensedValue, uncondensed_events
+from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._threads import one_thread
 from fem_reference.accuracy import Level
 from fem_reference.errors import NoSuchEvent
 from fem_reference.problem import Problem
-from fem_reference.quantities import QUANTITIES, TABLE, Quantity, quantity_named
+from fem_reference.quantities import CRITICAL_MODULUS, QUANTITIES, TABLE, Quantity, critical_quantity, quantity_named
 
 __all__ = ["Solution", "solve", "solve_together"]
 
@@ -100,7 +102,7 @@ def solve(problem: Problem, quantity: str, accuracy: float | str = "default") ->
     problem : Problem
         In consistent units.
     quantity : str
-        One of `QUANTITIES` or `LOSSES`.
+        One of `QUANTITIES` or `LOSSES`, or `CRITICAL_MODULUS`.
     accuracy : float or str
         Relative error asked for, in [1e-8, 1), or one of `ACCURACIES`.  It selects the meshes; `u_num` is what they
         give.  Finer ones are taken where a path cannot be traced on these.
@@ -143,8 +145,9 @@ def solve_together(
     problem, accuracy
         As for `solve`.
     quantities : iterable of str
-        Of `QUANTITIES` and `LOSSES`; all of `QUANTITIES` by default.  The mesh suits the first of them that exists: in
-        a solid that is no power law, others whose contact edge is elsewhere have a larger `u_num`.
+        Of `QUANTITIES`, `LOSSES` and `CRITICAL_MODULUS`; all of `QUANTITIES` by default.  The mesh suits the first of
+        them that exists: in a solid that is no power law, others whose contact edge is elsewhere have a larger `u_num`.
+        The critical modulus has meshes of its own.
 
     Returns
     -------
@@ -172,32 +175,57 @@ def solve_together(
         raise ValueError(f"no quantity is named; choose at least one of {', '.join(TABLE)}")
     found: dict[str, Solution | NoSuchEvent] = {}
     with one_thread:
-        begin = time.perf_counter()
-        for name, row in rows.items():
+        given = {name: row for name, row in rows.items() if name != CRITICAL_MODULUS}
+        if given:
+            found |= _solved_together(problem, given, accuracy)
+        if CRITICAL_MODULUS in rows:
+            found[CRITICAL_MODULUS] = _critical_modulus(problem, accuracy)
+    return {name: found[name] for name in rows}
+
+
+def _critical_modulus(problem: Problem, accuracy: float | str) -> Solution | NoSuchEvent:
+    """Compute the critical modulus on the meshes of a slightly stiffer problem."""
+    begin = time.perf_counter()
+    try:
+        near = stiffer_than_critical(problem, accuracy)
+    except NoSuchEvent as reason:
+        return reason.with_traceback(None)
+    row = critical_quantity(near.E0)
+    found = _solved_together(near.problem, {CRITICAL_MODULUS: row}, accuracy, near.start)[CRITICAL_MODULUS]
+    return replace(found, seconds=time.perf_counter() - begin) if isinstance(found, Solution) else found
+
+
+def _solved_together(
+    problem: Problem, rows: Mapping[str, Quantity], accuracy: float | str, start: tuple[MeshSpec, float] | None = None
+) -> dict[str, Solution | NoSuchEvent]:
+    """Compute quantities whose path is that of the problem, on meshes found from `start`."""
+    begin = time.perf_counter()
+    found: dict[str, Solution | NoSuchEvent] = {}
+    for name, row in rows.items():
+        try:
+            choice, spec, size = chosen(problem, row.events, accuracy, events_on_meshes, start)
+        except NoSuchEvent as reason:
+            found[name] = reason.with_traceback(None)
+        else:
+            break
+    else:
+        return found
+    meshes = events_on_meshes(choice, spec, size)
+    for name, row in rows.items():
+        if name not in found:
             try:
-                choice, spec, size = chosen(problem, row.events, accuracy, events_on_meshes)
+                found[name] = _solution(row, meshes, choice.level)
             except NoSuchEvent as reason:
                 found[name] = reason.with_traceback(None)
-            else:
-                break
-        else:
-            return found
-        meshes = events_on_meshes(choice, spec, size)
-        for name, row in rows.items():
-            if name not in found:
-                try:
-                    found[name] = _solution(row, meshes, choice.level)
-                except NoSuchEvent as reason:
-                    found[name] = reason.with_traceback(None)
-        # All events of the whole system are columns of one linear system.
-        events = uncondensed_events(choice, replace(spec, density=choice.level.densities[-1]), size)
-        solved = {name: solution for name, solution in found.items() if isinstance(solution, Solution)}
-        events.prepare(rows[name].functional for name in solved)
-        seconds = time.perf_counter() - begin
-        for name, solution in solved.items():
-            whole = events.value(rows[name].functional)
-            found[name] = replace(solution.with_whole_system(whole), seconds=seconds)
-    return {name: found[name] for name in rows}
+    # All events of the whole system are columns of one linear system.
+    events = uncondensed_events(choice, replace(spec, density=choice.level.densities[-1]), size)
+    solved = {name: solution for name, solution in found.items() if isinstance(solution, Solution)}
+    events.prepare(rows[name].functional for name in solved)
+    seconds = time.perf_counter() - begin
+    for name, solution in solved.items():
+        whole = events.value(rows[name].functional)
+        found[name] = replace(solution.with_whole_system(whole), seconds=seconds)
+    return found
 
 
 def _solution(row: Quantity, meshes: EventsOnMeshes, level: Level) -> Solution:

@@ -295,13 +295,36 @@ def on_mesh(state: State, mesh: PanelMesh) -> State:
     return replace(state, disc=disc, gap=known, iterations=0, residual=0.0)
 
 
+def lengthened(state: State, end_height: float) -> State:
+    """The state on panels that reach the end height, where its own end nearer: a guess, without a new response.
+
+    Behind its own end, the deformation falls like that of a load at the center, r^-(1 + k).
+    """
+    mesh, problem = state.disc.mesh, state.disc.problem
+    end = end_radius(problem, end_height) / state.scale
+    if state.lift is not None or mesh.breaks[-1] >= end:
+        return state
+    longer = replace(mesh, offsets=_extended(mesh.offsets, mesh.origin, end))
+    added = longer.nodes[mesh.size :]
+    w = state.gap[-1] + state.displacement - state.disc.height(state.radius[-1:])[0]
+    behind = w * (mesh.nodes[-1] / added) ** (1.0 + problem.k)
+    gap = state.disc.height(state.scale * added) - state.displacement + behind
+    return replace(state, disc=Discretisation(problem, longer, state.disc), gap=np.concatenate([state.gap, gap]))
+
+
 def resolved(guess: State, tolerance: float) -> State:
     """The guess on a mesh that resolves its pressure, with panels split as `fit` would; nothing is solved."""
     mesh = resolving(guess, guess.disc.mesh, tolerance, partial(_gap_on, guess), _GUESS_ROUNDS)
     return guess if mesh is guess.disc.mesh else on_mesh(guess, mesh)
 
 
-def fit(state: State, control: Control, tolerance: float, coarsen: bool = False) -> State:
+def fit(
+    state: State,
+    control: Control,
+    tolerance: float,
+    coarsen: bool = False,
+    step_tolerance: float | None = None,
+) -> State:
     """Solve on meshes refined until every panel is resolved to `tolerance`.
 
     Parameters
@@ -314,6 +337,8 @@ def fit(state: State, control: Control, tolerance: float, coarsen: bool = False)
         Of the indicator, dimensionless.
     coarsen : bool
         Merge panels that have become superfluous, in the first round.
+    step_tolerance : float, optional
+        Of Newton's method; by default so small that its error is negligible beside that of the mesh.
 
     Raises
     ------
@@ -321,7 +346,8 @@ def fit(state: State, control: Control, tolerance: float, coarsen: bool = False)
         When the refinement does not end.
     """
     iterations = state.iterations
-    step_tolerance = max(STEP_TOLERANCE, _NEWTON_MARGIN * tolerance)
+    if step_tolerance is None:
+        step_tolerance = max(STEP_TOLERANCE, _NEWTON_MARGIN * tolerance)
     for attempt in range(_MAX_ROUNDS):
         mesh, middles = state.disc.mesh, _unresolved(state, tolerance)
         drop = _superfluous(state, tolerance) if coarsen and attempt == 0 else np.empty(0, np.intp)

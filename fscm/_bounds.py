@@ -155,7 +155,9 @@ class EventErrors:
         size = bounds(rate).total
         factor = root_shift(size, curvature, third) * abs(curvature) / size if size else 1.0
         here = self.controlled(functional, self.parameter)
-        return bounds(here.plus(rate, -getattr(self.rates, functional) / curvature), factor)
+        # What the root of the rate has missed moves the functional, too.
+        left = Parts(rounding=abs(getattr(self.rates, extremal) * getattr(self.rates, functional) / curvature))
+        return bounds(here.plus(rate, -getattr(self.rates, functional) / curvature), factor).plus(left)
 
     def prescribed(self, functional: str, control: str, value: float) -> Parts:
         """Bounds on the error of a functional at a prescribed value of a control, also next to its extreme."""

@@ -9,7 +9,7 @@ the signs at its ends tell, both states are solved again on one mesh, and points
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
@@ -19,7 +19,7 @@ from fscm._adaptivity import fit, on_mesh
 from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of, rates_of
 from fscm._continuation import moved
 from fscm._equilibrium import State
-from fscm._newton import newton
+from fscm._newton import STEP_TOLERANCE, newton
 from fscm._panels import PanelMesh
 from fscm.errors import NotConverged
 from fscm.punch import kinks_of
@@ -40,9 +40,26 @@ _ROUNDING = 1e-14
 _FINE = 1e-8
 # Newton error beside the error of the mesh, and the smallest step to a middle, in units of its distance.
 _NEWTON_MARGIN, _SMALLEST = 0.01, 1e-3
+# Last step of Newton's method where the least load alone is looked for; the error that is left is about its square, far
+# below what may hide.
+_SHARP = 1e-5
+
+_RATES = ("load", "displacement")
 
 
-def completed(points: list[Point], tolerance: float, below: float = math.inf) -> list[Point]:
+@dataclass(frozen=True)
+class _Test:
+    """Arc length, resolution of the pressure on the path, what may turn, and the tolerance of Newton's method."""
+
+    arc: ArcLength
+    tolerance: float
+    names: tuple[str, ...]
+    newton: float
+
+
+def completed(
+    points: list[Point], tolerance: float, below: float = math.inf, names: tuple[str, ...] = _RATES
+) -> list[Point]:
     """The points of a path, with others between those that hide turning points of load or displacement.
 
     Parameters
@@ -51,26 +68,35 @@ def completed(points: list[Point], tolerance: float, below: float = math.inf) ->
     tolerance : float
         Resolution of the pressure on the path (see `fscm._adaptivity`).
     below : float
-        Only between points that may hide a load below this one.
+        Only between points that may hide a load below this one, and below their own: an extreme that is not deeper than
+        a point of the path is not the least load.
+    names : tuple of str
+        What may turn: "load", "displacement" or both.
 
     Raises
     ------
     NotConverged
         When it stays undecided whether turning points hide.
     """
-    arc = ArcLength.of(points[0].state.disc.problem)
+    newton_step = STEP_TOLERANCE if below == math.inf else _SHARP
+    test = _Test(ArcLength.of(points[0].state.disc.problem), tolerance, names, newton_step)
     found = [points[0]]
     for a, b in pairwise(points):
-        if a.stretch == b.stretch and _may_hide_any(a, b) and least_loads(a, b) < below:
-            between = _parts(*_on_common_mesh(a, b, arc), arc, tolerance, _HALVINGS)
-            counts = [sum(_turns(p, q, name) for p, q in pairwise(between)) for name in _RATES]
-            if counts != [_turns(a, b, name) for name in _RATES]:
+        if a.stretch == b.stretch and _may_hide_any(a, b, names) and _may_be_below(a, b, below):
+            between = _parts(*_on_common_mesh(a, b, test), test, _HALVINGS)
+            counts = [sum(_turns(p, q, name) for p, q in pairwise(between)) for name in names]
+            if counts != [_turns(a, b, name) for name in names]:
                 found += between[1:-1]
         found.append(b)
     return found
 
 
-_RATES = ("load", "displacement")
+def _may_be_below(a: Point, b: Point, below: float) -> bool:
+    """Whether the load between two points may be below a value and below both their loads."""
+    if below == math.inf:
+        return True
+    least = min(a.state.load, b.state.load)
+    return least_loads(a, b) < min(below, least - _NEGLIGIBLE * (1.0 + abs(least)))
 
 
 def _parameter_rate(point: Point) -> float:
@@ -138,8 +164,8 @@ def _change(a: Point, b: Point, name: str) -> float:
     return float(getattr(b.state, name) - getattr(a.state, name))
 
 
-def _may_hide_any(a: Point, b: Point) -> bool:
-    return any(_may_hide(a, b, name) for name in _RATES)
+def _may_hide_any(a: Point, b: Point, names: tuple[str, ...]) -> bool:
+    return any(_may_hide(a, b, name) for name in names)
 
 
 def _may_hide(a: Point, b: Point, name: str) -> bool:
@@ -154,43 +180,43 @@ def _hidden(a: Point, b: Point, name: str) -> float:
     return float(1.5 * _MARGIN * change / (1.0 + abs(getattr(a.state, name))))
 
 
-def _on_common_mesh(a: Point, b: Point, arc: ArcLength) -> tuple[Point, Point]:
+def _on_common_mesh(a: Point, b: Point, test: _Test) -> tuple[Point, Point]:
     """The two points on the mesh with the breaks of both, so that their difference is free of mesh errors.
 
     With kinks there is no such mesh; each point is then resolved on its own until the errors are negligible.
     """
     if _kinked(a):
-        return _resolved(a, arc), _resolved(b, arc)
+        return _resolved(a, test), _resolved(b, test)
     old, other = a.state.disc.mesh, b.state.disc.mesh
     if a.state.disc is b.state.disc:
-        return _sharp(a, arc), _sharp(b, arc)
+        return _sharp(a, test), _sharp(b, test)
     ends = np.union1d(old.offsets, other.offsets + (other.origin - old.origin))
     mesh = PanelMesh(ends, old.order, old.origin)
     first = on_mesh(a.state, mesh)
     states = first, replace(on_mesh(b.state, mesh), disc=first.disc)
-    solved = [newton(state, parameter_control(state, parameter_of(state))) for state in states]
-    return _point(solved[0], a, arc), _point(solved[1], a, arc)
+    solved = [newton(state, parameter_control(state, parameter_of(state)), test.newton) for state in states]
+    return _point(solved[0], a, test), _point(solved[1], a, test)
 
 
-def _sharp(point: Point, arc: ArcLength) -> Point:
-    state = newton(point.state, parameter_control(point.state, parameter_of(point.state)))
-    return _point(state, point, arc)
+def _sharp(point: Point, test: _Test) -> Point:
+    state = newton(point.state, parameter_control(point.state, parameter_of(point.state)), test.newton)
+    return _point(state, point, test)
 
 
 def _kinked(point: Point) -> bool:
     return bool(kinks_of(point.state.disc.problem.punch))
 
 
-def _resolved(point: Point, arc: ArcLength) -> Point:
+def _resolved(point: Point, test: _Test) -> Point:
     state = fit(point.state, parameter_control(point.state, parameter_of(point.state)), _FINE)
-    return _point(state, point, arc)
+    return _point(state, point, test)
 
 
-def _point(state: State, like: Point, arc: ArcLength) -> Point:
-    return Point(state, arc.tangent(state), like.stretch)
+def _point(state: State, like: Point, test: _Test) -> Point:
+    return Point(state, test.arc.tangent(state), like.stretch)
 
 
-def _middle(a: Point, b: Point, arc: ArcLength) -> Point:
+def _middle(a: Point, b: Point, test: _Test) -> Point:
     """The state halfway in the continuation parameter, from the cubic through both ends."""
     x = _length(a, b)
 
@@ -213,10 +239,10 @@ def _middle(a: Point, b: Point, arc: ArcLength) -> Point:
         known = a.state.follows_edge, a.state.edge_gap, a.state.turned
         guess = State.lifted(a.state.disc, scale, lift, displacement, *known)
     parameter = 0.5 * (parameter_of(a.state) + parameter_of(b.state))
-    return _point(newton(guess, parameter_control(guess, parameter)), a, arc)
+    return _point(newton(guess, parameter_control(guess, parameter), test.newton), a, test)
 
 
-def _reached_middle(a: Point, b: Point, arc: ArcLength, tolerance: float) -> Point:
+def _reached_middle(a: Point, b: Point, test: _Test, tolerance: float) -> Point:
     """The state halfway, in steps from the first point with the mesh refined on the way."""
     state, rates = a.state, a.rates.scaled(1.0 / _parameter_rate(a))
     middle = 0.5 * (parameter_of(a.state) + parameter_of(b.state))
@@ -235,37 +261,37 @@ def _reached_middle(a: Point, b: Point, arc: ArcLength, tolerance: float) -> Poi
         if target == middle:
             break
         rates = rates_of(state)
-    return _point(state, a, arc)
+    return _point(state, a, test)
 
 
-def _resolved_middle(a: Point, b: Point, arc: ArcLength, tolerance: float) -> Point:
+def _resolved_middle(a: Point, b: Point, test: _Test) -> Point:
     """The state halfway, on the mesh of the ends when that resolves it, else on a finer one."""
     if _kinked(a):
-        return _reached_middle(a, b, arc, _FINE)
+        return _reached_middle(a, b, test, _FINE)
     try:
-        state = _middle(a, b, arc).state
-        state = fit(state, parameter_control(state, parameter_of(state)), tolerance)
+        state = _middle(a, b, test).state
+        state = fit(state, parameter_control(state, parameter_of(state)), test.tolerance)
     except NotConverged:
-        return _reached_middle(a, b, arc, tolerance)
-    return _point(state, a, arc)
+        return _reached_middle(a, b, test, test.tolerance)
+    return _point(state, a, test)
 
 
-def _parts(a: Point, b: Point, arc: ArcLength, tolerance: float, halvings: int) -> list[Point]:
+def _parts(a: Point, b: Point, test: _Test, halvings: int) -> list[Point]:
     """Points from a to b between which nothing can hide."""
-    if not _may_hide_any(a, b):
+    if not _may_hide_any(a, b, test.names):
         return [a, b]
     if halvings == 0:
-        for name in _RATES:
+        for name in test.names:
             if _hidden(a, b, name) > _NEGLIGIBLE:
                 raise NotConverged(
                     f"the path of {a.state.disc.problem} may hide turning points of the {name} near "
                     f"delta = {a.state.displacement:.6g}, P = {a.state.load:.6g}"
                 )
         return [a, b]
-    middle = _resolved_middle(a, b, arc, tolerance)
+    middle = _resolved_middle(a, b, test)
     halves = (a, middle), (middle, b)
     if middle.state.disc is not a.state.disc and not _kinked(a):
         # The mesh of the two ends does not resolve the edge between them; it would pin the edge, and turn falsely.
-        halves = _on_common_mesh(a, middle, arc), _on_common_mesh(middle, b, arc)
-    first, last = (_parts(*half, arc, tolerance, halvings - 1) for half in halves)
+        halves = _on_common_mesh(a, middle, test), _on_common_mesh(middle, b, test)
+    first, last = (_parts(*half, test, halvings - 1) for half in halves)
     return [*first[:-1], *last]

@@ -88,11 +88,20 @@ class Tracking:
         Largest deviation of a step from the trapezoidal rule, relative to the distance of a gap to the singular gap.
     longest_step : float
         Of the arc length.
+    newton : float, optional
+        Tolerance of Newton's method; by default so small that its error is negligible beside that of the mesh.
+    largest_turn : float
+        Cosine of the angle of two tangents below which a step is taken again, shorter.
+    given : bool
+        Whether a step prescribes the continuation parameter in place of the arc length, unless that hardly changes.
     """
 
     follow: bool = True
     surprise: float = SURPRISE
     longest_step: float = math.inf
+    newton: float | None = None
+    largest_turn: float = _LARGEST_TURN
+    given: bool = False
 
 
 def moved(state: State, rates: Rates, value: float, tolerance: float = STEP_TOLERANCE) -> State:
@@ -209,6 +218,7 @@ def equilibrium_path(
     """
     _check_edge(problem)
     arc, tracking = ArcLength.of(problem), tracking or Tracking()
+    step_tolerance = _NEWTON_MARGIN * tolerance if tracking.newton is None else tracking.newton
     longest_step = min(longest_step, tracking.longest_step)
     gap = usual_start(problem) if start_gap is None else start_gap
     gap += depth(problem, end_radius(problem, end_height))
@@ -230,7 +240,8 @@ def equilibrium_path(
             control = parameter_control(guess, parameter_of(guess))
             if nucleus is not None:  # it grows slowly at first: its gap tells states apart better than its radius
                 control = Control(state.central_gap, gap=1.0)
-            state = fit(newton(guess, control), control, tolerance)
+            state = newton(guess, control, tracking.newton or STEP_TOLERANCE)
+            state = fit(state, control, tolerance, step_tolerance=tracking.newton)
             point = joined(arc, point, state)
             continue
         if state.central_gap > farthest:
@@ -253,22 +264,22 @@ def equilibrium_path(
         while True:
             guess = resolved(predicted(state, point.rates, step), tolerance)
             control = arc.control(state, point.rates, step)
-            if kinked and state.parameter == usual and abs(shares[usual]) > _GIVEN_SHARE:
+            if (tracking.given or kinked) and state.parameter == usual and abs(shares[usual]) > _GIVEN_SHARE:
                 control = parameter_control(guess, parameter_of(state) + step * rate_of(point.rates, state.parameter))
             try:
-                new = newton(guess, control, _NEWTON_MARGIN * tolerance, _MOST_ITERATIONS)
+                new = newton(guess, control, step_tolerance, _MOST_ITERATIONS)
                 used = new.iterations
-                new = fit(new, control, tolerance, coarsen=True)
+                new = fit(new, control, tolerance, True, tracking.newton)
                 after = Point(new, arc.tangent(new), point.stretch)
                 turn, blind = arc.turn(point, after), step <= shortest
                 power = isinstance(problem.punch, PowerPunch)
-                if (turn if power else abs(turn)) < _LARGEST_TURN and not blind:
+                if (turn if power else abs(turn)) < tracking.largest_turn and not blind:
                     step *= _SHORTER
                     continue
                 same = turn >= 0.0
                 if not power:
                     same = checked_sense(
-                        point, after, step, same if abs(turn) >= _LARGEST_TURN else None, tracking.surprise
+                        point, after, step, same if abs(turn) >= tracking.largest_turn else None, tracking.surprise
                     )
                 if not same:  # the path goes on, but its parameter turns
                     after = turned(arc, point)

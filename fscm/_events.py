@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 import scipy
 
-from fscm._adaptivity import fit, graded, indicator, on_mesh, resolved
+from fscm._adaptivity import fit, graded, indicator, lengthened, on_mesh, resolved
 from fscm._arc_length import Point, parameter_control, parameter_of, rates_of
 from fscm._continuation import moved
 from fscm._equilibrium import Rates, State
@@ -25,20 +25,23 @@ __all__ = [
     "brackets",
     "crossings",
     "displacement_fold",
+    "extreme",
     "load_fold",
     "locate",
     "sharpen",
     "sharpened",
     "slowest",
+    "with_minima",
     "zero_load",
 ]
 
 Condition = Callable[[State, Rates], float]
 Bracket = tuple[Point, Point]
 
-# The secant method ends one step after a step of the continuation parameter below this.  Without the last one the
-# displacement at zero load was wrong by 1.5e-11 (n = 3.2, k = 0.06, mu = 6.6), unseen by u_num.
-_PARAMETER_TOLERANCE = 1e-9
+# The secant method ends with a step of the continuation parameter below this share of the tolerance of the mesh, within
+# these limits: what is left is the product of the last two steps.  Unless the condition is the rate at an extreme, one
+# step follows: without it the displacement at zero load was wrong by 1.5e-11 (n = 3.2, k = 0.06, mu = 6.6).
+_PARAMETER_SHARE, _LEAST_PARAMETER, _LARGEST_PARAMETER = 0.1, 1e-9, 1e-6
 _SECANT_STEPS = 20
 # First step of the secant method: large against rounding of the derivative, small against its curvature.
 _FIRST_SECANT_STEP = 1e-4
@@ -51,6 +54,10 @@ _UNRESOLVED, _REFITS = 10.0, 4
 _SEEN, _NARROW = 1e-6, 1e-9
 # Tolerance where the root on the coarse mesh is a start only.
 _ROUGH = 1e-2
+# An end of a bracket is a start where the condition is below this share of the one at the other end.
+_CLOSE = 0.02
+# Largest first step of the secant method that is Newton's with an estimated derivative.
+_LARGEST_FIRST = 0.1
 # Step of the continuation parameter after which the mesh is refined again, where the pressure is not resolved.
 _FAR = 1e-3
 
@@ -153,7 +160,7 @@ def locate(a: Point, b: Point, condition: Condition, tolerance: float = _COARSE_
     return between(root)[0]
 
 
-def _extreme(a: Point, b: Point, condition: Condition) -> State | None:
+def extreme(a: Point, b: Point, condition: Condition) -> State | None:
     """About where a functional is extreme between two points, from the cubic through its values and rates."""
     name = _FUNCTIONALS.get(condition)
     if name is None:
@@ -165,15 +172,31 @@ def _extreme(a: Point, b: Point, condition: Condition) -> State | None:
     bulge = 6.0 * (change - 0.5 * (first + last))
     roots = np.roots([-bulge, last - first + bulge, first])
     inside = [float(t.real) for t in roots if abs(t.imag) == 0.0 and 0.0 <= t.real <= 1.0]
-    if len(inside) != 1:
+    if len(inside) == 1:
+        place = inside[0]
+    elif first * last < 0.0:  # the cubic does not tell
+        place = first / (first - last)
+    else:
         return None
-    near, far = (a, b) if inside[0] < 0.5 else (b, a)
+    near, far = (a, b) if place < 0.5 else (b, a)
     for point in (near, far):
         try:
-            return moved(point.state, rates_of(point.state), start + inside[0] * length, _COARSE_PARAMETER_TOLERANCE)
+            return moved(point.state, rates_of(point.state), start + place * length, _COARSE_PARAMETER_TOLERANCE)
         except NotConverged:
             continue
     return None
+
+
+def with_minima(points: Sequence[Point]) -> list[Point]:
+    """The points, and between them about the minima of the load."""
+    minima = {id(a): extreme(a, b, load_fold) for a, b in brackets(points, load_fold, rising=True)}
+    found = []
+    for point in points:
+        found.append(point)
+        state = minima.get(id(point))
+        if state is not None:
+            found.append(Point(state, rates_of(state).scaled(state.sense), point.stretch))
+    return found
 
 
 def slowest(points: Sequence[Point]) -> tuple[Point, Point, Point, float]:
@@ -207,8 +230,19 @@ def _least_rate(a: Point, b: Point) -> tuple[Point, Point, Point, float]:
     return a, Point(state, rates.scaled(orientation), a.stretch), b, float(best.fun)
 
 
-def refined(state: State, order: int, tolerance: float) -> State:
-    """The state at the same continuation parameter, on a mesh of the given order refined to the tolerance."""
+def refined(state: State, order: int, tolerance: float, end_height: float | None = None) -> State:
+    """The state at the same continuation parameter, on a mesh of the given order refined to the tolerance.
+
+    Parameters
+    ----------
+    state : State
+    order, tolerance
+        See `fscm._adaptivity`.
+    end_height : float, optional
+        Height of the punch that the mesh reaches at least.
+    """
+    if end_height is not None:
+        state = lengthened(state, end_height)
     control = parameter_control(state, parameter_of(state))
     mesh = replace(state.disc.mesh, order=order)
     narrow = tolerance > _SEEN or float(np.min(mesh.lengths)) < _NARROW
@@ -218,27 +252,48 @@ def refined(state: State, order: int, tolerance: float) -> State:
     return fit(newton(guess, control), control, tolerance, coarsen=not narrow)
 
 
-def sharpened(bracket: Bracket, condition: Condition, order: int, tolerance: float) -> State:
+def sharpened(
+    bracket: Bracket, condition: Condition, order: int, tolerance: float, end_height: float | None = None
+) -> State:
     """Root of the condition in a bracket, on a mesh of the given order refined to the tolerance.
 
     Near a critical Tabor number the secant method may leave the bracket for the other fold, which is another event.
     """
     try:
-        rough = _extreme(*bracket, condition)
-        rough = locate(*bracket, condition, _ROUGH) if rough is None else rough
-        found = sharpen(rough, condition, order, tolerance)
-        if _belongs(found, bracket, condition):
+        rough = _rough(bracket, condition)
+        found, slope = _sharpen(rough, condition, order, tolerance, end_height, _slope(bracket, rough, condition))
+        if _belongs(found, slope, bracket, condition):
             return found
     except NotConverged:
         pass
     # From a better root on the coarse mesh.
-    found = sharpen(locate(*bracket, condition), condition, order, tolerance)
-    if not _belongs(found, bracket, condition):
+    found, slope = _sharpen(locate(*bracket, condition), condition, order, tolerance, end_height)
+    if not _belongs(found, slope, bracket, condition):
         raise NotConverged("the secant method left the bracket of an event for another one")
     return found
 
 
-def _belongs(state: State, bracket: Bracket, condition: Condition) -> bool:
+def _rough(bracket: Bracket, condition: Condition) -> State:
+    """About the root of a condition in a bracket, on a coarse mesh."""
+    sizes = [abs(condition(point.state, rates_of(point.state))) for point in bracket]
+    if min(sizes) < _CLOSE * max(sizes):
+        return bracket[int(np.argmin(sizes))].state
+    rough = extreme(*bracket, condition)
+    return locate(*bracket, condition, _ROUGH) if rough is None else rough
+
+
+def _slope(bracket: Bracket, state: State, condition: Condition) -> float:
+    """Derivative of the condition at a state, from the parabola through its values there and at the bracket's ends."""
+    states = sorted((bracket[0].state, state, bracket[1].state), key=parameter_of)
+    x = [parameter_of(one) for one in states]
+    y = [condition(one, rates_of(one)) for one in states]
+    whole = (y[2] - y[0]) / (x[2] - x[0])
+    if min(x[1] - x[0], x[2] - x[1]) <= 0.0:  # the state is an end
+        return whole
+    return (y[1] - y[0]) / (x[1] - x[0]) + (y[2] - y[1]) / (x[2] - x[1]) - whole
+
+
+def _belongs(state: State, slope: float, bracket: Bracket, condition: Condition) -> bool:
     """Whether a root is the one in a bracket: it is inside, or the condition changes in the same sense there.
 
     The bracket is of a coarser mesh, so that its root may be outside by the error of that mesh.
@@ -247,14 +302,11 @@ def _belongs(state: State, bracket: Bracket, condition: Condition) -> bool:
     here = parameter_of(state)
     if min(first, last) <= here <= max(first, last):
         return True
-    rates = rates_of(state)
-    beside = moved(state, rates, here + _FIRST_SECANT_STEP)
-    rise = condition(beside, rates_of(beside)) - condition(state, rates)
     before, after = (condition(point.state, rates_of(point.state)) for point in bracket)
-    return rise * (after - before) * (last - first) > 0.0
+    return slope * (after - before) * (last - first) > 0.0
 
 
-def sharpen(state: State, condition: Condition, order: int, tolerance: float) -> State:
+def sharpen(state: State, condition: Condition, order: int, tolerance: float, end_height: float | None = None) -> State:
     """Root of the condition near a state, on a mesh of the given order refined to the tolerance.
 
     Raises
@@ -262,22 +314,42 @@ def sharpen(state: State, condition: Condition, order: int, tolerance: float) ->
     NotConverged
         When the secant method does not settle, or the mesh at the root stays too coarse.
     """
-    state = refined(state, order, tolerance)
+    return _sharpen(state, condition, order, tolerance, end_height)[0]
+
+
+def _sharpen(
+    state: State,
+    condition: Condition,
+    order: int,
+    tolerance: float,
+    end_height: float | None,
+    slope: float | None = None,
+) -> tuple[State, float]:
+    """The root, and the derivative of the condition there."""
+    state = refined(state, order, tolerance, end_height)
     for _ in range(_REFITS):
-        state = _root(state, condition, tolerance)
+        state, slope = _root(state, condition, tolerance, slope)
         if np.max(indicator(state)) <= _UNRESOLVED * tolerance:
-            return state
+            return state, slope
         # The steep rise of a flat punch has left the panels that resolved it.
         state = refined(state, order, tolerance)
     raise NotConverged("the mesh at an event does not resolve the pressure; the event moves with the mesh")
 
 
-def _root(state: State, condition: Condition, tolerance: float) -> State:
-    """Root of the condition on the mesh of a state, by the secant method."""
+def _root(state: State, condition: Condition, tolerance: float, slope: float | None) -> tuple[State, float]:
+    """Root of the condition on the mesh of a state by the secant method, and the derivative of the condition there.
+
+    The first step is Newton's with the `slope`, if there is one.
+    """
     iterations = state.iterations
     rates = rates_of(state)
     value = condition(state, rates)
-    step, settled = _FIRST_SECANT_STEP, False
+    enough = min(max(_PARAMETER_SHARE * tolerance, _LEAST_PARAMETER), _LARGEST_PARAMETER)
+    step, settled = _FIRST_SECANT_STEP, condition in _FUNCTIONALS
+    if slope and abs(value / slope) < _LARGEST_FIRST:
+        step = -value / slope
+        if abs(step) < enough and settled:
+            return state, slope
     for _ in range(_SECANT_STEPS):
         new = moved(state, rates, parameter_of(state) + step)
         if abs(step) > _FAR:  # the mesh was refined at another place
@@ -287,12 +359,14 @@ def _root(state: State, condition: Condition, tolerance: float) -> State:
         change = new_value - value
         state, rates, value = new, new_rates, new_value
         iterations += state.iterations
-        small = abs(step) < _PARAMETER_TOLERANCE
-        if settled or value == 0.0 or (small and change == 0.0):
-            return replace(state, iterations=iterations)
-        if change == 0.0:
+        small = abs(step) < enough
+        if (not small or not slope) and change != 0.0:
+            slope = change / step
+        if slope and (value == 0.0 or (small and (settled or change == 0.0))):
+            return replace(state, iterations=iterations), slope
+        if change == 0.0 or not slope:
             break
-        settled = small
+        settled = settled or small
         step *= -value / change
     raise NotConverged(
         "the root of an event did not settle on the refined mesh; the event may be about to vanish "

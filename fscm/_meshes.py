@@ -47,6 +47,8 @@ class Meshes:
         Of a path that is drawn and integrated.
     end_height : float
         The mesh ends where the undeformed gap is this large.  The closed tail behind it is wrong by (1/F)^2 relative.
+    requested : float
+        Relative error above which a value is computed again on the default meshes; infinite for the default and below.
     """
 
     path: Mesh = _PATH
@@ -54,6 +56,7 @@ class Meshes:
     value: Mesh = _VALUE
     curve: Mesh = _CURVE
     end_height: float = 1e6
+    requested: float = math.inf
 
     @classmethod
     def of(cls, accuracy: Accuracy) -> Meshes:
@@ -94,6 +97,7 @@ class Meshes:
             check=at_event(_CHECK),
             value=at_event(_VALUE),
             curve=scaled(_CURVE),
+            requested=accuracy if fewer else math.inf,
         )
 
 

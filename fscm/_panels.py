@@ -21,6 +21,8 @@ __all__ = ["GaussRule", "PanelMesh", "gauss_rule"]
 
 # Binary digits with which Gauss rules are computed before they are rounded.
 _BITS = 120
+# Distance of a place from a node that stands for zero.
+_ZERO = 1e-200
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,11 +35,14 @@ class GaussRule:
         Nodes in ascending order and weights, sum 1.
     to_modes : ndarray, shape (q, q)
         Values at the nodes -> coefficients of P_l(2u - 1), l = 0 ... q-1.
+    barycentric : ndarray, shape (q,)
+        Weights of the barycentric formula, (-1)^j sqrt(u_j (1 - u_j) w_j) up to a factor.
     """
 
     nodes: Array
     weights: Array
     to_modes: Array
+    barycentric: Array
 
     @property
     def order(self) -> int:
@@ -46,7 +51,12 @@ class GaussRule:
 
     def interpolation(self, u: Array) -> Array:
         """Matrix, shape (len(u), q), from values at the nodes to values at local coordinates `u`."""
-        return legendre.legvander(2.0 * np.asarray(u) - 1.0, self.order - 1) @ self.to_modes
+        # The barycentric formula; next to the smallest distance, which stands for zero, all others vanish.
+        distance = np.asarray(u, float)[:, None] - self.nodes
+        distance[distance == 0.0] = _ZERO
+        rows: Array = np.divide(self.barycentric, distance, out=distance)
+        rows /= rows.sum(axis=1, keepdims=True)
+        return rows
 
 
 def _gauss(order: int) -> tuple[Array, Array]:
@@ -75,7 +85,8 @@ def gauss_rule(order: int) -> GaussRule:
     """The rule with `order` nodes."""
     x, w = _gauss(order)
     modes = (2.0 * np.arange(order) + 1.0)[:, None] * legendre.legvander(x, order - 1).T * (0.5 * w)[None, :]
-    return GaussRule(0.5 * (1.0 + x), 0.5 * w, modes)
+    barycentric = np.asarray((-1.0) ** np.arange(order) * np.sqrt((1.0 - x) * (1.0 + x) * w), float)
+    return GaussRule(0.5 * (1.0 + x), 0.5 * w, modes, barycentric)
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,9 +18,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from fscm._arc_length import Point
-from fscm._continuation import usual_start
-from fscm._equilibrium import State
-from fscm._events import brackets, load_fold
+from fscm._continuation import Tracking, usual_start
+from fscm._equilibrium import STEEP, State
+from fscm._events import brackets, load_fold, with_minima
 from fscm._meshes import Meshes
 from fscm._typing import Array
 from fscm._whole_path import path_until
@@ -40,30 +40,49 @@ _SHARE, _SHARE_OF_FLAT = 0.6, 0.3
 _NEAR = 1.0
 # Ratio of one central gap that is tried to the last one.
 _RATIO = 1.2
-# Points with rising load and compressed center behind the minimum.
-_BEHIND = 2
+# The mesh ends at this height: the error of the closed tail behind it, 1e-6 of the tail, does not move a bracket.
+_END = 1e3
+# A step is refused for a turn of the tangent above 60 degrees only, because `completed` finds what hides between two
+# points.  The last step of Newton's method is below 1e-3 of the gaps, the error that is left about its square.
+_TRACKING = Tracking(newton=1e-3, largest_turn=0.5, given=True)
 
 
 @dataclass
 class PullOffEnd:
-    """Condition that ends the path: the center is compressed and the load rises."""
+    """Condition that ends the path: the center is compressed and the load is larger than that before."""
 
     load: float = math.inf
-    rising: int = 0
 
     def __call__(self, state: State) -> bool:
         compressed = state.follows_edge and float(state.disc.problem.law.traction(np.array(state.central_gap))) > 0.0
-        self.rising = self.rising + 1 if compressed and state.load > self.load else 0
-        self.load = state.load
-        return self.rising >= _BEHIND
+        before, self.load = self.load, state.load
+        return compressed and self.load > before
 
 
-def _tension(problem: Problem, central_gap: float) -> tuple[Array, Array]:
-    """Radii, and the largest tension of a rigid solid behind each but the last."""
-    law = problem.law
-    f = np.concatenate([[0.0], np.geomspace(_LOWEST, _HIGHEST, _HEIGHTS)])
-    tension = -law.traction(np.maximum(f + central_gap, law.peak_gap))
-    return (problem.n * f) ** (1.0 / problem.n), tension[:-1]
+class _RigidSolid:
+    """Load and deformation by the tension of a rigid solid, at heights that are evaluated once."""
+
+    def __init__(self, problem: Problem) -> None:
+        n, law = problem.n, problem.law
+        self._law, self._compliance = law, problem.compliance
+        self._heights = np.concatenate([[0.0], np.geomspace(_LOWEST, _HIGHEST, _HEIGHTS)])
+        r = (n * self._heights) ** (1.0 / n)
+        self._areas, self._lengths = np.diff(r * r), np.diff(r ** (1.0 - problem.k))
+        C, m = law.decay
+        self._behind = 2.0 * C * _HIGHEST**-m * float(r[-1]) ** 2 / (m * n - 2.0)
+
+    def _tension(self, central_gap: float) -> Array:
+        """The largest tension behind each radius but the last."""
+        gap = np.maximum(self._heights[:-1] + central_gap, self._law.peak_gap)
+        return -self._law.traction(gap)
+
+    def load(self, central_gap: float) -> float:
+        """Upper bound of -P of all states apart with at least this central gap."""
+        return float(self._tension(central_gap) @ self._areas) + self._behind
+
+    def lift(self, central_gap: float) -> float:
+        """About the deformation at the center by the tension."""
+        return self._compliance * float(self._tension(central_gap) @ self._lengths)
 
 
 def rigid_tension(problem: Problem, central_gap: float) -> float:
@@ -75,24 +94,15 @@ def rigid_tension(problem: Problem, central_gap: float) -> float:
     >>> 0.6 < rigid_tension(problem, 1.0) < 0.7  # 2 (1/3) (4 / 2^2 - 1 / 2^8) = 0.664
     True
     """
-    r, tension = _tension(problem, central_gap)
-    C, m = problem.law.decay
-    behind = 2.0 * C * _HIGHEST**-m * float(r[-1]) ** 2 / (m * problem.n - 2.0)
-    return float(tension @ np.diff(r * r)) + behind
-
-
-def _lift(problem: Problem, central_gap: float) -> float:
-    """About the deformation at the center by the tension of the rigid solid."""
-    r, tension = _tension(problem, central_gap)
-    return problem.compliance * float(tension @ np.diff(r ** (1.0 - problem.k)))
+    return _RigidSolid(problem).load(central_gap)
 
 
 def _start(problem: Problem) -> float | None:
     """Central gap of the first state; None where the whole path begins nearer."""
-    gap, singular = problem.law.peak_gap, problem.law.singular_gap
-    stiff = _lift(problem, gap) < _NEAR * (gap - singular)
-    enough = (_SHARE if problem.n <= 2.0 or stiff else _SHARE_OF_FLAT) * rigid_tension(problem, 0.0)
-    while rigid_tension(problem, gap) > enough or _lift(problem, gap) > _NEAR * (gap - singular):
+    gap, singular, rigid = problem.law.peak_gap, problem.law.singular_gap, _RigidSolid(problem)
+    stiff = rigid.lift(gap) < _NEAR * (gap - singular)
+    enough = (_SHARE if problem.n <= 2.0 or stiff else _SHARE_OF_FLAT) * rigid.load(0.0)
+    while rigid.load(gap) > enough or rigid.lift(gap) > _NEAR * (gap - singular):
         gap *= _RATIO
         if gap > usual_start(problem):  # near n = 2/3 the tail alone carries more
             return None
@@ -100,7 +110,7 @@ def _start(problem: Problem) -> float | None:
 
 
 def pull_off_path(problem: Problem, meshes: Meshes) -> list[Point] | None:
-    """Points of the short path, between which turning points may hide.
+    """Points of the short path, the minimum of the load among them; between them turning points may hide.
 
     Returns
     -------
@@ -115,10 +125,17 @@ def pull_off_path(problem: Problem, meshes: Meshes) -> list[Point] | None:
         return None
     try:
         points = path_until(
-            problem, *meshes.path, PullOffEnd(), "a load minimum", start_gap=start, end_height=meshes.end_height
+            problem,
+            *meshes.path,
+            PullOffEnd(),
+            "a load minimum",
+            start_gap=start,
+            end_height=meshes.end_height if problem.punch.growth > STEEP else min(_END, meshes.end_height),
+            tracking=_TRACKING,
         )
     except NotConverged:
         return None
+    points = with_minima(points)
     least = min(point.state.load for point in points)
     found = brackets(points, load_fold, rising=True)
     return points if found and -least > rigid_tension(problem, start) else None

@@ -115,11 +115,11 @@ class Analysis:
     def _least_load(self) -> Bracket:
         points = None if "_traced" in self.__dict__ else pull_off_path(self.problem, self.meshes)
         if points is None:
-            points = self._traced
+            points = events.with_minima(self._traced)
         # A minimum that is less deep than the load of some point is not looked for.
         below = min(point.state.load for point in points)
         below += _NEAR * (1.0 + abs(below))
-        points = completed(points, self.meshes.path.tolerance, below)
+        points = completed(points, self.meshes.path.tolerance, below, ("load",))
         minima = events.brackets(points, events.load_fold, rising=True)
         minima = [pair for pair in minima if least_loads(*pair) < below]
         if not minima:
@@ -130,7 +130,8 @@ class Analysis:
         least = min(state.load for state, _ in located)
         near = [(state, pair) for state, pair in located if state.load - least < _NEAR * (1.0 + abs(least))]
         if len(near) > 1:  # the coarse path does not tell which of them is the deepest
-            near = [(events.sharpen(state, events.load_fold, *self.meshes.value), pair) for state, pair in near]
+            value = *self.meshes.value, self.meshes.end_height
+            near = [(events.sharpen(state, events.load_fold, *value), pair) for state, pair in near]
         return min(near, key=lambda found: found[0].load)[1]
 
     def _last_zero_load(self) -> Bracket:
@@ -171,8 +172,9 @@ class Analysis:
         return self._pairs[name]
 
     def _pair(self, bracket: Bracket, condition: Condition) -> EventPair:
-        check = partial(events.sharpened, bracket, condition, *self.meshes.check)
-        return EventPair(events.sharpened(bracket, condition, *self.meshes.value), check)
+        end = self.meshes.end_height
+        check = partial(events.sharpened, bracket, condition, *self.meshes.check, end)
+        return EventPair(events.sharpened(bracket, condition, *self.meshes.value, end), check)
 
     @one_thread()
     def parts(self, event: str, functional: str) -> Parts:
@@ -298,11 +300,18 @@ class Analysis:
         row = quantity_named(quantity)
         start = time.perf_counter()
         found = row.compute(self)
+        if found.u_num > self.meshes.requested * abs(found.value):
+            found = row.compute(self._finer)
         if self._alternatives:
             # What the smoothing of a law changes is as uncertain as its data.
             change = max(abs(other.solution(quantity).value - found.value) for other in self._alternatives)
             found = replace(found, parts=found.parts.plus(Parts(law=change)))
         return replace(found, seconds=time.perf_counter() - start)
+
+    @cached_property
+    def _finer(self) -> Analysis:
+        """The problem on the default meshes."""
+        return Analysis(self.problem)
 
     @cached_property
     def _alternatives(self) -> list[Analysis]:

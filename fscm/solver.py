@@ -32,7 +32,8 @@ def solve(problem: Problem, quantity: str, accuracy: Accuracy = "default") -> So
         One of `QUANTITIES`.
     accuracy : float or str
         Relative error that is requested, between 1e-10 and 1e-4, or its name in `ACCURACIES`.  It chooses the meshes:
-        it is reached nearly always, and `u_num` bounds the error in any case.  The Gibson solid is solved to rounding.
+        it is reached nearly always, and `u_num` bounds the error in any case.  Where `u_num` exceeds a request above
+        1e-8, the value is computed again at the default.  The Gibson solid is solved to rounding.
 
     Returns
     -------

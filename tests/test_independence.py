@@ -29,6 +29,11 @@ ALLOWED = {
     # The landing of a jump and the surface at pull-off are no quantities of a model.
     "comparisons.paper.figures.fig03_s_curve": ("fscm",),
     "comparisons.paper.figures.fig05_07_pull_off_surfaces": ("fscm",),
+    "comparisons.paper.statements.surfaces": ("fscm",),
+    # Judges statements on the functions inside the FSCM and on the two Tabor numbers (Eqs. 18-22 and 30).
+    "comparisons.paper.statements.formulas": ("fscm",),
+    # The Tabor number of Jin et al. (Eq. 30) needs the physical problem.
+    "comparisons.paper.values.sampling": ("fscm.physical",),
     # Both jumps of one path, at every Tabor number, in half the time of two computations.
     "comparisons.paper.figures.fig08_jumps": ("fscm",),
     # Measure a solver at every accuracy, the others beside it, and the linear solvers inside the finite elements.

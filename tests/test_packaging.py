@@ -54,7 +54,7 @@ def external(*folders: str) -> set[str]:
 def test_every_import_of_the_packages_is_declared_and_nothing_else():
     # An optional package is imported where it is used.
     assert external(*PACKAGES) == {
-        canonical(requirement) for requirement in RUNTIME + EXTRAS["cluster"] + EXTRAS["bench"]
+        canonical(requirement) for requirement in RUNTIME + EXTRAS["cluster"] + EXTRAS["bench"] + EXTRAS["pytest"]
     }
 
 

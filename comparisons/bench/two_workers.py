@@ -3,35 +3,21 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
 from comparisons.bench.part import Item, Numbers, Part, Settings
+from comparisons.bench.timed_tasks import Timed, exponent, idle_seconds, sweep, timed
 from comparisons.output.style import COLOURS, styled
-from comparisons.runs.cases import Case
-from comparisons.runs.tasks import Task, evaluate_task
 from comparisons.runs.workers import each
 
 __all__ = ["WORKERS", "draw", "items", "measure", "summary", "table"]
 
 CASES = 200
-_EXPONENTS = (0.0, 0.1, 0.2, 0.3, 0.4)
 #: Share of a core that a worker has at least on an idle machine; the rest is the transfer of tasks and results.
 _IDLE = 0.9
-_LEAST_MU, _LARGEST_MU = 0.1, 1.0
-
-
-@dataclass(frozen=True, slots=True)
-class _Timed:
-    """When a task began and ended, by the clock that all processes share, its CPU time and its status."""
-
-    begin: float
-    end: float
-    cpu_seconds: float
-    status: str
 
 
 def items(full: bool) -> list[Item]:
@@ -39,29 +25,19 @@ def items(full: bool) -> list[Item]:
     return [Item({"model": "fscm", "cases": CASES, "workers": workers}, 40.0 / workers) for workers in (1, 2)]
 
 
-def _tasks(model: str, cases: int) -> list[Task]:
-    numbers = np.geomspace(_LEAST_MU, _LARGEST_MU, -(-cases // len(_EXPONENTS)))
-    found = [Task(model, "pull_off_force", Case(2.0, k, float(mu))) for k in _EXPONENTS for mu in numbers]
-    return found[:cases]
-
-
-def _timed(task: Task) -> _Timed:
-    begin, cpu = time.time(), time.process_time()
-    status = evaluate_task(task).status
-    return _Timed(begin, time.time(), time.process_time() - cpu, status)
-
-
 def measure(settings: Settings) -> Numbers:
     """Return the time of a sweep from the start of the command, and from the begin of its first task.
+
+    ``idle_seconds`` is the time, on average, in which a process had no task after the first began.
 
     Raises
     ------
     RuntimeError
         If a case fails.
     """
-    tasks = _tasks(settings["model"], settings["cases"])
+    tasks = sweep(settings["model"], settings["cases"])
     begin = time.time()
-    done = list(each(_timed, tasks, settings["workers"], lost=lambda task: _Timed(0.0, 0.0, 0.0, "lost")))
+    done = list(each(timed, tasks, settings["workers"], lost=_lost, alike=exponent))
     if failed := [one.status for one in done if one.status != "ok"]:
         raise RuntimeError(f"{len(failed)} of {len(done)} cases have no value")
     last = max(one.end for one in done)
@@ -69,7 +45,12 @@ def measure(settings: Settings) -> Numbers:
         "seconds": last - begin,
         "seconds_of_tasks": last - min(one.begin for one in done),
         "cpu_seconds": sum(one.cpu_seconds for one in done),
+        "idle_seconds": float(np.mean(list(idle_seconds(done).values()))),
     }
+
+
+def _lost(task: object) -> Timed:
+    return Timed(0, 0.0, 0.0, 0.0, "lost")
 
 
 def table(rows: pd.DataFrame) -> pd.DataFrame:

@@ -31,7 +31,7 @@ __all__ = [
 ]
 
 #: Help for a SPEC.
-MODEL_SPEC = "a name (fscm-bench list models), FILE.py:CLASS, or a folder with a model.toml"
+MODEL_SPEC = "a name (fscm-bench list models), FILE.py:CLASS, ./PROGRAM, or a folder with a model.toml"
 
 #: Columns of a table when stdout is no terminal, where rich would assume 80 and break the lines.
 _WIDTH = 160

@@ -7,6 +7,8 @@ __all__ = [
     "BENCH",
     "BENCH_SUMMARY",
     "CALLS",
+    "COMPARISON",
+    "COMPARISON_FILES",
     "CURVES",
     "FIGURES",
     "GATES",
@@ -48,6 +50,10 @@ VERDICTS, GATES, SUMMARY = "verdicts", "gates", "summary"
 VERDICT_TABLES = (VERDICTS, GATES, SUMMARY)
 TABLES = (RESULTS, CURVES, KAPPA, LARGEST_KAPPA, AGREEMENT, *VERDICT_TABLES)
 
+#: Table and picture of `comparisons.compare`, and their files.
+COMPARISON = "comparison"
+COMPARISON_FILES = tuple(f"{COMPARISON}.{suffix}" for suffix in ("csv", "parquet", "png", "pdf"))
+
 #: Pictures: each is written as PNG and as PDF.
 KAPPA_FIGURE, REFERENCES = "fig16b_kappa", "references"
 FIGURES = (KAPPA_FIGURE, AGREEMENT, REFERENCES)
@@ -66,4 +72,5 @@ RUN_FILES = (
     *(f"{figure}.{suffix}" for figure in FIGURES for suffix in ("png", "pdf")),
     *(GATES_TEXT, GRID_TEXT),
     *VERDICT_FILES,
+    *COMPARISON_FILES,
 )

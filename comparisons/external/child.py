@@ -49,6 +49,11 @@ class Child:
         self._contradiction = ""
         self._overdue = 0
 
+    @property
+    def is_program(self) -> bool:
+        """Whether the model is a program that is no Python."""
+        return bool(self._source["kind"] == "program")
+
     def request(self, request: str, **arguments: Any) -> dict[str, Any]:
         """Return the reply to a request.
 
@@ -118,7 +123,8 @@ class Child:
         if line is None:
             self.close()
             self._overdue += 1
-            return _failed(f"it gave no result within {seconds:g} s and was ended")
+            flush = "; a program must flush its standard output after every line" if self.is_program else ""
+            return _failed(f"it gave no result within {seconds:g} s and was ended{flush}")
         if not line:
             return self._ended(launched)
         try:

@@ -14,6 +14,7 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
+from comparisons.domain import Domain
 from comparisons.external.manifest import MANIFEST, Key, check_units, covered_cases, read_manifest
 from comparisons.external.text_rules import one_line
 from comparisons.model import NotApplicable, Result
@@ -64,6 +65,8 @@ class DataModel:
     """
 
     physical = False
+    #: Its manifest lists the cases.
+    applies_to = Domain(())
 
     def __init__(self, submission: Submission) -> None:
         self.submission = submission

@@ -58,6 +58,7 @@ def fingerprint(
     declared: object = (),
     *,
     installed: Iterable[Path] = (),
+    programs: Iterable[Path] = (),
     skip: Iterable[tuple[int, int]] = (),
 ) -> Fingerprint:
     """Return the fingerprint of a model.
@@ -70,6 +71,8 @@ def fingerprint(
         Files and folders that the model names, relative to the folder of the first module or its package.
     installed : iterable of Path, optional
         Files that were installed with the model.
+    programs : iterable of Path, optional
+        Programs in place of modules.
     skip : iterable of (device, inode), optional
         Files that are written during a run, such as one that takes standard output.
 
@@ -81,14 +84,10 @@ def fingerprint(
     files: dict[str, Path] = {}
     parts: list[str] = []
     roots: list[Path] = []
-    for name in modules:
-        file = getattr(sys.modules.get(name), "__file__", None)
-        if file is None or not _is_of_model(Path(file).resolve()):
-            continue
-        root = _root(name, Path(file).resolve())
+    for root, file in _starting_points(modules, programs):
         if root in roots:
             continue
-        found, words = _of_root(root, Path(file).resolve(), set(installed), set(skip))
+        found, words = _of_root(root, file, set(installed), set(skip))
         files |= {f"{len(roots)}/{path.relative_to(root).as_posix()}": path for path in found}
         parts.append(words)
         roots.append(root)
@@ -96,6 +95,16 @@ def fingerprint(
     if named:
         parts.append(f"{len(named)} declared files" if len(named) > 1 else "1 declared file")
     return _hashed(files | named, parts)
+
+
+def _starting_points(modules: Iterable[str], programs: Iterable[Path]) -> Iterator[tuple[Path, Path]]:
+    """Yield the folder and the file of each module of the model, and of each program."""
+    for name in modules:
+        file = getattr(sys.modules.get(name), "__file__", None)
+        if file is not None and _is_of_model(Path(file).resolve()):
+            yield _root(name, Path(file).resolve()), Path(file).resolve()
+    for program in programs:
+        yield program.resolve().parent, program.resolve()
 
 
 def _hashed(files: dict[str, Path], parts: list[str]) -> Fingerprint:

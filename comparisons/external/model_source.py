@@ -1,7 +1,8 @@
-"""Sources of external models: a package, a file or data, and the model that a SPEC names.
+"""Sources of external models: a package, a file, a program or data, and the model that a SPEC names.
 
 NAME                 package: an entry point of the group `fscm_bench.models` of an installed package
 FILE.py:CLASS        file: a local Python file
+./PROGRAM            program: an executable that speaks JSON lines (`comparisons.external.program`)
 FOLDER               data: predictions in a folder with a `model.toml`
 
 A name that is both an entry point and a folder with a `model.toml` is refused; with a separator (./NAME) it is
@@ -21,7 +22,7 @@ from comparisons.external.manifest import MANIFEST
 from comparisons.external.process_model import ExternalModel, connect
 from comparisons.external.text_rules import one_line
 
-__all__ = ["GROUP", "close_models", "installed", "load_model", "source_of"]
+__all__ = ["GROUP", "close_models", "installed", "load_again", "load_model", "source_of"]
 
 GROUP = "fscm_bench.models"
 
@@ -62,6 +63,8 @@ def source_of(spec: str) -> dict[str, Any]:
         if not attribute.isidentifier():
             raise ValueError(f"{one_line(spec, 200)}: the text after the colon must be the name of a class")
         return {"kind": "file", "file": str(path), "attribute": attribute}
+    if program := _program(spec):
+        return {"kind": "program", "file": program}
     folder = Path(os.path.expanduser(spec))
     if folder.name == MANIFEST:
         folder = folder.parent
@@ -78,13 +81,25 @@ def source_of(spec: str) -> dict[str, Any]:
         raise ValueError(f"{count} installed packages have a model {spec!r}; name it FILE.py:CLASS instead")
     # A folder without predictions hides no entry point: a package is often installed from a folder of its name.
     if count == 0 and (os.sep in spec or folder.is_dir()):
-        raise ValueError(f"{one_line(spec, 200)} is neither FILE.py:CLASS nor a folder with a {MANIFEST}")
+        raise ValueError(f"{one_line(spec, 200)} is neither FILE.py:CLASS nor a program nor a folder with a {MANIFEST}")
     if count == 0:
         raise ValueError(
             f"no installed package has a model {one_line(spec, 60)!r} (entry points of group {GROUP}), and it is "
-            f"neither FILE.py:CLASS nor a folder with a {MANIFEST}"
+            f"neither FILE.py:CLASS nor a program (./PROGRAM) nor a folder with a {MANIFEST}"
         )
     return {"kind": "package", "group": GROUP, "name": spec}
+
+
+def _program(spec: str) -> str:
+    """Return the path of the program that a SPEC names; nothing if it names none."""
+    # Without a separator it is a name, as for a shell.
+    path = os.path.realpath(os.path.expanduser(spec))
+    if os.sep not in spec or not os.path.isfile(path) or os.path.basename(path) == MANIFEST:
+        return ""
+    if not os.access(path, os.X_OK):
+        hint = " or, for a model in Python, name its class (FILE.py:CLASS)" if path.endswith(".py") else ""
+        raise ValueError(f"{one_line(spec, 200)} is a file that is no program: make it executable (chmod +x){hint}")
+    return path
 
 
 def load_model(spec: str, poisson_ratio: float | None = None) -> ExternalModel | DataModel:
@@ -105,12 +120,25 @@ def load_model(spec: str, poisson_ratio: float | None = None) -> ExternalModel |
     source = source_of(spec)
     key = (repr(source), poisson_ratio)
     if key not in _loaded:
-        _loaded[key] = (
-            DataModel(read_submission(Path(source["folder"])))
-            if source["kind"] == "data"
-            else connect(source, spec, poisson_ratio)
-        )
+        _loaded[key] = _load(source, spec, poisson_ratio)
     return _loaded[key]
+
+
+def load_again(spec: str) -> ExternalModel | DataModel:
+    """Return the model that a SPEC names in a process of its own, which the caller closes.
+
+    Raises
+    ------
+    ValueError
+        As `load_model`.
+    """
+    return _load(source_of(spec), spec, None)
+
+
+def _load(source: dict[str, Any], spec: str, poisson_ratio: float | None) -> ExternalModel | DataModel:
+    if source["kind"] == "data":
+        return DataModel(read_submission(Path(source["folder"])))
+    return connect(source, spec, poisson_ratio)
 
 
 @atexit.register

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from comparisons.domain import Domain
 from comparisons.external.child import Child
 from comparisons.external.identity import DIGEST
 from comparisons.external.limits import LARGEST_COUNT, Limits
@@ -19,6 +20,9 @@ from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
 __all__ = ["ExternalModel", "ExternalModelWithCurve", "connect"]
+
+#: Most facts about the use of the references that are kept; one is enough for a verdict.
+_MOST_FACTS = 5
 
 
 class ExternalModel:
@@ -34,6 +38,14 @@ class ExternalModel:
         Limits in which the model is exact, as its author states (see `comparisons.external.contract_checks`).
     physical : bool
         Whether it works in physical units.
+    applies_to : Domain or None
+        The domain that it declares.
+    uses : tuple of str
+        What was seen so far of its use of the references, e.g. "imports fscm".
+    starts_programs : bool
+        Whether it was seen to start other programs, in which nothing is seen.
+    is_program : bool
+        Whether it is itself a program, in which nothing is seen.
     """
 
     def __init__(self, child: Child, loaded: dict[str, Any], poisson_ratio: float | None = None) -> None:
@@ -45,6 +57,11 @@ class ExternalModel:
         self.citation, self.domain = one_line(loaded["citation"]), one_line(loaded["domain"])
         self.limits = tuple(one_line(limit, 60) for limit in loaded["limits"])
         self.physical = bool(loaded["physical"])
+        self.applies_to = None if loaded.get("applies_to") is None else Domain.of(loaded["applies_to"])
+        self.is_program = child.is_program
+        self.uses: tuple[str, ...] = ()
+        self.starts_programs = False
+        self._note(loaded)
 
     def evaluate(self, problem: Problem, quantity: str, *, scales: int = 0) -> Result:
         """Return the quantity, or raise `NotApplicable` or `ComputationFailed`; nothing else."""
@@ -78,10 +95,17 @@ class ExternalModel:
             poisson_ratio=self._poisson_ratio,
             **more,
         )
+        self._note(reply)
         if reply["status"] == "ok":
             return reply
         reason = one_line(str(reply.get("reason", ""))) or "the model gave no reason"
         raise (NotApplicable if reply["status"] == "not-applicable" else ComputationFailed)(reason)
+
+    def _note(self, reply: dict[str, Any]) -> None:
+        seen = reply.get("uses")
+        if isinstance(seen, list):
+            self.uses = tuple(dict.fromkeys((*self.uses, *(one_line(str(fact), 200) for fact in seen))))[:_MOST_FACTS]
+        self.starts_programs = self.starts_programs or reply.get("starts") is True
 
 
 class ExternalModelWithCurve(ExternalModel):

@@ -7,8 +7,6 @@ stdin, stdout and stderr are redirected to the null device, so a model may print
 from __future__ import annotations
 
 import json
-import math
-import numbers
 import os
 import select
 import sys
@@ -20,12 +18,14 @@ from importlib.metadata import entry_points
 from pathlib import Path
 from typing import IO, Any
 
-import numpy as np
-
+from comparisons.domain import declared_domain
 from comparisons.external.fingerprint import fingerprint
-from comparisons.external.limits import LARGEST_COUNT, Limits, cpu_seconds_from_now, limit_resources
+from comparisons.external.limits import Limits, cpu_seconds_from_now, limit_resources
 from comparisons.external.model_file import load_file
+from comparisons.external.observation import Observation
 from comparisons.external.physical_model import InUnits, PhysicalModel
+from comparisons.external.program import program_model
+from comparisons.external.reply_checks import column, count, kind, real
 from comparisons.external.text_rules import one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from fscm.problem import Problem
@@ -33,7 +33,6 @@ from fscm.problem import Problem
 __all__ = ["main"]
 
 _OURS = Path(__file__).resolve().parent.parent
-_LARGEST_CURVE = 1_000_000
 _COUNTS = ("size", "iterations")
 #: Attributes that every model has.
 _TEXTS = ("name", "version", "citation", "domain")
@@ -70,6 +69,7 @@ def _end_with_parent(descriptor: int) -> None:
 def _serve(requests: IO[str], out: IO[str]) -> None:
     model: Any = None
     limits = Limits()
+    observation = Observation()
     reply: dict[str, Any]
     for line in requests:
         request = json.loads(line)
@@ -79,14 +79,16 @@ def _serve(requests: IO[str], out: IO[str]) -> None:
                 limits, reply = Limits(**request["limits"]), {"status": "ok"}
                 _confine(request["path"], limits)
             elif request["request"] == "load":
-                model, reply = _load(request["source"])
+                model, reply = _load(request["source"], observation)
             else:
                 cpu_seconds_from_now(limits)
-                reply = _HANDLERS[request["request"]](model, request)
+                with observation.active():
+                    reply = _HANDLERS[request["request"]](model, request)
         except NotApplicable as refusal:
             reply = {"status": "not-applicable", "reason": _words(refusal)}
         except BaseException as error:
             reply = {"status": "failed", "reason": _explain(error, limits, request["request"])}
+        reply |= {"uses": observation.uses, "starts": observation.starts_programs}
         reply["seconds"] = time.perf_counter() - started
         out.write(json.dumps(reply, allow_nan=False) + "\n")
         out.flush()
@@ -98,34 +100,38 @@ def _confine(path: list[str], limits: Limits) -> None:
     sys.path[:] = path
 
 
-def _load(source: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
-    if source["kind"] == "file":
-        file, installed = Path(source["file"]), []
-        made, module = load_file(file, source["attribute"]), file.stem
+def _load(source: dict[str, Any], observation: Observation) -> tuple[Any, dict[str, Any]]:
+    modules: tuple[str, ...] = ()
+    installed: list[Path] = []
+    programs: list[Path] = []
+    if source["kind"] == "program":
+        model = program_model(Path(source["file"]))
+        programs = [Path(source["file"])]
     else:
-        (found,) = {entry for entry in entry_points(group=source["group"]) if entry.name == source["name"]}
-        made, module = found.load(), found.module
-        files = found.dist.files if found.dist else None
-        installed = [Path(str(path.locate())).resolve() for path in files or ()]
-    model = made() if callable(made) else made
-    cls = made if isinstance(made, type) else type(model)
+        with observation.active():
+            made, module, installed = _made(source)
+            model = made() if callable(made) else made
+        modules = module, (made if isinstance(made, type) else type(model)).__module__
     if missing := [name for name in _TEXTS if not hasattr(model, name)]:
         raise ComputationFailed(f"the model has no {', '.join(missing)}; it needs {', '.join(_TEXTS)}")
     limits = getattr(model, "limits", ())
     if not isinstance(limits, tuple | list | set | frozenset):
         raise ComputationFailed(
-            f'limits = {_kind(limits)} is not a tuple of texts such as ("jkr",): it names where the model is exact'
+            f'limits = {kind(limits)} is not a tuple of texts such as ("jkr",): it names where the model is exact'
         )
+    domain = declared_domain(model)
     state = fingerprint(
-        (module, cls.__module__),
+        modules,
         getattr(model, "files", ()),
         installed=installed,
+        programs=programs,
         skip=[(device, inode) for device, inode in source.get("skip", ())],
     )
     reply = {
         "status": "ok",
         **{name: str(getattr(model, name)) for name in _TEXTS},
         "limits": [str(limit) for limit in limits],
+        "applies_to": None if domain is None else domain.as_json(),
         "curve": callable(getattr(model, "curve", None)),
         "physical": isinstance(model, PhysicalModel),
         "digest": state.digest,
@@ -136,23 +142,34 @@ def _load(source: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
     return model, reply
 
 
+def _made(source: dict[str, Any]) -> tuple[Any, str, list[Path]]:
+    """Return what a file or an entry point defines, the name of its module, and the files installed with it."""
+    if source["kind"] == "file":
+        file = Path(source["file"])
+        return load_file(file, source["attribute"]), file.stem, []
+    (found,) = {entry for entry in entry_points(group=source["group"]) if entry.name == source["name"]}
+    made = found.load()
+    files = found.dist.files if found.dist else None
+    return made, found.module, [Path(str(path.locate())).resolve() for path in files or ()]
+
+
 def _evaluate(model: Any, request: dict[str, Any]) -> dict[str, Any]:
     if isinstance(model, PhysicalModel):
         model = InUnits(model, request["poisson_ratio"], request["scales"])
     result = model.evaluate(_problem(request), request["quantity"])
     if not isinstance(result, Result):
-        raise ComputationFailed(f"the model returned {_kind(result)}, which is not a comparisons.model.Result")
-    numbers_of = {name: _real(name, getattr(result, name)) for name in ("value", "u_num", "residual")}
+        raise ComputationFailed(f"the model returned {kind(result)}, which is not a comparisons.model.Result")
+    numbers_of = {name: real(name, getattr(result, name)) for name in ("value", "u_num", "residual")}
     Result(numbers_of["value"], numbers_of["u_num"])
-    return {"status": "ok", **numbers_of, **{name: _count(name, getattr(result, name)) for name in _COUNTS}}
+    return {"status": "ok", **numbers_of, **{name: count(name, getattr(result, name)) for name in _COUNTS}}
 
 
 def _curve(model: Any, request: dict[str, Any]) -> dict[str, Any]:
     curve = model.curve(_problem(request))
     if not isinstance(curve, Curve):
-        raise ComputationFailed(f"the model returned {_kind(curve)}, which is not a comparisons.model.Curve")
+        raise ComputationFailed(f"the model returned {kind(curve)}, which is not a comparisons.model.Curve")
     named = {"displacement": curve.displacement, "load": curve.load, **curve.columns}
-    arrays = {one_line(str(name), 60): _array(str(name), array) for name, array in named.items()}
+    arrays = {one_line(str(name), 60): column(str(name), array) for name, array in named.items()}
     lengths = {name: len(array) for name, array in arrays.items()}
     if len(set(lengths.values())) != 1:
         listed = ", ".join(f"{name} {length}" for name, length in lengths.items())
@@ -168,45 +185,6 @@ _HANDLERS: dict[str, Callable[[Any, dict[str, Any]], dict[str, Any]]] = {
 
 def _problem(request: dict[str, Any]) -> Problem:
     return Problem(request["n"], request["k"], request["mu"])
-
-
-def _real(name: str, value: object) -> float:
-    if isinstance(value, bool | np.bool_) or not isinstance(value, numbers.Real):
-        raise ComputationFailed(f"the model gave {_kind(value)} as {name}, which is not a real number")
-    number = float(value)
-    if not math.isfinite(number):
-        raise ComputationFailed(f"the model gave {number} as {name}, which is not a finite number")
-    return number
-
-
-def _count(name: str, value: object) -> int:
-    """Return a count, as the stored tables have it."""
-    number = int(_real(name, value))
-    if not 0 <= number < LARGEST_COUNT:
-        raise ComputationFailed(
-            f"the model gave {_kind(value)} as {name}, which is outside [0, 2^63): it is a number of steps or unknowns"
-        )
-    return number
-
-
-def _array(name: str, values: object) -> list[float]:
-    array = np.asarray(values)
-    if array.ndim != 1 or array.dtype.kind not in "fiu" or not 1 <= len(array) <= _LARGEST_CURVE:
-        raise ComputationFailed(
-            f"column {one_line(name, 60)} of the curve is {_kind(values)}, not 1 to {_LARGEST_CURVE} real numbers"
-        )
-    if not np.isfinite(array).all():
-        raise ComputationFailed(f"column {one_line(name, 60)} of the curve has values that are not finite")
-    return [float(value) for value in array]
-
-
-def _kind(value: object) -> str:
-    """Describe a value; of its own text at most one line."""
-    if isinstance(value, np.ndarray):
-        return f"an array of shape {value.shape} and type {value.dtype}"
-    if isinstance(value, str | int | float | complex | None):
-        return one_line(f"{type(value).__name__} {value!r}", 80)
-    return f"an object of type {one_line(type(value).__name__, 60)}"
 
 
 def _is_of_model(filename: str) -> bool:

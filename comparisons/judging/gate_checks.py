@@ -90,6 +90,11 @@ def check_numbers(gate: Gate, where: str) -> None:
     _check_limits(gate, where)
     _check_uncertainties(gate, where)
     _check_worst_measured(gate, where)
+    if gate.min_coverage is not None and not 0.0 < gate.min_coverage <= 1.0:
+        raise ValueError(
+            f"{where}: min_coverage = {exact(gate.min_coverage)} is outside (0, 1]: it is the smallest share of the "
+            "evaluated cases in which the candidate has a value"
+        )
     _check_measured_range(gate, where)
     for name, limits in gate.cases.items():
         if name != "tags" and not limits[0] <= limits[1]:

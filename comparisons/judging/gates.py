@@ -79,6 +79,8 @@ class Gate:
         A second model: the error is then by how much the candidate's exceeds the rival's in size.
     not_applicable : str
         "error", or "leave-out" for a case to which a model does not apply.
+    min_coverage : float or None
+        A candidate that has a value in a smaller share of the cases in which it is evaluated fails.
     expected_failure : str or None
         Why every case is known to fail; one that passes is then reported.  It needs a `measured_range`, or every wrong
         value would be accepted as the known failure.
@@ -104,6 +106,7 @@ class Gate:
     reference_at: Mapping[str, float] = field(default_factory=dict)
     rival: str | None = None
     not_applicable: str = "error"
+    min_coverage: float | None = None
     expected_failure: str | None = None
 
     def selects(self, grid: Grid, case: Case) -> bool:

@@ -6,22 +6,23 @@ belongs to no declared case is an ERROR and not a smaller sample.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 
 import pandas as pd
 
+from comparisons.domain import Domain
 from comparisons.judging.decision import Verdict, crossing, decide, expecting_failure, requiring_certainty
 from comparisons.judging.gates import Gate
 from comparisons.judging.metrics import CaseError, case_error, reference_range
-from comparisons.judging.selection import cases_of, relevant
+from comparisons.judging.selection import cases_of, key_of, relevant
 from comparisons.judging.stored_results import StoredResults, UnusableResult, stored_curves, stored_numbers
 from comparisons.numerics.number_text import exact
 from comparisons.runs.cases import Case, Grid
 from comparisons.runs.rows import Key
 from comparisons.runs.tasks import case_for, plan
 
-__all__ = ["Judged", "judge"]
+__all__ = ["NO_EVENT", "OUTSIDE", "Judged", "judge"]
 
 #: What to change in a gate with a case to which a model does not apply.
 _REMEDY = 'name the cases it applies to in the gate, e.g. cases = { k = [0, 0] }, or state not_applicable = "leave-out"'
@@ -31,7 +32,9 @@ _REMEDY = 'name the cases it applies to in the gate, e.g. cases = { k = [0, 0] }
 class Judged:
     """One gate in one case; n, k and mu are None where the gate as a whole could not be judged.
 
-    `error`, `uncertainty`, `lower` and `upper` are in the unit of the gate's metric.
+    `error`, `uncertainty`, `lower` and `upper` are in the unit of the gate's metric.  `status` is that of the
+    candidate's result; "outside" where the case is not in the domain that the candidate declares, "no-event" where
+    neither it nor the reference has a value, and empty for the gate as a whole.
     """
 
     gate: str
@@ -52,6 +55,14 @@ class Judged:
     upper: float
     verdict: Verdict
     reason: str
+    status: str = ""
+
+
+#: The status of a case that is not in the domain of the candidate.
+OUTSIDE = "outside"
+
+#: The status of a case in which neither the candidate nor the reference has a value: there is no such event.
+NO_EVENT = "no-event"
 
 
 def judge(
@@ -60,6 +71,8 @@ def judge(
     rows: pd.DataFrame,
     curves: pd.DataFrame | None = None,
     models: Sequence[str] | None = None,
+    domains: Mapping[str, Domain] | None = None,
+    others: Collection[Key] = (),
 ) -> pd.DataFrame:
     """Judge stored results.
 
@@ -74,13 +87,17 @@ def judge(
         Stored curves (`comparisons.runs.frames.CURVE_COLUMNS`).
     models : sequence of str, optional
         Models that were given in place of those each grid names.
+    domains : mapping of str to Domain, optional
+        The domains that models declare: there "not applicable" is a failure, and outside it counts for nothing.
+    others : collection of key, optional
+        Rows of other cases that are declared elsewhere.
 
     Returns
     -------
     DataFrame
         The fields of `Judged`, one row a gate and case, in the order of the gates, then of the cases.
     """
-    expected = {task.key for task in plan(grids, None if models is None else list(models))}
+    expected = {task.key for task in plan(grids, None if models is None else list(models))} | {*others}
     named = None if models is None else set(models)
     chosen = relevant(gates, grids, models)
     quantities = {gate.quantity for gate in chosen}
@@ -88,21 +105,35 @@ def judge(
     judged = [
         one
         for gate in chosen
-        for one in _judge_gate(gate, grids, points if gate.metric == "curve" else numbers, expected, named)
+        for one in _judge_gate(
+            gate,
+            grids,
+            points if gate.metric == "curve" else numbers,
+            expected,
+            named,
+            (domains or {}).get(gate.candidate),
+        )
     ]
     return pd.DataFrame([asdict(one) for one in judged], columns=list(Judged.__slots__))
 
 
 def _judge_gate(
-    gate: Gate, grids: Sequence[Grid], results: StoredResults, expected: set[Key], models: set[str] | None
+    gate: Gate,
+    grids: Sequence[Grid],
+    results: StoredResults,
+    expected: set[Key],
+    models: set[str] | None,
+    domain: Domain | None,
 ) -> Iterator[Judged]:
     if results.missing_columns:
         yield _whole(gate, f"the results have no column {', '.join(results.missing_columns)}")
         return
     cases = cases_of(gate, grids, models)
     scale = reference_range(gate, cases, results)
-    judged = [_judge_case(gate, case, results, scale) for case in cases]
+    judged = [_judge_case(gate, case, results, scale, domain) for case in cases]
     yield from judged
+    if refusal := _refusal(gate, judged):
+        yield replace(_whole(gate, refusal), verdict=Verdict.FAIL)
     evaluated = sum(one.verdict is not Verdict.NOT_APPLICABLE for one in judged)
     if evaluated < gate.min_cases:
         yield _whole(gate, f"{evaluated} cases were evaluated, {gate.min_cases} are declared")
@@ -111,13 +142,37 @@ def _judge_gate(
         yield _whole(gate, f"{len(stray)} rows belong to cases that are not declared, e.g. {stray[0][2:]}")
 
 
-def _judge_case(gate: Gate, case: Case, results: StoredResults, scale: float) -> Judged:
-    blank = _whole(gate, "")
-    one = replace(blank, n=case.n, k=case.k, mu=case.mu, nu=case_for(gate.candidate, case).nu)
+def _refusal(gate: Gate, judged: Sequence[Judged]) -> str:
+    """Return why the candidate has too few values; nothing if it has enough, or is evaluated nowhere."""
+    evaluated = [one.status for one in judged if one.status != OUTSIDE]
+    answered = evaluated.count("ok") + evaluated.count(NO_EVENT)
+    if gate.min_coverage is None or not evaluated or answered >= gate.min_coverage * len(evaluated):
+        return ""
+    return (
+        f"{gate.candidate} has a value in {answered} of the {len(evaluated)} cases in which it is evaluated; the gate "
+        f"requires {100.0 * gate.min_coverage:.4g} % (a model that is not for all of them declares its domain)"
+    )
+
+
+def _judge_case(gate: Gate, case: Case, results: StoredResults, scale: float, domain: Domain | None) -> Judged:
+    own, key = case_for(gate.candidate, case), key_of(gate.candidate, gate, case)
+    inside = domain is None or domain.contains(gate.quantity, own.parameters)
+    status = results.status(key) if inside else OUTSIDE
+    if domain is not None and domain.is_list and status == "not-applicable":
+        status = OUTSIDE
+    one = replace(_whole(gate, ""), n=case.n, k=case.k, mu=case.mu, nu=own.nu, status=status)
     try:
+        if domain is not None and not inside:
+            raise UnusableResult(Verdict.NOT_APPLICABLE, domain.refusal(gate.quantity))
         found = case_error(gate, case, results, scale)
     except UnusableResult as unusable:
         verdict, reason = unusable.verdict, unusable.reason
+        if domain is not None and status == "not-applicable":
+            if results.status(key_of(gate.reference, gate, gate.reference_case(case))) == "not-applicable":
+                return replace(
+                    one, verdict=Verdict.NOT_APPLICABLE, status=NO_EVENT, reason=f"{reason}; as the reference"
+                )
+            return replace(one, verdict=Verdict.FAIL, reason=f"{reason} (inside the domain that the model declares)")
         if verdict is Verdict.NOT_APPLICABLE and gate.not_applicable == "error":
             verdict, reason = Verdict.ERROR, f"{reason} ({_REMEDY})"
         return replace(one, verdict=verdict, reason=reason)

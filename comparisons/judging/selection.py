@@ -6,6 +6,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from comparisons.console.progress import log
+from comparisons.domain import Domain
 from comparisons.judging.gates import GIVEN, Gate, load_gates, of_tier
 from comparisons.runs.cases import Case, Grid
 from comparisons.runs.rows import Key
@@ -56,7 +57,11 @@ def key_of(model: str, gate: Gate, case: Case) -> Key:
 
 
 def needed_keys(
-    gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str] | None, statuses: Mapping[Key, str]
+    gates: Iterable[Gate],
+    grids: Sequence[Grid],
+    models: Sequence[str] | None,
+    statuses: Mapping[Key, str],
+    domains: Mapping[str, Domain] | None = None,
 ) -> set[Key]:
     """Return the keys of the results that gates need.
 
@@ -70,6 +75,8 @@ def needed_keys(
         As of `relevant`.
     statuses : mapping of key to str
         The status of each result that is known.
+    domains : mapping of str to Domain, optional
+        The domains that models declare: whether "not applicable" is right there is for the reference to show.
 
     Examples
     --------
@@ -89,8 +96,10 @@ def needed_keys(
             named |= {gate.candidate, gate.reference} | ({gate.rival} if gate.rival else set())
             candidate = key_of(gate.candidate, gate, case)
             needed.add(candidate)
+            status, domain = statuses.get(candidate), (domains or {}).get(gate.candidate)
+            promised = domain is not None and not domain.is_list and domain.contains(gate.quantity, case.parameters)
             # The range of the reference is over all cases.
-            if statuses.get(candidate) == "ok" or gate.metric == "range-relative":
+            if status == "ok" or (status == "not-applicable" and promised) or gate.metric == "range-relative":
                 needed.add(key_of(gate.reference, gate, gate.reference_case(case)))
                 needed |= {key_of(gate.rival, gate, case)} if gate.rival else set()
     if others := [model for model in models or () if model not in named]:

@@ -55,6 +55,11 @@ class StoredResults:
             nu = None if row["nu"] is None or pd.isna(row["nu"]) else float(row["nu"])
             self.rows[row["model"], row["quantity"], row["n"], row["k"], row["mu"], nu].append(row)
 
+    def status(self, key: Key) -> str:
+        """Return the status of a result, "missing" without a row."""
+        rows = self.rows.get(key, [])
+        return str(rows[0]["status"]) if rows else "missing"
+
     def number(self, key: Key) -> tuple[float, float]:
         """Return a value and its u_num.
 

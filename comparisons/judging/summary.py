@@ -2,12 +2,52 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from typing import Any
+
 import numpy as np
 import pandas as pd
 
 from comparisons.judging.decision import Verdict, roll_up
 
-__all__ = ["summarise", "worst_first"]
+__all__ = ["COVERAGE", "coverage", "coverage_text", "summarise", "worst_first"]
+
+#: Numbers of cases in which a candidate was evaluated, has a value (or there is none), is not applicable, has failed or
+#: has no row, and was not evaluated since they are outside its domain.
+COVERAGE = ("asked", "answered", "not_applicable", "failed", "outside")
+
+
+def coverage(statuses: Iterable[str]) -> dict[str, int]:
+    """Return the numbers of `COVERAGE` for the statuses of a candidate's cases.
+
+    Examples
+    --------
+    >>> coverage(["ok", "ok", "not-applicable", "missing", "outside", ""])
+    {'asked': 4, 'answered': 2, 'not_applicable': 1, 'failed': 1, 'outside': 1}
+    """
+    found = Counter(statuses)
+    answered, refused, failed = (
+        found["ok"] + found["no-event"],
+        found["not-applicable"],
+        found["failed"] + found["missing"],
+    )
+    return dict(zip(COVERAGE, (answered + refused + failed, answered, refused, failed, found["outside"]), strict=True))
+
+
+def coverage_text(numbers: Mapping[str, Any]) -> str:
+    """Return the coverage of a gate in a few words.
+
+    Examples
+    --------
+    >>> coverage_text({"asked": 12, "answered": 4, "not_applicable": 7, "failed": 1, "outside": 3})
+    '4 of 12 (7 n/a, 1 failed, 3 outside)'
+    """
+    if not any(numbers[name] for name in COVERAGE):
+        return ""
+    words = {"not_applicable": "n/a", "failed": "failed", "outside": "outside"}
+    others = ", ".join(f"{int(numbers[name])} {word}" for name, word in words.items() if numbers[name])
+    return f"{int(numbers['answered'])} of {int(numbers['asked'])}" + (f" ({others})" if others else "")
 
 
 def summarise(judged: pd.DataFrame) -> pd.DataFrame:
@@ -28,12 +68,13 @@ def summarise(judged: pd.DataFrame) -> pd.DataFrame:
                 **worst.drop(["verdict", "reason"]).to_dict(),
                 "cases": int((applies & group["mu"].notna()).sum()),
                 "skipped": int((~applies).sum()),
+                **coverage(group["status"]),
                 "reason": worst["reason"],
             }
         )
     table = pd.DataFrame(
         summary,
-        columns=["verdict", *judged.columns.drop(["verdict", "reason"]), "cases", "skipped", "reason"],
+        columns=["verdict", *judged.columns.drop(["verdict", "reason"]), "cases", "skipped", *COVERAGE, "reason"],
     )
     order = table["verdict"].map(lambda verdict: Verdict(verdict).rank).astype(int)
     return table.iloc[order.argsort(kind="stable")].reset_index(drop=True)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import fscm
 from comparisons.model import Curve, NotApplicable, Result
+from fscm.interpolation.coordinates import BOX
 from fscm.interpolation.storage import data_digest
 from fscm.laws import LennardJones93
 from fscm.problem import Problem
@@ -29,6 +30,10 @@ class Atlas:
     name: ClassVar[str] = "atlas"
     citation: ClassVar[str] = "Chebyshev series of the full self-consistent model, fitted to its values at nodes"
     domain: ClassVar[str] = "1 <= n <= 6, 0 <= k <= 0.8, 0.01 <= mu <= 10"
+    applies_to: ClassVar[dict[str, list[Any]]] = {
+        "quantities": list(fscm.ATLAS_QUANTITIES),
+        **{name: list(ends) for name, ends in BOX.items()},
+    }
 
     @property
     def version(self) -> str:

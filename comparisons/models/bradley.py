@@ -10,7 +10,7 @@ dP/dq = 0 at q^6 = (3-b) B_3 / ((9-b) B_9) = 168 B(4 - b, 6) = prod_{j=4..9} (j 
 from __future__ import annotations
 
 import math
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,6 +75,10 @@ class Bradley(ClosedForm):
     name = "bradley"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 42 and 56; Zheng & Yu, J. Colloid Interface Sci. 310 (2007) 27-34"
     domain = "n > 2/3, any k; exact as mu -> 0"
+    applies_to: ClassVar[dict[str, list[Any]]] = {
+        "quantities": ["pull_off_force", "pull_off_displacement", "zero_load_displacement", "force_curve"],
+        "n": [0.667, None],
+    }
     undefined: ClassVar[dict[str, str]] = dict.fromkeys(
         ("jump_in_displacement", "jump_in_gap", "jump_out_displacement", "jump_out_gap"),
         "a rigid pair under displacement control has no folds",

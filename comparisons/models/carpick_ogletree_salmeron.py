@@ -9,7 +9,7 @@ between 2 (DMT) and 3/2 (JKR).  With lambda = 1.157 mu the fitted model is `md-o
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from comparisons.model import Curve, NotApplicable
 from comparisons.models.closed_form import FACTOR_ROUNDING, Estimate
@@ -36,6 +36,7 @@ class CarpickOgletreeSalmeron(HomogeneousSphere):
     name = "carpick-ogletree-salmeron"
     citation = "Carpick, Ogletree & Salmeron, J. Colloid Interface Sci. 211 (1999) 395-400, Eq. 12a"
     domain = "n = 2, k = 0; fit to Maugis-Dugdale with lambda = 1.157 mu"
+    applies_to: ClassVar[dict[str, list[Any]]] = {"quantities": ["pull_off_force"], "n": [2, 2], "k": [0, 0]}
     undefined: ClassVar[dict[str, str]] = HomogeneousSphere.undefined | dict.fromkeys(
         ("pull_off_displacement", "jump_out_displacement", "zero_load_displacement"), _NO_DISPLACEMENT
     )

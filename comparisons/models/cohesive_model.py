@@ -6,7 +6,7 @@ A model chooses the cohesive stress and, where its traction is not constant, the
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -30,6 +30,16 @@ _FIRST_RADIUS = 1e-4
 _NEAR = 3.0
 
 
+#: What every model with a cohesive zone has at every Tabor number.
+SCALARS_AND_CURVE = [
+    "pull_off_force",
+    "pull_off_displacement",
+    "jump_out_displacement",
+    "zero_load_displacement",
+    "force_curve",
+]
+
+
 class CohesiveModel(ClosedForm):
     """A model of contact with a cohesive zone at the edge; the largest traction is the cohesive stress.
 
@@ -41,6 +51,10 @@ class CohesiveModel(ClosedForm):
     (True, 0.588)
     """
 
+    applies_to: ClassVar[list[dict[str, list[Any]]]] = [
+        {"quantities": SCALARS_AND_CURVE},
+        {"quantities": ["pull_off_pressure", "pull_off_gap"], "k": [0, 0.9999]},
+    ]
     #: The contact that the model solves.
     contact_type: ClassVar[type[CohesiveContact]] = CohesiveContact
 

@@ -10,7 +10,7 @@ The cohesive stress is eta(n) (Eq. 77), for which the pull-off force is Bradley'
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -52,6 +52,10 @@ class DMT(ClosedForm):
         "Zhu, Zheng, Huang & Yu, Eqs. 75-77; Derjaguin, Muller & Toporov, J. Colloid Interface Sci. 53 (1975) 314-326"
     )
     domain = "n > 2/3, 0 <= k <= 1; cohesive stress eta(n); exact pull-off as mu -> 0"
+    applies_to: ClassVar[dict[str, list[Any]]] = {
+        "quantities": ["pull_off_force", "pull_off_displacement", "zero_load_displacement", "force_curve"],
+        "n": [0.667, None],
+    }
     undefined: ClassVar[dict[str, str]] = dict.fromkeys(
         (
             "jump_in_displacement",

@@ -7,6 +7,7 @@ agree, those equations are right as well.  No scale is 1 and no two are equal: a
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, ClassVar
 
@@ -65,12 +66,24 @@ class FiniteElements:
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the quantity, or raise as in `comparisons.model.Model`."""
+        if quantity == "critical_tabor_number":
+            return self._critical_tabor_number(problem)
         if quantity not in fem_reference.QUANTITIES:
             raise NotApplicable(f"the finite elements do not compute {quantity}")
         physical, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             solution = fem_reference.solve(body, quantity)
         return result_of(_audited(solution), unit=physical.scales[QUANTITIES[quantity].scale])
+
+    def _critical_tabor_number(self, problem: Problem) -> Result:
+        """Return the Tabor number of the modulus at which jumps begin; that of the problem is not used."""
+        physical, body = self._physical(replace(problem, mu=1.0))
+        with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
+            solution = _audited(fem_reference.solve(body, fem_reference.CRITICAL_MODULUS))
+        value = replace(physical, E0=solution.value).tabor_number
+        # Eq. 29 is steeper at the lower end of the bound of the modulus.
+        highest = replace(physical, E0=solution.value - solution.u_num).tabor_number
+        return result_of(replace(solution, value=value, u_num=highest - value))
 
     def curve(self, problem: Problem) -> Curve:
         """Return the equilibrium path from far away into compression, on the condensed surface."""

@@ -38,6 +38,15 @@ class JKR(ClosedForm):
     name = "jkr"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 50-57; Jin, Tang, Guo & Gao, J. Mech. Phys. Solids 154 (2021) 104509"
     domain = "n > (1-k)/2, 0 <= k <= 1; exact as mu -> infinity"
+    applies_to: ClassVar[dict[str, list[str]]] = {
+        "quantities": [
+            "pull_off_force",
+            "pull_off_displacement",
+            "jump_out_displacement",
+            "zero_load_displacement",
+            "force_curve",
+        ]
+    }
     undefined: ClassVar[dict[str, str]] = {
         "jump_in_displacement": "surfaces do not attract before contact, so nothing jumps in",
         "jump_in_gap": "surfaces do not attract before contact, so nothing jumps in",

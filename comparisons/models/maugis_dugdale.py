@@ -6,6 +6,8 @@ They differ in the cohesive stress alone: `MaugisDugdaleOriginal` takes the larg
 
 from __future__ import annotations
 
+from typing import Any, ClassVar
+
 from comparisons.models.cohesive_model import CohesiveModel
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from fscm.problem import Problem
@@ -45,6 +47,9 @@ class MaugisDugdaleImproved(CohesiveModel):
     name = "md-improved"
     citation = "Zhu, Zheng, Huang & Yu, Eqs. 63-78; Zheng & Yu, J. Colloid Interface Sci. 310 (2007) 27-34"
     domain = "n > 2/3, 0 <= k <= 1; cohesive stress eta(n)"
+    applies_to: ClassVar[list[dict[str, list[Any]]]] = [
+        {**table, "n": [0.667, None]} for table in CohesiveModel.applies_to
+    ]
 
     def cohesive_stress(self, problem: Problem) -> float:
         """sigma_0 = eta(n), in dgamma / z0."""

@@ -14,7 +14,7 @@ they fit, over its whole range, but not against the printed page.
 from __future__ import annotations
 
 import math
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -51,6 +51,15 @@ class PietrementTroyon(HomogeneousSphere):
     domain = (
         "n = 2, k = 0; displacements for alpha >= 0.01 (mu >= 0.0082); fit to Maugis-Dugdale with lambda = 1.157 mu"
     )
+    applies_to: ClassVar[list[dict[str, list[Any]]]] = [
+        {"quantities": ["pull_off_force"], "n": [2, 2], "k": [0, 0]},
+        {
+            "quantities": ["pull_off_displacement", "zero_load_displacement", "force_curve"],
+            "n": [2, 2],
+            "k": [0, 0],
+            "mu": [0.0083, None],
+        },
+    ]
     undefined: ClassVar[dict[str, str]] = HomogeneousSphere.undefined | {
         "jump_out_displacement": "its equations hold above the pull-off, and the fold lies below"
     }

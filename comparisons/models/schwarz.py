@@ -12,6 +12,7 @@ Carpick, Ogletree and Salmeron at Maugis's lambda.
 from __future__ import annotations
 
 import math
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -55,6 +56,17 @@ class Schwarz(HomogeneousSphere):
         "alpha: Carpick, Ogletree & Salmeron, J. Colloid Interface Sci. 211 (1999) 395-400, Eq. 10"
     )
     domain = "n = 2, k = 0; alpha of Carpick, Ogletree and Salmeron with lambda = 1.157 mu"
+    applies_to: ClassVar[dict[str, list[Any]]] = {
+        "quantities": [
+            "pull_off_force",
+            "pull_off_displacement",
+            "jump_out_displacement",
+            "zero_load_displacement",
+            "force_curve",
+        ],
+        "n": [2, 2],
+        "k": [0, 0],
+    }
 
     def pull_off_force(self, problem: Problem) -> Estimate:
         """-min P (Eq. 34)."""

@@ -30,14 +30,14 @@ def exact(value: float) -> str:
 
 
 def limits_text(lower: float, upper: float) -> str:
-    """Return the limits of a gate with every digit they were declared with, for tables of texts.
+    """Return the limits of a gate with every digit they were declared with; nothing for a gate without (NaN).
 
     Examples
     --------
     >>> limits_text(-0.651, -0.6495)
     '-0.651 to -0.6495'
     """
-    return f"{exact(lower)} to {exact(upper)}"
+    return "" if math.isnan(lower) else f"{exact(lower)} to {exact(upper)}"
 
 
 def short(value: float, uncertainty: float | None) -> str:

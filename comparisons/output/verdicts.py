@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pandas as pd
 
+from comparisons.judging.card_gates import CARD
 from comparisons.judging.gates import Gate
-from comparisons.judging.summary import summarise
+from comparisons.judging.summary import COVERAGE, coverage_text, summarise
 from comparisons.numerics.number_text import error_text, exact, limits_text, value_text
 from comparisons.output.junit import junit
 from comparisons.output.latex import latex
@@ -18,6 +19,7 @@ from comparisons.output.markdown import markdown
 from comparisons.quantities import CURVES
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.folder import RunFolder
+from comparisons.runs.rows import Key
 from comparisons.runs.tables import write_table
 
 __all__ = [
@@ -49,9 +51,11 @@ def command(row: pd.Series, specs: Mapping[str, str]) -> str:
     'fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0 --mu 5'
     """
     case = " ".join(f"--{name} {exact(row[name])}" for name in ("n", "k", "mu", "nu") if pd.notna(row[name]))
-    if not case:
+    if not case and not str(row.get("gate", "")).startswith(CARD):
         return "fscm-bench list gates"
     model = shlex.quote(specs.get(row["candidate"], row["candidate"]))
+    if not case:
+        return f"fscm-bench check-model {model}"
     verb = "curve" if row["quantity"] in CURVES else "solve"
     return f"fscm-bench {verb} --model {model} --quantity {row['quantity']} {case}"
 
@@ -59,9 +63,9 @@ def command(row: pd.Series, specs: Mapping[str, str]) -> str:
 def matrix(gates: pd.DataFrame, specs: Mapping[str, str]) -> pd.DataFrame:
     """Return one row of texts for each row of a summary (`comparisons.judging.summary.summarise`), in its order.
 
-    Columns: verdict, gate, candidate, reference, cases (how many, and of them those that did not apply),
-    error of the worst case with its U in brackets, limits, the command that computes that case again, and the
-    reason.
+    Columns: verdict, gate, candidate, reference, coverage (in how many cases the candidate has a value, of how many in
+    which it is evaluated), error of the worst case with its U in brackets, limits, the command that computes that case
+    again, and the reason.
     """
     return pd.DataFrame(
         {
@@ -69,9 +73,7 @@ def matrix(gates: pd.DataFrame, specs: Mapping[str, str]) -> pd.DataFrame:
             "gate": gates["gate"],
             "candidate": gates["candidate"],
             "reference": gates["reference"],
-            "cases": [
-                f"{a}" + (f" ({b} n/a)" if b else "") for a, b in zip(gates["cases"], gates["skipped"], strict=True)
-            ],
+            "coverage": [coverage_text(row) for row in gates[list(COVERAGE)].to_dict("records")],
             "worst E(U)": _errors(gates),
             "limits": [limits_text(*limits) for limits in zip(gates["lower"], gates["upper"], strict=True)],
             "command": [command(row, specs) for _, row in gates.iterrows()],
@@ -103,8 +105,14 @@ def worst_cases(gates: pd.DataFrame) -> pd.DataFrame:
     )
 
 
-def write_verdicts(folder: Path, judged: pd.DataFrame, gates: list[Gate], specs: Mapping[str, str]) -> str:
-    """Write the verdicts as CSV, Parquet, Markdown, LaTeX and JUnit XML; return the Markdown.
+def write_verdicts(
+    folder: Path,
+    judged: pd.DataFrame,
+    gates: list[Gate],
+    specs: Mapping[str, str],
+    seconds: Mapping[Key, float] | None = None,
+) -> str:
+    """Write the verdicts as CSV, Parquet, Markdown, LaTeX and JUnit XML (with `seconds`); return the Markdown.
 
     The summary by gate, and what the gates required, go beside them as CSV and Parquet: a gates file may change
     later.
@@ -129,5 +137,5 @@ def write_verdicts(folder: Path, judged: pd.DataFrame, gates: list[Gate], specs:
         with atomic(path) as file:
             file.write(text.encode())
     with atomic(files.junit) as file:
-        file.write(junit(judged, partial(command, specs=specs)))
+        file.write(junit(judged, partial(command, specs=specs), seconds))
     return page

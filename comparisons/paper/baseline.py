@@ -10,10 +10,13 @@ import pandas as pd
 from comparisons.paper.registry import paper_figures
 from comparisons.runs.atomic_files import atomic
 
-__all__ = ["PAPER_BASELINE", "changes", "check", "has_figures", "renew"]
+__all__ = ["PAPER_BASELINE", "SHIPPED_STATEMENTS", "changes", "check", "has_figures", "renew"]
 
 #: Folder of the committed figures, in a clone of the repository.
 PAPER_BASELINE = Path("results", "baseline", "paper")
+
+#: Copy of the verdicts on the statements of the paper that is in every installation.
+SHIPPED_STATEMENTS = Path("comparisons", "data", "paper_statements.csv")
 
 #: Smallest change of a number that counts, relative to the largest number of its column: a hundred times the change
 #: that rounding makes in the least certain of them (finite elements, u_num of 4e-7), and invisible in a picture.
@@ -47,6 +50,11 @@ def renew(folder: Path, target: Path = PAPER_BASELINE) -> list[Path]:
         with atomic(target / source.name) as file:
             file.write(source.read_bytes())
         written.append(target / source.name)
+    if target == PAPER_BASELINE:
+        # The report of an installation has no clone to read them from.
+        with atomic(SHIPPED_STATEMENTS) as file:
+            file.write((target / SHIPPED_STATEMENTS.name).read_bytes())
+        written.append(SHIPPED_STATEMENTS)
     return written
 
 

@@ -17,7 +17,7 @@ from comparisons.paper.paper_figure import PaperFigure
 __all__ = ["FOLDERS", "NAMES", "paper_figures"]
 
 #: Folders of modules with figures, in the order of `NAMES`.
-FOLDERS = ("figures", "values", "studies")
+FOLDERS = ("figures", "values", "statements", "findings", "studies")
 
 _STATEMENT = re.compile(r'^(\w+) = PaperFigure\(\s*name="([^"]+)"', flags=re.MULTILINE)
 

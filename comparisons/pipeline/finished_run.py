@@ -9,11 +9,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from comparisons.data.file_names import GATES_TEXT, GRID_TEXT, VERDICT_FILES
+from comparisons.data.file_names import COMPARISON_FILES, GATES_TEXT, GRID_TEXT, VERDICT_FILES
 from comparisons.judging.decision import Verdict
 from comparisons.pipeline.inputs import Cases, Gates, RunInputs
 from comparisons.pipeline.judgement import Judgement, judge_and_write
 from comparisons.pipeline.record_content import record_content
+from comparisons.pipeline.report_cards import make_cards
 from comparisons.pipeline.results import Results
 from comparisons.pipeline.tables import RunTables, make_tables, write_pictures, write_tables
 from comparisons.registry import ExternalIdentity, create
@@ -82,11 +83,13 @@ def write_run(
         with atomic(path) as file:
             file.write(text.encode())
     specs = {name: model.spec for name, model in external.items()}
-    judgement = None
+    judgement: Judgement | None = None
+    cards: dict[str, Any] = {}
     if rules is not None:
-        judgement = judge_and_write(target, rules, chosen, tables.results, tables.curves, chosen_models, specs)
+        cards = make_cards(external, rows, completed.parts)
+        judgement = judge_and_write(target, inputs, tables.results, tables.curves, cards)
     stale = {GRID_TEXT} if rules is not None else {GATES_TEXT, *VERDICT_FILES}
-    _remove_stale(target, stale - {path.name for path in texts})
+    _remove_stale(target, {*stale, *COMPARISON_FILES} - {path.name for path in texts})
     shipped = {"shipped": len(found.shipped)} if found.shipped else {}
     counts = {"all": len(rows), "resumed": completed.resumed, **shipped, **_statuses(rows)}
     content = record_content(
@@ -110,6 +113,10 @@ def write_run(
     if found.entry:
         content["shipped"] = found.entry
     content["models"] = described({task.model for task in inputs.plan()}, external)
+    content |= {"domains": {name: domain.as_json() for name, domain in inputs.domains.items()}}
+    content |= {"cards": cards} if cards else {}
+    content |= {"fresh": inputs.fresh.as_json()} if inputs.fresh else {}
+    content |= {"coverage": judgement.coverage} if judgement else {}
     write_record(content, target.record)
     failures = tuple(row for row in rows if row.status == "failed")
     return FinishedRun(target.path, tables, counts, failures, judgement)

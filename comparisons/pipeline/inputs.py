@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
 
+from comparisons.domain import Domain, declared_domain
+from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
-from comparisons.judging.selection import load_user_gates
-from comparisons.registry import ExternalIdentity
+from comparisons.judging.selection import cases_of, load_user_gates, needed_keys
+from comparisons.registry import ExternalIdentity, create
 from comparisons.runs.cases import TIERS, Grid, cases_text, grids, grids_for, load_grids
+from comparisons.runs.rows import Key
 from comparisons.runs.tasks import Task, plan
 
-__all__ = ["Cases", "Gates", "RunInputs", "load_cases", "read_gates"]
+__all__ = ["Cases", "Gates", "RunInputs", "domains_of", "load_cases", "read_gates"]
 
 #: The name of a text that is in no file, for messages and for the record.
 _TEXT = "a text"
@@ -77,16 +80,52 @@ class RunInputs:
         Names of the candidates in place of those each grid names.
     external : mapping of str to ExternalIdentity
         Those of them that are external.
+    domains : mapping of str to Domain
+        The domains that models of the run declare.
+    fresh : FreshCases or None
+        None if the run has no random cases.
     """
 
     cases: Cases
     gates: Gates | None
     models: list[str] | None
     external: Mapping[str, ExternalIdentity]
+    domains: Mapping[str, Domain] = field(default_factory=dict)
+    fresh: FreshCases | None = None
 
     def plan(self) -> list[Task]:
         """Return every task once, as `comparisons.runs.tasks.plan`."""
-        return plan(self.cases.grids, self.models, self.external)
+        standing = plan(self.cases.grids, self.models, self.external)
+        fresh = [] if self.fresh is None else self.fresh.plan(self.external)
+        return list(dict.fromkeys([*standing, *fresh]))
+
+    def needed(self, statuses: Mapping[Key, str]) -> set[Key]:
+        """Return the keys of the results that the gates need, as `comparisons.judging.selection.needed_keys`."""
+        if self.gates is None:
+            return {task.key for task in self.plan()}
+        needed = needed_keys(self.gates.gates, self.cases.grids, self.models, statuses, self.domains)
+        for part in self.fresh.parts if self.fresh else ():
+            needed |= needed_keys([part.gate], [part.grid], None, statuses, self.domains)
+        return needed
+
+
+def domains_of(models: Iterable[str], external: Mapping[str, ExternalIdentity]) -> dict[str, Domain]:
+    """Return the domains that models declare.
+
+    Parameters
+    ----------
+    models : iterable of str
+        Names.
+    external : mapping of str to ExternalIdentity
+        Those of them that are external.
+
+    Examples
+    --------
+    >>> [f"{name}: {domain}" for name, domain in domains_of(["dmt", "semi-rigid"], {}).items()]
+    ['dmt: pull_off_force, pull_off_displacement, zero_load_displacement, force_curve for n >= 0.667']
+    """
+    declared = {name: declared_domain(external.get(name) or create(name)) for name in sorted(set(models))}
+    return {name: domain for name, domain in declared.items() if domain is not None}
 
 
 def load_cases(cases: str | Path, models: Sequence[str] | None) -> Cases:
@@ -143,9 +182,21 @@ def read_gates(
     """
     text = gates if isinstance(gates, str) else gates_text(gates)
     if gates is None or standing:
-        return Gates(of_tier(load_gates(text), cases.tier_of_gates), text, None)
+        return Gates(_computed(of_tier(load_gates(text), cases.tier_of_gates), cases, models), text, None)
     source = str(gates) if isinstance(gates, Path) else _TEXT
     return Gates(load_user_gates(text, source, cases.tier_of_gates, cases.grids, models), text, source)
+
+
+def _computed(gates: list[Gate], cases: Cases, models: Sequence[str] | None) -> list[Gate]:
+    """Return the standing gates without those whose cases verify the references: chosen models do not compute them."""
+    if models is None or cases.tier is None:
+        return gates
+    every = grids(cases.tier)
+    return [
+        gate
+        for gate in gates
+        if gate.candidate not in models or cases_of(gate, cases.grids, models) or not cases_of(gate, every, models)
+    ]
 
 
 def _read(path: Path) -> str:

@@ -3,25 +3,33 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
 from comparisons.console.progress import log
 from comparisons.data.file_names import VERDICT_FILES
+from comparisons.domain import Domain
+from comparisons.judging.card_gates import card_gates, compare_with_standing, every_verdict, judge_cards
 from comparisons.judging.decision import Verdict, roll_up
+from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.judge import judge
-from comparisons.judging.selection import needed_keys
+from comparisons.judging.selection import relevant
+from comparisons.judging.summary import COVERAGE, summarise
+from comparisons.output.junit import evaluation_seconds
 from comparisons.output.verdicts import write_verdicts
-from comparisons.pipeline.inputs import Cases, Gates, load_cases, read_gates
+from comparisons.pipeline.inputs import RunInputs, load_cases, read_gates
+from comparisons.registry import ExternalIdentity
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import check_files, read_record, warn_of_other_code, write_record
 from comparisons.runs.rows import Key
 from comparisons.runs.tables import read_table
+from comparisons.runs.tasks import plan
 
 __all__ = ["Judgement", "judge_and_write", "judge_folder"]
 
@@ -39,12 +47,21 @@ class Judgement:
         Name of each external model -> the SPEC that finds it.
     markdown : str
         The table of gates, for the summary page of a job.
+    cards : mapping
+        The report cards of the external models.
+    domains : mapping of str to Domain
+        The domains that models declare.
+    models : list of str or None
+        The given models.
     """
 
     folder: Path
     verdicts: pd.DataFrame
     specs: Mapping[str, str]
     markdown: str
+    cards: Mapping[str, Any] = field(default_factory=dict)
+    domains: Mapping[str, Domain] = field(default_factory=dict)
+    models: Sequence[str] | None = None
 
     @property
     def verdict(self) -> Verdict:
@@ -56,20 +73,39 @@ class Judgement:
         """The verdict over all and how many cases have each, as the record of a run holds them."""
         return {"all": str(self.verdict), **Counter(map(str, self.verdicts["verdict"]))}
 
+    @property
+    def coverage(self) -> list[dict[str, Any]]:
+        """Verdict and coverage of each gate and candidate, as the record of a run holds them."""
+        summary = summarise(self.verdicts)
+        return [
+            {"gate": row["gate"], "candidate": row["candidate"], "verdict": str(row["verdict"])}
+            | {name: int(row[name]) for name in COVERAGE}
+            for row in summary.to_dict("records")
+        ]
+
 
 def judge_and_write(
-    folder: RunFolder,
-    gates: Gates,
-    cases: Cases,
-    results: pd.DataFrame,
-    curves: pd.DataFrame,
-    models: list[str] | None,
-    specs: Mapping[str, str],
+    folder: RunFolder, inputs: RunInputs, results: pd.DataFrame, curves: pd.DataFrame, cards: Mapping[str, Any]
 ) -> Judgement:
-    """Judge results and write the verdicts and their summary beside them."""
-    verdicts = judge(gates.gates, cases.grids, results, curves, models)
-    markdown = write_verdicts(folder.path, verdicts, gates.gates, specs)
-    return Judgement(folder.path, verdicts, specs, markdown)
+    """Judge results and report cards, and write the verdicts and their summary beside them."""
+    if inputs.gates is None:
+        raise ValueError(f"{folder.path} has no gates to be judged by")
+    gates, grids, fresh = inputs.gates.gates, inputs.cases.grids, inputs.fresh.parts if inputs.fresh else ()
+    standing_keys = {task.key for task in plan(grids, inputs.models)}
+    fresh_keys = {task.key for task in plan([part.grid for part in fresh])}
+    standing = judge(gates, grids, results, curves, inputs.models, inputs.domains, fresh_keys)
+    tables = [standing]
+    if fresh:
+        every = standing_keys | fresh_keys
+        drawn = every_verdict(
+            judge([part.gate], [part.grid], results, curves, None, inputs.domains, every) for part in fresh
+        )
+        tables += [drawn, compare_with_standing(standing, drawn)]
+    verdicts = every_verdict([*tables, judge_cards(cards)])
+    specs = {name: model.spec for name, model in inputs.external.items()}
+    written = [*gates, *{part.gate.id: part.gate for part in fresh}.values(), *card_gates(cards)]
+    markdown = write_verdicts(folder.path, verdicts, written, specs, evaluation_seconds(results, curves))
+    return Judgement(folder.path, verdicts, specs, markdown, cards, inputs.domains, inputs.models)
 
 
 def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
@@ -116,8 +152,16 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
             file.write(chosen.text.encode())
         record["command_name"], record["gates_sha256"] = "run", chosen.sha256
         arguments["gates"], own = label, True
-    _warn_of_missing(chosen, cases, models, results, curves, folder)
-    judgement = judge_and_write(stored, chosen, cases, results, curves, models, specs)
+    # Only their SPECs are needed: nothing is computed.
+    external = {name: ExternalIdentity(name, "", spec, citation="", domain="") for name, spec in specs.items()}
+    domains = {name: Domain.of_json(tables) for name, tables in record.get("domains", {}).items()}
+    fresh = (
+        FreshCases.of_json(record["fresh"], relevant(chosen.gates, cases.grids, models)) if "fresh" in record else None
+    )
+    inputs = RunInputs(cases, chosen, models, external, domains, fresh)
+    _warn_of_missing(inputs, results, curves, folder)
+    judgement = judge_and_write(stored, inputs, results, curves, record.get("cards", {}))
+    record["coverage"] = judgement.coverage
     # The record has the verdicts that are beside it, and the gates that they are by.
     record["verdicts"] = judgement.counts
     record.pop("judged_again", None)
@@ -130,14 +174,7 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
     return judgement
 
 
-def _warn_of_missing(
-    gates: Gates,
-    cases: Cases,
-    models: list[str] | None,
-    results: pd.DataFrame,
-    curves: pd.DataFrame,
-    folder: Path,
-) -> None:
+def _warn_of_missing(inputs: RunInputs, results: pd.DataFrame, curves: pd.DataFrame, folder: Path) -> None:
     """Write in one sentence how many results the gates need that the run, which had other gates, did not compute."""
     key = ["model", "quantity", "n", "k", "mu", "nu"]
     if not all({*key, "status"} <= set(table.columns) for table in (results, curves)):
@@ -147,7 +184,7 @@ def _warn_of_missing(
         for table in (results, curves)
         for row in table[[*key, "status"]].itertuples(index=False, name=None)
     }
-    missing = needed_keys(gates.gates, cases.grids, models, statuses) - statuses.keys()
+    missing = inputs.needed(statuses) - statuses.keys()
     if missing:
         log(
             f"{len(missing)} results that these gates need are not in {folder}, which has those of its own gates: "

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from comparisons.domain import Domain
 from comparisons.model import ComputationFailed
 from comparisons.pipeline.finished_run import FinishedRun, write_run
 from comparisons.pipeline.inputs import RunInputs, load_cases
@@ -113,7 +114,8 @@ def _inputs(folder: Path, record: dict[str, Any]) -> RunInputs:
         said = record["models"][name]
         texts = (said["citation"], said["domain"], said.get("hashed", ""))
         external[name] = ExternalIdentity(name, said["version"], spec, *texts)
-    return RunInputs(cases, None, models, external)
+    domains = {name: Domain.of_json(tables) for name, tables in record.get("domains", {}).items()}
+    return RunInputs(cases, None, models, external, domains)
 
 
 def _usable(journal: RowJournal, wanted: dict[Any, Task]) -> list[Row]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 from concurrent.futures import BrokenExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,9 +10,8 @@ from random import SystemRandom
 from typing import Any
 
 from comparisons.console.progress import log
-from comparisons.judging.selection import needed_keys
 from comparisons.model import ComputationFailed
-from comparisons.pipeline.inputs import Cases, Gates
+from comparisons.pipeline.inputs import RunInputs
 from comparisons.runs.cases import Case
 from comparisons.runs.computation import Completed, complete
 from comparisons.runs.reevaluation import evaluate_again
@@ -50,9 +49,7 @@ class Results:
 
 def results(
     tasks: list[Task],
-    cases: Cases,
-    gates: Gates | None,
-    models: Sequence[str] | None,
+    inputs: RunInputs,
     folder: Path,
     *,
     jobs: int = 1,
@@ -68,8 +65,8 @@ def results(
     Parameters
     ----------
     tasks : list of Task
-        Of all cases and models.
-    cases, gates, models
+        Of all cases and models, or those of a shard.
+    inputs : RunInputs
         Of the run.
     folder : Path
         Of the run.
@@ -89,14 +86,15 @@ def results(
     comparisons.model.ComputationFailed
         As there, and if a shipped value that is computed again is not within both bounds.
     """
+    cases, gates = inputs.cases, inputs.gates
     known = ShippedValues({}, {}) if recompute or cases.tier is None else _fitting(tasks)
-    chosen = cases.tier is not None and gates is not None and (models is not None or gates.source is not None)
+    chosen = cases.tier is not None and gates is not None and (inputs.models is not None or gates.source is not None)
 
     def needed(rows: Collection[Row]) -> set[Key]:
         if gates is None or not chosen:
             return {task.key for task in tasks}
         statuses = {row.key: row.status for row in (*rows, *known.rows.values())}
-        return needed_keys(gates.gates, cases.grids, models, statuses)
+        return inputs.needed(statuses)
 
     missing = [task for task in tasks if task.key not in known.rows]
     # The processes that computed stay for the values that are computed again.

@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
+from random import SystemRandom
 
+from comparisons.console.progress import log
+from comparisons.domain import Domain
+from comparisons.external.model_source import source_of
+from comparisons.judging.fresh_cases import FreshCases, draw
 from comparisons.pipeline.finished_run import FinishedRun, kept_texts, write_run
-from comparisons.pipeline.inputs import RunInputs, load_cases, read_gates
+from comparisons.pipeline.inputs import Cases, Gates, RunInputs, domains_of, load_cases, read_gates
 from comparisons.pipeline.record_content import now
 from comparisons.pipeline.results import results
-from comparisons.registry import identify
+from comparisons.registry import ExternalIdentity, identify
 from comparisons.runs.backends import backend_of
 from comparisons.runs.computation import checked_jobs, folder_for
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.shards import Shard
 
 __all__ = ["run"]
+
+#: Most fresh cases for each model and gate.
+_MOST_FRESH = 10_000
 
 
 def run(
@@ -31,6 +39,8 @@ def run(
     backend: str = "processes",
     scheduler: str | None = None,
     shard: str | None = None,
+    random: int = 0,
+    seed: int | None = None,
 ) -> FinishedRun:
     """Compute cases, judge the results, and write tables, verdicts and the record into a folder.
 
@@ -59,6 +69,11 @@ def run(
         The address of the scheduler of a Dask cluster; by default a cluster is started on this machine.
     shard : str, optional
         The part i/N of cases without gates, as "2/3"; `comparisons.pipeline.merge.merge` puts the N folders together.
+
+    random : int
+        How many fresh cases are drawn at random for each model and gate, from the domain that the model declares.
+    seed : int, optional
+        From which the same fresh cases follow again; by default a new one, which the record states.
 
     Returns
     -------
@@ -100,22 +115,61 @@ def run(
     rules = None if chosen.tier is None and gates is None else read_gates(gates, chosen, chosen_models)
     if part is not None and rules is not None:
         raise ValueError(f"shard {part} of a run cannot be judged: only cases without gates are computed in shards")
+    domains = domains_of(chosen_models or {name for grid in chosen.grids for name in grid.models}, external)
+    fresh = _fresh(random, seed, chosen, rules, chosen_models, domains, external)
     started, start = datetime.now(UTC), now()
     target = RunFolder(folder_for(folder, started))
     kept_texts(target, chosen, rules)
-    inputs = RunInputs(chosen, rules, chosen_models, external)
+    inputs = RunInputs(chosen, rules, chosen_models, external, domains, fresh)
     tasks = inputs.plan() if part is None else part.of(inputs.plan())
     found = results(
         tasks,
-        chosen,
-        rules,
-        chosen_models,
+        inputs,
         target.path,
         jobs=jobs,
         retry_failed=retry_failed,
         recompute=recompute,
         backend=workers,
     )
-    others = {"backend": None if backend == "processes" else backend, "scheduler": scheduler, "shard": shard}
+    others: dict[str, str | int | None] = {
+        "backend": None if backend == "processes" else backend,
+        "scheduler": scheduler,
+        "shard": shard,
+        "random": fresh.count if fresh else None,
+        "seed": fresh.seed if fresh else None,
+    }
     arguments = {"jobs": jobs, **{name: value for name, value in others.items() if value is not None}}
     return write_run(target, inputs, found, arguments, start)
+
+
+def _fresh(
+    count: int,
+    seed: int | None,
+    cases: Cases,
+    gates: Gates | None,
+    models: Sequence[str] | None,
+    domains: Mapping[str, Domain],
+    external: Mapping[str, ExternalIdentity],
+) -> FreshCases | None:
+    """Return the fresh cases of a run, or refuse them where nothing could be judged in them."""
+    if not 0 <= count <= _MOST_FRESH:
+        raise ValueError(f"--random {count} is outside 0 to {_MOST_FRESH}: a number of fresh cases for each gate")
+    if seed is not None and not 0 <= seed < 2**32:
+        raise ValueError(f"--seed {seed} is outside 0 to {2**32 - 1}: random numbers follow from it")
+    if count == 0:
+        if seed is not None:
+            raise ValueError(f"--seed {seed} is for the fresh cases of --random N, which is missing")
+        return None
+    if gates is None or not models:
+        raise ValueError("--random needs --model: fresh cases are drawn from the domain of a given model")
+    # Predictions as data have no value in other cases than their own.
+    able = [name for name in models if name not in external or source_of(external[name].spec)["kind"] != "data"]
+    for name in sorted(set(models) - set(able)):
+        log(f"{name} has no fresh cases: it is data")
+    fresh = draw(
+        gates.gates, cases.grids, able, domains, count, SystemRandom().randrange(2**32) if seed is None else seed
+    )
+    if not fresh.parts:
+        raise ValueError("--random: no gate of this run can be judged in fresh cases of a given model")
+    log(f"{sum(len(part.grid.cases) for part in fresh.parts)} fresh cases, --seed {fresh.seed}")
+    return fresh

@@ -39,6 +39,11 @@ def _single(batch: list[Task]) -> list[list[Task]]:
     return [[task] for task in batch]
 
 
+def _solid_of(batch: list[Task]) -> tuple[str, float]:
+    """Model and exponent: the fast solver stores tables for each exponent."""
+    return batch[0].model, batch[0].case.k
+
+
 def compute_with_environment(
     tasks: list[Task], jobs: int, backend: Backend = processes
 ) -> Generator[tuple[Row, dict[str, str]]]:
@@ -70,7 +75,9 @@ def compute_with_environment(
     (2.0, True)
     """
     _, here = _of_this_process()
-    computed = each(_evaluate_batch, batches(tasks), jobs, lost=_lost_batch, split=_single, backend=backend)
+    computed = each(
+        _evaluate_batch, batches(tasks), jobs, lost=_lost_batch, split=_single, alike=_solid_of, backend=backend
+    )
     with closing(computed) as finished:
         for one in finished:
             if changed := differences(here, one.fingerprint):

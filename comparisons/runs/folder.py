@@ -94,6 +94,11 @@ class RunFolder:
         return self.path / file_names.AGREEMENT
 
     @property
+    def comparison(self) -> Path:
+        """Stem of the table of a comparison, and of its picture."""
+        return self.path / file_names.COMPARISON
+
+    @property
     def verdicts(self) -> Path:
         """Stem of the table of verdicts: a row for each gate and case."""
         return self.path / file_names.VERDICTS

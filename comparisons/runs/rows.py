@@ -29,7 +29,7 @@ class Row:
     status : str
         ``"ok"``, ``"not-applicable"`` or ``"failed"``.
     reason : str
-        One sentence when there is no value, else empty.
+        One sentence when there is no value, or when the value depends on a reference; else empty.
     size, iterations, residual
         Of the discrete problem; None when there is no value.
     seconds : float

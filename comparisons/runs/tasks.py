@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from traceback import extract_tb
 
+from comparisons.domain import declared_domain
 from comparisons.external.identity import contradiction
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
 from comparisons.quantities import ALL_QUANTITIES, Points
@@ -20,7 +21,10 @@ from comparisons.runs.cases import Case, Grid
 from comparisons.runs.rows import Row
 from comparisons.runs.workers import LOST
 
-__all__ = ["Task", "batches", "case_for", "evaluate", "evaluate_task", "lost_row", "plan"]
+__all__ = ["NOT_INDEPENDENT", "Task", "batches", "case_for", "evaluate", "evaluate_task", "lost_row", "plan"]
+
+#: The reason in the row of a value that depends on a reference begins with it; other values have no reason.
+NOT_INDEPENDENT = "not independent: the model"
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,9 +163,21 @@ def _row(
 
 
 def evaluate_task(task: Task) -> Row:
-    """Return the row of a task, whatever happens: a case that its model refuses as inadmissible is a failed row."""
+    """Return the row of a task, whatever happens: a case that its model refuses as inadmissible is a failed row.
+
+    Outside the domain that a model declares it is not evaluated.
+
+    Examples
+    --------
+    >>> evaluate_task(Task("bradley", "pull_off_force", Case(2, 0, 1))).value
+    2.0
+    """
     started = time.perf_counter()
     model = task.external or create(task.model, task.case.nu)
+    domain = declared_domain(model)
+    if domain is not None and not domain.contains(task.quantity, task.case.parameters):
+        reason = domain.refusal(task.quantity)
+        return _row(model, task.quantity, task.case, started, status="not-applicable", reason=reason)
     try:
         if isinstance(model, ExternalIdentity):
             return _evaluate_external(model, task)
@@ -189,7 +205,9 @@ def _evaluate_external(first: ExternalIdentity, task: Task) -> Row:
     if (model.name, model.version) != (first.name, first.version):
         reason = contradiction((first.name, first.version), (model.name, model.version))
         return _row(first, task.quantity, task.case, started, status="failed", reason=reason)
-    return evaluate(model, task.quantity, task.case)
+    row = evaluate(model, task.quantity, task.case)
+    uses: tuple[str, ...] = getattr(model, "uses", ())
+    return replace(row, reason=f"{NOT_INDEPENDENT} {' and '.join(uses)}") if uses and row.status == "ok" else row
 
 
 def batches(tasks: Iterable[Task]) -> list[list[Task]]:

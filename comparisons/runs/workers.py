@@ -5,10 +5,10 @@ from __future__ import annotations
 import os
 import signal
 import threading
-from collections import deque
-from collections.abc import Callable, Generator, Iterable, Sequence
+from collections.abc import Callable, Generator, Hashable, Iterable, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, ProcessPoolExecutor, wait
 from contextlib import closing
+from functools import partial
 from importlib import import_module
 from multiprocessing import get_context, parent_process
 from multiprocessing.process import BaseProcess
@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 from threadpoolctl import threadpool_limits
 
 from comparisons.console.progress import log
+from comparisons.runs.waiting import Waiting
 
 __all__ = [
     "LOST",
@@ -53,6 +54,10 @@ def _whole(item: Item) -> Iterable[Item]:
     return [item]
 
 
+def _all_alike(item: Any) -> Hashable:
+    return None
+
+
 class Processes:
     """Processes of this machine: a `Backend`.
 
@@ -74,9 +79,13 @@ class Processes:
         _end(pools)
 
     def __call__(
-        self, function: Callable[[Item], Output], items: Sequence[Item], jobs: int
+        self,
+        function: Callable[[Item], Output],
+        items: Sequence[Item],
+        jobs: int,
+        alike: Callable[[Item], Hashable] = _all_alike,
     ) -> Generator[tuple[Item, Output | None]]:
-        """Yield each item with its output, as `Backend` states.
+        """Yield each item with its output, as `Backend` states; items that are `alike` go to one process.
 
         Raises
         ------
@@ -93,7 +102,7 @@ class Processes:
         pools.extend(_pool() for _ in range(count - len(pools)))
         finished = False
         try:
-            yield from _outputs(function, items, pools, count)
+            yield from _outputs(function, Waiting(items, alike), pools, count)
             finished = True
         finally:
             # What has not finished may still be at work.
@@ -108,17 +117,17 @@ processes = Processes()
 
 
 def _outputs(
-    function: Callable[[Item], Output], items: Sequence[Item], pools: list[ProcessPoolExecutor], count: int
+    function: Callable[[Item], Output], waiting: Waiting[Item], pools: list[ProcessPoolExecutor], count: int
 ) -> Generator[tuple[Item, Output | None]]:
     """Work on the items by the first pools; a pool whose process ends is replaced in the list."""
-    waiting = deque(items)
     running: dict[Future[Output], tuple[int, Item]] = {}
 
     def begin(slot: int) -> None:
-        item = waiting.popleft()
+        item = waiting.take(slot)
         try:
             future = pools[slot].submit(function, item)
         except BrokenExecutor:  # the process ended between two items
+            waiting.forget(slot)
             pools[slot] = _pool()
             future = pools[slot].submit(function, item)
         running[future] = slot, item
@@ -140,6 +149,7 @@ def _outputs(
                         f"{deaths} worker processes one after the other ended early, perhaps for lack of memory"
                     ) from None
                 pools[slot].shutdown(wait=False)
+                waiting.forget(slot)
                 pools[slot] = _pool()
             if waiting:
                 begin(slot)
@@ -158,6 +168,7 @@ def each(
     *,
     lost: Callable[[Item], Output],
     split: Callable[[Item], Iterable[Item]] = _whole,
+    alike: Callable[[Item], Hashable] = _all_alike,
     backend: Backend = processes,
 ) -> Generator[Output]:
     """Yield `function(item)` for every item, as each is finished.
@@ -177,6 +188,9 @@ def each(
         Returns the output for an item that has ended its process twice.
     split : callable
         Returns the items that are tried in place of one whose process ended.
+    alike : callable
+        Returns the same for items whose work shares tables: of the next items, a process of this machine gets those
+        that are like its earlier ones.
     backend : Backend
         Where the function is called.
 
@@ -191,7 +205,8 @@ def each(
     [1, 2]
     """
     again: list[Item] = []
-    with closing(backend(function, items, jobs)) as outputs:
+    called = partial(backend, alike=alike) if isinstance(backend, Processes) else backend
+    with closing(called(function, items, jobs)) as outputs:
         for item, output in outputs:
             if output is None:
                 again.extend(split(item))
@@ -199,7 +214,7 @@ def each(
                 yield output
     if again:
         log(f"worker processes ended early: what they worked on ({len(again)}) is tried once more")
-        with closing(backend(function, again, jobs)) as outputs:
+        with closing(called(function, again, jobs)) as outputs:
             for item, output in outputs:
                 yield lost(item) if output is None else output
 

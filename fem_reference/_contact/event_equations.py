@@ -6,14 +6,17 @@ condensed system, which decides how fast the steps fall but not where they end.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Self
 
 import numpy as np
 from scipy import linalg
 
-from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import Control, EdgeRadius
+from fem_reference._contact.cusp import displacement_rates
+from fem_reference._contact.events import CUSP
 from fem_reference._contact.full_system import FullSystem
 from fem_reference._contact.newton import State
 from fem_reference._contact.path import Point, point_at
@@ -44,22 +47,23 @@ class EventEquations:
         Equilibrium, and its derivative with respect to the parameter.
     parameter : float
         Of the second control.
+    contact : Contact
+        The condensed contact.  At the cusp its modulus is the unknown, and the parameter stays what it is: the rate is
+        stationary in it.
     """
 
     def __init__(self, name: str, point: Point) -> None:
         self.name, self.point = name, point
         self.y, self.rate, self.parameter = point.state.y.copy(), point.state.rate.copy(), point.parameter
-        self._slope = self._excess_slope()
-
-    @property
-    def contact(self) -> Contact:
-        """The condensed contact."""
-        return self.point.branch.contact
+        self.contact = point.branch.contact
+        rates = displacement_rates(point) if name == CUSP else None
+        self._change = None if rates is None else rates.change
+        self._slope = self._excess_slope() if rates is None else rates.modulus
 
     @property
     def is_fold(self) -> bool:
         """Whether a rate vanishes at the event."""
-        return self.name in ("pull_off", "jump_in", "jump_out")
+        return self.name in ("pull_off", "jump_in", "jump_out", CUSP)
 
     def copy(self) -> Self:
         """Return equations whose unknowns can be changed without changing these."""
@@ -109,7 +113,8 @@ class EventEquations:
         y, delta, c = self.y, float(self.y[-2]), float(self.y[-1])
         load = system.load(system.on_surface(y[:-2]), delta, c) + self.contact.load_beyond(y)
         load_rate = float(self.contact.load_gradient(y) @ self.rate)
-        return Point(self.point.branch, self.parameter, State(y, load, load_rate, self.rate, iterations, residual))
+        branch = replace(self.point.branch, contact=self.contact)
+        return Point(branch, self.parameter, State(y, load, load_rate, self.rate, iterations, residual))
 
     def _controls(self) -> tuple[Control, Control]:
         return self.point.branch.fixed, self.point.branch.family(self.parameter)
@@ -133,6 +138,10 @@ class EventEquations:
             defect_rate = defect_rate - _padded(under) + (moved - K) @ self.rate
             self.rate = self.rate - _solved(moved, defect_rate)
         move = -self._excess(events) / self._slope
+        if self._change is not None:
+            self.contact = replace(contact, compliance=contact.compliance.stiffened(math.exp(move)))
+            self.y = self.y + move * self._change
+            return
         self.parameter += move
         self.y = self.y + move * self.rate
 

@@ -13,10 +13,11 @@ from itertools import pairwise
 from scipy.optimize import brentq
 
 from fem_reference._contact.completeness import complete_path
+from fem_reference._contact.cusp import cusp_from, slowest
 from fem_reference._contact.path import Point, point_at
-from fem_reference.errors import NoSuchEvent
+from fem_reference.errors import NoSuchEvent, NotConverged
 
-__all__ = ["EVENTS", "LANDING", "SEPARATED", "PathEvents", "beyond_pull_off", "event_energy", "excess_of"]
+__all__ = ["CUSP", "EVENTS", "LANDING", "SEPARATED", "PathEvents", "beyond_pull_off", "event_energy", "excess_of"]
 
 ROOT_TOLERANCE = 1e-11
 """Relative tolerance of the parameter at an event; P is stationary there and delta moves by as little."""
@@ -30,6 +31,9 @@ LANDING = "landing"
 
 SEPARATED = "separated"
 """The point out of contact at the displacement of the jump out of contact: where that jump ends."""
+
+CUSP = "cusp"
+"""The point where the two folds merge, at the modulus at which they do; its compliance has that modulus."""
 
 SLOPE_STEP = 1e-4
 """Relative change of the parameter for the slope of a rate: an error of this size slows the secant method only."""
@@ -72,7 +76,7 @@ class PathEvents:
         Parameters
         ----------
         event : str
-            One of `EVENTS`, `LANDING` or `SEPARATED`.
+            One of `EVENTS`, `LANDING`, `SEPARATED` or `CUSP`.
 
         Raises
         ------
@@ -81,7 +85,7 @@ class PathEvents:
         NoSuchEvent
             If the path has no such point.
         """
-        if event not in (*EVENTS, LANDING, SEPARATED):
+        if event not in (*EVENTS, LANDING, SEPARATED, CUSP):
             raise ValueError(f"event {event!r} is unknown; choose one of {', '.join(EVENTS)}")
         point: Point = getattr(self, event)
         return point
@@ -147,6 +151,22 @@ class PathEvents:
     def separated(self) -> Point:
         """The point where the jump out of contact ends."""
         return self._at_displacement(self.jump_out.state.displacement, last=False)
+
+    @cached_property
+    def cusp(self) -> Point:
+        """The point where the two folds merge, at the modulus at which they do; the path is one without folds.
+
+        Raises
+        ------
+        NotConverged
+            If the cusp is not found, or the path has a fold.
+        """
+        folds = [point for point in self.points if point.displacement_rate <= 0.0]
+        if folds:
+            raise NotConverged(
+                f"the displacement has a fold near {folds[0].state.displacement:.6g}, where none should be"
+            )
+        return cusp_from(slowest(self.samples))
 
     @cached_property
     def jump_in_loss(self) -> float:

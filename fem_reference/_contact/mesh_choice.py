@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from fem_reference._contact.contact import Contact
-from fem_reference._contact.events import PathEvents, beyond_pull_off
+from fem_reference._contact.cusp import slowest_sample
+from fem_reference._contact.events import CUSP, PathEvents, beyond_pull_off
 from fem_reference._contact.mesh_lengths import balance_length, check_width, mesh_spec
 from fem_reference._contact.path import EDGE_RISE, edge_width
 from fem_reference._contact.tracing import traced
@@ -79,13 +80,15 @@ class MeshChoice:
         """Mesh for an edge of that relative width, at the coarsest density."""
         return mesh_spec(self.problem, self.level, width, size, smallest, far_share)
 
-    def adapted(self, events: tuple[str, ...]) -> tuple[MeshSpec, float]:
+    def adapted(self, events: tuple[str, ...], start: tuple[MeshSpec, float] | None = None) -> tuple[MeshSpec, float]:
         """Mesh whose edge width (and, if the solid does not scale, size) fits the computed gap.
 
         Parameters
         ----------
         events : tuple of str
             Events that are needed.  If the solid does not scale, the mesh is fine at the edge of the first.
+        start : tuple, optional
+            The mesh and size of a similar problem, to begin with.
 
         Returns
         -------
@@ -103,12 +106,15 @@ class MeshChoice:
         """
         punch, law = self.problem.punch, self.problem.law
         scaling = isinstance(self.problem.solid.modulus, PowerLawModulus)
-        size = 2.0 * radius_at_height(punch, law.length)
-        balance = balance_length(self.problem, size)
         first = smallest = radius_at_height(punch, EDGE_RISE * law.length)
+        # The folds merge before there is a sharp edge: the mesh of a solid that scales is fine at this radius, too.
+        size = first if events == (CUSP,) and not scaling else 2.0 * radius_at_height(punch, law.length)
+        balance = balance_length(self.problem, size)
         check_width(0.5 * balance / size)
         spec = self.spec(0.5 * balance / size, size, smallest)
-        failures, far_share = 0, 1.0
+        if start is not None:
+            spec, size = replace(start[0], density=self.level.densities[0]), start[1]
+        failures, far_share = 0, spec.far_share
         for _ in range(REFINEMENTS):
             try:
                 path = self.traced(spec, size)
@@ -125,7 +131,10 @@ class MeshChoice:
                 continue
             failures = 0
             points = path.samples
-            if not any(beyond_pull_off(event) for event in events):
+            if events == (CUSP,):
+                # The folds merge before the edge is as sharp as at the pull-off.
+                points = points[: slowest_sample(points) + 2]
+            elif not any(beyond_pull_off(event) for event in events):
                 # Beyond the pull-off the edge is sharper relative to its radius, but that part is not needed.
                 deepest = min(range(len(points)), key=lambda i: points[i].state.load)
                 points = points[: deepest + 2]
@@ -144,6 +153,8 @@ class MeshChoice:
             if resolved and far_share >= spec.far_share:
                 if scaling:
                     return spec, size
+                if events == (CUSP,):
+                    return spec, size
                 point = path.at(events[0])
                 if not point.branch.touching or abs(point.edge_radius / size - 1.0) <= 0.5 * spec.edge_width:
                     return spec, size
@@ -159,6 +170,7 @@ def chosen(
     events: tuple[str, ...],
     accuracy: float | str,
     usable: Callable[[MeshChoice, MeshSpec, float], object] | None = None,
+    start: tuple[MeshSpec, float] | None = None,
 ) -> tuple[MeshChoice, MeshSpec, float]:
     """Choose the coarsest meshes, from those of an accuracy on, on which the path of a problem can be traced.
 
@@ -173,6 +185,8 @@ def chosen(
         As for `fem_reference.accuracy.level_for`.
     usable : callable, optional
         Called with the result; if it raises NotConverged, finer meshes are tried.
+    start : tuple, optional
+        As for `MeshChoice.adapted`.
 
     Returns
     -------
@@ -196,17 +210,18 @@ def chosen(
     *coarser, finest = finer_levels(accuracy)
     for level in coarser:
         with suppress(NotConverged):
-            return _chosen(MeshChoice(problem, level), events, usable)
-    return _chosen(MeshChoice(problem, finest), events, usable)
+            return _chosen(MeshChoice(problem, level), events, usable, start)
+    return _chosen(MeshChoice(problem, finest), events, usable, start)
 
 
 def _chosen(
     choice: MeshChoice,
     events: tuple[str, ...],
     usable: Callable[[MeshChoice, MeshSpec, float], object] | None,
+    start: tuple[MeshSpec, float] | None,
 ) -> tuple[MeshChoice, MeshSpec, float]:
     """Adapt the meshes of one level, and use them."""
-    spec, size = choice.adapted(events)
+    spec, size = choice.adapted(events, start)
     if usable is not None:
         usable(choice, spec, size)
     return choice, spec, size

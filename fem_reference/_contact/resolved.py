@@ -15,7 +15,8 @@ from scipy import linalg
 
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import Control, EdgeGap, GapRise, Size
-from fem_reference._contact.events import PathEvents, event_energy, excess_of
+from fem_reference._contact.cusp import cusp_from
+from fem_reference._contact.events import CUSP, PathEvents, event_energy, excess_of
 from fem_reference._contact.path import Branch, Point
 from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._typing import Array
@@ -62,6 +63,8 @@ class ResolvedEvents:
             If the event cannot be found on this mesh.
         """
         if event not in self._found:
+            if event == CUSP:
+                return self._found.setdefault(event, self._cusp())
             original, slope = self._path.anchor(event)
             level = 0.0
             if event == "landing":
@@ -92,6 +95,11 @@ class ResolvedEvents:
         return self.at("zero_load")
 
     @property
+    def cusp(self) -> Point:
+        """The point where the two folds merge, at the modulus at which they do."""
+        return self.at(CUSP)
+
+    @property
     def jump_in_loss(self) -> float:
         """Energy lost by the jump into contact."""
         return event_energy(self.jump_in) - event_energy(self.at("landing"))
@@ -100,6 +108,13 @@ class ResolvedEvents:
     def jump_out_loss(self) -> float:
         """Energy lost by the jump out of contact."""
         return event_energy(self.jump_out) - event_energy(self.at("separated"))
+
+    def _cusp(self) -> Point:
+        """Find the cusp from that of the path."""
+        original = self._path.cusp
+        compliance = self._contact.compliance.stiffened(original.branch.contact.compliance.stiffness)
+        branch, parameter, y = _moved(original, replace(self._contact, compliance=compliance), self._placement)
+        return cusp_from(branch.solve(parameter, y))
 
     def _solved(self, original: Point, slope: float, excess: Callable[[Point], float]) -> Point:
         """Find the root of `excess` from the point of the path where it vanishes."""

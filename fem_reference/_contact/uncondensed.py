@@ -119,6 +119,11 @@ class PointsAtEvents:
         return self.points["zero_load"]
 
     @property
+    def cusp(self) -> Point:
+        """The point where the two folds merge, at the modulus at which they do."""
+        return self.points["cusp"]
+
+    @property
     def jump_in_loss(self) -> float:
         """Energy lost by the jump into contact."""
         return _energy(self.jump_in) - _energy(self.points["landing"])

@@ -57,8 +57,17 @@ class Compliance(Protocol):
         """Normal displacement per load vector, shape (m, m), per unit factor."""
         ...
 
+    @property
+    def stiffness(self) -> float:
+        """Modulus relative to that of the solid that was condensed."""
+        ...
+
     def rounded(self) -> Compliance:
         """Return the compliance with the rounding of its condensation added."""
+        ...
+
+    def stiffened(self, ratio: float) -> Compliance:
+        """Return the compliance of a solid whose modulus is larger by a factor everywhere."""
         ...
 
 
@@ -71,11 +80,12 @@ class ScalingCompliance:
     modulus: PowerLawModulus
     unknowns: int
     rounding: Array | float = 0.0
+    stiffness: float = 1.0
 
     def factor(self, c: float) -> float:
-        """c^(1-k) c0^k / E0."""
+        """c^(1-k) c0^k / E0, with the modulus of `stiffness`."""
         law = self.modulus
-        return c ** (1.0 - law.k) * law.c0**law.k / law.E0
+        return c ** (1.0 - law.k) * law.c0**law.k / (law.E0 * self.stiffness)
 
     def factor_slope(self, c: float) -> float:
         """(1 - k) factor / c."""
@@ -84,6 +94,10 @@ class ScalingCompliance:
     def rounded(self) -> ScalingCompliance:
         """Return the compliance with the rounding of its condensation added."""
         return replace(self, matrix=self.matrix + self.rounding, rounding=0.0)
+
+    def stiffened(self, ratio: float) -> ScalingCompliance:
+        """Return the compliance of a solid whose modulus is larger by a factor everywhere."""
+        return replace(self, stiffness=ratio * self.stiffness)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -101,12 +115,13 @@ class FixedCompliance:
     size: float
     unknowns: int
     rounding: Array | float = 0.0
+    stiffness: float = 1.0
 
     def factor(self, c: float) -> float:
-        """c, which must be the size of the mesh."""
+        """c, which must be the size of the mesh, with the modulus of `stiffness`."""
         if abs(c / self.size - 1.0) > 1e-12:
             raise ValueError(f"this compliance holds at the size {self.size}, not {c}: the modulus is no power law")
-        return self.size
+        return self.size / self.stiffness
 
     def factor_slope(self, c: float) -> float:
         """Zero: the size cannot change."""
@@ -115,6 +130,10 @@ class FixedCompliance:
     def rounded(self) -> FixedCompliance:
         """Return the compliance with the rounding of its condensation added."""
         return replace(self, matrix=self.matrix + self.rounding, rounding=0.0)
+
+    def stiffened(self, ratio: float) -> FixedCompliance:
+        """Return the compliance of a solid whose modulus is larger by a factor everywhere."""
+        return replace(self, stiffness=ratio * self.stiffness)
 
 
 @lru_cache(maxsize=24)

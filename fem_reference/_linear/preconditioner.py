@@ -1,62 +1,34 @@
 """Symmetric two-level preconditioner of the stiffness of the half-space, with pyamg on the coarse level.
 
-The meshes are tensor products with elements of every aspect ratio, thin columns under a contact edge and thin
-rows under the surface.  The smoother therefore solves whole strips: all unknowns strictly between two grid
-lines two elements apart (overlapping line Schwarz).  Every other strip is independent of the next, so a
-direction takes two sparse factorisations ("zebra"), and a sweep is columns, then rows; the reverse sweep
-closes the symmetric preconditioner.  Strips are solved exactly, so that a residual is left on the lines between them
-only: it is kept and changed there, at a tenth of the cost of a product with the whole matrix.  In between, the vertex
-functions of the hierarchical element, which are exactly the bilinear space, carry the smooth error to pyamg's smoothed
-aggregation.
+The smoother solves whole strips of the mesh exactly (`strips`): a sweep is columns, then rows; the reverse sweep closes
+the symmetric preconditioner.  In between, the vertex functions of the hierarchical element, which are exactly the
+bilinear space, carry the smooth error to pyamg's smoothed aggregation, whose finest level is smoothed by strips as well
+(`hierarchy`).
 
-Measured: conjugate gradients take 6 to 20 iterations to 1e-10 from 4e3 to 3e5 unknowns, k = 0 ... 0.8,
-nu = 0 ... 0.45, with and without an edge a thousandth of its radius wide.
+Measured for an edge a thousandth of its radius wide, from 1e4 to 5e5 unknowns and k = 0 ... 0.8, nu = 0 ... 0.45:
+conjugate gradients take 6 to 9 iterations to 1e-10, at most one more on the finest mesh than on the coarsest.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
-
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import LinearOperator, SuperLU, splu
+from scipy.sparse.linalg import LinearOperator
 
 from fem_reference._elastic.assembly import HalfSpace
 from fem_reference._elastic.condensation import grid_positions
 from fem_reference._linear.algebraic_multigrid import pyamg
+from fem_reference._linear.hierarchy import hierarchy_bytes, vertex_hierarchy
+from fem_reference._linear.strips import sparse_bytes, strips_of
 from fem_reference._typing import Array, Index
 from fem_reference.errors import NotConverged
 
-__all__ = ["ElasticPreconditioner", "factorise", "hierarchy_bytes", "unit_scaling"]
+__all__ = ["ElasticPreconditioner", "unit_scaling"]
 
 
-COARSE_CYCLES = 2
-"""V-cycles of smoothed aggregation a correction: one costs up to 8 more outer iterations, three gain none."""
-
-COARSEST = 300
-"""Unknowns pyamg solves directly."""
-
-
-def factorise(matrix: Any) -> SuperLU:
-    """Factorise by SuperLU in its symmetric mode, ten times faster here than its default.
-
-    Parameters
-    ----------
-    matrix : sparse array, shape (N, N)
-        With a symmetric pattern.
-
-    Raises
-    ------
-    RuntimeError
-        If the matrix is singular.
-
-    Examples
-    --------
-    >>> factorise(sparse.csr_array(np.array([[2.0, 1.0], [1.0, 2.0]]))).solve(np.array([3.0, 3.0]))
-    array([1., 1.])
-    """
-    return splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+COARSE_CYCLES = 4
+"""W-cycles of smoothed aggregation a correction, each a twentieth of the work: with fewer, or with V-cycles, the outer
+iterations grow with the mesh (measured for 2e5 unknowns: 7; 9 with three, 10 with four V-cycles)."""
 
 
 def unit_scaling(diagonal: Array) -> Array:
@@ -86,38 +58,6 @@ def unit_scaling(diagonal: Array) -> Array:
     return np.asarray(1.0 / np.sqrt(diagonal))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Strips:
-    """Every other strip of the mesh, factorised.
-
-    Attributes
-    ----------
-    inside, lines : ndarray of int
-        Unknowns in the strips, and on the grid lines between them.
-    factors : SuperLU
-        Of the matrix on `inside`.
-    coupling : csr_array
-        The matrix, rows `lines` and columns `inside`.
-    """
-
-    inside: Index
-    lines: Index
-    factors: SuperLU
-    coupling: sparse.csr_array
-
-    def correct(self, x: Array, residual: Array) -> None:
-        """Solve the strips exactly; update x and the residual, shape (free, q), in place."""
-        change = self.factors.solve(residual[self.inside])
-        x[self.inside] += change
-        residual[self.inside] = 0.0
-        residual[self.lines] -= self.coupling @ change
-
-    @property
-    def storage(self) -> int:
-        """Bytes of factors, coupling and indices."""
-        return int(self.inside.nbytes + self.lines.nbytes + 12 * self.factors.nnz + _sparse_bytes(self.coupling))
-
-
 class ElasticPreconditioner:
     """Symmetric positive definite approximate inverse of the scaled stiffness on the free rows.
 
@@ -145,24 +85,10 @@ class ElasticPreconditioner:
         self.scale: Array = unit_scaling(A.diagonal())
         D = sparse.diags_array(self.scale)
         self.matrix: sparse.csr_array = (D @ A @ D).tocsr()
-        self._strips = self._factor_strips(half_space)
+        columns, rows = grid_positions(half_space)
+        self._strips = strips_of(self.matrix, [np.repeat(place, 2)[free] for place in (columns, rows)])
         self._vertices, self._coarse = self._build_coarse(half_space)
         self._vertex_columns = self.matrix[:, self._vertices[self._vertices >= 0]].tocsr()
-
-    def _factor_strips(self, half_space: HalfSpace) -> list[Strips]:
-        strips = []
-        for position in grid_positions(half_space):
-            place = np.repeat(position, 2)[half_space.free]
-            for dropped in (2, 0):
-                between = place % 4 == dropped
-                inside, lines = np.flatnonzero(~between), np.flatnonzero(between)
-                columns = self.matrix[:, inside].tocsr()
-                try:
-                    factors = factorise(columns[inside])
-                except RuntimeError as error:
-                    raise NotConverged(f"a strip of the mesh is singular ({error}); check modulus and mesh") from error
-                strips.append(Strips(inside, lines, factors, columns[lines]))
-        return strips
 
     def _build_coarse(self, half_space: HalfSpace) -> tuple[Index, pyamg.MultilevelSolver]:
         """Galerkin matrix of the vertex functions, in 2 x 2 blocks, and its aggregation hierarchy."""
@@ -184,17 +110,9 @@ class ElasticPreconditioner:
         unit[present] = 1.0 / self.scale[kept]
         candidates = np.zeros((size, 2))
         candidates[0::2, 0], candidates[1::2, 1] = unit[0::2], unit[1::2]
-        smoother = ("block_gauss_seidel", {"sweep": "symmetric", "iterations": 1})
-        hierarchy = pyamg.smoothed_aggregation_solver(
-            sparse.bsr_matrix(sparse.csr_matrix(coarse), blocksize=(2, 2)),
-            B=candidates,
-            strength=("evolution", {"epsilon": 4.0, "k": 2}),
-            smooth=("energy", {"krylov": "cg", "maxiter": 3}),
-            presmoother=smoother,
-            postsmoother=smoother,
-            max_coarse=COARSEST,
-        )
-        return vertices, hierarchy
+        # Grid lines have even positions.
+        places = [place[basis.nodal_dofs[0]] // 2 for place in grid_positions(half_space)]
+        return vertices, vertex_hierarchy(coarse, candidates, places)
 
     def __call__(self, b: Array) -> Array:
         """Apply the preconditioner to right-hand sides of the scaled system, shape (free,) or (free, q)."""
@@ -208,7 +126,7 @@ class ElasticPreconditioner:
         for column, left in zip(x.T, residual.T, strict=True):
             coarse = np.zeros(self._vertices.size)
             coarse[present] = left[vertices]
-            correction = self._coarse.solve(coarse, tol=1e-300, maxiter=COARSE_CYCLES, cycle="V")[present]
+            correction = self._coarse.solve(coarse, tol=1e-300, maxiter=COARSE_CYCLES, cycle="W")[present]
             column[vertices] += correction
             left -= self._vertex_columns @ correction
         for strips in reversed(self._strips):
@@ -218,34 +136,9 @@ class ElasticPreconditioner:
     @property
     def storage(self) -> int:
         """Bytes of the scaled matrix, of the strips with their factors, and of pyamg's hierarchy."""
-        own = _sparse_bytes(self.matrix) + _sparse_bytes(self._vertex_columns) + self._vertices.nbytes
+        own = sparse_bytes(self.matrix) + sparse_bytes(self._vertex_columns) + self._vertices.nbytes
         return own + sum(strips.storage for strips in self._strips) + hierarchy_bytes(self._coarse)
 
     def operator(self) -> LinearOperator:
         """Return the preconditioner as a scipy operator."""
         return LinearOperator(self.matrix.shape, self.__call__, dtype=float)
-
-
-def hierarchy_bytes(hierarchy: pyamg.MultilevelSolver) -> int:
-    """Bytes of a hierarchy: its matrices, candidates and smoothers, and the dense inverse on the coarsest level.
-
-    Examples
-    --------
-    >>> hierarchy = pyamg.smoothed_aggregation_solver(sparse.csr_array(np.eye(10)))  # one level: 10 x 10 inverse
-    >>> hierarchy_bytes(hierarchy) - 8 * 10**2  # values and indices of the matrix 164, candidates 80
-    244
-    """
-    total = 8 * hierarchy.levels[-1].A.shape[0] ** 2
-    for level in hierarchy.levels:
-        total += sum(_sparse_bytes(getattr(level, name)) for name in ("A", "P", "R") if hasattr(level, name))
-        total += level.B.nbytes
-        if hasattr(level, "presmoother"):
-            # Both smoothers share the inverses of the diagonal blocks.
-            blocks = getattr(level.presmoother, "keywords", {}).get("Dinv")
-            total += 0 if blocks is None else blocks.nbytes
-    return total
-
-
-def _sparse_bytes(matrix: Any) -> int:
-    """Values and both index arrays of a compressed matrix."""
-    return int(matrix.data.nbytes + matrix.indices.nbytes + matrix.indptr.nbytes)

@@ -13,7 +13,9 @@ from fem_reference._contact import completeness, path
 from fem_reference._contact.completeness import complete_path, displacement_range
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.hermite import Interval, Sample
+from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.path import Point
+from fem_reference.quantities import TABLE
 from fem_reference.verification.reference_solutions import surface_constant
 
 
@@ -131,14 +133,26 @@ def test_the_jump_into_contact_is_the_first_fold(folded):
     assert samples[: first_fall + 1].max() <= found["jump_in_displacement"].value + 1e-6
 
 
-@pytest.mark.parametrize("step", [pytest.param(0.05, marks=pytest.mark.heavy), 0.4])
-def test_the_step_of_the_path_does_not_choose_the_fold(monkeypatch, step):
-    """Steps of the gap four times smaller and twice as large."""
+def _with_steps(monkeypatch, step):
+    """The problem of three folds, whose path is traced with these steps of the gap: it has a key of its own."""
     monkeypatch.setattr(path, "GAP_STEP", step)
     problem = _problem(3.3, 0.7, 1.5)
-    # Another key of the stored paths, so that the path is traced with these steps.
-    problem = Problem(problem.solid, problem.punch, LennardJones(1.0 + step * 1e-12, 1.0))
-    assert solve_together(problem, ("jump_in_gap",), "quick")["jump_in_gap"].value == pytest.approx(1.18411, abs=2e-5)
+    return Problem(problem.solid, problem.punch, LennardJones(1.0 + step * 1e-12, 1.0))
+
+
+def test_the_step_of_one_path_does_not_choose_the_fold(monkeypatch):
+    """Twice as large; on the coarsest mesh of the choice alone."""
+    choice, spec, size = chosen(_with_steps(monkeypatch, 0.4), ("jump_in",), "quick")
+    gap = TABLE["jump_in_gap"].functional(choice.traced(spec, size))
+    assert gap == pytest.approx(FOLDED["jump_in_gap"], abs=2e-5)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("step", [0.05, 0.4])
+def test_the_step_of_the_path_does_not_choose_the_fold(monkeypatch, step):
+    """Steps of the gap four times smaller and twice as large."""
+    found = solve_together(_with_steps(monkeypatch, step), ("jump_in_gap",), "quick")
+    assert found["jump_in_gap"].value == pytest.approx(FOLDED["jump_in_gap"], abs=2e-5)
 
 
 def test_the_path_begins_beyond_the_jump_out_of_contact():

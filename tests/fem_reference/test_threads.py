@@ -28,9 +28,9 @@ def two_threads():
 @pytest.mark.parametrize(
     "compute",
     [
-        # Each enters the same context; that a solution does so is in the test of an exception below.
+        # Each enters the same context; that it does so is in the test of an exception below.
         pytest.param(lambda problem: solve(problem, "pull_off_force", "quick"), id="solve", marks=pytest.mark.heavy),
-        pytest.param(lambda problem: trace(problem, "quick"), id="trace"),
+        pytest.param(lambda problem: trace(problem, "quick"), id="trace", marks=pytest.mark.heavy),
         pytest.param(lambda problem: profile(problem, accuracy="quick"), id="profile", marks=pytest.mark.heavy),
     ],
 )
@@ -57,14 +57,25 @@ def test_the_solver_study_has_one_thread(monkeypatch):
     assert seen == {1}
 
 
-def test_an_exception_restores_the_threads():
+@pytest.mark.parametrize(
+    "compute",
+    [
+        lambda problem: solve(problem, "pull_off_force", "quick"),
+        lambda problem: trace(problem, "quick"),
+        lambda problem: profile(problem, accuracy="quick"),
+    ],
+    ids=["solve", "trace", "profile"],
+)
+def test_an_exception_restores_the_threads(compute):
+    """It is raised inside the computation, by what has one thread."""
+
     def height(r):
         if blas_threads() == {1}:
             raise NotConverged("inside the computation")
         return r**2 / 2
 
     with pytest.raises(NotConverged, match="inside the computation"):
-        solve(Problem(SOLID, CustomPunch(height, lambda r: r), LAW), "pull_off_force", "quick")
+        compute(Problem(SOLID, CustomPunch(height, lambda r: r), LAW))
     assert blas_threads() == {2}
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pyamg
 import pytest
 
-from fem_reference import CustomModulus, CustomSolid, NoSuchEvent, NotConverged, solve, solve_together
+from fem_reference import NotConverged, solve
 from fem_reference._contact import error_parts, mesh_choice, uncondensed
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.events import PathEvents
@@ -202,19 +202,18 @@ def _not_preconditioned(self, b):
     return np.array(b)
 
 
-@pytest.mark.usefixtures("no_kept_events")
-@pytest.mark.parametrize(
-    ("owner", "name", "spoiled"),
-    [
-        (pyamg.multilevel.MultilevelSolver, "solve", _nothing_solved),
-        (ElasticPreconditioner, "__call__", _not_preconditioned),
-    ],
-)
-def test_without_pyamg_there_is_no_solution(monkeypatch, owner, name, spoiled):
-    problem = _problem(Solid(3.0, 1.3, 0.4, NU))
-    monkeypatch.setattr(owner, name, spoiled)
+def test_without_pyamg_there_is_no_value(monkeypatch, soft_path, soft_system):
+    monkeypatch.setattr(pyamg.multilevel.MultilevelSolver, "solve", _nothing_solved)
+    events = UncondensedEvents(soft_path, lambda: soft_system)
     with pytest.raises(NotConverged, match="conjugate gradients reached a residual"):
-        solve(problem, "pull_off_force", "quick")
+        events.value(TABLE["pull_off_force"].functional)
+
+
+@pytest.mark.usefixtures("no_kept_events")
+def test_without_its_preconditioner_there_is_no_solution(monkeypatch):
+    monkeypatch.setattr(ElasticPreconditioner, "__call__", _not_preconditioned)
+    with pytest.raises(NotConverged, match="conjugate gradients reached a residual"):
+        solve(_problem(Solid(3.0, 1.3, 0.4, NU)), "pull_off_force", "quick")
 
 
 @pytest.mark.usefixtures("no_kept_events")
@@ -241,16 +240,6 @@ def test_a_solution_holds_the_value_of_the_whole_system(monkeypatch):
     assert found.value == pytest.approx(right.value, abs=AGREEMENT)
     assert found.parts["algebra"] == pytest.approx(moved, rel=1e-2)
     assert found.u_num >= moved
-
-
-def test_a_solid_of_one_size():
-    """The edge moves over a fixed mesh; a quantity that does not exist stays an exception."""
-    solid = CustomSolid(CustomModulus(lambda z: 20.0 + 0.0 * z, 0.0, 0.0, surface_depth=1.0), NU)
-    found = solve_together(_problem(solid), ("pull_off_force", "jump_in_gap"), "quick")
-    force = found["pull_off_force"]
-    assert force.value != force.values[-1]
-    assert force.value == pytest.approx(force.values[-1], rel=AGREEMENT)
-    assert isinstance(found["jump_in_gap"], NoSuchEvent)
 
 
 def test_facet_forms_on_elements_thinner_than_rounding_resolves():

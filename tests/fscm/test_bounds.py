@@ -163,11 +163,11 @@ def test_a_nearer_end_raises_the_parts_of_tail_and_domain() -> None:
     found = {}
     for quantity in ("zero_load_displacement", "pull_off_force"):
         exact = Analysis(problem, _values_on(14, 1e-9, 1e8)).solution(quantity)
-        for end in (1e2, 1e4):
+        for end in (1e2, 1e6):
             solution = Analysis(problem, _values_on(14, 1e-9, end)).solution(quantity)
             found[quantity, end] = solution
             assert abs(solution.value - exact.value) <= solution.u_num + exact.u_num
-        near, far = found[quantity, 1e2].parts, found[quantity, 1e4].parts
+        near, far = found[quantity, 1e2].parts, found[quantity, 1e6].parts
         assert near["tail"] > 1e4 * far["tail"]
         assert near["domain"] > 1e4 * far["domain"]
         error = abs(found[quantity, 1e2].value - exact.value)

@@ -5,8 +5,11 @@ import pytest
 
 from fscm import Analysis, Problem, RoundedCone, solve
 from fscm import _pull_off_path as short
+from fscm._adaptivity import lengthened
+from fscm._continuation import equilibrium_path
 from fscm._meshes import Meshes
 from fscm._threads import one_thread
+from tests.fscm.random_problems import problems
 
 # Rigid to soft; (2, 0.6, 3), (5, 0.6, 3) and (1.5, 0.4, 5) have several shallow folds before contact.
 CASES = [
@@ -73,3 +76,24 @@ def test_a_narrow_edge_has_a_small_bound_at_a_low_accuracy() -> None:
     found = solve(Problem(7.9582, 0.8704, 1.824), "pull_off_force", 1e-6)
     assert found.u_num <= 1e-6 * found.value
     assert np.isfinite(found.value)
+
+
+@pytest.mark.parametrize("index", [452, 456])
+def test_a_bound_above_the_request_is_reduced(index: int) -> None:
+    """On the meshes of 1e-6 the bounds are 1.3e-6 and 1.9e-6 of the force."""
+    found = solve(problems()[index], "pull_off_force", 1e-6)
+    assert found.u_num <= 1e-6 * found.value
+
+
+def test_a_mesh_that_is_made_longer_holds_the_deformation_of_its_end() -> None:
+    """The gaps that are added differ from those of the longer mesh in equilibrium by little."""
+    problem = Problem(1, 0.2, 0.5)
+    with one_thread():
+        short_end, long_end = (
+            next(iter(equilibrium_path(problem, 12, 1e-8, start_gap=1.0, end_height=end))).state for end in (1e2, 1e4)
+        )
+        found = lengthened(short_end, 1e4)
+    assert found.end >= 1e4
+    deformation = found.gap + found.displacement - found.radius
+    expected = long_end.disc.mesh.evaluate(long_end.deformation, found.disc.mesh.nodes)
+    assert np.max(np.abs(deformation - expected)) < 1e-3 * np.max(np.abs(expected))

@@ -18,7 +18,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "spec",
         metavar="SPEC",
-        help="name of an installed model, FILE.py:CLASS, or a folder with a model.toml",
+        help="name of an installed model, FILE.py:CLASS, ./PROGRAM, or a folder with a model.toml",
     )
 
 

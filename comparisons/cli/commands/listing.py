@@ -1,8 +1,12 @@
-"""``fscm-bench list``: the models, quantities, cases or gates."""
+"""``fscm-bench list``: the models, quantities, cases or gates, as text, CSV or JSON."""
 
 from __future__ import annotations
 
 import argparse
+import json
+import math
+from collections.abc import Callable
+from typing import Any
 
 import pandas as pd
 
@@ -14,6 +18,7 @@ from comparisons.output.tables import rich_table
 from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS, create
 from comparisons.runs.cases import TIERS, grids
+from comparisons.runs.csv_format import csv_text
 
 __all__ = ["add", "call"]
 
@@ -21,16 +26,39 @@ __all__ = ["add", "call"]
 def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("what", choices=_TABLES)
+    parser.add_argument(
+        "--format",
+        choices=("text", "csv", "json"),
+        default="text",
+        help="csv and json have every digit, and one row for each case of a grid (default: text)",
+    )
 
 
 def call(args: argparse.Namespace) -> int:
     """Print the table; return the exit status."""
+    if args.format != "text":
+        table = _EXACT.get(args.what, _TABLES[args.what])()
+        print(csv_text(table) if args.format == "csv" else _json(table), end="")
+        return OK
     table = _TABLES[args.what]()
     if table.empty:
         log(f"no {args.what} are declared")
     else:
         output().print(rich_table(table, args.what))
     return OK
+
+
+def _json(table: pd.DataFrame) -> str:
+    """Return a list of objects, one a line; null for what is missing or without limit."""
+    lines = [
+        json.dumps({name: _plain(value) for name, value in row.items()}, allow_nan=False, ensure_ascii=False)
+        for row in table.to_dict("records")
+    ]
+    return "[\n" + ",\n".join(lines) + "\n]\n"
+
+
+def _plain(value: Any) -> Any:
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _models() -> pd.DataFrame:
@@ -63,6 +91,25 @@ def _cases() -> pd.DataFrame:
     )
 
 
+def _each_case() -> pd.DataFrame:
+    """Return one row for each case of each grid; a row names the reference, the quantities and the models."""
+    return pd.DataFrame(
+        {
+            "grid": grid.id,
+            "tier": grid.tier,
+            "n": case.n,
+            "k": case.k,
+            "mu": case.mu,
+            "nu": math.nan if case.nu is None else case.nu,
+            "reference": grid.reference,
+            "models": " ".join(grid.models),
+            "quantities": " ".join(grid.quantities),
+        }
+        for grid in grids(TIERS[-1])
+        for case in grid.cases
+    )
+
+
 def _gates() -> pd.DataFrame:
     return pd.DataFrame(
         {
@@ -79,4 +126,18 @@ def _gates() -> pd.DataFrame:
     )
 
 
-_TABLES = {"models": _models, "quantities": _quantities, "cases": _cases, "gates": _gates}
+def _exact_gates() -> pd.DataFrame:
+    limits = pd.DataFrame({"lower": gate.lower, "upper": gate.upper} for gate in load_gates(gates_text()))
+    table = _gates().drop(columns="limits").astype(str)
+    return pd.concat([table, limits.astype(float)], axis="columns")
+
+
+_TABLES: dict[str, Callable[[], pd.DataFrame]] = {
+    "models": _models,
+    "quantities": _quantities,
+    "cases": _cases,
+    "gates": _gates,
+}
+
+#: Tables that differ where every digit is printed.
+_EXACT: dict[str, Callable[[], pd.DataFrame]] = {"cases": _each_case, "gates": _exact_gates}

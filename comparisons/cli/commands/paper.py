@@ -18,7 +18,12 @@ __all__ = ["add", "call"]
 def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument(
-        "--figure", metavar="N", nargs="+", action="extend", help=f"only these of {', '.join(NAMES)} (default: all)"
+        "--figure",
+        "--only",
+        metavar="N",
+        nargs="+",
+        action="extend",
+        help=f"only these of {', '.join(NAMES)} (default: all)",
     )
     add_jobs(parser)
     parser.add_argument(

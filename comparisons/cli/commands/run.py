@@ -32,6 +32,14 @@ def add(parser: argparse.ArgumentParser) -> None:
         help="compare these models instead of those each grid names",
     )
     parser.add_argument("--gates", metavar="FILE", type=Path, help="judge by these gates instead of the standing ones")
+    parser.add_argument(
+        "--random",
+        metavar="N",
+        type=int,
+        default=0,
+        help="judge each model of --model in N fresh cases of its own domain, too",
+    )
+    parser.add_argument("--seed", metavar="S", type=int, help="seed of the fresh cases (default: a new one)")
     add_jobs(parser)
     add_out(parser)
     add_retry_failed(parser)
@@ -54,6 +62,8 @@ def call(args: argparse.Namespace) -> int:
             jobs=args.jobs,
             retry_failed=args.retry_failed,
             recompute=args.recompute,
+            random=args.random,
+            seed=args.seed,
         )
     except ComputationFailed as failure:
         log(str(failure))

@@ -6,10 +6,14 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import Any
 
+import pandas as pd
+
+from comparisons.data.paper_statements import verdicts
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.output.latex import latex
-from comparisons.output.report import number_tables, plots, verdict_tables
+from comparisons.output.report import card_table, number_tables, plots, verdict_tables
 from comparisons.output.report.plot import Plot
+from comparisons.output.report.statement_table import statements
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.report.table import Table, table_tex
 from comparisons.output.style import ModelStyle, model_styles
@@ -84,6 +88,7 @@ def make_page(stored: Stored) -> Page:
         verdict_tables.matrix(stored),
         verdict_tables.offenders(stored, specs),
         verdict_tables.all_verdicts(stored),
+        card_table.cards(stored),
     ]
     made = [
         *(of_verdicts if stored.judged else ()),
@@ -93,6 +98,7 @@ def make_page(stored: Stored) -> Page:
         number_tables.convergence(stored),
         number_tables.results(stored),
         number_tables.models(stored, specs),
+        statements(),
     ]
     tables = {table.id: table for table in made}
     sections = {
@@ -144,6 +150,7 @@ def _files(stored: Stored, tables: dict[str, Table]) -> dict[str, str]:
         "curves.csv": csv_text(stored.curves.drop(columns="seconds")),
         "results.csv": csv_text(stored.results.drop(columns="seconds")),
         "largest_kappa.tex": table_tex(tables["largest"]),
+        "paper_statements.csv": csv_text(pd.DataFrame(verdicts())),
     }
     if stored.judged:
         caption = "Verdicts of fscm-bench, worst first, each in its worst case"

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import base64
 import json
+from collections.abc import Iterable, Mapping
 from hashlib import sha256
 from importlib.resources import files
 from typing import Any
@@ -17,9 +18,10 @@ from markupsafe import Markup
 
 from comparisons.judging.decision import Verdict
 from comparisons.output.report.page import Page
+from comparisons.output.report.table import Table
 from comparisons.output.style import VERDICT_SYMBOLS, verdict_class
 
-__all__ = ["render", "script_json"]
+__all__ = ["environment", "render", "render_table", "script_json"]
 
 #: Bokeh draws the plots: of the well-kept libraries that pip installs and that can draw a curve which turns
 #: back, zoom it and read it off, it is the smallest (1.4 MB, plotly.js 4.8 MB), and needs no `eval`.
@@ -59,36 +61,67 @@ def render(page: Page) -> str:
     page : Page
         As `comparisons.output.report.page.make_page` returns it.
     """
-    environment = Environment(
+    styles = {name: [style.colour, style.dash, style.marker, style.broad] for name, style in page.model_styles.items()}
+    plots = [plot.data() for plot in page.every_plot]
+    bokeh = [_script(files("bokeh").joinpath(name).read_text(encoding="utf-8")) for name in _BOKEH]
+    scripts = [*bokeh, *(_script(_asset(name)) for name in ("tables.js", "plots.js"))]
+    content = {"plots": plots, "model_styles": styles}
+    return _filled("report.html", page.tables.values(), page.files, scripts, content, page=page)
+
+
+def render_table(template: str, table: Table, files: Mapping[str, str], **context: Any) -> str:
+    """Return the HTML of a page with one table, which sorts and filters.
+
+    Parameters
+    ----------
+    template : str
+        Its name among the assets.
+    table : Table
+    files : mapping of str to str
+        What can be downloaded.
+    context
+        What else the template shows.
+    """
+    return _filled(template, [table], files, [_script(_asset("tables.js"))], {}, table=table, **context)
+
+
+def environment() -> Environment:
+    """Return the environment of all templates: everything that is text is escaped."""
+    made = Environment(
         loader=PackageLoader(_ASSETS, "assets"),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.globals |= {"symbols": {str(name): symbol for name, symbol in VERDICT_SYMBOLS.items()}}
-    environment.filters |= {"verdict_class": verdict_class}
-    scripts = [_script(files("bokeh").joinpath(name).read_text(encoding="utf-8")) for name in _BOKEH]
-    scripts += [_script(_asset(name)) for name in ("tables.js", "plots.js")]
+    made.globals |= {"symbols": {str(name): symbol for name, symbol in VERDICT_SYMBOLS.items()}}
+    made.filters |= {"verdict_class": verdict_class}
+    return made
+
+
+def _filled(
+    template: str,
+    tables: Iterable[Table],
+    files: Mapping[str, str],
+    scripts: list[Markup],
+    content: dict[str, Any],
+    **context: Any,
+) -> str:
+    data = {
+        "tables": {table.id: table.data() for table in tables if table.long},
+        **content,
+        "files": dict(files),
+        "verdicts": {str(name): [VERDICT_SYMBOLS[name], verdict_class(name)] for name in Verdict},
+    }
+    page = environment().get_template(template)
     return (
-        environment.get_template("report.html").render(
-            page=page,
+        page.render(
             verdicts=list(map(str, Verdict)),
             style=Markup(_asset("report.css")),
             scripts=scripts,
             policy=_policy(scripts),
-            data=script_json(
-                {
-                    "tables": {table.id: table.data() for table in page.tables.values() if table.long},
-                    "plots": [plot.data() for plot in page.every_plot],
-                    "model_styles": {
-                        name: [style.colour, style.dash, style.marker, style.broad]
-                        for name, style in page.model_styles.items()
-                    },
-                    "files": page.files,
-                    "verdicts": {str(name): [VERDICT_SYMBOLS[name], verdict_class(name)] for name in Verdict},
-                }
-            ),
+            data=script_json(data),
+            **context,
         )
         + "\n"
     )

@@ -12,6 +12,7 @@ import pandas as pd
 from comparisons.data.file_names import CURVES, KAPPA, LARGEST_KAPPA, RESULTS, SUMMARY, VERDICTS
 from comparisons.judging.decision import Verdict
 from comparisons.judging.judge import Judged
+from comparisons.judging.summary import COVERAGE
 from comparisons.output.verdicts import GATE_COLUMNS
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
@@ -35,7 +36,7 @@ _TABLES: dict[str, Sequence[str]] = {
 #: Tables of what is judged, which a sweep does not have.
 _JUDGED: dict[str, Sequence[str]] = {
     VERDICTS: Judged.__slots__,
-    SUMMARY: (*Judged.__slots__, "cases", "skipped"),
+    SUMMARY: (*Judged.__slots__, "cases", "skipped", *COVERAGE),
     LARGEST_KAPPA: _LARGEST,
 }
 

@@ -10,7 +10,7 @@ import pandas as pd
 
 from comparisons.judging.decision import Verdict
 from comparisons.judging.gates import METRICS
-from comparisons.judging.summary import worst_first
+from comparisons.judging.summary import coverage_text, worst_first
 from comparisons.numerics.number_text import case_text, error_text, exact, limits_text
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.report.table import (
@@ -65,6 +65,8 @@ def _numbers(row: pd.Series) -> tuple[Cell, ...]:
 
 def _limits(row: pd.Series) -> Cell:
     lower, upper = row["lower"], row["upper"]
+    if pd.isna(lower):
+        return Cell("")
     if lower == float("-inf"):
         return Cell(f"≤ {exact(upper)}")
     return Cell(f"≥ {exact(lower)}" if upper == float("inf") else limits_text(lower, upper))
@@ -92,6 +94,7 @@ def matrix(stored: Stored) -> Table:
                     Cell(gate["candidate"]),
                     Cell(gate["reference"]),
                     Cell(_counted(of_gate["verdict"]), float(len(of_gate)), marks, gate["reason"] or ""),
+                    Cell(coverage_text(gate), float(gate["answered"])),
                     _error(gate),
                     replace(_limits(gate), more=_grounds(fact)),
                 )
@@ -103,6 +106,7 @@ def matrix(stored: Stored) -> Table:
         Column("candidate"),
         Column("reference"),
         Column("cases", "marks"),
+        Column("coverage"),
         Column("worst E(U)", "number"),
         Column("limits of E", "prose"),
     )

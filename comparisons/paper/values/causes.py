@@ -20,7 +20,8 @@ from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.figures.fig11_gradient_effect import insensitive_regions, largest_chi
-from comparisons.paper.studies.tabor_curve import RANGE, Extreme, TaborCurve, crossing, largest_error, tabor_numbers
+from comparisons.paper.studies.tabor_curve import Extreme, TaborCurve, largest_error, tabor_numbers
+from comparisons.paper.values import sampling
 from comparisons.paper.values import scheme_ingredients as scheme
 
 __all__ = ["CONVERGED", "Repeated", "cohesive_forces", "frame", "repeated", "tasks"]
@@ -49,7 +50,9 @@ _CONE = 1.0
 #: Jin et al. (2021) left out the decimals of 1.026 (Sec. 4.2).
 _JIN_STRESS = 1.0
 #: Gradient exponents near 1: the last ones of a computation that does not take the limit k = 1.
-_SHORT_OF_GIBSON = (0.9995, 0.999)
+_SHORT_OF_GIBSON = (0.9995, sampling.LAST_K)
+#: Both numbers of the grid of Fig. 11 that the paper does not state.
+_GRID = f"k up to {sampling.LAST_K:g}, n in steps of {sampling.N_STEP:g}"
 _SPARSE = np.array([step * 10.0**power for power in (-2, -1, 0) for step in (1, 2, 5)] + [10.0])
 
 
@@ -137,13 +140,16 @@ def repeated(results: Results) -> list[Repeated]:
     rows = [row for paper_value in paper_values("largest_relative_error") for row in _errors(paper_value, results)]
     ranges = {1.0: CONVERGED_CHI} | {up_to: f"k up to {up_to:g}" for up_to in _SHORT_OF_GIBSON}
     for paper_value in paper_values("largest_chi"):
-        for up_to, ingredient in ranges.items():
+        for up_to, ingredient in [*ranges.items(), (sampling.LAST_K, _GRID)]:
             largest = 100.0 * largest_chi(paper_value.n, up_to)[0]
             rows.append(Repeated(paper_value, ingredient, largest, CHI_ROUNDING, stated=up_to == 1.0))
     for paper_value in paper_values("insensitive_region"):
         for up_to, ingredient in ranges.items():
             end = results[CachedCall.of(insensitive_regions, up_to)][paper_value.index]
             rows.append(Repeated(paper_value, ingredient, end, REGION_ROUNDING, stated=up_to == 1.0))
+        # The last end is that of `sampling.LAST_K`; ends of even index are where a region begins.
+        step = sampling.first_or_last_step(end, first=paper_value.index % 2 == 0)
+        rows.append(Repeated(paper_value, _GRID, step, 0.0, stated=False))
     return rows
 
 
@@ -194,10 +200,31 @@ def _errors(paper_value: PaperValue, results: Results) -> Iterator[Repeated]:
     yield row("mu from 0.02 to 10", largest_error(model, exact, low=0.02), stated=False)
     yield row("mu from 0.01 to 2", largest_error(model, exact, high=2.0), stated=False)
     yield row("mu = 1, 2, 5, 10, ... of 0.01 to 10 only", largest_error(model, exact, sampled=_SPARSE), stated=False)
-    start = crossing(lambda mu: 100.0 * abs(printed(mu) / exact(mu) - 1.0), paper_value.value)
-    if mu == RANGE[0] and start is not None:
-        fitted = largest_error(printed, exact, low=start)
-        yield row(f"{rounded}; mu from {start:.4f}, fitted", replace(fitted, mu=start), stated=False)
+    yield from _unstated_tabor_numbers(paper_value, model, printed, exact)
+
+
+def _unstated_tabor_numbers(
+    paper_value: PaperValue, model: TaborCurve, printed: TaborCurve, exact: TaborCurve
+) -> Iterator[Repeated]:
+    """Repeat a largest relative error with the series of Tabor numbers that give the printed digits."""
+
+    def row(ingredient: str, found: Extreme) -> Repeated:
+        return Repeated(paper_value, ingredient, 100.0 * found.kappa, 100.0 * found.u, found.mu, stated=False)
+
+    starts = sampling.rounding_starts(paper_value, model, exact)
+    for start in starts or ():
+        yield row(f"smallest mu = {start:.4f}", largest_error(model, exact, low=start))
+    if starts is not None and paper_value.n == _CONE:
+        jin = sampling.jin_start(paper_value.n, _K)
+        of_jin = f"smallest mu = {jin:.4f} (mu_Jin = 0.01 at nu = {sampling.JIN_NU:g})"
+        yield row(of_jin, largest_error(model, exact, low=jin))
+        yield row(
+            f"sigma_0 = {_printed_stress(paper_value):g} as printed; {of_jin}", largest_error(printed, exact, low=jin)
+        )
+    place = sampling.without_place(paper_value, model, exact)
+    if place is not None:
+        low, high, found = place
+        yield row(f"no mu between {low:.4f} and {high:.4f}", found)
 
 
 def _single(model: TaborCurve, force: float, u: float, mu: float) -> Extreme:

@@ -25,7 +25,11 @@ from comparisons.paper.values.causes import Repeated, frame, repeated, tasks
 from comparisons.runs.cases import Case
 from fscm.laws import LennardJones93
 
-__all__ = ["PAPER_VALUES", "cause", "judged"]
+__all__ = ["BY_GRID", "BY_SCHEME", "PAPER_VALUES", "cause", "explained", "judged"]
+
+#: Verdicts on a number whose converged value has other digits, but that follows from what the paper states of its
+#: computation, or from steps and ranges of n, k or mu that it does not state.
+BY_SCHEME, BY_GRID = "agrees with the paper's scheme", "agrees on a grid"
 
 Number = tuple[float, float]
 
@@ -88,31 +92,61 @@ _DIRECT: dict[str, Callable[[PaperValue], Number]] = {
 }
 
 
-def cause(rows: Sequence[Repeated]) -> str:
+def explained(rows: Sequence[Repeated]) -> str:
+    """Return the verdict on a number that has repetitions.
+
+    Parameters
+    ----------
+    rows : sequence of Repeated
+        Of one number, the converged one first.
+    """
+    converged, *others = rows
+    if converged.verdict == "agrees":
+        return converged.verdict
+    for verdict, stated in ((BY_SCHEME, True), (BY_GRID, False)):
+        if any(row.verdict == "agrees" for row in others if row.stated == stated):
+            return verdict
+    return converged.verdict
+
+
+def cause(rows: Sequence[Repeated], companions: Sequence[Repeated] = ()) -> str:
     """Return which ingredient gives the printed digits, in a sentence; empty if the first row has them.
 
     Parameters
     ----------
     rows : sequence of Repeated
         Of one number, the converged one first, then simple ingredients before combined ones.
+    companions : sequence of Repeated
+        Of the numbers that the same computation printed: an ingredient that the paper does not state and that takes
+        the printed digits from one of them is no cause.
     """
     converged, *others = rows
-    if converged.verdict != "differs":
+    if converged.verdict == "agrees":
         return ""
     stated = [row for row in others if row.stated]
-    reproducing = [row for row in stated if row.verdict in REPRODUCED]
+    reproducing = [row for row in stated if row.verdict == "agrees"] or [
+        row for row in stated if row.verdict in REPRODUCED and converged.verdict == "differs"
+    ]
     if reproducing:
         sentence = f"reproduced by {_with_value(reproducing[0])}"
         against = stated[0]
         # The plainest statement of the paper, the size of the domain, may increase the difference.
         known = against.verdict in REPRODUCED or against.ingredient in sentence
         return sentence if known else f"{sentence}; {_alone(against)}"
-    elsewhere = " or ".join(_with_value(row) for row in others if row.verdict in REPRODUCED)
+    unstated = [row for row in others if row.verdict in (REPRODUCED if converged.verdict == "differs" else ("agrees",))]
+    against_another = {row.ingredient: row for row in companions if not row.stated and row.verdict not in REPRODUCED}
+    elsewhere = " or ".join(_with_value(row) for row in unstated if row.ingredient not in against_another)
+    contradicted = "".join(
+        f"; not {_with_value(row)}, which gives {abs(other.value):.5g} for the printed {other.paper_value.text}"
+        for row in unstated
+        for other in [against_another.get(row.ingredient)]
+        if other is not None
+    )
     plain = f"; {_alone(stated[0])}" if stated else ""
     if not elsewhere:
         nearest = min(others, key=lambda row: abs(abs(row.value) - converged.paper_value.value))
         return f"not reproduced; nearest is {_with_value(nearest)}{plain}"
-    return f"nothing the paper states gives it; these do: {elsewhere}{plain}"
+    return f"nothing the paper states gives it; these do: {elsewhere}{contradicted}{plain}"
 
 
 def _with_value(row: Repeated) -> str:
@@ -133,6 +167,7 @@ def _tables(results: Results) -> Tables:
 def judged(paper_value: PaperValue, results: Results, again: Sequence[Repeated]) -> dict[str, str | float]:
     """Return the row of a paper value; `again` holds the repetitions of the values that have any."""
     rows = [row for row in again if row.paper_value == paper_value]
+    companions = [row for row in again if _same_shape(row.paper_value, paper_value)]
     mu = math.nan
     if rows:
         computed, u, mu = rows[0].value, rows[0].u, rows[0].mu
@@ -154,10 +189,15 @@ def judged(paper_value: PaperValue, results: Results, again: Sequence[Repeated])
         "computed": computed,
         "u": u,
         "at_mu": mu,
-        "verdict": paper_value.verdict(size, u),
+        "verdict": explained(rows) if rows else paper_value.verdict(size, u),
         "difference": size - paper_value.value,
-        "cause": cause(rows) if rows else "",
+        "cause": cause(rows, companions) if rows else "",
     }
+
+
+def _same_shape(one: PaperValue, other: PaperValue) -> bool:
+    """Whether two numbers are errors of two models at one shape: both came from one FSCM computation."""
+    return one != other and one.quantity == other.quantity and bool(one.model) and (one.n, one.k) == (other.n, other.k)
 
 
 def readable(table: pd.DataFrame) -> pd.DataFrame:
@@ -195,7 +235,9 @@ _TITLE = "Numbers printed in the paper, computed again"
 _NOTES = (
     "In brackets: a bound on the error in units of the last digit, at least 5e-10. Difference: of the sizes. Agrees if "
     "truncated: the digits agree if further ones are dropped. In the causes f(r_max) is the height of the punch, in "
-    "z0, where the paper's integration ends, and sigma_0 the cohesive stress."
+    "z0, where the paper's integration ends, and sigma_0 the cohesive stress. Agrees with the paper's scheme: "
+    "the digits follow from what the paper states of its computation. Agrees on a grid: they follow from steps or "
+    "ranges of n, k or mu that the paper does not state."
 )
 
 

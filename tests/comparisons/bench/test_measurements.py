@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from comparisons.bench import adhesion_package, cold_starts, growth, linear_systems, pull_off, two_workers
+from comparisons.bench import adhesion_package, cold_starts, growth, linear_systems, pull_off, timed_tasks, two_workers
 from fscm import Problem
 
 #: The pull-off force for n = 2, k = 0, mu = 1.
@@ -74,10 +74,11 @@ def test_every_method_solves_the_same_system():
 def test_a_sweep_is_timed(workers):
     numbers = two_workers.measure({"model": "jkr", "cases": 7, "workers": workers})
     assert 0.0 < numbers["seconds_of_tasks"] <= numbers["seconds"]
+    assert 0.0 <= numbers["idle_seconds"] < numbers["seconds_of_tasks"]
 
 
 def test_a_sweep_with_a_failed_case_is_no_measurement(monkeypatch):
-    monkeypatch.setattr(two_workers, "evaluate_task", lambda task: SimpleNamespace(status="failed"))
+    monkeypatch.setattr(timed_tasks, "evaluate_task", lambda task: SimpleNamespace(status="failed"))
     with pytest.raises(RuntimeError, match="3 of 3 cases have no value"):
         two_workers.measure({"model": "jkr", "cases": 3, "workers": 1})
 

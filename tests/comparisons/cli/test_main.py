@@ -1,5 +1,6 @@
 """The command-line contract: arguments, streams, exit statuses."""
 
+import csv
 import io
 import json
 import subprocess
@@ -14,9 +15,10 @@ import pytest
 
 from comparisons import __main__ as start
 from comparisons.cli.main import main
+from comparisons.judging.gates import gates_text, load_gates
 from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.registry import MODELS, create
-from comparisons.runs.cases import Case
+from comparisons.runs.cases import Case, grids
 
 CASE = ["--n", "2", "--k", "0.4", "--mu", "1"]
 
@@ -172,6 +174,37 @@ def test_lists(capsys):
         shown = capsys.readouterr().out
         assert [name for name in names if name not in shown] == []
     assert main(["list", "gates"]) == 0
+
+
+@pytest.mark.parametrize("form", ["csv", "json"])
+def test_the_listed_cases_are_the_standing_ones_to_the_last_digit(capsys, form):
+    assert main(["list", "cases", "--format", form]) == 0
+    shown = capsys.readouterr().out
+    every = list(csv.DictReader(io.StringIO(shown))) if form == "csv" else json.loads(shown)
+    missing = "" if form == "csv" else None
+    listed = [
+        (
+            row["grid"],
+            Case(*(float(row[x]) for x in ("n", "k", "mu")), None if row["nu"] == missing else float(row["nu"])),
+        )
+        for row in every
+    ]
+    assert listed == [(grid.id, case) for grid in grids("full") for case in grid.cases]
+    assert {row["reference"] for row in every} >= {"fscm"}
+
+
+@pytest.mark.parametrize("what", ["models", "quantities", "gates"])
+def test_every_list_has_a_form_for_programs(capsys, what):
+    shown = {}
+    for form in ("csv", "json"):
+        assert main(["list", what, "--format", form]) == 0
+        shown[form] = capsys.readouterr().out
+    objects = json.loads(shown["json"])
+    first, *rows = csv.reader(io.StringIO(shown["csv"]))
+    assert [list(one) for one in objects] == [first] * len(rows)
+    if what == "gates":
+        limits = {(gate.id, gate.lower, gate.upper) for gate in load_gates(gates_text())}
+        assert {(row[0], float(row[-2]), float(row[-1])) for row in rows} == limits
 
 
 def test_curve_goes_to_stdout_as_csv(capsys):

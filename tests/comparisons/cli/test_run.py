@@ -1,6 +1,7 @@
 """A run: complete, repeatable, and not lost when it is interrupted."""
 
 import json
+import re
 from concurrent.futures.process import BrokenProcessPool
 
 import pandas as pd
@@ -98,8 +99,11 @@ def test_the_figure_and_numbers_of_the_paper_are_shown_where_there_are_some(tmp_
 def test_two_runs_give_the_same_bytes(small_grid, tmp_path):
     run(tmp_path / "a")
     run(tmp_path / "b")
-    for name in FILES - {"run.json", "journal.jsonl", "results.parquet"}:
+    # These have times.
+    for name in FILES - {"run.json", "journal.jsonl", "results.parquet", "junit.xml"}:
         assert read(tmp_path / "a", name) == read(tmp_path / "b", name), name
+    without_times = [re.sub(rb' time="[\d.]+"', b"", read(tmp_path / folder, "junit.xml")) for folder in "ab"]
+    assert without_times[0] == without_times[1]
 
 
 def interrupt_after(count, error=KeyboardInterrupt):

@@ -89,7 +89,8 @@ def test_nonsense_is_a_failed_row_with_a_reason(nonsense, number, sentence):
 def test_a_process_that_writes_a_count_of_its_own_is_not_believed(count):
     reply = {"status": "ok", "value": 1.5, "u_num": 0.0, "size": count, "iterations": 0, "residual": 0.0}
     texts = {"name": "stranger", "version": "1", "citation": "", "domain": "", "digest": "0" * 64, "hashed": ""}
-    model = ExternalModel(SimpleNamespace(request=lambda *_, **__: reply), texts | {"limits": [], "physical": False})
+    child = SimpleNamespace(request=lambda *_, **__: reply, is_program=False)
+    model = ExternalModel(child, texts | {"limits": [], "physical": False})
     assert evaluate(model, "pull_off_force", CASE).reason == "its process wrote something that is not a result"
 
 

@@ -16,6 +16,7 @@ import pytest
 from comparisons.baseline import BASELINE, drift, read_baseline
 from comparisons.cli.main import main
 from comparisons.cli.options import case_of
+from comparisons.domain import Domain
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import GIVEN, gates_text, load_gates, of_tier
 from comparisons.judging.judge import judge
@@ -297,8 +298,13 @@ def test_a_right_model_of_one_shape_and_gradient_is_judged_and_what_it_leaves_ou
     ]
     covers = (of_reference["n"] == 2) & (of_reference["k"] == 0) & (of_reference["mu"] >= 1.5)
     mine = of_reference.assign(model="mine", status=covers.map({True: "ok", False: "not-applicable"}))
-    judged = summarise(judge([gate], grid, pd.concat([of_reference, mine]), CURVES, ["mine"]))
-    assert judged[["verdict", "cases", "skipped"]].to_numpy().tolist() == [["PASS", 4, len(mine) - 4]]
+    rows = pd.concat([of_reference, mine])
+    # It declares its domain; one that only refuses the other cases has too few values.
+    domain = Domain.of({"quantities": [gate.quantity], "n": [2, 2], "k": [0, 0], "mu": [1.5, 5]})
+    judged = summarise(judge([gate], grid, rows, CURVES, ["mine"], {"mine": domain}))
+    assert judged[["verdict", "asked", "outside"]].to_numpy().tolist() == [["PASS", 4, len(mine) - 4]]
+    judged = summarise(judge([gate], grid, rows, CURVES, ["mine"]))
+    assert judged[["verdict", "asked", "answered"]].to_numpy().tolist() == [["FAIL", len(mine), 4]]
 
 
 def test_the_code_computes_what_is_committed():

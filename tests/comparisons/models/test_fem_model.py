@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 import fem_reference
-from comparisons.models.fem_model import FiniteElements, _audited
+from comparisons.models.fem_model import _SCALES, FiniteElements, _audited
 from comparisons.models.fscm_model import FullSelfConsistent
 from comparisons.numerics.curve_distance import curve_distance
 from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.quantities.points import near
+from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
 
 PROBLEM = Problem(n=2, k=0.4, mu=0.5)
@@ -56,3 +57,22 @@ def test_the_bound_takes_the_order_that_the_solution_declares(monkeypatch):
     monkeypatch.setattr(fem_reference, "solve", lambda body, quantity: solution)
     monkeypatch.setitem(QUANTITIES, "pull_off_central_gap", QUANTITIES["jump_in_gap"])
     assert FiniteElements().evaluate(PROBLEM, "pull_off_central_gap").u_num > 0.0
+
+
+def test_the_critical_tabor_number_is_that_of_the_modulus_and_has_the_bound_of_its_softer_end(monkeypatch):
+    asked = []
+
+    def solve(body, quantity):
+        asked.append((body, quantity))
+        return fem_reference.Solution(12.0, 0.6, 9, 3, 1e-12, 0.1, 6.0, 6.0, (1.05, 0.85, 0.69), (12.0, 12.0, 12.0))
+
+    monkeypatch.setattr(fem_reference, "solve", solve)
+    result = FiniteElements().evaluate(PROBLEM, "critical_tabor_number")
+    (body, quantity), physical = asked[0], PhysicalProblem(n=2, k=0.4, nu=0.3, E0=12.0, **_SCALES)
+    assert quantity == "critical_modulus"
+    assert (body.solid.k, body.solid.nu, body.punch.Q) == (0.4, 0.3, _SCALES["Q"])
+    assert result.value == pytest.approx(physical.tabor_number, rel=1e-14)
+    assert result.value + result.u_num == pytest.approx(replace(physical, E0=11.4).tabor_number, rel=1e-14)
+    assert result.value - result.u_num < replace(physical, E0=12.6).tabor_number
+    # mu is ignored.
+    assert FiniteElements().evaluate(replace(PROBLEM, mu=1e-9), "critical_tabor_number") == result

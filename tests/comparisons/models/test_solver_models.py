@@ -78,7 +78,7 @@ def test_the_finite_elements_get_the_same_tabor_number_and_return_the_same_unit(
         (fscm.Problem(2, 1, 1), "pull_off_force", "k <= 0.9, not k = 1"),
         (fscm.Problem(2, 0.95, 1), "pull_off_force", "k <= 0.9, not k = 0.95"),
         (fscm.Problem(2, 0, 1, law=Mie(12, 6)), "pull_off_force", "9-3 law"),
-        (fscm.Problem(2, 0, 1), "critical_tabor_number", "do not compute"),
+        (fscm.Problem(2, 0, 1), "contact_radius", "do not compute"),
     ],
 )
 def test_what_the_finite_elements_do_not_do(problem, quantity, reason):

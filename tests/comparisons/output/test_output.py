@@ -10,7 +10,7 @@ import pytest
 from comparisons.data.file_names import VERDICT_FILES
 from comparisons.judging.summary import summarise
 from comparisons.numerics.number_text import exact, limits_text, short
-from comparisons.output.junit import junit
+from comparisons.output.junit import evaluation_seconds, junit
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown, to_step_summary
 from comparisons.output.verdicts import command, matrix, write_verdicts
@@ -34,6 +34,7 @@ ROW = {
     "upper": 0.1,
     "verdict": "PASS",
     "reason": "",
+    "status": "ok",
 }
 JUDGED = pd.DataFrame(
     [
@@ -45,6 +46,7 @@ JUDGED = pd.DataFrame(
             "gate": "TWO",
             "verdict": "NOT-APPLICABLE",
             "reason": "jkr: no \x00 such | thing",
+            "status": "not-applicable",
             "error": math.nan,
         },
         ROW
@@ -55,6 +57,7 @@ JUDGED = pd.DataFrame(
             "mu": None,
             "verdict": "ERROR",
             "reason": "0 cases",
+            "status": "",
             "error": None,
         },
         ROW | {"gate": "FOUR", "verdict": "INCONCLUSIVE", "nu": 0.25},
@@ -148,11 +151,20 @@ def test_latex_is_booktabs_and_escapes_what_is_special():
 
 def test_junit_has_one_test_case_a_gate_and_case():
     root = ElementTree.fromstring(junit(JUDGED, partial(command, specs={})))
-    assert root.attrib == {"name": "fscm-bench", "tests": "6", "errors": "1", "failures": "2", "skipped": "2"}
+    counts = {"tests": "6", "errors": "1", "failures": "2", "skipped": "2"}
+    assert root.attrib == {"name": "fscm-bench", **counts, "time": "0.000000"}
     assert [suite.get("name") for suite in root] == ["ONE", "TWO", "THREE", "FOUR"]
     cases = root.findall(".//testcase")
     assert len(cases) == len(JUDGED)
     assert len({(case.get("classname"), case.get("name")) for case in cases}) >= 5
+    stated = {one.get("name"): one.get("value") for one in root[1].find("properties")}
+    assert stated == {
+        "jkr asked": "2",
+        "jkr answered": "1",
+        "jkr not_applicable": "1",
+        "jkr failed": "0",
+        "jkr outside": "0",
+    }
     assert [[child.tag for child in case] for case in cases] == [
         ["system-out"],
         ["failure"],
@@ -163,6 +175,16 @@ def test_junit_has_one_test_case_a_gate_and_case():
     ]
     failure = root.find(".//failure")
     assert "fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0.4 --mu 5" in failure.text
+
+
+def test_junit_has_the_time_of_each_evaluation():
+    timed = JUDGED.iloc[:2].assign(mu=[1.0, 5.0])
+    rows = timed.rename(columns={"candidate": "model"}).assign(seconds=[0.25, 1e-6])
+    root = ElementTree.fromstring(junit(timed, partial(command, specs={}), evaluation_seconds(rows)))
+    assert [case.get("time") for case in root.findall(".//testcase")] == ["0.250000", "0.000001"]
+    suites = [suite.get("time") for suite in root]
+    assert root.get("time") == "0.250001"
+    assert sum(map(float, suites)) == pytest.approx(0.250001, abs=1e-9)
 
 
 def test_the_command_of_a_row():
@@ -179,7 +201,7 @@ def test_the_command_of_a_row():
 def test_the_matrix_is_worst_first():
     shown = matrix(summarise(JUDGED), {})
     assert shown["verdict"].tolist() == ["ERROR", "FAIL", "INCONCLUSIVE", "XFAIL"]
-    assert shown["cases"].tolist() == ["0", "2", "1", "1 (1 n/a)"]
+    assert shown["coverage"].tolist() == ["", "2 of 2", "1 of 1", "1 of 2 (1 n/a)"]
 
 
 def test_the_files(tmp_path):

@@ -1,5 +1,6 @@
 """Verdicts on paper values, and the causes of the differences."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,9 +12,11 @@ from comparisons.numerics.number_text import short
 from comparisons.paper.baseline import PAPER_BASELINE
 from comparisons.paper.cache import CallCache
 from comparisons.paper.figures.fig11_gradient_effect import insensitive_regions, largest_chi
+from comparisons.paper.studies.tabor_curve import TaborCurve, tabor_numbers
 from comparisons.paper.values import comparison
 from comparisons.paper.values.causes import Repeated, frame
-from comparisons.paper.values.comparison import cause, judged, readable
+from comparisons.paper.values.comparison import BY_GRID, BY_SCHEME, cause, explained, judged, readable
+from comparisons.paper.values.sampling import LAST_K, first_or_last_step, jin_start, rounding_starts, without_place
 from comparisons.registry import create
 from comparisons.runs.cases import Case
 
@@ -145,7 +148,7 @@ def committed(name):
 
 def test_the_committed_verdicts_are_counted():
     counts = committed("paper_values")["verdict"].value_counts().to_dict()
-    assert counts == {"agrees": 24, "agrees if truncated": 4, "differs": 6}
+    assert counts == {"agrees": 24, BY_SCHEME: 6, BY_GRID: 4}
 
 
 def test_the_committed_texts_are_those_of_the_committed_table():
@@ -155,16 +158,23 @@ def test_the_committed_texts_are_those_of_the_committed_table():
         assert (FOLDER / f"paper_values{suffix}").read_text(encoding="utf-8") == text
 
 
-def test_the_committed_causes_follow_from_the_committed_repetitions():
-    repetitions = committed("paper_values_causes")
+@pytest.fixture(scope="module")
+def stored_repetitions():
+    return [
+        Repeated(paper_value_of(row), row.ingredient, row.computed, row.u, row.mu, row.stated_in_paper)
+        for row in committed("paper_values_causes").itertuples()
+    ]
+
+
+def test_the_committed_verdicts_and_causes_follow_from_the_committed_repetitions(stored_repetitions):
     for row in committed("paper_values").itertuples():
-        of_value = [
-            Repeated(paper_value_of(again), again.ingredient, again.computed, again.u, again.mu, again.stated_in_paper)
-            for again in repetitions.itertuples()
-            if (again.quantity, again.model, again.printed) == (row.quantity, row.model, row.printed)
-            and np.array_equal([again.n, again.k], [row.n, row.k], equal_nan=True)
-        ]
-        assert (cause(of_value) if of_value else "") == row.cause
+        paper_value = paper_value_of(row)
+        of_value = [again for again in stored_repetitions if again.paper_value == paper_value]
+        companions = [again for again in stored_repetitions if comparison._same_shape(again.paper_value, paper_value)]
+        assert (cause(of_value, companions) if of_value else "") == row.cause
+        plain = paper_value.verdict(abs(row.computed), row.u)
+        assert (explained(of_value) if of_value else plain) == row.verdict
+        assert of_value == [] or of_value[0].verdict == plain
 
 
 def paper_value_of(row):
@@ -178,7 +188,81 @@ def paper_value_of(row):
     return found
 
 
-@pytest.mark.parametrize("name", ["paper_values", "paper_values_causes"])
-def test_the_verdicts_committed_are_those_on_the_values_committed(name):
-    for row in committed(name).itertuples():
+def test_the_verdicts_of_the_repetitions_are_those_on_their_values():
+    for row in committed("paper_values_causes").itertuples():
         assert paper_value_of(row).verdict(abs(row.computed), row.u) == row.verdict
+
+
+@pytest.mark.parametrize(
+    ("others", "expected"),
+    [
+        ([repeated("cut", -1.71)], BY_SCHEME),
+        ([repeated("grid", -1.71, False)], BY_GRID),
+        ([repeated("grid", -1.71, False), repeated("cut", -1.71)], BY_SCHEME),
+        ([repeated("grid", -1.77, False), repeated("cut", -1.9)], "differs"),
+    ],
+)
+def test_a_verdict_names_what_gives_the_printed_digits(others, expected):
+    assert explained([repeated("converged", -1.8354), *others]) == expected
+    assert explained([repeated("converged", -1.7), *others]) == "agrees"
+
+
+def test_an_unstated_ingredient_that_contradicts_another_number_is_no_cause():
+    other = replace(PRINTED, model="other", text="5.8")
+    rows = [repeated("converged", -1.8354), repeated("far", -1.7, False), repeated("start", -1.71, False)]
+    companions = [Repeated(other, "far", 6.02, 1e-6, 1.0, False), Repeated(other, "start", 5.81, 1e-6, 1.0, False)]
+    assert cause(rows, companions) == (
+        "nothing the paper states gives it; these do: start (1.71); not far (1.7), which gives 6.02 for the printed 5.8"
+    )
+
+
+def test_all_eight_numbers_of_one_figure_follow_from_one_grid(stored_repetitions):
+    """The same gradient exponents and steps for the maxima of chi and for the ends of its regions."""
+    rows = [row for row in stored_repetitions if row.ingredient == "k up to 0.999, n in steps of 0.001"]
+    assert len(rows) == 8
+    assert {row.verdict for row in rows} == {"agrees"}
+    assert [first_or_last_step(end, first=i % 2 == 0) for i, end in enumerate(insensitive_regions(LAST_K))] == [
+        0.974,
+        1.056,
+        3.335,
+        6.219,
+    ]
+
+
+def test_the_steps_beyond_the_printed_ends_are_outside():
+    inside = [largest_chi(n, LAST_K)[0] for n in (0.974, 1.056, 3.335, 6.219)]
+    outside = [largest_chi(n, LAST_K)[0] for n in (0.973, 1.057, 3.334, 6.220)]
+    assert max(inside) <= 0.1 < min(outside)
+
+
+ONE = TaborCurve.through(np.ones(41))
+
+
+def curve_of(function):
+    return TaborCurve.through(function(np.log(np.array(tabor_numbers(40)))))
+
+
+def test_smallest_tabor_numbers_that_round_to_a_printed_error():
+    falling = curve_of(lambda x: 1.0 + 0.02 * np.exp(-0.1 * (x - np.log(0.01))))
+    low, high = rounding_starts(PRINTED, falling, ONE)
+    for mu, inside in ((low, True), (high, True), (low - 1e-4, False), (high + 1e-4, False)):
+        assert (abs(100.0 * (falling(np.array([mu]))[0] - 1.0) - 1.7) < 0.05) == inside
+    hump = curve_of(lambda x: 1.0 + 0.02 * np.exp(-((x + 1.0) ** 2)))
+    assert rounding_starts(PRINTED, hump, ONE) is None
+
+
+def test_an_interval_whose_points_exceed_a_printed_error():
+    hump = curve_of(lambda x: 1.0 + 0.0176 / (1.0 + (x + 1.0) ** 2 / 20.0))
+    low, high, found = without_place(PRINTED, hump, ONE)
+    assert low < np.exp(-1.0) < high
+    assert PRINTED.verdict(100.0 * found.kappa, 100.0 * found.u) == "agrees"
+    inner = np.geomspace(1.002 * low, high / 1.002, 99)
+    assert (100.0 * (hump(inner) - 1.0) > 1.7495).all()
+    assert without_place(PRINTED, ONE, ONE) is None
+
+
+def test_the_start_of_jin_explains_an_error_only_with_the_printed_stress(stored_repetitions):
+    rows = {row.ingredient: row.verdict for row in stored_repetitions if row.paper_value.text == "65.0"}
+    jin = f"smallest mu = {jin_start(1.0, 0.4):.4f} (mu_Jin = 0.01 at nu = 0.3)"
+    assert rows[jin] == "agrees if truncated"
+    assert rows[f"sigma_0 = 1.026 as printed; {jin}"] == "agrees"

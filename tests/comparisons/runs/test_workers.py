@@ -160,3 +160,18 @@ def test_processes_are_the_same_and_end_with_the_block():
     for process in first:
         with pytest.raises(ProcessLookupError):
             os.kill(process, 0)
+
+
+def test_a_process_works_on_items_that_are_alike(monkeypatch):
+    """In the plain order each of the two would work on both kinds."""
+    taken = {}
+
+    class Numbered(InThisProcess):
+        def submit(self, function, item):
+            taken.setdefault(id(self), []).append(item)
+            return super().submit(function, item)
+
+    monkeypatch.setattr(workers, "_pool", Numbered)
+    items = ["a1", "b1", "b2", "a2", "a3", "b3"]
+    assert sorted(each(str, items, 2, lost=str, alike=lambda item: item[0])) == sorted(items)
+    assert sorted(map(sorted, taken.values())) == [["a1", "a2", "a3"], ["b1", "b2", "b3"]]

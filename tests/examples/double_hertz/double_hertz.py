@@ -39,6 +39,20 @@ STRENGTH = 16.0 * math.sqrt(3.0) / 27.0
 T_MAX, STEPS = 150.0, 301
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
 
+#: It is not evaluated elsewhere; inside, "not applicable" would count as a failure.
+DOMAIN = {
+    "quantities": [
+        "pull_off_force",
+        "pull_off_displacement",
+        "jump_out_displacement",
+        "zero_load_displacement",
+        "force_curve",
+    ],
+    "n": [2, 2],
+    "k": [0, 0.9],
+    "mu": [1e-3, 100],
+}
+
 _CONTACT_ONLY = "the equations hold in contact only, and the gap is zero there"
 
 
@@ -51,6 +65,7 @@ class DoubleHertz:
         "Greenwood & Johnson, J. Phys. D 31 (1998) 3279-3290; Jin, Guo & Gao, J. Mech. Phys. Solids 61 (2013) 2473-2492"
     )
     domain = "n = 2, 0 <= k <= 0.9, mu <= 100; in contact"
+    applies_to = DOMAIN
     limits = ("rigid", "jkr")
 
     def evaluate(self, problem, quantity):

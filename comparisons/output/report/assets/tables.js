@@ -51,7 +51,7 @@ const Tables = (() => {
       made.dataset.v = exact;
       if (exact !== text && kind === "number") made.title = exact;
     }
-    if (kind === "verdict") {
+    if (kind === "verdict" && text) {
       const badge = document.createElement("span");
       const [symbol, className] = DATA.verdicts[text];
       badge.className = `verdict ${className}`;

@@ -100,6 +100,7 @@ def judged(gate, candidate, mu, verdict, error, *, reason="", uncertainty=1e-8):
         "upper": math.inf if gate.startswith("FE") else 0.1,
         "verdict": verdict,
         "reason": reason,
+        "status": {"ERROR": "failed", "NOT-APPLICABLE": "not-applicable"}.get(verdict, "ok"),
     }
 
 

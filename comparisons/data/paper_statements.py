@@ -1,0 +1,111 @@
+"""Statements of a paper in words of our own, with the test and the range by which each is judged."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from importlib.resources import files
+from typing import Any
+
+from comparisons.data.toml_text import parse
+from comparisons.data.validation import validated
+
+__all__ = ["PaperStatement", "paper_statements", "read_statements", "verdicts"]
+
+_FILE = "paper_statements.toml"
+#: The committed verdicts, a copy of the table in `results/baseline/paper` that is in every installation.
+_VERDICTS = "paper_statements.csv"
+
+
+@dataclass(frozen=True, slots=True)
+class PaperStatement:
+    """A statement of the paper.
+
+    Attributes
+    ----------
+    id, section : str
+        Name, and where the paper states it.
+    statement : str
+        What it states, in words of our own.
+    test : str
+        Name of the test, as in `comparisons.paper.statements.registry`.
+    how : str
+        How it is tested: what is compared, and how a word without a number ("small") is read.
+    range : str
+        Shapes, gradient exponents and Tabor numbers of the comparisons, and which of them are beyond the paper.
+    command : str
+        Repeats the decisive numbers.
+    arguments : mapping
+        Of the test.
+    stated_n : tuple of float
+        Shape indices for which the paper states it; those of other clauses are beyond the paper.  Empty: all.
+    """
+
+    id: str
+    section: str
+    statement: str
+    test: str
+    how: str
+    range: str
+    command: str
+    arguments: Mapping[str, Any] = field(default_factory=dict)
+    stated_n: tuple[float, ...] = ()
+
+    def beyond(self, n: float) -> bool:
+        """Whether the paper does not state it for this shape index."""
+        return bool(self.stated_n) and n not in self.stated_n
+
+    def numbers(self, name: str, default: tuple[float, ...] = ()) -> tuple[float, ...]:
+        """Return an argument that is a list of numbers."""
+        return tuple(float(value) for value in self.arguments.get(name, default))
+
+
+def read_statements(text: str, source: str = _FILE) -> list[PaperStatement]:
+    r"""Return the statements of a TOML text.
+
+    Raises
+    ------
+    ValueError
+        If a key or value is not admissible, or two statements have one id; the sentence names it.
+
+    Examples
+    --------
+    >>> read_statements('[[statement]]\nid = "a"', "mine.toml")
+    Traceback (most recent call last):
+    ValueError: mine.toml: statement a: section, statement, test, how, range, command missing; ...
+    """
+    document = parse(text, source)
+    validated(document, "paper_statements", source)
+    found = [
+        PaperStatement(**{**table, "stated_n": tuple(map(float, table.get("stated_n", ())))})
+        for table in document["statement"]
+    ]
+    ids = [statement.id for statement in found]
+    for id in ids:
+        if ids.count(id) > 1:
+            raise ValueError(f"{source}: two statements have the id {id!r}; an id must be unique")
+    return found
+
+
+def paper_statements() -> list[PaperStatement]:
+    """Return the statements of the paper, in its order.
+
+    Examples
+    --------
+    >>> len(paper_statements()) >= 25
+    True
+    """
+    return read_statements(files("comparisons.data").joinpath(_FILE).read_text(encoding="utf-8"))
+
+
+def verdicts() -> list[dict[str, str]]:
+    """Return the rows of the shipped verdicts, in the order of the statements.
+
+    Examples
+    --------
+    >>> sorted({row["verdict"] for row in verdicts()})
+    ['false', 'true', 'true in part']
+    """
+    text = files("comparisons.data").joinpath(_VERDICTS).read_text(encoding="utf-8")
+    return list(csv.DictReader(text.splitlines()))

@@ -1,0 +1,221 @@
+"""Fresh cases of a run: drawn at random from the domain of each given model, and judged by the limits of its gates.
+
+A model can know the standing cases by heart; it cannot know these.  Inside the box of the atlas the atlas is the
+reference where its bound is small beside the limits, elsewhere the reference of the gate.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+from zlib import crc32
+
+from comparisons.console.progress import log
+from comparisons.domain import Domain, declared_domain
+from comparisons.judging.gates import GIVEN, Gate
+from comparisons.judging.selection import cases_of, relevant
+from comparisons.registry import ExternalIdentity, create
+from comparisons.runs.cases import TIERS, Case, Grid
+from comparisons.runs.parameter_sets import latin_hypercube
+from comparisons.runs.tasks import Task, plan
+
+__all__ = ["RANDOM", "FreshCases", "Part", "draw"]
+
+#: The end of the id of a gate that is judged in fresh cases, and the tag of their grids.
+RANDOM = "-RANDOM"
+_TAG = "random"
+
+#: The metrics of gates that are judged in fresh cases: those of one value beside one reference.
+_METRICS = ("rel", "abs", "en")
+
+#: Fresh cases are drawn inside these ranges at most.  The full self-consistent model converges in all of them: its edge
+#: becomes too narrow beyond k = 0.8 at mu = 10, and the rest is wider than the box of the atlas.
+_REACH = {"n": (0.8, 10.0), "k": (0.0, 0.8), "mu": (0.005, 10.0)}
+
+_ATLAS, _FSCM = "atlas", "fscm"
+#: The largest bound of the atlas (docs/atlas.md), and how many times wider the limits of a gate are where it is used.
+_ATLAS_BOUND, _WIDER = 1e-4, 100.0
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """The fresh cases of one model for one gate, with one reference.
+
+    Attributes
+    ----------
+    gate : Gate
+        With the limits of the standing gate; its id ends in `RANDOM`.
+    grid : Grid
+        The cases.
+    """
+
+    gate: Gate
+    grid: Grid
+
+
+@dataclass(frozen=True, slots=True)
+class FreshCases:
+    """The fresh cases of a run.
+
+    Attributes
+    ----------
+    count : int
+        Cases for each model and gate.
+    seed : int
+        From which the same cases follow again.
+    parts : tuple of Part
+    """
+
+    count: int
+    seed: int
+    parts: tuple[Part, ...]
+
+    def plan(self, external: Mapping[str, ExternalIdentity]) -> list[Task]:
+        """Return the tasks of all parts."""
+        return plan([part.grid for part in self.parts], None, external)
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the form in the record of a run: the cases themselves, since other versions may draw others."""
+        parts = [
+            {
+                "gate": part.gate.id.removesuffix(RANDOM),
+                "candidate": part.gate.candidate,
+                "reference": part.gate.reference,
+                "cases": [[case.n, case.k, case.mu] for case in part.grid.cases],
+            }
+            for part in self.parts
+        ]
+        return {"count": self.count, "seed": self.seed, "parts": parts}
+
+    @classmethod
+    def of_json(cls, stored: Mapping[str, Any], gates: Iterable[Gate]) -> FreshCases:
+        """Return the fresh cases of a record, as far as they are about some gates."""
+        known = {gate.id: gate for gate in gates}
+        parts = tuple(
+            _part(known[one["gate"]], one["candidate"], one["reference"], tuple(Case(*case) for case in one["cases"]))
+            for one in stored["parts"]
+            if one["gate"] in known
+        )
+        return cls(stored["count"], stored["seed"], parts)
+
+
+def draw(
+    gates: Sequence[Gate],
+    grids: Sequence[Grid],
+    models: Sequence[str],
+    domains: Mapping[str, Domain],
+    count: int,
+    seed: int,
+) -> FreshCases:
+    """Draw fresh cases for every gate of every model that compares one value with one reference.
+
+    A gate of one model whose cases have tags has none.
+
+    Parameters
+    ----------
+    gates, grids, models
+        Of the run.
+    domains : mapping of str to Domain
+        The domains that models declare; for others the cases are between the standing ones.
+    count : int
+        Cases for each model and gate.
+    seed : int
+
+    Examples
+    --------
+    >>> from comparisons.judging.gates import gates_text, load_gates
+    >>> from comparisons.runs.cases import grids
+    >>> fresh = draw(load_gates(gates_text()), grids("quick"), ["dmt"], {}, 3, 1)
+    >>> [(part.gate.id, part.gate.reference, len(part.grid.cases)) for part in fresh.parts]
+    [('GIVEN-PULL-OFF-FORCE-RANDOM', 'atlas', 3)]
+    """
+    parts: list[Part] = []
+    passed_over = 0
+    # Tags select cases that were chosen for a gate of one model, as those near a limit: no others are like them.
+    for gate in relevant(
+        [gate for gate in gates if gate.candidate == GIVEN or "tags" not in gate.cases], grids, models
+    ):
+        if gate.candidate not in models:
+            continue
+        if gate.metric not in _METRICS or gate.rival or gate.reference_at:
+            passed_over += 1
+            continue
+        standing = cases_of(gate, grids, models)
+        tables = _tables(gate, domains.get(gate.candidate), standing)
+        if not tables:
+            log(f"{gate.id} has no fresh cases: the domain of {gate.candidate} has none that it can be judged in")
+            continue
+        cases = _cases(tables, count, [seed, crc32(f"{gate.id} {gate.candidate}".encode())])
+        by_reference: dict[str, list[Case]] = {}
+        for case in cases:
+            by_reference.setdefault(_reference(gate, case), []).append(case)
+        parts += [_part(gate, gate.candidate, name, tuple(sorted(own))) for name, own in sorted(by_reference.items())]
+    if passed_over:
+        log(f"{passed_over} gates have no fresh cases: they compare curves, or have a rival or a reference_at")
+    return FreshCases(count, seed, tuple(parts))
+
+
+def _part(gate: Gate, candidate: str, reference: str, cases: tuple[Case, ...]) -> Part:
+    least = _ATLAS_BOUND if reference == _ATLAS else 0.0
+    fresh = replace(
+        gate,
+        id=f"{gate.id}{RANDOM}",
+        requirement=f"In fresh random cases: {gate.requirement}",
+        candidate=candidate,
+        reference=reference,
+        cases={},
+        min_cases=0,
+        max_reference_uncertainty=max(gate.max_reference_uncertainty, least),
+        expected_failure=None,
+        measured_range=None,
+        not_applicable="leave-out",
+    )
+    title = f"Fresh cases of {candidate} for {gate.id}"
+    grid = Grid(fresh.id, title, TIERS[0], reference, (candidate,), (gate.quantity,), cases, (_TAG,))
+    return Part(fresh, grid)
+
+
+def _tables(gate: Gate, domain: Domain | None, standing: Sequence[Case]) -> list[dict[str, tuple[float, float]]]:
+    """Return the ranges of n, k and mu from which cases are drawn."""
+    if domain is not None:
+        tables = [{name: table.ends(name) for name in _REACH} for table in domain.of_quantity(gate.quantity)]
+    elif standing:
+        values = {name: [getattr(case, name) for case in standing] for name in _REACH}
+        tables = [{name: (min(found), max(found)) for name, found in values.items()}]
+    else:
+        tables = []
+    limited = [
+        {name: _common(ends, reach, gate.cases.get(name)) for name, ends, reach in _each(table)} for table in tables
+    ]
+    return [table for table in limited if all(low <= high for low, high in table.values())]
+
+
+def _each(table: Mapping[str, tuple[float, float]]) -> list[tuple[str, tuple[float, float], tuple[float, float]]]:
+    return [(name, table[name], reach) for name, reach in _REACH.items()]
+
+
+def _common(*ranges: Sequence[float] | None) -> tuple[float, float]:
+    known = [ends for ends in ranges if ends is not None]
+    return max(low for low, _ in known), min(high for _, high in known)
+
+
+def _cases(tables: Sequence[Mapping[str, tuple[float, float]]], count: int, seed: list[int]) -> list[Case]:
+    """Return cases that are shared out evenly over the tables of ranges."""
+    cases: list[Case] = []
+    for number, table in enumerate(tables):
+        share = count // len(tables) + (number < count % len(tables))
+        if share:
+            points = latin_hypercube({"count": share, "seed": [*seed, number], **table}, "fresh cases")
+            cases += [Case(*point) for point in points]
+    return list(dict.fromkeys(cases))
+
+
+def _reference(gate: Gate, case: Case) -> str:
+    """Return the reference of a fresh case."""
+    width = min(abs(limit) for limit in (gate.lower, gate.upper) if math.isfinite(limit))
+    if gate.reference != _FSCM or gate.candidate == _ATLAS or gate.metric == "en" or width < _WIDER * _ATLAS_BOUND:
+        return gate.reference
+    atlas = declared_domain(create(_ATLAS))
+    return _ATLAS if atlas is not None and atlas.contains(gate.quantity, case.parameters) else gate.reference

@@ -1,0 +1,229 @@
+"""Leaderboard of models from any number of runs: one table, a row for each model and quantity of each run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from string import ascii_uppercase
+from typing import Any
+
+import pandas as pd
+
+from comparisons.judging.decision import Verdict, roll_up
+from comparisons.numerics.number_text import percent_text
+from comparisons.output.error_summary import error_summary
+from comparisons.output.report.render import render_table
+from comparisons.output.report.stored_run import Stored
+from comparisons.output.report.table import (
+    CASE_COLUMNS,
+    Cell,
+    Column,
+    Row,
+    Table,
+    case_cells,
+    number,
+    without_empty,
+)
+from comparisons.quantities import title_of
+from comparisons.runs.csv_format import csv_text
+from comparisons.runs.rows import Key
+
+__all__ = ["Entry", "case_sets", "leaderboard_html", "standing"]
+
+_KEY = ["model", "quantity", "n", "k", "mu", "nu"]
+
+#: Facts that two runs must share for their errors and verdicts to be comparable, in words for a message.
+_FACTS = ("cases", "tier", "gates", "chosen by gates")
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A run on the leaderboard.
+
+    Attributes
+    ----------
+    name : str
+        The folder as the user named it.
+    stored : Stored
+    planned : mapping of Key to str, or None
+        The keys of the results that its tables of errors are about, and the reference of each; None if they are not
+        known any more, since the standing cases have changed.
+    """
+
+    name: str
+    stored: Stored
+    planned: Mapping[Key, str] | None = None
+
+    @property
+    def facts(self) -> tuple[str, ...]:
+        """What `_FACTS` names: checksums of cases and gates, the tier, and whether gates chose what was computed."""
+        record, arguments = self.stored.record, self.stored.record["arguments"]
+        gates = record.get("judged_again", record).get("gates_sha256", "")
+        chosen = arguments["tier"] is not None and (arguments["model"] is not None or arguments["gates"] is not None)
+        tier = "" if arguments["tier"] is None else str(arguments["tier"])
+        return record["cases_sha256"], tier, gates, "yes" if chosen else "no"
+
+
+def case_sets(entries: Sequence[Entry], mixed: bool) -> list[str]:
+    """Return the letter of each run's cases and gates; all are A unless they are mixed.
+
+    Raises
+    ------
+    ValueError
+        If they differ and are not meant to; one sentence names two runs and what is different.
+    """
+    found: dict[tuple[str, ...], str] = {}
+    letters = []
+    for entry in entries:
+        if entry.facts not in found:
+            place = len(found)
+            found[entry.facts] = ascii_uppercase[place % 26] * (place // 26 + 1)
+        letters.append(found[entry.facts])
+    if len(found) > 1 and not mixed:
+        first = entries[0]
+        other = next(entry for entry in entries if entry.facts != first.facts)
+        different = [name for name, one, two in zip(_FACTS, first.facts, other.facts, strict=True) if one != two]
+        raise ValueError(
+            f"{first.name} and {other.name} were not judged in the same way (different: {', '.join(different)}), so "
+            "that their errors are not comparable; --mixed puts them on one page, which states it"
+        )
+    return letters
+
+
+def standing(entry: Entry) -> pd.DataFrame:
+    """Return the summary of errors of a run (`comparisons.output.error_summary`) with version and verdict."""
+    stored = entry.stored
+    kappa = stored.kappa[[*_KEY, "reference", "kappa", "u_kappa"]]
+    keys = [
+        (*key[:5], None if pd.isna(key[5]) else key[5])
+        for key in stored.results[_KEY].itertuples(index=False, name=None)
+    ]
+    results = stored.results
+    if entry.planned is None:
+        of_quantity = dict(kappa.groupby("quantity")["reference"].agg("first"))
+        results = results.assign(stated=[of_quantity.get(key[1], "") for key in keys])
+    else:
+        results = results.assign(stated=[entry.planned.get(key) for key in keys])
+        results = results[results["stated"].notna()]
+    joined = results.merge(kappa, on=_KEY, how="left")
+    # A model without any value has no relative error, which would name the reference.
+    joined["reference"] = joined["reference"].fillna(joined["stated"])
+    found = error_summary(joined[joined["model"] != joined["reference"]])
+    versions = dict(stored.results.groupby("model")["model_version"].agg("first"))
+    found["version"] = found["model"].map(versions)
+    found["verdict"] = [
+        _verdict(stored.verdicts, *pair) for pair in zip(found["model"], found["quantity"], strict=True)
+    ]
+    return found
+
+
+def _verdict(verdicts: pd.DataFrame, model: str, quantity: str) -> str:
+    """Return the worst verdict on a model about a quantity; one without a quantity is on the model as a whole."""
+    own = verdicts[(verdicts["candidate"] == model) & verdicts["quantity"].isin([quantity, ""])]
+    return "" if own.empty else str(roll_up(own["verdict"]))
+
+
+def leaderboard_html(entries: Sequence[Entry], mixed: bool = False) -> str:
+    """Return the page.
+
+    Parameters
+    ----------
+    entries : sequence of Entry
+    mixed : bool
+        Whether runs of different cases or gates may stand on one page, which then states it.
+
+    Raises
+    ------
+    ValueError
+        If they may not, and are different.
+    """
+    letters = case_sets(entries, mixed)
+    every = pd.concat(
+        [
+            standing(entry).assign(
+                run=entry.name,
+                case_set=letter,
+                finished=entry.stored.record["finished"][:10],
+                package=_package(entry.stored.record),
+            )
+            for entry, letter in zip(entries, letters, strict=True)
+        ],
+        ignore_index=True,
+    )
+    size = every["largest"].abs()
+    every = every.assign(size=size).sort_values(["quantity", "case_set", "size"], kind="stable", ignore_index=True)
+    columns = (
+        Column("model", "head"),
+        *([Column("set")] if len(set(letters)) > 1 else []),
+        Column("quantity"),
+        Column("verdict", "verdict"),
+        Column("largest |κ| (%)", "number"),
+        *CASE_COLUMNS,
+        Column("rms κ (%)", "number"),
+        Column("bound (%)", "number"),
+        Column("asked", "number"),
+        Column("answered", "number"),
+        Column("not applicable", "number"),
+        Column("failed", "number"),
+        Column("cases with κ", "number"),
+        Column("reference"),
+        Column("version"),
+        Column("date"),
+        Column("fscm-bench"),
+        Column("run"),
+    )
+    rows = [Row(_cells(row, mixed=len(set(letters)) > 1)) for _, row in every.iterrows()]
+    table = without_empty(
+        Table("leaderboard", "One row a model and quantity of each run", columns, rows, ("leaderboard.csv",))
+    )
+    return render_table(
+        "leaderboard.html",
+        table,
+        {"leaderboard.csv": csv_text(every.drop(columns=["size"]))},
+        models=every["model"].nunique(),
+        runs=len(entries),
+        sets=_sets(entries, letters),
+    )
+
+
+def _package(record: dict[str, Any]) -> str:
+    package = record["package"]
+    commit = (package["commit"] or "")[:7]
+    return package["version"] + (f" ({commit})" if commit else "")
+
+
+def _sets(entries: Sequence[Entry], letters: Sequence[str]) -> list[tuple[str, str]]:
+    """Return the letter and the description of each set of cases; nothing if there is only one."""
+    described: dict[str, str] = {}
+    for entry, letter in zip(entries, letters, strict=True):
+        cases, tier, gates, chosen = entry.facts
+        words = f"the standing cases of the tier {tier}" if tier else "cases of a user"
+        words += f" (SHA-256 {cases[:12]})"
+        words += f", gates {gates[:12]}" if gates else ", no gates"
+        described.setdefault(letter, words + (", computed as far as the gates need them" if chosen == "yes" else ""))
+    return sorted(described.items()) if len(described) > 1 else []
+
+
+def _cells(row: pd.Series, mixed: bool) -> list[Cell]:
+    rank = float(Verdict(row["verdict"]).rank) if row["verdict"] else None
+    return [
+        Cell(row["model"]),
+        *([Cell(row["case_set"])] if mixed else []),
+        Cell(title_of(row["quantity"])),
+        Cell(row["verdict"], rank),
+        _size(row["largest"], row["u_largest"]),
+        *case_cells(row),
+        _size(row["rms"], row["u"]),
+        Cell("") if pd.isna(row["u"]) else Cell(f"{100 * row['u']:.1e}", float(row["u"])),
+        *(number(row[name], ".0f") for name in ("asked", "answered", "not_applicable", "failed", "cases")),
+        Cell(row["reference"]),
+        Cell(row["version"]),
+        Cell(row["finished"]),
+        Cell(row["package"]),
+        Cell(row["run"]),
+    ]
+
+
+def _size(kappa: float, u: float) -> Cell:
+    """Return a relative error with its sign, which sorts by its size."""
+    return Cell("") if pd.isna(kappa) else Cell(percent_text(kappa, u), abs(float(kappa)))

@@ -1,0 +1,1 @@
+"""Figures of the statements that do not hold, with both references."""

@@ -1,0 +1,1 @@
+"""Statements of the paper, each with a verdict from computed evidence."""

@@ -1,0 +1,181 @@
+"""Function that compares models with a reference in cases of one's own: one table, one figure, a run folder."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+from comparisons.output.comparison import comparison_table
+from comparisons.output.error_summary import error_summary
+from comparisons.output.figures import comparison as figure_of_comparison
+from comparisons.output.report.notebook import notebook_html
+from comparisons.output.style import save
+from comparisons.pipeline.inputs import Cases, load_cases
+from comparisons.pipeline.run import run
+from comparisons.quantities import CURVES
+from comparisons.runs.folder import RunFolder
+from comparisons.runs.record import read_record, write_record
+from comparisons.runs.rows import Row
+from comparisons.runs.tables import write_table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["REFERENCES", "Comparison", "compare"]
+
+#: References of a comparison: the accurate solution, and its interpolation, which takes microseconds inside its box.
+REFERENCES = ("fscm", "atlas")
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """Models beside a reference.
+
+    Attributes
+    ----------
+    table : DataFrame
+        One row for each quantity, case and model (`comparisons.output.comparison.comparison_table`).
+    summary : DataFrame
+        One row for each quantity and model: coverage, largest and root mean square error
+        (`comparisons.output.error_summary.error_summary`).
+    folder : Path
+        The run folder, with `table` and `figure` as ``comparison.csv``, ``.parquet``, ``.png`` and ``.pdf``.
+    failures : tuple of Row
+        The rows of computations that failed.
+    """
+
+    table: pd.DataFrame
+    summary: pd.DataFrame
+    folder: Path
+    failures: tuple[Row, ...]
+
+    def figure(self) -> Figure:
+        """Return the errors as a Matplotlib figure."""
+        return figure_of_comparison.draw(self.table)
+
+    def _repr_html_(self) -> str:
+        return notebook_html(self.table, self.summary)
+
+
+def compare(
+    models: str | Iterable[str],
+    grid: str | Path | None = None,
+    *,
+    n: Sequence[float] | None = None,
+    k: Sequence[float] | None = None,
+    mu: Sequence[float] | None = None,
+    nu: Sequence[float] | None = None,
+    quantities: Sequence[str] = ("pull_off_force",),
+    reference: str | None = None,
+    folder: Path | None = None,
+    jobs: int = 1,
+    retry_failed: bool = False,
+) -> Comparison:
+    """Compute models and the reference in cases of one's own, and compare them.
+
+    Parameters
+    ----------
+    models : iterable of str
+        Names or SPECs.
+    grid : str or Path, optional
+        A file of [[grid]] tables as a sweep has it, or its text.  It states the quantities and the references.
+    n, k, mu : sequence of float
+        Without a grid: every combination is a case.
+    nu : sequence of float, optional
+        Poisson's ratios, for models that need one.
+    quantities : sequence of str
+        Numbers, not curves, as in `comparisons.quantities.QUANTITIES`.
+    reference : str, optional
+        "fscm" (the default), or "atlas", which has no value outside its box.
+    folder : Path, optional
+        For the results; by default one in results/runs that is named by the time.  What it holds already is not
+        computed again.
+    jobs : int
+        Number of processes.  With more than one, a script needs the guard ``if __name__ == "__main__":``.
+    retry_failed : bool
+        Whether stored failures are computed again.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not admissible, or the folder holds results of other code or files of a user.
+    comparisons.model.ComputationFailed
+        If the workers cannot compute.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     found = compare(["jkr", "bradley"], n=[2], k=[0], mu=[1], reference="atlas", folder=Path(folder))
+    >>> found.table[["model", "kappa"]].round(4).values.tolist()
+    [['jkr', -0.1065], ['bradley', 0.1913]]
+    """
+    specs = [models] if isinstance(models, str) else list(models)
+    if not specs:
+        raise ValueError("no model is named; a comparison needs at least one")
+    if grid is None:
+        missing = [name for name, values in (("n", n), ("k", k), ("mu", mu)) if values is None or not len(values)]
+        if missing:
+            raise ValueError(f"the cases need --{' and --'.join(missing)}, or a file of them as --grid FILE")
+        grid = _grid_text(specs, {"n": n, "k": k, "mu": mu, "nu": nu}, quantities, reference or REFERENCES[0])
+    elif n is not None or k is not None or mu is not None or nu is not None or reference is not None:
+        raise ValueError("--grid states the cases and the references; leave out --n, --k, --mu, --nu and --reference")
+    _check(load_cases(grid, None), specs)
+    finished = run(grid, models=specs, folder=folder, jobs=jobs, retry_failed=retry_failed)
+    files = RunFolder(finished.folder)
+    # The names of the models, which a SPEC alone does not state.
+    record = read_record(files.record)
+    cases = load_cases(files.grid_text, None)
+    table = comparison_table(finished.tables.results, cases.grids, record["arguments"]["model"])
+    found = Comparison(table, error_summary(table), finished.folder, finished.failures)
+    write_table(table, files.comparison)
+    figure = found.figure()
+    for path in files.figure(files.comparison.name):
+        save(figure, path)
+    write_record(record, files.record)
+    return found
+
+
+def _grid_text(
+    models: Sequence[str], lists: dict[str, Sequence[float] | None], quantities: Sequence[str], reference: str
+) -> str:
+    """Return a [[grid]] table, which the folder keeps."""
+    if reference not in REFERENCES:
+        raise ValueError(
+            f"the reference {reference!r} is none of {', '.join(REFERENCES)}; a --grid FILE may name others"
+        )
+    numbers = {name: [float(value) for value in values] for name, values in lists.items() if values is not None}
+    # Lists of texts and finite numbers are the same in JSON and in TOML; others are refused with the reason.
+    entries = {
+        "id": "comparison",
+        "title": f"Comparison with {reference}",
+        "reference": reference,
+        "models": [reference],
+        "quantities": list(quantities),
+    }
+    lines = [f"{name} = {json.dumps(value)}" for name, value in entries.items()]
+    lines += [f"{name} = [{', '.join(map(_toml, values))}]" for name, values in numbers.items()]
+    return "\n".join(["[[grid]]", *lines, ""])
+
+
+def _toml(value: float) -> str:
+    return repr(value)
+
+
+def _check(cases: Cases, specs: Sequence[str]) -> None:
+    """Refuse what cannot be compared, before anything is computed."""
+    for grid in cases.grids:
+        if curves := [quantity for quantity in grid.quantities if quantity in CURVES]:
+            raise ValueError(
+                f"the grid {grid.id} has the curve {curves[0]}: a comparison is of numbers; "
+                "fscm-bench sweep computes curves, and a gate of the metric curve compares them"
+            )
+        if set(specs) <= {grid.reference}:
+            raise ValueError(
+                f"{grid.reference} is the reference of the grid {grid.id}: name a model to compare with it"
+            )

@@ -1,0 +1,101 @@
+"""Verdicts of a gates file by gate, model and case: those to expect before a run, and those of the run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+from filelock import FileLock
+from threadpoolctl import threadpool_limits
+
+from comparisons.judging.selection import cases_of, relevant
+from comparisons.numerics.number_text import exact
+from comparisons.output.junit import numbers_text
+from comparisons.output.verdicts import command
+from comparisons.pipeline.inputs import load_cases, read_gates
+from comparisons.pipeline.run import run
+from comparisons.registry import identify
+from comparisons.runs.atomic_files import prepare_folder
+from comparisons.runs.tasks import case_for
+
+__all__ = ["ExpectedVerdict", "expected_verdicts", "found_verdicts"]
+
+#: Gate, candidate, n, k, mu and nu; None for what is missing.
+VerdictKey = tuple[Any, ...]
+
+_LOCK = ".pytest.lock"
+
+
+@dataclass(frozen=True, slots=True)
+class ExpectedVerdict:
+    """A gate for one model in one case: its key, its name in a list, and the requirement of the gate."""
+
+    key: VerdictKey
+    name: str
+    requirement: str
+
+
+def expected_verdicts(gates: Path, models: Sequence[str], tier: str = "quick") -> Iterator[ExpectedVerdict]:
+    """Yield each gate for each model in each case, in the order of the judge; nothing is computed.
+
+    Parameters
+    ----------
+    gates : Path
+        A gates file.
+    models : sequence of str
+        Names or SPECs.
+    tier : str
+        Of the standing cases.
+
+    Raises
+    ------
+    ValueError
+        If a model or a gate is not admissible; one sentence states which.
+    """
+    names, _ = identify(models)
+    cases = load_cases(tier, names)
+    for gate in relevant(read_gates(gates, cases, names).gates, cases.grids, names):
+        for case in cases_of(gate, cases.grids, names):
+            own = case_for(gate.candidate, case)
+            parameters = " ".join(f"{name}={exact(value)}" for name, value in own.parameters.items())
+            key = (gate.id, gate.candidate, case.n, case.k, case.mu, own.nu)
+            yield ExpectedVerdict(key, f"{gate.id}[{gate.candidate} {parameters}]", gate.requirement)
+
+
+def found_verdicts(
+    gates: Path, models: Sequence[str], tier: str, folder: Path, jobs: int = 1
+) -> dict[VerdictKey, tuple[str, str]]:
+    """Run and judge; return the verdict of each key with a text: the reason, the numbers and the command.
+
+    Several processes may call it with one folder: the first computes, the others take its results.
+
+    Raises
+    ------
+    ValueError, comparisons.model.ComputationFailed
+        As `comparisons.pipeline.run.run`.
+    """
+    prepare_folder(folder)
+    with FileLock(folder / _LOCK), threadpool_limits(1):
+        judgement = run(tier, gates, list(models), folder, jobs=jobs).judgement
+    assert judgement is not None
+    repeat = partial(command, specs=judgement.specs)
+    rows = [row for _, row in judgement.verdicts.iterrows()]
+    return {_key(row, place): (str(row["verdict"]), _text(row, repeat(row))) for place, row in enumerate(rows)}
+
+
+def _key(row: pd.Series, place: int) -> VerdictKey:
+    """Return the key of a verdict; one on a whole gate has its place, since there may be several."""
+    if pd.isna(row["n"]):
+        return row["gate"], row["candidate"], place
+    numbers = [None if pd.isna(row[name]) else float(row[name]) for name in ("n", "k", "mu", "nu")]
+    return row["gate"], row["candidate"], *numbers
+
+
+def _text(row: pd.Series, again: str) -> str:
+    whole = f"{row['gate']} of {row['candidate']}: " if pd.isna(row["n"]) else ""
+    numbers = "" if pd.isna(row["error"]) else numbers_text(row)
+    return "\n".join(filter(None, [f"{whole}{row['reason']}", numbers, f"computed again by: {again}"]))

@@ -1,0 +1,124 @@
+"""Report cards of the external models of a run: evaluations again, use of the references, and `check-model`."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from random import SystemRandom
+from typing import Any
+
+from comparisons.console.progress import waiting
+from comparisons.external.contract_checks import examine
+from comparisons.external.data_model import DataModel
+from comparisons.external.evaluations import AnyExternalModel
+from comparisons.external.model_source import load_again
+from comparisons.registry import ExternalIdentity
+from comparisons.runs.cases import Case
+from comparisons.runs.environment import computing_environment
+from comparisons.runs.rows import Row
+from comparisons.runs.tasks import NOT_INDEPENDENT, evaluate
+
+__all__ = ["AGAIN", "make_cards"]
+
+#: Results of each external model that are evaluated again, at most; and for how long, by the times of the first ones.
+AGAIN, _SECONDS = 8, 60.0
+#: So many are evaluated again however long they take: two can change places.
+_LEAST = 2
+
+_RANDOM = "a random number or a clock: even the first evaluation of a new process gives another number"
+_STATE = "the result depends on earlier evaluations: it is another one when the evaluations come in another order"
+
+
+def make_cards(
+    external: Mapping[str, ExternalIdentity], rows: Sequence[Row], parts: Sequence[Mapping[str, Any]]
+) -> dict[str, Any]:
+    """Return the report card of each external model, as the record of the run holds it.
+
+    Parameters
+    ----------
+    external : mapping of str to ExternalIdentity
+    rows : sequence of Row
+        Of the run.
+    parts : sequence of mapping
+        The commands that computed them, with their environments.
+    """
+    here = computing_environment()
+    exact = all(part.get(name) == value for part in parts for name, value in here.items())
+    cards = {}
+    for name, identity in external.items():
+        own = [row for row in rows if row.model == name and row.status == "ok"]
+        with waiting(f"checking {name}"):
+            cards[name] = _card(identity, own, exact)
+    return cards
+
+
+def _card(identity: ExternalIdentity, rows: Sequence[Row], exact: bool) -> dict[str, Any]:
+    model = load_again(identity.spec)
+    try:
+        if isinstance(model, DataModel):
+            return {"kind": "data", "check_model": _findings(model)}
+        card: dict[str, Any] = {"kind": "program" if model.is_program else "code"}
+        # First, so that the process has evaluated nothing before.
+        if numbers := [row for row in rows if row.value is not None]:
+            card["repeated"] = _repeated(identity, model, numbers, exact)
+        card["check_model"] = _findings(model)
+        if not model.is_program:
+            seen = (row.reason.removeprefix(NOT_INDEPENDENT).strip().split(" and ") for row in rows if row.reason)
+            card["uses"] = sorted({fact for facts in seen for fact in facts} | set(model.uses))
+            card["starts_programs"] = model.starts_programs
+        return card
+    finally:
+        model.close()
+
+
+def _findings(model: AnyExternalModel) -> list[dict[str, str]]:
+    return [asdict(finding) for finding in examine(model)]
+
+
+def _repeated(identity: ExternalIdentity, model: AnyExternalModel, rows: Sequence[Row], exact: bool) -> dict[str, Any]:
+    """Evaluate some results again, the last first; the seed of the choice is nothing that a model can know."""
+    seed = SystemRandom().randrange(2**32)
+    chosen = _chosen(rows, seed)
+    cases = []
+    for row in reversed(chosen):
+        again = evaluate(model, row.quantity, Case(row.n, row.k, row.mu, row.nu))
+        allowed = 0.0 if exact else (row.u_num or 0.0) + (again.u_num or 0.0)
+        cases.append(
+            {
+                **{key: getattr(row, key) for key in ("quantity", "n", "k", "mu", "nu")},
+                "first": row.value,
+                "again": again.value,
+                "allowed": allowed,
+            }
+        )
+    changed = [case for case in cases if case["again"] is None or abs(case["again"] - case["first"]) > case["allowed"]]
+    cause = _cause(identity, changed[0]) if changed else ""
+    return {"seed": seed, "cause": cause, "cases": cases}
+
+
+def _chosen(rows: Sequence[Row], seed: int) -> list[Row]:
+    """Return some rows in their order, not more than take a minute."""
+    order = list(range(len(rows)))
+    random.Random(seed).shuffle(order)
+    chosen: list[int] = []
+    seconds = 0.0
+    for number in order:
+        seconds += rows[number].seconds
+        if len(chosen) >= AGAIN or (len(chosen) >= _LEAST and seconds > _SECONDS):
+            break
+        chosen.append(number)
+    return [rows[number] for number in sorted(chosen)]
+
+
+def _cause(identity: ExternalIdentity, case: Mapping[str, Any]) -> str:
+    """Return why a result changes: it is evaluated as the first one of two new processes."""
+    values = []
+    for _ in range(2):
+        model = load_again(identity.spec)
+        try:
+            row = evaluate(model, case["quantity"], Case(case["n"], case["k"], case["mu"], case["nu"]))
+            values.append(row.value)
+        finally:
+            model.close()
+    return _STATE if values[0] == values[1] else _RANDOM

@@ -1,0 +1,206 @@
+"""The action of GitHub and the template of GitLab: they parse, are pinned, and their commands run here."""
+
+import os
+import re
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+import yaml
+
+from comparisons.cli.options import FAILED, FAILS, INCONCLUSIVE, OK, WRONG_INPUT
+
+ROOT = Path(__file__).resolve().parents[3]
+ACTION = ROOT / ".github" / "actions" / "fscm-bench" / "action.yml"
+GITLAB = ROOT / "docs" / "ci" / "gitlab.yml"
+
+MODEL = """
+from comparisons import NotApplicable, Result
+
+
+class Mine:
+    name, version, citation, domain = "mine", "1", "none", "n = 2"
+
+    def evaluate(self, problem, quantity):
+        if quantity != "pull_off_force" or problem.n != 2:
+            raise NotApplicable("it is for the pull-off force at n = 2")
+        return Result((3 + problem.k) / 2, u_num=1e-15)
+"""
+
+GATES = """
+[[gate]]
+id = "STIFF"
+requirement = "The pull-off force at mu = 3 and 5 is within 5 %."
+quantity = "pull_off_force"
+candidate = "mine"
+reference = "fscm"
+cases = { n = [2, 2], k = [0.4, 0.4], mu = [3, 5] }
+metric = "rel"
+lower = -0.05
+upper = 0.05
+max_reference_uncertainty = 1e-4
+basis = "derived"
+grounds = "a test"
+min_cases = 2
+tier = "quick"
+"""
+
+
+@pytest.fixture(scope="module")
+def action():
+    return yaml.safe_load(ACTION.read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def job():
+    return yaml.safe_load(GITLAB.read_text(encoding="utf-8"))[".fscm-bench"]
+
+
+def step(action, name):
+    (found,) = [one for one in action["runs"]["steps"] if one["name"] == name]
+    return found
+
+
+def environment(one, inputs, tmp_path):
+    """The environment of a step: the expressions of GitHub with these inputs."""
+    values = {f"inputs.{name}": value for name, value in inputs.items()} | {"github.action_path": str(ACTION.parent)}
+    filled = {
+        name: re.sub(r"\$\{\{ ([\w.-]+) \}\}", lambda found: values[found[1]], text)
+        for name, text in one.get("env", {}).items()
+    }
+    return filled | {"GITHUB_OUTPUT": str(tmp_path / "output.txt")}
+
+
+def shell(script, folder, variables, path=None):
+    """Run a script as a CI system does: it ends at the first command that fails."""
+    programs = f"{path}:/usr/bin:/bin" if path else f"{Path(sys.executable).parent}:/usr/bin:/bin"
+    base = {"PATH": programs, "HOME": str(folder), "OPENBLAS_NUM_THREADS": "1"}
+    base |= {name: value for name, value in os.environ.items() if name.startswith("COVERAGE")}
+    return subprocess.run(
+        ["bash", "--noprofile", "--norc", "-e", "-o", "pipefail", "-c", script],
+        env=base | variables,
+        cwd=folder,
+        capture_output=True,
+        text=True,
+    )
+
+
+def defaults(action, **inputs):
+    given = {name: str(value.get("default", "")) for name, value in action["inputs"].items()}
+    return given | {name.replace("_", "-"): value for name, value in inputs.items()}
+
+
+def test_the_action_is_whole(action):
+    assert action["runs"]["using"] == "composite"
+    assert {name for name, value in action["inputs"].items() if value.get("required")} == {"model"}
+    for one in action["runs"]["steps"]:
+        assert ("run" in one) != ("uses" in one)
+        # A composite action has no default shell.
+        assert one.get("shell") == ("bash" if "run" in one else None)
+        # An input is no part of a script: it comes as a variable, which no shell takes for a command.
+        assert "${{" not in one.get("run", "")
+    named = set(re.findall(r"inputs\.([\w-]+)", ACTION.read_text(encoding="utf-8")))
+    assert named == action["inputs"].keys()
+
+
+def test_every_version_is_pinned(action, job):
+    used = [one["uses"] for one in action["runs"]["steps"] if "uses" in one]
+    assert len(used) == 3
+    assert [name for name in used if not re.fullmatch(r"actions/[a-z-]+@[0-9a-f]{40}", name)] == []
+    assert re.fullmatch(r"python:3\.\d+\.\d+-slim-\w+", job["image"])
+
+
+def wheel(folder, version="9.9"):
+    """An empty wheel of this name."""
+    info = f"fscm_bench-{version}.dist-info"
+    with zipfile.ZipFile(folder / f"fscm_bench-{version}-py3-none-any.whl", "w") as archive:
+        archive.writestr("installed_offline.py", "")
+        archive.writestr(f"{info}/METADATA", f"Metadata-Version: 2.1\nName: fscm-bench\nVersion: {version}\n")
+        archive.writestr(
+            f"{info}/WHEEL", "Wheel-Version: 1.0\nGenerator: test\nRoot-Is-Purelib: true\nTag: py3-none-any\n"
+        )
+        archive.writestr(f"{info}/RECORD", "")
+
+
+@pytest.mark.parametrize("system", ["github", "gitlab"])
+def test_it_installs_from_wheels_without_a_network(action, job, tmp_path, system):
+    wheel(tmp_path)
+    offline = {
+        "PIP_TARGET": str(tmp_path / "target"),
+        "PIP_NO_CACHE_DIR": "1",
+        "no_proxy": "",
+        "https_proxy": "http://0.0.0.0:9",
+    }
+    if system == "github":
+        install = step(action, "Install fscm-bench")
+        variables = environment(install, defaults(action, wheels=str(tmp_path)), tmp_path)
+        done = shell(install["run"], tmp_path, variables | offline)
+    else:
+        variables = job["variables"] | {"FSCM_BENCH_WHEELS": str(tmp_path)}
+        done = shell("\n".join(job["before_script"]), tmp_path, variables | offline)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "target" / "installed_offline.py").exists()
+
+
+def test_without_wheels_the_action_installs_its_own_repository(action, tmp_path):
+    program = stub(tmp_path, "python", 'echo "$@"')
+    install = step(action, "Install fscm-bench")
+    for inputs, expected in (
+        ({}, f"-m pip install {ACTION.parent}/../../.."),
+        ({"package": "a.whl"}, "-m pip install a.whl"),
+    ):
+        done = shell(
+            install["run"], tmp_path, environment(install, defaults(action, **inputs), tmp_path), program.parent
+        )
+        assert done.stdout.strip() == expected
+    assert (ACTION.parent / "../../.." / "pyproject.toml").exists()
+
+
+def stub(tmp_path, name, script):
+    program = tmp_path / "bin" / name
+    program.parent.mkdir(exist_ok=True)
+    program.write_text(f"#!/bin/sh\n{script}\n")
+    program.chmod(0o755)
+    return program
+
+
+@pytest.mark.parametrize("status", [OK, FAILS, WRONG_INPUT, INCONCLUSIVE, FAILED])
+def test_the_job_ends_with_the_status_of_the_run(action, job, tmp_path, status):
+    program = stub(tmp_path, "fscm-bench", f'echo "$@" >> calls.txt\n[ "$1" = run ] && exit {status}\nexit 0')
+    judge = step(action, "Judge")
+    variables = environment(judge, defaults(action, model="a b", gates="my gates.toml"), tmp_path)
+    done = shell(judge["run"], tmp_path, variables, program.parent)
+    assert done.returncode == status
+    assert (tmp_path / "output.txt").read_text() == f"status={status}\n"
+    assert ("::error::inconclusive" in done.stdout) == (status == INCONCLUSIVE)
+    variables = job["variables"] | {"FSCM_BENCH_MODEL": "a b"}
+    assert shell("\n".join(job["script"]), tmp_path, variables, program.parent).returncode == status
+    assert (tmp_path / "calls.txt").read_text().splitlines() == [
+        "run --tier quick --model a b --gates my gates.toml --out fscm-bench-results",
+        "check-model a",
+        "check-model b",
+        "run --tier quick --model a b --out fscm-bench-results",
+    ]
+
+
+def test_the_steps_judge_a_model_and_write_the_report(action, tmp_path):
+    (tmp_path / "mine.py").write_text(MODEL)
+    (tmp_path / "gates.toml").write_text(GATES)
+    # The program of this environment, whatever is installed where.
+    program = stub(tmp_path, "fscm-bench", f'PYTHONPATH="{ROOT}" exec "{sys.executable}" -m comparisons "$@"')
+    inputs = defaults(action, model="mine.py:Mine", gates="gates.toml")
+    for name in ("Judge", "Write the report"):
+        one = step(action, name)
+        done = shell(one["run"], tmp_path, environment(one, inputs, tmp_path), program.parent)
+        assert done.returncode == 0, done.stderr
+    written = {path.name for path in (tmp_path / "fscm-bench-results").iterdir()}
+    assert {"run.json", "junit.xml", "report.html"} <= written
+    assert (tmp_path / "output.txt").read_text() == "status=0\n"
+
+
+def test_gitlab_keeps_the_junit_xml_of_a_job_that_fails(job):
+    assert job["artifacts"]["when"] == "always"
+    assert job["artifacts"]["reports"]["junit"] == "$FSCM_BENCH_OUT/junit.xml"
+    assert job["cache"]["paths"] == [".cache/pip"]

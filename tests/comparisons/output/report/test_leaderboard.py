@@ -1,0 +1,223 @@
+"""The leaderboard: one row a model and quantity of each run, on one page that needs no other file."""
+
+import json
+import math
+import re
+from dataclasses import replace
+
+import pandas as pd
+import pytest
+
+from comparisons.cli.main import main
+from comparisons.output.report.leaderboard import Entry, case_sets, leaderboard_html, standing
+from comparisons.output.report.stored_run import Stored
+from comparisons.runs.cases import load_grids
+from comparisons.runs.record import read_record, write_record
+
+from .browsing import DESKTOP, click, head, sorting
+
+GATE = """
+[[gate]]
+id = "TEN"
+requirement = "The error is at most ten percent."
+quantity = "pull_off_force"
+candidate = "given"
+reference = "exact"
+cases = { mu = [0.1, 1] }
+metric = "rel"
+lower = -0.11
+upper = 0.11
+max_reference_uncertainty = 1e-6
+basis = "derived"
+grounds = "2.2 / 2."
+min_cases = 1
+tier = "quick"
+not_applicable = "leave-out"
+"""
+
+
+@pytest.fixture
+def folders(small_grid, tmp_path, capsys):
+    """Two runs by the same gates; the models of the second have values in half the cases, and in none."""
+    (tmp_path / "gates.toml").write_text(GATE)
+    gates = ["--gates", str(tmp_path / "gates.toml"), "--jobs", "1"]
+    main(["run", "--model", "ten-percent", "twelve-percent", *gates, "--out", str(tmp_path / "one")])
+    main(["run", "--model", "picky", "refuses", *gates, "--out", str(tmp_path / "two")])
+    capsys.readouterr()
+    return [tmp_path / "one", tmp_path / "two"]
+
+
+def board(folders, tmp_path, *options):
+    path = tmp_path / "board.html"
+    assert main(["leaderboard", *map(str, folders), "--out", str(path), *options]) == 0
+    return path.read_text(encoding="utf-8")
+
+
+def table_of(page):
+    """The rows of the page: the texts of their cells by the headings."""
+    heads = [re.sub("<[^>]*>", "", text) for text in re.findall(r"<th scope=\"col\".*?</th>", page)]
+    rows = re.findall(r"<tr>(.*?)</tr>", page.partition("<tbody>")[2], flags=re.DOTALL)
+    cells = [[re.sub("<[^>]*>", "", text).strip() for text in re.findall(r"<t[dh].*?</t[dh]>", row)] for row in rows]
+    return [dict(zip(heads, row, strict=True)) for row in cells]
+
+
+def test_each_model_has_a_row_with_its_coverage(small_grid, folders, tmp_path):
+    page = board([*folders, folders[0]], tmp_path)
+    rows = {row["model"]: row for row in table_of(page)}
+    assert len(table_of(page)) == 4
+    ten = rows["ten-percent"]
+    assert (ten["largest |κ| (%)"], ten["rms κ (%)"], ten["verdict"]) == ("10.00000(5)", "10.00000(5)", "✓ PASS")
+    counts = ("asked", "answered", "not applicable", "failed", "cases with κ")
+    assert [ten[name] for name in counts] == ["4", "4", "0", "0", "4"]
+    assert rows["twelve-percent"]["verdict"] == "✗ FAIL"
+    # A model without a single value has its row, too.
+    assert [rows["refuses"][name] for name in counts] == ["4", "0", "4", "0", "0"]
+    assert [rows["picky"][name] for name in counts] == ["4", "0", "0", "4", "0"]
+    assert (rows["refuses"]["largest |κ| (%)"], rows["refuses"]["reference"]) == ("", "exact")
+    assert re.fullmatch(r"\d{4}-\d\d-\d\d", ten["date"])
+    assert (ten["version"], ten["run"]) == ("7", str(folders[0]))
+    assert "not judged in the same way" not in page
+
+
+def test_runs_of_different_cases_are_mixed_only_if_the_page_states_it(folders, tmp_path, capsys, monkeypatch):
+    other = tmp_path / "gates2.toml"
+    other.write_text(GATE.replace("0.11", "0.2"))
+    main(["run", "--model", "twelve-percent", "--gates", str(other), "--jobs", "1", "--out", str(tmp_path / "three")])
+    capsys.readouterr()
+    every = [folders[0], tmp_path / "three"]
+    path = tmp_path / "board.html"
+    assert main(["leaderboard", *map(str, every), "--out", str(path)]) == 2
+    shown = capsys.readouterr().err
+    assert "were not judged in the same way (different: gates)" in shown
+    assert shown.count("\n") == 1
+    assert not path.exists()
+    page = board(every, tmp_path, "--mixed")
+    assert "These runs were not judged in the same way" in page
+    assert {(row["model"], row["set"]) for row in table_of(page)} == {
+        ("ten-percent", "A"),
+        ("twelve-percent", "A"),
+        ("twelve-percent", "B"),
+    }
+
+
+def record(**other):
+    arguments = {"tier": "quick", "model": ["a"], "gates": None} | other.pop("arguments", {})
+    return {"cases_sha256": "0" * 64, "gates_sha256": "f" * 64, "arguments": arguments} | other
+
+
+def entry(record, kappa=(), results=None, planned=None):
+    columns = ["quantity", "model", "n", "k", "mu", "nu", "reference", "kappa", "u_kappa"]
+    empty = pd.DataFrame(columns=["candidate", "quantity", "verdict"])
+    stored = Stored(record, results, empty, pd.DataFrame(list(kappa), columns=columns), empty, empty, empty, None)
+    return Entry("name", stored, planned)
+
+
+@pytest.mark.parametrize(
+    ("other", "different"),
+    [
+        ({"cases_sha256": "1" * 64}, "cases"),
+        ({"gates_sha256": "1" * 64}, "gates"),
+        ({"judged_again": {"gates_sha256": "1" * 64}}, "gates"),
+        ({"arguments": {"tier": "full"}}, "tier"),
+        ({"arguments": {"model": None}}, "chosen by gates"),
+    ],
+)
+def test_every_difference_counts(other, different):
+    entries = [entry(record()), entry(record()), entry(record(**other))]
+    with pytest.raises(ValueError, match=rf"different: {different}\)"):
+        case_sets(entries, mixed=False)
+    assert case_sets(entries, mixed=True) == ["A", "A", "B"]
+    assert case_sets(entries[:2], mixed=False) == ["A", "A"]
+
+
+def test_cases_of_the_verification_and_fresh_ones_do_not_count():
+    case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "nu": math.nan, "status": "ok", "model_version": "1"}
+    results = pd.DataFrame([case | {"model": model, "mu": mu} for model in ("a", "exact") for mu in (0.1, 0.2, 7.0)])
+    kappa = [("pull_off_force", "a", 2.0, 0.0, mu, math.nan, "exact", x, 1e-9) for mu, x in ((0.1, -0.3), (0.2, 0.4))]
+    planned = {("a", "pull_off_force", 2.0, 0.0, mu, None): "exact" for mu in (0.1, 0.2)}
+    for known, asked in ((planned, 2), (None, 3)):
+        (row,) = standing(entry(record(), kappa, results, known)).to_dict("records")
+        assert (row["asked"], row["answered"], row["cases"], row["mu"], row["largest"]) == (asked, asked, 2, 0.2, 0.4)
+        assert row["rms"] == pytest.approx(math.sqrt(0.125))
+        assert row["u"] == 1e-9
+
+
+def test_a_verdict_on_the_whole_model_counts_for_every_quantity():
+    case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "mu": 1.0, "nu": math.nan, "status": "ok"}
+    results = pd.DataFrame([case | {"model": "a", "model_version": "1"}])
+    kappa = [("pull_off_force", "a", 2.0, 0.0, 1.0, math.nan, "exact", 0.0, 0.0)]
+    rows = [("a", "pull_off_force", "PASS"), ("a", "jump_in_gap", "ERROR"), ("b", "pull_off_force", "FAIL")]
+    for more, expected in (([], "PASS"), ([("a", "", "INCONCLUSIVE")], "INCONCLUSIVE")):
+        one = entry(record(), kappa, results)
+        verdicts = pd.DataFrame([*rows, *more], columns=["candidate", "quantity", "verdict"])
+        (row,) = standing(replace(one, stored=replace(one.stored, verdicts=verdicts))).to_dict("records")
+        assert row["verdict"] == expected
+
+
+def test_texts_of_others_are_escaped_and_there_is_no_network(run_folder, hostile, tmp_path):
+    page = board([run_folder], tmp_path)
+    assert page.count("<script") == 2
+    assert hostile.image not in page
+    assert "Content-Security-Policy" in page
+    assert not re.search(r"(src|href)=\"(?!data:|#)", page)
+
+
+def test_it_sorts_in_a_browser(browser, run_folder, tmp_path):
+    board([run_folder], tmp_path)
+    size = {"width": DESKTOP[0], "height": DESKTOP[1], "deviceScaleFactor": 1, "mobile": False}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    browser.get((tmp_path / "board.html").as_uri())
+    script = """
+      const heads = Array.from(document.querySelectorAll("thead th"), (h) => h.innerText.trim());
+      const at = heads.findIndex((text) => text.startsWith("largest"));
+      return Array.from(document.querySelectorAll("tbody tr"), (row) => row.cells[at].dataset.v ?? "");
+    """
+    for direction, rising in (("ascending", True), ("descending", False)):
+        click(browser, head(browser, "leaderboard", "largest |κ| (%)"))
+        assert sorting(browser, "leaderboard", "largest |κ| (%)") == direction
+        shown = browser.execute_script(script)
+        numbers = [float(text) for text in shown if text]
+        assert len(numbers) == 2
+        assert numbers == sorted(numbers, reverse=not rising)
+        assert shown[len(numbers) :] == [""] * (len(shown) - len(numbers))
+    assert browser.execute_script("return window.hostile") is None
+
+
+def test_many_rows_are_laid_out_by_the_script():
+    models = [f"model-{number}" for number in range(260)]
+    case = {"n": 2.0, "k": 0.0, "mu": 1.0, "nu": math.nan, "status": "not-applicable", "model_version": "1"}
+    results = pd.DataFrame([case | {"quantity": "pull_off_force", "model": model} for model in models])
+    planned = {(model, "pull_off_force", 2.0, 0.0, 1.0, None): "exact" for model in models}
+    of_run = record(finished="2026-01-01T00:00:00+00:00", package={"version": "1", "commit": None})
+    data = json.loads(
+        re.search(r'id="data">(.*?)</script>', leaderboard_html([entry(of_run, [], results, planned)]))[1]
+    )
+    assert len(data["tables"]["leaderboard"]["rows"]) == 260
+
+
+def test_a_part_of_a_sweep_and_a_wrong_place_are_refused(toys, tmp_path, capsys):
+    (tmp_path / "grid.toml").write_text(
+        "[[grid]]\nid = 'a'\ntitle = 'A'\nreference = 'exact'\nmodels = ['ten-percent']\n"
+        "quantities = ['pull_off_force']\nn = [2]\nk = [0]\nmu = [1, 2]\n"
+    )
+    assert load_grids((tmp_path / "grid.toml").read_text(), "quick")
+    sweep = ["sweep", str(tmp_path / "grid.toml"), "--jobs", "1", "--quiet"]
+    assert main([*sweep, "--shard", "1/2", "--out", str(tmp_path / "part")]) == 0
+    assert main([*sweep, "--out", str(tmp_path / "whole")]) == 0
+    for folder, out, sentence in (
+        ("part", "a.html", "is the part 1/2 of a sweep"),
+        ("whole", "a.txt", "must end in .html"),
+        ("none", "a.html", "is not the folder of a finished run"),
+    ):
+        assert main(["leaderboard", str(tmp_path / folder), "--out", str(tmp_path / out)]) == 2
+        assert sentence in capsys.readouterr().err
+    (row,) = table_of(board([tmp_path / "whole"], tmp_path))
+    # Nothing was judged.
+    assert (row["model"], row["largest |κ| (%)"], "verdict" in row) == ("ten-percent", "10.00000(5)", False)
+
+
+def test_cases_that_have_changed_since_are_told(folders, tmp_path, capsys):
+    for folder in folders:
+        write_record(read_record(folder / "run.json") | {"cases_sha256": "0" * 64}, folder / "run.json")
+    assert len(table_of(board(folders, tmp_path))) >= 3
+    assert capsys.readouterr().err.count("the standing cases have changed since") == 2

@@ -1,0 +1,62 @@
+"""Document of the findings: its statements and its numbers are those of the committed tables."""
+
+import re
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from comparisons.numerics.number_text import value_text
+from comparisons.paper.baseline import PAPER_BASELINE
+from comparisons.paper.registry import paper_figures
+
+ROOT = Path(__file__).parents[4]
+TEXT = (ROOT / "docs" / "findings.md").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def table():
+    return pd.read_csv(ROOT / PAPER_BASELINE / "paper_statements.csv", keep_default_na=False)
+
+
+@pytest.fixture(scope="module")
+def evidence():
+    return pd.read_csv(ROOT / PAPER_BASELINE / "paper_statements_evidence.csv", keep_default_na=False)
+
+
+def test_every_statement_that_does_not_hold_is_a_finding(table):
+    listed = [
+        id for line in re.findall(r"^Statements: (.*)\.$", TEXT, re.MULTILINE) for id in re.findall("`(.+?)`", line)
+    ]
+    assert sorted(listed) == sorted(table["id"][table["verdict"] != "true"])
+    counts = table["verdict"].value_counts()
+    assert f"judges {len(table)} of its\nstatements" in TEXT
+    assert (
+        f"{counts['true']} statements are true. The other {len(table) - counts['true']} are the nine findings" in TEXT
+    )
+
+
+def test_every_finding_has_a_title_a_figure_and_a_command():
+    sections = [part for part in re.split(r"^## ", TEXT, flags=re.MULTILINE)[1:] if "Statements: " in part]
+    assert len(sections) == 9
+    for section in sections:
+        (stem,) = re.findall(r"baseline/paper/(\w+)\.png", section)
+        (name,) = re.findall(r"fscm-bench paper --only (\S+)", section)
+        assert [figure.stem for figure in paper_figures([name])] == [stem]
+
+
+def test_every_number_with_a_bound_is_in_the_evidence(evidence):
+    stored = {
+        value_text(number, u)
+        for value, bound in (("value", "u_value"), ("limit", "u_limit"))
+        for number, u in zip(evidence[value], evidence[bound], strict=True)
+    }
+    quoted = re.findall(r"\d+\.\d+\(\d+\)", TEXT)
+    assert len(quoted) > 25
+    assert [text for text in quoted if text not in stored] == []
+
+
+def test_the_turning_points_are_those_of_the_evidence(evidence):
+    stored = " ".join(evidence["what"][evidence["statement"] == "one-fold-pair"])
+    for rise in re.findall(r"\| (?:4|6) \| (\S+, bound \S+) \|", TEXT):
+        assert f"rises again by {rise.replace(', bound', ' (bound')})" in stored

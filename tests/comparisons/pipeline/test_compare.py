@@ -1,0 +1,231 @@
+"""Comparison of models in cases of one's own: table, figure, terminal, notebook, run folder."""
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from rich.console import Console
+
+import comparisons
+from comparisons.baseline import read_baseline
+from comparisons.cli.main import main
+from comparisons.output.comparison import WIDTH, comparison_table, terminal_tables, wide
+from comparisons.output.error_summary import coverage_words, error_summary
+from comparisons.output.figures.comparison import draw
+from comparisons.output.report.notebook import notebook_html
+from comparisons.runs.cases import load_grids
+from comparisons.runs.frames import frame
+from comparisons.runs.record import check_files, read_record
+from comparisons.runs.rows import Row
+from comparisons.runs.tables import read_table
+
+ROOT = Path(__file__).resolve().parents[3]
+
+GRID = """
+[[grid]]
+id = "mine"
+title = "Toys"
+reference = "exact"
+models = ["ten-percent"]
+quantities = ["pull_off_force", "zero_load_displacement"]
+n = [2]
+k = [0, 0.4]
+mu = [0.1, 1]
+"""
+
+
+def test_every_case_and_model_has_a_row(toys, tmp_path):
+    models = ["ten-percent", "refuses", "fails"]
+    found = comparisons.compare(models, GRID, folder=tmp_path / "out")
+    assert len(found.table) == 2 * 4 * 3
+    ten = found.table[found.table["model"] == "ten-percent"]
+    assert ten["kappa"].tolist() == pytest.approx([0.1] * 8)
+    # (u of 2.2 + 1.1 u of 2) / 2
+    assert ten["u_kappa"].tolist() == pytest.approx([1.05e-9] * 8)
+    others = found.table[found.table["model"] != "ten-percent"]
+    assert others[["value", "kappa", "u_kappa"]].isna().all(axis=None)
+    assert set(others["reason"]) == {"it has no such [thing]", "100 iterations were not enough; start nearer"}
+    counts = found.summary.set_index(["quantity", "model"])[["asked", "answered", "not_applicable", "failed", "cases"]]
+    assert counts.loc["pull_off_force"].to_dict("index") == {
+        "ten-percent": {"asked": 4, "answered": 4, "not_applicable": 0, "failed": 0, "cases": 4},
+        "refuses": {"asked": 4, "answered": 0, "not_applicable": 4, "failed": 0, "cases": 0},
+        "fails": {"asked": 4, "answered": 0, "not_applicable": 0, "failed": 4, "cases": 0},
+    }
+    assert [row.model for row in found.failures] == ["fails"] * 8
+
+
+def test_the_folder_is_a_run_folder_that_is_resumed(toys, tmp_path, capsys):
+    first = comparisons.compare(["ten-percent"], GRID, folder=tmp_path)
+    record = read_record(tmp_path / "run.json")
+    check_files(record, tmp_path)
+    assert {"comparison.csv", "comparison.parquet", "comparison.png", "comparison.pdf"} <= record["files"].keys()
+    pd.testing.assert_frame_equal(read_table(tmp_path / "comparison.parquet"), first.table, check_dtype=False)
+    capsys.readouterr()
+    comparisons.compare(["ten-percent", "refuses"], GRID, folder=tmp_path)
+    assert "8 computations on 1 processes, 16 are stored" in capsys.readouterr().err
+    # A sweep of the folder leaves no comparison of other models in it.
+    (tmp_path / "grid-of-a-sweep.toml").write_text(GRID)
+    assert main(["sweep", str(tmp_path / "grid-of-a-sweep.toml"), "--out", str(tmp_path), "--jobs", "1"]) == 0
+    assert not list(tmp_path.glob("comparison.*"))
+
+
+def test_the_command_fits_80_columns_and_states_reference_and_coverage(tmp_path, capsys):
+    models = ["jkr", "md-improved", "md-original", "dmt", "bradley", "semi-rigid"]
+    case = ["--n", "1", "2", "--k", "0.4", "--mu", "0.01", "0.123", "20"]
+    assert main(["compare", *models, *case, "--reference", "atlas", "--out", str(tmp_path), "--jobs", "1"]) == 0
+    shown = capsys.readouterr()
+    lines = shown.out.splitlines()
+    assert max(map(len, lines)) <= WIDTH
+    assert "pull_off_force: kappa in percent (uncertainty) against atlas" in lines
+    heads = [line.split() for line in lines if line.split()[:3] == ["n", "k", "mu"]]
+    assert [model for head in heads for model in head[4:]] == models
+    # The atlas ends at mu = 10: the models have values there, and no error.
+    assert any(re.match(r" +2 +0\.4 +20 +none +no reference", line) for line in lines)
+    assert any(re.match(r" +semi-rigid +0 of 6 \(6 n/a\)", line) for line in lines)
+    assert any(re.match(r" +jkr +6 of 6 +-\d", line) for line in lines)
+    grid = (tmp_path / "grid.toml").read_text()
+    assert 'reference = "atlas"' in grid
+    assert len(load_grids(grid, tier="quick")[0].cases) == 6
+
+
+def printed(table, capsys, **options):
+    console = Console(width=WIDTH)
+    for one in terminal_tables(table, error_summary(table), **options):
+        console.print(one)
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= WIDTH
+    return lines
+
+
+def test_only_the_first_cases_are_printed(capsys):
+    table = pd.concat([fake().assign(n=1.0 + number / 10) for number in range(20)])
+    lines = printed(table, capsys)
+    assert "first 40 of 60 cases" in " ".join(map(str.strip, lines))
+    assert len(lines) < 55
+    assert len(printed(table, capsys, every=True)) > 65
+
+
+def test_a_reference_that_needs_no_poisson_ratio_is_found():
+    """A case with nu: the finite elements get it, the FSCM does not."""
+    grid = load_grids(GRID.replace('"exact"', '"fscm"').replace('"ten-percent"', '"fem"') + "nu = [0.25]", "quick")
+    case = {"unit": "", "reason": "", "model_version": "1", "size": 0, "iterations": 0, "residual": 0.0, "seconds": 0.0}
+    rows = [
+        Row(model, quantity=quantity, n=2.0, k=k, mu=mu, nu=nu, value=value, u_num=0.0, status="ok", **case)
+        for model, nu, value in (("fem", 0.25, 1.1), ("fscm", None, 1.0))
+        for quantity in ("pull_off_force", "zero_load_displacement")
+        for k in (0.0, 0.4)
+        for mu in (0.1, 1.0)
+    ]
+    table = comparison_table(frame(rows), grid, None)
+    assert table["nu"].tolist() == [0.25] * 8
+    assert table["kappa"].tolist() == pytest.approx([0.1] * 8)
+    (_, _, texts), _ = wide(table)
+    assert list(texts) == ["n", "k", "mu", "nu", "fscm", "fem"]
+
+
+def fake(models=("a", "b"), quantities=("pull_off_force",), **other):
+    base = {"n": 2.0, "k": 0.0, "nu": np.nan, "status": "ok", "value": 1.1, "u_num": 0.0, "reason": ""}
+    base |= {"reference": "fscm", "reference_value": 1.0, "u_reference": 1e-9, "kappa": 0.1, "u_kappa": 1e-9}
+    rows = [
+        base | {"quantity": quantity, "model": model, "mu": mu} | other
+        for quantity in quantities
+        for mu in (0.1, 1.0, 3.0)
+        for model in models
+    ]
+    return pd.DataFrame(rows)
+
+
+def test_a_table_with_long_names_is_split_and_nothing_is_lost(capsys):
+    models = [f"a-model-of-someone-with-a-long-name-{number}" for number in range(5)] + ["<b>[bold]x"]
+    shown = "\n".join(printed(fake(models), capsys))
+    assert "<b>[bold]x" in shown
+    joined = re.sub(r"\s+", "", shown)
+    assert all(model[:20] in joined for model in models)
+
+
+def test_the_notebook_shows_escaped_tables_with_every_digit():
+    table = fake(("<script>alert(1)</script>", "b"))
+    html = notebook_html(table, error_summary(table))
+    assert "<script>" not in html
+    assert "&lt;script&gt;" in html
+    assert html.count("<table") == 2
+    assert 'data-v="0.1"' in html
+    assert "3 of 3" in html
+
+
+def test_the_figure_is_over_the_parameter_with_most_values():
+    figure = draw(fake(quantities=("pull_off_force", "zero_load_displacement")))
+    panels = [axes for axes in figure.axes if axes.get_visible()]
+    assert len(panels) == 2
+    assert panels[-1].get_xlabel() == r"Tabor number $\mu$"
+    assert panels[0].get_xscale() == "log"
+    points = panels[0].lines[0].get_xydata()
+    assert points.tolist() == [[0.1, 10.0], [1.0, 10.0], [3.0, 10.0]]
+    scattered = pd.concat([fake(n=1.0 + 0.1 * number) for number in range(20)])
+    figure = draw(scattered.assign(mu=1.0))
+    assert figure.axes[0].get_xlabel() == "shape index $n$"
+    assert len(draw(fake(kappa=np.nan)).axes) == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["jkr"], "the cases need --n and --k and --mu, or a file of them as --grid FILE"),
+        (["jkr", "--n", "2", "--mu", "1"], "the cases need --k"),
+        (["jkr", "--n", "2", "--k", "0", "--mu", "-1"], "mu = -1"),
+        (["fscm", "--n", "2", "--k", "0", "--mu", "1"], "fscm is the reference of the grid comparison"),
+        (["jkr", "--n", "2", "--k", "0", "--mu", "1", "--quantity", "force_curve"], "the curve force_curve"),
+        (["jkr", "--n", "2", "--k", "0", "--mu", "1", "--quantity", "colour"], "'colour'"),
+        (["jkr", "--n", "2", "--k", "0", "--mu", "1", "--reference", "jkr"], "'jkr'"),
+        (["jkr", "--n", "2", "--k", "0", "--mu", "nan"], "nan"),
+        (["jkr", "--grid", "GRID", "--mu", "1"], "--grid states the cases"),
+        (["jkr", "--grid", "GRID", "--quantity", "pull_off_force"], "leave out --quantity"),
+        (["no-such-model", "--n", "2", "--k", "0", "--mu", "1"], "unknown model"),
+    ],
+)
+def test_what_cannot_be_compared_is_one_sentence(tmp_path, capsys, arguments, sentence):
+    (tmp_path / "grid.toml").write_text(GRID.replace('"exact"', '"fscm"').replace('"ten-percent"', '"jkr"'))
+    named = [str(tmp_path / "grid.toml") if word == "GRID" else word for word in arguments]
+    assert main(["compare", *named, "--out", str(tmp_path / "out")]) == 2
+    shown = capsys.readouterr().err
+    assert sentence in shown
+    assert shown.count("\n") == 1
+    assert not (tmp_path / "out" / "journal.jsonl").exists()
+
+
+def test_a_failed_computation_is_the_exit_status(toys, tmp_path, capsys):
+    (tmp_path / "grid.toml").write_text(GRID)
+    options = ["--grid", str(tmp_path / "grid.toml"), "--out", str(tmp_path / "out"), "--jobs", "1", "--quiet"]
+    assert main(["compare", "fails", *options]) == 4
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    assert "100 iterations were not enough" in shown.err
+    record = json.loads((tmp_path / "out" / "run.json").read_text())
+    assert record["command_name"] == "sweep"
+
+
+def test_coverage_is_beside_the_errors():
+    table = fake().assign(status=["ok", "not-applicable", "ok", "failed", "ok", "ok"])
+    table.loc[table["status"] != "ok", "kappa"] = np.nan
+    summary = error_summary(table).set_index("model")
+    assert coverage_words(summary.loc["a"]) == "3 of 3"
+    assert coverage_words(summary.loc["b"]) == "1 of 3 (1 n/a, 1 failed)"
+    assert summary.loc["b", "cases"] == 1
+
+
+def test_the_printed_table_of_the_document_is_the_one_of_the_baseline():
+    text = (ROOT / "docs" / "compare.md").read_text(encoding="utf-8")
+    grid = load_grids(
+        GRID.replace('"exact"', '"fscm"').replace('"ten-percent"', '"jkr"').replace("[0, 0.4]", "[0.4]"), "quick"
+    )
+    rows, _ = read_baseline(ROOT / "results" / "baseline")
+    known = rows[rows["quantity"] == "pull_off_force"].assign(nu=np.nan, reason="")
+    force = replace(grid[0], quantities=("pull_off_force",))
+    table = comparison_table(known, [force], ["jkr", "md-improved"])
+    ((_, _, texts),) = wide(table)
+    for row in texts.itertuples(index=False):
+        assert "  ".join(row).split() in [line.split() for line in text.splitlines()]

@@ -1,0 +1,158 @@
+"""The plugin of pytest: gates as tests, and nothing at all without its options."""
+
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from comparisons.pipeline.expected_verdicts import found_verdicts
+
+from ..conftest import GATES
+
+pytest_plugins = ["pytester"]
+
+ROOT = Path(__file__).resolve().parents[3]
+PLUGIN = "fscm_bench_pytest"
+
+
+@pytest.fixture
+def small_grid(small_grid, tmp_path, pytester):
+    """The four cases of toy models, after one run: pytester drops every module that a run inside it imports first."""
+    (tmp_path / "first.toml").write_text(GATES)
+    found = found_verdicts(tmp_path / "first.toml", ["ten-percent"], "quick", tmp_path / "first")
+    assert {verdict for verdict, _ in found.values()} == {"PASS"}
+    (tmp_path / "first.toml").unlink()
+
+
+@pytest.fixture(autouse=True)
+def importable(monkeypatch):
+    """Also where the package is installed without its plugin, as before the plugin was written."""
+    monkeypatch.syspath_prepend(str(ROOT / "comparisons" / "pytest_entry"))
+    monkeypatch.setenv("PYTHONPATH", str(ROOT / "comparisons" / "pytest_entry"))
+
+
+def gate(id, candidate, lower, upper, *lines):
+    text = GATES.replace('"TEN-PERCENT"', f'"{id}"').replace('"ten-percent"', f'"{candidate}"')
+    return text.replace("0.09", str(lower)).replace("0.11", str(upper)) + "\n".join(lines)
+
+
+DECLARED = (
+    'expected_failure = "it is twelve percent"',
+    "worst_measured = 0.12",
+    "measured_range = [0.11, 0.13]",
+)
+
+EVERY = "".join(
+    [
+        gate("PASSES", "given", 0.05, 0.15, 'not_applicable = "leave-out"'),
+        gate("FAILS", "ten-percent", -0.05, 0.05),
+        gate("DECLARED", "twelve-percent", 0.0, 0.1, *DECLARED),
+        gate("UNCERTAIN", "ten-percent", 0.05, 0.1),
+    ]
+)
+
+
+def run(pytester, text, *options, models=("ten-percent",)):
+    pytester.makefile(".toml", gates=text)
+    named = [f"--fscm-bench-model={model}" for model in models]
+    return pytester.runpytest_inprocess("-p", PLUGIN, "--fscm-bench-gates=gates.toml", *named, *options)
+
+
+def test_each_gate_and_case_is_a_test(small_grid, pytester):
+    result = run(pytester, EVERY, "-rA", models=("ten-percent", "twelve-percent", "refuses"))
+    # PASSES: two models pass and one is skipped; the others have one model each; a whole-gate verdict on "refuses".
+    result.assert_outcomes(passed=8, skipped=4, failed=8 + 1, xfailed=4)
+    result.stdout.fnmatch_lines(
+        [
+            "*FAILS?ten-percent n=2 k=0 mu=0.1?*",
+            "FAIL: E = 0.1*, U = *, limits -0.05 to 0.05",
+            "computed again by: fscm-bench solve --model ten-percent --quantity pull_off_force --n 2 --k 0 --mu 0.1",
+            "required: The error is ten percent.",
+            "INCONCLUSIVE: *reaches across the limit 0.1*",
+            "PASSES of refuses: 0 cases were evaluated, 4 are declared",
+        ]
+    )
+    shown = result.stdout.str()
+    assert "it has no such [thing]" in shown
+    assert "it is twelve percent" in shown
+    assert "Traceback" not in shown
+    assert "expected_verdicts.py" not in shown
+
+
+def test_one_gate_can_be_chosen_and_the_folder_kept(small_grid, pytester):
+    result = run(pytester, EVERY, "-k", "PASSES", "--fscm-bench-out=kept")
+    result.assert_outcomes(passed=4, deselected=9)
+    assert (pytester.path / "kept" / "junit.xml").is_file()
+    chosen = pytester.runpytest_inprocess(
+        "-p", PLUGIN, "--fscm-bench-gates=gates.toml", "--fscm-bench-model=ten-percent", "gates.toml::other verdicts"
+    )
+    chosen.assert_outcomes(failed=0, passed=1)
+
+
+def test_an_ini_file_names_them(small_grid, pytester):
+    pytester.makefile(".toml", gates=gate("PASSES", "given", 0.05, 0.15))
+    pytester.makeini("[pytest]\nfscm_bench_gates = gates.toml\nfscm_bench_model =\n    ten-percent\n")
+    pytester.makepyfile("def test_mine():\n    pass")
+    pytester.runpytest_inprocess("-p", PLUGIN).assert_outcomes(passed=6)
+    # Tests that are named come alone.
+    pytester.runpytest_inprocess("-p", PLUGIN, "test_an_ini_file_names_them.py").assert_outcomes(passed=1)
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (["--fscm-bench-model=jkr"], "needs --fscm-bench-gates FILE"),
+        (["--fscm-bench-gates=gates.toml"], "needs --fscm-bench-model SPEC"),
+        (["--fscm-bench-gates=none.toml", "--fscm-bench-model=jkr"], "none.toml does not exist"),
+    ],
+)
+def test_what_is_missing_is_named(pytester, options, sentence):
+    pytester.makefile(".toml", gates=EVERY)
+    result = pytester.runpytest_inprocess("-p", PLUGIN, *options)
+    assert result.ret == pytest.ExitCode.USAGE_ERROR
+    result.stderr.fnmatch_lines([f"ERROR: *{sentence}*"])
+
+
+def test_a_gate_that_cannot_be_used_is_one_sentence(small_grid, pytester):
+    result = run(pytester, EVERY.replace("0.15", "2e9"))
+    result.assert_outcomes(errors=1)
+    result.stdout.fnmatch_lines(["*upper = 2000000000 is beyond 1000 in size*"])
+    result.stdout.no_fnmatch_line("*check_numbers*")
+
+
+def test_a_run_that_cannot_compute_fails_every_test_with_its_sentence(small_grid, pytester):
+    pytester.mkdir("kept")
+    (pytester.path / "kept" / "journal.jsonl").write_text("no journal\n")
+    result = run(pytester, gate("PASSES", "given", 0.05, 0.15), "--fscm-bench-out=kept")
+    result.assert_outcomes(failed=5)
+    result.stdout.fnmatch_lines(["*kept/journal.jsonl is not a journal*"])
+
+
+def test_it_costs_nothing_in_other_projects(pytester):
+    """Not even in one with a package of the same name: the plugin is loaded, and nothing of fscm-bench is."""
+    pytester.mkpydir("comparisons")
+    pytester.makepyfile(
+        """
+        import sys
+
+        def test_nothing_is_imported():
+            assert "fscm_bench_pytest" in sys.modules
+            heavy = {"fscm", "fem_reference", "comparisons", "numpy", "pandas", "scipy", "threadpoolctl", "filelock"}
+            assert not heavy & sys.modules.keys()
+
+        def test_the_package_of_the_project_is_its_own():
+            import comparisons
+            assert not hasattr(comparisons, "LAYERS")
+        """
+    )
+    pytester.runpytest_subprocess("-p", PLUGIN).assert_outcomes(passed=2)
+
+
+def test_the_entry_point_is_the_plugin():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    # Of one name with the module: pytest then loads it once, also with -p.
+    assert project["project"]["entry-points"]["pytest11"] == {PLUGIN: PLUGIN}
+    where = project["tool"]["setuptools"]["packages"]["find"]["where"]
+    assert [folder for folder in where if (ROOT / folder / PLUGIN / "__init__.py").is_file()] == [
+        "comparisons/pytest_entry"
+    ]
