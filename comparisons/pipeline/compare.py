@@ -113,7 +113,7 @@ def compare(
     >>> with TemporaryDirectory() as folder:
     ...     found = compare(["jkr", "bradley"], n=[2], k=[0], mu=[1], reference="atlas", folder=Path(folder))
     >>> found.table[["model", "kappa"]].round(4).values.tolist()
-    [['jkr', -0.1065], ['bradley', 0.1913]]
+    [['jkr', -0.1022], ['bradley', 0.1971]]
     """
     specs = [models] if isinstance(models, str) else list(models)
     if not specs:
