@@ -45,4 +45,6 @@ def statements() -> Table:
         if any(row["verdict"] == verdict for row in found)
     )
     note = f"{len(found)} statements: {counts}. The verdicts are those of fscm-bench paper, shipped with this version."
-    return Table("statements", "Statements of the paper and their verdicts", columns, rows, ("paper_statements.csv",), note)
+    return Table(
+        "statements", "Statements of the paper and their verdicts", columns, rows, ("paper_statements.csv",), note
+    )
