@@ -36,17 +36,17 @@ def coverage(statuses: Iterable[str]) -> dict[str, int]:
 
 
 def coverage_text(numbers: Mapping[str, Any]) -> str:
-    """Return the coverage of a gate in a few words.
+    """Return a coverage in a few words; an entry that is not there is zero.
 
     Examples
     --------
     >>> coverage_text({"asked": 12, "answered": 4, "not_applicable": 7, "failed": 1, "outside": 3})
     '4 of 12 (7 n/a, 1 failed, 3 outside)'
     """
-    if not any(numbers[name] for name in COVERAGE):
+    if not any(numbers.get(name) for name in COVERAGE):
         return ""
     words = {"not_applicable": "n/a", "failed": "failed", "outside": "outside"}
-    others = ", ".join(f"{int(numbers[name])} {word}" for name, word in words.items() if numbers[name])
+    others = ", ".join(f"{int(numbers[name])} {word}" for name, word in words.items() if numbers.get(name))
     return f"{int(numbers['answered'])} of {int(numbers['asked'])}" + (f" ({others})" if others else "")
 
 

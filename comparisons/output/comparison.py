@@ -12,9 +12,9 @@ from rich.console import Group
 from rich.table import Table
 from rich.text import Text
 
+from comparisons.judging.summary import coverage_text
 from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.numerics.number_text import exact, value_text
-from comparisons.output.error_summary import coverage_words
 from comparisons.runs.cases import Grid
 from comparisons.runs.tasks import case_for
 
@@ -208,7 +208,7 @@ def _summary(quantity: str, group: pd.DataFrame) -> Group:
         {
             "model": group["model"],
             **({"reference": group["reference"]} if group["reference"].nunique() > 1 else {}),
-            "a value in": [coverage_words(row) for _, row in group.iterrows()],
+            "a value in": [coverage_text(row) for _, row in group.iterrows()],
             "largest": [percent(*pair) for pair in zip(group["largest"], group["u_largest"], strict=True)],
             "at": [place_text(row) for _, row in group.iterrows()],
             "rms": [percent(*pair) for pair in zip(group["rms"], group["u"], strict=True)],

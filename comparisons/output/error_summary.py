@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-__all__ = ["SUMMARY_COLUMNS", "coverage_words", "error_summary"]
+__all__ = ["SUMMARY_COLUMNS", "error_summary"]
 
 #: Columns of `error_summary`.
 SUMMARY_COLUMNS = (
@@ -63,16 +63,3 @@ def _errors(known: pd.DataFrame) -> dict[str, float]:
         "rms": float(np.sqrt(np.mean(known["kappa"].to_numpy(float) ** 2))),
         "u": known["u_kappa"].max(),
     }
-
-
-def coverage_words(row: pd.Series) -> str:
-    """Return the coverage of a row of `error_summary` in a few words.
-
-    Examples
-    --------
-    >>> coverage_words(pd.Series({"asked": 12, "answered": 4, "not_applicable": 7, "failed": 1}))
-    '4 of 12 (7 n/a, 1 failed)'
-    """
-    others = [(row["not_applicable"], "n/a"), (row["failed"], "failed")]
-    text = ", ".join(f"{int(count)} {word}" for count, word in others if count)
-    return f"{int(row['answered'])} of {int(row['asked'])}" + (f" ({text})" if text else "")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pandas as pd
 
+from comparisons.judging.summary import coverage_text
 from comparisons.output.comparison import place_text, wide
-from comparisons.output.error_summary import coverage_words
 from comparisons.output.report.render import environment
 from comparisons.output.report.table import Cell, Column, Row, Table, kappa_cell, value
 
@@ -40,7 +40,7 @@ def _summary(quantity: str, reference: str, group: pd.DataFrame) -> Table:
         Row(
             (
                 Cell(row["model"]),
-                Cell(coverage_words(row)),
+                Cell(coverage_text(row)),
                 *((Cell(""),) * 3 if pd.isna(row["largest"]) else _numbers(row)),
             )
         )

@@ -93,7 +93,7 @@ def _two_turns(model: str, case: Case, path: Json) -> list[Evidence]:
     rise = max(
         (displacement[b] - displacement[a] for a, b in zip(turns[1:-1:2], turns[2:-1:2], strict=True)), default=0
     )
-    between = f", between them the displacement rises again by {rise:.5f} (bound {2 * u:.1g})" if rise else ""
+    between = f", between them the displacement rises again by at least {rise:.5f} (bound {2 * u:.1g})" if rise else ""
     what = f"turning points of the displacement, {case_label(case)}{between}"
     return [Evidence(shape(case[0]), model, Number(len(turns), 0.0, what), "<", Number(3, 0.0, "one fold pair"))]
 

@@ -13,8 +13,9 @@ from rich.console import Console
 import comparisons
 from comparisons.baseline import read_baseline
 from comparisons.cli.main import main
+from comparisons.judging.summary import coverage_text
 from comparisons.output.comparison import WIDTH, comparison_table, terminal_tables, wide
-from comparisons.output.error_summary import coverage_words, error_summary
+from comparisons.output.error_summary import error_summary
 from comparisons.output.figures.comparison import draw
 from comparisons.output.report.notebook import notebook_html
 from comparisons.runs.cases import load_grids
@@ -212,8 +213,8 @@ def test_coverage_is_beside_the_errors():
     table = fake().assign(status=["ok", "not-applicable", "ok", "failed", "ok", "ok"])
     table.loc[table["status"] != "ok", "kappa"] = np.nan
     summary = error_summary(table).set_index("model")
-    assert coverage_words(summary.loc["a"]) == "3 of 3"
-    assert coverage_words(summary.loc["b"]) == "1 of 3 (1 n/a, 1 failed)"
+    assert coverage_text(summary.loc["a"]) == "3 of 3"
+    assert coverage_text(summary.loc["b"]) == "1 of 3 (1 n/a, 1 failed)"
     assert summary.loc["b", "cases"] == 1
 
 

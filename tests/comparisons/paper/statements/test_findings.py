@@ -59,4 +59,4 @@ def test_every_number_with_a_bound_is_in_the_evidence(evidence):
 def test_the_turning_points_are_those_of_the_evidence(evidence):
     stored = " ".join(evidence["what"][evidence["statement"] == "one-fold-pair"])
     for rise in re.findall(r"\| (?:4|6) \| (\S+, bound \S+) \|", TEXT):
-        assert f"rises again by {rise.replace(', bound', ' (bound')})" in stored
+        assert f"rises again by at least {rise.replace(', bound', ' (bound')})" in stored
