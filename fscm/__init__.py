@@ -16,6 +16,7 @@ LAYERS = (
     ("laws", "tabulated_law", "punch", "custom_punch", "measured_punch"),
     ("problem", "physical"),
     ("_meshes", "_kernel", "_azimuthal_kernel", "_panels", "_response_store", "_deformation", "_tail"),
+    ("graded",),
     ("_bordered_factor", "_equilibrium", "_defect", "solution"),
     ("_newton", "_arc_length", "_path_end", "_adaptivity", "_branches", "_continuation"),
     ("_events", "_bounds", "_completeness", "_whole_path", "_pull_off_path", "folds", "stability"),

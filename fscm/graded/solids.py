@@ -1,0 +1,308 @@
+"""Solids whose modulus is a function of the depth, in any consistent units.
+
+Each has the modulus E(z) and Poisson's ratio nu(z), the depths at which they jump or have a kink, and a length over
+which they change.  The modulus at the surface is positive: E0 (z/c0)^k has the exact response of `fscm.Problem`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+
+from fscm._typing import Array
+from fscm._validation import real_number
+
+__all__ = ["Coating", "Exponential", "GradedHalfSpace", "GradedSolid", "OffsetPowerLaw", "contact_modulus", "elastic_ratio"]
+
+_ELASTIC = "the solid is elastic, and incompressible at 0.5"
+_POSITIVE = "it is a positive quantity"
+# Depths, in units of the length, at which a function of the user is checked, besides the surface.
+_CHECKED = np.geomspace(1e-6, 1e6, 25)
+
+
+@runtime_checkable
+class GradedHalfSpace(Protocol):
+    """A solid whose elastic constants are functions of the depth.
+
+    Examples
+    --------
+    >>> isinstance(Exponential(E_surface=1.0, E_depth=2.0, length=1.0, nu=0.3), GradedHalfSpace)
+    True
+    """
+
+    @property
+    def length(self) -> float:
+        """A depth over which the constants change."""
+        ...
+
+    @property
+    def interfaces(self) -> tuple[float, ...]:
+        """Depths at which E(z), nu(z) or a derivative of them jumps, and of layers that are thin beside their depth."""
+        ...
+
+    def modulus(self, z: Array) -> Array:
+        """E(z), z >= 0."""
+        ...
+
+    def poisson(self, z: Array) -> Array:
+        """nu(z), z >= 0."""
+        ...
+
+
+def _positive(solid: object, *names: str) -> None:
+    for name in names:
+        value = real_number(name, getattr(solid, name), low=0.0, high=math.inf, reason=_POSITIVE)
+        object.__setattr__(solid, name, value)
+
+
+def elastic_ratio(name: str, value: object) -> float:
+    """Poisson's ratio as a float.
+
+    Raises
+    ------
+    ValueError
+        When it is outside [0, 1/2].
+    """
+    return real_number(name, value, low=0.0, high=0.5, closed_low=True, closed_high=True, reason=_ELASTIC)
+
+
+def _elastic(solid: object, *names: str) -> None:
+    for name in names:
+        object.__setattr__(solid, name, elastic_ratio(name, getattr(solid, name)))
+
+
+def _not_negative(solid: object, name: str, reason: str, high: float = math.inf) -> None:
+    value = real_number(name, getattr(solid, name), low=0.0, high=high, closed_low=True, reason=reason)
+    object.__setattr__(solid, name, value)
+
+
+@dataclass(frozen=True, slots=True)
+class OffsetPowerLaw:
+    """E(z) = E0 ((z + z_s)/c0)^k: a power law with a finite modulus at the surface.
+
+    Parameters
+    ----------
+    E0, c0 : float
+        Modulus, and the depth below z = -z_s at which it is reached, > 0.
+    k : float
+        Exponent, 0 <= k < 1.
+    z_s : float
+        Offset of the depth, > 0.
+    nu : float
+        Poisson's ratio, 0 <= nu <= 1/2.
+
+    Examples
+    --------
+    >>> OffsetPowerLaw(E0=2.0, c0=1.0, k=0.5, z_s=4.0, nu=0.3).modulus(np.array([0.0, 5.0]))
+    array([4., 6.])
+    """
+
+    E0: float
+    c0: float
+    k: float
+    z_s: float
+    nu: float
+
+    def __post_init__(self) -> None:
+        _positive(self, "E0", "c0", "z_s")
+        _not_negative(self, "k", "E = E0 ((z+z_s)/c0)^k has no finite surface response far away", high=1.0)
+        _elastic(self, "nu")
+
+    @property
+    def length(self) -> float:
+        """The offset."""
+        return self.z_s
+
+    @property
+    def interfaces(self) -> tuple[float, ...]:
+        """None."""
+        return ()
+
+    def modulus(self, z: Array) -> Array:
+        """E(z)."""
+        return self.E0 * ((np.asarray(z, float) + self.z_s) / self.c0) ** self.k
+
+    def poisson(self, z: Array) -> Array:
+        """nu everywhere."""
+        return np.full(np.shape(z), self.nu)
+
+
+@dataclass(frozen=True, slots=True)
+class Exponential:
+    """E(z) = E_depth + (E_surface - E_depth) exp(-z/length).
+
+    Parameters
+    ----------
+    E_surface, E_depth : float
+        Moduli at the surface and at great depth, > 0.
+    length : float
+        Length of the decay, > 0.
+    nu : float
+        Poisson's ratio, 0 <= nu <= 1/2.
+
+    Examples
+    --------
+    >>> Exponential(E_surface=1.0, E_depth=3.0, length=2.0, nu=0.3).modulus(np.array([0.0, 1e9]))
+    array([1., 3.])
+    """
+
+    E_surface: float
+    E_depth: float
+    length: float
+    nu: float
+
+    def __post_init__(self) -> None:
+        _positive(self, "E_surface", "E_depth", "length")
+        _elastic(self, "nu")
+
+    @property
+    def interfaces(self) -> tuple[float, ...]:
+        """None."""
+        return ()
+
+    def modulus(self, z: Array) -> Array:
+        """E(z)."""
+        return self.E_depth + (self.E_surface - self.E_depth) * np.exp(-np.asarray(z, float) / self.length)
+
+    def poisson(self, z: Array) -> Array:
+        """nu everywhere."""
+        return np.full(np.shape(z), self.nu)
+
+
+@dataclass(frozen=True, slots=True)
+class Coating:
+    """E_substrate + (E_coating - E_substrate) (1 - tanh((z - thickness)/transition))/2; sharp where transition = 0.
+
+    Parameters
+    ----------
+    E_coating, E_substrate : float
+        Moduli, > 0.
+    thickness : float
+        Depth of the interface, > 0.
+    transition : float
+        Length over which the modulus changes there, >= 0.
+    nu_coating : float
+        Poisson's ratio of the coating, 0 <= nu <= 1/2.
+    nu_substrate : float, optional
+        That of the substrate, joined in the same way; that of the coating by default.
+
+    Examples
+    --------
+    >>> Coating(E_coating=1.0, E_substrate=9.0, thickness=1.0, transition=0.0, nu_coating=0.3).modulus(
+    ...     np.array([0.9, 1.1])
+    ... )
+    array([1., 9.])
+    """
+
+    E_coating: float
+    E_substrate: float
+    thickness: float
+    transition: float
+    nu_coating: float
+    nu_substrate: float | None = None
+
+    def __post_init__(self) -> None:
+        _positive(self, "E_coating", "E_substrate", "thickness")
+        _not_negative(self, "transition", "it is a length, zero for a sharp interface")
+        if self.nu_substrate is None:
+            object.__setattr__(self, "nu_substrate", self.nu_coating)
+        _elastic(self, "nu_coating", "nu_substrate")
+
+    @property
+    def length(self) -> float:
+        """The thickness."""
+        return self.thickness
+
+    @property
+    def interfaces(self) -> tuple[float, ...]:
+        """The interface, and both ends of the transition."""
+        ends = (self.thickness - self.transition, self.thickness, self.thickness + self.transition)
+        return tuple(sorted({z for z in ends if z > 0.0}))
+
+    def _between(self, z: Array, first: float, last: float) -> Array:
+        x = np.asarray(z, float) - self.thickness
+        with np.errstate(over="ignore"):
+            # (1 - tanh x)/2 without its cancellation
+            share = np.where(x < 0.0, 1.0, 0.0) if self.transition == 0.0 else 1.0 / (1.0 + np.exp(2.0 * x / self.transition))
+        return last + (first - last) * share
+
+    def modulus(self, z: Array) -> Array:
+        """E(z)."""
+        return self._between(z, self.E_coating, self.E_substrate)
+
+    def poisson(self, z: Array) -> Array:
+        """nu(z)."""
+        return self._between(z, self.nu_coating, float(self.nu_substrate or 0.0))
+
+
+@dataclass(frozen=True, slots=True)
+class GradedSolid:
+    """Any E(z) and nu(z).
+
+    Parameters
+    ----------
+    young : callable
+        E(z): array of depths -> array of moduli, > 0 everywhere, the surface included.
+    nu : float or callable
+        Poisson's ratio, or nu(z) like `young`.
+    length : float
+        A depth over which they change, > 0.
+    interfaces : sequence of float, optional
+        Depths > 0 at which E or nu or a derivative of them jumps.  Layers thinner than a twentieth of their depth are
+        found for certain only if their ends are named here.
+
+    Examples
+    --------
+    >>> solid = GradedSolid(lambda z: 2.0 + np.sin(z) ** 2, 0.3, length=1.0)
+    >>> solid.modulus(np.array([0.0])), solid.poisson(np.array([5.0]))
+    (array([2.]), array([0.3]))
+    """
+
+    young: Callable[[Array], Array]
+    nu: float | Callable[[Array], Array]
+    length: float
+    interfaces: Sequence[float] = ()
+
+    def __post_init__(self) -> None:
+        _positive(self, "length")
+        ends = [real_number("interface", z, low=0.0, high=math.inf, reason=_POSITIVE) for z in self.interfaces]
+        object.__setattr__(self, "interfaces", tuple(sorted(ends)))
+        if not callable(self.nu):
+            _elastic(self, "nu")
+        z = np.append(0.0, self.length * _CHECKED)
+        E, nu = self.modulus(z), self.poisson(z)
+        for values, name, good, reason in (
+            (E, "modulus", np.isfinite(E) & (E > 0.0), "(0, inf): it is positive at every depth, also at the surface"),
+            (nu, "Poisson's ratio", (nu >= 0.0) & (nu <= 0.5), f"[0, 0.5]: {_ELASTIC}"),
+        ):
+            if values.shape != z.shape:
+                raise ValueError(f"the {name} has the shape {values.shape} for depths of the shape {z.shape}: it is "
+                                 "a function of an array")
+            if not good.all():
+                i = int(np.argmin(good))
+                raise ValueError(f"{name} = {values[i]:g} at the depth {z[i]:g} is outside {reason}")
+
+    def modulus(self, z: Array) -> Array:
+        """E(z)."""
+        return np.asarray(self.young(np.asarray(z, float)), float)
+
+    def poisson(self, z: Array) -> Array:
+        """nu(z)."""
+        z = np.asarray(z, float)
+        return np.asarray(self.nu(z), float) if callable(self.nu) else np.full(z.shape, self.nu)
+
+
+def contact_modulus(solid: GradedHalfSpace, z: float = 0.0) -> float:
+    """E / (1 - nu^2) at a depth, that of the surface by default.
+
+    Examples
+    --------
+    >>> contact_modulus(Exponential(E_surface=3.0, E_depth=1.0, length=1.0, nu=0.5))
+    4.0
+    """
+    at = np.array([z])
+    return float(solid.modulus(at)[0] / (1.0 - solid.poisson(at)[0] ** 2))
