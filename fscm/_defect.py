@@ -128,10 +128,10 @@ class Defect:
         polynomial = own.transfer(state.pressure, mesh)
         # The error of the pressure in its own place, and that of the deformation between the nodes.
         self._pressure_error = f.pressure - polynomial
-        deformation = self._stiffness * (fine.matrix @ polynomial) + f.tail.displacement
+        deformation = self._stiffness * (fine.response(state.scale) @ polynomial) + f.tail.displacement
         self._gap_error = lift - deformation if fine.steep else f.gap + state.displacement - height - deformation
-        axis = fine.axis @ polynomial, state.disc.axis @ state.pressure
-        self._axis_error = self._stiffness * float(axis[0] - axis[1])
+        axis = (d.axis_response(state.scale) @ p for d, p in ((fine, polynomial), (state.disc, state.pressure)))
+        self._axis_error = self._stiffness * float(next(axis) - next(axis))
         self._owner = np.repeat(own.locate(mesh.middles), mesh.order)
         self._panels = len(own.lengths)
         self._edge = max(int(np.searchsorted(own.offsets, 1.0 - own.origin)) - 1, 0)
@@ -173,7 +173,7 @@ class Defect:
 
     def _backwards(self, adjoint: Array) -> Array:
         """Adjoint of the response: K W^T adjoint."""
-        return self._stiffness * (adjoint @ self.fine.disc.matrix)
+        return self._stiffness * (adjoint @ self.fine.disc.response(self.fine.scale))
 
     def _gradient(self, name: str) -> Array:
         """Derivatives of a functional by the unknowns."""
@@ -201,6 +201,8 @@ class Defect:
         pressure = 0.5 * float(np.sum(weighed))
         surface = self._area @ (0.5 * f.pressure * f.deformation + law.energy(f.gap))
         elastic = 0.5 * (1.0 - k) * float(weighed @ (f.deformation - tail.displacement))
+        growth = f.disc.growth(f.scale, f.pressure)[0]
+        elastic += 0.5 * self._stiffness * float(np.sum(weighed * growth))
         by_displacement = pressure * tail.displacement_slope + (behind(0.0, _STEP) - behind(0.0, -_STEP)) / (
             2.0 * _STEP
         )
@@ -216,7 +218,7 @@ class Defect:
         if name == "load":
             return self._by_panel(self._area * self._pressure_error)
         if name == "central_gap":
-            found = self._by_panel(self._stiffness * self.fine.disc.axis * self._pressure_error)
+            found = self._by_panel(self._stiffness * self.fine.disc.axis_response(self.fine.scale) * self._pressure_error)
             found[0] += self._axis_error
             return found
         if name == "energy":
@@ -275,7 +277,7 @@ class Defect:
         if name == "load":
             return stored + _WEIGHT * float(self._area @ np.abs(f.pressure))
         if name == "central_gap":
-            return stored + abs(f.displacement) + _ENTRY * self._stiffness * float(f.disc.axis @ np.abs(f.pressure))
+            return stored + abs(f.displacement) + _ENTRY * self._stiffness * float(f.disc.axis_response(f.scale) @ np.abs(f.pressure))
         if name == "energy":
             density = 0.5 * np.abs(f.pressure * f.deformation) + np.abs(f.disc.problem.law.energy(f.gap))
             return stored + _WEIGHT * float(self._area @ density)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from fscm._validation import real_number
 from fscm.laws import LennardJones93, SurfaceLaw
@@ -117,6 +118,16 @@ class Problem:
         # The generated __setattr__ of a frozen class refuses; writing through object is its own idiom.
         for name, value in (("n", n), ("k", k), ("mu", mu), ("punch", punch), ("law", law)):
             object.__setattr__(self, name, value)
+
+    @property
+    def response(self) -> Any:
+        """What distinguishes the solid from a power law (`fscm.graded.GradedProblem`): None."""
+        return None
+
+    @property
+    def softest(self) -> float:
+        """Largest compliance at any wave number, in units of `compliance`: that of a power law has one factor only."""
+        return 1.0
 
     @property
     def compliance(self) -> float:

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
+import scipy
 
 from fscm._typing import Array
 from fscm.graded.compliance import compliance
@@ -28,9 +29,18 @@ _LOW, _HIGH, _WAVES, _MANY, _AFTER, _BEFORE = 1e-10, 1e12, 10, 24, 0.01, 100.0
 # Depths of the images: from _SHALLOW of the inverse of the last wave number to _DEEP of that of the first; so many for
 # each decade, and more from _FROM of the shallowest to _TO of the deepest change.  A sum of exponentials of fewer depths
 # follows a coating to 1e-6 only.
-_SHALLOW, _DEEP, _SPARSE, _DENSE, _FROM, _TO = 1.0, 30.0, 7, 100, 0.3, 40.0
-# Errors count relative to D, down to this wave number (unit as _LOW), and singular values below this share are left out.
-_RELATIVE, _SINGULAR = 1e-6, 3e-15
+_SHALLOW, _DEEP, _SPARSE, _DENSE, _FROM, _TO = 1.0, 30.0, 7, 80, 0.3, 40.0
+# A sharp interface at the depth h reflects like powers of xi h times exp(-2 xi h n): differences, of this step and up to
+# this order, of exponentials around 2 h n for n up to _REFLECTIONS, at most so many interfaces.  As columns of their own
+# they are not lost among the small singular values: the error of a layer falls from 1e-9 to 1e-10.
+_STEP, _DIFFERENCES = 0.1, np.array(
+    [[0, 0, 1, 0, 0], [0, -0.5, 0, 0.5, 0], [0, 1, -2, 1, 0], [-0.5, 1, 0, -1, 0.5], [1, -4, 6, -4, 1]], float
+) / 0.1 ** np.arange(5)[:, None]
+_REFLECTIONS, _MOST_INTERFACES, _JUMP, _BESIDE = 8, 3, 1e-6, 1e-9
+# Errors count relative to D, but not to a smaller one than this, and singular values below this share are left out.
+_RELATIVE, _SINGULAR = 1e-4, 3e-15
+# Longest distance that the images serve, in units of the deepest change, and its product with the first wave number.
+_LONGEST, _REACH = 1e6, 1e-4
 # At the start of the range nothing holds the sum between its waves: this factor is left out of what counts.
 _MARGIN = 10.0
 # Between the waves where it is measured the error is at most this many times the one there; every so many of them the
@@ -47,6 +57,23 @@ def _changes(solid: GradedHalfSpace) -> tuple[float, float]:
     """Shallowest and deepest place at which the constants change."""
     depths = [solid.length, *solid.interfaces]
     return min(depths), max(depths)
+
+
+def _sharp(solid: GradedHalfSpace) -> list[float]:
+    """Interfaces at which a constant jumps; none where they are many."""
+    ends = np.array(solid.interfaces)
+    sides = [(np.log(solid.modulus(z)), solid.poisson(z)) for z in (ends * (1.0 - _BESIDE), ends * (1.0 + _BESIDE))]
+    jumps = np.maximum(*(np.abs(after - before) for before, after in zip(*sides, strict=True)))
+    found: list[float] = ends[jumps > _JUMP].tolist()
+    return found if len(found) <= _MOST_INTERFACES else []
+
+
+def _basis(depths: Array, interfaces: list[float]) -> tuple[Array, Array]:
+    """Depths of all exponentials, shape (m,), and the columns of the fit in terms of them, shape (m, columns)."""
+    centers = [2.0 * z * (n + 1) for z in interfaces for n in range(_REFLECTIONS)]
+    clusters = [c * (1.0 + _STEP * np.arange(-2, 3)) for c in centers]
+    columns = scipy.linalg.block_diag(np.eye(len(depths)), *[_DIFFERENCES.T] * len(centers))
+    return np.concatenate([depths, *clusters]), columns
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,12 +105,8 @@ class Images:
 
     @cached_property
     def relative(self) -> float:
-        """Largest error relative to D where that is relative."""
-        return float(np.max(self.errors / np.maximum(self.values, self._least)))
-
-    @cached_property
-    def _least(self) -> float:
-        return float(np.min(self.values))
+        """Largest error relative to D, or to 1e-4 where D is below."""
+        return float(np.max(self.errors / np.maximum(self.values, _RELATIVE)))
 
     def error(self, xi: Array) -> Array:
         """Bound of the error of D at any xi > 0, shape of `xi`.
@@ -101,8 +124,14 @@ class Images:
 
 
 @lru_cache(maxsize=32)
-def images_of(solid: GradedHalfSpace) -> Images:
+def images_of(solid: GradedHalfSpace, longest: float | None = None) -> Images:
     """The images of a solid, made once.
+
+    Parameters
+    ----------
+    solid : GradedHalfSpace
+    longest : float, optional
+        Longest distance of interest, by default 1e6 times the deepest change of the constants.
 
     Examples
     --------
@@ -112,7 +141,8 @@ def images_of(solid: GradedHalfSpace) -> Images:
     (True, array([0.25, 1.  ]))
     """
     shallow, deep = _changes(solid)
-    low, high = _LOW / deep, _HIGH / shallow
+    low = min(_LOW / deep, _REACH / (_LONGEST * deep if longest is None else longest))
+    high = _HIGH / shallow
     bends = _AFTER / deep, _BEFORE / shallow
     parts = [_spaced(low, bends[0], _WAVES), _spaced(*bends, _MANY), _spaced(bends[1], high, _WAVES), [high]]
     nodes = np.concatenate(parts)
@@ -121,14 +151,17 @@ def images_of(solid: GradedHalfSpace) -> Images:
     values = scale * compliance(solid, waves)
     ends = _SHALLOW / high, _FROM * shallow, _TO * deep, _DEEP / low
     depths = np.concatenate([_spaced(*ends[:2], _SPARSE), _spaced(*ends[1:3], _DENSE), _spaced(*ends[2:], _SPARSE)])
-    weights = 1.0 / np.maximum(values, values[np.searchsorted(waves, _RELATIVE / deep)])[::2, None]
-    matrix = np.exp(-waves[::2, None] * depths)
-    strengths = np.linalg.lstsq(weights * matrix, (weights * (1.0 - values[::2, None]))[:, 0], rcond=_SINGULAR)[0]
-    found = 1.0 - np.exp(-waves[:, None] * depths) @ strengths
+    depths, columns = _basis(depths, _sharp(solid))
+    exponentials = np.exp(-waves[:, None] * depths)
+    weights = 1.0 / np.maximum(values, _RELATIVE)
+    matrix = (weights[:, None] * (exponentials @ columns))[::2]
+    solved = np.linalg.lstsq(matrix, (weights * (1.0 - values))[::2], rcond=_SINGULAR)[0]
+    order = np.argsort(depths)
+    strengths = columns @ solved
     some = slice(None, None, _EVERY)
     steps = np.abs(scale * compliance(solid, waves[some], 2) - values[some])
     # The error of the steps varies slowly: the largest of the neighbours.
     around = np.maximum.reduce([steps, np.append(steps[1:], 0.0), np.append(0.0, steps[:-1])])
-    errors = np.abs(found - values) + np.repeat(around, _EVERY)[: len(waves)]
+    errors = np.abs(1.0 - exponentials @ strengths - values) + np.repeat(around, _EVERY)[: len(waves)]
     kept = waves >= _MARGIN * low
-    return Images(depths, strengths, waves[kept], values[kept], errors[kept])
+    return Images(depths[order], strengths[order], waves[kept], values[kept], errors[kept])

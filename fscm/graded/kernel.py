@@ -45,6 +45,8 @@ class GradedKernel:
     Parameters
     ----------
     solid : GradedHalfSpace
+    longest : float, optional
+        Longest distance of interest, by default 1e6 times the deepest change of the constants.
 
     Examples
     --------
@@ -54,9 +56,9 @@ class GradedKernel:
     array([1.  , 0.25])
     """
 
-    def __init__(self, solid: GradedHalfSpace) -> None:
+    def __init__(self, solid: GradedHalfSpace, longest: float | None = None) -> None:
         self.solid = solid
-        self.images: Images = images_of(solid)
+        self.images: Images = images_of(solid, longest)
 
     def images_at(self, total: Array, distance: Array) -> Array:
         """Sum of a_j f(d_j), shape of both arguments."""

@@ -25,6 +25,9 @@ _LEAST = 1e-11
 # Images shallower than this share of B, or deeper than A over this share, are joined: what their expansion in the square
 # of the ratio leaves is the fourth power of it.
 _FAR = 2e-3
+# Error of the table: coefficients that are left out, and rounding of the images, whose strengths are up to 1e5.
+# Measured worst 1e-10 on a tanh coating.
+_ERROR = 5e-10
 # Numbers of the patches in each direction: a pair of them is one integer.
 _MOST = 200
 
@@ -38,6 +41,9 @@ class ImageTable:
     length : float
         Depth near which the solid changes.
     """
+
+    #: Bound of the error of the value.
+    error = _ERROR
 
     def __init__(self, images: Images, length: float) -> None:
         self._images, self._length = images, length
