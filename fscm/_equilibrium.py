@@ -311,7 +311,7 @@ class Linearisation:
         self.axis_gap_scale = (1.0 - k) * (
             s.central_gap + s.displacement - s.tail.displacement
         ) + s.tail.displacement_rate
-        self.axis_gap_scale += axis_growth
+        self.axis_gap_scale += float(axis_growth)
         if s.lift is not None:
             self._unknown_is_lift(s.lift, K * slope, rise, (1.0 - k) * elastic + growth)
 

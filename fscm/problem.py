@@ -125,9 +125,9 @@ class Problem:
         return None
 
     @property
-    def softest(self) -> float:
-        """Largest compliance at any wave number, in units of `compliance`: that of a power law has one factor only."""
-        return 1.0
+    def largest_mu(self) -> float:
+        """The Tabor number of the softest part of the solid: that of a power law is the only one."""
+        return self.mu
 
     @property
     def compliance(self) -> float:

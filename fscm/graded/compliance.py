@@ -15,6 +15,7 @@ anew.  Upwards the wanted solution grows, so that every error dies out, and the 
 from __future__ import annotations
 
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 
@@ -71,9 +72,7 @@ def _steps(solid: GradedHalfSpace, xi: Array, longest: float) -> Array:
         inside = x * depths[x * depths < START]
         ends = np.append(inside, START)
         counts = np.maximum(1, np.ceil(np.diff(ends) / longest).astype(int))
-        parts = [
-            a + (b - a) * np.arange(n) / n for a, b, n in zip(ends[:-1], ends[1:], counts.tolist(), strict=True)
-        ]
+        parts = [a + (b - a) * np.arange(n) / n for a, b, n in zip(ends[:-1], ends[1:], counts.tolist(), strict=True)]
         columns.append(np.append(np.concatenate(parts), START)[::-1])
     steps = np.zeros((max(len(column) for column in columns), len(xi)))
     for i, column in enumerate(columns):
@@ -109,12 +108,12 @@ def compliance(solid: GradedHalfSpace, xi: Array, refinement: int = 1) -> Array:
     array([1., 2.])
     """
     c, b, a = _collocation(_STAGES)
-    s, n = _STAGES, len(xi)
+    s = _STAGES
     steps = _steps(solid, xi, _STEP)
     z = steps[0] / xi
     Q = _homogeneous(solid.modulus(z), solid.poisson(z))
     identity = np.eye(4 * s)
-    for start, stop in zip(steps[:-1], steps[1:], strict=True):
+    for start, stop in pairwise(steps):
         active = np.flatnonzero(start > stop)
         for part in range(refinement):
             h = (stop - start)[active] / refinement

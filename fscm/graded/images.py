@@ -27,15 +27,16 @@ __all__ = ["Images", "images_of"]
 # constants, their number for each decade, and the larger one between these factors of the same.
 _LOW, _HIGH, _WAVES, _MANY, _AFTER, _BEFORE = 1e-10, 1e12, 10, 24, 0.01, 100.0
 # Depths of the images: from _SHALLOW of the inverse of the last wave number to _DEEP of that of the first; so many for
-# each decade, and more from _FROM of the shallowest to _TO of the deepest change.  A sum of exponentials of fewer depths
-# follows a coating to 1e-6 only.
-_SHALLOW, _DEEP, _SPARSE, _DENSE, _FROM, _TO = 1.0, 30.0, 7, 80, 0.3, 40.0
-# A sharp interface at the depth h reflects like powers of xi h times exp(-2 xi h n): differences, of this step and up to
-# this order, of exponentials around 2 h n for n up to _REFLECTIONS, at most so many interfaces.  As columns of their own
-# they are not lost among the small singular values: the error of a layer falls from 1e-9 to 1e-10.
-_STEP, _DIFFERENCES = 0.1, np.array(
+# each decade, and more from _FROM of the shallowest to _TO of the deepest change: fewer follow a coating to 1e-6 only.
+_SHALLOW, _DEEP, _SPARSE, _DENSE, _FROM, _TO = 1.0, 3.0, 7, 80, 0.3, 40.0
+# A sharp interface at the depth h reflects like powers of xi h times exp(-2 xi h n): differences, of this step and up
+# to this order, of exponentials around 2 h n for n up to _REFLECTIONS, at most so many interfaces.  As columns of their
+# own they are not lost among the small singular values: the error of a layer falls from 1e-9 to 1e-10.
+_STEP = 0.1
+_DIFFERENCES = np.array(
     [[0, 0, 1, 0, 0], [0, -0.5, 0, 0.5, 0], [0, 1, -2, 1, 0], [-0.5, 1, 0, -1, 0.5], [1, -4, 6, -4, 1]], float
-) / 0.1 ** np.arange(5)[:, None]
+)
+_DIFFERENCES /= _STEP ** np.arange(5)[:, None]
 _REFLECTIONS, _MOST_INTERFACES, _JUMP, _BESIDE = 8, 3, 1e-6, 1e-9
 # Errors count relative to D, but not to a smaller one than this, and singular values below this share are left out.
 _RELATIVE, _SINGULAR = 1e-4, 3e-15
@@ -137,15 +138,15 @@ def images_of(solid: GradedHalfSpace, longest: float | None = None) -> Images:
     --------
     >>> from fscm.graded import Exponential
     >>> images = images_of(Exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3))
-    >>> images.relative < 1e-9, images.at(np.array([0.0, 1e9])).round(8)
+    >>> images.relative < 1e-9, images.at(np.array([1e-9, 1e9])).round(8)
     (True, array([0.25, 1.  ]))
     """
     shallow, deep = _changes(solid)
     low = min(_LOW / deep, _REACH / (_LONGEST * deep if longest is None else longest))
     high = _HIGH / shallow
     bends = _AFTER / deep, _BEFORE / shallow
-    parts = [_spaced(low, bends[0], _WAVES), _spaced(*bends, _MANY), _spaced(bends[1], high, _WAVES), [high]]
-    nodes = np.concatenate(parts)
+    parts = _spaced(low, bends[0], _WAVES), _spaced(*bends, _MANY), _spaced(bends[1], high, _WAVES)
+    nodes = np.append(np.concatenate(parts), high)
     waves = np.sort(np.append(nodes, np.sqrt(nodes[1:] * nodes[:-1])))
     scale = 0.5 * contact_modulus(solid)
     values = scale * compliance(solid, waves)

@@ -3,7 +3,7 @@ r"""The response of a graded solid to a ring of pressure, by its images.
     G(r, t) = t int_0^oo D(xi) J0(xi r) J0(xi t) d(xi) = t [f(0) - sum_j a_j f(d_j)],
     f(d) = (2/pi) K(m) / sqrt((r+t)^2 + d^2) = 1 / agm(sqrt((r+t)^2 + d^2), sqrt((r-t)^2 + d^2)),
 
-so that a ring of unit pressure lifts the surface by (2/E*) G with E* = E/(1-nu^2) at the surface (`fscm.graded.images`).
+so that a ring of unit pressure lifts the surface by (2/E*) G, E* = E/(1-nu^2) at the surface (`fscm.graded.images`).
 For a homogeneous solid D = 1, and G is that of Eq. 6 at k = 0.
 """
 

@@ -4,8 +4,8 @@ With the radii r = c s the response is c (W_0 - R(c)) with the matrix W_0 of the
 
     R_ij = int over a panel of L_j(t) t/(s_i + t) F(c (s_i + t), c |s_i - t|) dt,   F(A, B) = A sum_j a_j f(d_j),
 
-from the table of F.  F has a kink at t = s_i, and is smooth to both sides of it on the scale of the solid: the panel of a
-node is integrated on pieces that double in length from there on, and so are its neighbours where they are long.
+from the table of F.  F has a kink at t = s_i, and is smooth to both sides of it on the scale of the solid: the panel of
+a node is integrated on pieces that double in length from there on, and so are its neighbours where they are long.
 """
 
 from __future__ import annotations
@@ -39,7 +39,9 @@ class Remainder:
         self.matrix, self.rate, self.axis, self.axis_rate = matrix, rate, axis, axis_rate
 
 
-def _pieces(pair: NDArray[np.intp], sign: Array, near: Array, extent: Array, xi: Array, h: Array, first: float) -> list[Pieces]:
+def _pieces(
+    pair: NDArray[np.intp], sign: Array, near: Array, extent: Array, xi: Array, h: Array, first: float
+) -> list[Pieces]:
     """Cover distances near ... near + extent by pieces no longer than their distance, or than `first`."""
     parts = []
     active = np.flatnonzero(extent > 0.0)

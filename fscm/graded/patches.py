@@ -18,12 +18,12 @@ from fscm.graded.kernel import image_ring
 
 __all__ = ["ImageTable"]
 
-# Degree and size of a patch: the singularities are at a distance of pi/2, so that the coefficients fall like 4.75^-m.
+# Degree and size of a patch: the singularities are at a distance of pi/2, so that they fall like 4.75^-m.
 _DEGREE, _SIZE = 14, math.log(4.0)
 # Distances below this share of the shallowest image that matters count as this one.
 _LEAST = 1e-11
-# Images shallower than this share of B, or deeper than A over this share, are joined: what their expansion in the square
-# of the ratio leaves is the fourth power of it.
+# Images shallower than this share of B, or deeper than A over this share, are joined: what their expansion in the
+# square of the ratio leaves is the fourth power of it.
 _FAR = 2e-3
 # Error of the table: coefficients that are left out, and rounding of the images, whose strengths are up to 1e5.
 # Measured worst 1e-10 on a tanh coating.
@@ -51,7 +51,9 @@ class ImageTable:
         self._nodes = chebyshev.chebpts1(_DEGREE + 1)
         vander = chebyshev.chebvander(self._nodes, _DEGREE)
         # Values at the Chebyshev places -> coefficients of the powers.
-        to_powers = np.stack([np.append(p := chebyshev.cheb2poly(row), np.zeros(_DEGREE + 1 - len(p))) for row in np.eye(_DEGREE + 1)])
+        to_powers = np.stack(
+            [np.append(p := chebyshev.cheb2poly(row), np.zeros(_DEGREE + 1 - len(p))) for row in np.eye(_DEGREE + 1)]
+        )
         self._to_powers = to_powers.T @ np.linalg.inv(vander)
         powers = np.arange(1, _DEGREE + 1)
         self._derivative = np.diag(powers, 1) * (2.0 / _SIZE)

@@ -45,8 +45,8 @@ class GradedResponse:
 
     @property
     def softest(self) -> float:
-        """Largest compliance at any wave number, in units of that of the surface."""
-        return float(np.max(self.kernel.images.values))
+        """Largest compliance at any wave number, in units of that of the surface, at least 1."""
+        return max(1.0, float(np.max(self.kernel.images.values)))
 
     def remainder(self, mesh: PanelMesh, c: float) -> Remainder:
         """R(c) of `fscm.graded.panels`."""
@@ -120,7 +120,9 @@ class GradedProblem(Problem):
         if k != 0.0:
             raise ValueError(f"gradient exponent k = {k} is outside [0, 0]: the modulus at the surface is finite")
         if not isinstance(solid, GradedHalfSpace):
-            raise ValueError(f"solid = {solid!r} is no graded solid: it needs modulus(z), poisson(z), length, interfaces")
+            raise ValueError(
+                f"solid = {solid!r} is no graded solid: it needs modulus(z), poisson(z), length, interfaces"
+            )
         Problem.__init__(self, n, 0.0, mu, punch, law)
         object.__setattr__(self, "solid", solid)
 
@@ -130,6 +132,6 @@ class GradedProblem(Problem):
         return response_of(self.solid)
 
     @property
-    def softest(self) -> float:
-        """Largest compliance at any wave number, in units of that of the surface."""
-        return self.response.softest
+    def largest_mu(self) -> float:
+        """The Tabor number with the largest compliance at any wave number."""
+        return self.mu * self.response.softest ** (self.n / (2.0 * self.n - 1.0))

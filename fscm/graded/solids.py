@@ -7,8 +7,7 @@ which they change.  The modulus at the surface is positive: E0 (z/c0)^k has the 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -16,12 +15,17 @@ import numpy as np
 from fscm._typing import Array
 from fscm._validation import real_number
 
-__all__ = ["Coating", "Exponential", "GradedHalfSpace", "GradedSolid", "OffsetPowerLaw", "contact_modulus", "elastic_ratio"]
+__all__ = [
+    "Coating",
+    "Exponential",
+    "GradedHalfSpace",
+    "OffsetPowerLaw",
+    "contact_modulus",
+    "elastic_ratio",
+]
 
-_ELASTIC = "the solid is elastic, and incompressible at 0.5"
-_POSITIVE = "it is a positive quantity"
-# Depths, in units of the length, at which a function of the user is checked, besides the surface.
-_CHECKED = np.geomspace(1e-6, 1e6, 25)
+ELASTIC = "the solid is elastic, and incompressible at 0.5"
+POSITIVE = "it is a positive quantity"
 
 
 @runtime_checkable
@@ -55,7 +59,7 @@ class GradedHalfSpace(Protocol):
 
 def _positive(solid: object, *names: str) -> None:
     for name in names:
-        value = real_number(name, getattr(solid, name), low=0.0, high=math.inf, reason=_POSITIVE)
+        value = real_number(name, getattr(solid, name), low=0.0, high=math.inf, reason=POSITIVE)
         object.__setattr__(solid, name, value)
 
 
@@ -67,7 +71,7 @@ def elastic_ratio(name: str, value: object) -> float:
     ValueError
         When it is outside [0, 1/2].
     """
-    return real_number(name, value, low=0.0, high=0.5, closed_low=True, closed_high=True, reason=_ELASTIC)
+    return real_number(name, value, low=0.0, high=0.5, closed_low=True, closed_high=True, reason=ELASTIC)
 
 
 def _elastic(solid: object, *names: str) -> None:
@@ -227,7 +231,11 @@ class Coating:
         x = np.asarray(z, float) - self.thickness
         with np.errstate(over="ignore"):
             # (1 - tanh x)/2 without its cancellation
-            share = np.where(x < 0.0, 1.0, 0.0) if self.transition == 0.0 else 1.0 / (1.0 + np.exp(2.0 * x / self.transition))
+            share = (
+                np.where(x < 0.0, 1.0, 0.0)
+                if self.transition == 0.0
+                else 1.0 / (1.0 + np.exp(2.0 * x / self.transition))
+            )
         return last + (first - last) * share
 
     def modulus(self, z: Array) -> Array:
@@ -237,63 +245,6 @@ class Coating:
     def poisson(self, z: Array) -> Array:
         """nu(z)."""
         return self._between(z, self.nu_coating, float(self.nu_substrate or 0.0))
-
-
-@dataclass(frozen=True, slots=True)
-class GradedSolid:
-    """Any E(z) and nu(z).
-
-    Parameters
-    ----------
-    young : callable
-        E(z): array of depths -> array of moduli, > 0 everywhere, the surface included.
-    nu : float or callable
-        Poisson's ratio, or nu(z) like `young`.
-    length : float
-        A depth over which they change, > 0.
-    interfaces : sequence of float, optional
-        Depths > 0 at which E or nu or a derivative of them jumps.  Layers thinner than a twentieth of their depth are
-        found for certain only if their ends are named here.
-
-    Examples
-    --------
-    >>> solid = GradedSolid(lambda z: 2.0 + np.sin(z) ** 2, 0.3, length=1.0)
-    >>> solid.modulus(np.array([0.0])), solid.poisson(np.array([5.0]))
-    (array([2.]), array([0.3]))
-    """
-
-    young: Callable[[Array], Array]
-    nu: float | Callable[[Array], Array]
-    length: float
-    interfaces: Sequence[float] = ()
-
-    def __post_init__(self) -> None:
-        _positive(self, "length")
-        ends = [real_number("interface", z, low=0.0, high=math.inf, reason=_POSITIVE) for z in self.interfaces]
-        object.__setattr__(self, "interfaces", tuple(sorted(ends)))
-        if not callable(self.nu):
-            _elastic(self, "nu")
-        z = np.append(0.0, self.length * _CHECKED)
-        E, nu = self.modulus(z), self.poisson(z)
-        for values, name, good, reason in (
-            (E, "modulus", np.isfinite(E) & (E > 0.0), "(0, inf): it is positive at every depth, also at the surface"),
-            (nu, "Poisson's ratio", (nu >= 0.0) & (nu <= 0.5), f"[0, 0.5]: {_ELASTIC}"),
-        ):
-            if values.shape != z.shape:
-                raise ValueError(f"the {name} has the shape {values.shape} for depths of the shape {z.shape}: it is "
-                                 "a function of an array")
-            if not good.all():
-                i = int(np.argmin(good))
-                raise ValueError(f"{name} = {values[i]:g} at the depth {z[i]:g} is outside {reason}")
-
-    def modulus(self, z: Array) -> Array:
-        """E(z)."""
-        return np.asarray(self.young(np.asarray(z, float)), float)
-
-    def poisson(self, z: Array) -> Array:
-        """nu(z)."""
-        z = np.asarray(z, float)
-        return np.asarray(self.nu(z), float) if callable(self.nu) else np.full(z.shape, self.nu)
 
 
 def contact_modulus(solid: GradedHalfSpace, z: float = 0.0) -> float:

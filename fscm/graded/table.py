@@ -54,15 +54,20 @@ class TabulatedModulus:
         moduli = _numbers("moduli", self.moduli, 0.0, "a modulus is positive", False)
         if len(depths) != len(moduli) or len(depths) < 2:
             raise ValueError(
-                f"{len(depths)} depths and {len(moduli)} moduli are no table: as many of one as of the other, at least two"
+                f"{len(depths)} depths and {len(moduli)} moduli are no table: it has as many of both, at least two"
             )
         for i in range(1, len(depths)):
             if not depths[i] > depths[i - 1]:
-                raise ValueError(f"depths[{i}] = {depths[i]:g} is not above depths[{i - 1}] = {depths[i - 1]:g}: they ascend")
-        if isinstance(self.nu, Sequence) or np.ndim(self.nu):
-            nu: float | tuple[float, ...] = tuple(elastic_ratio(f"nu[{i}]", value) for i, value in enumerate(self.nu))
-            if len(nu) != len(depths):
-                raise ValueError(f"{len(nu)} values of nu do not fit {len(depths)} depths: one for each, or one number")
+                raise ValueError(
+                    f"depths[{i}] = {depths[i]:g} is not above depths[{i - 1}] = {depths[i - 1]:g}: they ascend"
+                )
+        if not isinstance(self.nu, float | int):
+            found = tuple(elastic_ratio(f"nu[{i}]", value) for i, value in enumerate(self.nu))
+            if len(found) != len(depths):
+                raise ValueError(
+                    f"{len(found)} values of nu do not fit {len(depths)} depths: one for each, or one number"
+                )
+            nu: float | tuple[float, ...] = found
         else:
             nu = elastic_ratio("nu", self.nu)
         for name, value in (("depths", depths), ("moduli", moduli), ("nu", nu)):

@@ -15,7 +15,11 @@ XI = np.geomspace(1e-4, 1e4, 25)
 
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.5])
 def test_a_homogeneous_solid_has_its_compliance_at_every_wave_number(nu):
-    for solid in (Exponential(3.0, 3.0, 1.0, nu), Coating(3.0, 3.0, 1.0, 0.0, nu), OffsetPowerLaw(3.0, 1.0, 0.0, 1.0, nu)):
+    for solid in (
+        Exponential(3.0, 3.0, 1.0, nu),
+        Coating(3.0, 3.0, 1.0, 0.0, nu),
+        OffsetPowerLaw(3.0, 1.0, 0.0, 1.0, nu),
+    ):
         # 1e-12: rounding of some hundred steps
         assert np.allclose(compliance(solid, XI), 2.0 * (1.0 - nu**2) / 3.0, rtol=1e-12, atol=0.0)
 
@@ -24,7 +28,9 @@ def test_a_homogeneous_solid_has_its_compliance_at_every_wave_number(nu):
 def test_the_offset_power_law_tends_to_the_exact_power_law(k):
     nu, z_s = 0.3, 1e-10
     b = response_factor(k, nu)
-    front = 2.0 * b * (1.0 - nu**2) * 2.0**-k * scipy.special.gamma((1.0 - k) / 2.0) / scipy.special.gamma((1.0 + k) / 2.0)
+    front = (
+        2.0 * b * (1.0 - nu**2) * 2.0**-k * scipy.special.gamma((1.0 - k) / 2.0) / scipy.special.gamma((1.0 + k) / 2.0)
+    )
     xi = np.array([0.1, 1.0, 10.0])
     # What the offset changes is of the order (xi z_s)^(1-k).
     limit = 10.0 * (xi * z_s) ** (1.0 - k) + 1e-11
@@ -60,7 +66,8 @@ def test_sharp_layers_agree_with_matrix_exponentials():
 
 
 @pytest.mark.parametrize(
-    "solid", [OffsetPowerLaw(1.0, 1.0, 0.4, 1.0, 0.3), Exponential(4.0, 1.0, 1.0, 0.3), Coating(5.0, 1.0, 1.0, 0.2, 0.3)]
+    "solid",
+    [OffsetPowerLaw(1.0, 1.0, 0.4, 1.0, 0.3), Exponential(4.0, 1.0, 1.0, 0.3), Coating(5.0, 1.0, 1.0, 0.2, 0.3)],
 )
 def test_a_stack_of_200_layers_converges_to_the_graded_solid(solid):
     for xi in (0.3, 1.0, 3.0):

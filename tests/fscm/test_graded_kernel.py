@@ -105,7 +105,11 @@ def test_the_table_follows_the_images(name):
 def test_homogeneous_limits():
     r, t = 10.0 ** np.random.default_rng(2).uniform(-2.0, 2.0, (2, 50))
     plain = ring_response(0.0, r, t)
-    for solid in (Exponential(2.0, 2.0, 1.0, 0.3), OffsetPowerLaw(1.0, 1.0, 0.0, 1.0, 0.3), Coating(2.0, 2.0, 1.0, 0.0, 0.3)):
+    for solid in (
+        Exponential(2.0, 2.0, 1.0, 0.3),
+        OffsetPowerLaw(1.0, 1.0, 0.0, 1.0, 0.3),
+        Coating(2.0, 2.0, 1.0, 0.0, 0.3),
+    ):
         assert np.allclose(GradedKernel(solid).response(r, t), plain, rtol=1e-9, atol=0.0)
     thick, thin = Coating(1.0, 4.0, 1e12, 0.0, 0.3), Coating(1.0, 4.0, 1e-13, 0.0, 0.3)
     assert np.allclose(GradedKernel(thick).response(r, t), plain, rtol=1e-9, atol=0.0)
