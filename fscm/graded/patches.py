@@ -19,15 +19,15 @@ from fscm.graded.kernel import image_ring
 __all__ = ["ImageTable"]
 
 # Degree and size of a patch: the singularities are at a distance of pi/2, so that they fall like 4.75^-m.
-_DEGREE, _SIZE = 14, math.log(4.0)
+_DEGREE, _SIZE = 17, math.log(4.0)
 # Distances below this share of the shallowest image that matters count as this one.
 _LEAST = 1e-11
 # Images shallower than this share of B, or deeper than A over this share, are joined: what their expansion in the
 # square of the ratio leaves is the fourth power of it.
-_FAR = 2e-3
-# Error of the table: coefficients that are left out, and rounding of the images, whose strengths are up to 1e5.
-# Measured worst 1e-10 on a tanh coating.
-_ERROR = 5e-10
+_FAR = 7e-4
+# Error of the table: its own, and rounding and what is left out for each unit of the strengths of the images; measured
+# worst 2e-10 on a sharp layer, whose strengths are 3e5 together.
+_ERROR, _PER_STRENGTH = 1e-12, 2e-15
 # Numbers of the patches in each direction: a pair of them is one integer.
 _MOST = 200
 
@@ -42,31 +42,25 @@ class ImageTable:
         Depth near which the solid changes.
     """
 
-    #: Bound of the error of the value.
-    error = _ERROR
-
     def __init__(self, images: Images, length: float) -> None:
         self._images, self._length = images, length
+        #: Bound of the error of the value.
+        self.error = _ERROR + _PER_STRENGTH * float(np.sum(np.abs(images.strengths)))
         self._patches: dict[int, Array] = {}
         self._nodes = chebyshev.chebpts1(_DEGREE + 1)
-        vander = chebyshev.chebvander(self._nodes, _DEGREE)
-        # Values at the Chebyshev places -> coefficients of the powers.
-        to_powers = np.stack(
-            [np.append(p := chebyshev.cheb2poly(row), np.zeros(_DEGREE + 1 - len(p))) for row in np.eye(_DEGREE + 1)]
-        )
-        self._to_powers = to_powers.T @ np.linalg.inv(vander)
-        powers = np.arange(1, _DEGREE + 1)
-        self._derivative = np.diag(powers, 1) * (2.0 / _SIZE)
+        self._to_modes = np.linalg.inv(chebyshev.chebvander(self._nodes, _DEGREE))
+        self._derivative = np.zeros((_DEGREE + 1, _DEGREE + 1))
+        self._derivative[:-1] = chebyshev.chebder(np.eye(_DEGREE + 1)) * (2.0 / _SIZE)
 
     def _patch(self, key: int) -> Array:
-        """Coefficients of value and derivative, shape (degree + 1, 2, degree + 1): powers of log A, then of log B."""
+        """Coefficients of value and derivative, shape (degree + 1, 2, degree + 1): in log A, then in log B."""
         if key not in self._patches:
             i, j = divmod(key, _MOST)
             half = 0.5 * _SIZE
             A = self._length * np.exp((i - _MOST // 2 + 0.5) * _SIZE + half * self._nodes)[:, None]
             B = self._length * np.exp((j - _MOST // 2 + 0.5) * _SIZE + half * self._nodes)[None, :]
             values = A * self._sum(A, B)
-            c = self._to_powers @ values @ self._to_powers.T
+            c = self._to_modes @ values @ self._to_modes.T
             rate = self._derivative @ c + c @ self._derivative.T
             self._patches[key] = np.ascontiguousarray(np.stack([c, rate], axis=1))
         return self._patches[key]
@@ -103,7 +97,7 @@ class ImageTable:
         value, rate = np.empty(len(x)), np.empty(len(x))
         for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
             part = slice(start, end)
-            X, Y = _powers(x[part]), _powers(y[part])
+            X, Y = _polynomials(x[part]), _polynomials(y[part])
             c = self._patch(int(keys[start]))
             rows = np.tensordot(c, X, axes=(0, 0))
             value[part] = np.einsum("jn,jn->n", rows[0], Y)
@@ -113,10 +107,12 @@ class ImageTable:
         return found[0], found[1]
 
 
-def _powers(x: Array) -> Array:
-    """Powers 0 to _DEGREE, shape (_DEGREE + 1, n)."""
+def _polynomials(x: Array) -> Array:
+    """Chebyshev polynomials up to _DEGREE, shape (_DEGREE + 1, n)."""
     out = np.empty((_DEGREE + 1, len(x)))
-    out[0] = 1.0
-    for m in range(_DEGREE):
-        np.multiply(out[m], x, out=out[m + 1])
+    out[0], out[1] = 1.0, x
+    twice = 2.0 * x
+    for m in range(1, _DEGREE):
+        np.multiply(twice, out[m], out=out[m + 1])
+        out[m + 1] -= out[m - 1]
     return out

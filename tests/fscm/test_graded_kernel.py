@@ -61,7 +61,7 @@ def by_quadrature(name, r, t):
     found = []
     for step in (1.0, 0.5):
         low = np.geomspace(1e-12, 0.3, int(60 / step))
-        high = np.arange(0.3, 1500.0, step * 4.0 / (r + t + 1.0))
+        high = np.arange(0.3, 1500.0, step * min(0.7, 4.0 / (r + t + 1.0)))
         ends = np.concatenate([[0.0], low, high[1:]])
         rule = gauss_rule(12)
         xi = (ends[:-1, None] + np.diff(ends)[:, None] * rule.nodes).ravel()

@@ -40,6 +40,26 @@ def test_rates_along_the_path_are_exact():
         assert slope == pytest.approx(getattr(rates, name), abs=1e-5)
 
 
+#: Values of `fem_reference` at its default accuracy, with its bounds (n = 2, mu = 1).
+FINITE_ELEMENTS = [
+    (
+        OffsetPowerLaw(1.0, 1.0, 0.4, 1.0, 0.3),
+        {
+            "pull_off_force": (1.74302095588, 2.2e-8),
+            "jump_in_displacement": (-1.32916086976, 7.9e-8),
+            "jump_out_displacement": (-1.33851188361, 1.0e-7),
+        },
+    ),
+]
+
+
+@pytest.mark.parametrize(("solid", "values"), FINITE_ELEMENTS)
+def test_events_agree_with_the_finite_elements(solid, values):
+    found = solve_together(GradedProblem(2, 1.0, solid), values)
+    for name, (value, bound) in values.items():
+        assert found[name].value == pytest.approx(value, abs=bound + found[name].u_num)
+
+
 @pytest.mark.parametrize(("n", "mu"), [(2, 0.3), (1, 1.0), (2, 3.0)])
 @pytest.mark.parametrize(
     "solid",
