@@ -38,6 +38,10 @@ class GradedHalfSpace(Protocol):
     True
     """
 
+    def __hash__(self) -> int:
+        """The response of a solid is kept by it."""
+        ...
+
     @property
     def length(self) -> float:
         """A depth over which the constants change."""
