@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -54,7 +55,13 @@ def _family(axes: Axes, curves: pd.DataFrame, name: str, symbol: str, values: Se
         part = curves[curves[name] == value]
         label = f"{symbol} = {value:g}" + (" (Gibson)" if (name, value) == ("k", 1.0) else "")
         # Dashes would hide folds; markers at equal distances tell the curves apart in grey.
-        style = {"color": COLOURS[index], "marker": MARKERS[index], "ms": 3.0, "mfc": "white", "lw": 1.0}
+        style: dict[str, Any] = {
+            "color": COLOURS[index],
+            "marker": MARKERS[index],
+            "ms": 3.0,
+            "mfc": "white",
+            "lw": 1.0,
+        }
         axes.plot(part["displacement"], part["load"], markevery=(0.03 * (1 + index), 0.24), label=label, **style)
     axes.axhline(0.0, color="0.4", lw=0.8)
 

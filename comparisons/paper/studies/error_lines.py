@@ -68,9 +68,7 @@ def line_errors(n: float, k: float) -> dict[str, Any]:
         points[name] = [
             {"mu": mu, "fscm": {"value": value, "u_num": bound, "reason": ""}}
             | {model: quantity(model, name, n, k, mu) for model in models}
-            for mu, value, bound in zip(
-                numbers.tolist(), reference.value.tolist(), reference.bound.tolist(), strict=True
-            )
+            for mu, value, bound in np.column_stack([numbers, *reference]).tolist()
         ]
     return {"critical": critical.value, "u_critical": critical.bound, "points": points}
 
