@@ -14,14 +14,13 @@ from functools import lru_cache
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.cusp import slowest_sample
 from fem_reference._contact.events import CUSP, PathEvents, beyond_pull_off
-from fem_reference._contact.mesh_lengths import balance_length, check_width, mesh_spec
+from fem_reference._contact.mesh_lengths import balance_length, check_width, kinks_within, mesh_spec
 from fem_reference._contact.path import EDGE_RISE, edge_width
 from fem_reference._contact.tracing import traced
-from fem_reference._elastic.compliance import compliance_for
+from fem_reference._elastic.compliance import compliance_for, is_scaling
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import Level, finer_levels
 from fem_reference.errors import NotConverged
-from fem_reference.modulus import PowerLawModulus
 from fem_reference.problem import Problem
 from fem_reference.punch import check_without_asperities, radius_at_height
 
@@ -105,7 +104,7 @@ class MeshChoice:
             If the edge is narrower than the mesh can resolve.
         """
         punch, law = self.problem.punch, self.problem.law
-        scaling = isinstance(self.problem.solid.modulus, PowerLawModulus)
+        scaling = is_scaling(self.problem.solid.modulus, self.problem.solid.nu, kinks_within(self.problem))
         first = smallest = radius_at_height(punch, EDGE_RISE * law.length)
         # The folds merge before there is a sharp edge: the mesh of a solid that scales is fine at this radius, too.
         size = first if events == (CUSP,) and not scaling else 2.0 * radius_at_height(punch, law.length)
