@@ -163,7 +163,7 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
     """
     _, middle, finest = choice.level.densities
     medium, fine = replace(spec, density=middle), replace(spec, density=finest)
-    coarse = choice.traced(spec, size).samples[0].branch.contact
+    coarse = choice.contact(spec, size)
     other = size
     placements: tuple[float, ...] = (-1.0, 1.0)
     if isinstance(coarse.compliance, FixedCompliance):

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from scipy import linalg
@@ -238,6 +238,12 @@ def compliance_for(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec, s
         k = modulus.depth_exponent
         trace, matrix, rounding, unknowns = _unit_compliance(k, nu, spec)
         return ScalingCompliance(trace, matrix, modulus, unknowns, rounding)
+    return _fixed_compliance(modulus, nu, spec, size)
+
+
+# The search for the width of the edge, and the mesh of it that the bounds need again; a few MB each.
+@lru_cache(maxsize=8)
+def _fixed_compliance(modulus: Any, nu: Any, spec: MeshSpec, size: float) -> FixedCompliance:
     grid = spec.grid()
     half_space = half_space_of(scaled_modulus(modulus, size), scaled_poisson(nu, size), spec)
     matrix, rounding = _inverse(*condensed(half_space))
