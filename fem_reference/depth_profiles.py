@@ -96,7 +96,9 @@ class _Column:
         falls = np.flatnonzero(np.diff(z) <= 0)
         if falls.size:
             row = int(falls[0]) + 1
-            raise ValueError(f"the depth {z[row]:g} in row {row} is not above {z[row - 1]:g}, the one before it: they must rise")
+            raise ValueError(
+                f"the depth {z[row]:g} in row {row} is not above {z[row - 1]:g}, the one before it: they must rise"
+            )
         self.z, self.y = z, y
         self.curve = PchipInterpolator(z, y)
 

@@ -164,7 +164,9 @@ class Mie:
             if not (math.isfinite(value) and value > 0):
                 raise ValueError(f"{name} = {value} is outside (0, infinity)")
         if not (math.isfinite(self.n) and self.n > 1):
-            raise ValueError(f"exponent n = {self.n} of the attraction is outside (1, infinity): its energy is infinite")
+            raise ValueError(
+                f"exponent n = {self.n} of the attraction is outside (1, infinity): its energy is infinite"
+            )
         if not (math.isfinite(self.m) and self.m > self.n):
             raise ValueError(
                 f"exponent m = {self.m} of the repulsion is outside (n = {self.n:g}, infinity): the faces would pass "

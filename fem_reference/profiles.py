@@ -100,7 +100,9 @@ class PowerSum:
             object.__setattr__(self, name, _tuple_of(name, getattr(self, name)))
         c, e = self.coefficients, self.exponents
         if not c or len(c) != len(e) or len(set(e)) < len(e):
-            raise ValueError(f"{len(c)} coefficients and the exponents {e} do not form a sum: one for each, all different")
+            raise ValueError(
+                f"{len(c)} coefficients and the exponents {e} do not form a sum: one for each, all different"
+            )
         if min(e) < 1:
             raise ValueError(f"exponent {min(e):g} is outside [1, infinity): a cusp has no bounded pressure")
         if not c[e.index(max(e))] > 0:
@@ -160,15 +162,21 @@ class MeasuredPunch:
     def __post_init__(self) -> None:
         r, f = _tuple_of("radii", self.radii), _tuple_of("heights", self.heights)
         if not (math.isfinite(self.growth) and self.growth > 0):
-            raise ValueError(f"growth = {self.growth} is outside (0, infinity): the profile rises beyond its last point")
+            raise ValueError(
+                f"growth = {self.growth} is outside (0, infinity): the profile rises beyond its last point"
+            )
         if len(r) != len(f) or len(r) < 2:
-            raise ValueError(f"{len(r)} radii and {len(f)} heights are no profile: it has a height at each of 2 radii or more")
+            raise ValueError(
+                f"{len(r)} radii and {len(f)} heights are no profile: it has a height at each of 2 radii or more"
+            )
         if r[0] != 0 or f[0] != 0:
             raise ValueError(f"the profile begins at ({r[0]:g}, {f[0]:g}) and not at (0, 0), its apex")
         falls = [i for i in range(1, len(r)) if not r[i] > r[i - 1]]
         if falls:
             i = falls[0]
-            raise ValueError(f"the radius {r[i]:g} in row {i} is not above {r[i - 1]:g}, the one before it: radii must rise")
+            raise ValueError(
+                f"the radius {r[i]:g} in row {i} is not above {r[i - 1]:g}, the one before it: radii must rise"
+            )
         if not f[-1] > 0:
             raise ValueError(f"the last height {f[-1]:g} is outside (0, infinity): the profile must rise beyond it")
         slopes = [*np.divide(np.diff(f), np.diff(r)), self.growth * f[-1] / r[-1]]

@@ -27,6 +27,10 @@ FEWEST_IN_TAIL = 4
 """Smallest number of points to which the tail is fitted; all above half the largest distance from the wall if more."""
 
 
+END_SHARE = 1e-3
+"""Share of the last interval where a root of the slope is its end: a law of finite range ends with a double root."""
+
+
 @dataclass(frozen=True, slots=True)
 class _Power:
     """base + factor (H - origin)^-exponent."""
@@ -119,7 +123,9 @@ class TabulatedLaw:
         beyond = 0.0 if tail is None else float(tail.integral(x[-1], math.inf))
         work = -(float(spline.integrate(zero, x[-1])) + beyond) * stress * self.length
         if not work > 0.0:
-            raise ValueError(f"the work of adhesion of the points is {work:g}, outside (0, infinity): they do not adhere")
+            raise ValueError(
+                f"the work of adhesion of the points is {work:g}, outside (0, infinity): they do not adhere"
+            )
         pieces = PPoly(spline.c, spline.x - zero)
         for name, new in (
             ("gaps", tuple(columns[0].tolist())),
@@ -204,7 +210,9 @@ def _columns(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[Array, 
     falls = np.flatnonzero(np.diff(x) <= 0)
     if falls.size:
         row = int(falls[0]) + 1
-        raise ValueError(f"the gap {x[row]:g} in row {row} is not above {x[row - 1]:g}, the one before it: gaps must rise")
+        raise ValueError(
+            f"the gap {x[row]:g} in row {row} is not above {x[row - 1]:g}, the one before it: gaps must rise"
+        )
     if not p[0] > 0 or not p[-1] <= 0:
         raise ValueError(
             f"the tractions go from {p[0]:g} to {p[-1]:g}: the first must be a compression (> 0), and the last a tension "
@@ -270,7 +278,8 @@ def _joined_spline(x: Array, p: Array, wall: _Power, tail: _Power | None) -> PPo
 
 def _shape(spline: PPoly, x: Array, p: Array) -> tuple[float, float]:
     """Gap without traction and gap of the largest tension; the spline must turn as often as the points."""
-    inside = [r for r in spline.derivative().roots(discontinuity=False, extrapolate=False) if x[0] < r < x[-1]]
+    roots = spline.derivative().roots(discontinuity=False, extrapolate=False)
+    inside = [r for r in roots if x[0] < r < x[-1] - END_SHARE * (x[-1] - x[-2])]
     rises = np.diff(p)
     turns = np.count_nonzero(np.diff(np.sign(rises[rises != 0])))
     if len(inside) != turns:

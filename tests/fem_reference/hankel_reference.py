@@ -88,7 +88,16 @@ class PullOff:
 
 
 def pull_off(
-    E: Callable, nu: float | Callable, height: Callable, *, sharp=(), nearest=2.5, width=0.25, radius=16.0, wave=20.0, first=2.0
+    E: Callable,
+    nu: float | Callable,
+    height: Callable,
+    *,
+    sharp=(),
+    nearest=2.5,
+    width=0.25,
+    radius=16.0,
+    wave=20.0,
+    first=2.0,
 ) -> PullOff:
     """Pull-off of a punch f(r) with the 9-3 law, work of adhesion and z0 both 1: first minimum of the load.
 
