@@ -85,8 +85,8 @@ class _Column:
             raise ValueError(f"the depths and {name} of a table are not two columns of numbers: {error}") from error
         if z.ndim != 1 or z.shape != y.shape or z.size < 2:
             raise ValueError(
-                f"depths of the shape {z.shape} and {name} of the shape {y.shape} are no table: it has a value at each of "
-                "2 depths or more"
+                f"depths of the shape {z.shape} and {name} of the shape {y.shape} are no table: it has a value "
+                "at each of 2 depths or more"
             )
         if not (np.all(np.isfinite(z)) and np.all(np.isfinite(y))):
             row = int(np.argmin(np.isfinite(z) & np.isfinite(y)))

@@ -107,8 +107,8 @@ class PowerSum:
             raise ValueError(f"exponent {min(e):g} is outside [1, infinity): a cusp has no bounded pressure")
         if not c[e.index(max(e))] > 0:
             raise ValueError(
-                f"the coefficient {c[e.index(max(e))]:g} of the largest exponent {max(e):g} is outside (0, infinity): the "
-                "shape must rise without bound"
+                f"the coefficient {c[e.index(max(e))]:g} of the largest exponent {max(e):g} is outside (0, infinity): "
+                "the shape must rise without bound"
             )
 
     def height(self, r: Array) -> Array:

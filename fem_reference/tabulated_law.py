@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.interpolate import BSpline, PPoly, make_interp_spline
 
-from fem_reference._typing import Array
+from fem_reference._typing import Array, Index
 
 __all__ = ["TabulatedLaw"]
 
@@ -120,7 +120,7 @@ class TabulatedLaw:
         tail = _tail_of(x, p, wall.origin, self.tail_exponent)
         spline = _joined_spline(x, p, wall, tail)
         zero, peak = _shape(spline, x, p)
-        beyond = 0.0 if tail is None else float(tail.integral(x[-1], math.inf))
+        beyond = 0.0 if tail is None else float(tail.integral(x[-1:], np.array([math.inf]))[0])
         work = -(float(spline.integrate(zero, x[-1])) + beyond) * stress * self.length
         if not work > 0.0:
             raise ValueError(
@@ -164,7 +164,7 @@ class TabulatedLaw:
             return 0.0, math.inf
         return -self._tail.factor * self._stress * self.length**self._tail.exponent, self._tail.exponent
 
-    def _parts(self, H: Array) -> tuple[Array, Array, Array, Array]:
+    def _parts(self, H: Array) -> tuple[Array, Array, Array, Index]:
         """Gaps of wall, spline and tail, in lengths of the law and moved to the nearest end, and which of the three."""
         h = np.asarray(H, float) / self.length
         first, last = self._spline.x[0], self._spline.x[-1]
@@ -200,8 +200,8 @@ def _columns(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[Array, 
         raise ValueError(f"gaps and tractions are not two columns of numbers: {error}") from error
     if x.ndim != 1 or x.shape != p.shape or x.size < FEWEST:
         raise ValueError(
-            f"gaps of the shape {x.shape} and tractions of the shape {p.shape} are no table: a law needs a traction for "
-            f"each of {FEWEST} gaps or more"
+            f"gaps of the shape {x.shape} and tractions of the shape {p.shape} are no table: a law needs a traction "
+            f"for each of {FEWEST} gaps or more"
         )
     finite = np.isfinite(x) & np.isfinite(p)
     if not finite.all():
@@ -215,8 +215,8 @@ def _columns(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[Array, 
         )
     if not p[0] > 0 or not p[-1] <= 0:
         raise ValueError(
-            f"the tractions go from {p[0]:g} to {p[-1]:g}: the first must be a compression (> 0), and the last a tension "
-            "or zero"
+            f"the tractions go from {p[0]:g} to {p[-1]:g}: the first must be a compression (> 0), and the last a "
+            "tension or zero"
         )
     signs = np.sign(p[p != 0])
     if np.count_nonzero(np.diff(signs)) != 1 or np.argmin(p) == p.size - 1:
@@ -244,7 +244,7 @@ def _tail_of(x: Array, p: Array, origin: float, exponent: float | None) -> _Powe
     if p[-1] == 0:
         return None
     away = x - origin
-    count = max(FEWEST_IN_TAIL, np.count_nonzero(away >= 0.5 * away[-1]))
+    count = max(FEWEST_IN_TAIL, int(np.count_nonzero(away >= 0.5 * away[-1])))
     away, end, tension = away[-count:], x[-count:], -p[-count:]
     if not np.all(tension > 0):
         raise ValueError(f"the last {count} tractions are not all tensions: there is no tail to continue")

@@ -40,8 +40,8 @@ power 3/m of it for a slower H^-m): beyond it the traction enters P by a quadrat
 (below 1e-8 z0 even for a cone) is dropped."""
 
 KINK_HEIGHT = 300.0
-"""Height, in lengths of the law, below which the kinks of a punch are mesh lines: the traction beyond is 1e-5 of a load,
-and a kink inside an element leaves 1e-3 of that."""
+"""Height, in lengths of the law, below which the kinks of a punch are mesh lines: the traction beyond is 1e-5 of a
+load, and a kink inside an element leaves 1e-3 of that."""
 
 MOST_KINKS = 60
 """Largest number of kinks in reach of the law; each costs four columns of elements."""

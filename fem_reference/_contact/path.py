@@ -191,8 +191,9 @@ def contact_branch(last: Point, largest: float) -> Iterator[Point]:
         branch = Branch(contact, Size(size), lambda radius: EdgeRadius(peak, radius), touching=True)
         point = branch.solve(radius, y)
         yield point
-        for point in continuation(point, 0.05 * point.parameter, min(largest, end * (1.0 - BESIDE))):
-            yield point
+        for following in continuation(point, 0.05 * point.parameter, min(largest, end * (1.0 - BESIDE))):
+            yield following
+            point = following
         radius, y = end * (1.0 + BESIDE), point.state.y
 
 

@@ -8,9 +8,10 @@ matrix that depends on k, nu and the mesh only, and serves every size.
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any, Protocol
+from typing import Any, Protocol, cast
 
 import numpy as np
 from scipy import linalg
@@ -235,10 +236,10 @@ def compliance_for(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec, s
         If the stiffness of the mesh is not positive definite.
     """
     if is_scaling(modulus, nu, spec.kinks):
-        k = modulus.depth_exponent
-        trace, matrix, rounding, unknowns = _unit_compliance(k, nu, spec)
-        return ScalingCompliance(trace, matrix, modulus, unknowns, rounding)
-    return _fixed_compliance(modulus, nu, spec, size)
+        law = cast(PowerLawModulus, modulus)
+        trace, matrix, rounding, unknowns = _unit_compliance(law.k, cast(float, nu), spec)
+        return ScalingCompliance(trace, matrix, law, unknowns, rounding)
+    return _fixed_compliance(cast(Hashable, modulus), cast(Hashable, nu), spec, size)
 
 
 # The search for the width of the edge, and the mesh of it that the bounds need again; a few MB each.

@@ -82,8 +82,8 @@ def _outer_nodes(edge: float, width: float, length: float, density: float, far_s
 
 
 KINK_SHARE = 0.5
-"""Length of the elements at a kink of the punch, relative to the distance of the next one, at the density 1; a kink that
-is this share of its width from the contact edge replaces the mesh line there."""
+"""Length of the elements at a kink of the punch, relative to the distance of the next one, at the density 1.  A kink
+that is as near to the contact edge as this share of the edge replaces the mesh line there."""
 
 CURVE_POINTS = 400
 """Points for the integral of the node density, for each length that it has to follow."""
@@ -107,7 +107,7 @@ def _depth_nodes(width: float, length: float, density: float, scales: DepthScale
 
 
 def _radial_nodes(edge: float, width: float, apex: float, length: float, density: float, kinks: Array) -> Array:
-    """0 ... length, short at the apex, the edge and the kinks, with lines at the kinks, and at the edge if it is apart."""
+    """0 ... length, short at the apex, the edge and the kinks; lines at the kinks, and at the edge if it is apart."""
     inside = kinks[(kinks > 0) & (kinks < length)]
     lines = inside.tolist()
     if not lines or np.abs(inside - edge).min() > KINK_SHARE * width:

@@ -1,6 +1,7 @@
 """Surface laws of the finite elements: closed forms, laws through points, refused data."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -49,7 +50,7 @@ def test_slope_energy_and_limits_belong_to_the_traction(law):
 
 def test_the_energy_is_the_integral_of_the_traction():
     ends = RANGE * np.array([-0.3, 0.0, 1.0, 18.9, 40.0])
-    for a, b in zip(ends[:-1], ends[1:], strict=True):
+    for a, b in pairwise(ends):
         area = quad(lambda x: float(TABLE.traction(np.array(x * RANGE))) * RANGE, a / RANGE, b / RANGE, epsabs=1e-12)[0]
         assert float(TABLE.energy(np.array(a)) - TABLE.energy(np.array(b))) == pytest.approx(area, rel=1e-8)
 
