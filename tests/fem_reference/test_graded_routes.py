@@ -87,7 +87,7 @@ def test_poissons_ratio_of_depth_against_hankel_transforms(solid, nu, options):
 
 
 def _integral_equation(punch=None, law=None, mu=(1.0 - NU**2) ** (2.0 / 3.0)):
-    """Pull-off of a punch on the soft homogeneous solid by the integral equation, in the units of the finite elements."""
+    """Pull-off force on the soft homogeneous solid by the integral equation, in the units of the finite elements."""
     found = fscm.solve(fscm.Problem(n=2.0, k=0.0, mu=mu, punch=punch, law=law), FORCE)
     return math.pi * found.value, math.pi * found.u_num
 
@@ -194,7 +194,7 @@ def test_finer_meshes_are_more_certain(solid, punch):
 
 @pytest.mark.heavy
 def test_the_thin_stiff_layer_of_a_smooth_transition():
-    """20 nm of 1 GPa on 10 GPa under a sphere of 100 nm: once 27.17 +- 0.04 nN, and 27.12 +- 0.31 nN on a finer mesh."""
+    """20 nm of 1 GPa on 10 GPa under a sphere: once 27.17 +- 0.04 nN, and 27.12 +- 0.31 nN on a finer mesh."""
     solid = CustomSolid(CoatingModulus(1e9, 1e10, 2e-8, transition=2e-9), NU)
     problem = Problem(solid, PowerPunch(2.0, 1e-7), LennardJones(0.05, 3e-10))
     default, fine = (solve(problem, FORCE, name) for name in ("default", "fine"))
