@@ -40,14 +40,22 @@ def test_rates_along_the_path_are_exact():
         assert slope == pytest.approx(getattr(rates, name), abs=1e-5)
 
 
-#: Values of `fem_reference` at its default accuracy, with its bounds (n = 2, mu = 1).
+#: Values of `fem_reference` at its default accuracy, with its bounds, for unit Q, z0 and work of adhesion, n = 2.
 FINITE_ELEMENTS = [
     (
-        OffsetPowerLaw(1.0, 1.0, 0.4, 1.0, 0.3),
+        OffsetPowerLaw(0.91, 1.0, 0.4, 1.0, 0.3),
         {
             "pull_off_force": (1.74302095588, 2.2e-8),
             "jump_in_displacement": (-1.32916086976, 7.9e-8),
             "jump_out_displacement": (-1.33851188361, 1.0e-7),
+        },
+    ),
+    (Coating(0.91, 4.55, 0.7, 0.1, 0.3), {"pull_off_force": (1.88374381887, 1.8e-8)}),
+    (
+        Coating(0.91, 0.182, 0.7, 0.0, 0.3),
+        {
+            "pull_off_force": (1.39415784109, 9.4e-8),
+            "jump_in_displacement": (-2.89799085593, 1.4e-7),
         },
     ),
 ]
@@ -55,7 +63,8 @@ FINITE_ELEMENTS = [
 
 @pytest.mark.parametrize(("solid", "values"), FINITE_ELEMENTS)
 def test_events_agree_with_the_finite_elements(solid, values):
-    found = solve_together(GradedProblem(2, 1.0, solid), values)
+    problem, _ = graded_problem(solid, Q=1.0, n=2, work_of_adhesion=1.0, z0=1.0)
+    found = solve_together(problem, values)
     for name, (value, bound) in values.items():
         assert found[name].value == pytest.approx(value, abs=bound + found[name].u_num)
 
