@@ -114,7 +114,7 @@ def exponential_40_digits(surface, depth, nu, xi):
                     U, W, T, S = c[order]
                     rates = W + g * part, i * last - a * U, a * S + e * stiff, -T
                     c.append([xi * rate / (order + 1) for rate in rates])
-                new.append([mpmath.polyval([row[q] for row in reversed(c)], -h) for q in range(4)])
+                new.append([mpmath.fsum(row[q] * (-h) ** m for m, row in enumerate(c)) for q in range(4)])
             (u1, w1, t1, s1), (u2, w2, t2, s2) = new
             det = t1 * s2 - t2 * s1
             # Combinations with (T, S) = (1, 0) and (0, 1)
