@@ -89,17 +89,21 @@ def _fields(args: argparse.Namespace) -> int:
     except ComputationFailed as failure:
         log(f"failed: {failure}")
         return FAILED
+    size = FiniteElements.shape_parameter(case.n)
     if args.vtu:
         with writing(args.vtu):
             export.write_vtu(field, args.vtu)
+        log(f"{args.vtu}: lengths in z0, stresses in dgamma/z0, for a punch with Q = {size:.4g} z0^(n-1)")
     if args.plot:
         shown = _SHOWN * radius
         inside = (field.points < shown).all(axis=1)
         largest = float(abs(field.displacement[inside]).max())
-        figure = export.draw(field, shown, _SHARE * shown / largest)
+        # One digit, since the figure states it.
+        magnification = float(f"{_SHARE * shown / largest:.1g}")
+        figure = export.draw(field, shown, magnification)
         axes = figure.axes[0]
-        axes.set_xlabel(r"radius $r / (Q z_0)^{1/n}$, deformation magnified")
-        axes.set_ylabel(r"depth $z / (Q z_0)^{1/n}$")
+        axes.set_xlabel(f"radius $r / z_0$ of a punch with $Q$ = {size:.4g} $z_0^{{n-1}}$")
+        axes.set_ylabel(f"depth $z / z_0$, displacement and gap magnified {magnification:g} times")
         event = args.event.replace("_", "-")
         axes.set_title(rf"{event} at $n$ = {case.n:g}, $k$ = {case.k:g}, $\mu$ = {case.mu:g}, $\nu$ = {args.nu:g}")
         figure.axes[1].set_ylabel(r"axial stress $\sigma_{zz} z_0 / \Delta\gamma$, tension positive")
