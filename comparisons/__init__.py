@@ -28,7 +28,7 @@ LAYERS = (
     ("pipeline",),
     ("bench",),
     ("baseline",),
-    ("cli", "pytest_entry"),
+    ("cli", "pytest_entry", "start_entry", "build_step"),
     ("__main__",),
 )
 

@@ -29,6 +29,7 @@ _ALLOWED = {"fscm", *(f"fscm.{name}" for name in _PROBLEM)}
 #: Folders of values of the references, which are part of the package or of its repository.
 _VALUES = {
     str(_ROOT / "comparisons" / "data" / "shipped"): "the shipped values of the references",
+    str(_ROOT / "comparisons" / "data" / "baseline"): "the committed values of the references",
     str(_ROOT / "results" / "baseline"): "the committed values of the references",
 }
 
