@@ -74,7 +74,8 @@ def guarded(command: Callable[[], int], program: str = "fscm-bench") -> int:
     -------
     int
         What the command returned; 2 after a `ValueError` (wrong input) or if the extra that a command needs is not
-        installed, 130 after Ctrl-C, 141 when the reader of a pipe has left, 143 after SIGTERM, and 4 after any other exception, as that of a full disk.
+        installed, 130 after Ctrl-C, 141 when the reader of a pipe has left, 143 after SIGTERM, and 4 after any other
+        exception, as that of a full disk.
 
     Examples
     --------

@@ -24,8 +24,8 @@ __all__ = ["described", "quantities", "write_data_package"]
 
 _DESCRIPTION = (
     "Tables of fscm-bench. Numbers have 17 significant digits, which give every double back; an empty cell is a number "
-    "that there is not. A text that a spreadsheet would evaluate as a formula has an apostrophe before it. run.json has "
-    "the origin of the numbers."
+    "that there is not. A text that a spreadsheet would evaluate as a formula has an apostrophe before it. The origin "
+    "of the numbers is in run.json."
 )
 
 

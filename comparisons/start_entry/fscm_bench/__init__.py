@@ -1,4 +1,4 @@
-"""Start of the program ``fscm-bench``; installed under a name of its own, as other projects have a package `comparisons`.
+"""Start of the program ``fscm-bench``, a package whose name no other project has, unlike `comparisons`.
 
 It imports nothing but the standard library before it has found the package `comparisons` of fscm-bench.
 """
@@ -24,8 +24,8 @@ def main() -> int:
         if spec is not None:
             found = f"another package comparisons ({spec.origin or ', '.join(spec.submodule_search_locations or [])})"
         print(
-            f"fscm-bench: Python finds {found} before that of fscm-bench: take its folder out of PYTHONPATH, or install "
-            "fscm-bench in a virtual environment of its own",
+            f"fscm-bench: Python finds {found} before that of fscm-bench: take its folder out of PYTHONPATH, or "
+            "install fscm-bench in a virtual environment of its own",
             file=sys.stderr,
         )
         return _WRONG_INPUT

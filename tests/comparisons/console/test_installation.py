@@ -33,7 +33,7 @@ def test_another_distribution_in_the_same_folder_is_one_sentence(tmp_path, monke
     monkeypatch.setattr("comparisons.console.installation._PACKAGES", ())
     check_packages(root)
     (root / name).mkdir()
-    with pytest.raises(ValueError, match="another project is installed in .* too.*: pip uninstall") as caught:
+    with pytest.raises(ValueError, match=r"another project is installed in .* too.*: pip uninstall") as caught:
         check_packages(root)
     other, version = name.removesuffix(".dist-info").removesuffix(".egg-info").split("-", 1)
     assert f"the distribution {other} {version.removesuffix('-py3')} " in str(caught.value)
