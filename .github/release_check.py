@@ -1,6 +1,6 @@
 """Check before a release: the tag, the version, the address and the change log agree.
 
-    python .github/release_check.py v0.2.0 https://github.com/OWNER/REPO
+python .github/release_check.py v0.2.0 https://github.com/OWNER/REPO
 """
 
 import re

@@ -1,7 +1,7 @@
 """Constraints for pip: the lowest version of every dependency that pyproject.toml admits.
 
-    python .github/constraints/lowest.py > lowest.txt
-    python -m pip install -c lowest.txt '.[test]'
+python .github/constraints/lowest.py > lowest.txt
+python -m pip install -c lowest.txt '.[test]'
 """
 
 import re
