@@ -10,6 +10,8 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib import import_module
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +38,9 @@ _VALUES = {
 #: Events of the interpreter that start another program or process, in which nothing is seen.
 _STARTS = ("subprocess.Popen", "os.system", "os.fork", "os.forkpty", "os.exec", "os.posix_spawn", "os.spawn")
 
+#: A version of NumPy of which importing any module starts no program.
+_STARTS_NOTHING = (2, 4)
+
 #: Most facts that are reported.
 _MOST = 5
 
@@ -47,6 +52,7 @@ class Observation:
         self._uses: dict[str, None] = {}
         self._starts = False
         self._is_active = False
+        _load_what_starts_a_program()
         self._modules = set(sys.modules)
         sys.addaudithook(self._see)
 
@@ -102,3 +108,9 @@ class Observation:
         if parts[0] in _REFERENCES:
             name = ".".join(part.partition(".")[0] for part in parts if part not in ("__pycache__", "__init__"))
             self._imported(name)
+
+
+def _load_what_starts_a_program() -> None:
+    """Import the module of NumPy that starts ``lscpu`` when SciPy imports it, which would count for the model."""
+    if tuple(map(int, version("numpy").split(".")[:2])) < _STARTS_NOTHING:
+        import_module("numpy.testing")
