@@ -53,9 +53,9 @@ def code_digest(root: Path | None = None) -> str:
         root = _running_root()
         if missing := [package for package in _PACKAGES if not (root / package / "__init__.py").is_file()]:
             raise RuntimeError(f"the code of {', '.join(missing)} is not in {root}, so that its digest is unknown")
-    left_out = {root / folder for folder in NOT_INSTALLED}
+    not_installed = {root / folder for folder in NOT_INSTALLED}
     paths = [path for package in _PACKAGES for path in sorted((root / package).rglob("*"))]
-    return files_digest(root, [path for path in paths if left_out.isdisjoint(path.parents)])
+    return files_digest(root, [path for path in paths if not_installed.isdisjoint(path.parents)])
 
 
 def fingerprint() -> str:
