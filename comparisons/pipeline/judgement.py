@@ -11,7 +11,7 @@ from typing import Any
 import pandas as pd
 
 from comparisons.console.progress import log
-from comparisons.data.file_names import DATA_PACKAGE, VERDICT_FILES
+from comparisons.data.file_names import VERDICT_FILES
 from comparisons.domain import Domain
 from comparisons.judging.card_gates import card_gates, compare_with_standing, every_verdict, judge_cards
 from comparisons.judging.decision import Verdict, roll_up
@@ -130,7 +130,7 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
         raise ValueError(f"{folder} holds figures of the paper, which no gate judges: give the folder of a run")
     if name == "sweep" and gates is None:
         raise ValueError(f"{folder} is the folder of a sweep, which has no gates: give some with --gates FILE")
-    check_files(record, folder, written_again=(*VERDICT_FILES, DATA_PACKAGE))
+    check_files(record, folder, written_again=VERDICT_FILES)
     other_code = warn_of_other_code(record, folder)
     models, specs = arguments["model"], arguments["external"]
     cases = load_cases(arguments["tier"] or stored.grid_text, models)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -119,7 +120,7 @@ def _fields(path: Path) -> list[dict[str, str]]:
 def _types(path: Path, names: Sequence[str]) -> dict[str, str | None]:
     """Return the type of each column, None if all cells are empty: that of the Parquet file, or else of the cells."""
     stored = path.with_suffix(".parquet")
-    if stored.is_file():
+    with suppress(OSError, pa.ArrowException):
         schema = pq.read_schema(stored)
         return {name: _type(schema.field(name).type) if name in schema.names else "string" for name in names}
     cells = pd.read_csv(path, dtype=str, keep_default_na=False)
