@@ -19,7 +19,7 @@ from comparisons.cli.options import (
 )
 from comparisons.console.progress import log, note, quiet
 from comparisons.model import ComputationFailed
-from comparisons.output.comparison import WIDTH, terminal_tables
+from comparisons.output.comparison import terminal_tables
 from comparisons.output.sweep_summary import failure_lines
 from comparisons.pipeline.compare import REFERENCES, compare
 
@@ -68,8 +68,8 @@ def call(args: argparse.Namespace) -> int:
             log(str(failure))
             return FAILED
         if not args.quiet:
-            console = output(WIDTH)
-            for table in terminal_tables(found.table, found.summary, args.every):
+            console = output()
+            for table in terminal_tables(found.table, found.summary, args.every, console.width):
                 console.print(table)
         for line in failure_lines(found.failures):
             log(line)

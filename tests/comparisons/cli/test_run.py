@@ -57,10 +57,10 @@ def test_a_run_leaves_its_tables_and_record(small_grid, tmp_path, capsys):
     assert {path.name for path in (tmp_path / "out").iterdir()} == {*FILES, ".lock"}
     shown = capsys.readouterr()
     assert "ten-percent" in shown.out
-    assert "+10.000" in shown.out
+    assert "10.000(5)" in shown.out
     assert "results are in" in shown.err
     # Of models that the paper does not know there is nothing to show beside its numbers.
-    assert "beside the published" not in shown.out
+    assert "the paper prints" not in shown.out
     table = pd.read_parquet(tmp_path / "out" / "results.parquet")
     assert table.groupby("status").size().to_dict() == {"not-applicable": 4, "ok": 8}
     kappa = pd.read_csv(tmp_path / "out" / "kappa.csv")
@@ -93,7 +93,9 @@ def test_the_figure_and_numbers_of_the_paper_are_shown_where_there_are_some(tmp_
     monkeypatch.setattr("comparisons.pipeline.inputs.grids", lambda tier: load_grids(grid))
     run(tmp_path)
     assert (tmp_path / "fig16b_kappa.png").exists()
-    assert "beside the published" in capsys.readouterr().out
+    assert "the paper prints 1 maxima" in capsys.readouterr().out
+    run(tmp_path, "--verbose")
+    assert "beside that of the paper" in capsys.readouterr().out
 
 
 def test_two_runs_give_the_same_bytes(small_grid, tmp_path):
@@ -147,7 +149,9 @@ def test_a_failed_computation_costs_its_own_rows_and_the_exit_status(small_grid,
         assert set(table.loc[name, "status"]) == {"failed"}
         assert table.loc[name, "reason"].str.contains(why).all()
         assert table.loc[name, "value"].isna().all()
-    assert "failed computations" in capsys.readouterr().out
+    shown = capsys.readouterr()
+    assert "16 failed" in shown.out
+    assert "more computations failed" in shown.err
 
 
 def test_results_of_other_code_in_the_folder_are_refused(small_grid, tmp_path, capsys):
