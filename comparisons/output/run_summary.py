@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Iterator, Mapping
 
 import pandas as pd
 
+from comparisons.console.shell_text import wrapped_command
 from comparisons.judging.decision import Verdict
 from comparisons.numerics.number_text import error_text, exact, limits_text, value_text
 from comparisons.output.fitted_table import FittedTable, folded
@@ -19,7 +19,6 @@ __all__ = [
     "largest_table",
     "not_passed",
     "paper_sentence",
-    "wrapped_command",
 ]
 
 #: An error in percent is shown to this digit, or to the digit that its uncertainty leaves it.
@@ -151,33 +150,6 @@ def _indented(text: str, width: int) -> list[str]:
     return [start + first, *(f"{start}  {line}" for line in others)]
 
 
-def wrapped_command(line: str, width: int) -> list[str]:
-    r"""Return a command in lines that a shell reads as one, indented by two columns.
-
-    Examples
-    --------
-    >>> print("\n".join(wrapped_command("fscm-bench solve --model jkr --n 2 --k 0", 30)))
-      fscm-bench solve \
-        --model jkr --n 2 --k 0
-    """
-    groups: list[str] = []
-    for word in shlex.split(line):
-        quoted = shlex.quote(word)
-        if groups and not word.startswith("--"):
-            groups[-1] += f" {quoted}"
-        else:
-            groups.append(quoted)
-    lines = [f"  {groups[0]}"]
-    for group in groups[1:]:
-        # Two columns for the blank and the backslash.
-        if len(lines[-1]) + 1 + len(group) + 2 > width:
-            lines[-1] += " \\"
-            lines.append(f"    {group}")
-        else:
-            lines[-1] += f" {group}"
-    return lines
-
-
 def declared_lines(gates: pd.DataFrame, width: int) -> list[str]:
     """Return the names of the gates that fail as declared, the first ones and the number of the others."""
     names = list(dict.fromkeys(gates.loc[gates["verdict"] == Verdict.XFAIL, "gate"]))
@@ -251,4 +223,5 @@ def paper_sentence(maxima: pd.DataFrame) -> str:
         return ""
     gradients = ", ".join(exact(k) for k in sorted(set(stated["k"])))
     listed = ", ".join(f"{count} {verdict}" for verdict, count in sorted(stated["verdict"].value_counts().items()))
-    return f"the paper prints {len(stated)} maxima, for k = {gradients}: {listed}"
+    count = "1 maximum" if len(stated) == 1 else f"{len(stated)} maxima"
+    return f"the paper prints {count}, for k = {gradients}: {listed}"

@@ -15,6 +15,7 @@ import platform
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
 from importlib.metadata import Distribution, PackageNotFoundError, distribution, requires, version
 from pathlib import Path
 from typing import Any
@@ -25,10 +26,21 @@ from threadpoolctl import threadpool_info
 
 from comparisons.runs.code_files import CODE, files_digest, solver_digest
 
-__all__ = ["code_digest", "computing_environment", "differences", "environment", "fingerprint", "package_version"]
+__all__ = [
+    "code_digest",
+    "computing_environment",
+    "differences",
+    "environment",
+    "fingerprint",
+    "package_version",
+    "version_text",
+]
 
 DISTRIBUTION = "fscm-bench"
 _PACKAGES = ("fscm", "fem_reference", "comparisons")
+
+#: Digits of a commit in the text of the version.
+_SHOWN = 12
 
 
 def package_version() -> str:
@@ -37,6 +49,16 @@ def package_version() -> str:
         return version(DISTRIBUTION)
     except PackageNotFoundError:
         return "not installed"
+
+
+def version_text() -> str:
+    """Return the version, and the commit where it is known: by ``git describe`` in a clone, or as pip recorded it."""
+    found = _commit()
+    if found["commit"] is None:
+        return package_version()
+    described = (_git(root, "describe", "--tags", "--always", f"--abbrev={_SHOWN}") for root in _clones())
+    name = next(filter(None, described), found["commit"][:_SHOWN])
+    return f"{package_version()} (commit {name}{', with changes' if found['dirty'] else ''})"
 
 
 def code_digest(root: Path | None = None) -> str:
@@ -127,13 +149,19 @@ def _running_root() -> Path:
     return Path(__file__).resolve().parents[2]
 
 
-def _commit() -> dict[str, Any]:
+def _clones() -> Iterator[Path]:
+    """Yield the git work trees whose code is, byte for byte, the code that runs."""
     digest = code_digest()
     for root in filter(None, (_running_root(), _installed_from())):
         if (root / ".git").exists() and code_digest(root) == digest:
-            commit, status = _git(root, "rev-parse", "HEAD"), _git(root, "status", "--porcelain", *_PACKAGES)
-            if commit is not None and status is not None:
-                return {"commit": commit, "dirty": bool(status)}
+            yield root
+
+
+def _commit() -> dict[str, Any]:
+    for root in _clones():
+        commit, status = _git(root, "rev-parse", "HEAD"), _git(root, "status", "--porcelain", *_PACKAGES)
+        if commit is not None and status is not None:
+            return {"commit": commit, "dirty": bool(status)}
     return _installed_commit() or {"commit": None, "dirty": None}
 
 

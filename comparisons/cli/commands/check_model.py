@@ -10,7 +10,10 @@ from comparisons.external.contract_checks import examine
 from comparisons.external.model_source import load_model
 from comparisons.registry import MODELS
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = ("fscm-bench check-model my_model.py:MyModel",)
 
 
 def add(parser: argparse.ArgumentParser) -> None:

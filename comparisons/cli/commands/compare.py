@@ -23,7 +23,10 @@ from comparisons.output.comparison import terminal_tables
 from comparisons.output.sweep_summary import failure_lines
 from comparisons.pipeline.compare import REFERENCES, compare
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = ("fscm-bench compare jkr md-improved --n 1 2 --k 0 0.4 --mu 0.1 1 3",)
 
 
 def add(parser: argparse.ArgumentParser) -> None:

@@ -20,7 +20,10 @@ from comparisons.judging.decision import Verdict
 from comparisons.output.markdown import to_step_summary
 from comparisons.pipeline.judgement import Judgement, judge_folder
 
-__all__ = ["STATUS", "add", "call", "show"]
+__all__ = ["EXAMPLES", "STATUS", "add", "call", "show"]
+
+#: Examples of the help.
+EXAMPLES = ("fscm-bench judge results/mine --verbose",)
 
 #: Verdict over all gates -> exit status.
 STATUS = {

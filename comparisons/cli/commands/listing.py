@@ -20,12 +20,18 @@ from comparisons.registry import MODELS, create
 from comparisons.runs.cases import TIERS, grids
 from comparisons.runs.csv_format import csv_text
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = (
+    "fscm-bench list models",
+    "fscm-bench list gates --format json",
+)
 
 
 def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("what", choices=_TABLES)
+    parser.add_argument("what", choices=tuple(_TABLES), help="what is listed")
     parser.add_argument(
         "--format",
         choices=("text", "csv", "json"),

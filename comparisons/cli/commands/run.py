@@ -22,7 +22,13 @@ from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.run import run
 from comparisons.runs.cases import TIERS
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = (
+    "fscm-bench run",
+    "fscm-bench run --model my_model.py:MyModel --out results/mine",
+)
 
 #: Lines of the whole output without --verbose, at 80 columns or more; of these for the messages on stderr.
 _LINES, _MESSAGES = 40, 7

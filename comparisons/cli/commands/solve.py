@@ -13,7 +13,13 @@ from comparisons.registry import create
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = (
+    "fscm-bench solve --model fscm --quantity pull_off_force --n 2 --k 0.4 --mu 1",
+    "fscm-bench solve --model jkr --quantity jump_out_gap --n 2 --k 0 --mu 2 --format json",
+)
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -22,7 +28,9 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quantity", metavar="NAME", required=True, help="see: fscm-bench list quantities")
     add_case(parser)
     parser.add_argument("--nu", type=number, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one")
-    parser.add_argument("--format", choices=_FORMATS, default="text")
+    parser.add_argument(
+        "--format", choices=tuple(_FORMATS), default="text", help="json and csv have every digit (default: %(default)s)"
+    )
 
 
 def call(args: argparse.Namespace) -> int:

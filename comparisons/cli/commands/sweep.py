@@ -14,7 +14,10 @@ from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.run import run
 from comparisons.runs.backends import BACKENDS
 
-__all__ = ["add", "call", "show"]
+__all__ = ["EXAMPLES", "add", "call", "show"]
+
+#: Examples of the help.
+EXAMPLES = ("fscm-bench sweep my_cases.toml --model jkr md-improved --out results/sweep",)
 
 
 def add(parser: argparse.ArgumentParser) -> None:

@@ -93,7 +93,7 @@ def test_the_figure_and_numbers_of_the_paper_are_shown_where_there_are_some(tmp_
     monkeypatch.setattr("comparisons.pipeline.inputs.grids", lambda tier: load_grids(grid))
     run(tmp_path)
     assert (tmp_path / "fig16b_kappa.png").exists()
-    assert "the paper prints 1 maxima" in capsys.readouterr().out
+    assert "the paper prints 1 maximum, for k = 0.4" in capsys.readouterr().out
     run(tmp_path, "--verbose")
     assert "beside that of the paper" in capsys.readouterr().out
 
