@@ -41,7 +41,7 @@ def completion_script(parser: argparse.ArgumentParser, shell: str) -> str:
             "--print-completion needs the package shtab, which is not installed: pip install 'fscm-bench[completion]'"
         ) from None
     _complete(parser)
-    script: str = shtab.complete(parser, shell, root_prefix="fscm_bench", preamble=_preamble())
+    script: str = shtab.complete(parser, shell, root_prefix="fscm_bench", preamble=_preamble().get(shell, ""))
     return script
 
 

@@ -7,11 +7,12 @@ from collections.abc import Iterable
 import pandas as pd
 
 from comparisons.cli.options import output
+from comparisons.console.folding import folded
 from comparisons.console.shell_text import wrapped_command
 from comparisons.judging.decision import Verdict
 from comparisons.judging.report_card import card_lines, given_models, verdict_sentence
 from comparisons.judging.summary import summarise
-from comparisons.output.fitted_table import FittedTable, folded
+from comparisons.output.fitted_table import FittedTable
 from comparisons.output.run_summary import declared_lines, gates_sentence, not_passed
 from comparisons.output.tables import rich_table
 from comparisons.output.verdicts import matrix

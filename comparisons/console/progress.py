@@ -33,9 +33,13 @@ class _Messages(Console):
 
 
 def log(text: str) -> None:
-    """Write a line on stderr; a message that cannot be written is lost and stops no computation."""
+    """Write a sentence on stderr, on a terminal folded between words and else as one line.
+
+    A message that cannot be written is lost and stops no computation.
+    """
     with suppress(OSError):
-        _Messages(stderr=True, soft_wrap=True, highlight=False, markup=False).print(text)
+        console = _Messages(stderr=True, highlight=False, markup=False)
+        console.print(text, soft_wrap=not console.is_terminal)
 
 
 def note(text: str) -> None:

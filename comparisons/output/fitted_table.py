@@ -14,34 +14,15 @@ from rich.cells import cell_len
 from rich.console import Console, ConsoleOptions
 from rich.text import Text
 
-__all__ = ["FittedTable", "folded"]
+from comparisons.console.folding import folded
+
+__all__ = ["FittedTable"]
 
 #: Spaces between two columns.
 _GAP = 2
 
 #: A text of several words is folded to no fewer columns than this, and never inside a word.
 _LEAST_FOLDED = 24
-
-
-def folded(text: str, width: int) -> list[str]:
-    """Return the lines of a text, folded between words; a word that is longer than a line stays whole.
-
-    Examples
-    --------
-    >>> folded("pull_off_force of md-improved", 14)
-    ['pull_off_force', 'of md-improved']
-    """
-    lines = []
-    for line in text.split("\n"):
-        current = ""
-        for word in line.split(" "):
-            joined = f"{current} {word}" if current else word
-            if current and cell_len(joined) > width:
-                lines.append(current)
-                joined = word
-            current = joined
-        lines.append(current)
-    return lines
 
 
 @dataclass(frozen=True)
@@ -173,19 +154,21 @@ class FittedTable:
         """Yield each row as its first cell and, indented, the others that are not empty."""
         first, *others = self.texts
         label = max(map(cell_len, others), default=0)
-        beside = width - label - 2 * _GAP >= _LEAST_FOLDED
         for row in self.texts.to_dict("records"):
             yield from (_line(line, "bold") for line in folded(row[first], width))
             for name in others:
                 if not row[name]:
                     continue
-                indent = " " * (label + 2 * _GAP if beside else 2 * _GAP)
+                indent = " " * (label + 2 * _GAP)
+                longest = max(map(cell_len, row[name].split()), default=0)
+                beside = width - len(indent) >= max(_LEAST_FOLDED, longest)
+                if not beside:
+                    indent = " " * 2 * _GAP
+                    yield _line(" " * _GAP + name, "")
                 lines = [line for part in row[name].split("\n") for line in folded(part, width - len(indent))]
                 if beside:
                     lead = " " * _GAP + name + " " * (label - cell_len(name) + _GAP)
                     yield _line(lead + lines.pop(0), "")
-                else:
-                    yield _line(" " * _GAP + name, "")
                 yield from (_line(indent + line, "") for line in lines)
 
 

@@ -6,10 +6,11 @@ from collections.abc import Iterator, Mapping
 
 import pandas as pd
 
+from comparisons.console.folding import hanging
 from comparisons.console.shell_text import wrapped_command
 from comparisons.judging.decision import Verdict
 from comparisons.numerics.number_text import error_text, exact, limits_text, value_text
-from comparisons.output.fitted_table import FittedTable, folded
+from comparisons.output.fitted_table import FittedTable
 from comparisons.output.verdicts import command
 
 __all__ = [
@@ -94,10 +95,10 @@ def _by_model(worst: pd.DataFrame, series: list[str], quantity: str, lines: int)
         },
         dtype=object,
     )
-    title = f"{quantity}largest abs(kappa) in percent"
+    title = f"{quantity}largest abs(kappa) in percent over all n"
     most = max(lines - _FRAME, 1)
-    if len(texts) > most:
-        title += f" (the first {most} of {len(texts)} rows; --verbose prints all)"
+    shown = "" if len(texts) <= most else f"the first {most} of {len(texts)} rows; "
+    title += f" ({shown}--verbose prints every n)"
     return FittedTable(
         texts.head(most), title, frozenset(("largest", "n", "k", "mu")), "quantity" if len(series) > 1 else ""
     )
@@ -136,18 +137,12 @@ def not_passed(gates: pd.DataFrame, specs: Mapping[str, str], width: int, most: 
         error = error_text(row["error"], row["uncertainty"])
         found = f": E = {error}, limits {limits_text(row['lower'], row['upper'])}" if error else ""
         against = f" against {row['reference']}" if row["reference"] else ""
-        lines += _indented(f"{row['verdict']} {row['gate']} of {row['candidate']}{against}{found}", width)
-        lines += _indented(f"  {row['reason']}", width) if row["reason"] else []
+        lines += hanging(f"{row['verdict']} {row['gate']} of {row['candidate']}{against}{found}", width)
+        lines += hanging(f"  {row['reason']}", width) if row["reason"] else []
         lines += wrapped_command(command(row, specs), width)
     if len(wrong) > most:
-        lines += _indented(f"{len(wrong) - most} more do not pass; --verbose prints all", width)
+        lines += hanging(f"{len(wrong) - most} more do not pass; --verbose prints all", width)
     return lines
-
-
-def _indented(text: str, width: int) -> list[str]:
-    start = text[: len(text) - len(text.lstrip())]
-    first, *others = folded(text.strip(), width - len(start) - 2)
-    return [start + first, *(f"{start}  {line}" for line in others)]
 
 
 def declared_lines(gates: pd.DataFrame, width: int) -> list[str]:
@@ -156,7 +151,7 @@ def declared_lines(gates: pd.DataFrame, width: int) -> list[str]:
     if not names:
         return []
     more = f" and {len(names) - _NAMES} more" if len(names) > _NAMES else ""
-    return _indented(f"as declared (XFAIL; --verbose prints the commands): {', '.join(names[:_NAMES])}{more}", width)
+    return hanging(f"as declared (XFAIL; --verbose prints the commands): {', '.join(names[:_NAMES])}{more}", width)
 
 
 def gates_sentence(gates: pd.DataFrame, verdicts: pd.DataFrame, bases: Mapping[str, str]) -> str:

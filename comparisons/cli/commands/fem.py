@@ -44,8 +44,9 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--event",
         default="pull_off",
+        metavar="EVENT",
         choices=fem_reference.EVENTS,
-        help="the event whose state is shown (default: %(default)s)",
+        help=f"the event whose state is shown: {', '.join(fem_reference.EVENTS)} (default: %(default)s)",
     )
     parser.add_argument("--vtu", metavar="FILE", type=Path, help="write mesh, displacement and stresses here")
     parser.add_argument("--plot", metavar="FILE", type=Path, help="draw the deformed body here")

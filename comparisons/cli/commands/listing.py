@@ -14,6 +14,7 @@ from comparisons.cli.options import OK, output
 from comparisons.console.progress import log
 from comparisons.external.model_source import installed
 from comparisons.judging.gates import gates_text, load_gates
+from comparisons.numerics.number_text import limits_text
 from comparisons.output.tables import rich_table
 from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS, create
@@ -125,7 +126,7 @@ def _gates() -> pd.DataFrame:
             "candidate": gate.candidate,
             "reference": gate.reference,
             "metric": gate.metric,
-            "limits": f"{gate.lower:g} to {gate.upper:g}",
+            "limits": limits_text(gate.lower, gate.upper),
             "basis": gate.basis,
         }
         for gate in load_gates(gates_text())

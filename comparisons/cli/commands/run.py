@@ -11,9 +11,10 @@ import pandas as pd
 from comparisons.cli.commands.judge import STATUS, show
 from comparisons.cli.options import FAILED, add_jobs, add_out, add_quiet, add_retry_failed, add_verbose, output
 from comparisons.cli.verdict_screen import card_summary, error_lines, print_lines, summary_lines
+from comparisons.console.folding import folded
 from comparisons.console.progress import log, note, quiet
 from comparisons.model import ComputationFailed
-from comparisons.output.fitted_table import FittedTable, folded
+from comparisons.output.fitted_table import FittedTable
 from comparisons.output.markdown import to_step_summary
 from comparisons.output.run_summary import computations_sentence, largest_table, paper_sentence
 from comparisons.output.sweep_summary import failure_lines

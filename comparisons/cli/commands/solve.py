@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 
-from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case, case_of, number
+from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case, case_of, number, output
+from comparisons.console.folding import hanging
 from comparisons.console.progress import waiting
 from comparisons.numerics.number_text import case_text, short
 from comparisons.quantities import QUANTITIES
@@ -41,7 +43,11 @@ def call(args: argparse.Namespace) -> int:
     model = create(args.model, case.nu)
     with waiting(f"{args.model}, {case.label}"):
         row = evaluate(model, args.quantity, case)
-    print(_FORMATS[args.format](row), end="")
+    shown = _FORMATS[args.format](row)
+    if args.format == "text" and sys.stdout.isatty():
+        width = output().width
+        shown = "\n".join(line for text in shown.splitlines() for line in hanging(text, width)) + "\n"
+    print(shown, end="")
     return FAILED if row.status == "failed" else OK
 
 
