@@ -43,7 +43,7 @@ SCREENS = {
     "judge_verbose": "fscm-bench judge run --verbose",
 }
 
-#: Commands whose second call finds the results of the first: their screen is that of a new folder.
+#: Commands whose screens are those of new folders.  A run computes into one folder, from which the wider screens resume.
 _NEW_FOLDER = {"sweep", "compare", "run_model"}
 
 _CASES = """
@@ -117,8 +117,7 @@ def main(names: Sequence[str]) -> None:
         program = [str(Path(sys.executable).parent / "fscm-bench")]
         subprocess.run([*program, "new-model", "my-model"], check=True, cwd=folder, capture_output=True)
         (folder / "my_cases.toml").write_text(_CASES, encoding="utf-8")
-        if {"judge", "judge_verbose"} & set(names or SCREENS):
-            # Computed once: a run into its own folder computes nothing.
+        if names and "run" not in names and {"judge", "judge_verbose"} & set(names):
             subprocess.run([*program, "run", "--out", "run", "--quiet"], check=True, cwd=folder)
         for name in names or SCREENS:
             for columns in COLUMNS:
