@@ -43,7 +43,7 @@ SCREENS = {
     "judge_verbose": "fscm-bench judge run --verbose",
 }
 
-#: Commands whose screens are those of new folders.  A run computes into one folder, from which the wider screens resume.
+#: Commands whose screens are those of new folders; of a run, the wider screens resume the first.
 _NEW_FOLDER = {"sweep", "compare", "run_model"}
 
 _CASES = """
