@@ -20,31 +20,59 @@ from comparisons.pipeline.judgement import Judgement
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.tables import read_table
 
-__all__ = ["card_summary", "error_lines", "print_every_verdict", "print_lines", "summary_lines", "unexpected_lines"]
+__all__ = [
+    "card_summary",
+    "error_lines",
+    "print_every_verdict",
+    "print_lines",
+    "summary_lines",
+    "unexpected_lines",
+    "verdict_lines",
+]
 
-#: Gates that do not pass and are shown with their command; full report cards have at most so many lines.
-_SHOWN, _CARD_LINES = 4, 12
+#: Gates that do not pass and are shown with their command, and given models with a sentence each where their report
+#: cards are long; cards have at most so many lines.
+SHOWN, _CARD_LINES = 4, 12
 
-#: Given models with a sentence each where their report cards are longer; gates in error with a sentence each.
-_SENTENCES, _ERRORS = 4, 2
+#: Gates in error with a sentence each.
+_ERRORS = 2
 
 
-def summary_lines(judgement: Judgement, width: int) -> list[str]:
-    """Return what does not pass with its command, what fails as declared, and the sentence on all gates."""
+def summary_lines(judgement: Judgement, width: int, most: int = SHOWN) -> list[str]:
+    """Return what does not pass with its command, what fails as declared, and the sentence on all gates.
+
+    Parameters
+    ----------
+    judgement : Judgement
+    width : int
+        Columns of the terminal.
+    most : int
+        Gates that are shown with their command, and given models with a sentence.
+    """
     gates = summarise(judgement.verdicts)
     files = RunFolder(judgement.folder)
     required = read_table(files.parquet(files.gates))
     bases = dict(zip(required["id"], required["basis"], strict=True))
     return [
-        *not_passed(gates, judgement.specs, width, _SHOWN),
+        *not_passed(gates, judgement.specs, width, most),
         *declared_lines(gates, width),
         *folded(gates_sentence(gates, judgement.verdicts, bases), width),
     ]
 
 
+def verdict_lines(judgement: Judgement, width: int, lines: int) -> list[str]:
+    """Return the report cards and the summary; with so few gates and models in full that the lines suffice."""
+    found: list[str] = []
+    for most in range(SHOWN, 0, -1):
+        found = [*card_summary(judgement, width, most), *summary_lines(judgement, width, most)]
+        if len(found) <= lines:
+            break
+    return found
+
+
 def unexpected_lines(judgement: Judgement, width: int) -> list[str]:
     """Return what does not behave as declared, with its commands: the output of a command with --quiet."""
-    return not_passed(summarise(judgement.verdicts), judgement.specs, width, _SHOWN)
+    return not_passed(summarise(judgement.verdicts), judgement.specs, width, SHOWN)
 
 
 def error_lines(judgement: Judgement) -> list[str]:
@@ -62,18 +90,16 @@ def error_lines(judgement: Judgement) -> list[str]:
     return lines
 
 
-def card_summary(judgement: Judgement, width: int, full: bool = False) -> list[str]:
-    """Return the lines of the report cards of the given models; where they are long, a sentence for each model."""
+def card_summary(judgement: Judgement, width: int, most: int = SHOWN, full: bool = False) -> list[str]:
+    """Return the lines of the report cards of the given models; where they are long, a sentence for the first ones."""
     names = given_models(judgement.models, judgement.verdicts)
     cards = [line for name in names for line in _card(judgement, name, width)]
     if full or len(cards) <= _CARD_LINES:
         return cards
     lines = [
-        line
-        for name in names[:_SENTENCES]
-        for line in folded(f"{name}: {verdict_sentence(name, judgement.verdicts)}", width)
+        line for name in names[:most] for line in folded(f"{name}: {verdict_sentence(name, judgement.verdicts)}", width)
     ]
-    hidden = len(names) - _SENTENCES
+    hidden = len(names) - most
     more = f"{hidden} more given models; " if hidden > 0 else ""
     return [*lines, f"{more}--verbose prints the report cards"]
 
@@ -88,7 +114,7 @@ def print_every_verdict(judgement: Judgement) -> None:
     console = output()
     width = console.width
     shown = matrix(summarise(judgement.verdicts), judgement.specs)
-    columns = shown.drop(columns=["command", "reason"])
+    columns = shown[["gate", *shown.columns.drop(["gate", "command", "reason"])]]
     console.print(rich_table(columns, "verdicts, worst first", optional=["reference", "coverage", "limits"]))
     print_lines(["the worst case of each gate is computed again by"])
     for gate, line, reason in zip(shown["gate"], shown["command"], shown["reason"], strict=True):

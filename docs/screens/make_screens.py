@@ -38,13 +38,12 @@ SCREENS = {
     "compare": "fscm-bench compare jkr dmt md-improved double-hertz-n-k --reference atlas --n 1 2 --k 0 0.4 --mu 0.1 1 "
     "--out compare",
     "run": "fscm-bench run --out run",
-    "run_model": "fscm-bench run --model my-model/my_model.py:MyModel --out run_model",
     "judge": "fscm-bench judge run",
     "judge_verbose": "fscm-bench judge run --verbose",
 }
 
 #: Commands whose screens are those of new folders; of a run, the wider screens resume the first.
-_NEW_FOLDER = {"sweep", "compare", "run_model"}
+_NEW_FOLDER = {"sweep", "compare"}
 
 _CASES = """
 [[grid]]

@@ -59,7 +59,7 @@ def test_every_name_is_whole(name, words, columns):
 
 
 @pytest.mark.parametrize("columns", [80, 120])
-@pytest.mark.parametrize("name", ["run", "run_model", "judge"])
+@pytest.mark.parametrize("name", ["run", "judge"])
 def test_a_run_has_at_most_40_lines(name, columns):
     shown = lines(name, columns)
     assert len(shown) <= MOST_LINES

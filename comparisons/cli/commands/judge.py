@@ -8,12 +8,11 @@ from pathlib import Path
 
 from comparisons.cli.options import FAILED, FAILS, INCONCLUSIVE, OK, add_quiet, add_verbose, output
 from comparisons.cli.verdict_screen import (
-    card_summary,
     error_lines,
     print_every_verdict,
     print_lines,
-    summary_lines,
     unexpected_lines,
+    verdict_lines,
 )
 from comparisons.console.progress import log, quiet
 from comparisons.judging.decision import Verdict
@@ -34,6 +33,9 @@ STATUS = {
     Verdict.XFAIL: OK,
     Verdict.PASS: OK,
 }
+
+#: Lines of the summary; the other ten of a terminal's forty are for messages.
+_LINES = 30
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -56,8 +58,8 @@ def call(args: argparse.Namespace) -> int:
     return STATUS[judgement.verdict]
 
 
-def show(judgement: Judgement, *, verbose: bool, failures_only: bool) -> None:
-    """Print the verdicts: a summary, all rows, or what does not behave as declared."""
+def show(judgement: Judgement, *, verbose: bool, failures_only: bool, lines: int = _LINES) -> None:
+    """Print the verdicts: a summary of so many lines, all rows, or what does not behave as declared."""
     if judgement.verdicts.empty:
         log("no gate was evaluated")
         return
@@ -68,6 +70,6 @@ def show(judgement: Judgement, *, verbose: bool, failures_only: bool) -> None:
     elif verbose:
         print_every_verdict(judgement)
     else:
-        print_lines([*card_summary(judgement, width), *summary_lines(judgement, width)])
+        print_lines(verdict_lines(judgement, width, lines))
     for line in error_lines(judgement):
         log(line)

@@ -10,7 +10,7 @@ import pandas as pd
 
 from comparisons.cli.commands.judge import STATUS, show
 from comparisons.cli.options import FAILED, add_jobs, add_out, add_quiet, add_retry_failed, add_verbose, output
-from comparisons.cli.verdict_screen import card_summary, error_lines, print_lines, summary_lines
+from comparisons.cli.verdict_screen import error_lines, print_lines, verdict_lines
 from comparisons.console.folding import folded
 from comparisons.console.progress import log, note, quiet
 from comparisons.model import ComputationFailed
@@ -33,6 +33,9 @@ EXAMPLES = (
 
 #: Lines of the whole output without --verbose, at 80 columns or more; of these for the messages on stderr.
 _LINES, _MESSAGES = 40, 7
+
+#: Lines of the smallest table of errors: title, columns, rule and two models.
+_LEAST_TABLE = 6
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -102,21 +105,23 @@ def _show(finished: FinishedRun, *, verbose: bool, failures_only: bool) -> None:
     """Print the errors and the verdicts, and the failed computations on stderr."""
     judgement, maxima = finished.judgement, finished.tables.largest
     failures = list(failure_lines(finished.failures))
+    lines = taken = 0
     judged = judgement is not None and not judgement.verdicts.empty
     if not (verbose or failures_only):
         width = output().width
         sentences = [computations_sentence(finished.counts), paper_sentence(maxima)]
         below = [line for sentence in sentences if sentence for line in folded(sentence, width)]
         messages = [*failures, *(error_lines(judgement) if judgement is not None and judged else ())]
-        taken = len(below) + sum(len(folded(line, width)) for line in messages)
+        room = _LINES - _MESSAGES - len(below) - sum(len(folded(line, width)) for line in messages)
         if judgement is not None and judged:
-            taken += len(card_summary(judgement, width)) + len(summary_lines(judgement, width))
-        table = largest_table(maxima, width, _LINES - _MESSAGES - taken)
+            lines = room - _LEAST_TABLE
+            taken = len(verdict_lines(judgement, width, lines))
+        table = largest_table(maxima, width, room - taken)
         if table is not None:
             output().print(table)
         print_lines(below)
     if judgement is not None:
-        show(judgement, verbose=verbose, failures_only=failures_only)
+        show(judgement, verbose=verbose, failures_only=failures_only, lines=lines)
     for line in failures:
         log(line)
 
