@@ -99,12 +99,16 @@ def captured(command: str, columns: int, folder: Path) -> str:
             if time.monotonic() > deadline:
                 raise TimeoutError(f"{command} did not end in {_MOST_SECONDS:g} s")
             time.sleep(0.1)
-        time.sleep(0.2)  # tmux has read what was written before the end
-        pane = subprocess.run([*tmux, "capture-pane", "-p", "-t", session], check=True, capture_output=True, text=True)
+        shown, before = "", "-"
+        while shown != before:  # until tmux has read all that was written
+            before = shown
+            time.sleep(0.5)
+            pane = [*tmux, "capture-pane", "-p", "-t", session]
+            shown = subprocess.run(pane, check=True, capture_output=True, text=True).stdout
     finally:
         subprocess.run([*tmux, "kill-server"], check=False, capture_output=True)
         end.unlink(missing_ok=True)
-    return "\n".join(line.rstrip() for line in pane.stdout.rstrip().splitlines())
+    return "\n".join(line.rstrip() for line in shown.rstrip().splitlines())
 
 
 def main(names: Sequence[str]) -> None:

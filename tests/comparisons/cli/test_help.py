@@ -105,7 +105,7 @@ def test_python_m_comparisons_calls_itself_so():
 )
 def test_the_version_states_the_commit_that_pip_recorded(capsys, monkeypatch, found, text):
     monkeypatch.setattr(environment, "package_version", lambda: "1.2")
-    monkeypatch.setattr(environment, "_clones", lambda: iter(()))
+    monkeypatch.setattr(environment, "_clones", lambda digest: iter(()))
     monkeypatch.setattr(environment, "_installed_commit", lambda: found if found["commit"] else None)
     assert main(["--version"]) == 0
     assert capsys.readouterr().out == f"fscm-bench {text}\n"
