@@ -73,8 +73,9 @@ def captured(command: str, columns: int, folder: Path) -> str:
     """
     session = f"screen-{columns}-{time.monotonic_ns()}"
     end = folder / f"{session}.end"
-    # The programs beside the Python of this process.
-    program = f'PATH={shlex.quote(str(Path(sys.executable).parent))}:"$PATH" OPENBLAS_NUM_THREADS=1 {command}'
+    # The programs beside the Python of this process; COLUMNS of the caller would hide those of the terminal.
+    path = f'PATH={shlex.quote(str(Path(sys.executable).parent))}:"$PATH"'
+    program = f"unset COLUMNS LINES; {path} OPENBLAS_NUM_THREADS=1 {command}"
     script = f"{program}; touch {shlex.quote(str(end))}; sleep {_MOST_SECONDS}"
     tmux = ["tmux", "-L", session]  # a server of its own, without the settings of the user
     start = [
