@@ -19,7 +19,13 @@ from comparisons.runs.atomic_files import writable_file, writing
 from fem_reference import export
 from fem_reference.verification import FULL_STUDY, QUICK_STUDY, elastic_checks, solver_table
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = (
+    "fscm-bench fem --n 2 --k 0.4 --mu 1 --vtu body.vtu --plot body.png",
+    "fscm-bench fem --verify",
+)
 
 _ERRORS = {"error": ".1e", "limit": ".2g"}
 _STUDY = {"residual": ".0e", "setup_seconds": ".2f", "solve_seconds": ".2f", "megabytes": ".0f"} | {
@@ -34,12 +40,13 @@ _SHOWN, _SHARE = 2.0, 0.15
 def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     add_case(parser, required=False)
-    parser.add_argument("--nu", type=number, default=0.3, help="Poisson's ratio, in [0, 0.5)")
+    parser.add_argument("--nu", type=number, default=0.3, help="Poisson's ratio, in [0, 0.5) (default: %(default)s)")
     parser.add_argument(
         "--event",
         default="pull_off",
+        metavar="EVENT",
         choices=fem_reference.EVENTS,
-        help="the event whose state is shown",
+        help=f"the event whose state is shown: {', '.join(fem_reference.EVENTS)} (default: %(default)s)",
     )
     parser.add_argument("--vtu", metavar="FILE", type=Path, help="write mesh, displacement and stresses here")
     parser.add_argument("--plot", metavar="FILE", type=Path, help="draw the deformed body here")
