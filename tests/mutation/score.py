@@ -67,12 +67,15 @@ def stored() -> dict[tuple[str, str, str], dict[str, str]]:
         return {(row["path"], row["old"], row["new"]): row for row in csv.DictReader(file)}
 
 
-def write(rows: dict[tuple[str, str, str], dict[str, str]]) -> None:
-    """Write the rows of the mutants that there are, in their order."""
-    with SCORE.open("w", newline="", encoding="utf-8") as file:
+def store(mutant: Mutant, row: dict[str, str]) -> None:
+    """Put a row into the table, which has the mutants that there are, in their order; another call may write too."""
+    rows = stored() | {mutant.key: row}
+    partial = SCORE.with_suffix(f".{os.getpid()}")
+    with partial.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, ["path", "old", "new", "outcome", "by"], lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows[mutant.key] for mutant in mutants() if mutant.key in rows)
+    partial.replace(SCORE)
 
 
 @contextmanager
@@ -123,6 +126,8 @@ def outcome(mutant: Mutant, copy: Path) -> dict[str, str]:
         by = first_failure(mutant.tests, copy)
     finally:
         path.write_bytes(before)
+    if by and "::" in by and (without := first_failure((by,), copy)):
+        raise RuntimeError(f"{without} fails without a mutant too, and so says nothing about one")
     key = {"path": mutant.path, "old": mutant.old, "new": mutant.new}
     return key | {"outcome": NOTICED if by else NOT_NOTICED, "by": by}
 
@@ -142,7 +147,7 @@ def main(arguments: list[str]) -> int:
             survived = row is not None and row["outcome"] == NOT_NOTICED
             if row is None or args.again or (args.survivors and survived):
                 rows[mutant.key] = row = outcome(mutant, copy)
-                write(rows)
+                store(mutant, row)
                 print(f"{row['outcome']:12} {mutant.path}: {mutant.old!r} -> {mutant.new!r}  {row['by']}", flush=True)
     found = [rows[mutant.key]["outcome"] == NOTICED for mutant in chosen]
     print(f"{sum(found)} of {len(found)} mutants are noticed")
