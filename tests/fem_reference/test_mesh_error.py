@@ -2,12 +2,17 @@
 
 import math
 
+import numpy as np
 import pytest
+from scipy.interpolate import BarycentricInterpolator
 
 from fem_reference import NotConverged
-from fem_reference._contact.error_parts import PARTS, ROUNDING, EventsOnMeshes
+from fem_reference._contact.error_parts import PARTS, EventsOnMeshes
 from fem_reference._contact.uncertainty import three_meshes
+from fem_reference.quantities import TABLE
 
+# Relative rounding of a quantity itself: 4.5 units of the last place.
+ROUNDING = 1e-15
 # Sums and differences of numbers near 1, relative to the differences of 1e-3 between them.
 ROUNDED = 1e-10
 
@@ -101,3 +106,21 @@ def test_a_solid_whose_edge_cannot_be_placed_elsewhere_keeps_the_part_of_the_ape
 
 def test_rounding_of_a_quantity_is_a_part_when_the_factorisations_agree():
     assert _parts(rounding=1.001)["algebra"] == ROUNDING * 1.001
+
+
+@pytest.mark.parametrize("degree", [2, 4, 6])
+def test_the_declared_order_of_the_gap_at_jump_out_is_that_of_the_displacement_under_a_tip(degree):
+    """Of r^2 log r an element that begins at r = 0 misses as much as its length squared, at any degree."""
+    errors = []
+    for h in (0.4, 0.2, 0.1):
+        nodes = 0.5 * h * (1.0 + np.cos(np.pi * np.arange(degree + 1) / degree))
+        r = np.linspace(1e-9, h, 500)
+        polynomial = BarycentricInterpolator(nodes, _tip(nodes))
+        errors.append(np.abs(polynomial(r) - _tip(r)).max())
+    found = three_meshes((errors[0], errors[1], errors[2]), ratio=2.0, declared=float(degree))
+    assert found.observed_order == pytest.approx(TABLE["jump_out_gap"].order, abs=1e-6)
+    assert all(row.order is None for name, row in TABLE.items() if name != "jump_out_gap")
+
+
+def _tip(r):
+    return r**2 * np.log(np.maximum(r, 1e-300))
