@@ -44,8 +44,8 @@ def call(args: argparse.Namespace) -> int:
     """Judge and print; return the exit status."""
     to_step_summary("")
     judgement = judge_folder(args.folder, args.gates)
-    to_step_summary(judgement.markdown)
     print_verdicts(judgement)
+    to_step_summary(judgement.markdown)
     return STATUS[judgement.verdict]
 
 

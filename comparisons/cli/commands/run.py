@@ -71,13 +71,15 @@ def call(args: argparse.Namespace) -> int:
     status = FAILED
     _print(finished.tables)
     if finished.judgement is not None:
-        to_step_summary(finished.judgement.markdown)
         print_verdicts(finished.judgement)
         status = STATUS[finished.judgement.verdict]
     if finished.failures:
         log(f"{len(finished.failures)} computations failed")
         status = FAILED
     log(f"results are in {finished.folder}")
+    if finished.judgement is not None:
+        # The last: where it cannot be written, the results and verdicts are stored and printed.
+        to_step_summary(finished.judgement.markdown)
     return status
 
 
