@@ -16,7 +16,7 @@ from tests.fscm.equilibria_on_finer_meshes import FUNCTIONALS, Pair, pair
 FIRST_ORDER, AT_AN_EXTREME = 1e-3, 0.05
 #: Share of the entries of the matrix in the rounding; measured at least 0.48, the others are a few operations.
 MATRIX_ALONE = 0.4
-#: Of the effect of a ring on the kernel next to the end of the mesh; measured 0.01, by the rounding of the gap.
+#: Of the effect of a ring on the kernel next to the end of the mesh; measured 0.01 (central gap), 3e-4 of the others.
 RING = 0.05
 #: Share of the error that the finer mesh leaves; measured at most 0.06 (n = 1.2, k = 0.7).
 LEFT = 0.1
