@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from fscm import Analysis, Problem, _defect, _equilibrium
+from fscm._defect import Defect
 from fscm._kernel import kernel_of
 from fscm._meshes import Mesh, Meshes
 from fscm._tail import tail_of
@@ -18,6 +19,8 @@ FIRST_ORDER, AT_AN_EXTREME = 1e-3, 0.05
 MATRIX_ALONE = 0.4
 #: Of the effect of a ring on the kernel next to the end of the mesh; measured 0.01 (central gap), 3e-4 of the others.
 RING = 0.05
+#: Change of one cause, far above rounding and small enough for the first order.
+STEP = 1e-6
 #: Share of the error that the finer mesh leaves; measured at most 0.06 (n = 1.2, k = 0.7).
 LEFT = 0.1
 EVENTS = [
@@ -57,6 +60,18 @@ def test_at_a_fixed_control_the_error_of_the_control_moves_the_state_along_the_p
     assert missed == pytest.approx(1e-7 * abs(slope), rel=1e-4)
 
 
+@pytest.mark.parametrize("functional", ["load", "displacement", "central_gap"])
+def test_an_edge_that_is_not_at_its_gap_is_an_error_too(functional):
+    """The state is wrong by the place of its edge alone: the equilibrium has another gap there."""
+    first = pair(2.0, 0.4, 1.0, "zero_load")
+    state = replace(first.state, edge_gap=first.state.gap_at_edge + STEP)
+    found = Pair(state, Defect(state, first.defect.fine.disc))
+    expected = getattr(state, functional) - getattr(found.exact, functional)
+    assert abs(expected) > 10.0 * abs(first.error(functional))
+    mesh = found.defect.errors(functional, found.parameter).mesh
+    assert mesh.sum() == pytest.approx(expected, rel=FIRST_ORDER, abs=0.0)
+
+
 @pytest.mark.parametrize(("n", "k", "mu"), [(2.013, 0.076, 0.0092), (5.0, 0.0, 2.0), (1.2, 0.7, 1.0)])
 def test_the_finer_mesh_has_nearly_all_of_the_error(n, k, mu):
     found = pair(n, k, mu, "pull_off")
@@ -65,8 +80,6 @@ def test_the_finer_mesh_has_nearly_all_of_the_error(n, k, mu):
     assert found.defect.errors("load", "log_scale").mesh.sum() == pytest.approx(expected, rel=LEFT, abs=0.0)
 
 
-#: Change of the tail in the tests below, far above rounding and small enough for the first order.
-STEP = 1e-6
 NEAR = (2.0, 0.4, 1.0, "zero_load", 1e2)
 
 
