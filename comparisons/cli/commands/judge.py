@@ -51,10 +51,10 @@ def call(args: argparse.Namespace) -> int:
     to_step_summary("")
     with quiet() if args.quiet else nullcontext():
         judgement = judge_folder(args.folder, args.gates)
-    to_step_summary(judgement.markdown)
     show(judgement, verbose=args.verbose, failures_only=args.quiet)
     if not args.quiet and not judgement.verdicts.empty:
         log(f"next: fscm-bench report {args.folder}")
+    to_step_summary(judgement.markdown)
     return STATUS[judgement.verdict]
 
 

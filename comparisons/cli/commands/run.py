@@ -89,14 +89,15 @@ def call(args: argparse.Namespace) -> int:
             log(str(failure))
             return FAILED
         judgement = finished.judgement
-        if judgement is not None:
-            to_step_summary(judgement.markdown)
         if args.verbose:
             _print_every_row(finished)
         _show(finished, verbose=args.verbose, failures_only=args.quiet)
         note(f"results are in {finished.folder}")
         if judgement is not None and not judgement.verdicts.empty:
             note(f"next: fscm-bench report {finished.folder}")
+    # Last: a disk that is full here loses nothing.
+    if judgement is not None:
+        to_step_summary(judgement.markdown)
     failed = finished.failures or judgement is None
     return FAILED if failed or judgement is None else STATUS[judgement.verdict]
 
