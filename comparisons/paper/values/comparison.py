@@ -243,7 +243,7 @@ _NOTES = (
 
 def _texts(tables: Tables) -> dict[str, str]:
     shown = readable(tables[""])
-    return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": latex(shown, f"{_TITLE}. {_NOTES}")}
+    return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": latex(shown, f"{_TITLE}. {_NOTES}", "paper-values")}
 
 
 def _shown(tables: Tables) -> Table:
