@@ -106,7 +106,16 @@ def latex_parts(headings: Sequence[str], rows: Sequence[Sequence[str]], caption:
         tuple(_kind(one) for one in columns),
         (
             "\n".join(
-                [_PACKAGES, r"\begin{table}", r"\centering", described, named, font, rf"\begin{{tabular}}{columned}", head]
+                [
+                    _PACKAGES,
+                    r"\begin{table}",
+                    r"\centering",
+                    described,
+                    named,
+                    font,
+                    rf"\begin{{tabular}}{columned}",
+                    head,
+                ]
             ),
             "\n".join([r"\bottomrule", r"\end{tabular}", r"\end{table}"]),
         ),

@@ -15,10 +15,12 @@ NUMBER = r"-?([0-9]+)(?:\.([0-9]+))?(?:\(([0-9]+)\))?(?:e([+-]?[0-9]+))?"
 _NUMBER, _TOKEN = re.compile(NUMBER), re.compile(TOKENS)
 
 #: Widths of Computer Modern in em, at 10 pt; capitals and signs not named here have 0.78 at most, small letters 0.56.
-_WIDTHS = {character: width for width, characters in ((0.28, "ijl.,:;'|!"), (0.4, "frst()[]-I /")) for character in characters}
+_WIDTHS = {
+    character: width for width, characters in ((0.28, "ijl.,:;'|!"), (0.4, "frst()[]-I /")) for character in characters
+}
 _WIDTHS |= dict.fromkeys("mw%&@", 0.84) | dict.fromkeys("MWÆŒ", 1.03) | dict.fromkeys("0123456789", 0.5)
 _CAPITAL, _SMALL = 0.78, 0.56
-#: Estimates are made larger by this factor: "worst 1.5 % too small over the exported tables" leaves room.
+#: Estimates are made larger by this factor: they leave out kerning, and smaller types are not scaled evenly.
 _SAFETY = 1.04
 
 #: Width of the text of an article on A4, upright and on its side, in points.

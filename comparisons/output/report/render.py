@@ -112,12 +112,12 @@ def dark_colour(colour: str) -> str:
 
 
 def records(text: str) -> list[str]:
-    """Return the records of a CSV text, the first one being the names; a quoted line's end does not end a record.
+    r"""Return the records of a CSV text, the first one being the names; a quoted line's end does not end a record.
 
     Examples
     --------
-    >>> records('a,b\\n1,"x\\ny"\\n2,z\\n')
-    ['a,b', '1,"x\\ny"', '2,z']
+    >>> records('a,b\n1,"x\ny"\n2,z\n')
+    ['a,b', '1,"x\ny"', '2,z']
     """
     found: list[str] = []
     whole = True

@@ -30,8 +30,8 @@ const Files = (() => {
 
   function latex({ rows, latex: { columns, kinds, floating, long, most } }, shown) {
     const [before, after] = shown.length <= most ? floating : long;
-    const text = (one) => (Array.isArray(one) ? one[0] : one);
-    const lines = shown.map((row) => `${columns.map((column, place) => cell(text(rows[row][1][column]), kinds[place])).join(" & ")} \\\\`);
+    const first = (one) => (Array.isArray(one) ? one[0] : one);
+    const lines = shown.map((row) => `${columns.map((column, place) => cell(first(rows[row][1][column]), kinds[place])).join(" & ")} \\\\`);
     if (!lines.length) lines.push(`\\multicolumn{${kinds.length}}{l}{none} \\\\`);
     return [before, ...lines, after, ""].join("\n");
   }
@@ -42,10 +42,11 @@ const Files = (() => {
     return [head, ...places.map((place) => records[place]), ""].join("\n");
   }
 
+  const text = (id, kind) => ({ csv, tex: latex })[kind](DATA.tables[id], Tables.shown(id));
+
   function save(id, kind) {
-    const text = { csv, tex: latex }[kind](DATA.tables[id], Tables.shown(id));
     const link = document.createElement("a");
-    link.href = URL.createObjectURL(new Blob([text], { type: kind === "csv" ? "text/csv" : "application/x-tex" }));
+    link.href = URL.createObjectURL(new Blob([text(id, kind)], { type: kind === "csv" ? "text/csv" : "application/x-tex" }));
     link.download = `${id}.${kind}`;
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 10000);
@@ -55,5 +56,5 @@ const Files = (() => {
     const button = event.target instanceof Element && event.target.closest("button[data-save]");
     if (button) save(button.closest(".table").dataset.table, button.dataset.save);
   });
-  return { save };
+  return { text };
 })();

@@ -183,5 +183,6 @@ const Plots = (() => {
     const { bbox } = Bokeh.index.find_one_by_id(made[id].drawn.id).frame;
     return [bbox.left, bbox.top, bbox.width, bbox.height];
   }
-  return { ready, range, inner };
+  const dark = (id) => made[id].dark;
+  return { ready, range, inner, dark };
 })();
