@@ -32,7 +32,7 @@ const Plots = (() => {
     }
     const zero = plot.y_scale === "linear" ? [new Bokeh.Span({ location: 0, dimension: "width", line_width: 1 })] : [];
     for (const line of zero) drawn.add_layout(line);
-    const one = { plot, figure, drawn, hovers, zero, layers: {} };
+    const one = { plot, figure, drawn, hovers, zero, layers: {}, dark: Theme.dark() };
     made[plot.id] = one;
 
     figure.querySelectorAll("select, .models input").forEach((control) => control.addEventListener("change", () => {
@@ -44,13 +44,14 @@ const Plots = (() => {
     return Bokeh.Plotting.show(drawn, canvas);
   }
 
-  // Ink, soft ink, axes, minor ticks, grid and paper of a light and of a dark page.
-  const LIGHT = ["#1b1f24", "#4d5661", "#87919c", "#c3cad1", "#e5e8eb", "#ffffff"];
-  const DARK = ["#e8ebee", "#b4bcc5", "#7d8792", "#4b545e", "#2b333c", "#14181d"];
+  // Ink, soft ink, axes, minor ticks and grid of a light and of a dark page; and its paper.
+  const LIGHT = ["#1b1f24", "#4d5661", "#87919c", "#c3cad1", "#e5e8eb"];
+  const DARK = ["#e8ebee", "#b4bcc5", "#7d8792", "#4b545e", "#2b333c"];
+  const paper = (dark) => (dark ? "#14181d" : "#ffffff");
 
   function paint(one, dark) {
     const { drawn, zero, layers } = one;
-    const [ink, soft, axes, minor, grid, paper] = dark ? DARK : LIGHT;
+    const [ink, soft, axes, minor, grid] = dark ? DARK : LIGHT;
     for (const axis of [...drawn.xaxes, ...drawn.yaxes]) {
       axis.setv({
         axis_label_text_color: ink, major_label_text_color: soft, axis_line_color: axes, major_tick_line_color: axes,
@@ -60,17 +61,18 @@ const Plots = (() => {
     for (const lines of [...drawn.xgrids, ...drawn.ygrids]) lines.setv({ grid_line_color: grid });
     for (const line of zero) line.setv({ line_color: axes });
     drawn.setv({ outline_line_color: grid });
-    one.paper = paper;
+    // A layer has its colours from the start: a glyph that changes while it is pointed at has no data for a moment.
+    if (one.dark === dark) return;
     one.dark = dark;
-    for (const layer of Object.values(layers).flat()) tint(one, layer);
+    for (const layer of Object.values(layers).flat()) tint(dark, layer);
   }
 
-  function tint({ dark, paper }, { series, renderers }) {
+  function tint(dark, { series, renderers }) {
     const colour = DATA.model_styles[series.model][dark ? 1 : 0];
     for (const { glyph } of renderers) {
       if (glyph.type === "VArea") glyph.setv({ fill_color: { value: colour } });
       else glyph.setv({ line_color: { value: colour } });
-      if (glyph.type === "Scatter") glyph.setv({ fill_color: { value: paper } });
+      if (glyph.type === "Scatter") glyph.setv({ fill_color: { value: paper(dark) } });
     }
   }
 
@@ -80,7 +82,8 @@ const Plots = (() => {
     const { plot, drawn } = one;
     const layers = [];
     for (const series of plot.series.filter((any) => any.group === group)) {
-      const [colour, , dash, marker, broad] = DATA.model_styles[series.model];
+      const [light, night, dash, marker, broad] = DATA.model_styles[series.model];
+      const colour = one.dark ? night : light;
       const data = {
         x: series.x, y: series.y, low: series.low ?? series.y, high: series.high ?? series.y,
         hover: series.hover, name: series.x.map(() => series.label),
@@ -99,11 +102,10 @@ const Plots = (() => {
       if (plot.mark !== "line") {
         // A source of its own: pointing at a marker would take away the line and the band of the same source.
         renderers.push(drawn.scatter({ field: "x" }, { field: "y" }, {
-          source: new Bokeh.ColumnDataSource({ data }), marker, size: 8, fill_color: "white", line_color: colour, line_width: 1.3,
+          source: new Bokeh.ColumnDataSource({ data }), marker, size: 8, fill_color: paper(one.dark), line_color: colour, line_width: 1.3,
         }));
       }
       layers.push({ series, renderers });
-      if ("paper" in one) tint(one, layers.at(-1));
     }
     return (one.layers[group] = layers);
   }

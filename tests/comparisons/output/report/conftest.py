@@ -193,7 +193,10 @@ def browser(tmp_path_factory):
     for argument in (*ARGUMENTS, f"--user-data-dir={tmp_path_factory.mktemp('profile')}"):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    started = webdriver.Chrome(options=options, service=webdriver.ChromeService(executable_path=driver))
+    service = webdriver.ChromeService(executable_path=driver)
+    # Only connections that are made later have another time limit than the first one.
+    started = webdriver.Chrome(options=options, service=service, keep_alive=False)
+    started.command_executor.client_config.timeout = PATIENCE
     started.set_script_timeout(PATIENCE)
     yield started
     started.quit()
@@ -212,7 +215,7 @@ def standing_run(run_folder):
     stored = read_folder(run_folder)
     gates = of_tier(load_gates(gates_text()), "quick")
     verdicts = pd.DataFrame(
-        judged(gate.id, "md-improved", 0.1 * case, "XFAIL" if gate.expected_failure else "PASS", 0.01)
+        judged(gate.id, "md-improved", 0.1 * case, "XFAIL" if gate.expected_failure and case < 4 else "PASS", 0.01)
         | {"lower": gate.lower, "upper": gate.upper, "reason": gate.expected_failure or ""}
         for gate in gates
         for case in range(1, 15)
