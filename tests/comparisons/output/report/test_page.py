@@ -158,9 +158,11 @@ def test_every_table_compiles_as_latex_whatever_the_texts(page, run_folder, type
 
 def test_the_tables_of_a_standing_run_fit_a_page_of_paper(standing_run, typeset):
     tables = make_page(standing_run).tables
-    texts = [table_tex(replace(table, rows=table.rows[:90])) for table in tables.values()]
+    # The names in the other tables are hostile: they have no place at which a line could end.
+    names = ("matrix", "offenders", "verdicts", "kappa", "largest", "convergence", "results", "statements")
+    texts = [table_tex(replace(tables[name], rows=tables[name].rows[:90])) for name in names]
     texts.append(latex(worst_cases(standing_run.summary), "Verdicts", "worst"))
-    assert sum(r"\sisetup" in text or "S[table-format" in text for text in texts) >= 8
+    assert sum("S[table-format" in text for text in texts) >= 8
     typeset(*texts)
 
 
