@@ -138,6 +138,8 @@ class Column:
         powers = [str(int(match[4])) for match in found if match[4]]
         form = f"{sign}{max(digits, 1)}.{decimals}" + (f"({bracket})" if bracket else "")
         width = 0.9 * bool(sign) + 0.5 * (digits + decimals + bracket) + 0.3 * bool(decimals) + 0.9 * bool(bracket)
+        # siunitx parts five digits and more into groups of three.
+        width += sum(0.2 * ((size - 1) // 3) for size in (digits, decimals) if size > 4)
         if powers:
             minus = "-" if any(power.startswith("-") for power in powers) else ""
             size = max(len(power.lstrip("-")) for power in powers)
