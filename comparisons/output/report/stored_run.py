@@ -34,10 +34,17 @@ _TABLES: dict[str, Sequence[str]] = {
     CURVES: CURVE_COLUMNS.names,
     KAPPA: _KAPPA,
 }
+#: In the order of `comparisons.judging.summary.summarise`.
+_SUMMARY = (
+    "verdict",
+    *(name for name in Judged.__slots__ if name not in ("verdict", "reason")),
+    *("cases", "skipped", *COVERAGE, "reason"),
+)
+
 #: Tables of what is judged, which a sweep does not have.
 _JUDGED: dict[str, Sequence[str]] = {
     VERDICTS: Judged.__slots__,
-    SUMMARY: (*Judged.__slots__, "cases", "skipped", *COVERAGE),
+    SUMMARY: _SUMMARY,
     LARGEST_KAPPA: _LARGEST,
 }
 

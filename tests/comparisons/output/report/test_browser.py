@@ -317,7 +317,7 @@ def test_it_is_accessible_and_legible_in_light_and_dark_and_on_paper(opened):
     assert set(opened.execute_script(visible, ".canvas")) == {True}
     # The system's choice is followed until the reader has chosen.
     opened.execute_script("delete document.documentElement.dataset.theme")
-    for scheme in ("light", "dark"):
+    for scheme in ("dark", "light"):
         features = [{"name": "prefers-color-scheme", "value": scheme}]
         opened.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": features})
         wait(lambda scheme=scheme: set(dark(opened)) == {scheme == "dark"})
