@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 
 from comparisons.console.exit_status import guarded
+from comparisons.console.installation import check_packages
 
 __all__ = ["main"]
 
@@ -15,6 +16,7 @@ def main() -> int:
 
 
 def _command() -> int:
+    check_packages()
     # Imported here: an interruption during the import, which takes seconds, is one sentence as well.
     from comparisons.cli.main import main as command
 

@@ -17,6 +17,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import TextIO
 
+from comparisons.console.installation import sentence_on_missing_module
+
 __all__ = [
     "FAILED",
     "FAILS",
@@ -71,8 +73,9 @@ def guarded(command: Callable[[], int], program: str = "fscm-bench") -> int:
     Returns
     -------
     int
-        What the command returned; 2 after a `ValueError` (wrong input), 130 after Ctrl-C, 141 when the reader of a
-        pipe has left, 143 after SIGTERM, and 4 after any other exception, as that of a full disk.
+        What the command returned; 2 after a `ValueError` (wrong input) or if the extra that a command needs is not
+        installed, 130 after Ctrl-C, 141 when the reader of a pipe has left, 143 after SIGTERM, and 4 after any other
+        exception, as that of a full disk.
 
     Examples
     --------
@@ -142,6 +145,8 @@ def _explained(error: Exception) -> tuple[int, str]:
     """Return the exit status of an exception and its sentence."""
     if isinstance(error, ValueError):
         return WRONG_INPUT, str(error)
+    if isinstance(error, ModuleNotFoundError) and (sentence := sentence_on_missing_module(error)):
+        return WRONG_INPUT, sentence
     if isinstance(error, OSError):
         if error.strerror is None:  # a sentence of ours
             return FAILED, str(error)

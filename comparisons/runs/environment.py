@@ -23,7 +23,7 @@ from urllib.request import url2pathname
 
 from threadpoolctl import threadpool_info
 
-from comparisons.runs.code_files import code_in, files_digest, solver_digest
+from comparisons.runs.code_files import NOT_INSTALLED, code_in, files_digest, solver_digest
 
 __all__ = ["code_digest", "computing_environment", "differences", "environment", "fingerprint", "package_version"]
 
@@ -42,6 +42,8 @@ def package_version() -> str:
 def code_digest(root: Path | None = None) -> str:
     """Return the SHA-256 of the packages' Python and TOML files under `root` (by default, those that run).
 
+    The same code has the same digest in a clone and where pip installed it.
+
     Raises
     ------
     RuntimeError
@@ -51,7 +53,9 @@ def code_digest(root: Path | None = None) -> str:
         root = _running_root()
         if missing := [package for package in _PACKAGES if not (root / package / "__init__.py").is_file()]:
             raise RuntimeError(f"the code of {', '.join(missing)} is not in {root}, so that its digest is unknown")
-    return files_digest(root, [path for package in _PACKAGES for path in code_in(root / package)])
+    not_installed = {root / folder for folder in NOT_INSTALLED}
+    paths = [path for package in _PACKAGES for path in code_in(root / package)]
+    return files_digest(root, [path for path in paths if not_installed.isdisjoint(path.parents)])
 
 
 def fingerprint(digest: str | None = None) -> str:
