@@ -9,8 +9,10 @@ import errno
 import io
 import multiprocessing
 import os
+import shutil
 import signal
 import sys
+import textwrap
 import threading
 import traceback
 from collections.abc import Callable, Iterator
@@ -186,8 +188,16 @@ def _say(program: str, sentence: str) -> None:
     safe = "".join(
         character if character.isprintable() or character == "\n" else ascii(character)[1:-1] for character in sentence
     )
+    text = f"{program}: {safe}"
     with suppress(OSError):
-        print(f"{program}: {safe}", file=sys.stderr, flush=True)
+        if sys.stderr.isatty():
+            columns = shutil.get_terminal_size().columns
+            folded = (
+                textwrap.fill(line, columns, break_long_words=False, break_on_hyphens=False, replace_whitespace=False)
+                for line in text.split("\n")
+            )
+            text = "\n".join(folded)
+        print(text, file=sys.stderr, flush=True)
 
 
 def _flushed(stream: TextIO) -> bool:

@@ -58,6 +58,12 @@ value = DMT().evaluate(problem, quantity).value
 TABLE = {1.0: 2.8803743, 2.0: 2.0, 5.0: 1.6694535}
 
 
+@pytest.fixture(autouse=True)
+def wide(monkeypatch):
+    """No sentence is folded."""
+    monkeypatch.setattr("comparisons.cli.options._WIDTH", 1000)
+
+
 @pytest.fixture
 def run(tmp_path, monkeypatch, capsys):
     """Return a function that runs a model in the cases above; it returns status, output and folder."""
@@ -68,7 +74,7 @@ def run(tmp_path, monkeypatch, capsys):
     def called(spec, *arguments, out="out"):
         folder = tmp_path / "runs" / out
         options = ["--jobs", "1", "--out", str(folder), "--gates", str(tmp_path / "gates" / "gates.toml")]
-        status = main(["run", *options, "--model", spec, *arguments])
+        status = main(["run", "--verbose", *options, "--model", spec, *arguments])
         return status, capsys.readouterr(), folder
 
     return called
