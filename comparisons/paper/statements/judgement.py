@@ -107,7 +107,8 @@ def readable(table: pd.DataFrame) -> pd.DataFrame:
 def _texts(tables: Tables) -> dict[str, str]:
     shown = readable(tables[""])
     short = shown[["section", "statement", "verdict", "fails for", "beyond the paper"]]
-    return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": latex(short, f"{_TITLE}. {_NOTES}")}
+    text = latex(short, f"{_TITLE}. {_NOTES}", "paper-statements")
+    return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": text}
 
 
 def _shown(tables: Tables) -> FittedTable:

@@ -243,7 +243,8 @@ _NOTES = (
 
 def _texts(tables: Tables) -> dict[str, str]:
     shown = readable(tables[""])
-    return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": latex(shown, f"{_TITLE}. {_NOTES}")}
+    text = latex(shown, f"{_TITLE}. {_NOTES}", "paper-values")
+    return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": text}
 
 
 def _shown(tables: Tables) -> FittedTable:
