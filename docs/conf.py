@@ -10,9 +10,21 @@ project = "fscm-bench"
 author = copyright = "The fscm-bench developers"
 version = release = installed_version("fscm-bench")
 
-extensions = ["myst_nb", "sphinx.ext.autodoc", "numpydoc", "sphinx_gallery.gen_gallery", "mathml", "api_pages"]
-exclude_patterns = ["_extensions", "examples", "ci", "gallery", "screens", "**/.ipynb_checkpoints"]
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "numpydoc",
+    "sphinx_gallery.gen_gallery",
+    "mathml",
+    "api_pages",
+    "repository_pages",
+]
+exclude_patterns = [
+    *("_extensions", "examples", "ci", "gallery", "screens", "**/.ipynb_checkpoints"),
+    *("_generated/gallery/*.ipynb", "**/sg_execution_times.rst"),
+]
 nitpicky = True
+nitpick_ignore_regex = [("py:class", r"collections\.abc\..*")]  # the inventory of Python needs a network
 html_theme = "furo"
 html_title = "fscm-bench"
 html_static_path = ["_static"]
@@ -44,5 +56,6 @@ sphinx_gallery_conf = {
     "reference_url": {},
     "abort_on_example_error": True,
     "remove_config_comments": True,
+    "write_computation_times": False,
     "within_subsection_order": "FileNameSortKey",
 }

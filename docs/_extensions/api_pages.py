@@ -7,12 +7,14 @@ modules that are not on the page of the package.  The pages are written before S
 from __future__ import annotations
 
 import ast
+import re
 import shutil
 from collections.abc import Iterator
 from importlib import import_module
 from inspect import isclass, isroutine
 from itertools import groupby
 from pathlib import Path
+from typing import Any, get_origin
 
 from sphinx.application import Sphinx
 
@@ -117,10 +119,46 @@ def _module(name: str) -> str:
 
 
 def _entry(place: str, name: str) -> str:
+    """The directive of a name; data have the comment that begins with ``#:`` before them."""
     value = getattr(import_module(place), name)
-    kind = "class" if isclass(value) else "function" if isroutine(value) else "data"
-    members = "   :members:\n" if kind == "class" else "   :no-value:\n" if kind == "data" else ""
-    return f".. auto{kind}:: {place}.{name}\n{members}"
+    # An alias such as dict[str, float] is data, though Python takes it for a class.
+    if isclass(value) and get_origin(value) is None:
+        return f".. autoclass:: {place}.{name}\n   :members:\n"
+    if isroutine(value):
+        return f".. autofunction:: {place}.{name}\n"
+    return f".. py:data:: {place}.{name}\n\n   {_comment(place, name)}\n"
+
+
+def _comment(place: str, name: str) -> str:
+    folder = ROOT / Path(*place.split("."))
+    paths = sorted(folder.rglob("*.py")) if folder.is_dir() else [folder.with_suffix(".py")]
+    for path in paths:
+        found = re.search(rf"((?:^#:.*\n)+){name}\b[^\n=]*=", path.read_text(encoding="utf-8"), flags=re.MULTILINE)
+        if found:
+            return escaped(" ".join(line.removeprefix("#:").strip() for line in found[1].splitlines()))
+    return ""
+
+
+def escaped(line: str) -> str:
+    """A line in which bars and underscores at the end of a word are no markup, but for what is between backticks.
+
+    Examples
+    --------
+    >>> escaped("|H| is `u_`, and u_ too")
+    '\\\\|H\\\\| is `u_`, and u\\\\_ too'
+    """
+    parts = re.split(r"(`+[^`]*`+)", line)
+    parts[::2] = [re.sub(r"(?<=\w)_(?!\w)|\|", r"\\\g<0>", part) for part in parts[::2]]
+    return "".join(parts)
+
+
+def _escape(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
+    """Escape the lines of a docstring that are not part of an example."""
+    example = False
+    for number, line in enumerate(lines):
+        example = line.lstrip().startswith(">>>") or (example and bool(line.strip()))
+        if not example:
+            lines[number] = escaped(line)
 
 
 def write(docs: Path) -> None:
@@ -140,4 +178,6 @@ def write(docs: Path) -> None:
 def setup(app: Sphinx) -> dict[str, bool]:
     """Write the pages before the documents are read."""
     app.connect("builder-inited", lambda app: write(Path(app.srcdir)))
+    # Before numpydoc adds markup of its own.
+    app.connect("autodoc-process-docstring", _escape, priority=100)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -2,7 +2,8 @@
 Pull-off force over the Tabor number
 ====================================
 
-The full self-consistent model joins the limits of Bradley (a stiff solid) and JKR (a soft one).
+The full self-consistent model (lines) joins two limits: Bradley for a stiff solid (dotted) and JKR for a soft one
+(dashed).
 """
 
 import matplotlib.pyplot as plt
@@ -19,6 +20,6 @@ for k, colour in ((0, "#0072b2"), (0.4, "#d55e00"), (0.8, "#009e73")):
     jkr = create("jkr").evaluate(fscm.Problem(n=2, k=k, mu=1), "pull_off_force").value
     axes.axhline(jkr, color=colour, lw=0.8, ls="--")
 axes.axhline(2, color="0.4", lw=0.8, ls=":")
-axes.set(xlabel="Tabor number mu", ylabel="pull-off force (dimensionless)", title="Paraboloid: Bradley (dotted) to JKR (dashed)")
+axes.set(xlabel="Tabor number", ylabel="pull-off force / (pi R dgamma)", title="Paraboloid, n = 2")
 axes.legend(frameon=False)
 plt.show()
