@@ -149,13 +149,13 @@ def as_text(found: Sequence[Work], paragraph: str = "") -> str:
 
 
 def as_bibtex(found: Sequence[Work]) -> str:
-    """Return the works as BibTeX.
+    r"""Return the works as BibTeX.
 
     Examples
     --------
     >>> print(as_bibtex([Work("a", "misc", {"title": "A & B"})]), end="")
     @misc{a,
-      title = {{A \\& B}},
+      title = {{A \& B}},
     }
     """
     return "\n\n".join(work.bibtex() for work in found) + "\n"

@@ -140,12 +140,12 @@ def _comment(place: str, name: str) -> str:
 
 
 def escaped(line: str) -> str:
-    """A line in which bars and underscores at the end of a word are no markup, but for what is between backticks.
+    r"""A line in which bars and underscores at the end of a word are no markup, but for what is between backticks.
 
     Examples
     --------
     >>> escaped("|H| is `u_`, and u_ too")
-    '\\\\|H\\\\| is `u_`, and u\\\\_ too'
+    '\\|H\\| is `u_`, and u\\_ too'
     """
     parts = re.split(r"(`+[^`]*`+)", line)
     parts[::2] = [re.sub(r"(?<=\w)_(?!\w)|\|", r"\\\g<0>", part) for part in parts[::2]]
