@@ -14,9 +14,10 @@ from importlib import import_module
 from inspect import isclass, isroutine
 from itertools import groupby
 from pathlib import Path
-from typing import Any, get_origin
+from typing import TYPE_CHECKING, Any, get_origin
 
-from sphinx.application import Sphinx
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
 
 #: The packages, in the order of the reference.
 PACKAGES = ("fscm", "fem_reference", "comparisons")
@@ -126,16 +127,20 @@ def _entry(place: str, name: str) -> str:
         return f".. autoclass:: {place}.{name}\n   :members:\n"
     if isroutine(value):
         return f".. autofunction:: {place}.{name}\n"
-    return f".. py:data:: {place}.{name}\n\n   {_comment(place, name)}\n"
+    return f".. py:data:: {place}.{name}\n\n   {comment(place, name) or type(value).__name__}\n"
 
 
-def _comment(place: str, name: str) -> str:
+def comment(place: str, name: str) -> str:
+    """What stands at the definition of data: the comment ``#:`` before it, or the text after it."""
     folder = ROOT / Path(*place.split("."))
-    paths = sorted(folder.rglob("*.py")) if folder.is_dir() else [folder.with_suffix(".py")]
-    for path in paths:
-        found = re.search(rf"((?:^#:.*\n)+){name}\b[^\n=]*=", path.read_text(encoding="utf-8"), flags=re.MULTILINE)
-        if found:
-            return escaped(" ".join(line.removeprefix("#:").strip() for line in found[1].splitlines()))
+    for path in sorted(folder.rglob("*.py")) if folder.is_dir() else [folder.with_suffix(".py")]:
+        text = path.read_text(encoding="utf-8")
+        before = re.search(rf"((?:^#:.*\n)+){name}\b[^\n=]*=", text, flags=re.MULTILINE)
+        if before:
+            return escaped(" ".join(line.removeprefix("#:").strip() for line in before[1].splitlines()))
+        after = re.search(rf'^{name}\b[^\n=]* = (?:.*\n)+?"""((?:[^"]|"(?!""))*)"""$', text, flags=re.MULTILINE)
+        if after and "\n\n" not in after[0]:
+            return escaped(" ".join(after[1].split()))
     return ""
 
 

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from sphinx.application import Sphinx
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
 
 #: Folder of the pages, relative to the documents.
 FOLDER = "_generated"
@@ -16,11 +19,13 @@ ROOT = Path(__file__).resolve().parents[2]
 TOP = ("CONTRIBUTING.md", "CHANGELOG.md")
 
 
+@cache
 def pages() -> dict[str, str]:
     """Name and text of every page, with its links as they are from there."""
     top = {name: (ROOT / name).read_text(encoding="utf-8").replace("](docs/", "](../") for name in TOP}
     tables = {path.name: path.read_text(encoding="utf-8") for path in (ROOT / "results" / "baseline").rglob("*.md")}
-    return top | tables
+    # The headings of a table are those of a part of a page.
+    return top | {name: re.sub(r"^##", "#", text, flags=re.MULTILINE) for name, text in tables.items()}
 
 
 def led_to_pages(text: str) -> str:
@@ -31,7 +36,8 @@ def led_to_pages(text: str) -> str:
     >>> led_to_pages("[values](../results/baseline/paper/paper_values.md), [rules](../CONTRIBUTING.md)")
     '[values](_generated/paper_values.md), [rules](_generated/CONTRIBUTING.md)'
     """
-    return re.sub(r"\]\(\.\./(?:results/baseline/(?:[\w-]+/)*)?([\w-]+\.md)", rf"]({FOLDER}/\1", text)
+    names = "|".join(map(re.escape, pages()))
+    return re.sub(rf"\]\(\.\./(?:results/baseline/(?:[\w-]+/)*)?({names})", rf"]({FOLDER}/\1", text)
 
 
 def _write(app: Sphinx) -> None:

@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 import fscm
 from comparisons import create
 
-# A sphere of 200 nm on a homogeneous solid, one cycle at a prescribed displacement.  The zeros of both axes are unknown.
+# A sphere of 200 nm on a homogeneous solid, one cycle at a prescribed displacement; the zeros of both axes are unknown.
 RADIUS, NU, Z0 = 200e-9, 0.45, 0.4e-9
 record = pd.read_csv(Path(__file__).with_name("measured_curve.csv"))
 
@@ -37,7 +37,9 @@ def solid(force, drawn, z0):
     """Tabor number, work of adhesion and modulus that give both numbers, by the atlas."""
 
     def stretch(mu):
-        return fscm.atlas(2, 0, mu, "zero_load_displacement").value - fscm.atlas(2, 0, mu, "jump_out_displacement").value
+        return (
+            fscm.atlas(2, 0, mu, "zero_load_displacement").value - fscm.atlas(2, 0, mu, "jump_out_displacement").value
+        )
 
     mu = brentq(lambda mu: stretch(mu) - drawn / z0, 1.0, 10.0)
     work = force / (np.pi * RADIUS * fscm.atlas(2, 0, mu, "pull_off_force").value)
