@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from docutils import nodes
@@ -31,9 +32,11 @@ def mathml(latex: str, *, block: bool = False) -> str:
     True
     """
     try:
-        return str(tex2mathml(latex.strip(), as_block=block))
+        text = str(tex2mathml(latex.strip(), as_block=block))
     except MathError as problem:
         raise SphinxError(f"the formula {latex!r} cannot be written as MathML: {problem}") from problem
+    # An operator has space around it, an identifier has none.
+    return re.sub(r"<mi>(cos|sin|log|exp)</mi>", r'<mo lspace="0.17em" rspace="0.17em">\1</mo>', text)
 
 
 def _visit_inline(translator: Any, node: nodes.math) -> None:

@@ -31,7 +31,7 @@ from comparisons.runs.tasks import plan
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 EXAMPLES = sorted((DOCS / "examples").glob("*.py"))
-DOCUMENTS = [ROOT / "README.md", *sorted(DOCS.glob("*.md"))]
+DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", *sorted(DOCS.glob("*.md"))]
 
 #: Numbers that each example prints: those that the documents quote.
 QUOTED = {
@@ -39,6 +39,21 @@ QUOTED = {
     "own_shape_and_law.py": ["paraboloid    9-3   pull-off force 1.78848171", "rounded cone  10-4"],
     "own_modulus.py": ["27.06620 nN", "25.96980 nN", "25.69680 nN", "27.08988 nN"],
     "errors_of_a_model.py": ["md-improved", "1.788482"],
+    "measured_curve.py": [
+        "pull-off force 39.54 nN, drawn over 3.40 nm",
+        "Tabor number 2.31, work of adhesion 40.1 mJ/m^2, modulus 508 MPa",
+        "from the record: +- 0.2 mJ/m^2, +- 11 MPa (two standard deviations)",
+        "with z0 = 0.3 nm: 40.6 mJ/m^2, 508 MPa",
+        "with z0 = 0.5 nm: 39.5 mJ/m^2, 508 MPa",
+        "JKR from the force alone: 42.0 mJ/m^2",
+        "r.m.s. distance of record and model 0.25 nN",
+    ],
+    # The tables of docs/which_model.md, whose numbers are rounded to what any machine computes.
+    "model_choice.py": [
+        line
+        for line in (DOCS / "which_model.md").read_text(encoding="utf-8").splitlines()
+        if line.startswith(("| n |", "| 1 |", "| 1.5 |", "| 2 |", "| 3 |", "| 5 |"))
+    ],
 }
 
 
@@ -51,11 +66,11 @@ def blocks(path, language):
     return re.findall(rf"^```{language}\n(.*?)^```", path.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
 
 
-def printed_by(code, folder):
-    """The lines that code prints in this process, in a folder."""
+def printed_by(code, folder, path=None):
+    """The lines that code prints in this process, in a folder; `path` is the file of the code, if it has one."""
     output = io.StringIO()
     with chdir(folder), redirect_stdout(output):
-        exec(compile(code, "example", "exec"), {"__name__": "__main__"})
+        exec(compile(code, "example", "exec"), {"__name__": "__main__", "__file__": str(path)})
     return output.getvalue().splitlines()
 
 
@@ -77,9 +92,15 @@ LONG = "own_modulus.py"
     [pytest.param(path, marks=[pytest.mark.heavy] if path.name == LONG else [], id=path.name) for path in EXAMPLES],
 )
 def test_an_example_runs_and_prints_the_quoted_numbers(path, tmp_path):
-    printed = "\n".join(printed_by(path.read_text(encoding="utf-8"), tmp_path))
+    printed = "\n".join(printed_by(path.read_text(encoding="utf-8"), tmp_path, path))
     assert QUOTED[path.name]
     assert [text for text in QUOTED[path.name] if text not in printed] == []
+
+
+def test_the_page_of_the_measured_curve_quotes_what_is_printed():
+    (block,) = blocks(DOCS / "measured_curve.md", "") or [""]
+    assert block.splitlines() == QUOTED["measured_curve.py"][:-1]
+    assert len(QUOTED["model_choice.py"]) == 32
 
 
 def test_the_long_example_poses_its_problems(tmp_path, monkeypatch):
