@@ -10,6 +10,7 @@ import ast
 import re
 import shutil
 from collections.abc import Iterator
+from functools import cache
 from importlib import import_module
 from inspect import isclass, isroutine
 from itertools import groupby
@@ -28,6 +29,7 @@ FOLDER = "_generated/api"
 ROOT = Path(__file__).resolve().parents[2]
 
 
+@cache
 def exported(package: str) -> list[str]:
     """Public names of a package itself, without the list of its layers.
 
@@ -55,6 +57,7 @@ def modules(package: str) -> list[str]:
     return [name for name in found if name != package]
 
 
+@cache
 def public_names(path: Path) -> list[str]:
     """The literal `__all__` of a module, which is read without importing it; empty if there is none."""
     for statement in ast.parse(path.read_text(encoding="utf-8")).body:
