@@ -220,7 +220,7 @@ def _by_model(agreement: pd.DataFrame) -> pd.DataFrame:
         columns={"reference": "model", "reference_value": "value", "u_reference": "u_num"}
     )
     both = pd.concat([agreement, of_reference.assign(nu=float("nan"))], ignore_index=True)
-    return both[[*_KEY, "value", "u_num"]].drop_duplicates(_KEY).assign(status="ok")
+    return both[[*_KEY, "value", "u_num"]].drop_duplicates(_KEY, ignore_index=True).assign(status="ok")
 
 
 def main(arguments: Sequence[str]) -> int:

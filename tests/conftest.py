@@ -1,5 +1,6 @@
 """Settings of all tests: one thread for the linear algebra, whose processes share the cores, and no deadlines."""
 
+import gc
 import signal
 
 import pytest
@@ -10,6 +11,17 @@ from threadpoolctl import threadpool_limits
 # An example that takes longer than hypothesis allows by default is no error on a busy machine.
 settings.register_profile("no deadline", deadline=None)
 settings.load_profile("no deadline")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection():
+    """Do not search the seven thousand tests for garbage, neither while they are collected nor afterwards."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -1,6 +1,7 @@
 """Imports between the packages and between the layers of `comparisons`."""
 
 import ast
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -62,6 +63,7 @@ LAYERS = {
 }
 
 
+@cache
 def modules() -> dict[str, Path]:
     """Every module of the three packages, by dotted name."""
     found = {}
@@ -72,6 +74,7 @@ def modules() -> dict[str, Path]:
     return found
 
 
+@cache
 def imported(name: str, source: str, is_package: bool = False) -> set[str]:
     """Every module that `source` imports, also inside functions, relatively, or by `import_module("...")`."""
     found = set()
@@ -84,18 +87,22 @@ def imported(name: str, source: str, is_package: bool = False) -> set[str]:
                 above = name.split(".")[: (1 if is_package else 0) - node.level or None]
                 base = ".".join([*above, *filter(None, [node.module])])
             found |= {base} | {f"{base}.{alias.name}" for alias in node.names}
-        elif isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in {
-            "import_module",
-            "__import__",
-        }:
+        elif isinstance(node, ast.Call) and called(node.func) in {"import_module", "__import__"}:
             found |= {argument.value for argument in node.args if isinstance(argument, ast.Constant)}
     return found
 
 
+def called(function: ast.expr) -> str:
+    """The last name of what is called."""
+    return function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
+
+
+@cache
 def within(name: str, starts: tuple[str, ...]) -> bool:
     return any(name == start or name.startswith(f"{start}.") for start in starts)
 
 
+@cache
 def ours(name: str, path: Path) -> set[str]:
     """The modules of the three packages that a module imports (not the names in them)."""
     every = modules()

@@ -15,7 +15,7 @@ from comparisons.domain import Domain
 from comparisons.judging.decision import Verdict, crossing, decide, expecting_failure, requiring_certainty
 from comparisons.judging.gates import Gate
 from comparisons.judging.metrics import CaseError, case_error, reference_range
-from comparisons.judging.selection import cases_of, key_of, relevant
+from comparisons.judging.selection import cases_of, key_of, names_in, relevant
 from comparisons.judging.stored_results import StoredResults, UnusableResult, stored_curves, stored_numbers
 from comparisons.numerics.number_text import exact
 from comparisons.runs.cases import Case, Grid
@@ -97,11 +97,11 @@ def judge(
     DataFrame
         The fields of `Judged`, one row a gate and case, in the order of the gates, then of the cases.
     """
-    expected = {task.key for task in plan(grids, None if models is None else list(models))} | {*others}
     named = None if models is None else set(models)
     chosen = relevant(gates, grids, models)
-    quantities = {gate.quantity for gate in chosen}
-    numbers, points = stored_numbers(rows, quantities), stored_curves(curves, quantities)
+    expected = _planned(chosen, grids, models) | {*others}
+    numbers = stored_numbers(rows, names_in(gate for gate in chosen if gate.metric != "curve"))
+    points = stored_curves(curves, names_in(gate for gate in chosen if gate.metric == "curve"))
     judged = [
         one
         for gate in chosen
@@ -115,6 +115,13 @@ def judge(
         )
     ]
     return pd.DataFrame([asdict(one) for one in judged], columns=list(Judged.__slots__))
+
+
+def _planned(gates: Collection[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> set[Key]:
+    """Return the keys of the declared cases, of the quantities of some gates."""
+    quantities = {gate.quantity for gate in gates}
+    narrowed = [replace(grid, quantities=tuple(q for q in grid.quantities if q in quantities)) for grid in grids]
+    return {task.key for task in plan(narrowed, None if models is None else list(models))}
 
 
 def _judge_gate(

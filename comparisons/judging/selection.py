@@ -12,7 +12,7 @@ from comparisons.runs.cases import Case, Grid
 from comparisons.runs.rows import Key
 from comparisons.runs.tasks import case_for, plan
 
-__all__ = ["cases_of", "key_of", "load_user_gates", "needed_keys", "relevant", "skipped_gates"]
+__all__ = ["cases_of", "key_of", "load_user_gates", "names_in", "needed_keys", "relevant", "skipped_gates"]
 
 
 def relevant(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> list[Gate]:
@@ -54,6 +54,24 @@ def key_of(model: str, gate: Gate, case: Case) -> Key:
     """Return the key of the result of a model that a gate uses in a case."""
     own = case_for(model, case)
     return model, gate.quantity, own.n, own.k, own.mu, own.nu
+
+
+def names_in(gates: Iterable[Gate]) -> set[tuple[str, str]]:
+    """Return model and quantity of the results that gates compare.
+
+    Examples
+    --------
+    >>> from comparisons.judging.gates import gates_text
+    >>> gate = next(gate for gate in load_gates(gates_text()) if gate.rival)
+    >>> names_in([gate]) == {(model, gate.quantity) for model in (gate.candidate, gate.reference, gate.rival)}
+    True
+    """
+    return {
+        (model, gate.quantity)
+        for gate in gates
+        for model in (gate.candidate, gate.reference, gate.rival)
+        if model is not None
+    }
 
 
 def needed_keys(

@@ -35,8 +35,8 @@ class StoredResults:
         None is a table without rows.
     needed : set of str
         Columns without which nothing can be judged.
-    quantities : set of str
-        The rows of others are left out.
+    names : set of (str, str)
+        Model and quantity of the rows that are needed; the others are left out.
 
     Attributes
     ----------
@@ -45,13 +45,14 @@ class StoredResults:
         Key -> rows, more than one only for the points of a curve.
     """
 
-    def __init__(self, table: pd.DataFrame | None, needed: set[str], quantities: Collection[str]) -> None:
+    def __init__(self, table: pd.DataFrame | None, needed: set[str], names: Collection[tuple[str, str]]) -> None:
         table = pd.DataFrame(columns=sorted(needed)) if table is None else table
         self.missing_columns = sorted(needed - set(table.columns))
         self.rows: dict[Key, list[dict[Hashable, Any]]] = defaultdict(list)
-        if self.missing_columns:
+        if self.missing_columns or not names:
             return
-        for row in table.loc[table["quantity"].isin(list(quantities)), sorted(needed)].to_dict("records"):
+        chosen = [pair in names for pair in zip(table["model"], table["quantity"], strict=True)]
+        for row in table.loc[chosen, sorted(needed)].to_dict("records"):
             nu = None if row["nu"] is None or pd.isna(row["nu"]) else float(row["nu"])
             self.rows[row["model"], row["quantity"], row["n"], row["k"], row["mu"], nu].append(row)
 
@@ -102,14 +103,14 @@ class StoredResults:
         return rows
 
 
-def stored_numbers(table: pd.DataFrame, quantities: Collection[str]) -> StoredResults:
-    """Return the rows of a table of scalars that are of some quantities."""
-    return StoredResults(table, _KEY | {"value", "u_num", "status", "reason"}, quantities)
+def stored_numbers(table: pd.DataFrame, names: Collection[tuple[str, str]]) -> StoredResults:
+    """Return the rows of a table of scalars that are of some models and quantities."""
+    return StoredResults(table, _KEY | {"value", "u_num", "status", "reason"}, names)
 
 
-def stored_curves(table: pd.DataFrame | None, quantities: Collection[str]) -> StoredResults:
-    """Return the points of a table of curves that are of some quantities."""
-    return StoredResults(table, _KEY | {"x", "y", "u_distance", "status", "reason"}, quantities)
+def stored_curves(table: pd.DataFrame | None, names: Collection[tuple[str, str]]) -> StoredResults:
+    """Return the points of a table of curves that are of some models and quantities."""
+    return StoredResults(table, _KEY | {"x", "y", "u_distance", "status", "reason"}, names)
 
 
 def _real(value: float | None) -> float:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from importlib.resources import files
 from typing import Any
 
@@ -231,4 +232,9 @@ def grids(tier: str) -> list[Grid]:
     >>> [grid.id for grid in grids("quick")][0]
     'transition'
     """
-    return [grid for grid in load_grids(cases_text()) if TIERS.index(grid.tier) <= TIERS.index(tier)]
+    return [grid for grid in _standing(cases_text()) if TIERS.index(grid.tier) <= TIERS.index(tier)]
+
+
+@lru_cache(maxsize=1)
+def _standing(text: str) -> tuple[Grid, ...]:
+    return tuple(load_grids(text))

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from collections.abc import Iterable
 from pathlib import Path
 
-__all__ = ["CODE", "SOLVER_MODULES", "files_digest", "solver_digest"]
+__all__ = ["CODE", "SOLVER_MODULES", "code_in", "files_digest", "solver_digest"]
 
 #: Suffixes of the files that numbers depend on.
 CODE = {".py", ".toml"}
@@ -26,6 +27,20 @@ SOLVER_MODULES = (
 )
 #: Folder of the atlas, which is fitted to values of the solver and changes none.
 _ATLAS = Path("fscm", "interpolation")
+
+
+def code_in(folder: Path) -> list[Path]:
+    """Return the Python and TOML files of a folder and of those in it, sorted; no link to a folder is followed.
+
+    Examples
+    --------
+    >>> [path.name for path in code_in(Path(__file__).parents[1]) if path.name.startswith("code_")]
+    ['code_files.py']
+    """
+    # Not `rglob`, which makes a path of every file that Python compiled.
+    return sorted(
+        Path(where, name) for where, _, names in os.walk(folder) for name in names if os.path.splitext(name)[1] in CODE
+    )
 
 
 def files_digest(root: Path, paths: Iterable[Path]) -> str:
@@ -51,6 +66,6 @@ def solver_digest(root: Path | None = None) -> str:
     64
     """
     root = root or Path(__file__).resolve().parents[2]
-    packages = [path for package in ("fscm", "fem_reference") for path in sorted((root / package).rglob("*"))]
+    packages = [path for package in ("fscm", "fem_reference") for path in code_in(root / package)]
     packages = [path for path in packages if path.parent != root / _ATLAS]
     return files_digest(root, [*packages, *(root / "comparisons" / name for name in SOLVER_MODULES)])

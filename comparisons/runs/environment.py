@@ -23,7 +23,7 @@ from urllib.request import url2pathname
 
 from threadpoolctl import threadpool_info
 
-from comparisons.runs.code_files import CODE, files_digest, solver_digest
+from comparisons.runs.code_files import code_in, files_digest, solver_digest
 
 __all__ = ["code_digest", "computing_environment", "differences", "environment", "fingerprint", "package_version"]
 
@@ -51,18 +51,23 @@ def code_digest(root: Path | None = None) -> str:
         root = _running_root()
         if missing := [package for package in _PACKAGES if not (root / package / "__init__.py").is_file()]:
             raise RuntimeError(f"the code of {', '.join(missing)} is not in {root}, so that its digest is unknown")
-    return files_digest(root, [path for package in _PACKAGES for path in sorted((root / package).rglob("*"))])
+    return files_digest(root, [path for package in _PACKAGES for path in code_in(root / package)])
 
 
-def fingerprint() -> str:
+def fingerprint(digest: str | None = None) -> str:
     """Return what identifies the code that computes: the packages' files, and the versions of NumPy and SciPy.
+
+    Parameters
+    ----------
+    digest : str, optional
+        That of `code_digest`, where it is known.
 
     Examples
     --------
     >>> [part.split()[0] for part in fingerprint().split(", ")]
     ['code', 'NumPy', 'SciPy']
     """
-    return f"code {code_digest()}, NumPy {version('numpy')}, SciPy {version('scipy')}"
+    return f"code {digest or code_digest()}, NumPy {version('numpy')}, SciPy {version('scipy')}"
 
 
 def differences(stored: str, now: str) -> str:
@@ -99,14 +104,15 @@ def computing_environment() -> dict[str, str]:
 
 def environment() -> dict[str, Any]:
     """Return what a reader needs to know of code and machine, ready for JSON."""
+    digest = code_digest()
     return {
         "package": {
             "name": DISTRIBUTION,
             "version": package_version(),
-            "code_sha256": code_digest(),
+            "code_sha256": digest,
             "solvers_sha256": solver_digest(),
-            "fingerprint": fingerprint(),
-            **_commit(),
+            "fingerprint": fingerprint(digest),
+            **_commit(digest),
         },
         "python": sys.version.split()[0],
         "dependencies": _dependencies(),
@@ -127,10 +133,11 @@ def _running_root() -> Path:
     return Path(__file__).resolve().parents[2]
 
 
-def _commit() -> dict[str, Any]:
-    digest = code_digest()
-    for root in filter(None, (_running_root(), _installed_from())):
-        if (root / ".git").exists() and code_digest(root) == digest:
+def _commit(digest: str) -> dict[str, Any]:
+    """Return the commit of the code of a digest, which is that of the code that runs."""
+    running = _running_root()
+    for root in filter(None, (running, _installed_from())):
+        if (root / ".git").exists() and (root == running or code_digest(root) == digest):
             commit, status = _git(root, "rev-parse", "HEAD"), _git(root, "status", "--porcelain", *_PACKAGES)
             if commit is not None and status is not None:
                 return {"commit": commit, "dirty": bool(status)}
@@ -163,7 +170,7 @@ def _installed_commit() -> dict[str, Any] | None:
     if source.get("vcs") != "git" or installed is None or Path(str(installed.locate_file(""))).resolve() != root:
         return None
     recorded = {file.as_posix(): file.hash for file in installed.files or []}
-    running = [path for package in _PACKAGES for path in (root / package).rglob("*") if path.suffix in CODE]
+    running = [path for package in _PACKAGES for path in code_in(root / package)]
     unchanged = all(_is_recorded(path, recorded.get(path.relative_to(root).as_posix())) for path in running)
     return {"commit": source.get("commit_id"), "dirty": not unchanged}
 

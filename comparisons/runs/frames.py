@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any
 
 import pandas as pd
@@ -69,11 +69,11 @@ def frame(rows: Iterable[Row]) -> pd.DataFrame:
 
 def curve_frame(rows: Iterable[Row]) -> pd.DataFrame:
     """Return the curves as a sorted pandas table with the columns of `CURVE_COLUMNS`."""
-    records = [
-        asdict(row) | {"point": number, "x": x, "y": y, "u_distance": row.points[2] if row.points else None}
-        for row in rows
-        for number, (x, y) in enumerate(zip(*row.points[:2], strict=True) if row.points else [(None, None)])
-    ]
+    records = []
+    for row in rows:
+        whole = asdict(replace(row, points=None)) | {"u_distance": row.points[2] if row.points else None}
+        points = zip(*row.points[:2], strict=True) if row.points else [(None, None)]
+        records += [whole | {"point": number, "x": x, "y": y} for number, (x, y) in enumerate(points)]
     table = pa.Table.from_pylist(records, schema=CURVE_COLUMNS)
     return table.to_pandas().sort_values([*_ORDER, "point"], ignore_index=True)
 

@@ -4,6 +4,8 @@ import os
 import shutil
 import subprocess
 import sys
+from copy import deepcopy
+from functools import cache
 from types import ModuleType, SimpleNamespace
 
 import numpy as np
@@ -13,6 +15,7 @@ from comparisons.judging.gates import gates_text
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from comparisons.registry import MODELS
 from comparisons.runs.cases import load_grids
+from comparisons.runs.environment import environment
 
 
 class Toy:
@@ -100,9 +103,18 @@ tier = "quick"
 """
 
 
+@cache
+def _environment():
+    return environment()
+
+
 @pytest.fixture
 def small_grid(toys, monkeypatch):
-    """Make `fscm-bench run` compute four cases of toy models and judge them by one gate."""
+    """Make `fscm-bench run` compute four cases of toy models and judge them by one gate.
+
+    What the record has of code and machine is determined once for all tests.
+    """
+    monkeypatch.setattr("comparisons.pipeline.record_content.environment", lambda: deepcopy(_environment()))
     monkeypatch.setattr("comparisons.pipeline.inputs.grids", lambda tier: load_grids(GRID))
     monkeypatch.setattr("comparisons.pipeline.inputs.gates_text", lambda path: gates_text(path) if path else GATES)
     return GATES

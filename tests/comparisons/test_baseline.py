@@ -205,8 +205,9 @@ def test_a_run_is_compared_with_what_is_committed(tmp_path, monkeypatch, capsys)
 
 def agreement_csv(path, *, fem=(1.5, 1e-7), fscm=(1.5, 1e-9), mus=(1.0, 2.0)):
     rows = [
-        ["pull_off_force", "fem", 2.0, 0.4, mu, "", fem[0] * mu, fem[1], "fscm", fscm[0] * mu, fscm[1], 0, 0, 0]
-        for mu in mus
+        ["pull_off_force", "fem", 2.0, 0.4, mu, nu, fem[0] * mu, fem[1], "fscm", fscm[0] * mu, fscm[1], 0, 0, 0]
+        # The last case has the same result of the FSCM as the first.
+        for mu, nu in (*((mu, "") for mu in mus), (1.0, 0.49))
     ]
     names = "quantity model n k mu nu value u_num reference reference_value u_reference difference claimed en"
     pd.DataFrame(rows, columns=names.split()).to_csv(path, index=False)
@@ -218,7 +219,7 @@ def agreement_csv(path, *, fem=(1.5, 1e-7), fscm=(1.5, 1e-9), mus=(1.0, 2.0)):
         ({}, 0),
         ({"fem": (1.5 + 1.5e-7, 1e-7)}, 1),  # within both bounds at mu = 1 only
         ({"fscm": (1.5 + 3e-9, 1e-9)}, 2),
-        ({"fem": (1.5, 4e-7)}, 2),
+        ({"fem": (1.5, 4e-7)}, 3),
         ({"fscm": (1.5, 2e-10)}, 2),
         ({"mus": (1.0,)}, 2),
     ],

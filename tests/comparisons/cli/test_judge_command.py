@@ -3,6 +3,7 @@
 import json
 import random
 import re
+import shutil
 
 import pandas as pd
 import pytest
@@ -15,12 +16,19 @@ from comparisons.runs.environment import fingerprint
 from comparisons.runs.record import read_record, write_record
 
 
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """Where the run is that every test gets a copy of."""
+    return tmp_path_factory.mktemp("finished") / "run"
+
+
 @pytest.fixture
-def folder(small_grid, tmp_path, capsys):
+def folder(small_grid, finished, tmp_path, capsys):
     """A finished run."""
-    assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run")]) == 0
-    capsys.readouterr()
-    return tmp_path / "run"
+    if not finished.exists():
+        assert main(["run", "--jobs", "1", "--out", str(finished)]) == 0
+        capsys.readouterr()
+    return shutil.copytree(finished, tmp_path / "run")
 
 
 def seal(folder):
@@ -81,10 +89,9 @@ OTHER = "worst_measured = 0.2\nmeasured_range = [0.15, 0.25]"
     ],
 )
 @pytest.mark.parametrize("command", ["run", "judge"])
-def test_the_exit_status_is_the_verdict(small_grid, tmp_path, capsys, changes, status, verdict, command):
+def test_the_exit_status_is_the_verdict(small_grid, request, tmp_path, capsys, changes, status, verdict, command):
     if command == "judge":
-        assert main(["run", "--jobs", "1", "--out", str(tmp_path / "run")]) == 0
-        arguments = ["judge", str(tmp_path / "run")]
+        arguments = ["judge", str(request.getfixturevalue("folder"))]
     else:
         arguments = ["run", "--jobs", "1", "--out", str(tmp_path / "run")]
     assert main([*arguments, *gates(small_grid, tmp_path, *changes)]) == status

@@ -1,6 +1,7 @@
 """The judge on results made by hand: missing, doubled, lost or uncertain ones."""
 
 import math
+from itertools import product
 
 import numpy as np
 import pandas as pd
@@ -9,7 +10,7 @@ import pytest
 from comparisons.judging.decision import roll_up
 from comparisons.judging.gates import load_gates
 from comparisons.judging.judge import judge
-from comparisons.judging.stored_results import UnusableResult, stored_curves
+from comparisons.judging.stored_results import UnusableResult, stored_curves, stored_numbers
 from comparisons.judging.summary import summarise
 from comparisons.runs.cases import load_grids
 
@@ -388,6 +389,15 @@ def test_a_failed_row_is_no_result_although_it_has_a_number():
     assert (judged["reason"] == "jkr: failed: no root").all()
 
 
+def test_the_rows_of_other_models_and_quantities_are_left_out():
+    case = {"n": 2.0, "k": 0.0, "mu": 1.0, "nu": math.nan, "value": 1.5, "u_num": 0.0, "status": "ok", "reason": ""}
+    pairs = list(product(("jkr", "dmt", "fscm"), ("pull_off_force", "pull_off_displacement")))
+    table = pd.DataFrame([case | {"model": model, "quantity": quantity} for model, quantity in pairs])
+    for chosen in ([], pairs[:1], pairs[1:4]):
+        assert [key[:2] for key in stored_numbers(table, chosen).rows] == chosen
+    assert stored_numbers(table.drop(columns="value"), []).missing_columns == ["value"]
+
+
 @pytest.mark.parametrize(
     ("first", "last", "expected"),
     [(1e-3, 2e-3, 2e-3), (2e-3, 1e-3, 2e-3), (math.nan, 1e-3, None), (1e-3, math.nan, None), (-1e-3, -1e-3, None)],
@@ -397,7 +407,7 @@ def test_the_bound_of_a_curve_is_the_largest_of_its_points_and_each_has_one(firs
     case = {"model": "jkr", "quantity": "force_curve", "n": 2.0, "k": 0.0, "mu": 1.0, "nu": math.nan}
     u = np.where(t < 0.5, first, last)
     table = pd.DataFrame(case | {"x": t, "y": t, "u_distance": u, "status": "ok", "reason": ""})
-    stored = stored_curves(table, ["force_curve"])
+    stored = stored_curves(table, {("jkr", "force_curve")})
     key = ("jkr", "force_curve", 2.0, 0.0, 1.0, None)
     if expected is not None:
         assert stored.points(key)[2] == expected

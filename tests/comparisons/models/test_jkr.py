@@ -36,7 +36,7 @@ def printed_curve(n: float, k: float, mu: float, a: mp.mpf) -> tuple[mp.mpf, mp.
 @cache
 def extreme(n: float, k: float, mu: float, which: int) -> mp.mpf:
     """Contact radius where the displacement (0) or the load (1) of the printed curve is smallest."""
-    log_a = np.linspace(-12.0, 8.0, 2001)
+    log_a = np.linspace(-12.0, 8.0, 401)
     values = [printed_curve(n, k, mu, mp.exp(x))[which] for x in log_a]
     start = float(log_a[int(np.argmin(np.array(values, float)))])
     with mp.workdps(30):

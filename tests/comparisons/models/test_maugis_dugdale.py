@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 
 import mpmath as mp
 import numpy as np
@@ -22,16 +23,23 @@ from fscm.problem import Problem
 EVENTS = ("pull_off_force", "pull_off_displacement", "zero_load_displacement", "jump_out_displacement")
 
 
-def printed(n: float, k: float, Lambda: float, a: mp.mpf, w: mp.mpf) -> tuple[mp.mpf, mp.mpf, mp.mpf]:
-    """Eqs. 66-72: displacement, load and the left side of Griffith's relation, m^2 = 1 + exp(-2 w)."""
-    n, k, Lambda, a, F = mp.mpf(n), mp.mpf(k), mp.mpf(Lambda), mp.mpf(a), mp.hyp2f1
-    m = mp.sqrt(1 + mp.exp(-2 * mp.mpf(w)))
+@lru_cache(maxsize=64)
+def functions_of_w(n: mp.mpf, k: mp.mpf, w: mp.mpf, precision: int) -> tuple[mp.mpf, ...]:
+    """m and three combinations of hypergeometric functions, none of which depends on the contact radius."""
+    m, F = mp.sqrt(1 + mp.exp(-2 * w)), mp.hyp2f1
     cos, x, h = mp.cos(k * mp.pi / 2), 1 / m**2, (k + 1) / 2
     edge = m ** (k - 1) * (m * m - 1) ** ((1 - k) / 2)
     w1 = 4 * cos / (mp.pi * (1 - k * k)) * (F(h - 1, h, h + 1, x) - edge)
     w2 = 4 * cos / (mp.pi * (1 + k)) * (F(k, h, h + 1, x) - edge * F(h, h, h + 1, x))
     w3 = F(h, h, h + 1, x) - (k + 1) / (n + k + 1) * F(h, h + n / 2, h + 1 + n / 2, x)
-    w3 *= 2 * cos / (mp.pi * (1 + k))
+    return m, w1, w2, w3 * 2 * cos / (mp.pi * (1 + k))
+
+
+def printed(n: float, k: float, Lambda: float, a: mp.mpf, w: mp.mpf) -> tuple[mp.mpf, mp.mpf, mp.mpf]:
+    """Eqs. 66-72: displacement, load and the left side of Griffith's relation, m^2 = 1 + exp(-2 w)."""
+    n, k, Lambda, a = mp.mpf(n), mp.mpf(k), mp.mpf(Lambda), mp.mpf(a)
+    m, w1, w2, w3 = functions_of_w(n, k, mp.mpf(w), mp.mp.prec)
+    cos, h = mp.cos(k * mp.pi / 2), (k + 1) / 2
     delta = a**n / 2 * mp.beta(n / 2, h) - 2 * Lambda * a ** (1 - k) * (m * m - 1) ** ((1 - k) / 2)
     P = a ** (n + k + 1) / (mp.pi * (1 - k * k)) * cos * mp.beta(1 + n / 2, h)
     P -= Lambda * (m * m - w1 * m ** (1 - k)) * a * a

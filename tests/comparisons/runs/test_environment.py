@@ -70,11 +70,11 @@ def test_the_commit_is_stated_only_of_the_code_that_runs(tmp_path, monkeypatch):
     monkeypatch.setattr(provenance, "_running_root", lambda: installed)
     monkeypatch.setattr(provenance, "_installed_from", lambda: clone)
     commit = git(clone, "rev-parse", "HEAD")
-    assert provenance._commit() == {"commit": commit, "dirty": False}
+    assert provenance._commit(provenance.code_digest()) == {"commit": commit, "dirty": False}
     (clone / "fscm" / "a.py").write_text("x = 2\n")
-    assert provenance._commit() == {"commit": None, "dirty": None}
+    assert provenance._commit(provenance.code_digest()) == {"commit": None, "dirty": None}
     (installed / "fscm" / "a.py").write_text("x = 2\n")
-    assert provenance._commit() == {"commit": commit, "dirty": True}
+    assert provenance._commit(provenance.code_digest()) == {"commit": commit, "dirty": True}
 
 
 def test_the_environment_is_json_and_right():
@@ -129,19 +129,19 @@ def installed(tmp_path, monkeypatch):
 
 def test_the_commit_of_an_install_from_a_git_address_is_the_one_pip_recorded(installed):
     root = installed(url=URL, vcs_info={"vcs": "git", "commit_id": COMMIT})
-    assert provenance._commit() == {"commit": COMMIT, "dirty": False}
+    assert provenance._commit(provenance.code_digest()) == {"commit": COMMIT, "dirty": False}
     (root / "fscm" / "a.py").write_text("x = 2\n")
-    assert provenance._commit() == {"commit": COMMIT, "dirty": True}
+    assert provenance._commit(provenance.code_digest()) == {"commit": COMMIT, "dirty": True}
 
 
 @pytest.mark.parametrize("source", [{"archive_info": {}}, {"vcs_info": {"vcs": "hg", "commit_id": COMMIT}}])
 def test_no_commit_is_stated_for_other_installs(installed, source):
     installed(url=URL, **source)
-    assert provenance._commit() == {"commit": None, "dirty": None}
+    assert provenance._commit(provenance.code_digest()) == {"commit": None, "dirty": None}
 
 
 def test_no_commit_is_stated_for_code_beside_the_installed(installed, tmp_path, monkeypatch):
     installed(url=URL, vcs_info={"vcs": "git", "commit_id": COMMIT})
     other = tree(tmp_path / "other")
     monkeypatch.setattr(provenance, "_running_root", lambda: other)
-    assert provenance._commit() == {"commit": None, "dirty": None}
+    assert provenance._commit(provenance.code_digest()) == {"commit": None, "dirty": None}

@@ -48,7 +48,7 @@ def plots(browser):
 def point(browser, plot, right, down):
     canvas = find(browser, f"#{plot} .canvas")
     browser.execute_script("arguments[0].scrollIntoView({ block: 'center' })", canvas)
-    actions = package("selenium.webdriver.common.action_chains").ActionChains(browser)
+    actions = package("selenium.webdriver.common.action_chains").ActionChains(browser, duration=0)
     actions.move_to_element_with_offset(canvas, right + 3, down).move_by_offset(-3, 0).perform()
 
 
