@@ -1,6 +1,6 @@
 """An independent axisymmetric finite-element model of adhesive contact of graded materials.
 
-Physical quantities in any consistent units: a half-space with Young's modulus E(z) and Poisson ratio nu, a
+Physical quantities in any consistent units: a half-space with Young's modulus E(z) and Poisson ratio nu(z), a
 rigid punch f(r), a surface law p(H).  The solid is meshed with high-order elements and closed by the exact
 stiffness of the infinite exterior.  Condensed to its surface it follows the path of equilibria; at an event every
 displacement of the mesh is solved with pyamg.
@@ -13,7 +13,20 @@ import lazy_loader
 #: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
 LAYERS = (
     ("_typing", "_threads", "errors"),
-    ("modulus", "coating", "modulus_checks", "punch", "laws", "solid", "problem", "accuracy"),
+    (
+        "modulus",
+        "coating",
+        "poisson",
+        "depth_profiles",
+        "modulus_checks",
+        "punch",
+        "profiles",
+        "laws",
+        "tabulated_law",
+        "solid",
+        "problem",
+        "accuracy",
+    ),
     ("_elastic",),
     ("_linear",),
     ("_contact",),

@@ -2,8 +2,13 @@
 
 from .accuracy import ACCURACIES as ACCURACIES
 from .coating import CoatingModulus as CoatingModulus
+from .depth_profiles import (
+    ExponentialModulus as ExponentialModulus,
+    TableModulus as TableModulus,
+    TablePoisson as TablePoisson,
+)
 from .errors import NoSuchEvent as NoSuchEvent, NotConverged as NotConverged
-from .laws import LennardJones as LennardJones, SurfaceLaw as SurfaceLaw
+from .laws import LennardJones as LennardJones, Mie as Mie, SurfaceLaw as SurfaceLaw
 from .modulus import (
     CustomModulus as CustomModulus,
     Interface as Interface,
@@ -11,7 +16,9 @@ from .modulus import (
     OffsetPowerLawModulus as OffsetPowerLawModulus,
     PowerLawModulus as PowerLawModulus,
 )
+from .poisson import CoatingPoisson as CoatingPoisson, CustomPoisson as CustomPoisson, PoissonRatio as PoissonRatio
 from .problem import Problem as Problem
+from .profiles import MeasuredPunch as MeasuredPunch, PowerSum as PowerSum, RoundedCone as RoundedCone
 from .punch import CustomPunch as CustomPunch, PowerPunch as PowerPunch, Punch as Punch
 from .quantities import CRITICAL_MODULUS as CRITICAL_MODULUS, LOSSES as LOSSES, QUANTITIES as QUANTITIES
 from .solid import CustomSolid as CustomSolid, Solid as Solid
@@ -24,5 +31,6 @@ from .states import (
     profile as profile,
     trace as trace,
 )
+from .tabulated_law import TabulatedLaw as TabulatedLaw
 
 LAYERS: tuple[tuple[str, ...], ...]

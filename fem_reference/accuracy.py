@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-__all__ = ["ACCURACIES", "Level", "finer_levels", "level_for"]
+__all__ = ["ACCURACIES", "Level", "coarser_accuracy", "finer_levels", "level_for"]
 
 ACCURACIES = {"quick": 1e-6, "default": 1e-7, "fine": 1e-8}
 """Names of accuracies.  Measured for n = 2 and the 9-3 law: the pull-off force has these relative errors.  The bound
@@ -85,6 +85,18 @@ def level_for(accuracy: float | str) -> Level:
     pairs = zip(_LEVELS[coarse].densities, _LEVELS[fine].densities, strict=True)
     first, second, third = (a * (b / a) ** share for a, b in pairs)
     return Level(ORDER, (first, second, third))
+
+
+def coarser_accuracy(accuracy: float | str) -> tuple[float, str] | None:
+    """Return an accuracy finer than "default" as a number, and the name of the next coarser one; None for others.
+
+    Examples
+    --------
+    >>> coarser_accuracy("fine"), coarser_accuracy("default")
+    ((1e-08, 'default'), None)
+    """
+    number = _number(accuracy)
+    return (number, "default") if number < ACCURACIES["default"] else None
 
 
 def finer_levels(accuracy: float | str) -> list[Level]:

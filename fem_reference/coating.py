@@ -24,7 +24,7 @@ class CoatingModulus:
     thickness : float
         Depth of the interface.
     transition : float
-        Length over which the modulus changes there, at most a quarter of the thickness; 0 for a sharp interface.
+        Length over which the modulus changes there; 0 for a sharp interface.
 
     Raises
     ------
@@ -47,11 +47,8 @@ class CoatingModulus:
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0):
                 raise ValueError(f"{name} = {value} is outside (0, infinity)")
-        if not 0 <= self.transition <= 0.25 * self.thickness:
-            raise ValueError(
-                f"transition = {self.transition} is outside [0, thickness / 4 = {0.25 * self.thickness:g}]: a longer "
-                "one reaches the surface; declare such a solid as a CustomModulus"
-            )
+        if not (math.isfinite(self.transition) and self.transition >= 0):
+            raise ValueError(f"transition = {self.transition} is outside [0, infinity): it is a length; 0 is sharp")
 
     @property
     def surface_exponent(self) -> float:
@@ -65,8 +62,8 @@ class CoatingModulus:
 
     @property
     def surface_depth(self) -> float:
-        """The thickness."""
-        return self.thickness
+        """The thickness, or the length of the transition where that reaches the surface."""
+        return max(self.thickness, self.transition)
 
     @property
     def interfaces(self) -> tuple[Interface, ...]:

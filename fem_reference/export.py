@@ -19,12 +19,13 @@ from skfem import Basis, ElementQuadP
 
 from fem_reference._contact.path import Point
 from fem_reference._elastic.assembly import assemble_half_space
-from fem_reference._elastic.compliance import scaled_modulus
+from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
 from fem_reference._elastic.mapping import ChartMapping
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._linear.linear_solver import solve_cg
 from fem_reference._threads import one_thread
 from fem_reference._typing import Array, Index
+from fem_reference.poisson import poisson_at
 
 __all__ = ["Field", "contact_field", "draw", "write_vtu"]
 
@@ -101,7 +102,7 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
         contact, y = point.branch.contact, point.state.y
         c = float(y[-1])
         scaled = scaled_modulus(solid.modulus, c)
-        half_space = assemble_half_space(spec.grid(), scaled, solid.nu, spec.order)
+        half_space = assemble_half_space(spec.grid(), scaled, scaled_poisson(solid.nu, c), spec.order)
         trace = contact.compliance.trace
         pressure = contact.law.traction(contact.gap(y))
         load = np.zeros(half_space.matrix.shape[0])
@@ -125,8 +126,9 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
         strain = [radial.grad[0] / c, ur / (c * s), axial.grad[1] / c]
         shear = (radial.grad[1] + axial.grad[0]) / c
         E = scaled(zeta)
-        lame = E * body.nu / ((1.0 + body.nu) * (1.0 - 2.0 * body.nu))
-        twice = E / (1.0 + body.nu)
+        nu = poisson_at(body.nu, zeta)
+        lame = E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
+        twice = E / (1.0 + nu)
         volume = lame * (strain[0] + strain[1] + strain[2])
         stress = [volume + twice * e for e in strain] + [0.5 * twice * shear]
         return Field(

@@ -10,7 +10,7 @@ import numpy as np
 
 from fem_reference._typing import Array
 
-__all__ = ["LennardJones", "SurfaceLaw"]
+__all__ = ["LennardJones", "Mie", "SurfaceLaw"]
 
 
 @runtime_checkable
@@ -123,3 +123,98 @@ class LennardJones:
         """Integral of p from H to infinity, the energy per area of the faces at gap H: -w at H = 0."""
         q = 1.0 / (1.0 + np.asarray(H, float) / self.z0)
         return self.work_of_adhesion * (q**8 - 4.0 * q**2) / 3.0
+
+
+@dataclass(frozen=True, slots=True)
+class Mie:
+    """The m-n law p = A (w / z0) [(1 + H/z0)^-m - (1 + H/z0)^-n] with A = (m - 1)(n - 1)/(m - n).
+
+    m = 9 and n = 3 is the Lennard-Jones law.
+
+    Parameters
+    ----------
+    work_of_adhesion : float
+        Energy per area w to separate the faces from H = 0 to infinity.
+    z0 : float
+        Range of the law, a length.
+    m, n : float
+        Exponents of the repulsion and of the attraction, 1 < n < m.
+
+    Raises
+    ------
+    ValueError
+        If a parameter is outside its range.
+
+    Examples
+    --------
+    >>> law, special = Mie(work_of_adhesion=2.0, z0=0.5, m=9.0, n=3.0), LennardJones(2.0, 0.5)
+    >>> bool(abs(law.traction(np.array(1.0)) - special.traction(np.array(1.0))) < 1e-14)
+    True
+    >>> round(float(Mie(2.0, 0.5, m=12.0, n=6.0).energy(np.array(0.0))), 12)
+    -2.0
+    """
+
+    work_of_adhesion: float
+    z0: float
+    m: float
+    n: float
+
+    def __post_init__(self) -> None:
+        for name, value in (("work of adhesion", self.work_of_adhesion), ("range z0", self.z0)):
+            if not (math.isfinite(value) and value > 0):
+                raise ValueError(f"{name} = {value} is outside (0, infinity)")
+        if not (math.isfinite(self.n) and self.n > 1):
+            raise ValueError(
+                f"exponent n = {self.n} of the attraction is outside (1, infinity): its energy is infinite"
+            )
+        if not (math.isfinite(self.m) and self.m > self.n):
+            raise ValueError(
+                f"exponent m = {self.m} of the repulsion is outside (n = {self.n:g}, infinity): the faces would pass "
+                "through each other"
+            )
+
+    @property
+    def length(self) -> float:
+        """The range z0."""
+        return self.z0
+
+    @property
+    def peak_gap(self) -> float:
+        """Gap of the largest tension, ((m/n)^(1/(m-n)) - 1) z0."""
+        return self.z0 * math.expm1(math.log(self.m / self.n) / (self.m - self.n))
+
+    @property
+    def singular_gap(self) -> float:
+        """The repulsion diverges at H = -z0."""
+        return -self.z0
+
+    @property
+    def decay(self) -> tuple[float, float]:
+        """Tension A w z0^(n-1) H^-n at large gaps."""
+        return self._stress * self.z0**self.n, self.n
+
+    @property
+    def _stress(self) -> float:
+        return (self.m - 1.0) * (self.n - 1.0) / (self.m - self.n) * self.work_of_adhesion / self.z0
+
+    def _split(self, H: Array) -> tuple[Array, Array]:
+        """Logarithm of 1 + H/z0, and the repulsion relative to the attraction less one (exact near H = 0)."""
+        distance = np.log1p(np.asarray(H, float) / self.z0)
+        return distance, np.expm1(-(self.m - self.n) * distance)
+
+    def traction(self, H: Array) -> Array:
+        """p(H), shape of `H`."""
+        distance, excess = self._split(H)
+        return self._stress * np.exp(-self.n * distance) * excess
+
+    def slope(self, H: Array) -> Array:
+        """dp/dH, shape of `H`."""
+        distance, excess = self._split(H)
+        inside = self.n - self.m * (1.0 + excess)
+        return self._stress / self.z0 * np.exp(-(self.n + 1.0) * distance) * inside
+
+    def energy(self, H: Array) -> Array:
+        """Integral of p from H to infinity, the energy per area of the faces at gap H: -w at H = 0."""
+        distance, excess = self._split(H)
+        inside = (1.0 + excess) / (self.m - 1.0) - 1.0 / (self.n - 1.0)
+        return self._stress * self.z0 * np.exp(-(self.n - 1.0) * distance) * inside

@@ -1,6 +1,6 @@
 """Young's modulus as a function of depth.
 
-The Poisson ratio is constant.  Any consistent units; depth z is positive into the solid.  A modulus has the exponents
+Any consistent units; depth z is positive into the solid.  A modulus has the exponents
 of its power laws at the surface and at great depth: the mesh resolves the first, the exterior takes the second.  It may
 have `interfaces` too: depths where it changes at once or within a short length.
 """
@@ -86,15 +86,15 @@ class Interface:
             raise ValueError(f"transition = {self.transition} of an interface is outside [0, infinity): it is a length")
 
 
-def interfaces_of(modulus: Modulus) -> tuple[Interface, ...]:
-    """Return the declared interfaces of a modulus, from the surface down.
+def interfaces_of(profile: object) -> tuple[Interface, ...]:
+    """Return the declared interfaces of a modulus or of a Poisson ratio, from the surface down.
 
     Examples
     --------
     >>> interfaces_of(PowerLawModulus(1.0, 1.0, 0.4))
     ()
     """
-    found: tuple[Interface, ...] = getattr(modulus, "interfaces", ())
+    found: tuple[Interface, ...] = getattr(profile, "interfaces", ())
     return tuple(sorted(found, key=lambda interface: interface.depth))
 
 

@@ -12,13 +12,20 @@ import numpy as np
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
 
-__all__ = ["CustomPunch", "PowerPunch", "Punch", "check_without_asperities", "radius_at_height"]
+__all__ = ["CustomPunch", "PowerPunch", "Punch", "check_without_asperities", "kinks_of", "radius_at_height"]
 
 RADII = 3000
 """Radii in equal ratios at which the shape of a punch is examined: forty in a factor of two over 22 decades."""
 
 FALL = 1e-9
 """Relative fall of r f' that the rounding of a smooth shape may make."""
+
+
+DIFFERENCE = 1.0 / 64.0
+"""Step of the differences for a slope, relative to the radius."""
+
+DIFFERENCES = ((1, 4 / 5), (2, -1 / 5), (3, 4 / 105), (4, -1 / 280))
+"""Multiples of the step, and their weights in central differences of eighth order."""
 
 
 @runtime_checkable
@@ -72,6 +79,15 @@ class PowerPunch:
 class CustomPunch:
     """Any shape given by two callables, f(r) and df/dr.
 
+    Parameters
+    ----------
+    function : callable
+        f(r) of an array of radii, with f(0) = 0.
+    derivative : callable, optional
+        df/dr.  By default it is that of differences of f, to 1e-11 of f/r where f is smooth over a tenth of r.
+    kinks : tuple of float
+        Radii at which the slope jumps; mesh lines are put there.
+
     Examples
     --------
     >>> sphere_like = CustomPunch(lambda r: np.sqrt(1.0 + r**2) - 1.0, lambda r: r / np.sqrt(1.0 + r**2))
@@ -80,12 +96,15 @@ class CustomPunch:
     """
 
     function: Callable[[Array], Array]
-    derivative: Callable[[Array], Array]
+    derivative: Callable[[Array], Array] | None = None
+    kinks: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         apex = float(self.function(np.array(0.0)))
         if apex != 0:
             raise ValueError(f"the punch has f(0) = {apex}; heights are measured from the apex, f(0) = 0")
+        if not all(math.isfinite(r) and r > 0 for r in self.kinks):
+            raise ValueError(f"kinks = {self.kinks} are not all radii in (0, infinity)")
 
     def height(self, r: Array) -> Array:
         """f(r), shape of `r`."""
@@ -93,7 +112,22 @@ class CustomPunch:
 
     def slope(self, r: Array) -> Array:
         """df/dr, shape of `r`."""
-        return np.asarray(self.derivative(np.asarray(r, float)), float)
+        x = np.asarray(r, float)
+        if self.derivative is not None:
+            return np.asarray(self.derivative(x), float)
+        h = DIFFERENCE * np.maximum(x, np.finfo(float).tiny)
+        return np.asarray(sum(w * (self.height(x + i * h) - self.height(x - i * h)) for i, w in DIFFERENCES) / h)
+
+
+def kinks_of(punch: Punch) -> tuple[float, ...]:
+    """Return the radii at which the slope of a punch jumps: its attribute `kinks`, if it has one.
+
+    Examples
+    --------
+    >>> kinks_of(PowerPunch(n=2.0, Q=1.0))
+    ()
+    """
+    return tuple(sorted(getattr(punch, "kinks", ())))
 
 
 def check_without_asperities(punch: Punch, lowest: float, highest: float) -> None:

@@ -1,4 +1,4 @@
-"""Solids as data: a half-space with a modulus E(z) and one Poisson ratio."""
+"""Solids as data: a half-space with a modulus E(z) and a Poisson ratio nu(z)."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from fem_reference.modulus import Modulus, OffsetPowerLawModulus, PowerLawModulus
 from fem_reference.modulus_checks import check_exponents
+from fem_reference.poisson import PoissonRatio, check_poisson
 
 __all__ = ["CustomSolid", "Solid"]
 
@@ -28,7 +29,9 @@ class Solid:
     z_s: float = 0.0
 
     def __post_init__(self) -> None:
-        _check_poisson(self.nu)
+        if isinstance(self.nu, PoissonRatio):
+            raise ValueError(f"nu = {self.nu!r} depends on depth; take CustomSolid(modulus, nu) for such a solid")
+        check_poisson(self.nu, 1.0)
         if self.z_s < 0:
             raise ValueError(f"surface offset z_s = {self.z_s} is negative: the modulus would vanish inside the solid")
         self.modulus  # noqa: B018  (validates the rest)
@@ -49,14 +52,14 @@ class Solid:
 
 @dataclass(frozen=True, slots=True)
 class CustomSolid:
-    """Half-space with any modulus E(z) and a constant Poisson ratio.
+    """Half-space with any modulus E(z) and any Poisson ratio nu(z).
 
     Parameters
     ----------
     modulus : Modulus
         E(z), with its exponents at the surface and at depth.
-    nu : float
-        Poisson ratio in [0, 0.5).
+    nu : float or PoissonRatio
+        Poisson ratio in [0, 0.5), or one of depth.
 
     Raises
     ------
@@ -69,19 +72,16 @@ class CustomSolid:
     >>> stiffening = CustomModulus(lambda z: 1.0 + z**0.5, 0.0, 0.5, surface_depth=1.0)
     >>> CustomSolid(stiffening, nu=0.3).modulus(4.0)
     array(3.)
+
+    A coating with both constants of its own:
+
+    >>> from fem_reference import CoatingModulus, CoatingPoisson
+    >>> coated = CustomSolid(CoatingModulus(10.0, 1.0, thickness=2.0), CoatingPoisson(0.2, 0.45, thickness=2.0))
     """
 
     modulus: Modulus
-    nu: float
+    nu: float | PoissonRatio
 
     def __post_init__(self) -> None:
-        _check_poisson(self.nu)
+        check_poisson(self.nu, self.modulus.surface_depth)
         check_exponents(self.modulus)
-
-
-def _check_poisson(nu: float) -> None:
-    if not 0 <= nu < 0.5:
-        raise ValueError(
-            f"Poisson ratio nu = {nu} is outside [0, 0.5): displacement elements cannot keep the volume; "
-            "take nu = 0.499 or less"
-        )

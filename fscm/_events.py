@@ -122,7 +122,7 @@ def crossings(points: Sequence[Point], condition: Condition, fold: Condition) ->
     return found
 
 
-class _Between:
+class Between:
     """States between two points of the path, as a function of the continuation parameter."""
 
     def __init__(self, a: Point, b: Point) -> None:
@@ -153,7 +153,7 @@ def locate(a: Point, b: Point, condition: Condition, tolerance: float = _COARSE_
     tolerance : float
         Of the continuation parameter.
     """
-    between = _Between(a, b)
+    between = Between(a, b)
     root = scipy.optimize.brentq(
         lambda x: condition(*between(x)), between.low, between.high, xtol=tolerance, rtol=1e-12
     )
@@ -218,7 +218,7 @@ def slowest(points: Sequence[Point]) -> tuple[Point, Point, Point, float]:
 
 
 def _least_rate(a: Point, b: Point) -> tuple[Point, Point, Point, float]:
-    between = _Between(a, b)
+    between = Between(a, b)
     orientation = a.state.sense
     best = scipy.optimize.minimize_scalar(
         lambda x: orientation * between(x)[1].displacement,

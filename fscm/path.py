@@ -13,10 +13,12 @@ from numpy.typing import NDArray
 from fscm import _events as events
 from fscm._arc_length import Point, parameter_of
 from fscm._bounds import EventErrors
+from fscm._curve_density import turning_slowly
 from fscm._equilibrium import State
 from fscm._meshes import Accuracy, Meshes
 from fscm._threads import one_thread
 from fscm._typing import Array
+from fscm._validation import real_number
 from fscm._whole_path import path_by_any_mesh, path_end
 from fscm.folds import Fold, edge_radius, fold_at, folds_between
 from fscm.problem import Problem
@@ -31,6 +33,8 @@ _LONGEST_STEP = 0.15
 # Of every so many points the errors are computed; the largest bounds hold for all, since meshes change little.
 _CHECK_EVERY = 12
 _MAX_POINTS = 5000
+# Degrees: a broken line that turns by less at each point looks like a curve.
+_LARGEST_TURN = 5.0
 
 
 @dataclass(frozen=True)
@@ -83,6 +87,7 @@ def trace(
     max_load: float | None = None,
     start_gap: float | None = None,
     longest_step: float = _LONGEST_STEP,
+    largest_turn: float = _LARGEST_TURN,
 ) -> EquilibriumPath:
     """Follow the whole equilibrium path.
 
@@ -101,11 +106,14 @@ def trace(
     longest_step : float
         Bound on the step from point to point; 0.05 gives three times the points of the default, for
         interpolation.
+    largest_turn : float
+        Degrees, above 0: equilibrium states are added until the tangent of load over displacement turns by less from
+        point to point, in a square picture of the part with tension; 180 adds none.
 
     Raises
     ------
     ValueError
-        When `max_load` is below the load at pull-off.
+        When `max_load` is below the load at pull-off, or `largest_turn` is outside (0, 180].
     NotConverged
         When the path cannot be followed to the end.
 
@@ -116,6 +124,9 @@ def trace(
     True
     """
     meshes = Meshes.of(accuracy)
+    largest_turn = real_number(
+        "largest_turn", largest_turn, low=0.0, high=180.0, closed_high=True, reason="it is an angle"
+    )
     start = 10.0 + 5.0 * problem.mu if start_gap is None else start_gap
 
     def ending() -> Callable[[State], bool]:
@@ -132,7 +143,7 @@ def trace(
     points = path_by_any_mesh(
         problem, *meshes.curve, ending, "its end", _MAX_POINTS, longest_step, start, meshes.end_height
     )
-    states, folds = _with_events(points)
+    states, folds = _with_events(turning_slowly(points, largest_turn))
     if max_load is not None and max_load <= 0.0:
         states = _up_to(states, max_load)
         folds = [fold for fold in folds if any(fold[0] is state for state in states)]

@@ -43,14 +43,15 @@ def _intervals(points: Sequence[Point], sample: Callable[[Point], Sample]) -> li
 
 
 def displacement_range(points: Sequence[Point]) -> tuple[float, float]:
-    """Return the smallest and the largest displacement along a part of one branch, between its samples as well.
+    """Return the smallest and the largest displacement along a part of a path, between its samples as well.
 
     Parameters
     ----------
     points : sequence of Point
-        Neighbours on one branch, at least one.
+        Neighbours, at least one.
     """
-    found = [interval.range() for interval in _intervals(points, _displacement)]
+    branches = [list(group) for _, group in groupby(points, key=lambda point: id(point.branch))]
+    found = [interval.range() for branch in branches for interval in _intervals(branch, _displacement)]
     end = points[-1].state.displacement
     return min([end, *(low for low, _ in found)]), max([end, *(high for _, high in found)])
 

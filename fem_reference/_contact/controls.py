@@ -104,9 +104,8 @@ class EdgeRadius:
     H1: float
     radius: float
 
-    def _row(self, contact: Contact, y: Array, shift: float = 0.0) -> Array:
-        s = (self.radius + shift) / float(y[-1])
-        return contact.compliance.trace.evaluate(np.array([s]))[0]
+    def _row(self, contact: Contact, y: Array) -> Array:
+        return contact.compliance.trace.evaluate(np.array([self.radius / float(y[-1])]))[0]
 
     def value(self, contact: Contact, y: Array) -> float:
         """Return H(radius) - H1."""
@@ -118,9 +117,9 @@ class EdgeRadius:
         return np.concatenate([self._row(contact, y), [-1.0, 0.0]])
 
     def parameter_rate(self, contact: Contact, y: Array) -> float:
-        """Change of the right-hand side per unit radius, -dH/dr, by central differences of the trace."""
-        h = 1e-5 * self.radius
-        rise = float((self._row(contact, y, h) - self._row(contact, y, -h)) @ y[:-2]) / (2.0 * h)
+        """Change of the right-hand side per unit radius, -dH/dr (at a mesh line: that of its outer side)."""
+        slopes = contact.compliance.trace.slopes(np.array([self.radius / float(y[-1])]))[0]
+        rise = float(slopes @ y[:-2]) / float(y[-1])
         return -rise - float(contact.punch.slope(np.array(self.radius)))
 
 

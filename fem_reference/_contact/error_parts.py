@@ -163,7 +163,7 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
     """
     _, middle, finest = choice.level.densities
     medium, fine = replace(spec, density=middle), replace(spec, density=finest)
-    coarse = choice.traced(spec, size).samples[0].branch.contact
+    coarse = choice.contact(spec, size)
     other = size
     placements: tuple[float, ...] = (-1.0, 1.0)
     if isinstance(coarse.compliance, FixedCompliance):
@@ -173,8 +173,7 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
         placements = ()
     plain = replace(spec, order=spec.order - FEATURE_DEGREES)
     middle_contact = choice.contact(medium, size)
-    # The interfaces of the modulus keep their depths.
-    moved = replace(medium, order=spec.order - 1, scales=medium.scales.scaled(other / size))
+    moved = replace(medium, order=spec.order - 1).moved(other / size)
     lower_degree = choice.contact(moved, other)
     base = choice.contact(plain, size)
     features = {feature: choice.contact(variant(plain, feature), size) for feature in FEATURES if feature != EXTENT}

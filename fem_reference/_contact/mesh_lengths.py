@@ -6,16 +6,17 @@ import math
 
 import numpy as np
 
-from fem_reference._elastic.compliance import scaled_modulus
+from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
 from fem_reference._elastic.depth_scales import depth_scales
 from fem_reference._elastic.exterior import exterior_error
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import Level
 from fem_reference.errors import NotConverged
+from fem_reference.poisson import poisson_at
 from fem_reference.problem import Problem
-from fem_reference.punch import radius_at_height
+from fem_reference.punch import kinks_of, radius_at_height
 
-__all__ = ["balance_length", "check_width", "mesh_spec"]
+__all__ = ["balance_length", "check_width", "kinks_within", "mesh_spec"]
 
 APEX_WIDTH = 0.05
 """Radial length resolved at r = 0, relative to the edge radius: a cone then has its pull-off force to
@@ -37,6 +38,13 @@ FAR_HEIGHT = 1e4
 """Height of the punch, in lengths of the law, at the end of the mesh, for a tension that falls as H^-3 or faster (a
 power 3/m of it for a slower H^-m): beyond it the traction enters P by a quadrature to infinity, and its displacement
 (below 1e-8 z0 even for a cone) is dropped."""
+
+KINK_HEIGHT = 300.0
+"""Height, in lengths of the law, below which the kinks of a punch are mesh lines: the traction beyond is 1e-5 of a
+load, and a kink inside an element leaves 1e-3 of that."""
+
+MOST_KINKS = 60
+"""Largest number of kinks in reach of the law; each costs four columns of elements."""
 
 LARGEST_EXTENT = 1e8
 """Of a mesh, in units of its edge radius.  It costs an element for each factor of two."""
@@ -67,7 +75,7 @@ def mesh_spec(
     far_share : float
         As for `fem_reference._elastic.mesh.MeshSpec`.
     """
-    modulus, law = problem.solid.modulus, problem.law
+    modulus, nu, law = problem.solid.modulus, problem.solid.nu, problem.law
     k = modulus.surface_exponent
     width = 2.0 ** math.floor(math.log2(min(max(width, NARROWEST), WIDEST)))
     depth = LAYER_DEPTH * width * min(1.0, 5.0 * k) if k > 0 else 0.3 * width
@@ -77,11 +85,41 @@ def mesh_spec(
     height = FAR_HEIGHT ** max(1.0, 3.0 / m) if C != 0.0 else FAR_HEIGHT
     far = radius_at_height(problem.punch, height * law.length)
     extent = 2.0 ** math.ceil(math.log2(min(max(far / smallest, 50.0), LARGEST_EXTENT)))
-    while exterior_error(scaled_modulus(modulus, size), extent) > EXTERIOR_ERROR and extent < LARGEST_EXTENT:
+    scaled = scaled_modulus(modulus, size), scaled_poisson(nu, size)
+    while exterior_error(scaled[0], extent, scaled[1]) > EXTERIOR_ERROR and extent < LARGEST_EXTENT:
         extent *= 2.0
-    scales = depth_scales(modulus, FINEST_SCALE * depth * size, extent * size).scaled(size)
+    scales = depth_scales(modulus, FINEST_SCALE * depth * size, extent * size, nu).scaled(size)
     density, order = level.densities[0], level.order
-    return MeshSpec(width, depth, extent, density, order, APEX_WIDTH, scales, far_share)
+    kinks = tuple(r / size for r in kinks_within(problem))
+    return MeshSpec(width, depth, extent, density, order, APEX_WIDTH, scales, far_share, kinks)
+
+
+def kinks_within(problem: Problem) -> tuple[float, ...]:
+    """Radii of the kinks of the punch within the reach of the law.
+
+    Raises
+    ------
+    NotConverged
+        If they are more than a mesh can follow.
+
+    Examples
+    --------
+    >>> from fem_reference import LennardJones, MeasuredPunch, Solid
+    >>> profile = MeasuredPunch(radii=(0.0, 1.0, 100.0), heights=(0.0, 1.0, 2e4))
+    >>> kinks_within(Problem(Solid(E0=1.0, c0=1.0, k=0.0, nu=0.3), profile, LennardJones(1.0, 1.0)))
+    (1.0,)
+    """
+    kinks = kinks_of(problem.punch)
+    if not kinks:
+        return ()
+    reach = radius_at_height(problem.punch, KINK_HEIGHT * problem.law.length)
+    found = tuple(r for r in kinks if r < reach)
+    if len(found) > MOST_KINKS:
+        raise NotConverged(
+            f"the slope of the punch jumps at {len(found)} radii below {reach:.3g}, and the mesh follows at most "
+            f"{MOST_KINKS}; take fewer points of the profile, or a smooth curve through them as a CustomPunch"
+        )
+    return found
 
 
 def balance_length(problem: Problem, radius: float) -> float:
@@ -91,7 +129,7 @@ def balance_length(problem: Problem, radius: float) -> float:
     # E(l) length / l = traction, by a fixed point in log l; a root finder moves the last digit, and with it the
     # power of 2 to which `spec` rounds.
     for _ in range(40):
-        E = float(solid.modulus(depth)) / (1.0 - solid.nu**2)
+        E = float(solid.modulus(depth) / (1.0 - poisson_at(solid.nu, depth) ** 2))
         depth = np.sqrt(depth * E * law.length**2 / (2.0 * law.work_of_adhesion))
     return float(depth)
 

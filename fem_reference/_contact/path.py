@@ -12,6 +12,7 @@ the edge moves over it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
@@ -24,7 +25,7 @@ from fem_reference._contact.newton import State, newton
 from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
-from fem_reference.punch import radius_at_height
+from fem_reference.punch import kinks_of, radius_at_height
 
 __all__ = [
     "EDGE_RISE",
@@ -53,6 +54,9 @@ GAP_STEP = 0.2
 
 SIZE_STEP = 0.1
 """Largest relative step of the edge radius: P and delta change by a few per cent of their range."""
+
+BESIDE = 1e-9
+"""Distance from a kink of the punch, relative to its radius, at which a branch ends and the next begins."""
 
 STEEPER = 4.0
 """Ratio of the steepest slope of the gap to that at peak tension which the meshes of an edge resolve as they are."""
@@ -173,17 +177,24 @@ def contact_branch(last: Point, largest: float) -> Iterator[Point]:
     """Trace the branch of the contact edge from the last point before contact out to the radius `largest`."""
     contact = last.branch.contact
     peak = contact.law.peak_gap
-    if isinstance(contact.compliance, FixedCompliance):
-        size = contact.compliance.size
+    if not isinstance(contact.compliance, FixedCompliance):
+        point = Branch(contact, EdgeGap(peak), Size, touching=True).solve(last.state.size, last.state.y)
+        yield point
+        yield from continuation(point, 0.05 * point.parameter, largest)
+        return
+    size = contact.compliance.size
+    largest = min(largest, 0.5 * contact.compliance.trace.extent * size)
+    radius, y = first_edge_radius(last), last.state.y
+    # The path is smooth, but its derivatives with respect to the radius of the edge jump at a kink.
+    kinks = [r for r in kinks_of(contact.punch) if radius * (1.0 + 2.0 * BESIDE) < r < largest]
+    for end in (*kinks, math.inf):
         branch = Branch(contact, Size(size), lambda radius: EdgeRadius(peak, radius), touching=True)
-        largest = min(largest, 0.5 * contact.compliance.trace.extent * size)
-        radius = first_edge_radius(last)
-    else:
-        branch = Branch(contact, EdgeGap(peak), Size, touching=True)
-        radius = last.state.size
-    point = branch.solve(radius, last.state.y)
-    yield point
-    yield from continuation(point, 0.05 * point.parameter, largest)
+        point = branch.solve(radius, y)
+        yield point
+        for following in continuation(point, 0.05 * point.parameter, min(largest, end * (1.0 - BESIDE))):
+            yield following
+            point = following
+        radius, y = end * (1.0 + BESIDE), point.state.y
 
 
 def first_edge_radius(point: Point) -> float:

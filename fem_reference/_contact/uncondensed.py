@@ -24,13 +24,14 @@ from fem_reference._contact.full_system import FullSystem
 from fem_reference._contact.mesh_choice import MeshChoice
 from fem_reference._contact.path import Point
 from fem_reference._elastic.assembly import HalfSpace, half_space_of
-from fem_reference._elastic.compliance import scaled_modulus
+from fem_reference._elastic.compliance import is_scaling, scaled_modulus, scaled_poisson
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._linear.linear_solver import solve_cg
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
-from fem_reference.modulus import Modulus, PowerLawModulus
+from fem_reference.modulus import PowerLawModulus
+from fem_reference.solid import CustomSolid, Solid
 
 __all__ = ["PointsAtEvents", "UncondensedEvents", "UncondensedValue", "uncondensed_events"]
 
@@ -297,7 +298,7 @@ def uncondensed_events(choice: MeshChoice, spec: MeshSpec, size: float) -> Uncon
     solid, punch, law = choice.problem.solid, choice.problem.punch, choice.problem.law
 
     def system() -> FullSystem:
-        half_space, preconditioner = _preconditioned(_unit(solid.modulus, size), solid.nu, spec)
+        half_space, preconditioner = _preconditioned(*_unit(solid, spec, size), spec)
         return FullSystem(half_space, punch, law, preconditioner)
 
     return UncondensedEvents(choice.traced(spec, size), system)
@@ -305,16 +306,16 @@ def uncondensed_events(choice: MeshChoice, spec: MeshSpec, size: float) -> Uncon
 
 # One: its factors take some 300 MB on a mesh of 5e4 unknowns.
 @lru_cache(maxsize=1)
-def _preconditioned(modulus: Any, nu: float, spec: MeshSpec) -> tuple[HalfSpace, ElasticPreconditioner]:
+def _preconditioned(modulus: Any, nu: Any, spec: MeshSpec) -> tuple[HalfSpace, ElasticPreconditioner]:
     half_space = half_space_of(modulus, nu, spec)
     return half_space, ElasticPreconditioner(half_space)
 
 
-def _unit(modulus: Modulus, size: float) -> Any:
-    """The modulus of the mesh, whose lengths are in units of the size; `factor` of the compliance is the rest."""
-    if isinstance(modulus, PowerLawModulus):
-        return PowerLawModulus(1.0, 1.0, modulus.k)
-    return scaled_modulus(modulus, size)
+def _unit(solid: Solid | CustomSolid, spec: MeshSpec, size: float) -> tuple[Any, Any]:
+    """Modulus and Poisson ratio of the mesh, in units of the size; `factor` of the compliance is the rest."""
+    if is_scaling(solid.modulus, solid.nu, spec.kinks):
+        return PowerLawModulus(1.0, 1.0, solid.modulus.depth_exponent), solid.nu
+    return scaled_modulus(solid.modulus, size), scaled_poisson(solid.nu, size)
 
 
 def _energy(point: Point) -> float:

@@ -18,6 +18,7 @@ from fem_reference._elastic.mapping import InteriorChart
 from fem_reference._elastic.mesh import Grid, MeshSpec
 from fem_reference._typing import Index
 from fem_reference.modulus import Modulus
+from fem_reference.poisson import PoissonRatio
 
 __all__ = ["HalfSpace", "assemble_half_space", "half_space_of"]
 
@@ -53,7 +54,7 @@ class HalfSpace:
     boundary: Index
 
 
-def assemble_half_space(grid: Grid, modulus: Modulus, nu: float, order: int = 4) -> HalfSpace:
+def assemble_half_space(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, order: int = 4) -> HalfSpace:
     """Assemble interior and exterior.
 
     Parameters
@@ -62,8 +63,8 @@ def assemble_half_space(grid: Grid, modulus: Modulus, nu: float, order: int = 4)
         Interior grid.
     modulus : Modulus
         E(z).
-    nu : float
-        Poisson ratio in [0, 0.5).
+    nu : float or PoissonRatio
+        Poisson ratio in [0, 0.5), or one of depth.
     order : int
         Element order, at least 2.
 
@@ -93,15 +94,15 @@ def assemble_half_space(grid: Grid, modulus: Modulus, nu: float, order: int = 4)
     return HalfSpace(body, grid, basis, matrix, free, surface, boundary)
 
 
-def half_space_of(modulus: Modulus, nu: float, spec: MeshSpec) -> HalfSpace:
+def half_space_of(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec) -> HalfSpace:
     """Return the half-space on a mesh, kept for the next caller: compliance and pyamg's preconditioner share it.
 
     Parameters
     ----------
     modulus : Modulus
         E(z), hashable.
-    nu : float
-        Poisson ratio in [0, 0.5).
+    nu : float or PoissonRatio
+        Poisson ratio in [0, 0.5), or one of depth, hashable.
     spec : MeshSpec
         The mesh.
 
@@ -109,10 +110,10 @@ def half_space_of(modulus: Modulus, nu: float, spec: MeshSpec) -> HalfSpace:
     -------
     HalfSpace
     """
-    return _kept(cast(Hashable, modulus), nu, spec)
+    return _kept(cast(Hashable, modulus), cast(Hashable, nu), spec)
 
 
 # Two: the mesh of the last path, whose events are solved next, and one before it; each holds some 100 MB.
 @lru_cache(maxsize=2)
-def _kept(modulus: Any, nu: float, spec: MeshSpec) -> HalfSpace:
+def _kept(modulus: Any, nu: Any, spec: MeshSpec) -> HalfSpace:
     return assemble_half_space(spec.grid(), modulus, nu, spec.order)

@@ -8,9 +8,10 @@ matrix that depends on k, nu and the mesh only, and serves every size.
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Protocol
+from typing import Any, Protocol, cast
 
 import numpy as np
 from scipy import linalg
@@ -21,13 +22,16 @@ from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.trace import Trace, trace_of
 from fem_reference._typing import Array
 from fem_reference.modulus import Interface, Modulus, PowerLawModulus, interfaces_of
+from fem_reference.poisson import PoissonRatio
 
 __all__ = [
     "Compliance",
     "FixedCompliance",
     "ScalingCompliance",
     "compliance_for",
+    "is_scaling",
     "scaled_modulus",
+    "scaled_poisson",
 ]
 
 
@@ -150,6 +154,26 @@ def _inverse(S: Array, rounding: Array) -> tuple[Array, Array]:
     return X, -X @ rounding @ X
 
 
+def _divided(interfaces: tuple[Interface, ...], c: float) -> tuple[Interface, ...]:
+    """Interfaces in lengths of c."""
+    return tuple(Interface(i.depth / c, i.transition / c) for i in interfaces)
+
+
+@dataclass(frozen=True, slots=True)
+class _ScaledPoisson:
+    """nu(c s) of a ratio nu(z)."""
+
+    base: PoissonRatio
+    c: float
+
+    @property
+    def interfaces(self) -> tuple[Interface, ...]:
+        return _divided(interfaces_of(self.base), self.c)
+
+    def __call__(self, z: Array) -> Array:
+        return self.base(np.asarray(z, float) * self.c)
+
+
 @dataclass(frozen=True, slots=True)
 class _Scaled:
     """E(c s) of a modulus E(z)."""
@@ -171,25 +195,36 @@ class _Scaled:
 
     @property
     def interfaces(self) -> tuple[Interface, ...]:
-        return tuple(Interface(i.depth / self.c, i.transition / self.c) for i in interfaces_of(self.base))
+        return _divided(interfaces_of(self.base), self.c)
 
     def __call__(self, z: Array) -> Array:
         return self.base(np.asarray(z, float) * self.c)
 
 
-def compliance_for(modulus: Modulus, nu: float, spec: MeshSpec, size: float) -> Compliance:
+def is_scaling(modulus: Modulus, nu: float | PoissonRatio, kinks: tuple[float, ...]) -> bool:
+    """Whether one mesh serves every size of the contact: a power law with one Poisson ratio, and no lines of the punch.
+
+    Examples
+    --------
+    >>> is_scaling(PowerLawModulus(1.0, 1.0, 0.5), 0.3, kinks=())
+    True
+    """
+    return isinstance(modulus, PowerLawModulus) and not isinstance(nu, PoissonRatio) and not kinks
+
+
+def compliance_for(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec, size: float) -> Compliance:
     """Return the surface compliance of a solid on a mesh whose edge is at the radius `size`.
 
     Parameters
     ----------
     modulus : Modulus
         E(z).
-    nu : float
-        Poisson ratio.
+    nu : float or PoissonRatio
+        Poisson ratio, or one of depth.
     spec : MeshSpec
         Mesh in units of `size`.
     size : float
-        Edge radius; immaterial for a power law, whose compliance serves every size.
+        Edge radius; immaterial if the problem scales (`is_scaling`): one compliance then serves every size.
 
     Returns
     -------
@@ -200,11 +235,18 @@ def compliance_for(modulus: Modulus, nu: float, spec: MeshSpec, size: float) -> 
     NotConverged
         If the stiffness of the mesh is not positive definite.
     """
-    if isinstance(modulus, PowerLawModulus):
-        trace, matrix, rounding, unknowns = _unit_compliance(modulus.k, nu, spec)
-        return ScalingCompliance(trace, matrix, modulus, unknowns, rounding)
+    if is_scaling(modulus, nu, spec.kinks):
+        law = cast(PowerLawModulus, modulus)
+        trace, matrix, rounding, unknowns = _unit_compliance(law.k, cast(float, nu), spec)
+        return ScalingCompliance(trace, matrix, law, unknowns, rounding)
+    return _fixed_compliance(cast(Hashable, modulus), cast(Hashable, nu), spec, size)
+
+
+# The search for the width of the edge, and the mesh of it that the bounds need again; a few MB each.
+@lru_cache(maxsize=8)
+def _fixed_compliance(modulus: Any, nu: Any, spec: MeshSpec, size: float) -> FixedCompliance:
     grid = spec.grid()
-    half_space = half_space_of(scaled_modulus(modulus, size), nu, spec)
+    half_space = half_space_of(scaled_modulus(modulus, size), scaled_poisson(nu, size), spec)
     matrix, rounding = _inverse(*condensed(half_space))
     return FixedCompliance(trace_of(grid, spec.order), matrix, size, int(half_space.free.size), rounding)
 
@@ -220,3 +262,14 @@ def scaled_modulus(modulus: Modulus, size: float) -> Modulus:
     if isinstance(modulus, PowerLawModulus):
         return PowerLawModulus(modulus.E0, modulus.c0 / size, modulus.k)
     return _Scaled(modulus, size)
+
+
+def scaled_poisson(nu: float | PoissonRatio, size: float) -> float | PoissonRatio:
+    """Return the Poisson ratio in lengths of `size`.
+
+    Examples
+    --------
+    >>> scaled_poisson(0.3, 4.0)
+    0.3
+    """
+    return _ScaledPoisson(nu, size) if isinstance(nu, PoissonRatio) else nu

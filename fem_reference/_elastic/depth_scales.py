@@ -18,8 +18,10 @@ from typing import cast
 
 import numpy as np
 
+from fem_reference._typing import Array
 from fem_reference.modulus import Interface, Modulus, PowerLawModulus, interfaces_of
 from fem_reference.modulus_checks import positive_modulus
+from fem_reference.poisson import PoissonRatio, poisson_at
 
 __all__ = ["DepthScales", "depth_scales"]
 
@@ -70,7 +72,7 @@ class DepthScales:
         return DepthScales(tuple(z / size for z in self.lines), tuple((a / size, b / size) for a, b in self.parts))
 
 
-def depth_scales(modulus: Modulus, low: float, high: float) -> DepthScales:
+def depth_scales(modulus: Modulus, low: float, high: float, nu: float | PoissonRatio = 0.0) -> DepthScales:
     """Return what a mesh has to follow between two depths.
 
     Parameters
@@ -79,6 +81,8 @@ def depth_scales(modulus: Modulus, low: float, high: float) -> DepthScales:
         Hashable; nothing is searched in a power law.
     low, high : float
         Range of depth, positive.
+    nu : float or PoissonRatio
+        One of depth is followed as well, hashable.
 
     Returns
     -------
@@ -95,8 +99,38 @@ def depth_scales(modulus: Modulus, low: float, high: float) -> DepthScales:
     >>> depth_scales(CoatingModulus(10.0, 1.0, thickness=3.0), 0.01, 100.0)
     DepthScales(lines=(3.0,), parts=())
     """
-    if isinstance(modulus, PowerLawModulus):
-        return DepthScales()
+    lines: set[float] = set()
+    parts: set[tuple[float, float]] = set()
+    profiles: list[Modulus] = [] if isinstance(modulus, PowerLawModulus) else [modulus]
+    if isinstance(nu, PoissonRatio):
+        profiles.append(_UniaxialModulus(nu))
+    for profile in profiles:
+        found = _scales_of(profile, low, high)
+        lines.update(found.lines)
+        parts.update(found.parts)
+    return DepthScales(tuple(sorted(lines)), tuple(sorted(parts)))
+
+
+@dataclass(frozen=True, slots=True)
+class _UniaxialModulus:
+    """Modulus of a layer that cannot widen, relative to Young's modulus: what a Poisson ratio of depth changes."""
+
+    nu: PoissonRatio
+    surface_exponent: float = 0.0
+    depth_exponent: float = 0.0
+    surface_depth: float = 1.0
+
+    @property
+    def interfaces(self) -> tuple[Interface, ...]:
+        return interfaces_of(self.nu)
+
+    def __call__(self, z: Array) -> Array:
+        nu = poisson_at(self.nu, z)
+        return (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))
+
+
+def _scales_of(modulus: Modulus, low: float, high: float) -> DepthScales:
+    """What a mesh has to follow of one function of depth."""
     declared = [i for i in interfaces_of(modulus) if low < i.depth < high]
     lines = {i.depth for i in declared}
     parts = {_around(i) for i in declared if i.transition > 0}

@@ -24,6 +24,7 @@ from fem_reference._elastic.dof_ordering import both_components
 from fem_reference._elastic.mapping import Chart, ChartMapping
 from fem_reference._typing import Array, Index
 from fem_reference.modulus import Modulus
+from fem_reference.poisson import PoissonRatio, check_poisson, poisson_at
 
 __all__ = ["Body", "gauss_product", "stiffness"]
 
@@ -50,8 +51,8 @@ class Body:
         From those to (r, z).
     modulus : Modulus
         E(z).
-    nu : float
-        Poisson ratio in [0, 0.5).
+    nu : float or PoissonRatio
+        Poisson ratio in [0, 0.5), or one of depth.
     order : int
         Degree of the elements, at least 2.
 
@@ -64,15 +65,12 @@ class Body:
     mesh: MeshQuad
     chart: Chart
     modulus: Modulus
-    nu: float
+    nu: float | PoissonRatio
     order: int = 4
 
     def __post_init__(self) -> None:
-        if not 0 <= self.nu < 0.5:
-            raise ValueError(
-                f"Poisson ratio nu = {self.nu} is outside [0, 0.5): displacement elements cannot keep the "
-                "volume; take nu = 0.499 or less"
-            )
+        if not isinstance(self.nu, PoissonRatio):
+            check_poisson(self.nu, 1.0)
         if self.order < 2:
             raise ValueError(f"element order {self.order} is below 2: the hierarchical element starts there")
 
@@ -111,7 +109,9 @@ def _element_matrices(body: Body, basis: Basis, chunk: slice) -> Array:
     E = body.modulus(z)
     if not np.all(E > 0):
         raise ValueError("the modulus is not positive everywhere: a soft layer of zero stiffness has no solution")
-    nu = body.nu
+    nu = poisson_at(body.nu, z)
+    if not np.all((nu >= 0) & (nu < 0.5)):
+        raise ValueError("Poisson's ratio is not in [0, 0.5) everywhere: displacement elements cannot keep the volume")
     measure = (r * basis.dx[chunk])[..., None]
     lame = (E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)))[..., None] * measure
     shear = (E / (2.0 * (1.0 + nu)))[..., None] * measure
@@ -155,7 +155,7 @@ def stiffness(body: Body, first_layer: Index, depth_axis: int = 1) -> tuple[spar
     Raises
     ------
     ValueError
-        If the modulus is not positive.
+        If the modulus is not positive, or Poisson's ratio outside its range.
     """
     element = ElementQuadP(body.order)
     mapping = ChartMapping(body.mesh, body.chart)

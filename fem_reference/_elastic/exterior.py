@@ -24,6 +24,7 @@ from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
 from fem_reference.modulus import Modulus, PowerLawModulus
 from fem_reference.modulus_checks import positive_modulus
+from fem_reference.poisson import PoissonRatio, poisson_at
 
 __all__ = ["exterior_error", "exterior_stiffness"]
 
@@ -38,7 +39,7 @@ COUPLING_TOLERANCE = 1e-15
 """Doubling stops when the update of A, relative to A, is below rounding."""
 
 
-def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float, order: int) -> Array:
+def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, order: int) -> Array:
     """Stiffness of the exterior of the square [0, a]^2 on its boundary.
 
     Parameters
@@ -48,8 +49,8 @@ def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float, order: int) -> A
     modulus : Modulus
         Its depth exponent and its value at depth a define the power law of the exterior.  For a modulus
         that is no power law the square must be so large that this does not matter (see `exterior_error`).
-    nu : float
-        Poisson ratio.
+    nu : float or PoissonRatio
+        Poisson ratio; that at the depth a is the one of the exterior.
     order : int
         Element order.
 
@@ -72,7 +73,7 @@ def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float, order: int) -> A
     t = np.concatenate([grid.z, a + (a - grid.r[::-1][1:])])
     mesh = MeshQuad.init_tensor(t, np.array([1.0, SHELL_RATIO]))
     first = float(grid.z[1])
-    body = Body(mesh, ShellChart(a, first, k), law, nu, order)
+    body = Body(mesh, ShellChart(a, first, k), law, float(poisson_at(nu, np.array(a))), order)
     touching = np.flatnonzero(mesh.p[0][mesh.t].max(axis=0) <= first * (1 + 1e-12))
     matrix, basis = stiffness(body, touching, depth_axis=0)
     inner = both_components(line_unknowns(basis, 1, 1.0))
@@ -125,7 +126,7 @@ under a Gaussian load, for 15 moduli: coatings 100:1 to 1:100, offset power laws
 nu = 0, 0.05 to 0.08 for nu = 0.3; a point load on a homogeneous solid stretches its surface by 1 - 2 nu)."""
 
 
-def exterior_error(modulus: Modulus, extent: float) -> float:
+def exterior_error(modulus: Modulus, extent: float, nu: float | PoissonRatio = 0.0) -> float:
     """Estimate the relative error of the surface displacement from the power law that the exterior takes.
 
     Beyond the mesh the modulus is taken for E_x(z) = E(a) (z/a)^k, also above the depth a.  By reciprocity the
@@ -141,13 +142,15 @@ def exterior_error(modulus: Modulus, extent: float) -> float:
         E(z) in lengths of the contact radius.
     extent : float
         Side a of the meshed square in the same lengths.
+    nu : float or PoissonRatio
+        One of depth changes the moduli E/(1 - nu^2) and E/(1 + nu) of a skin; the larger difference counts.
 
     Examples
     --------
     >>> exterior_error(PowerLawModulus(1.0, 1.0, 0.4), 64.0)
     0.0
     """
-    if isinstance(modulus, PowerLawModulus):
+    if isinstance(modulus, PowerLawModulus) and not isinstance(nu, PoissonRatio):
         return 0.0
     x, w = np.polynomial.legendre.leggauss(POINTS)
     octaves = extent * 2.0 ** np.arange(-OCTAVES_UP, OCTAVES_UP)
@@ -156,8 +159,11 @@ def exterior_error(modulus: Modulus, extent: float) -> float:
     at_end = float(modulus(np.array(extent)))
     law = at_end * (z / extent) ** modulus.depth_exponent
     E = positive_modulus(modulus, z)
+    # Relative to those of the power law; both are E/law where Poisson's ratio is one number.
+    here, there = poisson_at(nu, z), poisson_at(nu, np.array(extent))
+    ratios = E / law * np.array([np.ones_like(z), (1.0 - there**2) / (1.0 - here**2), (1.0 + there) / (1.0 + here)])
     above = z < extent
-    skin = float(np.sum((weight * np.abs(E - law))[above])) / (at_end * extent)
-    below = float(np.max((np.maximum(E / law, law / E) - 1.0)[~above] * extent / z[~above]))
+    skin = float(np.sum((weight * law * np.abs(ratios - 1.0).max(axis=0))[above])) / (at_end * extent)
+    below = float(np.max((np.maximum(ratios, 1.0 / ratios).max(axis=0) - 1.0)[~above] * extent / z[~above]))
     displacement = float(np.sum(weight / (E * (1.0 + z) ** 2)))
     return SKIN_SHARE * (skin + below) / (at_end * extent) / displacement

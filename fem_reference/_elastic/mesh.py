@@ -10,7 +10,7 @@ it jumps there is a mesh line.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -81,6 +81,10 @@ def _outer_nodes(edge: float, width: float, length: float, density: float, far_s
     return np.concatenate([near, far[1:]])
 
 
+KINK_SHARE = 0.5
+"""Length of the elements at a kink of the punch, relative to the distance of the next one, at the density 1.  A kink
+that is as near to the contact edge as this share of the edge replaces the mesh line there."""
+
 CURVE_POINTS = 400
 """Points for the integral of the node density, for each length that it has to follow."""
 
@@ -95,15 +99,43 @@ def _depth_nodes(width: float, length: float, density: float, scales: DepthScale
     for a, b in parts:
         away = (b - a) * np.sinh(np.linspace(0.0, math.asinh(length / (b - a)), CURVE_POINTS))
         curves += [a - away, b + away, np.linspace(a, b, 9)]
-    z = np.unique(np.concatenate(curves))
-    z = z[(z >= 0) & (z < length)]
-    z = np.append(z, length)
-    middle = 0.5 * (z[:-1] + z[1:])
+    z, middle = _curve(curves, length)
     longest = np.hypot(width, middle)
     for a, b in parts:
         longest = np.minimum(longest, b - a + np.maximum(np.maximum(a - middle, middle - b), 0.0))
-    count = np.concatenate([[0.0], np.cumsum(np.diff(z) / longest)]) / density
+    return _counted_nodes(z, longest, lines, density)
+
+
+def _radial_nodes(edge: float, width: float, apex: float, length: float, density: float, kinks: Array) -> Array:
+    """0 ... length, short at the apex, the edge and the kinks; lines at the kinks, and at the edge if it is apart."""
+    inside = kinks[(kinks > 0) & (kinks < length)]
+    lines = inside.tolist()
+    if not lines or np.abs(inside - edge).min() > KINK_SHARE * width:
+        lines = sorted([*lines, edge])
     ends = np.array([0.0, *lines, length])
+    away = np.minimum(np.diff(ends)[:-1], np.diff(ends)[1:])
+    centres = [(0.0, apex), (edge, width)]
+    centres += [(z, KINK_SHARE * d) for z, d in zip(lines, away.tolist(), strict=True) if z != edge]
+    curves = [np.array(lines)]
+    for centre, short in centres:
+        far = short * np.sinh(np.linspace(0.0, math.asinh(length / short), CURVE_POINTS))
+        curves += [centre - far, centre + far]
+    r, middle = _curve(curves, length)
+    longest = np.min([np.hypot(short, middle - centre) for centre, short in centres], axis=0)
+    return _counted_nodes(r, longest, lines, density)
+
+
+def _curve(curves: list[Array], length: float) -> tuple[Array, Array]:
+    """Points from 0 to length for the integral of the node density, and their middles."""
+    x = np.unique(np.concatenate(curves))
+    x = np.concatenate([[0.0], x[(x > 0) & (x < length)], [length]])
+    return x, 0.5 * (x[:-1] + x[1:])
+
+
+def _counted_nodes(x: Array, longest: Array, lines: list[float], density: float) -> Array:
+    """Nodes between 0, the lines and the last x, of a length `density` times the longest there."""
+    count = np.concatenate([[0.0], np.cumsum(np.diff(x) / longest)]) / density
+    z, ends = x, np.array([0.0, *lines, x[-1]])
     nodes = [np.zeros(1)]
     for low, high in pairwise(ends):
         first, last = np.interp([low, high], z, count)
@@ -122,6 +154,7 @@ def graded_grid(
     apex_width: float | None = None,
     scales: DepthScales = _NO_SCALES,
     far_share: float = 1.0,
+    kinks: tuple[float, ...] = (),
 ) -> Grid:
     """Return a grid refined around the radius `edge` and towards the surface.
 
@@ -143,6 +176,8 @@ def graded_grid(
         Depths and lengths of the modulus to follow.
     far_share : float
         Share of `density` that the radial elements more than one edge radius beyond the edge have, in (0, 1].
+    kinks : tuple of float
+        Radii where the slope of the punch jumps: mesh lines.
 
     Returns
     -------
@@ -160,6 +195,10 @@ def graded_grid(
         raise ValueError(f"edge = {edge} is outside (0, extent = {extent}): the refined radius must lie in the mesh")
     if not 0 < far_share <= 1:
         raise ValueError(f"far_share = {far_share} is outside (0, 1]: it is a share of the density")
+    depths = _depth_nodes(surface_depth, extent, density, scales)
+    if kinks:
+        apex = edge if apex_width is None else apex_width
+        return Grid(_radial_nodes(edge, edge_width, apex, extent, density, np.array(kinks)), depths)
     if apex_width is None:
         inside = edge - _sinh_nodes(edge_width, edge, density)[::-1]
     else:
@@ -168,7 +207,7 @@ def graded_grid(
         inside = np.concatenate([_sinh_nodes(apex_width, half, density), inside[1:]])
     outside = edge + _outer_nodes(edge, edge_width, extent - edge, density, far_share)
     inside[0], outside[-1] = 0.0, extent
-    return Grid(np.concatenate([inside, outside[1:]]), _depth_nodes(surface_depth, extent, density, scales))
+    return Grid(np.concatenate([inside, outside[1:]]), depths)
 
 
 def uniform_grid(extent: float, count: int) -> Grid:
@@ -200,6 +239,8 @@ class MeshSpec:
     far_share : float
         Share of `density` that the radial elements far beyond the edge have, where a punch is much wider than the
         contact.
+    kinks : tuple of float
+        Radii where the slope of the punch jumps, in units of the edge radius: the mesh then has one size only.
     """
 
     edge_width: float
@@ -210,6 +251,7 @@ class MeshSpec:
     apex_width: float | None = None
     scales: DepthScales = _NO_SCALES
     far_share: float = 1.0
+    kinks: tuple[float, ...] = ()
 
     def grid(self) -> Grid:
         """Return the grid with its edge at s = 1."""
@@ -222,4 +264,15 @@ class MeshSpec:
             self.apex_width,
             self.scales,
             self.far_share,
+            self.kinks,
         )
+
+    def moved(self, ratio: float) -> MeshSpec:
+        """Return the mesh whose edge radius is `ratio` times as large, with the lines where they are.
+
+        Examples
+        --------
+        >>> MeshSpec(0.1, 0.05, 100.0, 0.5, 4, kinks=(2.0,)).moved(4.0).kinks
+        (0.5,)
+        """
+        return replace(self, scales=self.scales.scaled(ratio), kinks=tuple(r / ratio for r in self.kinks))

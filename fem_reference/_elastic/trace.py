@@ -48,6 +48,10 @@ class Trace:
         """Return function values at any radii inside the mesh, shape (len(s), m)."""
         return _line_functions(self.nodes, self.order, np.asarray(s, float))
 
+    def slopes(self, s: Array) -> Array:
+        """Return the derivatives of the functions at any radii inside the mesh, on the outer side of a node."""
+        return _line_slopes(self.nodes, self.order, np.asarray(s, float))
+
 
 def _line_functions(nodes: Array, order: int, s: Array) -> Array:
     """Functions of scikit-fem's `ElementLinePp` in surface order, at radii `s`.
@@ -67,6 +71,21 @@ def _line_functions(nodes: Array, order: int, s: Array) -> Array:
         rise = legendre[:, degree] - legendre[:, degree - 2]
         values[rows, nodes.size + element * (order - 1) + degree - 2] = rise / np.sqrt(4.0 * degree - 2.0)
     return values
+
+
+def _line_slopes(nodes: Array, order: int, s: Array) -> Array:
+    """Derivatives of `_line_functions`."""
+    element = np.clip(np.searchsorted(nodes, s, side="right") - 1, 0, nodes.size - 2)
+    h = np.diff(nodes)[element]
+    legendre = np.polynomial.legendre.legvander(2.0 * (s - nodes[element]) / h - 1.0, order - 1)
+    slopes = np.zeros((s.size, nodes.size + (nodes.size - 1) * (order - 1)))
+    rows = np.arange(s.size)
+    slopes[rows, element] = -1.0 / h
+    slopes[rows, element + 1] = 1.0 / h
+    for degree in range(2, order + 1):
+        column = nodes.size + element * (order - 1) + degree - 2
+        slopes[rows, column] = np.sqrt(4.0 * degree - 2.0) * legendre[:, degree - 1] / h
+    return slopes
 
 
 def trace_of(grid: Grid, order: int) -> Trace:

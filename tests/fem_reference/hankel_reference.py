@@ -32,33 +32,38 @@ def _gauss(ends: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
     return (a + 0.5 * h * (x + 1)).ravel(), (0.5 * h * w).ravel()
 
 
-def transform(E: Callable, nu: float, xi: np.ndarray, sharp: Sequence[float] = (), length: float = 1.0) -> np.ndarray:
-    """xi C(xi) of a half-space that is homogeneous at great depth; E jumps at the depths `sharp` only."""
-    poisson = nu / (1 - nu)
-    L_of_E, G_of_E = (1 - nu) / ((1 + nu) * (1 - 2 * nu)), 0.5 / (1 + nu)
+def transform(
+    E: Callable, nu: float | Callable, xi: np.ndarray, sharp: Sequence[float] = (), length: float = 1.0
+) -> np.ndarray:
+    """xi C(xi) of a half-space that is homogeneous at great depth; E and nu jump at the depths `sharp` only."""
+    ratio = nu if callable(nu) else lambda z: nu + 0.0 * z
 
-    def slope(a, b, d, E):  # R = [[a, b], [b, d]]; R' = C - A^T R - R A - R B R, in x = xi z
-        G, L = G_of_E * E, L_of_E * E
+    def slope(a, b, d, E, nu):  # R = [[a, b], [b, d]]; R' = C - A^T R - R A - R B R, in x = xi z
+        poisson = nu / (1 - nu)
+        G, L = 0.5 / (1 + nu) * E, (1 - nu) / ((1 + nu) * (1 - 2 * nu)) * E
         return (
             L * (1 - poisson**2) + 2 * poisson * b - a * a / G - b * b / L,
             -a + poisson * d - a * b / G - b * d / L,
             -2 * b - b * b / G - d * d / L,
         )
 
-    def rise(top, bottom, R, E):
+    def rise(top, bottom, R, inside):
         """Integrate from the depths `bottom` up to `top`, one of each xi, with ln(z + length) as the variable."""
         low, high = np.log(top + length), np.log(bottom + length)
 
         def rate(t, y):
             z = np.exp(low + t * (high - low)) - length
             factor = xi * (z + length) * (high - low)
-            return np.concatenate([factor * part for part in slope(*y.reshape(3, -1), E(z))])
+            return np.concatenate([factor * part for part in slope(*y.reshape(3, -1), E(inside(z)), ratio(inside(z)))])
 
         done = solve_ivp(rate, (1.0, 0.0), R.ravel(), "DOP853", rtol=1e-11, atol=1e-12, max_step=LARGEST_STEP)
         return done.y[:, -1].reshape(3, -1)
 
     start = DECADES_OF_DECAY / xi
-    unit = solve_ivp(lambda x, y: np.array(slope(*y, 1.0)), (40, 0), [-1.0, 0, -1.0], "DOP853", rtol=1e-13, atol=1e-14)
+    below_all = float(ratio(np.array(1e9 * length)))
+    unit = solve_ivp(
+        lambda x, y: np.array(slope(*y, 1.0, below_all)), (40, 0), [-1.0, 0, -1.0], "DOP853", rtol=1e-13, atol=1e-14
+    )
     deep = E(np.maximum(start, 1e6 * length))
     R = unit.y[:, -1][:, None] * deep
     bottom = start
@@ -68,7 +73,7 @@ def transform(E: Callable, nu: float, xi: np.ndarray, sharp: Sequence[float] = (
         bottom = np.maximum(bottom, top)
         inside = np.nextafter(np.inf, 0)
         below = min([s for s in sharp if s > depth], default=inside)
-        R = rise(top, np.minimum(bottom, below), R, lambda z, a=depth, b=below: E(np.clip(z, a, np.nextafter(b, a))))
+        R = rise(top, np.minimum(bottom, below), R, lambda z, a=depth, b=below: np.clip(z, a, np.nextafter(b, a)))
         bottom = top
     a, b, d = R
     return -a / (a * d - b * b)
@@ -83,7 +88,16 @@ class PullOff:
 
 
 def pull_off(
-    E: Callable, nu: float, height: Callable, *, sharp=(), nearest=2.5, width=0.25, radius=16.0, wave=20.0, first=2.0
+    E: Callable,
+    nu: float | Callable,
+    height: Callable,
+    *,
+    sharp=(),
+    nearest=2.5,
+    width=0.25,
+    radius=16.0,
+    wave=20.0,
+    first=2.0,
 ) -> PullOff:
     """Pull-off of a punch f(r) with the 9-3 law, work of adhesion and z0 both 1: first minimum of the load.
 
@@ -94,13 +108,15 @@ def pull_off(
     far = np.linspace(nearest, radius, max(1, round((radius - nearest) * wave / 25)) + 1)
     ends = np.concatenate([near, far[1:]])
     r, weight = _gauss(ends)
-    modulus = 2 * (1 - nu**2) / float(E(np.array(0.0)))
+    ratio = nu if callable(nu) else lambda z: nu + 0.0 * z
+    modulus = 2 * (1 - float(ratio(np.array(0.0))) ** 2) / float(E(np.array(0.0)))
     xi, dxi = _gauss(np.concatenate([[0, 0.01, 0.03, 0.1], np.arange(0.2, wave, 6.0 / radius), [wave]]))
     remainder = modulus - transform(E, nu, xi, sharp)
     J = special.j0(np.outer(r, xi))
     A = modulus * _homogeneous(ends, r, weight) - (J * (remainder * dxi)) @ J.T * (r * weight)
     centre = modulus * weight - (remainder * dxi) @ J.T * (r * weight)
-    tail = Tail(radius, 2 * (1 - nu**2) / float(E(np.array(1e9))), height)
+    deep = np.array(1e9)
+    tail = Tail(radius, 2 * (1 - float(ratio(deep)) ** 2) / float(E(deep)), height)
 
     def solve(gap: float, H: np.ndarray, delta: float):
         """State and rates at a central gap: H, delta, P, dP/d(gap)."""

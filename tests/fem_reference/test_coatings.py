@@ -187,7 +187,7 @@ def test_moduli_with_the_exponents_that_they_declare(modulus):
         (lambda: Interface(-1.0), "depth of an interface = -1.0"),
         (lambda: Interface(1.0, math.nan), "transition = nan"),
         (lambda: CoatingModulus(1.0, 0.0, 1.0), "E_substrate = 0.0 is outside"),
-        (lambda: CoatingModulus(1.0, 2.0, 1.0, 0.5), "reaches the surface"),
+        (lambda: CoatingModulus(1.0, 2.0, 1.0, -0.5), "transition = -0.5 is outside"),
     ],
 )
 def test_impossible_moduli_are_refused(make, message):

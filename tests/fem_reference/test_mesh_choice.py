@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from fem_reference import NotConverged, solve
+from fem_reference import CoatingModulus, CustomSolid, LennardJones, NotConverged, PowerPunch, Problem, Solid, solve
 from fem_reference._contact.mesh_choice import FAR_SHARE, MeshChoice, chosen
 from fem_reference._elastic.mesh import graded_grid
 from fem_reference.accuracy import level_for
@@ -60,3 +60,22 @@ def test_far_elements_have_a_share_of_the_density():
     for share in (0.0, 1.5):
         with pytest.raises(ValueError, match="share of the density"):
             graded_grid(far_share=share)
+
+
+@pytest.mark.parametrize(
+    ("solid", "degrees"),
+    [(CustomSolid(CoatingModulus(10.0, 1.0, 1.0), 0.3), [4, 6, 6, 6]), (Solid(1.0, 1.0, 0.4, 0.3), [6, 6, 6])],
+)
+def test_only_a_mesh_that_is_used_again_is_searched_with_the_full_degree(monkeypatch, solid, degrees):
+    """Where elements of a lower degree lose the path, those of the full degree take over."""
+    tried = []
+
+    def traced(choice, spec, size):
+        tried.append(spec.order)
+        raise NotConverged("the path stops")
+
+    monkeypatch.setattr(MeshChoice, "traced", traced)
+    problem = Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    with pytest.raises(NotConverged, match="the path stops"):
+        MeshChoice(problem, level_for("quick")).adapted(("pull_off",))
+    assert tried == degrees

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import fem_reference
+import fem_reference.solution as solution_module
 from fem_reference import (
     CustomModulus,
     CustomSolid,
@@ -17,6 +18,7 @@ from fem_reference import (
     PowerPunch,
     Problem,
     Solid,
+    Solution,
     event_state,
     profile,
     solve,
@@ -388,3 +390,27 @@ def test_a_punch_with_an_asperity_is_refused() -> None:
     ):
         with pytest.raises(fem_reference.NotConverged, match=r"falling at r = 1\.?0*,"):
             compute()
+
+
+def test_a_finer_accuracy_is_never_less_certain(monkeypatch):
+    """The bound of the finer meshes may be the larger one by chance: that of the coarser ones is returned then."""
+    bounds = {"default": 1e-7, "fine": 5e-6, 3e-8: 1e-8}
+    calls = []
+
+    def computed(problem, rows, accuracy, start=None):
+        calls.append((accuracy, tuple(rows)))
+        u_num = bounds[accuracy]
+        return {
+            name: Solution(1.0, u_num, 1, 1, 0.0, 1.0, 6.0, 6.0, (1.0, 0.8, 0.6), (1.0, 1.0, 1.0), {"mesh": u_num})
+            for name in rows
+        }
+
+    monkeypatch.setattr(solution_module, "_solved_together", computed)
+    force = "pull_off_force"
+    found = solve_together(None, (force,), "fine")[force]
+    assert (found.u_num, found.seconds) == (1e-7, 2.0)
+    assert calls == [("fine", (force,)), ("default", (force,))]
+    # A value that reaches its accuracy, and one that is not finer than "default", are computed once.
+    assert solve_together(None, (force,), 3e-8)[force].u_num == 1e-8
+    assert solve_together(None, (force,), "default")[force].u_num == 1e-7
+    assert len(calls) == 4

@@ -242,3 +242,33 @@ def test_an_edge_below_the_rounding_of_its_radius(k: float, mu: float, zero_load
 def test_an_edge_too_narrow_is_refused_with_the_largest_tabor_number(n: float, k: float, mu: float) -> None:
     with pytest.raises(NotConverged, match=r"the largest Tabor number at n = 2, k = .* is mu = "):
         solve(Problem(n, k, mu), "pull_off_force")
+
+
+def test_the_drawn_curve_turns_slowly():
+    """The loop at n = 5, mu = 2 has several folds: 180 degrees adds no points, and then the line has corners."""
+    problem = Problem(5.0, 0.4, 2.0)
+    sparse, dense = trace(problem, largest_turn=180.0), trace(problem)
+
+    def largest_turn(path):
+        depth = -path.load.min()
+        shown = (path.load < 0.5 * depth) & (np.abs(path.load) > 0.05 * depth)
+        x, y = path.displacement / np.ptp(path.displacement[shown]), path.load / (1.5 * depth)
+        chords = np.diff(np.stack([x, y]), axis=1)
+        # Folds and the zero of the load may be next to a point of the path.
+        long = np.hypot(*chords) > 1e-6
+        angle = np.unwrap(np.arctan2(chords[1], chords[0]))
+        inside = shown[1:-1] & long[1:] & long[:-1]
+        return np.degrees(np.abs(np.diff(angle))[inside].max())
+
+    assert largest_turn(sparse) > 20.0
+    assert largest_turn(dense) <= 5.0
+    assert len(dense.load) < 4 * len(sparse.load)
+    assert [fold.displacement for fold in dense.folds] == pytest.approx(
+        [fold.displacement for fold in sparse.folds], abs=dense.u_displacement + sparse.u_displacement
+    )
+
+
+@pytest.mark.parametrize("degrees", [0.0, -5.0, 181.0, float("nan")])
+def test_a_turn_that_is_no_angle_is_refused(degrees):
+    with pytest.raises(ValueError, match="largest_turn"):
+        trace(Problem(2.0, 0.0, 0.3), largest_turn=degrees)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from comparisons.output.style import COLOURS, empty_figure, lettered, model_label, styled
+from comparisons.output.style import COLOURS, empty_figure, lettered, model_label, model_styles, styled
 from comparisons.quantities import CURVES
 
 if TYPE_CHECKING:
@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 __all__ = ["draw"]
+
+_BROAD = {name: value for name, value in model_styles(["fscm"])["fscm"].arguments.items() if name != "color"}
 
 #: Quantity -> limits of x, and of y.
 _PANELS = {"force_curve": ((-4.5, 2.5), (-2.0, 1.0)), "pull_off_pressure": ((0.0, 3.0), None)}
@@ -43,7 +45,7 @@ def _panel(axes: Axes, curves: pd.DataFrame, quantity: str) -> None:
         colour, label = COLOURS[index % len(COLOURS)], f"$n$ = {n:g}, $k$ = {k:g}, $\\mu$ = {mu:g}"
         for model, points in case.groupby("model"):
             points = points.sort_values("point")
-            line = {"ls": "-"} if model == "fscm" else {"ls": "none", "marker": "o", "ms": 2.5, "mfc": "white"}
+            line = _BROAD if model == "fscm" else {"ls": "none", "marker": "o", "ms": 2.5, "mfc": "white"}
             axes.plot(points["x"], points["y"], color=colour, label=f"{model_label(str(model))}, {label}", **line)
     axes.axhline(0, color="0.4", lw=0.8)
     axes.set_xlim(*x_limits)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from comparisons.output.style import COLOURS, LINES, lettered, styled
+from comparisons.output.style import COLOURS, MARKERS, lettered, styled
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.tasks import curve
@@ -53,7 +54,15 @@ def _family(axes: Axes, curves: pd.DataFrame, name: str, symbol: str, values: Se
     for index, value in enumerate(values):
         part = curves[curves[name] == value]
         label = f"{symbol} = {value:g}" + (" (Gibson)" if (name, value) == ("k", 1.0) else "")
-        axes.plot(part["displacement"], part["load"], color=COLOURS[index], ls=LINES[index], label=label)
+        # Dashes would hide folds; markers at equal distances tell the curves apart in grey.
+        style: dict[str, Any] = {
+            "color": COLOURS[index],
+            "marker": MARKERS[index],
+            "ms": 3.0,
+            "mfc": "white",
+            "lw": 1.0,
+        }
+        axes.plot(part["displacement"], part["load"], markevery=(0.03 * (1 + index), 0.24), label=label, **style)
     axes.axhline(0.0, color="0.4", lw=0.8)
 
 

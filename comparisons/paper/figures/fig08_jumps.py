@@ -118,7 +118,7 @@ def _branches(axes: Axes, tables: Tables, kind: str) -> None:
         # Both branches begin in one point, at the critical Tabor number, between their first points.
         meeting = 0.5 * (inward.iloc[0] + outward.iloc[0])
         for shown in (axes, inset):
-            label = rf"$k$ = {k:g}, $\mu_c$ = {mu:.4f}"
+            label = rf"$k$ = {k:g}, $\mu_c$ = {mu:.5f}"
             shown.plot([mu, *part["mu"]], [meeting, *inward], label=label, **style)
             shown.plot([mu, *part["mu"]], [meeting, *outward], **style)
             shown.plot(mu, meeting, marker="o", ms=4, color=COLOURS[index], mfc="white")

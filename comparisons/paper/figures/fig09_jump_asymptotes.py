@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.models.semi_rigid import jump_in_coefficient
-from comparisons.output.style import COLOURS, LINES, MARKERS, lettered, styled
+from comparisons.output.style import COLOURS, LINES, MODEL_LINES, lettered, styled
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.figures.fig08_jumps import TABOR_NUMBERS, jumps, near_critical
 from comparisons.paper.paper_figure import PaperFigure, Tables
@@ -105,13 +105,19 @@ def _displacements(axes: Axes, table: pd.DataFrame) -> None:
         axes.plot(
             fscm["mu"],
             fscm[column],
-            ls="none",
-            color=COLOURS[index],
-            marker=MARKERS[index],
-            ms=4,
-            mfc="white",
+            **MODEL_LINES["fscm"] | {"color": COLOURS[index]},
             label=f"jump {label.split(',')[0]}, FSCM",
         )
+    last, asymptote = fscm.iloc[-1], closed.iloc[-1]
+    difference = asymptote["jump_in_displacement"] / last["jump_in_displacement"] - 1.0
+    axes.annotate(
+        f"Eq. 47 is {100.0 * difference:.0f} %\nfarther at $\\mu$ = {last['mu']:g}",
+        (last["mu"], asymptote["jump_in_displacement"]),
+        (-4, -32),
+        textcoords="offset points",
+        ha="right",
+        fontsize=8,
+    )
     axes.set(xlim=(0.0, 5.1), xlabel=r"Tabor number $\mu$", ylabel=r"displacement at the jumps $\delta/z_0$")
     lettered(axes, "a", f"$n$ = {_N:g}, $k$ = {_K:g}")
     axes.legend()

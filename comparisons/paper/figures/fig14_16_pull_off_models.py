@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -12,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from comparisons.output.figures import kappa as kappa_figure
-from comparisons.output.style import COLOURS, MARKERS, MODEL_NAMES, lettered, styled
+from comparisons.output.style import COLOURS, MARKERS, MODEL_LINES, MODEL_NAMES, lettered, styled
 from comparisons.output.tables import relative_error
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
@@ -25,12 +24,6 @@ _K = 0.4
 #: Ten a decade, the preferred numbers of the series R10 but for rounding.
 TABOR_NUMBERS = tuple(float(f"{mu:.3g}") for mu in np.geomspace(0.01, 10.0, 31))
 _MODELS = ("fscm", "md-original", "md-improved")
-#: Line styles as in the paper: original dashed, improved solid; the FSCM as points.
-_STYLES: dict[str, dict[str, Any]] = {
-    "fscm": {"ls": "none", "marker": "o", "ms": 3.5, "mfc": "white", "color": COLOURS[0], "zorder": 3},
-    "md-original": {"ls": "--", "color": COLOURS[2]},
-    "md-improved": {"ls": "-", "color": COLOURS[1]},
-}
 _MU = r"Tabor number $\mu$"
 
 
@@ -123,11 +116,10 @@ def _draw_by_soft(tables: Tables) -> Figure:
         above, below = np.ravel(figure.subfigures(2, 1, height_ratios=[1.0, 1.15], squeeze=False))
         axes = above.subplots()
         for index, (_, of_shape) in enumerate(tables[""].groupby("n")):
-            for model, style in _STYLES.items():
+            for model, style in MODEL_LINES.items():
                 part = of_shape[of_shape["model"] == model]
-                coloured = style | {"color": COLOURS[index]}
-                if model == "fscm":
-                    coloured["marker"] = MARKERS[index]
+                coloured = style | {"color": COLOURS[index], "marker": MARKERS[index], "ms": 3.5, "mfc": "white"}
+                coloured |= {"markevery": (2 * index, 8)} if model == "md-improved" else {"marker": ""}
                 axes.plot(part["mu"], part["ratio"], **coloured)
         axes.axhline(1.0, color="0.55", lw=0.9, ls=":")
         axes.set(xscale="log", yscale="log", xlim=(0.008, 12.0), xlabel=_MU, ylabel=r"$P_c/P_c^{\mathrm{JKR}}$")
@@ -137,7 +129,7 @@ def _draw_by_soft(tables: Tables) -> Figure:
         whole, near = below.subplots(1, 2)
         kappa_figure.panels(whole, near, tables["kappa"])
         lettered(whole, "b", f"relative error, $k$ = {_K:g}")
-        lettered(near, "b", "enlarged")
+        lettered(near, "c", "enlarged")
         below.legend(handles=kappa_figure.handles(_SHAPES), loc="outside lower center", ncols=6, columnspacing=1.2)
     return figure
 
@@ -146,7 +138,8 @@ def _handles() -> list[Line2D]:
     """Return the entries of the legend of Fig. 16(a): colour and marker of each n, line of each model."""
     colours = list(zip(_SHAPES, COLOURS, MARKERS, strict=False))
     shapes = [Line2D([], [], color=c, marker=m, ms=3.5, mfc="white", label=f"$n$ = {n:g}") for n, c, m in colours]
-    models = [Line2D([], [], label=MODEL_NAMES[name], **(style | {"color": "0.45"})) for name, style in _STYLES.items()]
+    drawn = {name: style | {"color": "0.45"} for name, style in MODEL_LINES.items()}
+    models = [Line2D([], [], label=MODEL_NAMES[name], **style) for name, style in drawn.items()]
     return [*shapes, *models]
 
 
@@ -158,7 +151,7 @@ def _framed(values: pd.Series) -> tuple[float, float]:
 
 
 def _lines(axes: Axes, of_shape: pd.DataFrame, column: str) -> None:
-    for model, style in _STYLES.items():
+    for model, style in MODEL_LINES.items():
         part = of_shape[of_shape["model"] == model]
         axes.plot(part["mu"], part[column], label=MODEL_NAMES[model], **style)
 

@@ -25,6 +25,9 @@ LIMITS = (0.01, 0.02, 0.05)
 #: Beyond the maps, for the rates: (n, k, mu).
 _SOFT = [(2.0, k, mu) for k in (0.0, 0.4) for mu in (10.0, 20.0)]
 
+#: The scale of kappa in per cent is linear up to here, so that it passes zero, and logarithmic beyond.
+_LINEAR = 0.1
+
 #: Shapes of the picture, at k = 0 and 0.4.
 _SHOWN = (1.0, 1.5, 2.0, 5.0)
 
@@ -199,15 +202,23 @@ def _curves(axes: Axes, table: pd.DataFrame, letter: str, title: str) -> None:
         for k, line in ((0.0, LINES[0]), (0.4, LINES[1])):
             part = table[(table["n"] == n) & (table["k"] == k) & table["kappa"].notna()]
             style = {"color": COLOURS[index], "ls": line, "marker": MARKERS[index], "ms": 3.5, "lw": 1.0}
-            axes.plot(part["mu"], 100.0 * part["kappa"].abs(), label=f"$n$ = {n:g}, $k$ = {k:g}", **style)
+            axes.plot(part["mu"], 100.0 * part["kappa"], label=f"$n$ = {n:g}, $k$ = {k:g}", **style)
     lettered(axes, letter, title)
-    axes.set(xscale="log", yscale="log", xlabel=r"Tabor number $\mu$")
-    axes.set_ylabel(r"relative error of the displacement $|\kappa|$ (%)")
+    axes.set(xscale="log", xlabel=r"Tabor number $\mu$")
+    axes.set_yscale("symlog", linthresh=_LINEAR, linscale=0.5)
+    axes.set_ylabel(r"relative error of the displacement $\kappa$ (%)")
+    axes.axhline(0.0, color="0.4", lw=0.8)
     axes.set_xticks([1, 2, 5, 10, 20], labels=["1", "2", "5", "10", "20"])
+    # A third beyond the smallest and the largest error, whatever their signs.
+    low, high = (100.0 * values for values in (table["kappa"].min(), table["kappa"].max()))
+    low, high = low * (1.3 if low < 0.0 else 0.7), high * (1.3 if high > 0.0 else 0.7)
     for limit in LIMITS:
-        axes.axhline(100.0 * limit, color="0.5", lw=0.6, ls=":")
-    ticks = [tick for tick in (0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20) if tick >= 0.9 * axes.get_ylim()[0]]
-    axes.set_yticks(ticks, labels=[f"{tick:g}" for tick in ticks])
+        for sign in (-1.0, 1.0):
+            axes.axhline(sign * 100.0 * limit, color="0.5", lw=0.6, ls=":")
+    ticks = [sign * tick for tick in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20) for sign in (-1, 1)]
+    ticks = sorted({*(tick for tick in (0.0, *ticks) if low <= tick <= high)})
+    axes.set_yticks(ticks, labels=[f"{tick:+g}" if tick else "0" for tick in ticks])
+    axes.set_ylim(low, high)
     axes.minorticks_off()
 
 

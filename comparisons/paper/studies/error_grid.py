@@ -12,7 +12,6 @@ from typing import Any
 
 import pandas as pd
 
-from comparisons.model import ComputationFailed
 from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.tasks import quantity
@@ -25,11 +24,9 @@ __all__ = [
     "SHAPES",
     "SHAPE_SLICES",
     "TABOR",
+    "error",
     "errors",
     "errors_at",
-    "jump_onset",
-    "onset_calls",
-    "onset_errors",
     "tasks",
 ]
 
@@ -51,7 +48,7 @@ SHAPE_SLICES = (0.0, 0.4)
 GRADIENTS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8)
 GRADIENT_SLICES = (1.5, 2.0)
 
-#: The first errors of the jumps are computed this fraction above the critical Tabor number, where the jumps merge.
+#: The first errors of the jumps are this fraction above the critical Tabor number, where the jumps merge.
 ONSET_EXCESS = 1e-3
 
 Case = tuple[float, float, float]
@@ -107,11 +104,12 @@ def errors(results: Results, cases: Iterable[Case], quantities: Iterable[str]) -
         for name in quantities:
             for model in CANDIDATES[name]:
                 key = {"n": case[0], "k": case[1], "mu": case[2], "quantity": name, "model": model}
-                rows.append(key | _error(found[name]["fscm"], found[name][model]))
+                rows.append(key | error(found[name]["fscm"], found[name][model]))
     return pd.DataFrame(rows)
 
 
-def _error(fscm: dict[str, Any], candidate: dict[str, Any]) -> dict[str, Any]:
+def error(fscm: dict[str, Any], candidate: dict[str, Any]) -> dict[str, Any]:
+    """Return the columns of `errors` that follow from the results of the FSCM and a closed form."""
     missing = math.nan
     row: dict[str, Any] = {
         "value": candidate["value"] if candidate["value"] is not None else missing,
@@ -122,49 +120,3 @@ def _error(fscm: dict[str, Any], candidate: dict[str, Any]) -> dict[str, Any]:
     kappa = relative_difference(row["value"], row["fscm"])
     u_kappa = relative_uncertainty(row["value"], row["u_num"], row["fscm"], row["u_fscm"])
     return row | {"kappa": kappa, "u_kappa": u_kappa, "reason": fscm["reason"] or candidate["reason"]}
-
-
-def jump_onset(n: float, k: float) -> dict[str, Any]:
-    """Return the critical Tabor number, where jumps begin, and the errors of the closed forms just above it.
-
-    Returns
-    -------
-    dict
-        ``critical`` and ``u_critical``; ``mu``, larger by the fraction `ONSET_EXCESS`, and ``found``, as of
-        `errors_at` there.
-
-    Raises
-    ------
-    ComputationFailed
-        If the model has no critical Tabor number, or did not reach it.
-    """
-    # The Tabor number of the case is not used.
-    critical = quantity("fscm", "critical_tabor_number", n, k, 1.0)
-    if critical["status"] != "ok":
-        raise ComputationFailed(critical["reason"])
-    mu = critical["value"] * (1.0 + ONSET_EXCESS)
-    return {"critical": critical["value"], "u_critical": critical["u_num"], "mu": mu, "found": errors_at(n, k, mu)}
-
-
-def onset_calls(cases: Iterable[Case]) -> Sequence[CachedCall]:
-    """Return a call of `jump_onset` for each shape index and gradient exponent; sharp shapes take longest."""
-    return [CachedCall.of(jump_onset, n, k) for n, k in sorted({(n, k) for n, k, _ in cases})]
-
-
-def onset_errors(results: Results, cases: Iterable[Case], shown: Sequence[tuple[str, str]]) -> pd.DataFrame:
-    """Return one row for each shape index, gradient exponent and (quantity, model) that is shown.
-
-    Returns
-    -------
-    DataFrame
-        The columns of `errors`, ``mu`` just above the critical Tabor number; ``critical`` and ``u_critical``.
-    """
-    rows = []
-    for call in onset_calls(cases):
-        onset = results[call]
-        for name, model in shown:
-            key = {"n": call.arguments[0], "k": call.arguments[1], "mu": onset["mu"], "quantity": name, "model": model}
-            found = onset["found"][name]
-            more = {"critical": onset["critical"], "u_critical": onset["u_critical"]}
-            rows.append(key | _error(found["fscm"], found[model]) | more)
-    return pd.DataFrame(rows)

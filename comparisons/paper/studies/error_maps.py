@@ -15,21 +15,10 @@ from numpy.typing import NDArray
 
 from comparisons.output.figures.contour_labels import label_lines
 from comparisons.output.style import lettered, styled
-from comparisons.paper.cache import CachedCall, Results
+from comparisons.paper.cache import Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
-from comparisons.paper.studies.error_grid import (
-    GRADIENT_SLICES,
-    GRADIENTS,
-    SHAPE_SLICES,
-    SHAPES,
-    TABOR,
-    errors,
-    gradient_cases,
-    onset_calls,
-    onset_errors,
-    shape_cases,
-    tasks,
-)
+from comparisons.paper.studies.error_grid import GRADIENT_SLICES, SHAPE_SLICES
+from comparisons.paper.studies.error_lines import TABOR_RANGE, along_gradients, along_shapes, calls, table_of
 
 __all__ = ["ERROR_MAPS_GRADIENT", "ERROR_MAPS_JUMPS", "ERROR_MAPS_SHAPE"]
 
@@ -53,84 +42,52 @@ _NAMES = {
 }
 _PULL_OFF = ("md-improved", "md-original", "jkr", "bradley")
 _JUMPS = (("jump_in_displacement", "semi-rigid", "jump-in"), ("jump_out_displacement", "jkr", "jump-out"))
-_JUMP_NAMES = tuple(name for name, _, _ in _JUMPS)
 
 
-def _shape_tasks() -> Sequence[CachedCall]:
-    return tasks(shape_cases())
-
-
-def _gradient_tasks() -> Sequence[CachedCall]:
-    return tasks(gradient_cases())
-
-
-def _jump_tasks() -> Sequence[CachedCall]:
-    cases = dict.fromkeys(shape_cases() + gradient_cases())
-    return [*onset_calls(cases), *tasks(cases)]
+def _jump_lines() -> list[tuple[float, float]]:
+    return list(dict.fromkeys(along_shapes() + along_gradients()))
 
 
 def _shape_tables(results: Results) -> Tables:
-    return {"": errors(results, shape_cases(), ("pull_off_force",))}
+    return {"": table_of(results, along_shapes(), ("pull_off_force",))}
 
 
 def _gradient_tables(results: Results) -> Tables:
-    return {"": errors(results, gradient_cases(), ("pull_off_force",))}
+    return {"": table_of(results, along_gradients(), ("pull_off_force",))}
 
 
 def _jump_tables(results: Results) -> Tables:
-    cases = dict.fromkeys(shape_cases() + gradient_cases())
-    table = errors(results, cases, _JUMP_NAMES)
-    shown = [table[(table["quantity"] == name) & (table["model"] == model)] for name, model, _ in _JUMPS]
-    onset = onset_errors(results, cases, [(name, model) for name, model, _ in _JUMPS])
-    return {"": pd.concat(shown, ignore_index=True), "onset": onset}
+    return {"": table_of(results, _jump_lines(), [name for name, _, _ in _JUMPS])}
 
 
 def lattice(table: pd.DataFrame, across: str) -> tuple[Array, Array, Array]:
-    """Return the values of `across` and of mu, and kappa in per cent, shape (mu, across), NaN where unknown.
+    """Return the values of `across`, mu, and kappa in per cent, each of shape (points, lines).
 
     Examples
     --------
-    >>> table = pd.DataFrame({"n": [1.0, 2.0], "mu": [0.1, 0.1], "kappa": [0.01, -0.5]})
-    >>> lattice(table, "n")[2]
-    array([[  1., -50.]])
+    >>> table = pd.DataFrame({"n": [1.0, 2.0], "point": 0, "mu": [0.1, 0.2], "kappa": [0.01, -0.5]})
+    >>> [values.tolist() for values in lattice(table, "n")]
+    [[[1.0, 2.0]], [[0.1, 0.2]], [[1.0, -50.0]]]
     """
-    square = 100.0 * table.pivot(index="mu", columns=across, values="kappa")
-    return square.columns.to_numpy(float), square.index.to_numpy(float), square.to_numpy(float)
+    mu, kappa = (table.pivot(index="point", columns=across, values=name) for name in ("mu", "kappa"))
+    x = np.broadcast_to(kappa.columns.to_numpy(float), kappa.shape)
+    return x, mu.to_numpy(float), 100.0 * kappa.to_numpy(float)
 
 
-def from_onset(table: pd.DataFrame, onset: pd.DataFrame, across: str) -> tuple[Array, Array, Array, Array]:
-    """Return `lattice` from the first jump on, mu of the same shape as kappa, and the critical Tabor numbers.
-
-    Points below the critical Tabor number lie on it, with the error just above it: the lattice ends at that line.
-    """
-    x, mu, kappa = lattice(table, across)
-    first = onset.set_index(across).loc[x]
-    critical = first["critical"].to_numpy(float)
-    below = mu[:, None] <= critical
-    return (
-        x,
-        np.where(below, critical, mu[:, None]),
-        np.where(below, 100.0 * first["kappa"].to_numpy(float), kappa),
-        critical,
-    )
-
-
-def _map(axes: Axes, table: pd.DataFrame, across: str, onset: pd.DataFrame | None = None) -> None:
+def _map(axes: Axes, table: pd.DataFrame, across: str) -> None:
     # What is not computed stays grey.
     axes.set_facecolor("0.95")
-    if onset is None:
-        x, mu, kappa = lattice(table, across)
-    else:
-        x, mu, kappa, critical = from_onset(table, onset, across)
-        axes.fill_between(x, TABOR[0], critical, fc="0.95", hatch="////", ec="0.75", lw=0.0)
-        axes.plot(x, critical, color="black", lw=0.8, ls=":")
-        x = np.broadcast_to(x, kappa.shape)
+    x, mu, kappa = lattice(table, across)
+    if "critical" in table:
+        critical = table.drop_duplicates(across).set_index(across)["critical"].loc[x[0]]
+        axes.fill_between(x[0], TABOR_RANGE[0], critical, fc="0.95", hatch="////", ec="0.75", lw=0.0)
+        axes.plot(x[0], critical, color="black", lw=1.4, ls=":")
     axes.contourf(x, mu, kappa, levels=_SIGNED_BANDS, colors=_SIGNED_GREYS)
     axes.set_yscale("log")
     axes.grid(visible=False)
     if across == "n":
         axes.set_xscale("log")
-        axes.set_xticks([1, 2, 3, 5, 8], labels=["1", "2", "3", "5", "8"])
+        axes.set_xticks([1, 1.5, 2, 3, 4, 6], labels=["1", "1.5", "2", "3", "4", "6"])
         axes.minorticks_off()
     known = kappa[np.isfinite(kappa)]
     levels = [level for level in _LINES if known.min() < level < known.max()]
@@ -186,16 +143,15 @@ def _draw_jumps(tables: Tables) -> Figure:
         for row, (across, held, value) in zip(grid, columns, strict=True):
             for axes, (_, model, event) in zip(row, _JUMPS, strict=True):
                 part = table[(table["model"] == model) & (table[held] == value)]
-                part = part[part[across].isin(SHAPES if across == "n" else GRADIENTS)]
-                onset = tables["onset"]
-                _map(axes, part, across, onset[(onset["model"] == model) & (onset[held] == value)])
+                lines = along_shapes() if across == "n" else along_gradients()
+                _map(axes, part[pd.MultiIndex.from_frame(part[["n", "k"]]).isin(lines)], across)
                 lettered(axes, next(letters), rf"{_NAMES[model]} {event}, ${held}$ = {value:g}")
                 axes.set_xlabel({"n": r"shape index $n$", "k": r"gradient exponent $k$"}[across])
                 axes.set_ylim(0.5, 5.0)
                 axes.set_yticks([0.5, 1, 2, 5], labels=["0.5", "1", "2", "5"])
                 axes.minorticks_off()
             row[0].set_ylabel(r"Tabor number $\mu$")
-        _finish(figure, "displacement", "\nhatched: no jump, up to the critical Tabor number (dotted)")
+        _finish(figure, "displacement", "\nhatched: no jump, below the critical Tabor number $\\mu_c$ (dotted)")
     return figure
 
 
@@ -203,7 +159,7 @@ ERROR_MAPS_SHAPE = PaperFigure(
     name="error-maps-shape",
     stem="error_maps_shape",
     title="Error of the pull-off force of the closed forms over shape index and Tabor number",
-    tasks=_shape_tasks,
+    tasks=lambda: calls(along_shapes()),
     tables=_shape_tables,
     draw=partial(_draw_pull_off, across="n", held="k", slices=SHAPE_SLICES),
 )
@@ -211,7 +167,7 @@ ERROR_MAPS_GRADIENT = PaperFigure(
     name="error-maps-gradient",
     stem="error_maps_gradient",
     title="Error of the pull-off force of the closed forms over gradient exponent and Tabor number",
-    tasks=_gradient_tasks,
+    tasks=lambda: calls(along_gradients()),
     tables=_gradient_tables,
     draw=partial(_draw_pull_off, across="k", held="n", slices=GRADIENT_SLICES),
 )
@@ -219,7 +175,7 @@ ERROR_MAPS_JUMPS = PaperFigure(
     name="error-maps-jumps",
     stem="error_maps_jumps",
     title="Errors of the semi-rigid jump-in and of JKR's jump-out; none where there is no jump",
-    tasks=_jump_tasks,
+    tasks=lambda: calls(_jump_lines()),
     tables=_jump_tables,
     draw=_draw_jumps,
 )

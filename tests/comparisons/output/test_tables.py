@@ -176,7 +176,7 @@ def test_one_sign_of_kappa_in_tables_gates_and_error_maps(value, reference):
 
 
 def test_the_committed_errors_of_the_jumps_have_the_sign_of_the_tables():
-    table = pd.read_csv(Path(__file__).parents[3] / PAPER_BASELINE / "error_maps_jumps.csv")
+    table = pd.read_csv(Path(__file__).parents[3] / PAPER_BASELINE / "error_bands_jumps.csv")
     known = table[(table["quantity"] == "jump_out_displacement") & table["kappa"].notna()]
     rows = [known.assign(status="ok", nu=math.nan)]
     reference = known.drop_duplicates(["n", "k", "mu"])

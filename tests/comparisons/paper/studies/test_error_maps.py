@@ -7,19 +7,17 @@ import pandas as pd
 import pytest
 
 from comparisons.models.bradley import rigid_pull_off
-from comparisons.paper.cache import CachedCall, CallCache
+from comparisons.paper.cache import CallCache
 from comparisons.paper.studies.error_bands import bands, coefficients, rates
-from comparisons.paper.studies.error_grid import (
-    CANDIDATES,
-    TABOR,
-    all_cases,
-    errors,
-    errors_at,
-    onset_calls,
-    onset_errors,
-    tasks,
+from comparisons.paper.studies.error_grid import CANDIDATES, ONSET_EXCESS, errors, tasks
+from comparisons.paper.studies.error_lines import MAPPED, along_gradients, along_shapes, calls
+from comparisons.paper.studies.error_lines import table_of as table_of_lines
+from comparisons.paper.studies.error_maps import (
+    ERROR_MAPS_GRADIENT,
+    ERROR_MAPS_JUMPS,
+    ERROR_MAPS_SHAPE,
+    lattice,
 )
-from comparisons.paper.studies.error_maps import ERROR_MAPS_JUMPS, from_onset, lattice
 from comparisons.paper.tasks import quantity
 
 BASELINE = Path(__file__).parents[4] / "results" / "baseline" / "paper"
@@ -60,35 +58,44 @@ def test_dmt_has_the_force_of_bradley():
         )
 
 
-def test_the_maps_share_their_calls():
-    assert len(set(all_cases())) == len(all_cases())
-    needed = set(ERROR_MAPS_JUMPS.tasks())
-    assert {call.arguments for call in needed if call.function.endswith(":errors_at")} == set(all_cases())
-    assert needed >= set(onset_calls(all_cases()))
-    assert CachedCall.of(errors_at, 2.0, 0.4, TABOR[0]) in ERROR_MAPS_JUMPS.tasks()
+def test_each_map_has_its_lines_and_the_references_are_those_of_the_solver(tmp_path):
+    assert [figure.tasks() for figure in (ERROR_MAPS_SHAPE, ERROR_MAPS_GRADIENT)] == [
+        calls(lines) for lines in (along_shapes(), along_gradients())
+    ]
+    assert set(ERROR_MAPS_JUMPS.tasks()) == set(calls(along_shapes() + along_gradients()))
+    cache = CallCache(tmp_path / "tasks.jsonl", "test")
+    list(cache.work(calls([(2.0, 0.0)]), 1))
+    table = table_of_lines(cache.results, [(2.0, 0.0)], MAPPED)
+    assert set(zip(table["quantity"], table["model"], strict=True)) == {
+        (name, model) for name, models in MAPPED.items() for model in models
+    }
+    for name in MAPPED:
+        row = table[table["quantity"] == name].iloc[-4]
+        solved = quantity("fscm", name, 2.0, 0.0, row["mu"])
+        assert abs(row["fscm"] - solved["value"]) <= row["u_fscm"] + solved["u_num"]
+        candidate = quantity(row["model"], name, 2.0, 0.0, row["mu"])["value"]
+        assert row["kappa"] == pytest.approx((candidate - solved["value"]) / abs(solved["value"]), abs=1e-5)
+        assert 0.0 < row["u_kappa"] < 1e-4
 
 
 def test_the_map_is_where_it_is_labelled():
-    table = pd.DataFrame({"k": [0.0, 0.4, 0.0], "mu": [2.0, 2.0, 0.5], "kappa": [0.01, 0.02, -0.03]})
+    table = pd.DataFrame(
+        {
+            "k": [0.4, 0.0, 0.4, 0.0],
+            "point": [0, 0, 1, 1],
+            "mu": [0.5, 0.6, 2.0, 3.0],
+            "kappa": [-0.03, 0.0, 0.01, 0.02],
+        }
+    )
     k, mu, kappa = lattice(table, "k")
-    assert (k.tolist(), mu.tolist()) == ([0.0, 0.4], [0.5, 2.0])
-    assert kappa[0, 0] == -3.0
-    assert np.isnan(kappa[0, 1])
-    assert kappa[1].tolist() == [1.0, 2.0]
+    assert k.tolist() == [[0.0, 0.4]] * 2
+    assert mu.tolist() == [[0.6, 0.5], [3.0, 2.0]]
+    assert kappa.tolist() == [[0.0, -3.0], [2.0, 1.0]]
 
 
 def test_the_map_of_a_jump_begins_at_the_critical_tabor_number():
-    """At n = 2, k = 0 that is 0.69721461: at 0.72 and 0.75 there are jumps, whatever Tabor numbers are computed."""
-    stored = {
-        name: pd.read_csv(BASELINE / f"error_maps_jumps{suffix}.csv")
-        for name, suffix in (("", ""), ("onset", "_onset"))
-    }
-    at = [table[(table["k"] == 0.0) & (table["model"] == "jkr")] for table in stored.values()]
-    n, mu, kappa, critical = from_onset(*at, "n")
-    where = n.tolist().index(2.0)
-    assert critical[where] == pytest.approx(0.69721461, abs=1e-8)
-    assert mu[:, where].tolist() == [*[critical[where]] * 7, *TABOR[7:]]
-    assert np.isfinite(kappa[:, where]).all()
+    """At n = 2, k = 0 that is 0.69721461: there are jumps at 0.70, and none at 0.69."""
+    stored = {"": pd.read_csv(BASELINE / "error_maps_jumps.csv")}
     figure = ERROR_MAPS_JUMPS.draw(stored)
     for title in ("semi-rigid jump-in, $k$ = 0", "JKR jump-out, $k$ = 0"):
         axes = next(axes for axes in figure.axes if axes.get_title(loc="left").endswith(title))
@@ -98,25 +105,17 @@ def test_the_map_of_a_jump_begins_at_the_critical_tabor_number():
         assert not path.contains_points([(2.0, 0.70), (2.0, 0.72), (2.0, 0.75)]).any()
 
 
-def test_the_stored_jumps_begin_at_the_stored_critical_tabor_number():
-    jumps, onset = (pd.read_csv(BASELINE / f"error_maps_jumps{end}.csv") for end in ("", "_onset"))
-    both = jumps.merge(onset[["n", "k", "model", "critical"]], on=["n", "k", "model"], validate="many_to_one")
-    assert len(both) == len(jumps)
-    none = both["reason"].str.contains("there is no jump", na=False)
-    assert none.equals(both["mu"] < both["critical"])
-    assert none.equals(both["kappa"].isna())
-
-
-def test_the_onset_is_just_above_the_critical_tabor_number(tmp_path):
-    cache = CallCache(tmp_path / "tasks.jsonl", "test")
-    list(cache.work(onset_calls([(2.0, 0.0, 1.0), (2.0, 0.0, 5.0)]), 1))
-    shown = [("jump_in_displacement", "semi-rigid"), ("jump_out_displacement", "jkr")]
-    table = onset_errors(cache.results, [(2.0, 0.0, 1.0)], shown)
-    assert table["critical"].to_numpy() == pytest.approx(0.69721461, abs=1e-8)
-    assert table["mu"].to_numpy() == pytest.approx(1.001 * 0.69721461, abs=1e-8)
+def test_the_stored_jumps_begin_at_the_critical_tabor_number():
+    jumps = pd.read_csv(BASELINE / "error_maps_jumps.csv")
+    first = jumps[jumps["point"] == 0]
+    assert len(first) == len(jumps.drop_duplicates(["n", "k", "model"]))
+    assert (first["mu"] / first["critical"]).to_numpy() == pytest.approx(1.0 + ONSET_EXCESS, abs=1e-6)
+    assert jumps["kappa"].notna().all()
+    assert (jumps["mu"] > jumps["critical"]).all()
+    at = first[(first["n"] == 2.0) & (first["k"] == 0.0)]
+    assert at["critical"].to_numpy() == pytest.approx(0.69721461, abs=1e-8)
     # Where the jumps merge the full model has one displacement for both.
-    assert table["fscm"][0] == pytest.approx(table["fscm"][1], abs=1e-4)
-    assert np.isfinite(table["kappa"]).all()
+    assert np.ptp(at["fscm"]) < 1e-4
 
 
 def table_of(kappa, mu=(0.1, 1.0, 10.0)):

@@ -1,0 +1,139 @@
+"""Moduli and Poisson ratios of depth: values, interfaces, what a mesh follows, refused data."""
+
+import math
+
+import numpy as np
+import pytest
+
+from fem_reference import (
+    CoatingModulus,
+    CoatingPoisson,
+    CustomPoisson,
+    CustomSolid,
+    ExponentialModulus,
+    Interface,
+    Modulus,
+    PowerLawModulus,
+    Solid,
+    TableModulus,
+    TablePoisson,
+)
+from fem_reference._elastic.compliance import is_scaling, scaled_poisson
+from fem_reference._elastic.depth_scales import DepthScales, depth_scales
+from fem_reference._elastic.elasticity import Body, stiffness
+from fem_reference._elastic.exterior import exterior_error
+from fem_reference._elastic.mapping import InteriorChart
+from fem_reference._elastic.mesh import uniform_grid
+
+STEPS = TableModulus((0.0, 1.0, 1.5, 4.0), (1.0, 1.1, 3.0, 3.0))
+
+
+@pytest.mark.parametrize(
+    "modulus",
+    [
+        ExponentialModulus(1.0, 10.0, 0.5),
+        STEPS,
+        CoatingModulus(10.0, 1.0, thickness=1.0, transition=2.0),
+        TableModulus((2.0, 3.0), (5.0, 4.0)),
+    ],
+)
+def test_moduli_have_the_exponents_that_they_declare(modulus):
+    assert isinstance(modulus, Modulus)
+    assert CustomSolid(modulus, 0.3).modulus is modulus
+    assert hash(modulus) == hash(modulus)
+
+
+def test_a_table_is_monotone_and_constant_beyond_its_ends():
+    z = np.linspace(0.0, 6.0, 601)
+    E = STEPS(z)
+    assert np.all(np.diff(E) >= 0)
+    assert E[0] == 1.0
+    assert np.all(E[z >= 4.0] == 3.0)
+    assert STEPS(np.array(STEPS.depths)) == pytest.approx(STEPS.moduli, rel=1e-15)
+    deep = TableModulus((2.0, 3.0), (5.0, 4.0))
+    assert deep(np.array([0.0, 1.9, 2.5, 9.0])) == pytest.approx([5.0, 5.0, 4.5, 4.0])
+    assert TableModulus([0, 1, 1.5, 4], [1, 1.1, 3, 3]) == STEPS
+
+
+def test_rows_of_a_table_are_mesh_lines():
+    """Two rows with a large ratio are a short part as well, with a line between them."""
+    scales = depth_scales(STEPS, 1e-2, 1e2)
+    assert scales == DepthScales((1.0, 1.25, 1.5, 4.0), ((1.0, 1.5),))
+    z = np.linspace(0.0, 5.0, 200)
+    smooth = TableModulus(z, 1.0 + np.exp(-z))
+    assert smooth.interfaces == ()
+    assert all(line == pytest.approx(5.0) for line in depth_scales(smooth, 1e-2, 1e2).lines)
+
+
+def test_poisson_ratios():
+    z = np.array([0.0, 0.9, 1.1, 50.0])
+    assert CoatingPoisson(0.1, 0.4, 1.0)(z) == pytest.approx([0.1, 0.1, 0.4, 0.4])
+    wide = CoatingPoisson(0.1, 0.4, 1.0, transition=0.2)(np.array([1.0, 9.0]))
+    assert wide == pytest.approx([0.25, 0.4])
+    assert TablePoisson((0.0, 2.0), (0.4, 0.2))(np.array([1.0, 3.0])) == pytest.approx([0.3, 0.2])
+    half = scaled_poisson(CoatingPoisson(0.1, 0.4, 1.0), 2.0)
+    assert half(np.array([0.4, 0.6])) == pytest.approx([0.1, 0.4])
+    assert half.interfaces == (Interface(0.5),)
+
+
+def test_a_mesh_follows_poissons_ratio():
+    E = PowerLawModulus(1.0, 1.0, 0.0)
+    assert depth_scales(E, 1e-2, 1e2, 0.3) == DepthScales()
+    assert depth_scales(E, 1e-2, 1e2, CoatingPoisson(0.1, 0.4, 3.0)).lines == (3.0,)
+    assert depth_scales(CoatingModulus(2.0, 1.0, 1.0), 1e-2, 1e2, CoatingPoisson(0.1, 0.4, 3.0)).lines == (1.0, 3.0)
+    undeclared = CustomPoisson(lambda z: np.where(z < 3.0, 0.1, 0.4))
+    assert depth_scales(E, 1e-2, 1e2, undeclared).lines == pytest.approx([3.0], rel=1e-14)
+    assert is_scaling(E, 0.3, ())
+    assert not is_scaling(E, CoatingPoisson(0.1, 0.4, 3.0), ())
+    assert not is_scaling(E, 0.3, (1.0,))
+
+
+def test_error_of_the_exterior_has_poissons_ratio():
+    """Zero without a change; that of a skin falls with the square of the extent."""
+    E = PowerLawModulus(1.0, 1.0, 0.0)
+    assert exterior_error(E, 64.0, CustomPoisson(lambda z: 0.3 + 0.0 * z)) == 0.0
+    near, far = (exterior_error(E, extent, CoatingPoisson(0.1, 0.4, 1.0)) for extent in (256.0, 1024.0))
+    assert near / far == pytest.approx(16.0, rel=1e-2)
+    assert near > 1e-7
+
+
+def test_stiffness_of_two_layers_is_that_of_both():
+    """Elements with the Poisson ratio of their layer: the ratio of depth is the sum of the two bodies."""
+    mesh, chart = uniform_grid(2.0, 2).quads(), InteriorChart(1e-3, 0.0)
+    E, none = PowerLawModulus(1.0, 1.0, 0.0), np.zeros(0, int)
+    layered, _ = stiffness(Body(mesh, chart, E, CoatingPoisson(0.2, 0.45, 1.0), 3), none)
+    soft, basis = stiffness(Body(mesh, chart, E, 0.45, 3), none)
+    hard, _ = stiffness(Body(mesh, chart, E, 0.2, 3), none)
+    deep = np.flatnonzero(mesh.p[1][mesh.t].mean(axis=0) > 1.0)
+    below = np.unique(basis.element_dofs[:, deep])
+    inner = np.setdiff1d(below, np.unique(basis.element_dofs[:, np.setdiff1d(np.arange(4), deep)]))
+    above = np.setdiff1d(np.arange(basis.N), below)
+    for matrix, scalar in ((soft, inner), (hard, above)):
+        rows = np.concatenate([2 * scalar, 2 * scalar + 1])
+        assert abs(layered[rows] - matrix[rows]).max() <= 1e-14
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: ExponentialModulus(1.0, -1.0, 1.0), "E_depth = -1.0"),
+        (lambda: ExponentialModulus(1.0, 1.0, math.nan), "length = nan"),
+        (lambda: TableModulus((0.0,), (1.0,)), "2 depths or more"),
+        (lambda: TableModulus((0.0, 1.0), (1.0, 0.0)), "modulus 0 in row 1"),
+        (lambda: TableModulus((0.0, 1.0), (1.0, math.inf)), "row 1 of the table"),
+        (lambda: TableModulus((-1.0, 1.0), (1.0, 2.0)), "first depth -1"),
+        (lambda: TableModulus((0.0, 2.0, 1.0), (1.0, 2.0, 3.0)), "depth 1 in row 2"),
+        (lambda: TableModulus("ab", (1.0, 2.0)), "not two columns of numbers"),
+        (lambda: TablePoisson((0.0, 1.0), (0.3, 0.5)), r"nu = 0.5 is outside \[0, 0.5\)"),
+        (lambda: CoatingPoisson(-0.1, 0.3, 1.0), r"nu = -0.1 is outside"),
+        (lambda: CoatingPoisson(0.1, 0.3, 0.0), "depth of an interface = 0.0"),
+        (lambda: CoatingModulus(1.0, 2.0, 1.0, -1.0), "transition = -1.0"),
+        (lambda: Solid(1.0, 1.0, 0.0, CoatingPoisson(0.1, 0.3, 1.0)), "take CustomSolid"),
+        (lambda: Solid(1.0, 1.0, 0.0, 0.5), r"nu = 0.5 is outside \[0, 0.5\)"),
+        (lambda: CustomSolid(STEPS, CustomPoisson(lambda z: 0.3 + z)), "at the depth"),
+        (lambda: CustomSolid(STEPS, CustomPoisson(lambda z: 0.3)), "must have that of z"),
+    ],
+)
+def test_impossible_solids_are_refused(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()
