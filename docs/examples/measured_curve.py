@@ -68,7 +68,7 @@ nm, nN = fitted.scales["displacement"] * 1e9, fitted.scales["load"] * 1e9
 origin = zero - fscm.atlas(2, 0, mu, "zero_load_displacement").value * nm
 held = retreat[retreat["displacement_nm"] > retreat["displacement_nm"][parted] + 0.2]  # the curve is steep at the jump
 computed = np.interp(held["displacement_nm"] - origin, (cycle.unloading[0] * nm)[::-1], (cycle.unloading[1] * nN)[::-1])
-print(f"retreat in contact: r.m.s. distance of record and model {np.std(held['load'] - computed):.2f} nN")
+print(f"retreat in contact: r.m.s. distance of record and model {np.std(held['load'] - computed):.1f} nN")
 
 figure = Figure(figsize=(6.0, 4.0), layout="constrained")
 axes = figure.subplots()
