@@ -37,6 +37,7 @@ _COMMANDS = {
     "list": ("listing", "list the models, quantities, cases or gates"),
     "check-model": ("check_model", "check that an external model keeps the contract"),
     "new-model": ("new_model", "write a template for a model of your own"),
+    "cite": ("cite", "print how to cite fscm-bench and what a run used, as text or BibTeX"),
     "bench": ("bench", "measure error, time and memory of the solvers on this machine, as ratios"),
 }
 
