@@ -35,7 +35,11 @@ def add(parser: argparse.ArgumentParser) -> None:
         help=MODEL_SPEC,
     )
     parser.add_argument(
-        "--quantity", choices=tuple(CURVES), default="force_curve", help="what to draw (default: force_curve)"
+        "--quantity",
+        metavar="NAME",
+        choices=tuple(CURVES),
+        default="force_curve",
+        help=f"what to draw: {', '.join(CURVES)} (default: force_curve)",
     )
     add_case(parser)
     parser.add_argument("--nu", type=number, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one")
