@@ -296,7 +296,7 @@ def test_a_run_completes_the_others_and_its_files_are_its_own(write_model, tmp_p
         "good": GOOD,
         "vandal": vandal,
         "leaver": "os._exit(0)",
-        "looper": "while True:\n    pass",
+        "looper": "while True:\n    time.sleep(1000)",
         "nonsense": "return Result(float('nan'), 0.0)",
     }
     specs = [write_model(body, name) for name, body in bodies.items()]
