@@ -51,7 +51,7 @@ def test_a_row_of_the_agreement_that_the_run_lost_has_drifted(lost, tmp_path, mo
     agreement = _results(model="fem", **columns).drop(columns="status")
     agreement.to_csv(tmp_path / "references_agreement.csv", index=False)
     agreement.drop(index=lost).to_csv(tmp_path / "agreement.csv", index=False)
-    monkeypatch.setattr(baseline, "BASELINE", tmp_path)
+    monkeypatch.setattr(baseline, "committed", tmp_path.joinpath)
     monkeypatch.setattr(baseline, "_computed_run", lambda folder: ({}, "full"))
     found = baseline.check(tmp_path)
     assert found["status"].tolist() == ["missing"] * 2

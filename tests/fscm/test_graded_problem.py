@@ -114,6 +114,6 @@ def test_what_needs_a_power_law_is_refused_in_one_sentence():
     assert np.isfinite(margins(state, 0)).all()
     with pytest.raises(NotConverged, match="power-law modulus only"):
         margins(state, 1)
-    rough = PowerSum([3.0, -2.0, 0.5], [2, 3, 4])
+    rough = PowerSum([1.0, -2.0, 1.05], [2, 3, 4])
     with pytest.raises(NotConverged, match="power-law modulus only"):
         Analysis(GradedProblem(4, 1.0, SOFT_BELOW, punch=rough)).event("zero_load")

@@ -25,6 +25,7 @@ FILES = {
     "largest_kappa.csv",
     "largest_kappa.parquet",
     "run.json",
+    "datapackage.json",
     "gates.toml",
     "curves.csv",
     "curves.parquet",

@@ -111,7 +111,7 @@ def test_all_sources_give_the_same_rows_and_verdicts(
     tables, verdicts = [], []
     for number, spec in enumerate((installed_example, FILE_SOURCE, data_source)):
         out = tmp_path / str(number)
-        assert main(["run", "--jobs", "1", "--out", str(out), "--gates", gates, "--model", spec]) == 0
+        assert main(["run", "--jobs", "1", "--out", str(out), "--verbose", "--gates", gates, "--model", spec]) == 0
         verdicts.append((out / "verdicts.csv").read_text())
         assert f"--model {spec} " in capsys.readouterr().out
         assert main(["judge", str(out), "--gates", gates]) == 0

@@ -130,7 +130,7 @@ def test_files_hold_the_rows_that_are_shown_in_their_order(opened, run_folder, t
     assert list(saved) == list(pd.read_csv(run_folder / "verdicts.csv"))
     rows = [line for line in (tmp_path / "offenders.tex").read_text().split("\n") if "LIMIT" in line]
     assert len(rows) == len(shown)
-    assert all(f" {error:.5f} " in row for error, row in zip(shown[:2], rows[:2], strict=True))
+    assert all(f" {error:.5f}" in row for error, row in zip(shown[:2], rows[:2], strict=True))
 
 
 def test_numbers_shown_are_numbers_stored(opened, run_folder):
