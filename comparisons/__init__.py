@@ -29,8 +29,9 @@ LAYERS = (
     ("pipeline",),
     ("bench",),
     ("baseline",),
-    ("cli", "pytest_entry"),
+    ("cli", "pytest_entry", "build_step"),
     ("__main__",),
+    ("start_entry",),
 )
 
 #: Public name -> the module that defines it.

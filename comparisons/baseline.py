@@ -8,7 +8,8 @@ quick tier has a few cases only.  ``fscm-bench paper`` gives the figures of the 
 benchmark.
 
 ``python -m comparisons.baseline --check FOLDER`` changes nothing.  It lists the results of a run, or the tables of the
-paper's figures, that differ from the committed ones: values by more than their bounds, or bounds by a factor.
+paper's figures, that differ from the committed ones: values by more than their bounds, or bounds by a factor.  The
+wheel has the committed tables, so that it works outside a clone, too.
 """
 
 from __future__ import annotations
@@ -23,10 +24,19 @@ import pandas as pd
 
 from comparisons.bench import baseline as bench_baseline
 from comparisons.console.exit_status import guarded
-from comparisons.data.file_names import AGREEMENT, CURVES, KAPPA_FIGURE, LARGEST_KAPPA, REFERENCES, RESULTS
+from comparisons.data.file_names import (
+    AGREEMENT,
+    BASELINE_FOLDER,
+    CURVES,
+    KAPPA_FIGURE,
+    LARGEST_KAPPA,
+    REFERENCES,
+    RESULTS,
+)
 from comparisons.paper import baseline as paper_baseline
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.code_files import solver_digest
+from comparisons.runs.committed import committed
 from comparisons.runs.csv_format import csv_text, read_csv
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.frames import rows_of
@@ -45,7 +55,7 @@ __all__ = [
 ]
 
 #: Folder of the committed results, in a clone of the repository.
-BASELINE = Path("results", "baseline")
+BASELINE = BASELINE_FOLDER
 
 #: Folder of the values of the references that are shipped with the package, in a clone of the repository.
 SHIPPED = Path("comparisons", "data", "shipped")
@@ -143,20 +153,23 @@ def _computed_run(folder: Path) -> tuple[dict[str, Any], str]:
     return record, str(tier)
 
 
-def read_baseline(target: Path = BASELINE) -> tuple[pd.DataFrame, pd.DataFrame]:
+def read_baseline(target: Path | None = None) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Return the committed results and curves as tables fit for `comparisons.judging.judge.judge`.
+
+    Parameters
+    ----------
+    target : Path, optional
+        Their folder, if not the one that `comparisons.runs.committed` finds.
 
     Raises
     ------
     ValueError
-        If they are not there, as where the working folder is not the root of a clone.
+        If they are not there.
     """
-    if missing := [name for name in _TABLES if not (target / name).is_file()]:
-        raise ValueError(
-            f"there is no file {target / missing[0]}: the committed results are in a clone of the repository only; "
-            "call this in its root folder"
-        )
-    rows, curves = (read_csv(target / name, _TEXTS) for name in _TABLES)
+    paths = [target / name if target else committed(name) for name in _TABLES]
+    if missing := [path for path in paths if not path.is_file()]:
+        raise ValueError(f"there is no file {missing[0]}: it is not the folder of a baseline")
+    rows, curves = (read_csv(path, _TEXTS) for path in paths)
     return rows, curves
 
 
@@ -199,19 +212,11 @@ def check(folder: Path) -> pd.DataFrame:
         return drift(read_baseline()[0], read_table(RunFolder(folder).parquet(RunFolder(folder).results)))
     stored, computed = (
         _by_model(read_csv(path, ("model", "quantity", "reference")))
-        for path in (_agreement(), folder / f"{AGREEMENT}.csv")
+        for path in (committed(f"references_{AGREEMENT}.csv"), folder / f"{AGREEMENT}.csv")
     )
     missing = stored.merge(computed[_KEY], on=_KEY, how="left", indicator=True)["_merge"] == "left_only"
     lost = stored[missing].assign(status="missing", value=float("nan"), u_num=float("nan"))
     return drift(stored, pd.concat([computed, lost], ignore_index=True))
-
-
-def _agreement() -> Path:
-    """Return the path of the committed agreement of both references."""
-    path = BASELINE / f"references_{AGREEMENT}.csv"
-    if not path.is_file():
-        raise ValueError(f"there is no file {path}: it is in a clone of the repository only; call this in its root")
-    return path
 
 
 def _by_model(agreement: pd.DataFrame) -> pd.DataFrame:

@@ -15,6 +15,7 @@ import meshio
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
+from numpy.typing import NDArray
 from skfem import Basis, ElementQuadP
 
 from fem_reference._contact.path import Point
@@ -54,6 +55,8 @@ class Field:
         sigma_rr, sigma_tt (hoop), sigma_zz, sigma_rz; tension positive.
     modulus : ndarray, shape (n,)
         E at the points.
+    gap, pressure : ndarray, shape (n,)
+        Gap to the punch and pressure (positive in compression) at the points of the surface; NaN below it.
     """
 
     points: Array
@@ -61,6 +64,36 @@ class Field:
     displacement: Array
     stress: Array
     modulus: Array
+    gap: Array
+    pressure: Array
+
+    def in_units_of(self, length: float, traction: float) -> Field:
+        """Return the field in another unit of every length, and of stresses, moduli and pressures.
+
+        Raises
+        ------
+        ValueError
+            If a unit is not positive.
+
+        Examples
+        --------
+        >>> one, none = np.ones(1), np.zeros((0, 4), int)
+        >>> metres = Field(np.ones((1, 2)), none, np.ones((1, 2)), np.ones((1, 4)), one, one, one)
+        >>> metres.in_units_of(1e-9, 1e6).gap, metres.in_units_of(1e-9, 1e6).pressure
+        (array([1.e+09]), array([1.e-06]))
+        """
+        for name, unit in (("length", length), ("traction", traction)):
+            if not unit > 0.0:
+                raise ValueError(f"{name} = {unit:g} is outside (0, inf): it is a unit")
+        return Field(
+            self.points / length,
+            self.quads,
+            self.displacement / length,
+            self.stress / traction,
+            self.modulus / traction,
+            self.gap / length,
+            self.pressure / traction,
+        )
 
     @property
     def von_mises(self) -> Array:
@@ -70,7 +103,7 @@ class Field:
         --------
         >>> point, cell = np.zeros((1, 2)), np.zeros((0, 4), int)
         >>> uniaxial = np.array([[0.0, 0.0, -2.0, 0.0]])
-        >>> Field(point, cell, point, uniaxial, np.ones(1)).von_mises
+        >>> Field(point, cell, point, uniaxial, *np.ones((3, 1))).von_mises
         array([2.])
         """
         rr, tt, zz, rz = self.stress.T
@@ -131,13 +164,28 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
         twice = E / (1.0 + nu)
         volume = lame * (strain[0] + strain[1] + strain[2])
         stress = [volume + twice * e for e in strain] + [0.5 * twice * shear]
+        radius, at_surface = c * s.ravel(), _at_surface(body.mesh.nelements, zeta)
+        gap = np.full(radius.size, np.nan)
+        deformed = trace.evaluate(s.ravel()[at_surface]) @ y[:-2]
+        gap[at_surface] = contact.punch.height(radius[at_surface]) - y[-2] + deformed
         return Field(
             c * np.stack([s.ravel(), zeta.ravel()], axis=1),
             _cells(body.mesh.nelements),
             np.stack([ur.ravel(), uz.ravel()], axis=1),
             np.stack([part.ravel() for part in stress], axis=1),
             E.ravel(),
+            gap,
+            contact.law.traction(gap),
         )
+
+
+def _at_surface(elements: int, depth: Array) -> NDArray[np.bool_]:
+    """Whether a sample is on the side of an element that is part of the surface."""
+    side = np.zeros((elements, SAMPLES, SAMPLES), bool)
+    first = np.asarray(depth).reshape(elements, SAMPLES, SAMPLES)
+    # The samples of the surface are off it by a share of their element.
+    side[:] = np.abs(first) <= 2.0 * SURFACE_OFFSET * np.ptp(first, axis=(1, 2), keepdims=True)
+    return side.ravel()
 
 
 def _cells(elements: int) -> Index:
@@ -149,10 +197,12 @@ def _cells(elements: int) -> Index:
 def write_vtu(field: Field, path: str | Path) -> None:
     """Write a field for ParaView; the axis of symmetry is the vertical axis and depth points down.
 
+    Point data: displacement, modulus, stresses, and gap and pressure, which are NaN below the surface.
+
     Parameters
     ----------
     field : Field
-        Sampled solution.
+        Sampled solution; in consistent units "Warp By Vector" with the factor 1 shows the deformed body.
     path : str or Path
         File name, ending in .vtu.
     """
@@ -161,6 +211,7 @@ def write_vtu(field: Field, path: str | Path) -> None:
     displacement = np.stack([field.displacement[:, 0], -field.displacement[:, 1], flat], axis=1)
     names = ("sigma_rr", "sigma_tt", "sigma_zz", "sigma_rz")
     data = {"displacement": displacement, "modulus": field.modulus, "von_mises": field.von_mises}
+    data |= {"gap": field.gap, "pressure": field.pressure}
     # The shear stress changes sign with the direction of the vertical axis.
     signs = (1.0, 1.0, 1.0, -1.0)
     data |= {name: sign * column for name, sign, column in zip(names, signs, field.stress.T, strict=True)}
@@ -168,7 +219,7 @@ def write_vtu(field: Field, path: str | Path) -> None:
 
 
 def draw(field: Field, radius: float, magnification: float = 1.0, stress: str = "sigma_zz") -> Figure:
-    """Draw the deformed, stressed body inside a radius.
+    """Draw the punch and the deformed, stressed body inside a radius.
 
     Parameters
     ----------
@@ -209,7 +260,13 @@ def draw(field: Field, radius: float, magnification: float = 1.0, stress: str = 
     # Zero is white: blue is compression, red tension.
     limit = float(np.abs(values[used]).max())
     image = axes.tripcolor(triangulation, values[used], shading="gouraud", cmap="RdBu_r", vmin=-limit, vmax=limit)
+    surface = np.flatnonzero(np.isfinite(field.gap) & (field.points[:, 0] < 1.2 * radius))
+    surface = surface[np.argsort(field.points[surface, 0])]
+    across = field.points[surface, 0]
+    lower = magnification * (field.displacement[surface, 1] - field.gap[surface])
+    axes.fill_between(across, lower, -10.0 * radius, fc="0.85", ec="0.3", lw=0.8, hatch="////")
     figure.colorbar(image, ax=axes, label=stress.replace("_", " "))
     axes.set(xlim=(0.0, radius), xlabel="r", ylabel="depth z", aspect="equal")
-    axes.set_ylim(radius, min(0.0, float(z[used].min())))
+    # A third of the body's height for the punch.
+    axes.set_ylim(radius, min(-radius / 3.0, float(z[used].min())))
     return figure

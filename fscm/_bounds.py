@@ -31,6 +31,9 @@ _SECOND_ORDER = 1.1
 # extreme, which varies fast near a critical Tabor number.  A step of 1e-2 gave a rate that was 7 times too small where
 # contact begins as a nucleus (n = 3.75, k = 0.82, mu = 1.9); 1e-3 and 1e-4 give the same.
 _ERROR_STEP, _CURVATURE_STEP = 1e-3, 1e-4
+# Rate of the error of the response per unit of the continuation parameter, in units of that error: its images oscillate
+# at wave numbers of the contact, over which the parameter changes by a part of its unit.
+_KERNEL_RATE = 10.0
 _FUNCTIONALS = ("load", "displacement", "central_gap")
 
 
@@ -60,7 +63,8 @@ def root_shift(error: float, slope: float, curvature: float) -> float:
 def bounds(errors: Errors, amplified: float = 1.0) -> Parts:
     """Sizes of the contributions, added up by cause; `amplified` is a factor for all of them."""
     mesh, tail, domain = (amplified * float(abs(signed).sum()) for signed in (errors.mesh, errors.tail, errors.domain))
-    return Parts(mesh / (1.0 - _LEFT), _SECOND_ORDER * tail, domain, amplified * errors.rounding)
+    unsigned = {"rounding": amplified * errors.rounding, "kernel": amplified * errors.kernel}
+    return Parts(mesh / (1.0 - _LEFT), _SECOND_ORDER * tail, domain, **unsigned)
 
 
 class EventErrors:
@@ -131,7 +135,9 @@ class EventErrors:
         mesh = change.mesh / step
         if kinks_of(self.state.disc.problem.punch):
             mesh = np.append(mesh, self._moving(functional))
-        return Errors(mesh, change.tail / step, change.domain / step, rounding)
+        # The error of the response varies over a radius as the response itself: per unit of the parameter, by its size.
+        kernel = _KERNEL_RATE * change.kernel / (2.0 * self._unit)
+        return Errors(mesh, change.tail / step, change.domain / step, rounding, kernel)
 
     def _moving(self, functional: str) -> float:
         """Mean rate of a functional on meshes that move with the kinks, less the exact rate on fixed ones (Simpson)."""

@@ -176,7 +176,7 @@ def _check_edge(problem: Problem) -> None:
 
 def usual_start(problem: Problem) -> float:
     """A central gap beyond the far branch at jump-out: JKR's C_out mu is at most sqrt(2 pi) mu (Eq. 55)."""
-    return 3.0 + 3.0 * problem.mu
+    return 3.0 + 3.0 * problem.largest_mu
 
 
 def equilibrium_path(

@@ -47,25 +47,28 @@ class Errors:
     Attributes
     ----------
     mesh, tail, domain : ndarray
-    rounding : float
-        A bound: rounding has no sign.
+    rounding, kernel : float
+        Bounds: rounding has no sign, and that of the error of the response is not known.
     """
 
     mesh: Array
     tail: Array
     domain: Array
     rounding: float
+    kernel: float = 0.0
 
     def plus(self, other: Errors, factor: float) -> Errors:
         """Contributions of self + factor * other; when their places are not the same, the sizes add up."""
         if self.mesh.shape != other.mesh.shape:
             size = abs(factor)
-            return self.beside(Errors(size * other.mesh, size * other.tail, size * other.domain, size * other.rounding))
+            signed = size * other.mesh, size * other.tail, size * other.domain
+            return self.beside(Errors(*signed, size * other.rounding, size * other.kernel))
         return Errors(
             self.mesh + factor * other.mesh,
             self.tail + factor * other.tail,
             self.domain + factor * other.domain,
             self.rounding + abs(factor) * other.rounding,
+            self.kernel + abs(factor) * other.kernel,
         )
 
     def beside(self, other: Errors) -> Errors:
@@ -75,6 +78,7 @@ class Errors:
             np.concatenate([self.tail, other.tail]),
             np.concatenate([self.domain, other.domain]),
             self.rounding + other.rounding,
+            self.kernel + other.kernel,
         )
 
 
@@ -128,10 +132,10 @@ class Defect:
         polynomial = own.transfer(state.pressure, mesh)
         # The error of the pressure in its own place, and that of the deformation between the nodes.
         self._pressure_error = f.pressure - polynomial
-        deformation = self._stiffness * (fine.matrix @ polynomial) + f.tail.displacement
+        deformation = self._stiffness * (fine.response(state.scale) @ polynomial) + f.tail.displacement
         self._gap_error = lift - deformation if fine.steep else f.gap + state.displacement - height - deformation
-        axis = fine.axis @ polynomial, state.disc.axis @ state.pressure
-        self._axis_error = self._stiffness * float(axis[0] - axis[1])
+        axis = (d.axis_response(state.scale) @ p for d, p in ((fine, polynomial), (state.disc, state.pressure)))
+        self._axis_error = self._stiffness * float(next(axis) - next(axis))
         self._owner = np.repeat(own.locate(mesh.middles), mesh.order)
         self._panels = len(own.lengths)
         self._edge = max(int(np.searchsorted(own.offsets, 1.0 - own.origin)) - 1, 0)
@@ -155,7 +159,7 @@ class Defect:
             mesh[self._edge] += anchor * self._system.anchor
         tail, domain = self._behind(adjoint, border, functional, control)
         rounding = self._rounding(adjoint, border, functional, control) + abs(border * missed)
-        return Errors(mesh, tail, domain, rounding)
+        return Errors(mesh, tail, domain, rounding, self._kernel(adjoint, border, functional, control))
 
     def _by_panel(self, values: Array) -> Array:
         return np.asarray(np.bincount(self._owner, values, minlength=self._panels), float)
@@ -173,7 +177,7 @@ class Defect:
 
     def _backwards(self, adjoint: Array) -> Array:
         """Adjoint of the response: K W^T adjoint."""
-        return self._stiffness * (adjoint @ self.fine.disc.matrix)
+        return self._stiffness * (adjoint @ self.fine.disc.response(self.fine.scale))
 
     def _gradient(self, name: str) -> Array:
         """Derivatives of a functional by the unknowns."""
@@ -201,6 +205,8 @@ class Defect:
         pressure = 0.5 * float(np.sum(weighed))
         surface = self._area @ (0.5 * f.pressure * f.deformation + law.energy(f.gap))
         elastic = 0.5 * (1.0 - k) * float(weighed @ (f.deformation - tail.displacement))
+        growth = f.disc.growth(f.scale, f.pressure)[0]
+        elastic += 0.5 * self._stiffness * float(np.sum(weighed * growth))
         by_displacement = pressure * tail.displacement_slope + (behind(0.0, _STEP) - behind(0.0, -_STEP)) / (
             2.0 * _STEP
         )
@@ -216,7 +222,9 @@ class Defect:
         if name == "load":
             return self._by_panel(self._area * self._pressure_error)
         if name == "central_gap":
-            found = self._by_panel(self._stiffness * self.fine.disc.axis * self._pressure_error)
+            found = self._by_panel(
+                self._stiffness * self.fine.disc.axis_response(self.fine.scale) * self._pressure_error
+            )
             found[0] += self._axis_error
             return found
         if name == "energy":
@@ -253,6 +261,18 @@ class Defect:
         ring = adjoint + (0.5 * self._area * f.pressure if functional == "energy" else 0.0)
         return of_tail, np.concatenate([neglected, [elastic], self._by_panel(ring * response) * tail.displacement])
 
+    def _kernel(self, adjoint: Array, border: float, functional: str, control: str) -> float:
+        """Bound of the error of the response of a graded solid, weighed by the adjoint."""
+        f = self.fine
+        if f.disc.problem.response is None:
+            return 0.0
+        nodes, axis = f.disc.problem.response.error(f.disc.mesh, f.scale, f.pressure)
+        weights = np.abs(adjoint)
+        on_axis = float(functional == "central_gap") + abs(border) * float(control == "central_gap")
+        if functional == "energy":
+            weights = weights + 0.5 * np.abs(self._area * f.pressure)
+        return self._stiffness * float(weights @ nodes + on_axis * axis)
+
     def _rounding(self, adjoint: Array, border: float, functional: str, control: str) -> float:
         """Rounding of the residual weighed by the adjoint, and of the functionals."""
         f = self.fine
@@ -275,7 +295,11 @@ class Defect:
         if name == "load":
             return stored + _WEIGHT * float(self._area @ np.abs(f.pressure))
         if name == "central_gap":
-            return stored + abs(f.displacement) + _ENTRY * self._stiffness * float(f.disc.axis @ np.abs(f.pressure))
+            return (
+                stored
+                + abs(f.displacement)
+                + _ENTRY * self._stiffness * float(f.disc.axis_response(f.scale) @ np.abs(f.pressure))
+            )
         if name == "energy":
             density = 0.5 * np.abs(f.pressure * f.deformation) + np.abs(f.disc.problem.law.energy(f.gap))
             return stored + _WEIGHT * float(self._area @ density)

@@ -20,7 +20,7 @@ from fscm._panels import PanelMesh, gauss_rule
 from fscm._response_store import known_blocks
 from fscm._typing import Array
 
-__all__ = ["axis_row", "response_blocks", "response_matrix"]
+__all__ = ["Pieces", "axis_row", "moments", "response_blocks", "response_matrix"]
 
 # A panel is near when it is closer than its own length: then the Gauss rule of q nodes leaves at most
 # (3 + sqrt 8)^-2q times the strength of a weak singularity.
@@ -51,7 +51,7 @@ def _singular_rule(order: int, k: float) -> tuple[Array, Array, Array]:
 
 
 @dataclass
-class _Pieces:
+class Pieces:
     """Sub-intervals of near (target, panel) pairs, as flat arrays of one length.
 
     A point of a piece lies at distance `near + L u` from its target on side `sign` and at local coordinate
@@ -65,15 +65,15 @@ class _Pieces:
     xi: Array
 
     @staticmethod
-    def join(parts: list[_Pieces]) -> _Pieces:
-        return _Pieces(
+    def join(parts: list[Pieces]) -> Pieces:
+        return Pieces(
             *(np.concatenate([getattr(p, f) for p in parts]) for f in ("pair", "sign", "near", "length", "xi"))
         )
 
 
 def _doubling_pieces(
     pair: NDArray[np.intp], sign: Array, near: Array, extent: Array, xi: Array, h: Array
-) -> list[_Pieces]:
+) -> list[Pieces]:
     """Cover distances near ... near + extent by pieces no longer than their distance from the target."""
     parts = []
     active = np.flatnonzero(extent > 0.0)
@@ -81,7 +81,7 @@ def _doubling_pieces(
     while active.size:
         # The last piece takes the whole remainder when it is within 1.5 of the allowed length.
         length = np.where(extent[active] <= 1.5 * near[active], extent[active], near[active])
-        parts.append(_Pieces(pair[active], sign[active], near[active], length, xi[active]))
+        parts.append(Pieces(pair[active], sign[active], near[active], length, xi[active]))
         near[active] += length
         extent[active] -= length
         xi[active] += sign[active] * length / h[active]
@@ -89,7 +89,7 @@ def _doubling_pieces(
     return parts
 
 
-def _moments(pieces: _Pieces, values: Array, u: Array, h: Array, order: int, count: int) -> Array:
+def moments(pieces: Pieces, values: Array, u: Array, h: Array, order: int, count: int) -> Array:
     """Legendre moments, shape (count, order), of weighted kernel `values` (pieces, nodes), summed by pair."""
     x = (pieces.sign * pieces.length / h[pieces.pair])[:, None] * u
     x += pieces.xi[:, None]
@@ -129,8 +129,8 @@ def _near_rows(
     index = np.arange(count)
     rule = gauss_rule(order + _EXTRA_NODES)
     u = rule.nodes
-    smooth: list[_Pieces] = []
-    singular: list[_Pieces] = []
+    smooth: list[Pieces] = []
+    singular: list[Pieces] = []
     out = index[~own]
     if out.size:
         xi = np.where(side[out] > 0, 0.0, 1.0)
@@ -141,19 +141,19 @@ def _near_rows(
         for sign, available, limit in ((-1.0, v * h, 0.5 * r), (1.0, (1.0 - v) * h, r)):
             s = np.full(mine.size, sign)
             touch = np.minimum(available[mine], limit[mine])
-            singular.append(_Pieces(mine, s, np.zeros(mine.size), touch, v[mine]))
+            singular.append(Pieces(mine, s, np.zeros(mine.size), touch, v[mine]))
             rest = available[mine] - touch
             smooth += _doubling_pieces(mine, s, touch, rest, v[mine] + sign * touch / h[mine], h[mine])
-    moments = np.zeros((count, order))
+    found = np.zeros((count, order))
     if smooth:
-        p = _Pieces.join(smooth)
+        p = Pieces.join(smooth)
         distance = p.near[:, None] + p.length[:, None] * u
         radius = np.broadcast_to(r[p.pair][:, None], distance.shape)
         t = radius + p.sign[:, None] * distance
         values = kernel.response(radius, t, distance) * (p.length[:, None] * rule.weights)
-        moments += _moments(p, values, u, h, order, count)
+        found += moments(p, values, u, h, order, count)
     if singular:
-        p = _Pieces.join(singular)
+        p = Pieces.join(singular)
         distance = p.length[:, None] * u
         radius = np.broadcast_to(r[p.pair][:, None], distance.shape)
         t = radius + p.sign[:, None] * distance
@@ -162,8 +162,8 @@ def _near_rows(
         # L(distance/(r+t)) with distance = L u splits into u^-k L(g) + (u^-k - 1)/k, g = L/(r+t).
         smooth_log = box_cox(np.log(p.length[:, None] / (radius + t)), kernel.k)
         values = p.length[:, None] * (plain * S + C * (power * smooth_log + difference))
-        moments += _moments(p, values, u, h, order, count)
-    return moments @ gauss_rule(order).to_modes
+        found += moments(p, values, u, h, order, count)
+    return found @ gauss_rule(order).to_modes
 
 
 def response_blocks(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], sources: NDArray[np.intp]) -> Array:

@@ -16,6 +16,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -71,6 +72,7 @@ class Discretisation:
         known = (previous.mesh, previous.matrix) if previous is not None and previous.problem.k == problem.k else None
         self.matrix: Array = response_matrix(kernel, mesh, known)
         self.axis = axis_row(kernel, mesh)
+        self._at: tuple[float, Any, Array] | None = None
         #: The last factors of a tangent on this mesh: they serve states nearby.
         self.factor: BorderedFactor | None = None
         edge = int(np.searchsorted(mesh.offsets, 1.0 - mesh.origin))
@@ -93,6 +95,29 @@ class Discretisation:
             near = self.problem.punch.height(radius) < _HIGHEST
             return np.where(near, radius * self.problem.punch.slope(np.where(near, radius, 0.0)), 0.0)
         return radius * self.problem.punch.slope(radius)
+
+    def _remainder(self, c: float) -> tuple[Any, Array]:
+        """What the images of a graded solid take from the response at a scale, and what is left of it."""
+        if self._at is None or self._at[0] != c:
+            self._at = None  # its memory is free before the new one is made
+            found = self.problem.response.remainder(self.mesh, c)
+            self._at = c, found, self.matrix - found.matrix
+        return self._at[1:]
+
+    def response(self, c: float) -> Array:
+        """The matrix W at a scale; of a power law it is the same at each."""
+        return self.matrix if self.problem.response is None else self._remainder(c)[1]
+
+    def axis_response(self, c: float) -> Array:
+        """The row of W for the axis at a scale."""
+        return self.axis if self.problem.response is None else self.axis - self._remainder(c)[0].axis
+
+    def growth(self, c: float, pressure: Array) -> tuple[Array | float, float]:
+        """Derivative of W p by log c at the nodes and on the axis, besides that of the factor of W."""
+        if self.problem.response is None:
+            return 0.0, 0.0
+        found = self._remainder(c)[0]
+        return -(found.rate @ pressure), -float(found.axis_rate @ pressure)
 
     def stiffness_scale(self, c: float) -> float:
         """M (1-k) c^{1-k}, the factor of W."""
@@ -191,13 +216,14 @@ class State:
     def deformation(self) -> Array:
         """w at the nodes, shape (N,)."""
         d = self.disc
-        return d.stiffness_scale(self.scale) * (d.matrix @ self.pressure) + self.tail.displacement
+        return d.stiffness_scale(self.scale) * (d.response(self.scale) @ self.pressure) + self.tail.displacement
 
     @cached_property
     def central_gap(self) -> float:
         """H_0 from Eq. 32."""
         d = self.disc
-        w0 = d.stiffness_scale(self.scale) * float(d.axis @ self.pressure) + self.tail.displacement
+        w0 = d.stiffness_scale(self.scale) * float(d.axis_response(self.scale) @ self.pressure)
+        w0 += self.tail.displacement
         return w0 - self.displacement
 
     @cached_property
@@ -271,7 +297,8 @@ class Linearisation:
         elastic = s.deformation - s.tail.displacement
         self._stiffness_slope = K * slope
         self._displacement_column: float | Array = 1.0 - s.tail.displacement_slope
-        self.scale_column = -(rise + (1.0 - k) * elastic + s.tail.displacement_rate)
+        growth, axis_growth = (K * one for one in d.growth(s.scale, s.pressure))
+        self.scale_column = -(rise + (1.0 - k) * elastic + growth + s.tail.displacement_rate)
         # Derivatives of the anchor by delta and log c.
         self._anchor_ends = 0.0, 0.0 if s.follows_edge else 1.0
         self.anchor = float(d.edge @ s.gap) - s.gap_at_edge if s.follows_edge else 0.0
@@ -279,19 +306,21 @@ class Linearisation:
         self.load_row = area * slope
         self.load_slope = s.tail.load_slope
         self.load_scale = 2.0 * (s.load - s.tail.load) + s.tail.load_rate
-        self.axis_gap_row = K * d.axis * slope
+        self.axis_gap_row = K * d.axis_response(s.scale) * slope
         self.axis_gap_slope = 1.0 - s.tail.displacement_slope
         self.axis_gap_scale = (1.0 - k) * (
             s.central_gap + s.displacement - s.tail.displacement
         ) + s.tail.displacement_rate
+        self.axis_gap_scale += float(axis_growth)
         if s.lift is not None:
-            self._unknown_is_lift(s.lift, K * slope, rise, elastic)
+            self._unknown_is_lift(s.lift, K * slope, rise, (1.0 - k) * elastic + growth)
 
     def _unknown_is_lift(self, lift: Array, stiffness: Array, rise: Array, elastic: Array) -> None:
         """Columns for the unknowns (w, delta, log c), H = f(c s) - delta + w, without the large heights."""
         s, d = self.state, self.state.disc
-        self._displacement_column = d.matrix @ stiffness - s.tail.displacement_slope
-        self.scale_column = -(d.matrix @ (stiffness * rise) + (1.0 - d.problem.k) * elastic + s.tail.displacement_rate)
+        W = d.response(s.scale)
+        self._displacement_column = W @ stiffness - s.tail.displacement_slope
+        self.scale_column = -(W @ (stiffness * rise) + elastic + s.tail.displacement_rate)
         if s.follows_edge:
             edge = np.array([s.scale])
             self.anchor = float(d.height(edge)[0] - s.displacement + d.edge @ lift) - s.gap_at_edge
@@ -307,7 +336,7 @@ class Linearisation:
         N = d.mesh.size
         matrix = np.empty((N + 2, N + 2), order="F")
         J = matrix[:N, :N]
-        np.multiply(d.matrix, -self._stiffness_slope, out=J)
+        np.multiply(d.response(self.state.scale), -self._stiffness_slope, out=J)
         J[np.arange(N), np.arange(N)] += 1.0
         matrix[:N, N] = self._displacement_column
         matrix[:N, N + 1] = self.scale_column
@@ -318,13 +347,13 @@ class Linearisation:
     def near(self, factor: BorderedFactor) -> bool:
         """Whether factors of another state's tangent are good enough here."""
         change = np.abs(self._stiffness_slope - factor.stiffness_slope)
-        return bool(np.max(self.state.disc.matrix @ change) < _NEAR)
+        return bool(np.max(self.state.disc.response(self.state.scale) @ change) < _NEAR)
 
     def times(self, x: Array) -> Array:
         """All rows of the bordered matrix but the last, times a vector; shape (N + 1,)."""
         d, dH = self.state.disc, x[:-2]
         product = np.empty(len(x) - 1)
-        product[:-1] = dH - d.matrix @ (self._stiffness_slope * dH)
+        product[:-1] = dH - d.response(self.state.scale) @ (self._stiffness_slope * dH)
         product[:-1] += self._displacement_column * x[-2] + self.scale_column * x[-1]
         product[-1] = self._anchor_ends[0] * x[-2] + self._anchor_ends[1] * x[-1]
         if self.state.follows_edge:

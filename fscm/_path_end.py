@@ -25,6 +25,7 @@ import scipy
 
 from fscm._equilibrium import State
 from fscm._typing import Array
+from fscm.errors import NotConverged
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
@@ -104,6 +105,10 @@ def displacement_of_compression(problem: Problem, end: float) -> float:
     """
     if isinstance(problem.punch, PowerPunch) or not _has_asperities(problem, end):
         return -math.inf
+    if problem.response is not None:
+        raise NotConverged(
+            f"the punch of {problem} has asperities: where its path ends is known for a power-law modulus only"
+        )
     bound = LeastLoad(problem, end)
     largest = _LARGEST * float(problem.punch.height(np.array([end]))[0])
     found, displacement = math.inf, largest

@@ -65,6 +65,8 @@ class _RigidSolid:
     def __init__(self, problem: Problem) -> None:
         n, law = problem.n, problem.law
         self._law, self._compliance = law, problem.compliance
+        if problem.response is not None:
+            self._compliance *= problem.response.softest
         self._heights = np.concatenate([[0.0], np.geomspace(_LOWEST, _HIGHEST, _HEIGHTS)])
         r = (n * self._heights) ** (1.0 / n)
         self._areas, self._lengths = np.diff(r * r), np.diff(r ** (1.0 - problem.k))

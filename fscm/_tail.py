@@ -71,6 +71,8 @@ def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
 
     load_factor = -2.0 * strength * T**2
     w_factor = -problem.compliance * (1.0 - k) * strength * T ** (1.0 - k)
+    if problem.response is not None:
+        w_factor *= problem.response.far(T)
     (load, load_rate, load_slope), (w, w_rate, w_slope) = powers(2.0), powers(1.0 - k)
     return Tail(
         load_factor * load,
@@ -119,10 +121,11 @@ def tail_errors(problem: Problem, T: float, displacement: float) -> tuple[Array,
     weights = np.tile(0.5 * math.log(ratio) * rule[1], _PIECES) * t
     gap = problem.punch.height(t) - displacement
     pressure = problem.law.traction(gap)
+    share = 1.0 if problem.response is None else problem.response.far(T)
     near = np.array(
         [
             2.0 * float((weights * t) @ pressure),
-            problem.compliance * (1.0 - k) * float((weights * t**-k) @ pressure),
+            problem.compliance * share * (1.0 - k) * float((weights * t**-k) @ pressure),
             2.0 * float((weights * t) @ problem.law.energy(gap)),
         ]
     )

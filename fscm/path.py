@@ -33,7 +33,7 @@ _LONGEST_STEP = 0.15
 # Of every so many points the errors are computed; the largest bounds hold for all, since meshes change little.
 _CHECK_EVERY = 12
 _MAX_POINTS = 5000
-# Degrees: a broken line that turns by less at each point looks like a curve.
+# Degrees: a broken line that turns by less at each point is drawn as a curve.
 _LARGEST_TURN = 5.0
 
 

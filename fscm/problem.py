@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from fscm._validation import real_number
 from fscm.laws import LennardJones93, SurfaceLaw
@@ -117,6 +118,16 @@ class Problem:
         # The generated __setattr__ of a frozen class refuses; writing through object is its own idiom.
         for name, value in (("n", n), ("k", k), ("mu", mu), ("punch", punch), ("law", law)):
             object.__setattr__(self, name, value)
+
+    @property
+    def response(self) -> Any:
+        """What distinguishes the solid from a power law (`fscm.graded.GradedProblem`): None."""
+        return None
+
+    @property
+    def largest_mu(self) -> float:
+        """The Tabor number of the softest part of the solid: that of a power law is the only one."""
+        return self.mu
 
     @property
     def compliance(self) -> float:

@@ -34,6 +34,8 @@ class Parts(Mapping[str, float]):
         Rounding of the numbers, through the condition of the event.
     law : float
         What the data of a smoothed law leave open (see `TabulatedLaw`).
+    kernel : float
+        Response of a graded solid to a ring (see `fscm.graded`); zero for a power law, whose response is exact.
 
     Examples
     --------
@@ -47,6 +49,7 @@ class Parts(Mapping[str, float]):
     domain: float = 0.0
     rounding: float = 0.0
     law: float = 0.0
+    kernel: float = 0.0
 
     def __getitem__(self, name: str) -> float:
         if name not in _CAUSES:
@@ -97,7 +100,7 @@ class Solution:
     >>> solution.u_num < 1e-10, solution.residual < 1e-12
     (True, True)
     >>> list(solution.parts), sum(solution.parts.values()) == solution.u_num
-    (['mesh', 'tail', 'domain', 'rounding', 'law'], True)
+    (['mesh', 'tail', 'domain', 'rounding', 'law', 'kernel'], True)
     """
 
     value: float

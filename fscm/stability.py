@@ -95,7 +95,9 @@ def margins(state: State, m: int, count: int = 1) -> Array:
     d = state.disc
     slope = d.problem.law.slope(state.gap)
     attracted = slope > 0.0
-    response = d.matrix if m == 0 else response_matrix(azimuthal_kernel(d.problem.k, m), d.mesh)
+    if m > 0 and d.problem.response is not None:
+        raise NotConverged(f"the stability against cos({m} theta) is known for a power-law modulus only")
+    response = d.response(state.scale) if m == 0 else response_matrix(azimuthal_kernel(d.problem.k, m), d.mesh)
     K = d.stiffness_scale(state.scale) * response
     size = int(np.count_nonzero(attracted))
     try:

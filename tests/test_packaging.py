@@ -1,18 +1,25 @@
-"""Packaging: declared dependencies, and a complete source distribution."""
+"""Packaging: declared dependencies, a complete source distribution, and a wheel that works outside a clone."""
 
 import ast
 import re
+import runpy
 import shutil
 import subprocess
 import sys
 import tarfile
 import tomllib
+import zipfile
 from collections.abc import Iterator
 from fnmatch import fnmatch
 from importlib.metadata import packages_distributions
 from pathlib import Path, PurePosixPath
 
 import pytest
+import yaml
+
+from comparisons.console.installation import EXTRAS as MISSING
+from comparisons.runs.code_files import NOT_INSTALLED
+from comparisons.runs.environment import code_digest
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGES = ("fscm", "fem_reference", "comparisons")
@@ -20,6 +27,8 @@ CONFIGURATION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-
 PROJECT, SETUPTOOLS = CONFIGURATION["project"], CONFIGURATION["tool"]["setuptools"]
 RUNTIME, EXTRAS = PROJECT["dependencies"], PROJECT["optional-dependencies"]
 FOR_TESTS = EXTRAS["test"]
+#: Imported by the build alone.
+FOR_BUILD = CONFIGURATION["build-system"]["requires"]
 
 #: Files that the build adds.
 BUILT = ("PKG-INFO", "setup.cfg", "*.egg-info/*")
@@ -46,20 +55,25 @@ def roots(source: str) -> Iterator[str]:
 def external(*folders: str) -> set[str]:
     """The distributions from which the modules of some folders import."""
     sources = [path.read_text(encoding="utf-8") for folder in folders for path in (ROOT / folder).rglob("*.py")]
-    names = {root for source in sources for root in roots(source)} - sys.stdlib_module_names - {*PACKAGES, "__main__"}
+    names = {root for source in sources for root in roots(source)} - sys.stdlib_module_names
+    names -= {*PACKAGES, "__main__", "fscm_bench"}
     installed = packages_distributions()
     return {canonical(installed.get(name, [name])[0]) for name in names}
 
 
 def test_every_import_of_the_packages_is_declared_and_nothing_else():
     # An optional package is imported where it is used.
-    assert external(*PACKAGES) == {
-        canonical(requirement) for requirement in RUNTIME + EXTRAS["cluster"] + EXTRAS["bench"] + EXTRAS["pytest"]
-    }
+    optional = [requirement for name in ("report", "cluster", "bench", "pytest") for requirement in EXTRAS[name]]
+    assert external(*PACKAGES) == {canonical(requirement) for requirement in RUNTIME + optional + FOR_BUILD}
+
+
+def test_the_packages_of_the_extra_report_are_those_of_its_sentence():
+    assert {canonical(requirement) for requirement in EXTRAS["report"]} == set(MISSING)
+    assert set(MISSING.values()) == {"report"}
 
 
 def test_the_tests_need_every_extra():
-    assert set(EXTRAS["cluster"]) <= set(FOR_TESTS)
+    assert set(EXTRAS["cluster"] + EXTRAS["report"]) <= set(FOR_TESTS)
 
 
 def test_every_import_of_the_tests_is_declared():
@@ -110,18 +124,157 @@ def test_the_wheel_has_every_file_of_the_packages():
         assert files <= packed
 
 
-def test_the_source_distribution_has_every_file_of_the_repository(tmp_path):
-    copy, dist = tmp_path / "copy", tmp_path / "dist"
-    expected = repository()
-    for name in expected:
+#: Without the isolation of pip and build: nothing is downloaded.
+BUILD = "import sys; from setuptools import build_meta; build_meta.build_{kind}(sys.argv[1])"
+
+
+def built(kind, source, dist):
+    done = subprocess.run(
+        [sys.executable, "-c", BUILD.format(kind=kind), dist], cwd=source, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    (path,) = dist.iterdir()
+    return path
+
+
+@pytest.fixture(scope="module")
+def source_distribution(tmp_path_factory):
+    """The source distribution, unpacked."""
+    folder = tmp_path_factory.mktemp("source")
+    copy, dist = folder / "copy", folder / "dist"
+    for name in repository():
         (copy / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(ROOT / name, copy / name)
-    build = "import sys; from setuptools import build_meta; build_meta.build_sdist(sys.argv[1])"
-    # Without the isolation of pip and build: nothing is downloaded.
-    done = subprocess.run([sys.executable, "-c", build, dist], cwd=copy, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    (archive,) = dist.glob("*.tar.gz")
-    with tarfile.open(archive) as tar:
-        members = {member.name.partition("/")[2] for member in tar if member.isfile()}
+    with tarfile.open(built("sdist", copy, dist)) as tar:
+        tar.extractall(folder / "unpacked", filter="data")
+    (unpacked,) = (folder / "unpacked").iterdir()
+    return unpacked
+
+
+@pytest.fixture(scope="module")
+def wheel(source_distribution, tmp_path_factory):
+    """The wheel that the unpacked source distribution makes, unpacked as pip does it."""
+    folder = tmp_path_factory.mktemp("wheel")
+    with zipfile.ZipFile(built("wheel", source_distribution, folder / "dist")) as archive:
+        archive.extractall(folder / "site-packages")
+    return folder / "site-packages"
+
+
+def files_in(folder):
+    return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
+
+
+def test_the_source_distribution_has_every_file_of_the_repository(source_distribution):
+    expected = repository()
+    members = {name for name in files_in(source_distribution) if not name.startswith("build/")}
     assert sorted(expected - members) == []
     assert [name for name in sorted(members - expected) if not any(fnmatch(name, one) for one in BUILT)] == []
+
+
+def test_the_wheel_has_the_packages_and_the_tables_of_the_baseline(wheel):
+    tops = {name.partition("/")[0] for name in files_in(wheel)}
+    assert {name for name in tops if not name.endswith(".dist-info")} == {*PACKAGES, "fscm_bench", "fscm_bench_pytest"}
+    assert not any((wheel / folder).exists() for folder in NOT_INSTALLED)
+    packed, committed = wheel / "comparisons" / "data" / "baseline", ROOT / "results" / "baseline"
+    tables = [path for name in ("", "paper") for path in (committed / name).glob("*.csv")]
+    assert len(tables) > 50
+    for path in tables:
+        assert (packed / path.relative_to(committed)).read_bytes() == path.read_bytes()
+    assert {Path(name).suffix for name in files_in(packed)} == {".csv", ".md", ".tex"}
+    assert (wheel / "fscm" / "interpolation" / "data").is_dir()
+
+
+def test_the_wheel_is_small(wheel):
+    """2.3 MB when this was written; PyPI shows the size, and every job of a CI downloads it."""
+    (path,) = (wheel.parent / "dist").iterdir()
+    assert path.stat().st_size < 4e6
+
+
+def test_the_page_on_pypi_has_absolute_links_to_files_that_exist(wheel):
+    (metadata,) = wheel.glob("*.dist-info/METADATA")
+    source, version = PROJECT["urls"]["Source"], PROJECT["version"]
+    links = re.findall(r"\]\(([^)\s]+)\)", metadata.read_text(encoding="utf-8"))
+    ours = [link for link in links if link.startswith(source)]
+    assert len(ours) > 10
+    assert [link for link in links if "://" not in link and not link.startswith("#")] == []
+    for link in ours:
+        kind, tag, path = link.removeprefix(f"{source}/").partition("#")[0].split("/", 2)
+        assert (kind, tag) == ("raw" if path.endswith((".png", ".svg")) else "blob", f"v{version}")
+        assert (ROOT / path).exists()
+
+
+def test_the_check_of_the_baseline_works_by_the_wheel_alone(wheel, tmp_path):
+    for path in (ROOT / "results" / "baseline" / "paper").glob("fig16*.csv"):
+        shutil.copy(path, tmp_path)
+    code = (
+        f"import sys; sys.path.insert(0, {str(wheel)!r}); import comparisons\n"
+        f"assert comparisons.__file__.startswith({str(wheel)!r})\n"
+        "from comparisons.baseline import main, read_baseline\n"
+        "print(len(read_baseline()[0])); sys.exit(main(['--check', '.']))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    rows, agrees = done.stdout.splitlines()
+    assert int(rows) > 1000
+    assert agrees == ". agrees with the baseline"
+
+
+def test_the_same_code_has_the_same_digest_in_a_clone_and_installed(wheel):
+    assert code_digest(wheel) == code_digest(ROOT)
+
+
+def test_the_constraints_have_the_lowest_version_of_every_requirement():
+    lines = runpy.run_path(str(ROOT / ".github" / "constraints" / "lowest.py"))["constraints"]()
+    assert {line.replace("==", ">=") for line in lines} >= {*RUNTIME, *FOR_TESTS}
+
+
+def test_a_release_is_refused_while_something_does_not_agree():
+    problems = runpy.run_path(str(ROOT / ".github" / "release_check.py"))["problems"]
+    version, source = PROJECT["version"], PROJECT["urls"]["Source"]
+    assert not any("pyproject.toml" in line or "CITATION" in line for line in problems(f"v{version}", source))
+    assert any(
+        f"the tag is v0.0.9, and the version in pyproject.toml {version}" in line for line in problems("v0.0.9", source)
+    )
+    assert any(
+        "this repository is https://host/other" in line for line in problems(f"v{version}", "https://host/other")
+    )
+
+
+def test_the_recipe_of_conda_has_the_requirements():
+    text = (ROOT / ".github" / "packaging" / "conda" / "recipe.yaml").read_text(encoding="utf-8")
+    recipe = yaml.safe_load(text)
+    names = {"matplotlib": "matplotlib-base"}
+    needed = (requirement.partition(">=") for requirement in RUNTIME + EXTRAS["report"])
+    expected = {f"{names.get(name, name)} >={version}" for name, _, version in needed}
+    assert set(recipe["requirements"]["run"]) == expected | {f"python {PROJECT['requires-python']}"}
+    assert recipe["context"]["version"] == PROJECT["version"]
+    (entry,) = recipe["build"]["python"]["entry_points"]
+    assert entry == f"fscm-bench = {PROJECT['scripts']['fscm-bench']}"
+
+
+@pytest.mark.parametrize("name", ["tests.yml", "release.yml"])
+def test_a_workflow_is_pinned_and_has_few_rights(name):
+    text = (ROOT / ".github" / "workflows" / name).read_text(encoding="utf-8")
+    workflow = yaml.safe_load(text)
+    assert workflow["permissions"] == {"contents": "read"}
+    used = re.findall(r"uses: (\S+)", text)
+    assert used
+    assert [action for action in used if not re.fullmatch(r"[\w./-]+@[0-9a-f]{40}", action)] == []
+    for job in workflow["jobs"].values():
+        assert job.get("permissions", {}) in ({}, {"id-token": "write"})
+        for step in job["steps"]:
+            done = subprocess.run(["bash", "-n"], input=step.get("run", ""), capture_output=True, text=True)
+            assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_the_versions_of_python_that_are_declared_are_tested():
+    workflow = yaml.safe_load((ROOT / ".github" / "workflows" / "tests.yml").read_text(encoding="utf-8"))
+    tested = {one["python"] for one in workflow["jobs"]["versions"]["strategy"]["matrix"]["include"]}
+    declared = {
+        name.removeprefix("Programming Language :: Python :: ") for name in PROJECT["classifiers"] if "3." in name
+    }
+    assert tested == declared
+    lowest = [
+        one for one in workflow["jobs"]["versions"]["strategy"]["matrix"]["include"] if one["dependencies"] == "lowest"
+    ]
+    assert [f">={one['python']}" for one in lowest] == [PROJECT["requires-python"]]

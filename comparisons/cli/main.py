@@ -11,10 +11,11 @@ from __future__ import annotations
 import argparse
 import logging
 import sys
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from importlib import import_module
 from typing import Any, NoReturn
 
+from comparisons.cli.help_text import HelpFormatter, description_of, examples_text
 from comparisons.console.exit_status import guarded
 
 __all__ = ["main"]
@@ -36,6 +37,7 @@ _COMMANDS = {
     "list": ("listing", "list the models, quantities, cases or gates"),
     "check-model": ("check_model", "check that an external model keeps the contract"),
     "new-model": ("new_model", "write a template for a model of your own"),
+    "cite": ("cite", "print how to cite fscm-bench and what a run used, as text or BibTeX"),
     "bench": ("bench", "measure error, time and memory of the solvers on this machine, as ratios"),
 }
 
@@ -55,28 +57,56 @@ class _Version(argparse.Action):
     """The option --version; the version is read when it is asked for."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
-        from comparisons.runs.environment import package_version
+        from comparisons.runs.environment import version_text
 
-        print(f"fscm-bench {package_version()}")
+        print(f"fscm-bench {version_text()}")
         parser.exit()
 
 
-def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
-    """The parser, with the arguments of the command that is called."""
+class _Completion(argparse.Action):
+    """The option --print-completion."""
+
+    def __call__(self, parser: argparse.ArgumentParser, _: argparse.Namespace, shell: Any, *__: Any) -> None:
+        from comparisons.cli.completion import completion_script
+
+        print(completion_script(_parser(list(_COMMANDS)), shell), end="")
+        parser.exit()
+
+
+#: The end of the help.
+_EXIT_STATUS = (
+    "Exit status: 0 done and every gate passes, 1 a gate fails, 2 wrong input, 3 inconclusive, 4 a computation or an "
+    "output failed, a gate is in error, or no gate was evaluated."
+)
+_EXAMPLES = (
+    "fscm-bench run",
+    "fscm-bench solve --model fscm --quantity pull_off_force --n 2 --k 0.4 --mu 1",
+    "fscm-bench COMMAND --help",
+)
+
+
+def _parser(called: Collection[str], program: str = "fscm-bench") -> argparse.ArgumentParser:
+    """The parser, with the arguments of the commands that are called."""
     parser = _Parser(
-        prog="fscm-bench",
+        prog=program,
         description="How wrong is a model of adhesive contact of graded materials, and how certain is that error?",
-        epilog="Exit status: 0 done and every gate passes, 1 a gate fails, 2 wrong input, 3 inconclusive, "
-        "4 a computation or an output failed, a gate is in error, or no gate was evaluated.",
+        epilog=f"{examples_text(_EXAMPLES)}\n\n{_EXIT_STATUS}",
+        formatter_class=HelpFormatter,
     )
-    parser.add_argument("--version", action=_Version, nargs=0, help="show program's version number and exit")
-    parsers = parser.add_subparsers(metavar="COMMAND", required=True)
-    called = next((text for text in arguments if not text.startswith("-")), None)
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version and, if known, the commit")
+    parser.add_argument(
+        "--print-completion",
+        metavar="SHELL",
+        action=_Completion,
+        help="print the script that completes commands in bash, zsh or tcsh",
+    )
+    parsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name, (module_name, text) in _COMMANDS.items():
-        command = parsers.add_parser(name, help=text)
-        if name == called:
+        command = parsers.add_parser(name, help=text, formatter_class=HelpFormatter)
+        if name in called:
             module = import_module(f"comparisons.cli.commands.{module_name}")
-            command.description = module.__doc__
+            command.description = description_of(module.__doc__)
+            command.epilog = examples_text(module.EXAMPLES)
             module.add(command)
             command.set_defaults(call=module.call)
     return parser
@@ -107,24 +137,27 @@ def _is_negative(text: str) -> bool:
     return text.startswith("-")
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
+def main(arguments: Sequence[str] | None = None, program: str = "fscm-bench") -> int:
     """Run one command.
 
     Parameters
     ----------
     arguments : sequence of str, optional
         What follows the program's name; by default that of this process.
+    program : str
+        The name by which it was started.
 
     Returns
     -------
     int
         The exit status.
     """
-    return guarded(lambda: _call(sys.argv[1:] if arguments is None else arguments))
+    return guarded(lambda: _call(sys.argv[1:] if arguments is None else arguments, program), program)
 
 
-def _call(arguments: Sequence[str]) -> int:
-    args = _parser(arguments).parse_args(_keep_negative_numbers(arguments))
+def _call(arguments: Sequence[str], program: str) -> int:
+    called = [text for text in arguments if not text.startswith("-")][:1]
+    args = _parser(called, program).parse_args(_keep_negative_numbers(arguments))
     # Not needed for the help.
     from threadpoolctl import threadpool_limits
 

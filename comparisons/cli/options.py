@@ -25,6 +25,7 @@ __all__ = [
     "add_out",
     "add_quiet",
     "add_retry_failed",
+    "add_verbose",
     "case_of",
     "number",
     "output",
@@ -33,25 +34,23 @@ __all__ = [
 #: Help for a SPEC.
 MODEL_SPEC = "a name (fscm-bench list models), FILE.py:CLASS, ./PROGRAM, or a folder with a model.toml"
 
-#: Columns of a table when stdout is no terminal, where rich would assume 80 and break the lines.
-_WIDTH = 160
+#: Columns of a table when stdout is no terminal: the same text in every log and file.
+_WIDTH = 80
 
 
 class _Output(Console):
     def print(self, *objects: Any, **options: Any) -> None:
+        # A word that is longer than a line, as a path, goes on in the next one; rich would cut it.
         with writing_stdout():
-            super().print(*objects, **options)
+            super().print(*objects, **{"crop": False, **options})
 
     def on_broken_pipe(self) -> NoReturn:
         raise BrokenPipeError
 
 
-def output(at_most: int | None = None) -> Console:
-    """Return the console for results, which is stdout, with lines of at most so many columns."""
-    console = _Output(width=None if sys.stdout.isatty() else _WIDTH, highlight=False)
-    if at_most is not None:
-        console.width = min(console.width, at_most)
-    return console
+def output() -> Console:
+    """Return the console for results: stdout with the columns of the terminal, or 80 where it is none."""
+    return _Output(width=None if sys.stdout.isatty() else _WIDTH, highlight=False)
 
 
 def number(text: str) -> float:
@@ -96,6 +95,11 @@ def add_out(parser: argparse.ArgumentParser) -> None:
 def add_quiet(parser: argparse.ArgumentParser) -> None:
     """Declare the option that leaves out all but failures."""
     parser.add_argument("--quiet", action="store_true", help="print nothing but warnings and failures")
+
+
+def add_verbose(parser: argparse.ArgumentParser) -> None:
+    """Declare the option that prints all rows."""
+    parser.add_argument("--verbose", action="store_true", help="print every row, not a summary")
 
 
 def add_retry_failed(parser: argparse.ArgumentParser) -> None:

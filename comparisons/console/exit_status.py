@@ -9,13 +9,17 @@ import errno
 import io
 import multiprocessing
 import os
+import shutil
 import signal
 import sys
+import textwrap
 import threading
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import TextIO
+
+from comparisons.console.installation import sentence_on_missing_module
 
 __all__ = [
     "FAILED",
@@ -71,8 +75,9 @@ def guarded(command: Callable[[], int], program: str = "fscm-bench") -> int:
     Returns
     -------
     int
-        What the command returned; 2 after a `ValueError` (wrong input), 130 after Ctrl-C, 141 when the reader of a
-        pipe has left, 143 after SIGTERM, and 4 after any other exception, as that of a full disk.
+        What the command returned; 2 after a `ValueError` (wrong input) or if the extra that a command needs is not
+        installed, 130 after Ctrl-C, 141 when the reader of a pipe has left, 143 after SIGTERM, and 4 after any other
+        exception, as that of a full disk.
 
     Examples
     --------
@@ -142,6 +147,8 @@ def _explained(error: Exception) -> tuple[int, str]:
     """Return the exit status of an exception and its sentence."""
     if isinstance(error, ValueError):
         return WRONG_INPUT, str(error)
+    if isinstance(error, ModuleNotFoundError) and (sentence := sentence_on_missing_module(error)):
+        return WRONG_INPUT, sentence
     if isinstance(error, OSError):
         if error.strerror is None:  # a sentence of ours
             return FAILED, str(error)
@@ -181,8 +188,16 @@ def _say(program: str, sentence: str) -> None:
     safe = "".join(
         character if character.isprintable() or character == "\n" else ascii(character)[1:-1] for character in sentence
     )
+    text = f"{program}: {safe}"
     with suppress(OSError):
-        print(f"{program}: {safe}", file=sys.stderr, flush=True)
+        if sys.stderr.isatty():
+            columns = shutil.get_terminal_size().columns
+            folded = (
+                textwrap.fill(line, columns, break_long_words=False, break_on_hyphens=False, replace_whitespace=False)
+                for line in text.split("\n")
+            )
+            text = "\n".join(folded)
+        print(text, file=sys.stderr, flush=True)
 
 
 def _flushed(stream: TextIO) -> bool:

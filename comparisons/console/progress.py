@@ -18,7 +18,6 @@ from rich.progress import (
     Task,
     TextColumn,
     TimeElapsedColumn,
-    TimeRemainingColumn,
 )
 from rich.text import Text
 
@@ -34,9 +33,13 @@ class _Messages(Console):
 
 
 def log(text: str) -> None:
-    """Write a line on stderr; a message that cannot be written is lost and stops no computation."""
+    """Write a sentence on stderr, on a terminal folded between words and else as one line.
+
+    A message that cannot be written is lost and stops no computation.
+    """
     with suppress(OSError):
-        _Messages(stderr=True, soft_wrap=True, highlight=False, markup=False).print(text)
+        console = _Messages(stderr=True, highlight=False, markup=False)
+        console.print(text, soft_wrap=not console.is_terminal)
 
 
 def note(text: str) -> None:
@@ -69,14 +72,28 @@ def waiting(description: str) -> Iterator[None]:
         yield
 
 
-class _TimeLeft(TimeRemainingColumn):
-    """The seconds left that the computation states; if it states none, an estimate from the number of steps."""
+class _TimeLeft(ProgressColumn):
+    """The time left, which only falls: by the seconds that the computation states, or by its number of steps.
+
+    Between two steps it falls with the clock.  A new estimate that is longer leaves the time as it is, until the work
+    catches up.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._shown: dict[int, float] = {}
 
     def render(self, task: Task) -> Text:
+        since = task.get_time() - task.fields["counted"]
         left = task.fields["left"]
+        if left is None and task.completed and task.total is not None and task.start_time is not None:
+            elapsed = task.fields["counted"] - task.start_time
+            left = elapsed / task.completed * (task.total - task.completed)
         if left is None:
-            return super().render(task)
-        return Text(str(timedelta(seconds=ceil(left))), style="progress.remaining")
+            return Text("-:--:--", style="progress.remaining")
+        shown = min(self._shown.get(task.id, float("inf")), max(left - since, 0.0))
+        self._shown[task.id] = shown
+        return Text(str(timedelta(seconds=ceil(shown))), style="progress.remaining")
 
 
 @contextmanager
@@ -86,10 +103,10 @@ def counting(description: str, total: int) -> Iterator[Callable[..., None]]:
     Call the returned function when one more is done, with the seconds left if they are known.
     """
     with _bar(MofNCompleteColumn(), TimeElapsedColumn(), _TimeLeft()) as bar:
-        task = bar.add_task(description, total=total, left=None)
+        task = bar.add_task(description, total=total, left=None, counted=bar.get_time())
 
         def count(left: float | None = None) -> None:
-            bar.update(task, advance=1, left=left)
+            bar.update(task, advance=1, left=left, counted=bar.get_time())
 
         yield count
 

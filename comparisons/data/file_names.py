@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 __all__ = [
     "AGREEMENT",
+    "BASELINE_FOLDER",
     "BENCH",
     "BENCH_SUMMARY",
     "CALLS",
     "COMPARISON",
     "COMPARISON_FILES",
     "CURVES",
+    "DATA_PACKAGE",
     "FIGURES",
     "GATES",
     "GATES_TEXT",
@@ -35,8 +39,14 @@ __all__ = [
     "VERDICT_TABLES",
 ]
 
+#: Type, unit and meaning of every column of the tables of a folder.
+DATA_PACKAGE = "datapackage.json"
+
 #: The record of the run, the journals of its rows and of the function calls of the paper, and the lock.
 RECORD, JOURNAL, CALLS, LOCK = "run.json", "journal.jsonl", "calls.jsonl", ".lock"
+
+#: Folder of the committed results, in a clone of the repository.
+BASELINE_FOLDER = Path("results", "baseline")
 
 #: The record of a benchmark, the journal of its measurements, and its summary.
 BENCH, MEASUREMENTS, BENCH_SUMMARY = "bench.json", "bench.jsonl", "bench.txt"

@@ -14,7 +14,7 @@ from typing import Any
 
 from comparisons.external.identity import contradiction, identity_of
 from comparisons.external.launch import Launched, end, import_path, launch, write_line
-from comparisons.external.limits import Limits
+from comparisons.external.limits import TIME_LIMIT, Limits
 
 __all__ = ["PATIENCE", "Child"]
 
@@ -124,7 +124,8 @@ class Child:
             self.close()
             self._overdue += 1
             flush = "; a program must flush its standard output after every line" if self.is_program else ""
-            return _failed(f"it gave no result within {seconds:g} s and was ended{flush}")
+            limit = f" ({TIME_LIMIT})" if request["request"] != "ready" else ""
+            return _failed(f"it gave no result within {seconds:g} s{limit} and was ended{flush}")
         if not line:
             return self._ended(launched)
         try:

@@ -11,9 +11,10 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 
-__all__ = ["LARGEST_COUNT", "Limits", "cpu_seconds_from_now", "limit_resources"]
+__all__ = ["LARGEST_COUNT", "TIME_LIMIT", "Limits", "cpu_seconds_from_now", "limit_resources"]
 
-_TIME, _MEMORY = "FSCM_BENCH_TIME_LIMIT", "FSCM_BENCH_MEMORY_LIMIT"
+#: Names of the environment variables.
+TIME_LIMIT, _MEMORY = "FSCM_BENCH_TIME_LIMIT", "FSCM_BENCH_MEMORY_LIMIT"
 _DEFAULT_SECONDS, _DEFAULT_MEGABYTES = 60.0, 4096.0
 
 #: Bytes of one file in the scratch folder.
@@ -48,14 +49,14 @@ class Limits:
     megabytes: float = _DEFAULT_MEGABYTES
 
     def __post_init__(self) -> None:
-        for name, value in ((_TIME, self.seconds), (_MEMORY, self.megabytes)):
+        for name, value in ((TIME_LIMIT, self.seconds), (_MEMORY, self.megabytes)):
             if not 0 < value < 1e9:
                 raise ValueError(f"{name} = {value:g} is outside (0, 1e9): a limit is positive and finite")
 
     @classmethod
     def of_environment(cls) -> Limits:
         """Return the limits that the environment variables set."""
-        return cls(_number(_TIME, _DEFAULT_SECONDS), _number(_MEMORY, _DEFAULT_MEGABYTES))
+        return cls(_number(TIME_LIMIT, _DEFAULT_SECONDS), _number(_MEMORY, _DEFAULT_MEGABYTES))
 
 
 def _number(name: str, default: float) -> float:

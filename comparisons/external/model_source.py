@@ -54,6 +54,11 @@ def source_of(spec: str) -> dict[str, Any]:
     ...
     ValueError: no installed package has a model 'nothing-of-this-name' ...
     """
+    if not spec.strip():
+        raise ValueError(
+            f"the name of a model, {spec!r}, is empty: name an installed model, FILE.py:CLASS, a program (./PROGRAM) "
+            f"or a folder with a {MANIFEST}"
+        )
     file, colon, attribute = spec.rpartition(":")
     if colon and file.endswith(".py"):
         # Not Path.resolve(), which raises RuntimeError at a loop of symbolic links.

@@ -22,6 +22,7 @@ from comparisons.domain import declared_domain
 from comparisons.external.fingerprint import fingerprint
 from comparisons.external.limits import Limits, cpu_seconds_from_now, limit_resources
 from comparisons.external.model_file import load_file
+from comparisons.external.model_methods import check_methods
 from comparisons.external.observation import Observation
 from comparisons.external.physical_model import InUnits, PhysicalModel
 from comparisons.external.program import program_model
@@ -137,8 +138,7 @@ def _load(source: dict[str, Any], observation: Observation) -> tuple[Any, dict[s
         "digest": state.digest,
         "hashed": state.hashed,
     }
-    if not reply["physical"] and not callable(getattr(model, "evaluate", None)):
-        raise TypeError("the model has no method evaluate(problem, quantity)")
+    check_methods(model, isinstance(model, PhysicalModel))
     return model, reply
 
 

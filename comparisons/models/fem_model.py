@@ -101,15 +101,14 @@ class FiniteElements:
         )
 
     def field(self, problem: Problem, event: str) -> tuple[export.Field, float]:
-        """Return displacement and stresses in the whole solid at an event, in units of the problem.
+        """Return displacement and stresses in the whole solid at an event.
 
         Returns
         -------
         field : fem_reference.export.Field
-            Points in the transverse length (Q z0)^(1/n), displacements in z0, stresses and moduli in
-            dgamma / z0.
+            Every length in z0, stresses and moduli in dgamma / z0, for the punch of `shape_parameter`.
         radius : float
-            Where the tension at the surface is largest, in the transverse length.
+            Where the tension at the surface is largest, in z0.
         """
         from fem_reference import export  # loads Matplotlib
 
@@ -118,14 +117,19 @@ class FiniteElements:
             spec, point = fem_reference.event_state(body, event)
             raw = export.contact_field(body.solid, spec, point)
         scales = physical.scales
-        field = export.Field(
-            raw.points / scales["radius"],
-            raw.quads,
-            raw.displacement / scales["displacement"],
-            raw.stress / scales["traction"],
-            raw.modulus / scales["traction"],
-        )
-        return field, point.edge_radius / scales["radius"]
+        field = raw.in_units_of(scales["displacement"], scales["traction"])
+        return field, point.edge_radius / scales["displacement"]
+
+    @staticmethod
+    def shape_parameter(n: float) -> float:
+        """Return Q of the punch in units of z0^(n-1): a field is that of one ratio of its two lengths.
+
+        Examples
+        --------
+        >>> FiniteElements.shape_parameter(2.0)
+        8.0
+        """
+        return _SCALES["Q"] / _SCALES["z0"] ** (n - 1.0)
 
     def pull_off_profile(self, problem: Problem) -> RadialField:
         """Return the surface where P is smallest, and as its uncertainty the distance of two meshes."""

@@ -17,6 +17,13 @@ LEAST_SHOWN = 5e-10
 #: A relative error in percent is shown to this digit, or to the digit that its uncertainty leaves it.
 _LEAST_PERCENT = 5e-5
 
+#: The error of a gate is shown to this digit; one below `_SMALL_ERROR` with a power of ten, to its third decimal.
+_LEAST_ERROR = 5e-6
+_SMALL_ERROR = 1e-3
+_LEAST_MANTISSA = 5e-3
+#: Powers of ten below it are no normal doubles.
+_LEAST_POWER = -300
+
 
 def exact(value: float) -> str:
     """Return the shortest decimal that is the value, with every digit it was declared with: 2 rather than 2.0.
@@ -109,18 +116,21 @@ def percent_text(fraction: float, u: float) -> str:
 
 
 def error_text(error: float | None, u: float | None) -> str:
-    """Return the error of a gate; one far below 1 is a power of ten, a missing one nothing.
+    """Return the error of a gate; one far below 1 has a power of ten, a missing one is nothing.
 
     Examples
     --------
     >>> error_text(-0.0494, 3e-4), error_text(-0.0494, 3e-9), error_text(2.1e-7, 4e-9), error_text(None, None)
-    ('-0.0494(3)', '-0.04940', '2.1e-07(4e-09)', '')
+    ('-0.0494(3)', '-0.049400(5)', '2.10(4)e-7', '')
     """
     if error is None or u is None or math.isnan(error):
         return ""
-    if 0.0 < max(abs(error), u) < 1e-3:
-        return f"{error:.1e}({u:.0e})"
-    return short(error, u) if u > 1e-5 else f"{error:.5f}"
+    largest = max(abs(error), u)
+    if not 0.0 < largest < _SMALL_ERROR:
+        return short(error, max(u, _LEAST_ERROR))
+    power = max(math.floor(math.log10(largest)), _LEAST_POWER)
+    scale = 10.0**power
+    return f"{short(error / scale, max(u / scale, _LEAST_MANTISSA))}e{power}"
 
 
 def case_text(case: Mapping[str, float | None]) -> str:

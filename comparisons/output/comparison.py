@@ -7,14 +7,11 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from rich import box
-from rich.console import Group
-from rich.table import Table
-from rich.text import Text
 
 from comparisons.judging.summary import coverage_text
 from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.numerics.number_text import exact, value_text
+from comparisons.output.fitted_table import FittedTable
 from comparisons.runs.cases import Grid
 from comparisons.runs.tasks import case_for
 
@@ -35,7 +32,7 @@ COLUMNS = (
     *("reference", "reference_value", "u_reference", "kappa", "u_kappa", "reason"),
 )
 
-#: Width of the tables on a terminal.
+#: Columns of the tables where no terminal states its own.
 WIDTH = 80
 
 #: Cases that a terminal shows: the file has the others.
@@ -45,8 +42,8 @@ _ROWS = 40
 #: leaves it: four models then fit beside the case.
 _LEAST_REFERENCE, _LEAST_PERCENT = 5e-7, 5e-3
 
-#: Spaces between columns, one of them the rule of `rich.box.SIMPLE_HEAD`, and at both edges of a table.
-_GAP, _EDGES = 2, 2
+#: Spaces between columns.
+_GAP = 2
 
 _CASE = ["n", "k", "mu", "nu"]
 _WORDS = {"not-applicable": "n/a", "failed": "failed"}
@@ -163,7 +160,9 @@ def wide(table: pd.DataFrame) -> Iterator[tuple[str, str, pd.DataFrame]]:
         yield quantity, reference, pd.DataFrame(rows, columns=[*cases, reference, *models], dtype=object)
 
 
-def terminal_tables(table: pd.DataFrame, summary: pd.DataFrame, every: bool = False) -> list[Group]:
+def terminal_tables(
+    table: pd.DataFrame, summary: pd.DataFrame, every: bool = False, width: int = WIDTH
+) -> list[FittedTable]:
     """Return the tables of a comparison for a terminal: errors in blocks of as many models as fit, and the summary.
 
     Parameters
@@ -172,20 +171,24 @@ def terminal_tables(table: pd.DataFrame, summary: pd.DataFrame, every: bool = Fa
         As of `comparison_table` and `comparisons.output.error_summary.error_summary`.
     every : bool
         Whether all cases are shown; else the first `_ROWS`.
+    width : int
+        Columns of the terminal.
     """
     shown = [
-        block for quantity, reference, texts in wide(table) for block in _blocks(quantity, reference, texts, every)
+        block
+        for quantity, reference, texts in wide(table)
+        for block in _blocks(quantity, reference, texts, every, width)
     ]
     return [*shown, *(_summary(str(quantity), group) for quantity, group in summary.groupby("quantity", sort=False))]
 
 
-def _blocks(quantity: str, reference: str, texts: pd.DataFrame, every: bool) -> Iterator[Group]:
-    """Yield tables that are at most `WIDTH` wide; each has the case and the reference."""
+def _blocks(quantity: str, reference: str, texts: pd.DataFrame, every: bool, width: int) -> Iterator[FittedTable]:
+    """Yield tables of at most so many columns; each has the case and the reference."""
     fixed = list(texts.columns[: list(texts.columns).index(reference) + 1])
     widths = {
         column: max([len(column), *map(len, texts.iloc[:, place])]) + _GAP for place, column in enumerate(texts.columns)
     }
-    room = WIDTH - _EDGES - sum(widths[column] for column in fixed)
+    room = width + _GAP - sum(widths[column] for column in fixed)
     block: list[str] = []
     title = f"{quantity}: kappa in percent (uncertainty) against {reference}"
     for model in texts.columns[len(fixed) :]:
@@ -196,14 +199,14 @@ def _blocks(quantity: str, reference: str, texts: pd.DataFrame, every: bool) -> 
     yield _shown(title, texts[[*fixed, *block]], every)
 
 
-def _shown(title: str, texts: pd.DataFrame, every: bool) -> Group:
+def _shown(title: str, texts: pd.DataFrame, every: bool) -> FittedTable:
     rows = texts if every else texts.head(_ROWS)
     if len(rows) < len(texts):
         title += f", first {len(rows)} of {len(texts)} cases"
-    return _table(title, rows, left=())
+    return FittedTable(rows, title, frozenset(rows))
 
 
-def _summary(quantity: str, group: pd.DataFrame) -> Group:
+def _summary(quantity: str, group: pd.DataFrame) -> FittedTable:
     texts = pd.DataFrame(
         {
             "model": group["model"],
@@ -215,16 +218,5 @@ def _summary(quantity: str, group: pd.DataFrame) -> Group:
         },
         dtype=object,
     )
-    return _table(
-        f"{quantity}: coverage, largest and root mean square kappa in percent", texts, left=("model", "reference", "at")
-    )
-
-
-def _table(title: str, texts: pd.DataFrame, left: Sequence[str]) -> Group:
-    """Return a table below its title, which may be wider than the table."""
-    shown = Table(box=box.SIMPLE_HEAD, padding=(0, _GAP - 1, 0, 0))
-    for name in texts.columns:
-        shown.add_column(Text(str(name)), justify="left" if name in left else "right", overflow="fold")
-    for row in texts.itertuples(index=False):
-        shown.add_row(*(Text(str(cell)) for cell in row))
-    return Group(Text(title, style="bold"), shown)
+    title = f"{quantity}: coverage, largest and root mean square kappa in percent"
+    return FittedTable(texts, title, frozenset(("a value in", "largest", "rms")))

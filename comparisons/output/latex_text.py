@@ -8,7 +8,23 @@ from __future__ import annotations
 import re
 import unicodedata
 
-__all__ = ["comment", "escaped"]
+__all__ = ["TOKENS", "breakable", "comment", "escaped", "headed", "number_text"]
+
+#: Numbers that need a minus sign, a power of ten or an uncertainty, and symbols of parameters that are given a value:
+#: both are typeset as mathematics.  The scripts of the report use the same pattern, so that it has only what Python
+#: and JavaScript read in the same way.
+_MANTISSA, _BRACKET, _POWER = r"[0-9]+(?:\.[0-9]+)?", r"\([0-9]+\)", r"e[+-]?[0-9]+"
+TOKENS = (
+    r"(?<![A-Za-z0-9_.)^/+-])(?:"
+    rf"(?:-?{_MANTISSA}(?:{_BRACKET})?{_POWER}|-?{_MANTISSA}{_BRACKET}(?!e[0-9+-])|-{_MANTISSA}(?!\())"
+    r"(?![A-Za-z0-9_]|\.[0-9])"
+    r"|(?:n|k|mu|nu)(?= [=<>≤≥] ))"
+)
+_TOKEN = re.compile(TOKENS)
+
+#: Symbols in the heading of a column.
+_SYMBOL = re.compile(r"(?<![A-Za-z0-9_])(?:n|k|E|U|u|mu|nu|kappa)(?![A-Za-z0-9_'])")
+_GREEK_WORDS = {"mu", "nu", "kappa"}
 
 #: Characters with a meaning of their own.  [ and * would be taken as arguments of the end of a row.
 _SPECIAL = {
@@ -126,16 +142,69 @@ _GREEK_NAME = re.compile(r"GREEK (SMALL|CAPITAL) LETTER (\w+)")
 
 
 def escaped(text: str) -> str:
-    r"""Return a text as LaTeX that gives it back, in ASCII and on one line.
+    r"""Return a text as LaTeX that gives it back, in ASCII and on one line; its numbers need the package siunitx.
 
     Examples
     --------
     >>> print(escaped("κ ≤ 5 %, 10⁻³ z₀"))
     \ensuremath{\kappa} \ensuremath{\leq} 5 \%, 10\textsuperscript{\ensuremath{-}}\textsuperscript{3} z\textsubscript{0}
+    >>> print(escaped("-0.1 to 2.1e-07 at mu = 1"))
+    \num{-0.1} to \num{2.1e-7} at $\mu$ = 1
     """
     plain = unicodedata.normalize("NFC", " ".join(text.split()))
+    parts, end = [], 0
+    for token in _TOKEN.finditer(plain):
+        parts += [_plain(plain[end : token.start()]), _math(token[0])]
+        end = token.end()
+    return "".join([*parts, _plain(plain[end:])])
+
+
+def headed(text: str) -> str:
+    r"""Return a heading as LaTeX, in which the symbols of parameters, errors and bounds are mathematics.
+
+    Examples
+    --------
+    >>> print(headed("worst E(U)"), headed("mu"), headed("u_num"))
+    worst $E$($U$) $\mu$ u\_num
+    """
+    parts, end = [], 0
+    for symbol in _SYMBOL.finditer(text):
+        parts += [_plain(text[end : symbol.start()]), _math(symbol[0])]
+        end = symbol.end()
+    return "".join([*parts, _plain(text[end:])])
+
+
+def breakable(latex: str) -> str:
+    r"""Return an escaped text that may be broken after an underscore and after a slash, too.
+
+    Examples
+    --------
+    >>> print(breakable(escaped("pull_off/x")))
+    pull\_\allowbreak{}off/\allowbreak{}x
+    """
+    return latex.replace("\\_", "\\_\\allowbreak{}").replace("/", "/\\allowbreak{}")
+
+
+def number_text(text: str) -> str:
+    """Return a number as siunitx reads it: its power of ten without a plus sign and without leading zeros.
+
+    Examples
+    --------
+    >>> number_text("-2.1e-07"), number_text("12(3)e+02"), number_text("1.50")
+    ('-2.1e-7', '12(3)e2', '1.50')
+    """
+    return re.sub(r"e(-?)\+?0*([0-9])", r"e\1\2", text)
+
+
+def _plain(text: str) -> str:
     # Two hyphens would become a dash, and the option of a command could not be copied.
-    return "".join(map(_character, plain)) if "--" not in plain else "-{}-".join(map(escaped, plain.split("--")))
+    return "-{}-".join("".join(map(_character, part)) for part in text.split("--"))
+
+
+def _math(token: str) -> str:
+    if token in _GREEK_WORDS:
+        return rf"$\{token}$"
+    return f"${token}$" if token.isalpha() else rf"\num{{{number_text(token)}}}"
 
 
 def comment(text: str) -> str:

@@ -1,28 +1,27 @@
-"""Summary of a sweep for the terminal: at most 30 lines of 80 columns, whatever its size."""
+"""Summary of a sweep for the terminal: at most 30 lines at 80 columns, whatever its size."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
 import pandas as pd
-from rich.table import Table
 
+from comparisons.numerics.number_text import percent_text
+from comparisons.output.fitted_table import FittedTable
 from comparisons.output.tables import rich_table
 from comparisons.runs.rows import Row
 
-__all__ = ["COLUMNS", "failure_lines", "summary_tables"]
+__all__ = ["failure_lines", "summary_tables"]
 
-#: Width of the summary.
-COLUMNS = 80
-
-#: Rows of the table of models and of the table of errors; with titles, headings and rules 28 lines.
+#: Rows of the table of models and of the table of errors; with titles, columns, rules and the headings of four
+#: quantities 27 lines.
 _MODELS, _ERRORS = 7, 10
 
 #: Failures that are written one by one.
 _FAILURES = 3
 
 
-def summary_tables(results: pd.DataFrame, curves: pd.DataFrame, kappa: pd.DataFrame) -> list[Table]:
+def summary_tables(results: pd.DataFrame, curves: pd.DataFrame, kappa: pd.DataFrame) -> list[FittedTable]:
     """Return the tables of a summary: how the computations ended, and the largest error of each quantity and model.
 
     Parameters
@@ -36,9 +35,10 @@ def summary_tables(results: pd.DataFrame, curves: pd.DataFrame, kappa: pd.DataFr
     >>> [table.row_count for table in summary_tables(results, pd.DataFrame(columns=results.columns), pd.DataFrame())]
     [2]
     """
-    tables = [_first(_computations(results, curves), _MODELS, "computations")]
+    counted = _computations(results, curves)
+    tables = [_first(counted, _MODELS, "computations", optional=("seconds", "not-applicable"))]
     if len(kappa):
-        tables.append(_first(_largest(kappa), _ERRORS, "largest abs(kappa) in percent", {"largest": "+.3f"}))
+        tables.append(_first(_largest(kappa), _ERRORS, "largest abs(kappa) in percent", group="quantity"))
     return tables
 
 
@@ -70,15 +70,12 @@ def _computations(results: pd.DataFrame, curves: pd.DataFrame) -> pd.DataFrame:
 
 def _largest(kappa: pd.DataFrame) -> pd.DataFrame:
     worst = kappa.loc[kappa["kappa"].abs().groupby([kappa["quantity"], kappa["model"]]).idxmax()]
-    table = worst[["quantity", "model", "kappa", "n", "k", "mu"]].assign(kappa=100 * worst["kappa"])
-    return table.rename(columns={"kappa": "largest"})
+    texts = [percent_text(*pair) for pair in zip(worst["kappa"], worst["u_kappa"], strict=True)]
+    return worst[["quantity", "model", "n", "k", "mu"]].assign(largest=texts)
 
 
-def _first(table: pd.DataFrame, rows: int, title: str, formats: dict[str, str] | None = None) -> Table:
+def _first(table: pd.DataFrame, rows: int, title: str, group: str = "", optional: Sequence[str] = ()) -> FittedTable:
     """Return the first rows of a table; the title tells how many there are."""
     if len(table) > rows:
         title += f" (the first {rows} of {len(table)} rows)"
-    shown = rich_table(table.head(rows), title, formats)
-    for column in shown.columns:
-        column.no_wrap, column.overflow = True, "ellipsis"
-    return shown
+    return rich_table(table.head(rows), title, group=group, optional=optional)

@@ -6,15 +6,16 @@ for any quantity.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pandas as pd
-from rich.table import Table
-from rich.text import Text
 
 from comparisons.data.paper_values import paper_values
 from comparisons.numerics.bounds import combined
 from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.numerics.number_text import percent_text, value_text
+from comparisons.output.fitted_table import FittedTable
 from comparisons.quantities import QUANTITIES
 
 __all__ = [
@@ -222,27 +223,42 @@ def statuses(rows: pd.DataFrame) -> pd.DataFrame:
     return rows.groupby(["model", "status"]).size().unstack(fill_value=0).reset_index()
 
 
-def rich_table(table: pd.DataFrame, title: str, formats: dict[str, str] | None = None) -> Table:
+def rich_table(
+    table: pd.DataFrame,
+    title: str,
+    formats: dict[str, str] | None = None,
+    *,
+    group: str = "",
+    optional: Sequence[str] = (),
+) -> FittedTable:
     """Return a pandas table for the terminal: numbers to the right, blank where missing.
+
+    Parameters
+    ----------
+    table : DataFrame
+    title : str
+    formats : dict of str to str, optional
+        Formats of columns of numbers.
+    group : str
+        The column that becomes headings on a narrow terminal.
+    optional : sequence of str
+        The columns that a narrow terminal may leave out.
 
     Examples
     --------
     >>> rich_table(pd.DataFrame({"model": ["jkr"], "kappa": [0.5]}), "errors", {"kappa": "+.2f"}).row_count
     1
     """
-    shown = Table(title=title, title_justify="left", title_style="bold")
-    for name in table:
-        shown.add_column(str(name), justify="right" if pd.api.types.is_numeric_dtype(table[name]) else "left")
-    for record in table.itertuples(index=False):
-        shown.add_row(
-            *(_cell(value, (formats or {}).get(str(name), "")) for name, value in zip(table, record, strict=True))
-        )
-    return shown
-
-
-def _cell(value: object, form: str) -> Text:
-    # As `Text`: a bracket in a message is not markup.
-    return Text(_words(value, form))
+    known = formats or {}
+    texts = pd.DataFrame(
+        {str(name): [_words(value, known.get(str(name), "")) for value in table[name]] for name in table}, dtype=object
+    )
+    numbers = frozenset(
+        str(name)
+        for name in table
+        if pd.api.types.is_numeric_dtype(table[name]) and not pd.api.types.is_bool_dtype(table[name])
+    )
+    return FittedTable(texts, title, numbers, group, optional)
 
 
 def _words(value: object, form: str) -> str:

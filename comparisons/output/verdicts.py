@@ -95,11 +95,11 @@ def worst_cases(gates: pd.DataFrame) -> pd.DataFrame:
             "verdict": gates["verdict"].map(str),
             "gate": gates["gate"],
             **{name: ["" if pd.isna(row[name]) else exact(row[name]) for row in rows] for name in ("n", "k", "mu")},
-            "candidate": [f"{row['candidate']} {value_text(row['value'], row['u_num'])}" for row in rows],
-            "reference": [
-                f"{row['reference']} {value_text(row['reference_value'], row['u_reference'])}" for row in rows
-            ],
-            "E": _errors(gates),
+            "candidate": gates["candidate"],
+            "candidate's value": [value_text(row["value"], row["u_num"]) for row in rows],
+            "reference": gates["reference"],
+            "reference's value": [value_text(row["reference_value"], row["u_reference"]) for row in rows],
+            "E(U)": _errors(gates),
         },
         dtype=object,
     )
@@ -130,7 +130,7 @@ def write_verdicts(
     texts = {
         files.verdicts_markdown: page,
         files.verdicts_latex: latex(
-            worst_cases(summary), "Verdicts of fscm-bench, worst first, each in its worst case"
+            worst_cases(summary), "Verdicts of fscm-bench, worst first, each in its worst case", "verdicts"
         ),
     }
     for path, text in texts.items():

@@ -7,13 +7,15 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from comparisons.data.file_names import BASELINE_FOLDER
 from comparisons.paper.registry import paper_figures
 from comparisons.runs.atomic_files import atomic
+from comparisons.runs.committed import committed
 
 __all__ = ["PAPER_BASELINE", "SHIPPED_STATEMENTS", "changes", "check", "has_figures", "renew"]
 
 #: Folder of the committed figures, in a clone of the repository.
-PAPER_BASELINE = Path("results", "baseline", "paper")
+PAPER_BASELINE = BASELINE_FOLDER / "paper"
 
 #: Copy of the verdicts on the statements of the paper that is in every installation.
 SHIPPED_STATEMENTS = Path("comparisons", "data", "paper_statements.csv")
@@ -89,10 +91,17 @@ def _is_real(column: pd.Series) -> bool:
     return pd.api.types.is_numeric_dtype(column) and not pd.api.types.is_bool_dtype(column)
 
 
-def check(folder: Path, target: Path = PAPER_BASELINE) -> pd.DataFrame:
+def check(folder: Path, target: Path | None = None) -> pd.DataFrame:
     """Return the differences between the tables of a folder of ``fscm-bench paper`` and the committed ones.
 
     Figures that the folder does not hold, and those whose tables follow equilibrium paths, are not compared.
+
+    Parameters
+    ----------
+    folder : Path
+        Of ``fscm-bench paper``.
+    target : Path, optional
+        Of the committed tables (`comparisons.runs.committed`).
 
     Returns
     -------
@@ -104,11 +113,7 @@ def check(folder: Path, target: Path = PAPER_BASELINE) -> pd.DataFrame:
     ValueError
         If the folder holds no table to compare, or the committed figures are not there.
     """
-    if not target.is_dir():
-        raise ValueError(
-            f"there is no folder {target}: the committed figures are in a clone of the repository only; call this in "
-            "its root folder"
-        )
+    target = target or committed(PAPER_BASELINE.name)
     rows, compared = [], 0
     for figure in paper_figures():
         found = figure.files_in(folder)

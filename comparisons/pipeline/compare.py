@@ -13,7 +13,6 @@ import pandas as pd
 from comparisons.output.comparison import comparison_table
 from comparisons.output.error_summary import error_summary
 from comparisons.output.figures import comparison as figure_of_comparison
-from comparisons.output.report.notebook import notebook_html
 from comparisons.output.style import save
 from comparisons.pipeline.inputs import Cases, load_cases
 from comparisons.pipeline.run import run
@@ -58,7 +57,12 @@ class Comparison:
         """Return the errors as a Matplotlib figure."""
         return figure_of_comparison.draw(self.table)
 
-    def _repr_html_(self) -> str:
+    def _repr_html_(self) -> str | None:
+        # The packages of the extra `report`; without them a notebook shows the text.
+        try:
+            from comparisons.output.report.notebook import notebook_html
+        except ModuleNotFoundError:
+            return None
         return notebook_html(self.table, self.summary)
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import pandas as pd
 
-from comparisons.console.progress import log
+from comparisons.console.progress import log, note
 from comparisons.data.file_names import VERDICT_FILES
 from comparisons.domain import Domain
 from comparisons.judging.card_gates import card_gates, compare_with_standing, every_verdict, judge_cards
@@ -143,7 +143,7 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
         log(f"the cases have changed since {folder} was computed; it is judged by the present cases")
     label = "the standing gates" if source is None else str(source)
     own = chosen.sha256 == record.get("gates_sha256")
-    log(
+    note(
         f"judged by {label}, "
         + ("which are the gates of the run" if own else f"which are not the gates of the run {folder}")
     )

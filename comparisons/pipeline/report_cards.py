@@ -8,7 +8,7 @@ from dataclasses import asdict
 from random import SystemRandom
 from typing import Any
 
-from comparisons.console.progress import waiting
+from comparisons.console.progress import note, waiting
 from comparisons.external.contract_checks import examine
 from comparisons.external.data_model import DataModel
 from comparisons.external.evaluations import AnyExternalModel
@@ -48,6 +48,7 @@ def make_cards(
     cards = {}
     for name, identity in external.items():
         own = [row for row in rows if row.model == name and row.status == "ok"]
+        note(f"checking {name}: some results are evaluated again in a new process, and check-model is called")
         with waiting(f"checking {name}"):
             cards[name] = _card(identity, own, exact)
     return cards

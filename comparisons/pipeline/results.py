@@ -9,7 +9,7 @@ from pathlib import Path
 from random import SystemRandom
 from typing import Any
 
-from comparisons.console.progress import log
+from comparisons.console.progress import log, note
 from comparisons.model import ComputationFailed
 from comparisons.pipeline.inputs import RunInputs
 from comparisons.runs.cases import Case
@@ -133,7 +133,7 @@ def _confirmed(used: dict[Task, Row], jobs: int, backend: Backend) -> dict[str, 
                 "is judged: --recompute computes every value"
             )
     count = sum(len(again.tasks) for again in found.values())
-    log(
+    note(
         f"{len(used)} values of {' and '.join(found)} are shipped with fscm-bench; {count} of them, computed again, "
         "agree within their bounds; --recompute computes all"
     )

@@ -7,7 +7,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from random import SystemRandom
 
-from comparisons.console.progress import log
+from comparisons.console.progress import log, note
 from comparisons.domain import Domain
 from comparisons.external.model_source import source_of
 from comparisons.judging.fresh_cases import FreshCases, draw
@@ -171,5 +171,5 @@ def _fresh(
     )
     if not fresh.parts:
         raise ValueError("--random: no gate of this run can be judged in fresh cases of a given model")
-    log(f"{sum(len(part.grid.cases) for part in fresh.parts)} fresh cases, --seed {fresh.seed}")
+    note(f"{sum(len(part.grid.cases) for part in fresh.parts)} fresh cases, --seed {fresh.seed}")
     return fresh

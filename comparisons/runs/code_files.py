@@ -7,10 +7,13 @@ import os
 from collections.abc import Iterable
 from pathlib import Path
 
-__all__ = ["CODE", "SOLVER_MODULES", "code_in", "files_digest", "solver_digest"]
+__all__ = ["CODE", "NOT_INSTALLED", "SOLVER_MODULES", "code_in", "files_digest", "solver_digest"]
 
 #: Suffixes of the files that numbers depend on.
 CODE = {".py", ".toml"}
+
+#: Folders of a clone that a wheel has not, or has elsewhere.
+NOT_INSTALLED = tuple(Path("comparisons", name) for name in ("build_step", "pytest_entry", "start_entry"))
 
 #: Modules of `comparisons` on which the values of the references depend: what importing their two models loads.
 SOLVER_MODULES = (

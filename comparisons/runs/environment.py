@@ -15,6 +15,7 @@ import platform
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
 from importlib.metadata import Distribution, PackageNotFoundError, distribution, requires, version
 from pathlib import Path
 from typing import Any
@@ -23,12 +24,23 @@ from urllib.request import url2pathname
 
 from threadpoolctl import threadpool_info
 
-from comparisons.runs.code_files import code_in, files_digest, solver_digest
+from comparisons.runs.code_files import NOT_INSTALLED, code_in, files_digest, solver_digest
 
-__all__ = ["code_digest", "computing_environment", "differences", "environment", "fingerprint", "package_version"]
+__all__ = [
+    "code_digest",
+    "computing_environment",
+    "differences",
+    "environment",
+    "fingerprint",
+    "package_version",
+    "version_text",
+]
 
 DISTRIBUTION = "fscm-bench"
 _PACKAGES = ("fscm", "fem_reference", "comparisons")
+
+#: Digits of a commit in the text of the version.
+_SHOWN = 12
 
 
 def package_version() -> str:
@@ -39,8 +51,21 @@ def package_version() -> str:
         return "not installed"
 
 
+def version_text() -> str:
+    """Return the version, and the commit where it is known: by ``git describe`` in a clone, or as pip recorded it."""
+    digest = code_digest()
+    found = _commit(digest)
+    if found["commit"] is None:
+        return package_version()
+    described = (_git(root, "describe", "--tags", "--always", f"--abbrev={_SHOWN}") for root in _clones(digest))
+    name = next(filter(None, described), found["commit"][:_SHOWN])
+    return f"{package_version()} (commit {name}{', with changes' if found['dirty'] else ''})"
+
+
 def code_digest(root: Path | None = None) -> str:
     """Return the SHA-256 of the packages' Python and TOML files under `root` (by default, those that run).
+
+    The same code has the same digest in a clone and where pip installed it.
 
     Raises
     ------
@@ -51,7 +76,9 @@ def code_digest(root: Path | None = None) -> str:
         root = _running_root()
         if missing := [package for package in _PACKAGES if not (root / package / "__init__.py").is_file()]:
             raise RuntimeError(f"the code of {', '.join(missing)} is not in {root}, so that its digest is unknown")
-    return files_digest(root, [path for package in _PACKAGES for path in code_in(root / package)])
+    not_installed = {root / folder for folder in NOT_INSTALLED}
+    paths = [path for package in _PACKAGES for path in code_in(root / package)]
+    return files_digest(root, [path for path in paths if not_installed.isdisjoint(path.parents)])
 
 
 def fingerprint(digest: str | None = None) -> str:
@@ -133,14 +160,20 @@ def _running_root() -> Path:
     return Path(__file__).resolve().parents[2]
 
 
-def _commit(digest: str) -> dict[str, Any]:
-    """Return the commit of the code of a digest, which is that of the code that runs."""
+def _clones(digest: str) -> Iterator[Path]:
+    """Yield the git work trees whose code has a digest, which is that of the code that runs."""
     running = _running_root()
     for root in filter(None, (running, _installed_from())):
         if (root / ".git").exists() and (root == running or code_digest(root) == digest):
-            commit, status = _git(root, "rev-parse", "HEAD"), _git(root, "status", "--porcelain", *_PACKAGES)
-            if commit is not None and status is not None:
-                return {"commit": commit, "dirty": bool(status)}
+            yield root
+
+
+def _commit(digest: str) -> dict[str, Any]:
+    """Return the commit of the code of a digest, which is that of the code that runs."""
+    for root in _clones(digest):
+        commit, status = _git(root, "rev-parse", "HEAD"), _git(root, "status", "--porcelain", *_PACKAGES)
+        if commit is not None and status is not None:
+            return {"commit": commit, "dirty": bool(status)}
     return _installed_commit() or {"commit": None, "dirty": None}
 
 

@@ -29,6 +29,11 @@ class RunFolder:
         return self.path / file_names.RECORD
 
     @property
+    def data_package(self) -> Path:
+        """The data package: type, unit and meaning of every column of the tables."""
+        return self.path / file_names.DATA_PACKAGE
+
+    @property
     def journal(self) -> Path:
         """The journal of finished rows."""
         return self.path / file_names.JOURNAL

@@ -18,8 +18,9 @@ from jsonschema import Draft202012Validator
 from jsonschema.exceptions import best_match
 
 from comparisons.console.progress import log
-from comparisons.data.file_names import RECORD, RUN_FILES
+from comparisons.data.file_names import DATA_PACKAGE, RECORD, RUN_FILES
 from comparisons.runs.atomic_files import write_json
+from comparisons.runs.data_package import write_data_package
 from comparisons.runs.environment import differences, fingerprint
 
 __all__ = ["FORMAT", "check_files", "read_record", "warn_of_other_code", "write_record"]
@@ -41,7 +42,7 @@ def _problem(content: object) -> str | None:
 
 
 def write_record(content: dict[str, Any], path: Path, files: Collection[str] = RUN_FILES) -> None:
-    """Write a record with the checksums of the files beside it, atomically.
+    """Write a record with the checksums of the files beside it, and before it the data package of the tables.
 
     Parameters
     ----------
@@ -56,6 +57,8 @@ def write_record(content: dict[str, Any], path: Path, files: Collection[str] = R
     RuntimeError
         If it does not fit the schema: a defect of the code that made it.
     """
+    if write_data_package(path.parent, files):
+        files = [*files, DATA_PACKAGE]
     sums = {name: _sum_of(path.parent / name) for name in files if (path.parent / name).is_file()}
     content = content | {"files": sums}
     content["sha256"] = _own_sum(content)

@@ -5,6 +5,7 @@ The tables of a run are sorted, and the CSV depends on code and cases alone: wal
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -14,6 +15,7 @@ import pyarrow.parquet as pq
 
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.csv_format import csv_text
+from comparisons.runs.data_package import described, quantities
 from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
 
 __all__ = ["read_table", "write_curves", "write_results", "write_table"]
@@ -32,11 +34,17 @@ def write_curves(table: pd.DataFrame, stem: Path) -> None:
 def write_table(
     table: pd.DataFrame, stem: Path, *, schema: pa.Schema | None = None, leave_out_of_csv: Iterable[str] = ()
 ) -> None:
-    """Write a table as `stem`.csv and `stem`.parquet, the latter with the types of `schema` if given."""
+    """Write a table as `stem`.csv and `stem`.parquet, the latter with the types of `schema` if given.
+
+    The Parquet file has unit and description of each column in the metadata of its field, and the units of the
+    quantities, as JSON, in the metadata of the table.
+    """
     with atomic(stem.with_suffix(".csv")) as file:
         file.write(csv_text(table.drop(columns=list(leave_out_of_csv))).encode())
     with atomic(stem.with_suffix(".parquet")) as file:
-        pq.write_table(pa.Table.from_pandas(table, schema=schema, preserve_index=False), file)
+        stored = pa.Table.from_pandas(table, schema=schema, preserve_index=False)
+        units = {**(stored.schema.metadata or {}), "quantities": json.dumps(quantities())}
+        pq.write_table(stored.cast(described(stem.name, stored.schema)).replace_schema_metadata(units), file)
 
 
 def read_table(path: Path) -> pd.DataFrame:

@@ -1,6 +1,7 @@
 """Models made for tests: one of each kind of result, and a small grid to run them on."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -122,23 +123,23 @@ def small_grid(toys, monkeypatch):
 
 @pytest.fixture
 def typeset(tmp_path):
-    """A function that compiles a table; skips without pdflatex unless FSCM_BENCH_LATEX=required."""
+    """A function that compiles tables, which fit A4; skips without pdflatex unless FSCM_BENCH_LATEX=required."""
     program = shutil.which("pdflatex")
     if program is None:
-        reason = "pdflatex is not installed (Debian: apt-get install texlive-latex-base texlive-latex-recommended)"
+        packages = "texlive-latex-base texlive-latex-recommended texlive-science"
+        reason = f"pdflatex is not installed (Debian: apt-get install {packages})"
         if os.environ.get("FSCM_BENCH_LATEX") == "required":
             pytest.fail(reason)
         pytest.skip(reason)
 
-    def compiled(table):
+    def compiled(*tables, fits=True):
+        packages = "array,booktabs,longtable,pdflscape,siunitx"
         document = "\n".join(
             [
-                r"\documentclass{article}",
-                r"\usepackage{booktabs}",
+                r"\documentclass[a4paper]{article}",
+                rf"\usepackage{{{packages}}}",
                 r"\begin{document}",
-                r"\begin{table}\tiny\noindent",
-                table,
-                r"\end{table}",
+                *tables,
                 r"\end{document}",
             ]
         )
@@ -147,7 +148,12 @@ def typeset(tmp_path):
         done = subprocess.run(order, cwd=tmp_path, capture_output=True, check=False, stdin=subprocess.DEVNULL)
         message = done.stdout.decode(errors="replace")
         assert done.returncode == 0, message[-2000:]
-        assert "Missing character" not in (tmp_path / "table.log").read_text(errors="replace")
+        log = (tmp_path / "table.log").read_text(errors="replace")
+        assert "Missing character" not in log
         assert (tmp_path / "table.pdf").stat().st_size > 1000
+        if fits:
+            assert [over for over in re.findall(r"Overfull .hbox \((.*?)pt too wide\)", log) if float(over) > 1.0] == []
+            assert "Overfull \\vbox" not in log
+            assert "Float too large" not in log
 
     return compiled

@@ -31,7 +31,7 @@ from comparisons.runs.tasks import plan
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 EXAMPLES = sorted((DOCS / "examples").glob("*.py"))
-DOCUMENTS = [ROOT / "README.md", *sorted(DOCS.glob("*.md"))]
+DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", *sorted(DOCS.glob("*.md"))]
 
 #: Numbers that each example prints: those that the documents quote.
 QUOTED = {
@@ -39,6 +39,21 @@ QUOTED = {
     "own_shape_and_law.py": ["paraboloid    9-3   pull-off force 1.78848171", "rounded cone  10-4"],
     "own_modulus.py": ["27.06620 nN", "25.96980 nN", "25.69680 nN", "27.08988 nN"],
     "errors_of_a_model.py": ["md-improved", "1.788482"],
+    "measured_curve.py": [
+        "pull-off force 39.54 nN, drawn over 3.40 nm",
+        "Tabor number 2.31, work of adhesion 40.1 mJ/m^2, modulus 508 MPa",
+        "from the record: +- 0.2 mJ/m^2, +- 11 MPa (two standard deviations)",
+        "with z0 = 0.3 nm: 40.6 mJ/m^2, 508 MPa",
+        "with z0 = 0.5 nm: 39.5 mJ/m^2, 508 MPa",
+        "JKR from the force alone: 42.0 mJ/m^2",
+        "r.m.s. distance of record and model 0.2 nN",
+    ],
+    # The tables of docs/which_model.md, whose numbers are rounded to what any machine computes.
+    "model_choice.py": [
+        line
+        for line in (DOCS / "which_model.md").read_text(encoding="utf-8").splitlines()
+        if line.startswith(("| n |", "| 1 |", "| 1.5 |", "| 2 |", "| 3 |", "| 5 |"))
+    ],
 }
 
 
@@ -51,11 +66,11 @@ def blocks(path, language):
     return re.findall(rf"^```{language}\n(.*?)^```", path.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
 
 
-def printed_by(code, folder):
-    """The lines that code prints in this process, in a folder."""
+def printed_by(code, folder, path=None):
+    """The lines that code prints in this process, in a folder; `path` is the file of the code, if it has one."""
     output = io.StringIO()
     with chdir(folder), redirect_stdout(output):
-        exec(compile(code, "example", "exec"), {"__name__": "__main__"})
+        exec(compile(code, "example", "exec"), {"__name__": "__main__", "__file__": str(path)})
     return output.getvalue().splitlines()
 
 
@@ -87,7 +102,8 @@ def solved_pad(problem, quantity, accuracy):
 
 
 def example_prints(name, folder):
-    printed = "\n".join(printed_by((DOCS / "examples" / name).read_text(encoding="utf-8"), folder))
+    path = DOCS / "examples" / name
+    printed = "\n".join(printed_by(path.read_text(encoding="utf-8"), folder, path))
     assert QUOTED[name]
     assert [text for text in QUOTED[name] if text not in printed] == []
 
@@ -119,6 +135,14 @@ def test_the_stored_force_of_the_pad_is_that_of_the_integral_equation():
 def test_the_stored_force_of_the_pad_is_that_of_the_finite_elements():
     found = fem_reference.solve(PAD, "pull_off_force", accuracy="quick")
     assert abs(PAD_FORCE.value - found.value) <= found.u_num <= 1.5 * PAD_FORCE.u_num
+
+
+def test_the_page_of_the_measured_curve_quotes_what_is_printed():
+    text = (DOCS / "measured_curve.md").read_text(encoding="utf-8")
+    *lines, last = QUOTED["measured_curve.py"]
+    assert "```\n" + "\n".join(lines) + "\n```" in text
+    assert last.split()[-2] + " nN (r.m.s.)" in text
+    assert len(QUOTED["model_choice.py"]) == 32
 
 
 def test_the_long_example_poses_its_problems(tmp_path, monkeypatch):
@@ -169,7 +193,8 @@ COMMANDS = [
 @pytest.mark.parametrize("line", [line for line in COMMANDS if line.startswith("fscm-bench ")])
 def test_a_command_parses(line):
     """Names of commands and options, choices, required arguments."""
-    _, *arguments = shlex.split(line, comments=True)
+    command, *_ = line.partition(" > ")  # the file that takes the output
+    _, *arguments = shlex.split(command, comments=True)
     cli._parser(arguments).parse_args(cli._keep_negative_numbers(arguments))
 
 

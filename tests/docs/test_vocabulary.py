@@ -30,6 +30,8 @@ def pattern(word: str) -> re.Pattern[str]:
 def texts() -> dict[Path, str]:
     folders = [ROOT / name for name in ("fscm", "fem_reference", "comparisons", "docs", "tests")]
     files = [path for folder in folders for path in folder.rglob("*") if path.suffix in SUFFIXES]
+    # What a build of the site writes.
+    files = [path for path in files if "_generated" not in path.parts]
     files += [path for path in ROOT.glob("*.*") if path.suffix in SUFFIXES]
     return {path: path.read_text(encoding="utf-8") for path in files if path not in EXEMPT}
 

@@ -39,6 +39,29 @@ def test_stress_at_the_surface_is_the_traction(state):
     assert field.displacement[near, 1] == pytest.approx(w, abs=1e-5)
 
 
+def test_gap_and_pressure_are_those_of_the_surface(state):
+    point, field = state
+    surface = np.isfinite(field.gap)
+    assert (surface == (field.points[:, 1] < 1e-5)).all()
+    r, w = field.points[surface, 0], field.displacement[surface, 1]
+    contact, y = point.branch.contact, point.state.y
+    assert field.gap[surface] == pytest.approx(contact.punch.height(r) - y[-2] + w, abs=1e-5)
+    assert field.pressure[surface] == pytest.approx(contact.law.traction(field.gap[surface]), rel=1e-12)
+    assert np.isnan(field.pressure[~surface]).all()
+
+
+def test_one_unit_of_every_length(state):
+    """A strain has no unit: stress over modulus changes as displacement over distance."""
+    _, field = state
+    scaled = field.in_units_of(0.25, 7.0)
+    assert scaled.displacement / scaled.points == pytest.approx(field.displacement / field.points, rel=1e-12)
+    assert scaled.stress / scaled.modulus[:, None] == pytest.approx(field.stress / field.modulus[:, None], rel=1e-12)
+    assert 0.25 * scaled.gap == pytest.approx(field.gap, nan_ok=True)
+    assert 7.0 * scaled.pressure == pytest.approx(field.pressure, nan_ok=True)
+    with pytest.raises(ValueError, match="length = 0"):
+        field.in_units_of(0.0, 1.0)
+
+
 def test_vertical_equilibrium_at_depth(state):
     """The resultant of sigma_zz on a plane balances the load, within the trapezoidal rule."""
     point, field = state
@@ -59,6 +82,7 @@ def test_file_and_picture(state, tmp_path):
     assert len(read.points) == len(field.points)
     assert {"displacement", "sigma_zz", "von_mises"} <= set(read.point_data)
     assert read.point_data["displacement"][:, 1] == pytest.approx(-field.displacement[:, 1])
+    assert np.isnan(read.point_data["gap"]).sum() == np.isnan(field.gap).sum() > 0
     figure = draw(field, 4.0, magnification=0.5, stress="von_mises")
     figure.savefig(tmp_path / "contact.png")
     assert (tmp_path / "contact.png").stat().st_size > 10_000

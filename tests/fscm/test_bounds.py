@@ -105,7 +105,7 @@ def test_a_flat_punch_is_solved(n: float, k: float, mu: float) -> None:
 
 def test_the_parts_sum_to_the_bound_and_are_read_only() -> None:
     solution = solve(Problem(2, 0.4, 1.0), "pull_off_force")
-    assert list(solution.parts) == ["mesh", "tail", "domain", "rounding", "law"]
+    assert list(solution.parts) == ["mesh", "tail", "domain", "rounding", "law", "kernel"]
     assert sum(solution.parts.values()) == solution.u_num
     assert all(part >= 0.0 for part in solution.parts.values())
     assert pickle.loads(pickle.dumps(solution)) == solution

@@ -3,7 +3,7 @@
 ``python -m tests.mutation.score`` applies the mutants of ``mutants.toml``, one at a time, to a copy of the repository,
 runs the tests of each there, and keeps the outcomes in ``score.csv``.  Mutants that the table has already are not run
 again, so that an interrupted call continues; ``--again`` runs them, ``--only TEXT`` those of the files with that text.
-About an hour on one core.
+A test that notices a mutant must pass without it.  About an hour on one core.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -67,12 +68,15 @@ def stored() -> dict[tuple[str, str, str], dict[str, str]]:
         return {(row["path"], row["old"], row["new"]): row for row in csv.DictReader(file)}
 
 
-def write(rows: dict[tuple[str, str, str], dict[str, str]]) -> None:
-    """Write the rows of the mutants that there are, in their order."""
-    with SCORE.open("w", newline="", encoding="utf-8") as file:
+def store(mutant: Mutant, row: dict[str, str]) -> None:
+    """Put a row into the table, which has the mutants that there are, in their order; another call may write too."""
+    rows = stored() | {mutant.key: row}
+    partial = SCORE.with_suffix(f".{os.getpid()}")
+    with partial.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, ["path", "old", "new", "outcome", "by"], lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows[mutant.key] for mutant in mutants() if mutant.key in rows)
+    partial.replace(SCORE)
 
 
 @contextmanager
@@ -114,6 +118,13 @@ def first_failure(tests: tuple[str, ...], copy: Path) -> str:
     return ""
 
 
+@cache
+def _check_without(test: str, copy: Path) -> None:
+    """Refuse a test that fails without a mutant, too: it says nothing about one."""
+    if first_failure((test,), copy):
+        raise RuntimeError(f"{test} fails without a mutant, too")
+
+
 def outcome(mutant: Mutant, copy: Path) -> dict[str, str]:
     """Apply a mutant to a copy, run its tests, and restore the file."""
     path = copy / mutant.path
@@ -123,6 +134,8 @@ def outcome(mutant: Mutant, copy: Path) -> dict[str, str]:
         by = first_failure(mutant.tests, copy)
     finally:
         path.write_bytes(before)
+    if "::" in by:
+        _check_without(by, copy)
     key = {"path": mutant.path, "old": mutant.old, "new": mutant.new}
     return key | {"outcome": NOTICED if by else NOT_NOTICED, "by": by}
 
@@ -142,7 +155,7 @@ def main(arguments: list[str]) -> int:
             survived = row is not None and row["outcome"] == NOT_NOTICED
             if row is None or args.again or (args.survivors and survived):
                 rows[mutant.key] = row = outcome(mutant, copy)
-                write(rows)
+                store(mutant, row)
                 print(f"{row['outcome']:12} {mutant.path}: {mutant.old!r} -> {mutant.new!r}  {row['by']}", flush=True)
     found = [rows[mutant.key]["outcome"] == NOTICED for mutant in chosen]
     print(f"{sum(found)} of {len(found)} mutants are noticed")

@@ -12,7 +12,10 @@ from comparisons.bench.run import run_bench
 from comparisons.cli.options import FAILED, OK, add_quiet, output
 from comparisons.console.progress import log, note, quiet
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = ("fscm-bench bench --only work-precision",)
 
 
 def add(parser: argparse.ArgumentParser) -> None:

@@ -19,11 +19,14 @@ from comparisons.cli.options import (
 )
 from comparisons.console.progress import log, note, quiet
 from comparisons.model import ComputationFailed
-from comparisons.output.comparison import WIDTH, terminal_tables
+from comparisons.output.comparison import terminal_tables
 from comparisons.output.sweep_summary import failure_lines
 from comparisons.pipeline.compare import REFERENCES, compare
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = ("fscm-bench compare jkr md-improved --n 1 2 --k 0 0.4 --mu 0.1 1 3",)
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -68,8 +71,8 @@ def call(args: argparse.Namespace) -> int:
             log(str(failure))
             return FAILED
         if not args.quiet:
-            console = output(WIDTH)
-            for table in terminal_tables(found.table, found.summary, args.every):
+            console = output()
+            for table in terminal_tables(found.table, found.summary, args.every, console.width):
                 console.print(table)
         for line in failure_lines(found.failures):
             log(line)

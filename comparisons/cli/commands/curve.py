@@ -18,7 +18,10 @@ from comparisons.runs.atomic_files import atomic, writable_file
 from comparisons.runs.cases import Case
 from comparisons.runs.csv_format import csv_text
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = ("fscm-bench curve --model fscm jkr --n 2 --k 0.4 --mu 3 --plot curve.png --csv curve.csv",)
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -31,7 +34,9 @@ def add(parser: argparse.ArgumentParser) -> None:
         required=True,
         help=MODEL_SPEC,
     )
-    parser.add_argument("--quantity", choices=CURVES, default="force_curve", help="what to draw (default: force_curve)")
+    parser.add_argument(
+        "--quantity", choices=tuple(CURVES), default="force_curve", help="what to draw (default: force_curve)"
+    )
     add_case(parser)
     parser.add_argument("--nu", type=number, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one")
     parser.add_argument("--csv", metavar="FILE", type=Path, help="write the points here; by default to stdout")

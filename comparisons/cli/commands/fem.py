@@ -19,7 +19,13 @@ from comparisons.runs.atomic_files import writable_file, writing
 from fem_reference import export
 from fem_reference.verification import FULL_STUDY, QUICK_STUDY, elastic_checks, solver_table
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = (
+    "fscm-bench fem --n 2 --k 0.4 --mu 1 --vtu body.vtu --plot body.png",
+    "fscm-bench fem --verify",
+)
 
 _ERRORS = {"error": ".1e", "limit": ".2g"}
 _STUDY = {"residual": ".0e", "setup_seconds": ".2f", "solve_seconds": ".2f", "megabytes": ".0f"} | {
@@ -34,12 +40,13 @@ _SHOWN, _SHARE = 2.0, 0.15
 def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     add_case(parser, required=False)
-    parser.add_argument("--nu", type=number, default=0.3, help="Poisson's ratio, in [0, 0.5)")
+    parser.add_argument("--nu", type=number, default=0.3, help="Poisson's ratio, in [0, 0.5) (default: %(default)s)")
     parser.add_argument(
         "--event",
         default="pull_off",
+        metavar="EVENT",
         choices=fem_reference.EVENTS,
-        help="the event whose state is shown",
+        help=f"the event whose state is shown: {', '.join(fem_reference.EVENTS)} (default: %(default)s)",
     )
     parser.add_argument("--vtu", metavar="FILE", type=Path, help="write mesh, displacement and stresses here")
     parser.add_argument("--plot", metavar="FILE", type=Path, help="draw the deformed body here")
@@ -89,17 +96,21 @@ def _fields(args: argparse.Namespace) -> int:
     except ComputationFailed as failure:
         log(f"failed: {failure}")
         return FAILED
+    size = FiniteElements.shape_parameter(case.n)
     if args.vtu:
         with writing(args.vtu):
             export.write_vtu(field, args.vtu)
+        log(f"{args.vtu}: lengths in z0, stresses in dgamma/z0, for a punch with Q = {size:.4g} z0^(n-1)")
     if args.plot:
         shown = _SHOWN * radius
         inside = (field.points < shown).all(axis=1)
         largest = float(abs(field.displacement[inside]).max())
-        figure = export.draw(field, shown, _SHARE * shown / largest)
+        # One digit, since the figure states it.
+        magnification = float(f"{_SHARE * shown / largest:.1g}")
+        figure = export.draw(field, shown, magnification)
         axes = figure.axes[0]
-        axes.set_xlabel(r"radius $r / (Q z_0)^{1/n}$, deformation magnified")
-        axes.set_ylabel(r"depth $z / (Q z_0)^{1/n}$")
+        axes.set_xlabel(f"radius $r / z_0$ of a punch with $Q$ = {size:.4g} $z_0^{{n-1}}$")
+        axes.set_ylabel(f"depth $z / z_0$, displacement and gap magnified {magnification:g} times")
         event = args.event.replace("_", "-")
         axes.set_title(rf"{event} at $n$ = {case.n:g}, $k$ = {case.k:g}, $\mu$ = {case.mu:g}, $\nu$ = {args.nu:g}")
         figure.axes[1].set_ylabel(r"axial stress $\sigma_{zz} z_0 / \Delta\gamma$, tension positive")

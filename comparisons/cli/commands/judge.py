@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import nullcontext
 from pathlib import Path
 
-from rich.table import Table
-from rich.text import Text
-
-from comparisons.cli.options import FAILED, FAILS, INCONCLUSIVE, OK, output
-from comparisons.console.progress import log
+from comparisons.cli.options import FAILED, FAILS, INCONCLUSIVE, OK, add_quiet, add_verbose, output
+from comparisons.cli.verdict_screen import (
+    error_lines,
+    print_every_verdict,
+    print_lines,
+    unexpected_lines,
+    verdict_lines,
+)
+from comparisons.console.progress import log, quiet
 from comparisons.judging.decision import Verdict
-from comparisons.judging.report_card import card_lines, given_models
-from comparisons.judging.summary import summarise
 from comparisons.output.markdown import to_step_summary
-from comparisons.output.tables import rich_table
-from comparisons.output.verdicts import matrix
 from comparisons.pipeline.judgement import Judgement, judge_folder
 
-__all__ = ["STATUS", "add", "call", "print_verdicts"]
+__all__ = ["EXAMPLES", "STATUS", "add", "call", "show"]
+
+#: Examples of the help.
+EXAMPLES = ("fscm-bench judge results/mine --verbose",)
 
 #: Verdict over all gates -> exit status.
 STATUS = {
@@ -30,63 +34,42 @@ STATUS = {
     Verdict.PASS: OK,
 }
 
-#: On a console with fewer columns the table of verdicts is without what the gates and the command line have.
-_WIDE = 110
+#: Lines of the summary; the other ten of a terminal's forty are for messages.
+_LINES = 30
 
 
 def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("folder", metavar="DIR", type=Path, help="folder of a finished run")
     parser.add_argument("--gates", metavar="FILE", type=Path, help="judge by these gates, not by those of the run")
+    add_verbose(parser)
+    add_quiet(parser)
 
 
 def call(args: argparse.Namespace) -> int:
     """Judge and print; return the exit status."""
     to_step_summary("")
-    judgement = judge_folder(args.folder, args.gates)
+    with quiet() if args.quiet else nullcontext():
+        judgement = judge_folder(args.folder, args.gates)
+    show(judgement, verbose=args.verbose, failures_only=args.quiet)
+    if not args.quiet and not judgement.verdicts.empty:
+        log(f"next: fscm-bench report {args.folder}")
     to_step_summary(judgement.markdown)
-    print_verdicts(judgement)
     return STATUS[judgement.verdict]
 
 
-def print_verdicts(judgement: Judgement) -> None:
-    """Print the matrix of gates, worst first, and the verdict over all."""
-    console = output()
+def show(judgement: Judgement, *, verbose: bool, failures_only: bool, lines: int = _LINES) -> None:
+    """Print the verdicts: a summary of so many lines, all rows, or what does not behave as declared."""
     if judgement.verdicts.empty:
         log("no gate was evaluated")
         return
-    shown = matrix(summarise(judgement.verdicts), judgement.specs)
-    hidden = ["command", "reason"]
-    if console.width < _WIDE:
-        hidden += ["reference", "limits"] + ["candidate"] * (shown["candidate"].nunique() == 1)
-    table = rich_table(shown.drop(columns=hidden), "verdicts, worst first")
-    for column in table.columns:
-        column.overflow = "fold"
-    console.print(table)
-    width = shown["gate"].str.len().max()
-    console.print("the worst case of each gate is computed again by", style="bold")
-    for gate, line, reason in zip(shown["gate"], shown["command"], shown["reason"], strict=True):
-        console.print(f"{gate:{width}}  {line}" + (f"  # {reason}" if reason else ""), markup=False, soft_wrap=True)
-    _print_cards(judgement)
-    counts = judgement.verdicts["verdict"].map(str).value_counts()
-    console.print(
-        f"{judgement.verdict}: {len(shown)} gates, "
-        + ", ".join(f"{count} cases {name}" for name, count in counts.items()),
-        style="bold",
-    )
-    for record in shown[shown["verdict"] == Verdict.ERROR].itertuples():
-        log(f"a gate is in error: {record.gate} of {record.candidate}: {record.reason}")
-
-
-def _print_cards(judgement: Judgement) -> None:
-    """Print the report card of each given model."""
-    console = output()
-    for name in given_models(judgement.models, judgement.verdicts):
-        lines = card_lines(name, judgement.verdicts, judgement.cards.get(name), judgement.domains.get(name))
-        grid = Table.grid(padding=(0, 2))
-        grid.add_column(no_wrap=True)
-        grid.add_column(overflow="fold")
-        for label, text in lines:
-            grid.add_row(Text(f"  {label}"), Text(text))
-        console.print(f"report card of {name}", style="bold", markup=False)
-        console.print(grid)
+    width = output().width
+    if failures_only:
+        for line in unexpected_lines(judgement, width):
+            log(line)
+    elif verbose:
+        print_every_verdict(judgement)
+    else:
+        print_lines(verdict_lines(judgement, width, lines))
+    for line in error_lines(judgement):
+        log(line)

@@ -10,7 +10,10 @@ from comparisons.console.progress import log
 from comparisons.pipeline.leaderboard import leaderboard
 from comparisons.runs.atomic_files import atomic, writable_file
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = ("fscm-bench leaderboard results/mine results/other --out leaderboard.html",)
 
 
 def add(parser: argparse.ArgumentParser) -> None:

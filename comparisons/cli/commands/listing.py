@@ -14,18 +14,25 @@ from comparisons.cli.options import OK, output
 from comparisons.console.progress import log
 from comparisons.external.model_source import installed
 from comparisons.judging.gates import gates_text, load_gates
+from comparisons.numerics.number_text import limits_text
 from comparisons.output.tables import rich_table
 from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS, create
 from comparisons.runs.cases import TIERS, grids
 from comparisons.runs.csv_format import csv_text
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = (
+    "fscm-bench list models",
+    "fscm-bench list gates --format json",
+)
 
 
 def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("what", choices=_TABLES)
+    parser.add_argument("what", choices=tuple(_TABLES), help="what is listed")
     parser.add_argument(
         "--format",
         choices=("text", "csv", "json"),
@@ -119,7 +126,7 @@ def _gates() -> pd.DataFrame:
             "candidate": gate.candidate,
             "reference": gate.reference,
             "metric": gate.metric,
-            "limits": f"{gate.lower:g} to {gate.upper:g}",
+            "limits": limits_text(gate.lower, gate.upper),
             "basis": gate.basis,
         }
         for gate in load_gates(gates_text())

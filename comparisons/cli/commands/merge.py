@@ -12,7 +12,10 @@ from comparisons.console.progress import log, quiet
 from comparisons.model import ComputationFailed
 from comparisons.pipeline.merge import merge
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = ("fscm-bench merge results/shard1 results/shard2 --out results/sweep",)
 
 
 def add(parser: argparse.ArgumentParser) -> None:

@@ -10,7 +10,10 @@ from comparisons.console.progress import log
 from comparisons.external.template import write_template
 from comparisons.registry import MODELS
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = ("fscm-bench new-model my-model",)
 
 
 def add(parser: argparse.ArgumentParser) -> None:

@@ -12,7 +12,10 @@ from comparisons.model import ComputationFailed
 from comparisons.paper.registry import NAMES
 from comparisons.pipeline.figures import make_figures
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = ("fscm-bench paper --figure 16 --out results/paper",)
 
 
 def add(parser: argparse.ArgumentParser) -> None:

@@ -14,7 +14,10 @@ from comparisons.output.report.stored_run import read_folder
 from comparisons.runs.atomic_files import atomic, writable_file
 from comparisons.runs.folder import RunFolder
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = ("fscm-bench report results/mine --out report.html",)
 
 
 def add(parser: argparse.ArgumentParser) -> None:

@@ -3,22 +3,39 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import nullcontext
 from pathlib import Path
 
 import pandas as pd
-from rich.table import Table
 
-from comparisons.cli.commands.judge import STATUS, print_verdicts
-from comparisons.cli.options import FAILED, add_jobs, add_out, add_retry_failed, output
-from comparisons.console.progress import log
+from comparisons.cli.commands.judge import STATUS, show
+from comparisons.cli.options import FAILED, add_jobs, add_out, add_quiet, add_retry_failed, add_verbose, output
+from comparisons.cli.verdict_screen import error_lines, print_lines, verdict_lines
+from comparisons.console.folding import folded
+from comparisons.console.progress import log, note, quiet
 from comparisons.model import ComputationFailed
+from comparisons.output.fitted_table import FittedTable
 from comparisons.output.markdown import to_step_summary
+from comparisons.output.run_summary import computations_sentence, largest_table, paper_sentence
+from comparisons.output.sweep_summary import failure_lines
 from comparisons.output.tables import beside_paper_values, by_case, largest_by_gradient, rich_table, statuses
+from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.run import run
-from comparisons.pipeline.tables import RunTables
 from comparisons.runs.cases import TIERS
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = (
+    "fscm-bench run",
+    "fscm-bench run --model my_model.py:MyModel --out results/mine",
+)
+
+#: Lines of the whole output without --verbose, at 80 columns or more; of these for the messages on stderr.
+_LINES, _MESSAGES = 40, 7
+
+#: Lines of the smallest table of errors: title, columns, rule and two models.
+_LEAST_TABLE = 6
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -48,63 +65,85 @@ def add(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="compute the values of fscm and fem that are shipped with this program, too",
     )
+    add_verbose(parser)
+    add_quiet(parser)
 
 
 def call(args: argparse.Namespace) -> int:
     """Run and print; return the exit status."""
     to_step_summary("")
-    try:
-        finished = run(
-            args.tier,
-            args.gates,
-            args.model,
-            args.out,
-            jobs=args.jobs,
-            retry_failed=args.retry_failed,
-            recompute=args.recompute,
-            random=args.random,
-            seed=args.seed,
-        )
-    except ComputationFailed as failure:
-        log(str(failure))
-        return FAILED
-    status = FAILED
-    _print(finished.tables)
-    if finished.judgement is not None:
-        to_step_summary(finished.judgement.markdown)
-        print_verdicts(finished.judgement)
-        status = STATUS[finished.judgement.verdict]
-    if finished.failures:
-        log(f"{len(finished.failures)} computations failed")
-        status = FAILED
-    log(f"results are in {finished.folder}")
-    return status
+    with quiet() if args.quiet else nullcontext():
+        try:
+            finished = run(
+                args.tier,
+                args.gates,
+                args.model,
+                args.out,
+                jobs=args.jobs,
+                retry_failed=args.retry_failed,
+                recompute=args.recompute,
+                random=args.random,
+                seed=args.seed,
+            )
+        except ComputationFailed as failure:
+            log(str(failure))
+            return FAILED
+        judgement = finished.judgement
+        if args.verbose:
+            _print_every_row(finished)
+        _show(finished, verbose=args.verbose, failures_only=args.quiet)
+        note(f"results are in {finished.folder}")
+        if judgement is not None and not judgement.verdicts.empty:
+            note(f"next: fscm-bench report {finished.folder}")
+    # Last: a disk that is full here loses nothing.
+    if judgement is not None:
+        to_step_summary(judgement.markdown)
+    failed = finished.failures or judgement is None
+    return FAILED if failed or judgement is None else STATUS[judgement.verdict]
 
 
-def _print_kappa(kappa: pd.DataFrame) -> None:
-    """Print the relative errors: a table for each quantity and reference, a row for each case."""
-    console = output()
-    for (quantity, reference), group in kappa.groupby(["quantity", "reference"]):
+def _show(finished: FinishedRun, *, verbose: bool, failures_only: bool) -> None:
+    """Print the errors and the verdicts, and the failed computations on stderr."""
+    judgement, maxima = finished.judgement, finished.tables.largest
+    failures = list(failure_lines(finished.failures))
+    lines = taken = 0
+    judged = judgement is not None and not judgement.verdicts.empty
+    if not (verbose or failures_only):
+        width = output().width
+        sentences = [computations_sentence(finished.counts), paper_sentence(maxima)]
+        below = [line for sentence in sentences if sentence for line in folded(sentence, width)]
+        messages = [*failures, *(error_lines(judgement) if judgement is not None and judged else ())]
+        room = _LINES - _MESSAGES - len(below) - sum(len(folded(line, width)) for line in messages)
+        if judgement is not None and judged:
+            lines = room - _LEAST_TABLE
+            taken = len(verdict_lines(judgement, width, lines))
+        table = largest_table(maxima, width, room - taken)
+        if table is not None:
+            output().print(table)
+        print_lines(below)
+    if judgement is not None:
+        show(judgement, verbose=verbose, failures_only=failures_only, lines=lines)
+    for line in failures:
+        log(line)
+
+
+def _print_every_row(finished: FinishedRun) -> None:
+    """Print the relative errors in every case, the failed computations, and the largest errors."""
+    console, tables = output(), finished.tables
+    for (quantity, reference), group in tables.kappa.groupby(["quantity", "reference"]):
         title = f"{quantity} of {reference} with its u_num, and kappa of each model in percent"
         console.print(_titled(by_case(group), title))
-
-
-def _print(tables: RunTables) -> None:
-    """Print the details first: the end of the output is what a user of a terminal sees."""
-    _print_kappa(tables.kappa)
-    console = output()
-    results = tables.results
-    failed = results.loc[results["status"] == "failed", ["model", "quantity", "n", "k", "mu", "reason"]]
+    failed = tables.results.loc[tables.results["status"] == "failed", ["model", "quantity", "n", "k", "mu", "reason"]]
     if len(failed):
         console.print(rich_table(failed, "failed computations"))
-    console.print(rich_table(statuses(results), "computations"))
+    console.print(rich_table(statuses(tables.results), "computations"))
     console.print(_titled(largest_by_gradient(tables.largest), "largest abs(kappa) in percent"))
     stated = beside_paper_values(tables.largest)
     if not stated[0].empty:
-        title = "largest abs(kappa) in percent beside the published (at_end: at an end of the range of mu)"
+        title = "largest abs(kappa) in percent beside that of the paper (at_end: at an end of the range of mu)"
         console.print(_titled(stated, title))
 
 
-def _titled(shown: tuple[pd.DataFrame, dict[str, str]], title: str) -> Table:
+def _titled(shown: tuple[pd.DataFrame, dict[str, str]], title: str) -> FittedTable:
     table, formats = shown
-    return rich_table(table, title, formats)
+    return rich_table(table, title, formats, group="quantity" if "quantity" in table else "")

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 
-from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case, case_of, number
+from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case, case_of, number, output
+from comparisons.console.folding import hanging
 from comparisons.console.progress import waiting
 from comparisons.numerics.number_text import case_text, short
 from comparisons.quantities import QUANTITIES
@@ -13,7 +15,13 @@ from comparisons.registry import create
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = (
+    "fscm-bench solve --model fscm --quantity pull_off_force --n 2 --k 0.4 --mu 1",
+    "fscm-bench solve --model jkr --quantity jump_out_gap --n 2 --k 0 --mu 2 --format json",
+)
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -22,7 +30,9 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quantity", metavar="NAME", required=True, help="see: fscm-bench list quantities")
     add_case(parser)
     parser.add_argument("--nu", type=number, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one")
-    parser.add_argument("--format", choices=_FORMATS, default="text")
+    parser.add_argument(
+        "--format", choices=tuple(_FORMATS), default="text", help="json and csv have every digit (default: %(default)s)"
+    )
 
 
 def call(args: argparse.Namespace) -> int:
@@ -33,7 +43,11 @@ def call(args: argparse.Namespace) -> int:
     model = create(args.model, case.nu)
     with waiting(f"{args.model}, {case.label}"):
         row = evaluate(model, args.quantity, case)
-    print(_FORMATS[args.format](row), end="")
+    shown = _FORMATS[args.format](row)
+    if args.format == "text" and sys.stdout.isatty():
+        width = output().width
+        shown = "\n".join(line for text in shown.splitlines() for line in hanging(text, width)) + "\n"
+    print(shown, end="")
     return FAILED if row.status == "failed" else OK
 
 

@@ -9,12 +9,15 @@ from pathlib import Path
 from comparisons.cli.options import FAILED, OK, add_jobs, add_out, add_quiet, add_retry_failed, output
 from comparisons.console.progress import log, note, quiet
 from comparisons.model import ComputationFailed
-from comparisons.output.sweep_summary import COLUMNS, failure_lines, summary_tables
+from comparisons.output.sweep_summary import failure_lines, summary_tables
 from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.run import run
 from comparisons.runs.backends import BACKENDS
 
-__all__ = ["add", "call", "show"]
+__all__ = ["EXAMPLES", "add", "call", "show"]
+
+#: Examples of the help.
+EXAMPLES = ("fscm-bench sweep my_cases.toml --model jkr md-improved --out results/sweep",)
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -71,7 +74,7 @@ def call(args: argparse.Namespace) -> int:
 def show(finished: FinishedRun, *, with_summary: bool) -> int:
     """Print the summary of a sweep and its failures; return the exit status."""
     if with_summary:
-        console = output(COLUMNS)
+        console = output()
         for table in summary_tables(finished.tables.results, finished.tables.curves, finished.tables.kappa):
             console.print(table)
     for line in failure_lines(finished.failures):

@@ -22,4 +22,4 @@ def cards(stored: Stored) -> Table:
         )
     ]
     columns = (Column("model", "head"), Column("item"), Column("found", "prose"))
-    return Table("cards", "Report cards of the given models", columns, rows)
+    return Table("cards", "Report cards of the given models", columns, rows, "cards.csv")

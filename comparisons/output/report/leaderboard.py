@@ -174,7 +174,7 @@ def leaderboard_html(entries: Sequence[Entry], mixed: bool = False) -> str:
     )
     rows = [Row(_cells(row, mixed=len(set(letters)) > 1)) for _, row in every.iterrows()]
     table = without_empty(
-        Table("leaderboard", "One row a model and quantity of each run", columns, rows, ("leaderboard.csv",))
+        Table("leaderboard", "One row a model and quantity of each run", columns, rows, "leaderboard.csv")
     )
     return render_table(
         "leaderboard.html",

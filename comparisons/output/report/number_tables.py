@@ -56,7 +56,7 @@ def kappa(stored: Stored) -> Table:
         Column("κ (%)", "number"),
         Column("u of κ", "number"),
     )
-    return without_empty(Table("kappa", "Relative errors against the reference", columns, rows, ("kappa.csv",)))
+    return without_empty(Table("kappa", "Relative errors against the reference", columns, rows, "kappa.csv"))
 
 
 def largest(stored: Stored) -> Table:
@@ -91,12 +91,13 @@ def largest(stored: Stored) -> Table:
         Column("digits of the paper"),
     )
     caption = "Largest relative error over the computed Tabor numbers, by size, with its sign"
-    return without_empty(Table("largest", caption, columns, rows, ("largest_kappa.csv", "largest_kappa.tex")))
+    return without_empty(Table("largest", caption, columns, rows, "largest_kappa.csv"))
 
 
 def convergence(stored: Stored) -> Table:
     """Return every number that came from a discretisation: observed order, uncertainty, size."""
-    discrete = stored.results[(stored.results["size"] > 0) & (stored.results["status"] == "ok")]
+    numbered = stored.results.assign(line=range(len(stored.results)))
+    discrete = numbered[(numbered["size"] > 0) & (numbered["status"] == "ok")]
     rows = [
         Row(
             (
@@ -125,7 +126,8 @@ def convergence(stored: Stored) -> Table:
         Column("iterations", "number"),
         Column("residual", "number"),
     )
-    return without_empty(Table("convergence", "Numbers from a discretisation", columns, rows, ("results.csv",)))
+    caption, lines = "Numbers from a discretisation", tuple(discrete["line"].tolist())
+    return without_empty(Table("convergence", caption, columns, rows, "results.csv", lines=lines))
 
 
 def results(stored: Stored) -> Table:
@@ -157,12 +159,13 @@ def results(stored: Stored) -> Table:
         Column("status"),
         Column("reason", "prose"),
     )
-    return without_empty(Table("results", "Every computed number", columns, rows, ("results.csv",)))
+    return without_empty(Table("results", "Every computed number", columns, rows, "results.csv"))
 
 
 def curve_points(stored: Stored, quantity: str, columns: tuple[str, str]) -> Table:
     """Return the stored points of one kind of curve."""
-    chosen = stored.curves[(stored.curves["quantity"] == quantity) & (stored.curves["status"] == "ok")]
+    numbered = stored.curves.assign(line=range(len(stored.curves)))
+    chosen = numbered[(numbered["quantity"] == quantity) & (numbered["status"] == "ok")]
     rows = [
         Row(
             (
@@ -184,7 +187,8 @@ def curve_points(stored: Stored, quantity: str, columns: tuple[str, str]) -> Tab
         *(Column(name, "number") for name in columns),
         Column("u, share of the picture", "number"),
     )
-    return without_empty(Table(quantity, f"Stored points: {title_of(quantity)}", headings, rows, ("curves.csv",)))
+    caption, lines = f"Stored points: {title_of(quantity)}", tuple(chosen["line"].tolist())
+    return without_empty(Table(quantity, caption, headings, rows, "curves.csv", lines=lines))
 
 
 def models(stored: Stored, specs: Mapping[str, str]) -> Table:
@@ -222,7 +226,7 @@ def models(stored: Stored, specs: Mapping[str, str]) -> Table:
         Column("domain", "prose"),
         Column("citation", "prose"),
     )
-    return without_empty(Table("models", "Models, and how their computations ended", columns, rows))
+    return without_empty(Table("models", "Models, and how their computations ended", columns, rows, "models.csv"))
 
 
 def _whole_curves(curves: pd.DataFrame) -> pd.DataFrame:

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
 
 import pandas as pd
 
 from comparisons.data.paper_statements import verdicts
 from comparisons.judging.decision import Verdict, roll_up
-from comparisons.output.latex import latex
+from comparisons.output.error_summary import error_summary
 from comparisons.output.report import card_table, number_tables, plots, verdict_tables
+from comparisons.output.report.comparison_tables import SUMMARY_FILE, TABLE_FILE, case_tables, summary_tables
+from comparisons.output.report.headline import headline
 from comparisons.output.report.plot import Plot
+from comparisons.output.report.provenance import provenance, verdict_counts
 from comparisons.output.report.statement_table import statements
 from comparisons.output.report.stored_run import Stored
-from comparisons.output.report.table import Table, table_tex
+from comparisons.output.report.table import Table, table_csv
 from comparisons.output.style import ModelStyle, model_styles
-from comparisons.output.verdicts import worst_cases
 from comparisons.runs.csv_format import csv_text
 
 __all__ = ["Page", "make_page"]
@@ -29,6 +30,8 @@ class Page:
 
     Attributes
     ----------
+    headline : str
+        What was found, in one sentence.
     verdict, meaning : str
         Over all gates; no verdict where nothing was judged.
     counts : list of (str, int)
@@ -37,21 +40,25 @@ class Page:
         What was run, in one sentence.
     tables : dict of str to Table
         By their ids.
+    compared : list of Table
+        Of a comparison: coverage and errors, then every case; also among `tables`.
     plots : dict of str to list of Plot
         By section.
     provenance : list of (str, str)
         Where the numbers come from.
     files : dict of str to str
-        What can be downloaded.
+        The stored tables behind the tables, as CSV.
     model_styles : dict of str to ModelStyle
         How each model is drawn.
     """
 
+    headline: str
     verdict: str
     meaning: str
     counts: list[tuple[str, int]]
     summary: str
     tables: dict[str, Table]
+    compared: list[Table]
     plots: dict[str, list[Plot]]
     provenance: list[tuple[str, str]]
     files: dict[str, str]
@@ -73,9 +80,11 @@ _MEANINGS = {
     Verdict.PASS: "Every gate passes.",
 }
 
+_UNJUDGED = "Nothing was judged: these are results without gates."
+
 
 def make_page(stored: Stored) -> Page:
-    """Lay out what a run folder holds.
+    """Lay out what the folder of a run, of a sweep or of a comparison holds.
 
     Parameters
     ----------
@@ -90,8 +99,10 @@ def make_page(stored: Stored) -> Page:
         verdict_tables.all_verdicts(stored),
         card_table.cards(stored),
     ]
+    compared = [] if stored.compared is None else _compared(stored.compared)
     made = [
         *(of_verdicts if stored.judged else ()),
+        *compared,
         number_tables.kappa(stored),
         number_tables.largest(stored),
         *(number_tables.curve_points(stored, plot.table, (plot.x_label, plot.y_label)) for plot in curves),
@@ -109,21 +120,18 @@ def make_page(stored: Stored) -> Page:
     drawn = {name for section in sections.values() for plot in section for name in plot.models}
     verdict = roll_up(stored.verdicts["verdict"])
     return Page(
+        headline=headline(stored),
         verdict=str(verdict) if stored.judged else "",
-        meaning=_MEANINGS[verdict] if stored.judged else "Nothing was judged: these are results without gates.",
-        counts=_counts(stored),
+        meaning=_MEANINGS[verdict] if stored.judged else _UNJUDGED,
+        counts=verdict_counts(stored),
         summary=_summary(stored),
         tables=tables,
+        compared=compared,
         plots=sections,
-        provenance=_provenance(stored),
-        files=_files(stored, tables),
+        provenance=provenance(stored),
+        files=_files(stored, made),
         model_styles=model_styles(drawn),
     )
-
-
-def _counts(stored: Stored) -> list[tuple[str, int]]:
-    found = Counter(stored.verdicts["verdict"])
-    return [(str(verdict), found[verdict]) for verdict in Verdict if found[verdict]]
 
 
 def _summary(stored: Stored) -> str:
@@ -142,82 +150,21 @@ def _summary(stored: Stored) -> str:
     return f"{size} {gates} Candidates: {candidates}."
 
 
-def _files(stored: Stored, tables: dict[str, Table]) -> dict[str, str]:
-    """Return the CSV files of the folder, digit for digit, and the shorter tables as LaTeX."""
+def _compared(table: pd.DataFrame) -> list[Table]:
+    return [*summary_tables(error_summary(table)), *case_tables(table)]
+
+
+def _files(stored: Stored, tables: Iterable[Table]) -> dict[str, str]:
+    """Return the tables of the folder, digit for digit, and those that are only on the page."""
     files = {
         "kappa.csv": csv_text(stored.kappa),
         "largest_kappa.csv": csv_text(stored.largest),
         "curves.csv": csv_text(stored.curves.drop(columns="seconds")),
         "results.csv": csv_text(stored.results.drop(columns="seconds")),
-        "largest_kappa.tex": table_tex(tables["largest"]),
         "paper_statements.csv": csv_text(pd.DataFrame(verdicts())),
     }
     if stored.judged:
-        caption = "Verdicts of fscm-bench, worst first, each in its worst case"
-        files |= {
-            "verdicts.csv": csv_text(stored.verdicts),
-            "verdicts.tex": latex(worst_cases(stored.summary), caption),
-            "offenders.tex": table_tex(tables["offenders"]),
-        }
-    return files
-
-
-def _provenance(stored: Stored) -> list[tuple[str, str]]:
-    record = stored.record
-    package, machine = record["package"], record["machine"]
-    dirty = {True: "changed since that commit", False: "clean", None: "not known"}[package["dirty"]]
-    facts = [
-        ("command", " ".join(record["command"])),
-        ("arguments", _pairs(record["arguments"])),
-        ("started", record["started"]),
-        ("finished", record["finished"]),
-        ("seconds", f"{record['seconds']['run']:.4g}"),
-        ("rows", _pairs(record["rows"])),
-        ("package", f"{package['name']} {package['version']}"),
-        ("commit", package["commit"] or "not known"),
-        ("work tree", dirty),
-        ("SHA-256 of the code", package["code_sha256"]),
-        ("SHA-256 of the cases", record["cases_sha256"]),
-        *([("SHA-256 of the gates", record["gates_sha256"])] if stored.judged else []),
-        ("Python", record["python"]),
-        ("dependencies", _pairs(record["dependencies"])),
-        ("system", machine["system"]),
-        ("CPU", f"{machine['cpu']}, {machine['cores']} cores"),
-        ("BLAS", "; ".join(f"{one['library']} {one['version']}, {one['threads']} threads" for one in record["blas"])),
-    ]
-    facts += [(f"part {number} of the computations", _pairs(part)) for number, part in enumerate(record["parts"], 1)]
-    if "shipped" in record:
-        facts += _shipped(record["shipped"], record["rows"]["shipped"])
-    if "judged_by_other_code" in record:
-        facts.append(("judged by other code", record["judged_by_other_code"]))
-    if "judged_again" in record:
-        again = record["judged_again"]
-        facts.append(("judged again", f"by {again['gates']}, SHA-256 {again['gates_sha256']}"))
-    then, now = record["verdicts"], {"all": str(roll_up(stored.verdicts["verdict"])), **dict(_counts(stored))}
-    if stored.judged and then != now:
-        facts.append(("judged again", f"yes; at the end of the run the verdicts were {_pairs(then)}"))
-    return facts
-
-
-def _shipped(shipped: dict[str, Any], count: int) -> list[tuple[str, str]]:
-    """Return the facts about the values that came with the package."""
-    again = shipped["evaluated_again"]
-    tasks = [f"{model} {_pairs(task)}" for model, one in again["models"].items() for task in one["tasks"]]
-    return [
-        ("shipped values", f"{count}, solvers {shipped['origin']['solvers_sha256']}"),
-        *(
-            (f"part {number} of the shipped values", _pairs(part))
-            for number, part in enumerate(shipped["origin"]["parts"], 1)
-        ),
-        (f"shipped values computed again (seed {again['seed']})", "; ".join(tasks)),
-    ]
-
-
-def _pairs(content: dict[str, Any]) -> str:
-    return ", ".join(f"{name} {_plain(value)}" for name, value in content.items() if value not in (None, {}, []))
-
-
-def _plain(value: object) -> str:
-    if isinstance(value, dict):
-        return "(" + _pairs(value) + ")"
-    return " ".join(map(str, value)) if isinstance(value, list) else str(value)
+        files |= {"verdicts.csv": csv_text(stored.verdicts), "summary.csv": csv_text(stored.summary)}
+    if stored.compared is not None:
+        files |= {TABLE_FILE: csv_text(stored.compared), SUMMARY_FILE: csv_text(error_summary(stored.compared))}
+    return files | {table.source: table_csv(table) for table in tables if table.source not in files}

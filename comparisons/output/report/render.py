@@ -12,22 +12,34 @@ from collections.abc import Iterable, Mapping
 from hashlib import sha256
 from importlib.resources import files
 from typing import Any
+from unicodedata import normalize
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from comparisons.judging.decision import Verdict
+from comparisons.output.latex_layout import NUMBER
+from comparisons.output.latex_text import TOKENS, escaped
 from comparisons.output.report.page import Page
 from comparisons.output.report.table import Table
 from comparisons.output.style import VERDICT_SYMBOLS, verdict_class
 
-__all__ = ["environment", "render", "render_table", "script_json"]
+__all__ = ["dark_colour", "environment", "records", "render", "render_table", "script_json"]
 
 #: Bokeh draws the plots: of the well-kept libraries that pip installs and that can draw a curve which turns
 #: back, zoom it and read it off, it is the smallest (1.4 MB, plotly.js 4.8 MB), and needs no `eval`.
 _BOKEH = ("server/static/js/bokeh.min.js", "server/static/js/bokeh-api.min.js")
 
 _ASSETS = "comparisons.output.report"
+
+#: Rows up to which the table of the largest errors is open; what is open is printed.
+_MOST_OPEN = 40
+
+#: Scripts of every page, in this order.
+_SCRIPTS = ("tables.js", "files.js", "theme.js")
+
+#: Colours that a dark page has in place of those that are too dark for it; the others are used on both.
+_ON_DARK = {"#000000": "#f2f4f6", "#0072b2": "#3f9fe0", "#d55e00": "#f07a24", "#666666": "#a8afb7"}
 
 #: Characters that could end a script, begin a comment in it, or that JavaScript once took for a line's end.
 _UNSAFE = {character: f"\\u{ord(character):04x}" for character in "<>&'\u2028\u2029"}
@@ -61,12 +73,15 @@ def render(page: Page) -> str:
     page : Page
         As `comparisons.output.report.page.make_page` returns it.
     """
-    styles = {name: [style.colour, style.dash, style.marker, style.broad] for name, style in page.model_styles.items()}
+    styles = {
+        name: [style.colour, dark_colour(style.colour), style.dash, style.marker, style.broad]
+        for name, style in page.model_styles.items()
+    }
     plots = [plot.data() for plot in page.every_plot]
     bokeh = [_script(files("bokeh").joinpath(name).read_text(encoding="utf-8")) for name in _BOKEH]
-    scripts = [*bokeh, *(_script(_asset(name)) for name in ("tables.js", "plots.js"))]
+    scripts = [*bokeh, *(_script(_asset(name)) for name in (*_SCRIPTS, "plots.js"))]
     content = {"plots": plots, "model_styles": styles}
-    return _filled("report.html", page.tables.values(), page.files, scripts, content, page=page)
+    return _filled("report.html", page.tables.values(), page.files, scripts, content, page=page, most_open=_MOST_OPEN)
 
 
 def render_table(template: str, table: Table, files: Mapping[str, str], **context: Any) -> str:
@@ -82,7 +97,44 @@ def render_table(template: str, table: Table, files: Mapping[str, str], **contex
     context
         What else the template shows.
     """
-    return _filled(template, [table], files, [_script(_asset("tables.js"))], {}, table=table, **context)
+    return _filled(template, [table], files, [_script(_asset(name)) for name in _SCRIPTS], {}, table=table, **context)
+
+
+def dark_colour(colour: str) -> str:
+    """Return the colour of a model on a dark page.
+
+    Examples
+    --------
+    >>> dark_colour("#000000"), dark_colour("#009e73")
+    ('#f2f4f6', '#009e73')
+    """
+    return _ON_DARK.get(colour, colour)
+
+
+def records(text: str) -> list[str]:
+    r"""Return the records of a CSV text, the first one being the names; a quoted line's end does not end a record.
+
+    Examples
+    --------
+    >>> records('a,b\n1,"x\ny"\n2,z\n')
+    ['a,b', '1,"x\ny"', '2,z']
+    """
+    found: list[str] = []
+    whole = True
+    for line in text.removesuffix("\n").split("\n"):
+        if whole:
+            found.append(line)
+        else:
+            found[-1] += "\n" + line
+        whole = found[-1].count('"') % 2 == 0
+    return found
+
+
+def _characters(tables: Iterable[dict[str, Any]]) -> dict[str, str]:
+    """Return every character of the tables that LaTeX needs in another form, and that form."""
+    texts = (cell if isinstance(cell, str) else cell[0] for one in tables for _, cells in one["rows"] for cell in cells)
+    every = sorted(set().union(*(normalize("NFC", text) for text in texts)))
+    return {one: form for one in every if not one.isspace() and (form := escaped(one)) != one}
 
 
 def environment() -> Environment:
@@ -95,7 +147,7 @@ def environment() -> Environment:
         lstrip_blocks=True,
     )
     made.globals |= {"symbols": {str(name): symbol for name, symbol in VERDICT_SYMBOLS.items()}}
-    made.filters |= {"verdict_class": verdict_class}
+    made.filters |= {"verdict_class": verdict_class, "dark_colour": dark_colour}
     return made
 
 
@@ -107,10 +159,12 @@ def _filled(
     content: dict[str, Any],
     **context: Any,
 ) -> str:
+    laid_out = {table.id: table.data() for table in tables}
     data = {
-        "tables": {table.id: table.data() for table in tables if table.long},
+        "tables": laid_out,
         **content,
-        "files": dict(files),
+        "files": {name: records(text) for name, text in files.items()},
+        "latex": {"number": NUMBER, "tokens": TOKENS, "characters": _characters(laid_out.values())},
         "verdicts": {str(name): [VERDICT_SYMBOLS[name], verdict_class(name)] for name in Verdict},
     }
     page = environment().get_template(template)

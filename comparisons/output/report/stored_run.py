@@ -9,10 +9,11 @@ from typing import Any
 
 import pandas as pd
 
-from comparisons.data.file_names import CURVES, KAPPA, LARGEST_KAPPA, RESULTS, SUMMARY, VERDICTS
+from comparisons.data.file_names import COMPARISON, CURVES, KAPPA, LARGEST_KAPPA, RESULTS, SUMMARY, VERDICTS
 from comparisons.judging.decision import Verdict
 from comparisons.judging.judge import Judged
 from comparisons.judging.summary import COVERAGE
+from comparisons.output.comparison import COLUMNS as COMPARED
 from comparisons.output.verdicts import GATE_COLUMNS
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
@@ -33,10 +34,17 @@ _TABLES: dict[str, Sequence[str]] = {
     CURVES: CURVE_COLUMNS.names,
     KAPPA: _KAPPA,
 }
+#: In the order of `comparisons.judging.summary.summarise`.
+_SUMMARY = (
+    "verdict",
+    *(name for name in Judged.__slots__ if name not in ("verdict", "reason")),
+    *("cases", "skipped", *COVERAGE, "reason"),
+)
+
 #: Tables of what is judged, which a sweep does not have.
 _JUDGED: dict[str, Sequence[str]] = {
     VERDICTS: Judged.__slots__,
-    SUMMARY: (*Judged.__slots__, "cases", "skipped", *COVERAGE),
+    SUMMARY: _SUMMARY,
     LARGEST_KAPPA: _LARGEST,
 }
 
@@ -59,10 +67,11 @@ _WORDS = {
 
 @dataclass(frozen=True, slots=True)
 class Stored:
-    """The record and the tables of a run or of a sweep.
+    """The record and the tables of a run, of a sweep or of a comparison.
 
-    Of a sweep nothing is judged: `judged` is false, and `verdicts`, `summary` and `largest` have no rows.  `gates` is
-    None there, and in a folder that was judged before gates were stored beside the verdicts.
+    Of a sweep and of a comparison nothing is judged: `judged` is false, and `verdicts` and `summary` have no rows.
+    `gates` is None there, and in a folder that was judged before gates were stored beside the verdicts.  `compared` is
+    the table of a comparison (`comparisons.output.comparison.comparison_table`), and None in another folder.
     """
 
     record: dict[str, Any]
@@ -74,15 +83,16 @@ class Stored:
     largest: pd.DataFrame
     gates: pd.DataFrame | None
     judged: bool = True
+    compared: pd.DataFrame | None = None
 
 
 def read_folder(folder: Path) -> Stored:
-    """Read the folder of a finished run or sweep.
+    """Read the folder of a finished run, sweep or comparison.
 
     Raises
     ------
     ValueError
-        If there is neither, or a file of it is broken or was changed; one sentence says which and how.
+        If there is none, or a file of it is broken or was changed; one sentence says which and how.
     """
     files = RunFolder(folder)
     record = read_record(files.record)
@@ -111,6 +121,7 @@ def read_folder(folder: Path) -> Stored:
         tables[LARGEST_KAPPA],
         _table(gates, GATE_COLUMNS, words=set(GATE_COLUMNS)) if gates.exists() else None,
         judged,
+        _table(files.parquet(files.comparison), COMPARED) if _has(folder, record, COMPARISON) else None,
     )
 
 

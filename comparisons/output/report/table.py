@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import pandas as pd
 
 from comparisons.numerics.number_text import exact, percent_text, value_text
-from comparisons.output.latex import latex
+from comparisons.output.latex import LatexParts, latex_parts
+from comparisons.runs.csv_format import csv_text
 
 __all__ = [
     "CASE",
@@ -21,8 +22,10 @@ __all__ = [
     "Table",
     "case_cells",
     "kappa_cell",
+    "latex_of",
     "number",
     "parameter",
+    "table_csv",
     "table_tex",
     "value",
     "without_empty",
@@ -53,10 +56,15 @@ class Cell:
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """Heading of a column; `kind` is "words", "number", "verdict", "code", "head" (of the row) or "marks"."""
+    """Heading of a column; `kind` is "words", "number", "verdict", "code", "head" (of the row) or "marks".
+
+    `paper` is whether the column is in LaTeX: a command has no room on a page of paper, nor has what stands in another
+    column already.
+    """
 
     label: str
     kind: str = "words"
+    paper: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,14 +77,19 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table with its caption, and the names of the files that hold it."""
+    """A table with its caption.
+
+    `source` is the stored table behind it, a name among the files of the page; `lines` are the places of the rows in it
+    (a row may be made of several) if they are not in its order.
+    """
 
     id: str
     caption: str
     columns: tuple[Column, ...]
     rows: list[Row]
-    files: tuple[str, ...] = ()
+    source: str = ""
     note: str = ""
+    lines: tuple[int | tuple[int, ...], ...] | None = None
 
     @property
     def long(self) -> bool:
@@ -84,10 +97,18 @@ class Table:
         return len(self.rows) > _LONG
 
     def data(self) -> dict[str, Any]:
-        """Return the rows ready for JSON: [group, cells], a cell being its text or [text, number, small print]."""
+        """Return what the scripts need, ready for JSON.
+
+        `rows` are [group, cells], a cell being its text or [text, number, small print]; `latex` is what stands around
+        the rows, and which columns are in it.
+        """
         return {
+            "long": self.long,
             "kinds": [column.kind for column in self.columns],
             "rows": [[row.group, [_datum(cell) for cell in row.cells]] for row in self.rows],
+            "source": self.source,
+            "lines": self.lines,
+            "latex": asdict(latex_of(self)) | {"columns": _on_paper(self)},
         }
 
 
@@ -158,8 +179,34 @@ def kappa_cell(kappa: float, u_kappa: float) -> Cell:
     return Cell(percent_text(kappa, u_kappa), float(kappa))
 
 
+def _on_paper(table: Table) -> list[int]:
+    return [place for place, column in enumerate(table.columns) if column.paper and column.kind != "code"]
+
+
+def _paper_rows(table: Table) -> list[list[str]]:
+    places = _on_paper(table)
+    return [[row.cells[place].text for place in places] for row in table.rows]
+
+
+def latex_of(table: Table) -> LatexParts:
+    """Return what stands around the rows of a table in LaTeX."""
+    headings = [table.columns[place].label for place in _on_paper(table)]
+    return latex_parts(headings, _paper_rows(table), table.caption, table.id)
+
+
 def table_tex(table: Table) -> str:
-    """Return a table as LaTeX with booktabs."""
-    columns = [column.label for column in table.columns]
-    rows = [[cell.text for cell in row.cells] for row in table.rows]
-    return latex(pd.DataFrame(rows, columns=columns, dtype=object), table.caption)
+    """Return a table with all its rows in LaTeX, as the page saves it."""
+    return latex_of(table).text(_paper_rows(table))
+
+
+def table_csv(table: Table) -> str:
+    """Return the cells of a table as CSV, for one that no stored table is behind: texts, and numbers with all digits.
+
+    Examples
+    --------
+    >>> print(table_csv(Table("t", "T", (Column("x"),), [Row((Cell("0.3", 1 / 3),))])), end="")
+    x
+    0.3333333333333333
+    """
+    rows = [[cell.exact or cell.text for cell in row.cells] for row in table.rows]
+    return csv_text(pd.DataFrame(rows, columns=[column.label for column in table.columns], dtype=object))

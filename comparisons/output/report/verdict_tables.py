@@ -38,7 +38,7 @@ _NUMBERS = (
     Column("candidate's value", "number"),
     Column("reference's value", "number"),
     Column("E", "number"),
-    Column("U", "number"),
+    Column("U", "number", paper=False),
     Column("limits of E"),
 )
 
@@ -111,7 +111,7 @@ def matrix(stored: Stored) -> Table:
         Column("limits of E", "prose"),
     )
     caption = "Gates, worst first; one square a case"
-    return without_empty(Table("matrix", caption, columns, rows, ("verdicts.csv", "verdicts.tex")))
+    return without_empty(Table("matrix", caption, columns, rows, "summary.csv"))
 
 
 def _grounds(fact: dict[Any, Any]) -> str:
@@ -127,7 +127,8 @@ def _counted(verdicts: Iterable[str]) -> str:
 
 def offenders(stored: Stored, specs: Mapping[str, str]) -> Table:
     """Return what does not pass, worst first, or else what is nearest to its limits; with its command."""
-    judged = worst_first(stored.verdicts[stored.verdicts["verdict"] != Verdict.NOT_APPLICABLE])
+    numbered = stored.verdicts.assign(line=range(len(stored.verdicts)))
+    judged = worst_first(numbered[numbered["verdict"] != Verdict.NOT_APPLICABLE])
     bad = int((judged["verdict"] != Verdict.PASS).sum())
     shown = judged.head(min(max(bad, _AT_LEAST), _AT_MOST))
     rows = [
@@ -161,8 +162,9 @@ def offenders(stored: Stored, specs: Mapping[str, str]) -> Table:
         note += " Cases that pass are here too: those nearest to a limit, as a share of the gate's width."
     if more:
         note += f" The other {more} are in the table of every verdict."
+    lines = tuple(shown["line"].astype(int).tolist())
     caption = "Worst cases first, with the command that computes the candidate's side again"
-    return without_empty(Table("offenders", caption, columns, rows, ("verdicts.csv", "offenders.tex"), note))
+    return without_empty(Table("offenders", caption, columns, rows, "verdicts.csv", note, lines))
 
 
 def _verdict(row: pd.Series) -> Cell:
@@ -196,4 +198,4 @@ def all_verdicts(stored: Stored) -> Table:
         *_NUMBERS,
         Column("reason", "prose"),
     )
-    return without_empty(Table("verdicts", "Every gate in every case", columns, rows, ("verdicts.csv",)))
+    return without_empty(Table("verdicts", "Every gate in every case", columns, rows, "verdicts.csv"))

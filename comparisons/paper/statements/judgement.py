@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 import pandas as pd
-from rich.table import Table
 
 from comparisons.data.paper_statements import PaperStatement, paper_statements
 from comparisons.numerics.number_text import value_text
+from comparisons.output.fitted_table import FittedTable
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
 from comparisons.output.tables import rich_table
@@ -107,10 +107,11 @@ def readable(table: pd.DataFrame) -> pd.DataFrame:
 def _texts(tables: Tables) -> dict[str, str]:
     shown = readable(tables[""])
     short = shown[["section", "statement", "verdict", "fails for", "beyond the paper"]]
-    return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": latex(short, f"{_TITLE}. {_NOTES}")}
+    text = latex(short, f"{_TITLE}. {_NOTES}", "paper-statements")
+    return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": text}
 
 
-def _shown(tables: Tables) -> Table:
+def _shown(tables: Tables) -> FittedTable:
     table = readable(tables[""])[["section", "statement", "verdict", "fails for", "beyond the paper"]]
     return rich_table(table, _TITLE)
 

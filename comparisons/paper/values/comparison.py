@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 import pandas as pd
-from rich.table import Table
 
 from comparisons.data.paper_values import REPRODUCED, TRUNCATED, PaperValue, paper_values
 from comparisons.models.closed_form import EPS
@@ -15,6 +14,7 @@ from comparisons.models.cohesive_stress import eta
 from comparisons.models.jkr import JKR
 from comparisons.models.semi_rigid import SemiRigid, jump_in_coefficient
 from comparisons.numerics.number_text import LEAST_SHOWN, value_text
+from comparisons.output.fitted_table import FittedTable
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
 from comparisons.output.tables import rich_table
@@ -243,10 +243,11 @@ _NOTES = (
 
 def _texts(tables: Tables) -> dict[str, str]:
     shown = readable(tables[""])
-    return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": latex(shown, f"{_TITLE}. {_NOTES}")}
+    text = latex(shown, f"{_TITLE}. {_NOTES}", "paper-values")
+    return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": text}
 
 
-def _shown(tables: Tables) -> Table:
+def _shown(tables: Tables) -> FittedTable:
     return rich_table(readable(tables[""]), _TITLE)
 
 

@@ -50,13 +50,14 @@ def test_judging_again_gives_the_same_and_computes_nothing(folder, monkeypatch, 
     monkeypatch.setattr("comparisons.runs.tasks.evaluate_task", None)
     shown = []
     for _ in range(2):
-        assert main(["judge", str(folder)]) == 0
+        assert main(["judge", str(folder), "--verbose"]) == 0
         shown.append(capsys.readouterr().out)
         assert {name: (folder / name).read_bytes() for name in VERDICT_FILES} == before
     assert shown[0] == shown[1]
     assert "TEN-PERCENT" in shown[0]
-    assert "fscm-bench solve --model ten-percent --quantity pull_off_force --n 2 --k 0" in shown[0]
-    assert shown[0].rstrip().endswith("PASS: 1 gates, 4 cases PASS")
+    printed = shown[0].replace(" \\\n   ", "")
+    assert "fscm-bench solve --model ten-percent --quantity pull_off_force --n 2 --k 0" in printed
+    assert shown[0].rstrip().endswith("1 of 1 gates pass, 0 fail as declared, 0 unexpected (4 cases: 4 PASS)")
 
 
 #: The error of the model, and another one.
@@ -182,7 +183,7 @@ def test_a_gate_whose_rival_is_not_computed_is_refused_and_adding_it_helps(
     out[out.index("--out") + 1] = str(tmp_path / "both")
     assert main(["run", *out, *rules]) == 0
     # The rival is not compared with itself.
-    assert "PASS: 1 gates, 4 cases PASS" in capsys.readouterr().out
+    assert "1 of 1 gates pass" in capsys.readouterr().out
     assert main(["judge", str(tmp_path / "both"), *rules]) == 0
 
 
@@ -223,7 +224,7 @@ def test_absurd_but_finite_values_are_judged_and_reported(small_grid, tmp_path, 
     rules = gates(small_grid, tmp_path, ('"ten-percent"', '"absurd"'))
     out = tmp_path / "run"
     assert main(["run", "--jobs", "1", "--out", str(out), "--model", "absurd", *rules]) == 1
-    assert "FAIL: 1 gates, 4 cases FAIL" in capsys.readouterr().out
+    assert "1 unexpected: 1 FAIL (4 cases: 4 FAIL)" in capsys.readouterr().out
     assert main(["report", str(out)]) == 0
     assert (out / "report.html").stat().st_size > 0
 

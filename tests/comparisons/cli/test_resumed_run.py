@@ -2,7 +2,6 @@
 
 import random
 from concurrent.futures.process import BrokenProcessPool
-from dataclasses import replace
 
 import pytest
 
@@ -10,12 +9,10 @@ from comparisons.cli.main import main
 from comparisons.model import ComputationFailed
 from comparisons.paper.cache import CachedCall, CallCache
 from comparisons.runs import computation as computing
-from comparisons.runs import execution, reevaluation, row_journal
-from comparisons.runs.cases import Case
+from comparisons.runs import execution, row_journal
 from comparisons.runs.execution import compute_with_environment
 from comparisons.runs.record import read_record
 from comparisons.runs.tables import read_table
-from comparisons.runs.tasks import Task, evaluate_task
 
 from .test_run import interrupt_after, run
 
@@ -122,32 +119,3 @@ def test_results_with_another_numpy_are_refused_and_it_is_said_which(small_grid,
     message = capsys.readouterr().err
     assert message.count("\n") == 1
     assert "another version of the code, of NumPy or of SciPy (NumPy " in message
-
-
-@pytest.mark.parametrize(
-    ("change", "agree"),
-    [
-        ({}, True),
-        ({"value": 2.0 + 1.9e-9}, True),
-        ({"value": 2.0 + 2.1e-9}, False),
-        ({"status": "failed", "value": None, "u_num": None}, False),
-    ],
-)
-def test_rows_agree_within_both_uncertainties(toys, change, agree):
-    row = evaluate_task(Task("exact", "pull_off_force", Case(2, 0, 1)))
-    assert reevaluation.same(row, replace(row, **change)) == agree
-
-
-@pytest.mark.parametrize(
-    ("points", "agree"),
-    [
-        (([0.0, 2.0], [1.0, 5.0], 1e-3), True),
-        (([0.0, 2.0], [1.0, 5.007], 1e-3), True),
-        (([0.0, 2.0], [1.0, 5.009], 1e-3), False),
-        (([0.0, 1.0, 2.0], [1.0, 3.0, 5.0], 1e-3), False),
-    ],
-)
-def test_curves_agree_point_by_point(toys, points, agree):
-    row = evaluate_task(Task("exact", "pull_off_force", Case(2, 0, 1)))
-    stored = replace(row, value=None, u_num=None, points=([0.0, 2.0], [1.0, 5.0], 1e-3))
-    assert reevaluation.same(stored, replace(stored, points=points)) == agree

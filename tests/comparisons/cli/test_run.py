@@ -8,6 +8,7 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
+from comparisons.console.folding import folded
 from comparisons.data.file_names import VERDICT_FILES
 from comparisons.runs import computation as computing
 from comparisons.runs.cases import Case, load_grids
@@ -57,10 +58,10 @@ def test_a_run_leaves_its_tables_and_record(small_grid, tmp_path, capsys):
     assert {path.name for path in (tmp_path / "out").iterdir()} == {*FILES, ".lock"}
     shown = capsys.readouterr()
     assert "ten-percent" in shown.out
-    assert "+10.000" in shown.out
+    assert "10.000(5)" in shown.out
     assert "results are in" in shown.err
     # Of models that the paper does not know there is nothing to show beside its numbers.
-    assert "beside the published" not in shown.out
+    assert "the paper prints" not in shown.out
     table = pd.read_parquet(tmp_path / "out" / "results.parquet")
     assert table.groupby("status").size().to_dict() == {"not-applicable": 4, "ok": 8}
     kappa = pd.read_csv(tmp_path / "out" / "kappa.csv")
@@ -93,7 +94,9 @@ def test_the_figure_and_numbers_of_the_paper_are_shown_where_there_are_some(tmp_
     monkeypatch.setattr("comparisons.pipeline.inputs.grids", lambda tier: load_grids(grid))
     run(tmp_path)
     assert (tmp_path / "fig16b_kappa.png").exists()
-    assert "beside the published" in capsys.readouterr().out
+    assert "the paper prints 1 maximum, for k = 0.4" in capsys.readouterr().out
+    run(tmp_path, "--verbose")
+    assert "beside that of the paper" in capsys.readouterr().out
 
 
 def test_two_runs_give_the_same_bytes(small_grid, tmp_path):
@@ -147,7 +150,9 @@ def test_a_failed_computation_costs_its_own_rows_and_the_exit_status(small_grid,
         assert set(table.loc[name, "status"]) == {"failed"}
         assert table.loc[name, "reason"].str.contains(why).all()
         assert table.loc[name, "value"].isna().all()
-    assert "failed computations" in capsys.readouterr().out
+    shown = capsys.readouterr()
+    assert "16 failed" in shown.out
+    assert "more computations failed" in shown.err
 
 
 def test_results_of_other_code_in_the_folder_are_refused(small_grid, tmp_path, capsys):
@@ -192,3 +197,44 @@ def test_a_row_names_the_case_and_the_work(toys):
         "ok",
         "",
     )
+
+
+def shown_lines(shown):
+    """Lines of an output on a terminal of 80 columns."""
+    return [*shown.out.splitlines(), *(part for line in shown.err.splitlines() for part in folded(line, 80))]
+
+
+@pytest.mark.parametrize(
+    "models", [["ten-percent"], ["ten-percent", "twelve-percent", "absurd", "refuses", "fails", "broken", "nonsense"]]
+)
+def test_a_run_prints_at_most_40_lines_of_80_columns(small_grid, tmp_path, capsys, models):
+    (tmp_path / "gates.toml").write_text(small_grid.replace('"ten-percent"', '"given"'))
+    run(tmp_path / "out", "--model", *models, "--gates", str(tmp_path / "gates.toml"))
+    shown = capsys.readouterr()
+    lines = shown_lines(shown)
+    assert len(lines) <= 40
+    assert max(map(len, shown.out.splitlines())) <= 80
+    assert all(name in shown.out + shown.err for name in ("ten-percent", *models[:3]))
+    assert re.search(r"\d+ of \d+ gates pass, 0 fail as declared, \d+\s+unexpected", shown.out)
+    assert shown.err.endswith(f"next: fscm-bench report {tmp_path / 'out'}\n")
+
+
+def test_verbose_prints_every_case_and_every_gate(small_grid, tmp_path, capsys):
+    assert run(tmp_path, "--verbose") == 0
+    shown = capsys.readouterr().out
+    assert shown.count("+10.000") == 4
+    assert "verdicts, worst first" in shown
+    assert "fscm-bench solve --model ten-percent" in shown
+
+
+def test_quiet_prints_what_does_not_pass_and_nothing_else(small_grid, tmp_path, capsys):
+    assert run(tmp_path / "right", "--quiet") == 0
+    assert capsys.readouterr() == ("", "")
+    (tmp_path / "gates.toml").write_text(small_grid.replace("upper = 0.11", "upper = 0.095"))
+    assert run(tmp_path / "wrong", "--quiet", "--gates", str(tmp_path / "gates.toml")) == 1
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    assert shown.err.startswith("FAIL TEN-PERCENT of ten-percent against exact: E = 0.100000(5)")
+    assert "fscm-bench solve --model ten-percent" in shown.err
+    assert main(["judge", str(tmp_path / "wrong"), "--quiet"]) == 1
+    assert capsys.readouterr().err.startswith("FAIL TEN-PERCENT")

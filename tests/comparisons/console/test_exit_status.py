@@ -252,6 +252,20 @@ def test_a_summary_page_without_room(monkeypatch):
         to_step_summary("text")
 
 
+@needs_full_device
+def test_a_summary_page_without_room_loses_no_result_and_no_verdict(small_grid, tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", "/dev/full")
+    folder = tmp_path / "out"
+    for arguments in (["run", "--jobs", "1", "--out", str(folder)], ["judge", str(folder)]):
+        assert main(arguments) == FAILED
+        shown = capsys.readouterr()
+        assert "PASS: 1 gates, 4 cases PASS" in shown.out
+        (sentence,) = (line for line in shown.err.splitlines() if "GITHUB_STEP_SUMMARY" in line)
+        assert f"cannot be written ({os.strerror(errno.ENOSPC)})" in sentence
+        assert (folder / "run.json").is_file()
+        assert (folder / "junit.xml").is_file()
+
+
 def test_a_lock_of_another_user(tmp_path, monkeypatch):
     def acquire(lock):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(tmp_path / ".lock"))

@@ -19,6 +19,12 @@ value = (3 + problem.k) / 2
 RIGHT = JKR + "return Result(value, 0.0)"
 
 
+@pytest.fixture(autouse=True)
+def wide(monkeypatch):
+    """No sentence is folded."""
+    monkeypatch.setattr("comparisons.cli.options._WIDTH", 1000)
+
+
 def found(spec):
     return {finding.check: finding for finding in examine(create(spec))}
 

@@ -132,7 +132,9 @@ def test_a_defect_of_a_program_is_one_sentence_and_costs_one_result(write_progra
 def test_a_program_that_is_silent_or_too_slow_is_ended(write_program, monkeypatch, body):
     monkeypatch.setenv("FSCM_BENCH_TIME_LIMIT", "1.5")
     model = create(write_program(body))
-    with pytest.raises(ComputationFailed, match=r"no result within 1.5 s and was ended; a program must flush"):
+    with pytest.raises(
+        ComputationFailed, match=r"no result within 1.5 s \(FSCM_BENCH_TIME_LIMIT\) and was ended; a program must flush"
+    ):
         model.evaluate(CASE, "pull_off_force")
 
 

@@ -13,7 +13,7 @@ from comparisons.judging.decision import Verdict
 from comparisons.judging.fresh_cases import draw
 from comparisons.judging.gates import load_gates
 from comparisons.judging.report_card import verdict_sentence
-from comparisons.pipeline import inputs
+from comparisons.pipeline import inputs, report_cards
 from comparisons.runs.cases import load_grids
 from comparisons.runs.record import read_record
 
@@ -58,6 +58,12 @@ value = DMT().evaluate(problem, quantity).value
 TABLE = {1.0: 2.8803743, 2.0: 2.0, 5.0: 1.6694535}
 
 
+@pytest.fixture(autouse=True)
+def wide(monkeypatch):
+    """No sentence is folded."""
+    monkeypatch.setattr("comparisons.cli.options._WIDTH", 1000)
+
+
 @pytest.fixture
 def run(tmp_path, monkeypatch, capsys):
     """Return a function that runs a model in the cases above; it returns status, output and folder."""
@@ -68,7 +74,7 @@ def run(tmp_path, monkeypatch, capsys):
     def called(spec, *arguments, out="out"):
         folder = tmp_path / "runs" / out
         options = ["--jobs", "1", "--out", str(folder), "--gates", str(tmp_path / "gates" / "gates.toml")]
-        status = main(["run", *options, "--model", spec, *arguments])
+        status = main(["run", "--verbose", *options, "--model", spec, *arguments])
         return status, capsys.readouterr(), folder
 
     return called
@@ -295,3 +301,10 @@ def test_the_sentence_of_each_verdict_names_the_first_reason():
     assert verdict_sentence("mine", table) == "FAIL: its error is beyond the limits in 1 of 2 cases, at worst 0.3 in A"
     assert verdict_sentence("mine", pd.DataFrame([failed, broken])) == "ERROR: mine has no row"
     assert verdict_sentence("other", table) == "no gate was evaluated"
+
+
+def test_what_takes_as_long_as_the_model_does_is_announced_where_no_bar_is_shown(monkeypatch, capsys):
+    monkeypatch.setattr(report_cards, "_card", lambda identity, rows, exact: {})
+    assert report_cards.make_cards({"mine": None}, [], []) == {"mine": {}}
+    shown = capsys.readouterr().err
+    assert shown == "checking mine: some results are evaluated again in a new process, and check-model is called\n"

@@ -2,6 +2,7 @@
 
 import pytest
 
+from comparisons.domain import Domain
 from comparisons.judging.gates import gates_text, load_gates
 from comparisons.judging.selection import needed_keys
 from comparisons.runs.cases import grids, load_grids
@@ -43,6 +44,16 @@ def test_the_reference_is_needed_where_the_candidate_has_a_value():
 def test_the_reference_is_not_needed_where_the_candidate_has_none():
     first, then = keys(gates(('"ten-percent"', '"refuses"')), ["refuses"])
     assert of(then) == of(first) == (["refuses"], 4)
+
+
+def test_the_reference_is_needed_where_the_candidate_has_none_inside_the_domain_that_it_declares():
+    """There the missing value counts as a failure, of a case that must be evaluated."""
+    chosen, grid = gates(('"ten-percent"', '"refuses"')), load_grids(GRID)
+    statuses = dict.fromkeys(needed_keys(chosen, grid, ["refuses"], {}), "not-applicable")
+    domain = Domain.of({"quantities": ["pull_off_force"], "n": [2, 2], "k": [0, 0], "mu": [0, 10]})
+    needed = needed_keys(chosen, grid, ["refuses"], statuses, {"refuses": domain})
+    assert of(needed) == (["exact", "refuses"], 6)
+    assert {key[3] for key in needed if key[0] == "exact"} == {0.0}
 
 
 def test_cases_that_no_gate_selects_are_not_needed():

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from decimal import Decimal, localcontext
 
 import numpy as np
 import pytest
@@ -106,3 +108,28 @@ def test_monomial_bound_covers_the_condition_of_a_large_exponent() -> None:
     result = monomial((1.5, 1e3), (1.5, -1e3))
     assert abs(result.value - 1.0) <= result.u_num
     assert result.u_num > 1e-13
+
+
+def exact_power(base: float, exponent: float, wrong_base: float = 0.0, wrong_exponent: float = 0.0) -> Decimal:
+    """base**exponent to 40 digits, with relative errors of both."""
+    with localcontext() as context:
+        context.prec = 40
+        return (Decimal(base) * (1 + Decimal(wrong_base))) ** (Decimal(exponent) * (1 + Decimal(wrong_exponent)))
+
+
+@pytest.mark.parametrize(("base", "exponent"), [(1.5, 2.0), (1e6, 1.3), (7.0, 1 / 3), (0.02, -2.5), (1e-9, 0.1)])
+def test_monomial_bound_is_the_effect_of_a_factor_that_is_wrong_by_16_roundings_and_of_a_rounded_power(
+    base: float, exponent: float
+) -> None:
+    """A factor of a special function is within 16 eps of the exact one, and a logarithm within eps of itself."""
+    exact, result = exact_power(base, exponent), monomial((base, exponent))
+    assert abs(Decimal(result.value) - exact) <= Decimal(result.u_num)
+    rounded = math.copysign(2.0**-52, math.log(base))  # so that both errors have one sign
+    worst = abs(exact_power(base, exponent, 16.0 * 2.0**-52, rounded) - exact)
+    assert result.u_num == pytest.approx(float(worst), rel=1e-9, abs=0.0)
+
+
+def test_monomial_bound_has_that_of_each_factor() -> None:
+    both, first, second = monomial((3.0, 2.0), (5.0, -1.0)), monomial((3.0, 2.0)), monomial((5.0, -1.0))
+    relative = first.u_num / first.value + second.u_num / second.value
+    assert both.u_num / both.value == pytest.approx(relative, rel=1e-12, abs=0.0)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from comparisons.models.bradley import Bradley
+from comparisons.models.closed_form import Estimate
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_stress import eta
 from comparisons.models.dmt import DMT, dmt_pull_off
@@ -61,3 +62,29 @@ def test_zero_load_lies_on_the_curve(n: float, k: float, mu: float) -> None:
     a0 = np.interp(0.0, curve.load, curve.columns["contact_radius"] ** (n + k + 1)) ** (1 / (n + k + 1))
     expected = curve.displacement[-1] * (a0 / curve.columns["contact_radius"][-1]) ** n
     assert DMT().evaluate(Problem(n, k, mu), "zero_load_displacement").value == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize(("n", "k"), [(1.0, 0.0), (2.0, 0.4), (5.0, 0.6)])
+def test_the_zero_load_displacement_inherits_the_bound_of_the_adhesion(
+    n: float, k: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It covers what an adhesion that is wrong by its bound changes, and little more."""
+    problem, model, relative = Problem(n, k, 0.7), DMT(), 1e-6
+    adhesion = model.pull_off_force(problem).value
+
+    def found(factor: float) -> Estimate:
+        monkeypatch.setattr(model, "pull_off_force", lambda _: Estimate(factor * adhesion, relative * adhesion))
+        return model.zero_load_displacement(problem)
+
+    low, middle, high = (found(factor) for factor in (1.0 - relative, 1.0, 1.0 + relative))
+    change = max(high.value - middle.value, middle.value - low.value)
+    assert change * (1.0 - 1e-5) < middle.u_num < 1.001 * change
+
+
+def test_the_zero_load_displacement_has_the_rounding_of_its_own_factors(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With an exact adhesion: that of the power n / (n + k + 1) and of two factors."""
+    problem, model = Problem(2.0, 0.4, 0.7), DMT()
+    monkeypatch.setattr(model, "pull_off_force", lambda _: Estimate(1.8, 0.0))
+    result, power = model.zero_load_displacement(problem), 2.0 / 3.4
+    least = 16.0 * 2.0**-52 * (1.0 + 2.0 * power)
+    assert least * result.value < result.u_num < 2.0 * least * result.value

@@ -1,6 +1,7 @@
 """The finite elements as a model: surfaces at pull-off beside the integral equation, and the audit of their bound."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ import pytest
 import fem_reference
 from comparisons.models.fem_model import _SCALES, FiniteElements, _audited
 from comparisons.models.fscm_model import FullSelfConsistent
-from comparisons.numerics.curve_distance import curve_distance
+from comparisons.numerics.curve_distance import curve_distance, mesh_difference
 from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.quantities.points import near
 from fscm.physical import PhysicalProblem
@@ -21,22 +22,17 @@ PROBLEM = Problem(n=2, k=0.4, mu=0.5)
 GAP, PRESSURE = 2e-6, 1e-4
 
 
-def test_gap_and_pressure_at_pull_off_are_those_of_the_integral_equation():
-    fem, fscm = (model.pull_off_profile(PROBLEM) for model in (FiniteElements(), FullSelfConsistent()))
-    for name, limit in (("gap", GAP), ("pressure", PRESSURE)):
-        points = [near(p.gap, p.radius, getattr(p, name)) for p in (fem, fscm)]
-        assert curve_distance(*points[0], *points[1]).value < limit
-    assert 0 < fem.u_gap_distance < 1e-4
-    assert 0 < fscm.u_gap_distance < 1e-5
+def test_the_uncertainty_of_a_curve_is_the_distance_of_two_levels_and_its_points_are_of_the_finer(monkeypatch):
+    def trace(body, level):
+        load = np.linspace(-1.0, 2.0, 40) * {"quick": 1.01, "default": 1.0}[level]
+        return SimpleNamespace(displacement=np.linspace(0, 1, 40), load=load, central_gap=load, edge_radius=load)
 
-
-def test_both_shapes_are_cut_at_the_same_gap():
-    model = FullSelfConsistent()
-    pressure, gap = (CURVES[name].evaluate(model, PROBLEM) for name in ("pull_off_pressure", "pull_off_gap"))
-    assert pressure.x == gap.x
-    assert max(gap.y) <= 10 < max(model.pull_off_profile(PROBLEM).gap)
-    # The gap determines the pressure (Eq. 9).
-    assert pressure.y == pytest.approx(PROBLEM.law.traction(np.array(gap.y)).tolist())
+    monkeypatch.setattr(fem_reference, "trace", trace)
+    curve = FiniteElements().curve(PROBLEM)
+    assert curve.load.max() == pytest.approx(-2.0 * curve.load.min(), rel=1e-12)
+    coarse = curve.displacement, 1.01 * curve.load
+    assert curve.u_distance == pytest.approx(mesh_difference(*coarse, curve.displacement, curve.load), rel=1e-9)
+    assert curve.u_distance > 1e-3
 
 
 def test_a_bound_its_own_meshes_do_not_bear_out_is_raised():
@@ -76,3 +72,21 @@ def test_the_critical_tabor_number_is_that_of_the_modulus_and_has_the_bound_of_i
     assert result.value - result.u_num < replace(physical, E0=12.6).tabor_number
     # mu is ignored.
     assert FiniteElements().evaluate(replace(PROBLEM, mu=1e-9), "critical_tabor_number") == result
+
+
+def test_gap_and_pressure_at_pull_off_are_those_of_the_integral_equation():
+    fem, fscm = (model.pull_off_profile(PROBLEM) for model in (FiniteElements(), FullSelfConsistent()))
+    for name, limit in (("gap", GAP), ("pressure", PRESSURE)):
+        points = [near(p.gap, p.radius, getattr(p, name)) for p in (fem, fscm)]
+        assert curve_distance(*points[0], *points[1]).value < limit
+    assert 0 < fem.u_gap_distance < 1e-4
+    assert 0 < fscm.u_gap_distance < 1e-5
+
+
+def test_both_shapes_are_cut_at_the_same_gap():
+    model = FullSelfConsistent()
+    pressure, gap = (CURVES[name].evaluate(model, PROBLEM) for name in ("pull_off_pressure", "pull_off_gap"))
+    assert pressure.x == gap.x
+    assert max(gap.y) <= 10 < max(model.pull_off_profile(PROBLEM).gap)
+    # The gap determines the pressure (Eq. 9).
+    assert pressure.y == pytest.approx(PROBLEM.law.traction(np.array(gap.y)).tolist())

@@ -1,6 +1,7 @@
 """Texts and files of verdicts: digits, Markdown, LaTeX, JUnit XML."""
 
 import math
+import re
 from functools import partial
 from xml.etree import ElementTree
 
@@ -114,7 +115,11 @@ def test_limits_are_shown_with_the_digits_they_were_declared_with(lower, upper):
     judged = JUDGED.assign(lower=lower, upper=upper)
     assert set(matrix(summarise(judged), {})["limits"]) == {f"{exact(lower)} to {exact(upper)}"}
     assert f"| {low} to {high} |" in markdown(matrix(summarise(judged), {}), "Verdicts")
-    assert f"{low} to {high} \\\\" in latex(matrix(summarise(judged), {})[["gate", "limits"]], "Verdicts")
+    shown = latex(matrix(summarise(judged), {})[["gate", "limits"]], "Verdicts", "verdicts")
+    found = re.findall(r"& (.*) to (.*) \\\\", shown)
+    assert {tuple(float(end.removeprefix(r"\num{").removesuffix("}")) for end in pair) for pair in found} == {
+        (lower, upper)
+    }
     root = ElementTree.fromstring(junit(judged, partial(command, specs={})))
     texts = [case[0].text for case in root.findall(".//testcase")]
     assert all(f"limits {low} to {high}" in text for text in texts)
@@ -135,9 +140,15 @@ def test_the_step_summary_is_appended_where_there_is_one(tmp_path, monkeypatch):
 
 
 def test_latex_is_booktabs_and_escapes_what_is_special():
-    text = latex(pd.DataFrame({"x_1": ["50 % & {more}", "a\\b"]}), "A table")
+    text = latex(pd.DataFrame({"x_1": ["50 % & {more}", "a\\b"]}), "A & table", "of x_1")
     assert text.splitlines() == [
-        r"\begin{tabular}{l} % A table",
+        r"% The document needs \usepackage{array,booktabs,longtable,pdflscape,siunitx}",
+        r"\begin{table}",
+        r"\centering",
+        r"\caption{A \& table}",
+        r"\label{tab:of-x-1}",
+        r"\small\setlength{\tabcolsep}{4pt}",
+        r"\begin{tabular}{@{}l@{}}",
         r"\toprule",
         r"x\_1 \\",
         r"\midrule",
@@ -145,8 +156,9 @@ def test_latex_is_booktabs_and_escapes_what_is_special():
         r"a\textbackslash{}b \\",
         r"\bottomrule",
         r"\end{tabular}",
+        r"\end{table}",
     ]
-    assert r"{l}{none}" in latex(pd.DataFrame({"x": []}), "Empty")
+    assert r"{l}{none}" in latex(pd.DataFrame({"x": []}), "Empty", "empty")
 
 
 def test_junit_has_one_test_case_a_gate_and_case():

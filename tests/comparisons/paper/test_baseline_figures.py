@@ -84,10 +84,13 @@ def test_a_folder_is_compared_with_the_committed_figures(tmp_path, capsys, monke
         ["2", f"there is no file {tmp_path / 'fig02_kernel_functions.csv'}"],
         ["16", "kappa: up to 1e-05 apart"],
     ]
+    # Outside a clone: the same, by the tables that are installed.
     monkeypatch.chdir(tmp_path)
+    assert main(["--check", str(tmp_path)]) == 1
+    monkeypatch.setattr("comparisons.runs.committed._INSTALLED", ())
     capsys.readouterr()
     assert main(["--check", str(tmp_path)]) == 2
-    assert "a clone of the repository" in capsys.readouterr().err
+    assert "results/baseline/paper of the baseline is neither in" in capsys.readouterr().err
 
 
 def test_only_a_whole_set_renews_the_baseline(tmp_path, capsys):

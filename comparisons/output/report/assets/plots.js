@@ -15,7 +15,7 @@ const Plots = (() => {
       x_range: new Bokeh.Range1d({ start: 1, end: 2 }), y_range: new Bokeh.Range1d({ start: 1, end: 2 }),
       // Vectors, so that print is as sharp as the screen.
       output_backend: "svg", sizing_mode: "stretch_both", toolbar_location: null, tools: [],
-      background_fill_color: null, border_fill_color: null, outline_line_color: "#d5dae0", min_border_right: 12,
+      background_fill_color: null, border_fill_color: null, min_border_right: 12,
     });
     // All tools are there before the plot is drawn: Bokeh fails when several are added to a plot on the page.
     const hovers = SIDES.map((attachment) => new Bokeh.HoverTool({
@@ -28,14 +28,11 @@ const Plots = (() => {
       Object.assign(axis, {
         axis_label_text_font: "system-ui, sans-serif", axis_label_text_font_style: "normal", axis_label_text_font_size: "13px",
         major_label_text_font: "system-ui, sans-serif", major_label_text_font_size: "12px",
-        axis_label_text_color: "#1b1f24", major_label_text_color: "#4d5661", axis_line_color: "#87919c",
-        major_tick_line_color: "#87919c", minor_tick_line_color: "#c3cad1",
       });
     }
-    if (plot.y_scale === "linear") {
-      drawn.add_layout(new Bokeh.Span({ location: 0, dimension: "width", line_color: "#87919c", line_width: 1 }));
-    }
-    const one = { plot, figure, drawn, hovers, layers: {} };
+    const zero = plot.y_scale === "linear" ? [new Bokeh.Span({ location: 0, dimension: "width", line_width: 1 })] : [];
+    for (const line of zero) drawn.add_layout(line);
+    const one = { plot, figure, drawn, hovers, zero, layers: {}, dark: Theme.dark() };
     made[plot.id] = one;
 
     figure.querySelectorAll("select, .models input").forEach((control) => control.addEventListener("change", () => {
@@ -43,7 +40,40 @@ const Plots = (() => {
     }));
     figure.querySelectorAll("[data-zoom]").forEach((button) => button.addEventListener("click", () => move(one, button.dataset.zoom)));
     choose(one);
+    Theme.follow((dark) => paint(one, dark));
     return Bokeh.Plotting.show(drawn, canvas);
+  }
+
+  // Ink, soft ink, axes, minor ticks and grid of a light and of a dark page; and its paper.
+  const LIGHT = ["#1b1f24", "#4d5661", "#87919c", "#c3cad1", "#e5e8eb"];
+  const DARK = ["#e8ebee", "#b4bcc5", "#7d8792", "#4b545e", "#2b333c"];
+  const paper = (dark) => (dark ? "#14181d" : "#ffffff");
+
+  function paint(one, dark) {
+    const { drawn, zero, layers } = one;
+    const [ink, soft, axes, minor, grid] = dark ? DARK : LIGHT;
+    for (const axis of [...drawn.xaxes, ...drawn.yaxes]) {
+      axis.setv({
+        axis_label_text_color: ink, major_label_text_color: soft, axis_line_color: axes, major_tick_line_color: axes,
+        minor_tick_line_color: minor,
+      });
+    }
+    for (const lines of [...drawn.xgrids, ...drawn.ygrids]) lines.setv({ grid_line_color: grid });
+    for (const line of zero) line.setv({ line_color: axes });
+    drawn.setv({ outline_line_color: grid });
+    // A layer has its colours from the start: a glyph that changes while it is pointed at has no data for a moment.
+    if (one.dark === dark) return;
+    one.dark = dark;
+    for (const layer of Object.values(layers).flat()) tint(dark, layer);
+  }
+
+  function tint(dark, { series, renderers }) {
+    const colour = DATA.model_styles[series.model][dark ? 1 : 0];
+    for (const { glyph } of renderers) {
+      if (glyph.type === "VArea") glyph.setv({ fill_color: { value: colour } });
+      else glyph.setv({ line_color: { value: colour } });
+      if (glyph.type === "Scatter") glyph.setv({ fill_color: { value: paper(dark) } });
+    }
   }
 
   // The series of a choice, made when it is first shown: a sweep has hundreds.
@@ -52,7 +82,8 @@ const Plots = (() => {
     const { plot, drawn } = one;
     const layers = [];
     for (const series of plot.series.filter((any) => any.group === group)) {
-      const [colour, dash, marker, broad] = DATA.model_styles[series.model];
+      const [light, night, dash, marker, broad] = DATA.model_styles[series.model];
+      const colour = one.dark ? night : light;
       const data = {
         x: series.x, y: series.y, low: series.low ?? series.y, high: series.high ?? series.y,
         hover: series.hover, name: series.x.map(() => series.label),
@@ -71,7 +102,7 @@ const Plots = (() => {
       if (plot.mark !== "line") {
         // A source of its own: pointing at a marker would take away the line and the band of the same source.
         renderers.push(drawn.scatter({ field: "x" }, { field: "y" }, {
-          source: new Bokeh.ColumnDataSource({ data }), marker, size: 8, fill_color: "white", line_color: colour, line_width: 1.3,
+          source: new Bokeh.ColumnDataSource({ data }), marker, size: 8, fill_color: paper(one.dark), line_color: colour, line_width: 1.3,
         }));
       }
       layers.push({ series, renderers });
@@ -154,5 +185,6 @@ const Plots = (() => {
     const { bbox } = Bokeh.index.find_one_by_id(made[id].drawn.id).frame;
     return [bbox.left, bbox.top, bbox.width, bbox.height];
   }
-  return { ready, range, inner };
+  const dark = (id) => made[id].dark;
+  return { ready, range, inner, dark };
 })();

@@ -1,5 +1,5 @@
 "use strict";
-// Tables that sort and filter, files that can be saved, commands that can be copied.
+// Tables that sort and filter, commands that can be copied.
 // Text from the data goes into the page as text (textContent), never as HTML.
 const DATA = JSON.parse(document.getElementById("data").textContent);
 
@@ -10,9 +10,10 @@ const Tables = (() => {
     const id = box.dataset.table;
     const table = {
       id, box, body: box.querySelector("tbody"), count: box.querySelector(".count"), group: null, words: [],
-      laidOut: !(id in DATA.tables),
+      laidOut: !DATA.tables[id].long,
     };
     byId[id] = table;
+    Array.from(table.body.rows, (row, place) => { row.dataset.row = place; });
     box.querySelectorAll("thead th").forEach((head, index) => {
       head.querySelector("button").addEventListener("click", () => sort(table, head, index));
     });
@@ -32,12 +33,13 @@ const Tables = (() => {
     table.laidOut = true;
     const { kinds, rows } = DATA.tables[table.id];
     const all = document.createDocumentFragment();
-    for (const [group, cells] of rows) {
+    rows.forEach(([group, cells], place) => {
       const row = document.createElement("tr");
+      row.dataset.row = place;
       if (group) row.dataset.group = group;
       cells.forEach((cell, index) => row.append(element(cell, kinds[index])));
       all.append(row);
-    }
+    });
     table.body.append(all);
     show(table);
   }
@@ -110,13 +112,11 @@ const Tables = (() => {
     show(table);
   }
 
-  function save(name) {
-    const kind = name.endsWith(".csv") ? "text/csv" : "application/x-tex";
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(new Blob([DATA.files[name]], { type: kind }));
-    link.download = name;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+  // The places of the rows that are shown, in their order.
+  function shown(id) {
+    const table = byId[id];
+    layOut(table);
+    return Array.from(table.body.rows).filter((row) => !row.hidden).map((row) => Number(row.dataset.row));
   }
 
   async function copy(button) {
@@ -130,21 +130,11 @@ const Tables = (() => {
     }
   }
 
-  // Print what is folded too; a table beside a plot has the numbers of the plot that is printed.
-  addEventListener("beforeprint", () => {
-    Object.values(byId).forEach(layOut);
-    document.querySelectorAll("details:not([open])").forEach((fold) => { fold.open = true; fold.dataset.folded = ""; });
-  });
-  addEventListener("afterprint", () => {
-    document.querySelectorAll("details[data-folded]").forEach((fold) => { fold.open = false; delete fold.dataset.folded; });
-  });
-
   document.querySelectorAll(".table").forEach(make);
   document.addEventListener("click", (event) => {
     if (!(event.target instanceof Element)) return;
     const button = event.target.closest("button");
-    if (button?.dataset.file) save(button.dataset.file);
     if (button?.classList.contains("copy")) copy(button);
   });
-  return { choose };
+  return { choose, shown };
 })();

@@ -1,7 +1,9 @@
 """Steps on a page in a real browser: headless Chromium that records every network request."""
 
+import base64
 import importlib
 import os
+import re
 import shutil
 import time
 
@@ -9,7 +11,7 @@ import pytest
 
 _REQUIRED = os.environ.get("FSCM_BENCH_BROWSER") == "required"
 
-PHONE, DESKTOP = (375, 800), (1280, 900)
+PHONE, DESKTOP = (390, 800), (1280, 900)
 ARGUMENTS = (
     *("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync"),
     *("--disable-background-networking", "--disable-component-update", "--disable-dev-shm-usage"),
@@ -107,4 +109,46 @@ def tips(browser):
       const text = (node) => (node.nodeType === Node.TEXT_NODE ? node.data : "")
         + (node.localName === "style" ? "" : inside(node).map(text).join(""));
       return Array.from(document.querySelectorAll(".bk-Tooltip"), text).join(" ");
+    """)
+
+
+def messages(browser):
+    """What the console has beyond information."""
+    return [entry for entry in browser.get_log("browser") if entry["level"] not in {"INFO", "DEBUG"}]
+
+
+def width(browser, selector="html"):
+    """The width of what an element holds, and its own."""
+    return browser.execute_script(
+        "const e = document.querySelector(arguments[0]); return [e.scrollWidth, e.clientWidth]", selector
+    )
+
+
+def printed(browser):
+    """The page as the browser prints it."""
+    made = browser.execute_cdp_cmd("Page.printToPDF", {"printBackground": True, "preferCSSPageSize": True})
+    return base64.b64decode(made["data"])
+
+
+def pages(pdf):
+    return len(re.findall(rb"/Type\s*/Page\b", pdf))
+
+
+def text_of(browser, table, kind):
+    """The file of a table's rows that are shown, in their order."""
+    return browser.execute_script("return Files.text(arguments[0], arguments[1])", table, kind)
+
+
+def press(browser, element):
+    """Press the Return key on an element."""
+    browser.execute_script("arguments[0].focus()", element)
+    browser.switch_to.active_element.send_keys("\ue007")
+
+
+def dark(browser):
+    """Whether the page is dark: its own colour, and that of the first axis of its plots."""
+    return browser.execute_script("""
+      const own = getComputedStyle(document.body).backgroundColor === "rgb(20, 24, 29)";
+      const plots = Bokeh.documents.flatMap((one) => one.roots()).map((one) => one.xaxes[0].axis_label_text_color);
+      return [own, ...plots.map((colour) => colour !== "#1b1f24")];
     """)

@@ -3,7 +3,8 @@
 Skipped where there is no Chromium with its driver, unless FSCM_BENCH_BROWSER=required makes them necessary.
 """
 
-import base64
+import csv
+import io
 import json
 import re
 
@@ -11,7 +12,33 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from .browsing import DESKTOP, PHONE, cells, click, find, head, package, ranges, show, sorting, tips, unfold, wait
+from comparisons.output.report.page import make_page
+from comparisons.output.report.stored_run import read_folder
+from comparisons.output.report.table import table_tex
+
+from .browsing import (
+    DESKTOP,
+    PHONE,
+    cells,
+    click,
+    dark,
+    find,
+    head,
+    messages,
+    package,
+    pages,
+    press,
+    printed,
+    ranges,
+    show,
+    size,
+    sorting,
+    text_of,
+    tips,
+    unfold,
+    wait,
+    width,
+)
 
 
 def requests(browser):
@@ -19,14 +46,20 @@ def requests(browser):
     return [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
 
 
-def test_it_opens_without_an_error_and_without_the_network(browser, page, hostile):
+def test_it_opens_without_an_error_and_without_the_network_and_admits_no_other_script(browser, page, hostile):
     show(browser, page, *DESKTOP)
-    messages = [entry for entry in browser.get_log("browser") if entry["level"] not in {"INFO", "DEBUG"}]
-    assert messages == []
+    assert messages(browser) == []
     assert {url for url in requests(browser) if not url.startswith("data:")} == {page.as_uri()}
-    assert browser.title == "fscm-bench report: ERROR"
+    assert (
+        browser.title
+        == "fscm-bench report: 0 of 3 gates pass, 0 fail as declared, 3 unexpected: 1 ERROR, 1 FAIL, 1 INCONCLUSIVE"
+    )
     assert browser.execute_script("return window.hostile") is None
     assert hostile.script in find(browser, "#plot-kappa .models").text
+    browser.execute_script("const s = document.createElement('script'); s.textContent = 'window.hostile = 1';"
+                           "document.body.append(s)")  # fmt: skip
+    assert browser.execute_script("return window.hostile") is None
+    assert any("Content Security Policy" in entry["message"] for entry in browser.get_log("browser"))
 
 
 def test_a_hostile_name_does_nothing_even_without_the_policy(browser, page, tmp_path):
@@ -40,24 +73,15 @@ def test_a_hostile_name_does_nothing_even_without_the_policy(browser, page, tmp_
     assert browser.execute_script("return [window.hostile ?? null, document.images.length]") == [None, 0]
 
 
-def test_the_policy_stops_what_is_not_ours(opened):
-    opened.execute_script("const s = document.createElement('script'); s.textContent = 'window.hostile = 1';"
-                          "document.body.append(s)")  # fmt: skip
-    assert opened.execute_script("return window.hostile") is None
-    assert any("Content Security Policy" in entry["message"] for entry in opened.get_log("browser"))
-
-
-@pytest.mark.parametrize("how", ["click", "keyboard"])
-def test_tables_sort(opened, how, run_folder):
+def test_tables_sort_and_filter(opened, run_folder):
     stored = pd.read_parquet(run_folder / "verdicts.parquet")
     unfold(opened, "verdicts")
-    for direction, rising in (("ascending", True), ("descending", False)):
-        button = head(opened, "verdicts", "E")
-        if how == "click":
-            click(opened, button)
-        else:
-            opened.execute_script("arguments[0].focus()", button)
-            opened.switch_to.active_element.send_keys("\ue007")
+    for direction, rising, use in (
+        ("ascending", True, click),
+        ("descending", False, press),
+        ("ascending", True, press),
+    ):
+        use(opened, head(opened, "verdicts", "E"))
         assert sorting(opened, "verdicts", "E") == direction
         shown = cells(opened, "verdicts", "E")
         # What has no number comes last either way.
@@ -66,17 +90,10 @@ def test_tables_sort(opened, how, run_folder):
         assert numbers == sorted(stored["error"].dropna(), reverse=not rising)
     click(opened, head(opened, "verdicts", "candidate"))
     assert sorting(opened, "verdicts", "E") == "none"
-    assert cells(opened, "verdicts", "candidate")[-1] == "jkr"
-
-
-def test_a_long_table_sorts_too(opened, run_folder):
     unfold(opened, "results")
     click(opened, head(opened, "results", "value"))
     numbers = [float(text) for text in cells(opened, "results", "value") if text]
     assert numbers == sorted(pd.read_parquet(run_folder / "results.parquet")["value"].dropna())
-
-
-def test_tables_filter(opened):
     entry = find(opened, "#table-offenders .filter")
     entry.send_keys("fail jkr-limit")
     assert cells(opened, "offenders", "gate") == ["JKR-LIMIT-PULL-OFF"] * 2
@@ -84,6 +101,36 @@ def test_tables_filter(opened):
     entry.clear()
     entry.send_keys("no such thing")
     assert cells(opened, "offenders", "gate") == []
+
+
+def test_files_hold_the_rows_that_are_shown_in_their_order(opened, run_folder, tmp_path):
+    laid_out = make_page(read_folder(run_folder))
+    for name, table in laid_out.tables.items():
+        opened.execute_script("Tables.choose(arguments[0], null)", name)
+        stored = laid_out.files[table.source]
+        of_page = text_of(opened, name, "csv")
+        if table.lines is None:
+            assert of_page == stored
+        else:
+            assert len(list(csv.reader(io.StringIO(of_page)))) == len(table.rows) + 1
+            assert set(of_page.split("\n")) <= set(stored.split("\n"))
+        # The script and Python typeset every text alike, whatever the texts hold.
+        assert text_of(opened, name, "tex") == table_tex(table)
+    find(opened, "#table-offenders .filter").send_keys("limit")
+    click(opened, head(opened, "offenders", "E"))
+    shown = [float(text) for text in cells(opened, "offenders", "E")]
+    assert len(shown) == 6
+    behaviour = {"behavior": "allow", "downloadPath": str(tmp_path)}
+    opened.execute_cdp_cmd("Browser.setDownloadBehavior", behaviour)
+    for kind in ("csv", "tex"):
+        click(opened, find(opened, f"#table-offenders [data-save='{kind}']"))
+        wait((tmp_path / f"offenders.{kind}").exists)
+    saved = pd.read_csv(tmp_path / "offenders.csv")
+    assert saved["error"].tolist() == shown == sorted(shown)
+    assert list(saved) == list(pd.read_csv(run_folder / "verdicts.csv"))
+    rows = [line for line in (tmp_path / "offenders.tex").read_text().split("\n") if "LIMIT" in line]
+    assert len(rows) == len(shown)
+    assert all(f" {error:.5f} " in row for error, row in zip(shown[:2], rows[:2], strict=True))
 
 
 def test_numbers_shown_are_numbers_stored(opened, run_folder):
@@ -128,7 +175,7 @@ def test_numbers_shown_are_numbers_stored(opened, run_folder):
     )
 
 
-def test_a_plot_zooms_by_buttons(opened):
+def test_a_plot_zooms_and_is_read_off(opened, hostile):
     before = ranges(opened, "plot-force-curve")
     find(opened, "#plot-force-curve [data-zoom=in]").send_keys("\ue007")
     after = ranges(opened, "plot-force-curve")
@@ -140,9 +187,7 @@ def test_a_plot_zooms_by_buttons(opened):
     assert ranges(opened, "plot-force-curve") == before
     click(opened, find(opened, "#plot-force-curve [data-zoom=all]"))
     assert ranges(opened, "plot-force-curve")[3] > 2.3 > before[3]
-
-
-def test_a_plot_zooms_to_a_box_and_is_read_off(opened, hostile):
+    click(opened, find(opened, "#plot-force-curve [data-zoom=reset]"))
     actions = package("selenium.webdriver.common.action_chains").ActionChains
     canvas = find(opened, "#plot-force-curve .canvas")
     opened.execute_script("arguments[0].scrollIntoView({ block: 'center' })", canvas)
@@ -216,57 +261,64 @@ def test_the_choices_choose(opened, run_folder):
     assert ranges(opened, "plot-kappa") != before
 
 
-def test_files_can_be_saved(opened, run_folder, tmp_path):
-    behaviour = {"behavior": "allow", "downloadPath": str(tmp_path)}
-    opened.execute_cdp_cmd("Browser.setDownloadBehavior", behaviour)
-    for name in ("verdicts.csv", "verdicts.tex"):
-        click(opened, find(opened, f"#table-matrix [data-file='{name}']"))
-        wait(lambda name=name: (tmp_path / name).exists())
-        assert (tmp_path / name).read_bytes() == (run_folder / name).read_bytes()
+@pytest.fixture
+def grown(browser, standing):
+    """A page of the size of a standing run, on a desktop."""
+    show(browser, standing, *DESKTOP)
+    return browser
 
 
-@pytest.mark.parametrize("folded", [True, False])
-def test_a_phone_does_not_scroll_sideways(browser, page, folded):
-    show(browser, page, *PHONE)
-    if not folded:
-        for table in ("verdicts", "kappa", "convergence", "results"):
-            unfold(browser, table)
-    assert browser.execute_script("return document.documentElement.scrollWidth") <= PHONE[0]
+def test_a_page_of_a_standing_run_fits_screens_and_paper(grown):
+    own, room = width(grown, "#table-matrix .scroll")
+    assert own <= room <= DESKTOP[0]
+    assert width(grown)[0] <= DESKTOP[0]
+    light = printed(grown)
+    assert 5 <= pages(light) <= 15
+    # What is folded is not printed, and nothing is unfolded by printing.
+    assert set(grown.execute_script("return Array.from(document.querySelectorAll('details'), (e) => e.open)")) == {
+        False
+    }
+    unfold(grown, "largest")
+    assert pages(printed(grown)) > pages(light)
+    size(grown, *PHONE)
+    assert width(grown)[0] <= PHONE[0]
+    for table in ("verdicts", "kappa", "convergence", "results"):
+        unfold(grown, table)
+    assert width(grown)[0] <= PHONE[0]
     # The wide tables do so in their own boxes.
-    assert browser.execute_script("const b = document.querySelector('#table-offenders .scroll');"
-                                  "return b.scrollWidth > b.clientWidth")  # fmt: skip
+    own, room = width(grown, "#table-offenders .scroll")
+    assert own > room
+    assert messages(grown) == []
 
 
-@pytest.mark.parametrize("measures", [DESKTOP, PHONE], ids=["desktop", "phone"])
-def test_it_is_accessible(browser, page, measures):
+def test_it_is_accessible_and_legible_in_light_and_dark_and_on_paper(opened):
     axe = package("axe_core_python.selenium").Axe()
-    show(browser, page, *measures)
     for table in ("verdicts", "convergence"):
-        unfold(browser, table)
-    found = axe.run(browser)
-    assert [(one["id"], [node["html"] for node in one["nodes"]][:3]) for one in found["violations"]] == []
-    assert len(found["passes"]) > 20
-
-
-def test_it_prints_with_everything_unfolded(opened):
+        unfold(opened, table)
+    for measures, chosen in ((DESKTOP, False), (PHONE, True)):
+        size(opened, *measures)
+        if chosen:
+            click(opened, find(opened, "#theme"))
+        assert set(dark(opened)) == {chosen}
+        found = axe.run(opened)
+        assert [(one["id"], [node["html"] for node in one["nodes"]][:3]) for one in found["violations"]] == []
+        assert len(found["passes"]) > 20
+    # Paper is light, and the page is dark again afterwards.
+    opened.execute_script(
+        "addEventListener('beforeprint', () => { window.onPaper = DATA.plots.map((one) => Plots.dark(one.id)); });"
+    )
+    assert printed(opened).startswith(b"%PDF")
+    assert set(opened.execute_script("return window.onPaper")) == {False}
+    assert set(dark(opened)) == {True}
     opened.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    assert opened.execute_script("return getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
     visible = "return Array.from(document.querySelectorAll(arguments[0]), (e) => e.checkVisibility())"
     assert set(opened.execute_script(visible, ".controls")) == {False}
     assert set(opened.execute_script(visible, ".canvas")) == {True}
-    opened.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
-    opened.execute_script("""
-      window.printed = [];
-      addEventListener("beforeprint", () => {
-        window.printed = [document.querySelectorAll("details:not([open])").length,
-                          document.querySelectorAll("#table-results tbody tr").length];
-      });
-    """)
-    printed = opened.execute_cdp_cmd("Page.printToPDF", {"printBackground": True, "preferCSSPageSize": True})
-    pdf = base64.b64decode(printed["data"])
-    assert pdf.startswith(b"%PDF")
-    assert len(pdf) > 100_000
-    folded, rows = opened.execute_script("return window.printed")
-    assert folded == 0
-    assert rows == 354
-    # And it is folded again afterwards.
-    assert opened.execute_script("return document.querySelectorAll('details[open]').length") == 0
+    # The system's choice is followed until the reader has chosen.
+    opened.execute_script("delete document.documentElement.dataset.theme")
+    for scheme in ("dark", "light"):
+        features = [{"name": "prefers-color-scheme", "value": scheme}]
+        opened.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": features})
+        wait(lambda scheme=scheme: set(dark(opened)) == {scheme == "dark"})
+    opened.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": []})

@@ -4,7 +4,7 @@ from functools import partial
 
 from comparisons.quantities import CURVES
 
-from .browsing import click, find, package, tips, wait
+from .browsing import DESKTOP, click, find, messages, package, show, tips, wait
 
 # The choices of a plot are its selects; a series is drawn when its choice is first made.
 CHOOSE = """
@@ -48,7 +48,7 @@ def plots(browser):
 def point(browser, plot, right, down):
     canvas = find(browser, f"#{plot} .canvas")
     browser.execute_script("arguments[0].scrollIntoView({ block: 'center' })", canvas)
-    actions = package("selenium.webdriver.common.action_chains").ActionChains(browser, duration=0)
+    actions = package("selenium.webdriver.common.action_chains").ActionChains(browser)
     actions.move_to_element_with_offset(canvas, right + 3, down).move_by_offset(-3, 0).perform()
 
 
@@ -57,15 +57,8 @@ def shows(browser, label, hover):
     return label in text and hover in text
 
 
-def messages(browser):
-    return [entry for entry in browser.get_log("browser") if entry["level"] not in {"INFO", "DEBUG"}]
-
-
-def test_every_curve_that_is_stored_is_drawn(opened):
-    assert {f"plot-{name.replace('_', '-')}" for name in CURVES} <= set(plots(opened))
-
-
 def test_values_are_read_off_after_every_choice(opened):
+    assert {f"plot-{name.replace('_', '-')}" for name in CURVES} <= set(plots(opened))
     read_off = 0
     for plot in plots(opened):
         every = choices(opened, plot)
@@ -77,14 +70,7 @@ def test_values_are_read_off_after_every_choice(opened):
                 wait(partial(shows, opened, label, hover))
                 read_off += 1
     assert read_off >= (4 * 2 + 2 + 1 + 2) + (2 + 2 + 1 + 2)
-    assert messages(opened) == []
-
-
-def test_a_model_that_is_switched_off_is_not_read_off(opened):
-    (one, other) = opened.execute_script(POINTS, "plot-pull-off-gap", "2|0.4|1")
-    for label, hover, right, down in (one, other):
-        point(opened, "plot-pull-off-gap", right, down)
-        wait(partial(shows, opened, label, hover))
+    # A model that is switched off is not read off.
     click(opened, find(opened, "#plot-pull-off-gap .models input"))
     (_, again) = opened.execute_script(POINTS, "plot-pull-off-gap", "2|0.4|1")
     point(opened, "plot-pull-off-gap", *again[2:])
@@ -93,33 +79,50 @@ def test_a_model_that_is_switched_off_is_not_read_off(opened):
     assert messages(opened) == []
 
 
-def test_every_control_leaves_the_console_empty(opened, tmp_path):
+def test_every_model_of_a_standing_run_is_read_off(browser, standing):
+    show(browser, standing, *DESKTOP)
+    points = browser.execute_script(POINTS, "plot-kappa", choices(browser, "plot-kappa")[0])
+    assert len(points) >= 8
+    for label, hover, right, down in points:
+        point(browser, "plot-kappa", right, down)
+        wait(partial(shows, browser, label, hover))
+    assert messages(browser) == []
+
+
+def test_fifty_interactions_in_every_plot_leave_the_console_empty(opened, tmp_path):
     opened.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)})
     opened.execute_script("for (const fold of document.querySelectorAll('details')) fold.open = true")
-    # Twice, because a fault may show only on the second use.
-    for _ in range(2):
-        used = opened.execute_script("""
-          const every = (selector) => Array.from(document.querySelectorAll(selector));
-          const tell = (element, name) => element.dispatchEvent(new Event(name, { bubbles: true }));
-          for (const select of every("select")) {
-            for (const option of select.options) { select.value = option.value; tell(select, "change"); }
+    # More than once, because a fault may show only on the second use.
+    used = opened.execute_script("""
+      const every = (selector, inside = document) => Array.from(inside.querySelectorAll(selector));
+      const tell = (element, name) => element.dispatchEvent(new Event(name, { bubbles: true }));
+      const used = {};
+      for (let round = 0; round < 5; round++) {
+        for (const plot of every("figure.plot")) {
+          used[plot.id] ??= 0;
+          for (const select of every("select", plot)) {
+            for (const { value } of select.options) { select.value = value; tell(select, "change"); used[plot.id]++; }
           }
-          for (const box of every("input[type=checkbox]")) { box.click(); box.click(); }
-          for (const filter of every("input.filter")) {
-            for (const words of ["jkr", "", "no such thing", ""]) { filter.value = words; tell(filter, "input"); }
-          }
-          const buttons = every("button:not([data-file])");
-          for (const button of buttons) button.click();
-          for (const link of every("nav a, a.skip")) link.click();
-          return [every("select").length, every("input[type=checkbox]").length, buttons.length];
-        """)
-        assert min(used) >= 8
-        for plot in plots(opened):
-            for right, down in ((-40, 0), (0, 30), (40, -30)):
-                point(opened, plot, right, down)
-    # One by one and each once: the browser refuses many files that a page saves without a pause.
-    for name in opened.execute_script("return Object.keys(DATA.files)"):
-        click(opened, find(opened, f"[data-file='{name}']"))
-        wait((tmp_path / name).exists)
+          for (const box of every("input[type=checkbox]", plot)) { box.click(); box.click(); used[plot.id] += 2; }
+          for (const button of every("button", plot)) { button.click(); used[plot.id]++; }
+        }
+      }
+      for (const filter of every("input.filter")) {
+        for (const words of ["jkr", "", "no such thing", ""]) { filter.value = words; tell(filter, "input"); }
+      }
+      for (const button of every("button:not([data-save], figure button)")) { button.click(); button.click(); }
+      for (const link of every("nav a, a.skip")) link.click();
+      return used;
+    """)
+    assert set(used) == set(plots(opened))
+    assert min(used.values()) >= 50
+    for plot in plots(opened):
+        for right, down in ((-40, 0), (0, 30), (40, -30)):
+            point(opened, plot, right, down)
+    # One by one, and a few: the browser refuses many files that a page saves without a pause.
+    for button in opened.find_elements("css selector", "[data-save]")[:8]:
+        table = opened.execute_script("return arguments[0].closest('.table').dataset.table", button)
+        click(opened, button)
+        wait((tmp_path / f"{table}.{button.get_attribute('data-save')}").exists)
     opened.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
     assert messages(opened) == []

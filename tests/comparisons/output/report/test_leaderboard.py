@@ -156,7 +156,7 @@ def test_a_verdict_on_the_whole_model_counts_for_every_quantity():
 
 def test_texts_of_others_are_escaped_and_there_is_no_network(run_folder, hostile, tmp_path):
     page = board([run_folder], tmp_path)
-    assert page.count("<script") == 2
+    assert page.count("<script") == 4
     assert hostile.image not in page
     assert "Content-Security-Policy" in page
     assert not re.search(r"(src|href)=\"(?!data:|#)", page)

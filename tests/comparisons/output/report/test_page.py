@@ -1,5 +1,7 @@
 """Content of a page: the stored results in the right order, and the refusal of a broken folder."""
 
+import csv
+import io
 import json
 import math
 import re
@@ -10,10 +12,12 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
+from comparisons.output.latex import latex
 from comparisons.output.report.page import make_page
 from comparisons.output.report.stored_run import read_folder
 from comparisons.output.report.table import Cell, Column, Row, Table, table_tex, without_empty
 from comparisons.output.style import model_styles
+from comparisons.output.verdicts import worst_cases
 from comparisons.runs.csv_format import csv_text
 
 
@@ -37,6 +41,7 @@ def texts(table, label):
 
 
 def test_the_headline_is_the_roll_up_of_the_stored_verdicts(page):
+    assert page.headline == "0 of 3 gates pass, 0 fail as declared, 3 unexpected: 1 ERROR, 1 FAIL, 1 INCONCLUSIVE"
     assert page.verdict == "ERROR"
     assert page.counts == [("ERROR", 1), ("FAIL", 2), ("INCONCLUSIVE", 1), ("PASS", 3), ("NOT-APPLICABLE", 1)]
     assert "3 gates were judged in 8 cases" in page.summary
@@ -145,25 +150,36 @@ def test_every_row_of_a_plot_s_table_belongs_to_a_choice(page):
         assert {row.group for row in page.tables[curve.table].rows} == {series.group for series in curve.series}
 
 
-def test_every_latex_file_of_the_page_compiles(page, run_folder, typeset):
-    files = {name: text for name, text in page.files.items() if name.endswith(".tex")}
-    assert len(files) == 3
-    for text in (*files.values(), (run_folder / "verdicts.tex").read_text(encoding="utf-8")):
-        typeset(text)
+def test_every_table_compiles_as_latex_whatever_the_texts(page, run_folder, typeset):
+    texts = [table_tex(replace(table, rows=table.rows[:30])) for table in page.tables.values()]
+    assert all(text.isascii() for text in texts)
+    typeset(*texts, (run_folder / "verdicts.tex").read_text(encoding="utf-8"), fits=False)
 
 
-def test_every_table_of_the_page_compiles_as_latex(page, typeset):
-    """Also those that are saved as CSV only: their headings and texts are the same kind."""
-    for table in page.tables.values():
-        text = table_tex(replace(table, rows=table.rows[:30]))
-        assert text.isascii()
-        typeset(text)
+def test_the_tables_of_a_standing_run_fit_a_page_of_paper(standing_run, typeset):
+    tables = make_page(standing_run).tables
+    # The names in the other tables are hostile: they have no place at which a line could end.
+    names = ("matrix", "offenders", "verdicts", "kappa", "largest", "convergence", "results", "statements")
+    texts = [table_tex(replace(tables[name], rows=tables[name].rows[:90])) for name in names]
+    texts.append(latex(worst_cases(standing_run.summary), "Verdicts", "worst"))
+    assert sum("S[table-format" in text for text in texts) >= 8
+    typeset(*texts)
 
 
 def test_the_files_are_those_of_the_folder(page, run_folder):
-    for name in ("verdicts.csv", "kappa.csv", "largest_kappa.csv", "curves.csv", "results.csv", "verdicts.tex"):
+    for name in ("verdicts.csv", "summary.csv", "kappa.csv", "largest_kappa.csv", "curves.csv", "results.csv"):
         assert page.files[name] == (run_folder / name).read_text(encoding="utf-8")
-    assert all(file in page.files for table in page.tables.values() for file in table.files)
+
+
+def test_every_row_has_its_place_in_the_stored_table(page, stored):
+    for table in page.tables.values():
+        records = len(list(csv.reader(io.StringIO(page.files[table.source])))) - 1
+        places = range(records) if table.lines is None else table.lines
+        assert len(places) == len(table.rows)
+        assert set(places) <= set(range(records))
+    offenders = page.tables["offenders"]
+    gates = stored.verdicts["gate"].iloc[list(offenders.lines)].tolist()
+    assert gates == texts(offenders, "gate")
 
 
 def test_computations_without_a_value_are_listed_with_their_reason(page, hostile):
@@ -193,6 +209,7 @@ def test_a_run_without_verdicts_errors_or_curves_has_a_page(run_folder, tmp_path
     hostile.seal(folder)
     page = make_page(read_folder(folder))
     assert page.verdict == "ERROR"
+    assert page.headline == "No gate was evaluated"
     assert "No gate was evaluated" in page.summary
     assert main(["report", str(folder)]) == 0
 
@@ -207,12 +224,31 @@ def test_a_sweep_has_a_page_without_verdicts(run_folder, tmp_path, hostile):
     assert (page.verdict, page.counts) == ("", [])
     assert page.meaning.startswith("Nothing was judged")
     assert not {"matrix", "offenders", "verdicts"} & set(page.tables)
-    assert not {"verdicts.csv", "verdicts.tex", "offenders.tex"} & set(page.files)
+    assert not {"verdicts.csv", "summary.csv"} & set(page.files)
     assert texts(page.tables["kappa"], "value") == texts(make_page(read_folder(run_folder)).tables["kappa"], "value")
     assert main(["report", str(folder)]) == 0
     text = (folder / "report.html").read_text(encoding="utf-8")
-    assert "<h1>Nothing was judged</h1>" in text
+    assert page.headline.startswith("Of 2 models ")
+    assert " differs most from fscm: by " in page.headline
     assert 'id="gates"' not in text
+
+
+def test_a_comparison_has_a_page_with_its_tables(tmp_path, capsys):
+    cases = ["--n", "2", "--k", "0", "0.4", "--mu", "0.5", "1", "--reference", "atlas", "--jobs", "1"]
+    assert main(["compare", "jkr", "bradley", *cases, "--out", str(tmp_path / "run"), "--quiet"]) == 0
+    assert main(["report", str(tmp_path / "run")]) == 0
+    page = make_page(read_folder(tmp_path / "run"))
+    assert page.headline.startswith("Of 2 models bradley differs most from atlas: by ")
+    summary, cases = page.compared
+    assert texts(summary, "model") == ["jkr", "bradley"]
+    assert texts(summary, "a value in") == ["4 of 4"] * 2
+    table = pd.read_csv(tmp_path / "run" / "comparison.csv")
+    assert [cell.value for cell in column(cases, "jkr")] == table.loc[table["model"] == "jkr", "kappa"].tolist()
+    # A row of cases is made of a stored row of each model.
+    assert {tuple(table["model"].iloc[list(places)]) for places in cases.lines} == {("jkr", "bradley")}
+    assert page.files[cases.source] == (tmp_path / "run" / "comparison.csv").read_text()
+    text = (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
+    assert text.index('id="compared"') < text.index('id="errors"')
 
 
 def test_the_matrix_is_the_stored_summary(run_folder, tmp_path, hostile):

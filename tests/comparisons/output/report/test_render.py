@@ -65,8 +65,8 @@ def test_no_external_text_is_an_element(elements):
     assert "img" not in tags
     assert "b" not in {tag for tag, attributes in elements.found if attributes}
     assert not any(name.startswith("on") for _, attributes in elements.found for name in attributes)
-    # The data, twice Bokeh, tables and plots.
-    assert len(elements.scripts) == 5
+    # The data, twice Bokeh, tables, files, colours and plots.
+    assert len(elements.scripts) == 7
 
 
 def test_names_are_there_to_be_read(text, hostile):
@@ -79,7 +79,7 @@ def test_the_data_are_json_whatever_the_names(elements, hostile):
     data = json.loads(elements.scripts[0])
     models = {series["model"] for plot in data["plots"] for series in plot["series"]}
     assert {hostile.image, hostile.script, "fscm", "fem"} == models
-    assert hostile.line in data["files"]["verdicts.csv"].replace('""', '"')
+    assert hostile.line in "\n".join(data["files"]["verdicts.csv"]).replace('""', '"')
 
 
 @pytest.mark.parametrize("text", ["</script>", "<!--<script>", "]]>", "&amp;", "'", "\u2028", "\u2029", "\ud800"])

@@ -1,0 +1,35 @@
+"""Check before a release: the tag, the version, the address and the change log agree.
+
+python .github/release_check.py v0.2.0 https://github.com/OWNER/REPO
+"""
+
+import re
+import sys
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def problems(tag: str, address: str) -> list[str]:
+    """Return what does not agree, one sentence each."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    version = project["version"]
+    cited = re.search(r"^version: (.*)$", (ROOT / "CITATION.cff").read_text(encoding="utf-8"), flags=re.MULTILINE)
+    headings = re.findall(r"^## (.*)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), flags=re.MULTILINE)
+    found = []
+    if tag != f"v{version}":
+        found.append(f"the tag is {tag}, and the version in pyproject.toml {version}")
+    if cited is None or cited[1] != version:
+        found.append(f"CITATION.cff has not the version {version}")
+    if not any(heading.split()[0] == version for heading in headings):
+        found.append(f"CHANGELOG.md has no section {version}")
+    if project["urls"]["Source"] != address:
+        found.append(f"the address in pyproject.toml is {project['urls']['Source']}, and this repository is {address}")
+    return found
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit("two arguments are needed: the tag, and the address of the repository")
+    sys.exit("\n".join(problems(*sys.argv[1:])) or 0)

@@ -1,0 +1,55 @@
+"""``fscm-bench cite``: how to cite fscm-bench and what a run used, as text or BibTeX."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import pandas as pd
+
+from comparisons.cli.options import OK
+from comparisons.output.citation import as_bibtex, as_text, methods, works
+from comparisons.runs.environment import package_version
+from comparisons.runs.folder import RunFolder
+from comparisons.runs.record import check_files, read_record
+
+__all__ = ["add", "call"]
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument(
+        "folder",
+        metavar="DIR",
+        type=Path,
+        nargs="?",
+        help="folder of a finished run, sweep or comparison: the versions and models that it used, too",
+    )
+    parser.add_argument(
+        "--format",
+        choices=("text", "bibtex"),
+        default="text",
+        help="text has a paragraph for the section Methods and the list of references (default: text)",
+    )
+
+
+def call(args: argparse.Namespace) -> int:
+    """Print the citation; return the exit status."""
+    record, paragraph = None, ""
+    if args.folder is not None:
+        folder = RunFolder(args.folder)
+        record = read_record(folder.record)
+        check_files(record, args.folder)
+        paragraph = methods(record, _references(folder.parquet(folder.kappa)))
+    found = works(package_version(), record)
+    print(as_bibtex(found) if args.format == "bibtex" else as_text(found, paragraph), end="")
+    return OK
+
+
+def _references(table: Path) -> dict[str, float]:
+    """The models that were references, each with its largest relative bound; empty without errors."""
+    if not table.is_file():
+        return {}
+    rows = pd.read_parquet(table, columns=["reference", "reference_value", "u_reference"])
+    relative = rows["u_reference"] / rows["reference_value"].abs()
+    return {str(name): float(part.max()) for name, part in relative.groupby(rows["reference"])}

@@ -1,0 +1,79 @@
+"""Origin of the numbers of a page: command, code, machine, gates."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+from comparisons.judging.decision import Verdict, roll_up
+from comparisons.output.report.stored_run import Stored
+
+__all__ = ["provenance", "verdict_counts"]
+
+
+def verdict_counts(stored: Stored) -> list[tuple[str, int]]:
+    """Return how many cases ended with each verdict, worst first."""
+    found = Counter(stored.verdicts["verdict"])
+    return [(str(verdict), found[verdict]) for verdict in Verdict if found[verdict]]
+
+
+def provenance(stored: Stored) -> list[tuple[str, str]]:
+    """Return the facts about the origin of the numbers, each with its name."""
+    record = stored.record
+    package, machine = record["package"], record["machine"]
+    dirty = {True: "changed since that commit", False: "clean", None: "not known"}[package["dirty"]]
+    facts = [
+        ("command", " ".join(record["command"])),
+        ("arguments", _pairs(record["arguments"])),
+        ("started", record["started"]),
+        ("finished", record["finished"]),
+        ("seconds", f"{record['seconds']['run']:.4g}"),
+        ("rows", _pairs(record["rows"])),
+        ("package", f"{package['name']} {package['version']}"),
+        ("commit", package["commit"] or "not known"),
+        ("work tree", dirty),
+        ("SHA-256 of the code", package["code_sha256"]),
+        ("SHA-256 of the cases", record["cases_sha256"]),
+        *([("SHA-256 of the gates", record["gates_sha256"])] if stored.judged else []),
+        ("Python", record["python"]),
+        ("dependencies", _pairs(record["dependencies"])),
+        ("system", machine["system"]),
+        ("CPU", f"{machine['cpu']}, {machine['cores']} cores"),
+        ("BLAS", "; ".join(f"{one['library']} {one['version']}, {one['threads']} threads" for one in record["blas"])),
+    ]
+    facts += [(f"part {number} of the computations", _pairs(part)) for number, part in enumerate(record["parts"], 1)]
+    if "shipped" in record:
+        facts += _shipped(record["shipped"], record["rows"]["shipped"])
+    if "judged_by_other_code" in record:
+        facts.append(("judged by other code", record["judged_by_other_code"]))
+    if "judged_again" in record:
+        again = record["judged_again"]
+        facts.append(("judged again", f"by {again['gates']}, SHA-256 {again['gates_sha256']}"))
+    then, now = record["verdicts"], {"all": str(roll_up(stored.verdicts["verdict"])), **dict(verdict_counts(stored))}
+    if stored.judged and then != now:
+        facts.append(("judged again", f"yes; at the end of the run the verdicts were {_pairs(then)}"))
+    return facts
+
+
+def _shipped(shipped: dict[str, Any], count: int) -> list[tuple[str, str]]:
+    """Return the facts about the values that came with the package."""
+    again = shipped["evaluated_again"]
+    tasks = [f"{model} {_pairs(task)}" for model, one in again["models"].items() for task in one["tasks"]]
+    return [
+        ("shipped values", f"{count}, solvers {shipped['origin']['solvers_sha256']}"),
+        *(
+            (f"part {number} of the shipped values", _pairs(part))
+            for number, part in enumerate(shipped["origin"]["parts"], 1)
+        ),
+        (f"shipped values computed again (seed {again['seed']})", "; ".join(tasks)),
+    ]
+
+
+def _pairs(content: dict[str, Any]) -> str:
+    return ", ".join(f"{name} {_plain(value)}" for name, value in content.items() if value not in (None, {}, []))
+
+
+def _plain(value: object) -> str:
+    if isinstance(value, dict):
+        return "(" + _pairs(value) + ")"
+    return " ".join(map(str, value)) if isinstance(value, list) else str(value)

@@ -1,0 +1,191 @@
+"""Pages of the API reference: every public name of the three packages, from the docstrings.
+
+A page for each package has the names that stand in the package itself.  A page for each folder has the names of its
+modules that are not on the page of the package.  The pages are written before Sphinx reads the documents.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+import shutil
+from collections.abc import Iterator
+from functools import cache
+from importlib import import_module
+from inspect import isclass, isroutine
+from itertools import groupby
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, get_origin
+
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
+
+#: The packages, in the order of the reference.
+PACKAGES = ("fscm", "fem_reference", "comparisons")
+
+#: Folder of the pages, relative to the documents.
+FOLDER = "_generated/api"
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@cache
+def exported(package: str) -> list[str]:
+    """Public names of a package itself, without the list of its layers.
+
+    Examples
+    --------
+    >>> "solve" in exported("fscm")
+    True
+    """
+    return sorted(set(import_module(package).__all__) - {"LAYERS"}, key=str.lower)
+
+
+def modules(package: str) -> list[str]:
+    """Public modules of a package: no part of their name begins with an underscore, and they state their names.
+
+    Examples
+    --------
+    >>> "fscm.experiment" in modules("fscm"), "fscm._kernel" in modules("fscm")
+    (True, False)
+    """
+    found = []
+    for path in sorted((ROOT / package).rglob("*.py")):
+        parts = path.relative_to(ROOT).with_suffix("").parts
+        if not any(part.startswith("_") and part != "__init__" for part in parts) and public_names(path):
+            found.append(".".join(part for part in parts if part != "__init__"))
+    return [name for name in found if name != package]
+
+
+@cache
+def public_names(path: Path) -> list[str]:
+    """The literal `__all__` of a module, which is read without importing it; empty if there is none."""
+    for statement in ast.parse(path.read_text(encoding="utf-8")).body:
+        match statement:
+            case ast.Assign(targets=[ast.Name(id="__all__")], value=ast.List(elts=elements)):
+                return [str(element.value) for element in elements if isinstance(element, ast.Constant)]
+    return []
+
+
+def names_of(module: str) -> list[str]:
+    """Public names of a module that its package does not have itself."""
+    package = module.partition(".")[0]
+    path = ROOT / Path(*module.split("."))
+    names = public_names(path / "__init__.py" if path.is_dir() else path.with_suffix(".py"))
+    # A name that the package has is on its page.
+    there, here = import_module(package), import_module(module)
+    return [
+        name
+        for name in names
+        if not (name in exported(package) and getattr(there, name) is getattr(here, name)) and name != "LAYERS"
+    ]
+
+
+def pages() -> Iterator[tuple[str, str]]:
+    """Name and content of every page of the reference."""
+    folders = []
+    for package in PACKAGES:
+        entries = [_entry(package, name) for name in exported(package)]
+        text = f"{_heading(package, '=')}.. automodule:: {package}\n   :no-members:\n   :no-index:\n\n"
+        yield package, text + "\n".join(entries)
+        by_folder = sorted((_folder(name), name) for name in modules(package))
+        for folder, members in groupby(by_folder, key=lambda pair: pair[0]):
+            page = "".join(_module(name) for _, name in members)
+            if page:
+                title = f"Modules of {folder}"
+                yield f"modules.{folder}", f"{_heading(title, '=')}{page}"
+                folders.append(f"modules.{folder}")
+    listed = "\n   ".join([*PACKAGES, *folders])
+    text = (
+        "The names of the three packages, and below them the modules behind them.  "
+        "A module whose name begins with an underscore is private and may change.\n\n"
+    )
+    yield "index", f"{_heading('API reference', '=')}{text}.. toctree::\n   :maxdepth: 1\n\n   {listed}\n"
+
+
+def _folder(module: str) -> str:
+    """The folder of a module: the package, or a folder directly in it."""
+    parts = module.split(".")
+    inner = (ROOT / parts[0] / parts[1]).is_dir()
+    return ".".join(parts[:2]) if inner else parts[0]
+
+
+def _heading(text: str, line: str) -> str:
+    return f"{text}\n{line * len(text)}\n\n"
+
+
+def _module(name: str) -> str:
+    names = names_of(name)
+    if not names:
+        return ""
+    text = f"{_heading(name, '-')}.. automodule:: {name}\n   :no-members:\n\n"
+    return text + "\n".join(_entry(name, one) for one in names) + "\n"
+
+
+def _entry(place: str, name: str) -> str:
+    """The directive of a name; data have the comment that begins with ``#:`` before them."""
+    value = getattr(import_module(place), name)
+    # An alias such as dict[str, float] is data, though Python takes it for a class.
+    if isclass(value) and get_origin(value) is None:
+        return f".. autoclass:: {place}.{name}\n   :members:\n"
+    if isroutine(value):
+        return f".. autofunction:: {place}.{name}\n"
+    return f".. py:data:: {place}.{name}\n\n   {comment(place, name) or type(value).__name__}\n"
+
+
+def comment(place: str, name: str) -> str:
+    """What stands at the definition of data: the comment ``#:`` before it, or the text after it."""
+    folder = ROOT / Path(*place.split("."))
+    for path in sorted(folder.rglob("*.py")) if folder.is_dir() else [folder.with_suffix(".py")]:
+        text = path.read_text(encoding="utf-8")
+        before = re.search(rf"((?:^#:.*\n)+){name}\b[^\n=]*=", text, flags=re.MULTILINE)
+        if before:
+            return escaped(" ".join(line.removeprefix("#:").strip() for line in before[1].splitlines()))
+        after = re.search(rf'^{name}\b[^\n=]* = (?:.*\n)+?"""((?:[^"]|"(?!""))*)"""$', text, flags=re.MULTILINE)
+        if after and "\n\n" not in after[0]:
+            return escaped(" ".join(after[1].split()))
+    return ""
+
+
+def escaped(line: str) -> str:
+    r"""A line in which bars and underscores at the end of a word are no markup, but for what is between backticks.
+
+    Examples
+    --------
+    >>> escaped("|H| is `u_`, and u_ too")
+    '\\|H\\| is `u_`, and u\\_ too'
+    """
+    parts = re.split(r"(`+[^`]*`+)", line)
+    parts[::2] = [re.sub(r"(?<=\w)_(?!\w)|\|", r"\\\g<0>", part) for part in parts[::2]]
+    return "".join(parts)
+
+
+def _escape(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
+    """Escape the lines of a docstring that are not part of an example."""
+    example = False
+    for number, line in enumerate(lines):
+        example = line.lstrip().startswith(">>>") or (example and bool(line.strip()))
+        if not example:
+            lines[number] = escaped(line)
+
+
+def write(docs: Path) -> None:
+    """Write the pages into the folder of the documents; unchanged pages keep their time."""
+    folder = docs / FOLDER
+    folder.mkdir(parents=True, exist_ok=True)
+    content = {f"{name}.rst": text for name, text in pages()}
+    for path in folder.iterdir():
+        if path.name not in content:
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+    for name, text in content.items():
+        path = folder / name
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Write the pages before the documents are read."""
+    app.connect("builder-inited", lambda app: write(Path(app.srcdir)))
+    # Before numpydoc adds markup of its own.
+    app.connect("autodoc-process-docstring", _escape, priority=100)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

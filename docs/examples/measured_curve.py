@@ -1,0 +1,82 @@
+"""A measured force-displacement curve: modulus and work of adhesion, and the models beside the record.
+
+python docs/examples/measured_curve.py        # writes measured_curve.png into the current folder
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from scipy.optimize import brentq
+
+import fscm
+from comparisons import create
+
+# A sphere of 200 nm on a homogeneous solid, one cycle at a prescribed displacement; the zeros of both axes are unknown.
+RADIUS, NU, Z0 = 200e-9, 0.45, 0.4e-9
+record = pd.read_csv(Path(__file__).with_name("measured_curve.csv"))
+
+# 1. The load is zero where the surfaces are far apart; the displacement where the load of the retreat is zero.
+far = record["displacement_nm"] < record["displacement_nm"].min() + 3
+record["load"] = record["load_nN"] - record.loc[far, "load_nN"].median()
+retreat = record[record["branch"] == "retreat"].sort_values("displacement_nm", ignore_index=True)
+crossing = retreat[(retreat["load"].abs() < 8) & (retreat["displacement_nm"] > 3.5)]
+zero = np.polynomial.Polynomial.fit(crossing["load"], crossing["displacement_nm"], 2)(0.0)
+
+# 2. Three numbers of the record: the pull-off force, and how far the surfaces are drawn before they part.
+parted = int(retreat["load"].diff().idxmin())  # the first point in contact after the jump
+drawn = (zero - retreat["displacement_nm"][parted]) * 1e-9
+bottom = retreat[(retreat["load"] < 0.9 * retreat["load"].min()) & (retreat.index > parted)]
+curve = np.polynomial.Polynomial.fit(bottom["displacement_nm"], bottom["load"], 3)
+force = -curve(np.linspace(*curve.domain, 200)).min() * 1e-9
+print(f"pull-off force {force * 1e9:.2f} nN, drawn over {drawn * 1e9:.2f} nm")
+
+
+def solid(force, drawn, z0):
+    """Tabor number, work of adhesion and modulus that give both numbers, by the atlas."""
+
+    def stretch(mu):
+        return (
+            fscm.atlas(2, 0, mu, "zero_load_displacement").value - fscm.atlas(2, 0, mu, "jump_out_displacement").value
+        )
+
+    mu = brentq(lambda mu: stretch(mu) - drawn / z0, 1.0, 10.0)
+    work = force / (np.pi * RADIUS * fscm.atlas(2, 0, mu, "pull_off_force").value)
+    unit = fscm.PhysicalProblem(E0=1, c0=1, k=0, nu=NU, n=2, Q=RADIUS, work_of_adhesion=work, z0=z0)
+    return mu, work, (unit.tabor_number / mu) ** 1.5  # mu falls with E0^(2/3)
+
+
+mu, work, E0 = solid(force, drawn, Z0)
+print(f"Tabor number {mu:.2f}, work of adhesion {work * 1e3:.1f} mJ/m^2, modulus {E0 / 1e6:.0f} MPa")
+
+# 3. What the errors of the record and the assumed range of the forces mean for the result.
+rng = np.random.default_rng(1)
+samples = [solid(force + rng.normal(0, 0.1e-9), drawn + rng.normal(0, 0.03e-9), Z0) for _ in range(50)]
+_, u_work, u_E0 = 2 * np.std(samples, axis=0)
+print(f"from the record: +- {u_work * 1e3:.1f} mJ/m^2, +- {u_E0 / 1e6:.0f} MPa (two standard deviations)")
+for z0 in (0.3e-9, 0.5e-9):
+    _, other_work, other_E0 = solid(force, drawn, z0)
+    print(f"with z0 = {z0 * 1e9} nm: {other_work * 1e3:.1f} mJ/m^2, {other_E0 / 1e6:.0f} MPa")
+print(f"JKR from the force alone: {force / (1.5 * np.pi * RADIUS) * 1e3:.1f} mJ/m^2")
+
+# 4. The whole record beside the model: one path of the fitted problem, as a machine records it.
+fitted = fscm.PhysicalProblem(E0=E0, c0=1, k=0, nu=NU, n=2, Q=RADIUS, work_of_adhesion=work, z0=Z0)
+problem = fitted.problem()
+cycle = fscm.displacement_cycle(fscm.trace(problem, "quick", max_load=1.0, longest_step=0.1))
+nm, nN = fitted.scales["displacement"] * 1e9, fitted.scales["load"] * 1e9
+origin = zero - fscm.atlas(2, 0, mu, "zero_load_displacement").value * nm
+held = retreat[retreat["displacement_nm"] > retreat["displacement_nm"][parted] + 0.2]  # the curve is steep at the jump
+computed = np.interp(held["displacement_nm"] - origin, (cycle.unloading[0] * nm)[::-1], (cycle.unloading[1] * nN)[::-1])
+print(f"retreat in contact: r.m.s. distance of record and model {np.std(held['load'] - computed):.1f} nN")
+
+figure = Figure(figsize=(6.0, 4.0), layout="constrained")
+axes = figure.subplots()
+axes.plot(record["displacement_nm"] - origin, record["load"], ".", color="0.7", ms=3, label="record")
+for columns, name in ((cycle.loading, "approach, model"), (cycle.unloading, "retreat, model")):
+    axes.plot(columns[0] * nm, columns[1] * nN, label=name)
+jkr = create("jkr").curve(problem)
+axes.plot(jkr.displacement * nm, jkr.load * nN, "k:", label="JKR, same solid")
+axes.set(xlabel="displacement (nm)", ylabel="load (nN)", xlim=(-2.6, 1.4), ylim=(-45, 5))
+axes.legend(frameon=False)
+figure.savefig("measured_curve.png", dpi=120)

@@ -1,0 +1,78 @@
+"""Solid with any function of the depth for its modulus."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from fscm._typing import Array
+from fscm._validation import real_number
+from fscm.graded.solids import ELASTIC, POSITIVE, elastic_ratio
+
+__all__ = ["GradedSolid"]
+
+# Depths, in units of the length, at which a function of the user is checked, besides the surface.
+_CHECKED = np.geomspace(1e-6, 1e6, 25)
+
+
+@dataclass(frozen=True, slots=True)
+class GradedSolid:
+    """Any E(z) and nu(z).
+
+    Parameters
+    ----------
+    young : callable
+        E(z): array of depths -> array of moduli, > 0 everywhere, the surface included.
+    nu : float or callable
+        Poisson's ratio, or nu(z) like `young`.
+    length : float
+        A depth over which they change, > 0.
+    interfaces : sequence of float, optional
+        Depths > 0 at which E or nu or a derivative of them jumps.  Layers thinner than a twentieth of their depth are
+        found for certain only if their ends are named here.
+
+    Examples
+    --------
+    >>> solid = GradedSolid(lambda z: 2.0 + np.sin(z) ** 2, 0.3, length=1.0)
+    >>> solid.modulus(np.array([0.0])), solid.poisson(np.array([5.0]))
+    (array([2.]), array([0.3]))
+    """
+
+    young: Callable[[Array], Array]
+    nu: float | Callable[[Array], Array]
+    length: float
+    interfaces: Sequence[float] = ()
+
+    def __post_init__(self) -> None:
+        length = real_number("length", self.length, low=0.0, high=math.inf, reason=POSITIVE)
+        object.__setattr__(self, "length", length)
+        ends = [real_number("interface", z, low=0.0, high=math.inf, reason=POSITIVE) for z in self.interfaces]
+        object.__setattr__(self, "interfaces", tuple(sorted(ends)))
+        if not callable(self.nu):
+            object.__setattr__(self, "nu", elastic_ratio("nu", self.nu))
+        z = np.append(0.0, self.length * _CHECKED)
+        E, nu = self.modulus(z), self.poisson(z)
+        for values, name, good, reason in (
+            (E, "modulus", np.isfinite(E) & (E > 0.0), "(0, inf): it is positive at every depth, also at the surface"),
+            (nu, "Poisson's ratio", (nu >= 0.0) & (nu <= 0.5), f"[0, 0.5]: {ELASTIC}"),
+        ):
+            if values.shape != z.shape:
+                raise ValueError(
+                    f"the {name} has the shape {values.shape} for depths of the shape {z.shape}: it is "
+                    "a function of an array"
+                )
+            if not good.all():
+                i = int(np.argmin(good))
+                raise ValueError(f"{name} = {values[i]:g} at the depth {z[i]:g} is outside {reason}")
+
+    def modulus(self, z: Array) -> Array:
+        """E(z)."""
+        return np.asarray(self.young(np.asarray(z, float)), float)
+
+    def poisson(self, z: Array) -> Array:
+        """nu(z)."""
+        z = np.asarray(z, float)
+        return np.asarray(self.nu(z), float) if callable(self.nu) else np.full(z.shape, self.nu)

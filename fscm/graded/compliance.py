@@ -1,0 +1,133 @@
+r"""Surface compliance C(xi) of a solid whose elastic constants depend on the depth.
+
+A pressure J0(xi r) displaces the surface by C(xi) J0(xi r).  With the displacements U J1(xi r), W J0(xi r) and the
+stresses xi T J1(xi r), xi S J0(xi r) on the plane z, all of them functions of x = xi z,
+
+    U' = W + T/G,      W' = -a U + S/L,      T' = a S + E* U,      S' = -T,
+
+a = nu/(1-nu), E* = E/(1-nu^2), 1/L = (1+nu)(1-2nu)/(E(1-nu)), 1/G = 2(1+nu)/E: finite also at nu = 1/2.  The solution
+that decays downwards has (U, W) = Q (T, S), a Riccati equation for the 2x2 matrix Q, and xi C = -Q_22 at x = 0.
+
+Each step integrates the linear equations from (U, W, T, S) = (Q, 1) by Gauss collocation, all xi at once, and takes Q
+anew.  Upwards the wanted solution grows, so that every error dies out, and the steps end where the constants change.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from itertools import pairwise
+
+import numpy as np
+
+from fscm._panels import gauss_rule
+from fscm._typing import Array
+from fscm.graded._layers import resolved_depths
+from fscm.graded.solids import GradedHalfSpace
+
+__all__ = ["START", "compliance"]
+
+#: Depth of the first state, in 1/xi: what is below changes C by exp(-2 START) = 1e-20.
+START = 24.0
+# Longest step, and stages of the collocation: the error of a step is below 1e-15 (order 12).
+_STEP, _STAGES = 0.75, 6
+
+
+@lru_cache(maxsize=4)
+def _collocation(stages: int) -> tuple[Array, Array, Array]:
+    """Places, weights and matrix of the Gauss collocation on [0, 1]."""
+    rule = gauss_rule(stages)
+    c = rule.nodes
+    powers = np.arange(stages)
+    # Through Legendre polynomials of few stages a Vandermonde matrix is good enough: condition 1e4.
+    integrals = c[:, None] ** (powers + 1) / (powers + 1)
+    return c, rule.weights, integrals @ np.linalg.inv(c[:, None] ** powers)
+
+
+def _system(E: Array, nu: Array) -> Array:
+    """Matrices of the equations for (U, W, T, S), shape (..., 4, 4)."""
+    A = np.zeros((*E.shape, 4, 4))
+    A[..., 0, 1] = 1.0
+    A[..., 0, 2] = 2.0 * (1.0 + nu) / E
+    A[..., 1, 0] = -nu / (1.0 - nu)
+    A[..., 1, 3] = (1.0 + nu) * (1.0 - 2.0 * nu) / (E * (1.0 - nu))
+    A[..., 2, 0] = E / (1.0 - nu**2)
+    A[..., 2, 3] = nu / (1.0 - nu)
+    A[..., 3, 2] = -1.0
+    return A
+
+
+def _homogeneous(E: Array, nu: Array) -> Array:
+    """Q of a homogeneous solid, shape (..., 2, 2)."""
+    Q = np.empty((*E.shape, 2, 2))
+    Q[..., 0, 0] = Q[..., 1, 1] = -2.0 * (1.0 - nu**2) / E
+    Q[..., 0, 1] = Q[..., 1, 0] = (1.0 + nu) * (1.0 - 2.0 * nu) / E
+    return Q
+
+
+def _steps(solid: GradedHalfSpace, xi: Array, longest: float) -> Array:
+    """Ends of the steps of every xi from the depth upwards, shape (most steps + 1, len(xi)); the last ones are zero."""
+    depths = resolved_depths(solid, START / float(np.min(xi)))
+    columns = []
+    for x in xi:
+        inside = x * depths[x * depths < START]
+        ends = np.append(inside, START)
+        counts = np.maximum(1, np.ceil(np.diff(ends) / longest).astype(int))
+        parts = [a + (b - a) * np.arange(n) / n for a, b, n in zip(ends[:-1], ends[1:], counts.tolist(), strict=True)]
+        columns.append(np.append(np.concatenate(parts), START)[::-1])
+    steps = np.zeros((max(len(column) for column in columns), len(xi)))
+    for i, column in enumerate(columns):
+        steps[: len(column), i] = column
+    return steps
+
+
+def compliance(solid: GradedHalfSpace, xi: Array, refinement: int = 1) -> Array:
+    """xi C(xi), an inverse modulus; 2 (1 - nu^2)/E for a homogeneous solid.
+
+    Parameters
+    ----------
+    solid : GradedHalfSpace
+    xi : ndarray, shape (n,)
+        Wave numbers, > 0, of the inverse unit of the depths.
+    refinement : int
+        Number by which every step is divided: the change is the error of the steps without it.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+
+    Raises
+    ------
+    NotConverged
+        When the constants jump at a depth that is no interface of the solid.
+
+    Examples
+    --------
+    >>> from fscm.graded import Exponential
+    >>> solid = Exponential(E_surface=1.0, E_depth=2.0, length=1.0, nu=0.0)
+    >>> compliance(solid, np.array([1e-6, 1e6])).round(5)
+    array([1., 2.])
+    """
+    c, b, a = _collocation(_STAGES)
+    s = _STAGES
+    steps = _steps(solid, xi, _STEP)
+    z = steps[0] / xi
+    Q = _homogeneous(solid.modulus(z), solid.poisson(z))
+    identity = np.eye(4 * s)
+    for start, stop in pairwise(steps):
+        active = np.flatnonzero(start > stop)
+        for part in range(refinement):
+            h = (stop - start)[active] / refinement
+            x = start[active] + part * h
+            z = ((x[:, None] + h[:, None] * c) / xi[active, None]).ravel()
+            A = _system(solid.modulus(z), solid.poisson(z)).reshape(len(active), s, 4, 4)
+            Y = np.zeros((len(active), 4, 2))
+            Y[:, :2] = Q[active]
+            Y[:, 2, 0] = Y[:, 3, 1] = 1.0
+            # K_i = A_i (Y + h sum_j a_ij K_j)
+            left = identity - (h[:, None, None, None, None] * a[None, :, None, :, None] * A[:, :, :, None, :]).reshape(
+                len(active), 4 * s, 4 * s
+            )
+            K = np.linalg.solve(left, (A @ Y[:, None]).reshape(len(active), 4 * s, 2)).reshape(len(active), s, 4, 2)
+            Y += h[:, None, None] * np.einsum("j,njkl->nkl", b, K)
+            Q[active] = Y[:, :2] @ np.linalg.inv(Y[:, 2:])
+    return -Q[:, 1, 1]

@@ -1,0 +1,98 @@
+r"""The response of a graded solid to a ring of pressure, by its images.
+
+    G(r, t) = t int_0^oo D(xi) J0(xi r) J0(xi t) d(xi) = t [f(0) - sum_j a_j f(d_j)],
+    f(d) = (2/pi) K(m) / sqrt((r+t)^2 + d^2) = 1 / agm(sqrt((r+t)^2 + d^2), sqrt((r-t)^2 + d^2)),
+
+so that a ring of unit pressure lifts the surface by (2/E*) G, E* = E/(1-nu^2) at the surface (`fscm.graded.images`).
+For a homogeneous solid D = 1, and G is that of Eq. 6 at k = 0.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy
+
+from fscm._typing import Array
+from fscm.graded.images import Images, images_of
+from fscm.graded.solids import GradedHalfSpace
+
+__all__ = ["GradedKernel", "image_ring"]
+
+# Points of the sum that bounds the error, for each decade of the wave number, and decades beyond the waves of the fit.
+_POINTS, _DECADES = 40, 6
+# Pairs of radii that are evaluated at a time: their products with the images take 2 MB.
+_CHUNK = 1000
+# |J0(x)| <= min(1, sqrt(_BESSEL / x)).
+_BESSEL = 2.0 / np.pi
+
+
+def image_ring(total: Array, distance: Array, depth: Array) -> Array:
+    """f(d) of a ring at a depth, from r + t, abs(r - t) and d.
+
+    Examples
+    --------
+    >>> float(image_ring(2.0, 2.0, 0.0))           # at the center of a ring of radius 2
+    0.5
+    """
+    outer = total * total + depth * depth
+    ratio = (distance * distance + depth * depth) / outer
+    return _BESSEL * scipy.special.ellipkm1(ratio) / np.sqrt(outer)
+
+
+class GradedKernel:
+    """G(r, t) of a solid with a positive modulus at the surface.
+
+    Parameters
+    ----------
+    solid : GradedHalfSpace
+    longest : float, optional
+        Longest distance of interest, by default 1e6 times the deepest change of the constants.
+
+    Examples
+    --------
+    >>> from fscm.graded import Exponential
+    >>> kernel = GradedKernel(Exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3))
+    >>> kernel.response(np.array([0.0, 0.0]), np.array([1e-6, 1e6])).round(3)
+    array([1.  , 0.25])
+    """
+
+    def __init__(self, solid: GradedHalfSpace, longest: float | None = None) -> None:
+        self.solid = solid
+        self.images: Images = images_of(solid, longest)
+
+    def images_at(self, total: Array, distance: Array) -> Array:
+        """Sum of a_j f(d_j), shape of both arguments."""
+        total, distance = np.broadcast_arrays(np.asarray(total, float), np.asarray(distance, float))
+        out, A, B = np.empty(total.size), total.ravel(), distance.ravel()
+        for i in range(0, len(out), _CHUNK):
+            part = slice(i, i + _CHUNK)
+            out[part] = image_ring(A[part, None], B[part, None], self.images.depths) @ self.images.strengths
+        return out.reshape(total.shape)
+
+    def response(self, r: Array, t: Array, distance: Array | None = None) -> Array:
+        """G(r, t), dimensionless; `distance` is abs(r - t) where the radii cannot carry it."""
+        r, t = np.broadcast_arrays(np.asarray(r, float), np.asarray(t, float))
+        gap = np.abs(r - t) if distance is None else np.asarray(distance, float)
+        return t * (image_ring(r + t, gap, np.zeros(())) - self.images_at(r + t, gap))
+
+    def error(self, r: Array, t: Array) -> Array:
+        """Bound of the error of G(r, t): t int eps(xi) |J0(xi r) J0(xi t)| d(xi), with the error eps of D.
+
+        Examples
+        --------
+        >>> from fscm.graded import Exponential
+        >>> kernel = GradedKernel(Exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3))
+        >>> bool(kernel.error(np.array([1.0]), np.array([2.0]))[0] < 1e-9)
+        True
+        """
+        r, t = np.broadcast_arrays(np.asarray(r, float), np.asarray(t, float))
+        first, last = self.images.waves[0], self.images.waves[-1]
+        count = int(np.log10(last / first) + 2 * _DECADES) * _POINTS
+        xi = np.geomspace(first * 10.0**-_DECADES, last * 10.0**_DECADES, count)
+        # d(xi) = xi d(log xi); behind the last wave the integrand falls like xi^-2 at least.
+        weights = self.images.error(xi) * xi * np.log(xi[1] / xi[0])
+
+        def envelope(x: Array) -> Array:
+            return np.sqrt(np.minimum(1.0, _BESSEL / np.maximum(x, 1e-300)))
+
+        return t * ((envelope(r[..., None] * xi) * envelope(t[..., None] * xi)) @ weights)

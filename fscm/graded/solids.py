@@ -1,0 +1,263 @@
+"""Solids whose modulus is a function of the depth, in any consistent units.
+
+Each has the modulus E(z) and Poisson's ratio nu(z), the depths at which they jump or have a kink, and a length over
+which they change.  The modulus at the surface is positive: E0 (z/c0)^k has the exact response of `fscm.Problem`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+
+from fscm._typing import Array
+from fscm._validation import real_number
+
+__all__ = [
+    "Coating",
+    "Exponential",
+    "GradedHalfSpace",
+    "OffsetPowerLaw",
+    "contact_modulus",
+    "elastic_ratio",
+]
+
+ELASTIC = "the solid is elastic, and incompressible at 0.5"
+POSITIVE = "it is a positive quantity"
+
+
+@runtime_checkable
+class GradedHalfSpace(Protocol):
+    """A solid whose elastic constants are functions of the depth.
+
+    Examples
+    --------
+    >>> isinstance(Exponential(E_surface=1.0, E_depth=2.0, length=1.0, nu=0.3), GradedHalfSpace)
+    True
+    """
+
+    def __hash__(self) -> int:
+        """The response of a solid is kept by it."""
+        ...
+
+    @property
+    def length(self) -> float:
+        """A depth over which the constants change."""
+        ...
+
+    @property
+    def interfaces(self) -> tuple[float, ...]:
+        """Depths at which E(z), nu(z) or a derivative of them jumps, and of layers that are thin beside their depth."""
+        ...
+
+    def modulus(self, z: Array) -> Array:
+        """E(z), z >= 0."""
+        ...
+
+    def poisson(self, z: Array) -> Array:
+        """nu(z), z >= 0."""
+        ...
+
+
+def _positive(solid: object, *names: str) -> None:
+    for name in names:
+        value = real_number(name, getattr(solid, name), low=0.0, high=math.inf, reason=POSITIVE)
+        object.__setattr__(solid, name, value)
+
+
+def elastic_ratio(name: str, value: object) -> float:
+    """Poisson's ratio as a float.
+
+    Raises
+    ------
+    ValueError
+        When it is outside [0, 1/2].
+    """
+    return real_number(name, value, low=0.0, high=0.5, closed_low=True, closed_high=True, reason=ELASTIC)
+
+
+def _elastic(solid: object, *names: str) -> None:
+    for name in names:
+        object.__setattr__(solid, name, elastic_ratio(name, getattr(solid, name)))
+
+
+def _not_negative(solid: object, name: str, reason: str, high: float = math.inf) -> None:
+    value = real_number(name, getattr(solid, name), low=0.0, high=high, closed_low=True, reason=reason)
+    object.__setattr__(solid, name, value)
+
+
+@dataclass(frozen=True, slots=True)
+class OffsetPowerLaw:
+    """E(z) = E0 ((z + z_s)/c0)^k: a power law with a finite modulus at the surface.
+
+    Parameters
+    ----------
+    E0, c0 : float
+        Modulus, and the depth below z = -z_s at which it is reached, > 0.
+    k : float
+        Exponent, 0 <= k < 1.
+    z_s : float
+        Offset of the depth, > 0.
+    nu : float
+        Poisson's ratio, 0 <= nu <= 1/2.
+
+    Examples
+    --------
+    >>> OffsetPowerLaw(E0=2.0, c0=1.0, k=0.5, z_s=4.0, nu=0.3).modulus(np.array([0.0, 5.0]))
+    array([4., 6.])
+    """
+
+    E0: float
+    c0: float
+    k: float
+    z_s: float
+    nu: float
+
+    def __post_init__(self) -> None:
+        _positive(self, "E0", "c0", "z_s")
+        _not_negative(self, "k", "E = E0 ((z+z_s)/c0)^k has no finite surface response far away", high=1.0)
+        _elastic(self, "nu")
+
+    @property
+    def length(self) -> float:
+        """The offset."""
+        return self.z_s
+
+    @property
+    def interfaces(self) -> tuple[float, ...]:
+        """None."""
+        return ()
+
+    def modulus(self, z: Array) -> Array:
+        """E(z)."""
+        return self.E0 * ((np.asarray(z, float) + self.z_s) / self.c0) ** self.k
+
+    def poisson(self, z: Array) -> Array:
+        """nu everywhere."""
+        return np.full(np.shape(z), self.nu)
+
+
+@dataclass(frozen=True, slots=True)
+class Exponential:
+    """E(z) = E_depth + (E_surface - E_depth) exp(-z/length).
+
+    Parameters
+    ----------
+    E_surface, E_depth : float
+        Moduli at the surface and at great depth, > 0.
+    length : float
+        Length of the decay, > 0.
+    nu : float
+        Poisson's ratio, 0 <= nu <= 1/2.
+
+    Examples
+    --------
+    >>> Exponential(E_surface=1.0, E_depth=3.0, length=2.0, nu=0.3).modulus(np.array([0.0, 1e9]))
+    array([1., 3.])
+    """
+
+    E_surface: float
+    E_depth: float
+    length: float
+    nu: float
+
+    def __post_init__(self) -> None:
+        _positive(self, "E_surface", "E_depth", "length")
+        _elastic(self, "nu")
+
+    @property
+    def interfaces(self) -> tuple[float, ...]:
+        """None."""
+        return ()
+
+    def modulus(self, z: Array) -> Array:
+        """E(z)."""
+        return self.E_depth + (self.E_surface - self.E_depth) * np.exp(-np.asarray(z, float) / self.length)
+
+    def poisson(self, z: Array) -> Array:
+        """nu everywhere."""
+        return np.full(np.shape(z), self.nu)
+
+
+@dataclass(frozen=True, slots=True)
+class Coating:
+    """E_substrate + (E_coating - E_substrate) (1 - tanh((z - thickness)/transition))/2; sharp where transition = 0.
+
+    Parameters
+    ----------
+    E_coating, E_substrate : float
+        Moduli, > 0.
+    thickness : float
+        Depth of the interface, > 0.
+    transition : float
+        Length over which the modulus changes there, >= 0.
+    nu_coating : float
+        Poisson's ratio of the coating, 0 <= nu <= 1/2.
+    nu_substrate : float, optional
+        That of the substrate, joined in the same way; that of the coating by default.
+
+    Examples
+    --------
+    >>> Coating(E_coating=1.0, E_substrate=9.0, thickness=1.0, transition=0.0, nu_coating=0.3).modulus(
+    ...     np.array([0.9, 1.1])
+    ... )
+    array([1., 9.])
+    """
+
+    E_coating: float
+    E_substrate: float
+    thickness: float
+    transition: float
+    nu_coating: float
+    nu_substrate: float | None = None
+
+    def __post_init__(self) -> None:
+        _positive(self, "E_coating", "E_substrate", "thickness")
+        _not_negative(self, "transition", "it is a length, zero for a sharp interface")
+        if self.nu_substrate is None:
+            object.__setattr__(self, "nu_substrate", self.nu_coating)
+        _elastic(self, "nu_coating", "nu_substrate")
+
+    @property
+    def length(self) -> float:
+        """The thickness."""
+        return self.thickness
+
+    @property
+    def interfaces(self) -> tuple[float, ...]:
+        """The interface, and both ends of the transition."""
+        ends = (self.thickness - self.transition, self.thickness, self.thickness + self.transition)
+        return tuple(sorted({z for z in ends if z > 0.0}))
+
+    def _between(self, z: Array, first: float, last: float) -> Array:
+        x = np.asarray(z, float) - self.thickness
+        with np.errstate(over="ignore"):
+            # (1 - tanh x)/2 without its cancellation
+            share = (
+                np.where(x < 0.0, 1.0, 0.0)
+                if self.transition == 0.0
+                else 1.0 / (1.0 + np.exp(2.0 * x / self.transition))
+            )
+        return last + (first - last) * share
+
+    def modulus(self, z: Array) -> Array:
+        """E(z)."""
+        return self._between(z, self.E_coating, self.E_substrate)
+
+    def poisson(self, z: Array) -> Array:
+        """nu(z)."""
+        return self._between(z, self.nu_coating, float(self.nu_substrate or 0.0))
+
+
+def contact_modulus(solid: GradedHalfSpace, z: float = 0.0) -> float:
+    """E / (1 - nu^2) at a depth, that of the surface by default.
+
+    Examples
+    --------
+    >>> contact_modulus(Exponential(E_surface=3.0, E_depth=1.0, length=1.0, nu=0.5))
+    4.0
+    """
+    at = np.array([z])
+    return float(solid.modulus(at)[0] / (1.0 - solid.poisson(at)[0] ** 2))

@@ -1,0 +1,104 @@
+"""Citation of fscm-bench and of a run, as text and as BibTeX."""
+
+import json
+import re
+from importlib.metadata import version
+from importlib.resources import files
+from pathlib import Path
+
+import pytest
+import yaml
+
+from comparisons.output.citation import Work, as_bibtex, as_text, methods, works
+
+ROOT = Path(__file__).resolve().parents[3]
+
+#: What the command reads of the record of a run.
+RECORD = {
+    "package": {"version": "0.1.0", "commit": "0123456789abcdef", "dirty": False, "code_sha256": "f" * 64},
+    "models": {
+        "fscm": {"version": "1", "citation": "Zhu, Zheng, Huang & Yu, Eqs. 24-33"},
+        "my_model": {"version": "2 (ab)", "citation": "Someone, 50 % wrong"},
+    },
+    "rows": {"all": 12, "shipped": 5},
+    "verdicts": {"overall": "PASS"},
+    "started": "2026-11-22T16:56:48+00:00",
+    "python": "3.11.7",
+    "dependencies": {"numpy": "2.4.6", "scipy": "1.17.1", "scikit-fem": "12.0.2", "pyamg": "5.4.1"},
+}
+
+
+def entries(text):
+    """Key -> fields of every entry, read as BibTeX does: by its braces."""
+    found = {}
+    for kind, key, body in re.findall(r"^@(\w+)\{([^,]+),\n(.*?)^\}$", text, re.M | re.S):
+        fields = dict(re.findall(r"^  (\w+) = \{(.*)\},$", body, re.M))
+        assert all(value.count("{") == value.count("}") for value in fields.values())
+        assert len(fields) == len(body.splitlines())
+        found[key] = {"kind": kind, **fields}
+    return found
+
+
+def test_the_data_are_those_of_the_citation_file():
+    """Renew them by: json.dumps(yaml.safe_load(...), indent=2, ensure_ascii=False, default=str)."""
+    stored = json.loads(files("comparisons.data").joinpath("citation.json").read_text(encoding="utf-8"))
+    cff = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert stored == json.loads(json.dumps(cff, default=str))
+
+
+def test_without_a_run_it_names_fscm_bench_and_the_paper():
+    found = entries(as_bibtex(works("1.2.3")))
+    assert list(found) == ["fscm-bench", "zhu-adhesion"]
+    assert found["fscm-bench"]["author"] == "{The fscm-bench developers}"
+    assert found["fscm-bench"]["note"] == "version 1.2.3"
+    assert found["zhu-adhesion"]["author"].startswith("Zhu, Yudong and ")
+
+
+def test_a_run_names_its_versions_and_models():
+    found = entries(as_bibtex(works("not this one", RECORD)))
+    assert found["fscm-bench"]["note"] == "version 0.1.0 (commit 0123456789ab)"
+    assert found["model-my-model"]["title"] == r"{Model my\_model, version 2 (ab)}"
+    assert found["model-my-model"]["note"] == r"Someone, 50 \% wrong"
+    assert found["numpy"]["note"] == "version 2.4.6"
+    assert "scikit-fem" not in found
+
+
+def test_the_libraries_of_the_finite_elements_are_named_where_they_were_used():
+    record = RECORD | {"models": RECORD["models"] | {"fem": {"version": "1", "citation": "This package"}}}
+    assert {"scikit-fem", "pyamg"} <= entries(as_bibtex(works("", record))).keys()
+    assert "pyamg 5.4.1" in methods(record, {})
+    assert "pyamg" not in methods(RECORD, {})
+
+
+def test_the_paragraph_states_reference_bound_and_origin():
+    text = methods(RECORD, {"fscm": 4.2e-10})
+    assert text.startswith("The errors of my_model (version 2 (ab)) were computed with fscm-bench 0.1.0 (commit")
+    assert "The reference is fscm (version 1), whose numerical error is at most 4e-10 of its value." in text
+    assert "12 results, of which 5 are shipped with fscm-bench." in text
+    assert "The verdict over all gates is PASS." in text
+    assert "on 2026-11-22 and used Python 3.11.7, NumPy 2.4.6, SciPy 1.17.1." in text
+
+
+def test_changes_after_the_commit_are_stated():
+    record = RECORD | {"package": RECORD["package"] | {"dirty": True}}
+    assert "(commit 0123456789ab with changes)" in methods(record, {})
+
+
+@pytest.mark.parametrize("commit", [None, "0123456789abcdef"])
+def test_the_version_of_a_run_without_a_commit(commit):
+    record = RECORD | {"package": RECORD["package"] | {"commit": commit}}
+    assert ("commit" in works("", record)[0].text()) is (commit is not None)
+
+
+def test_a_paper_with_journal_year_and_doi():
+    work = Work(
+        "a", "article", {"author": "A, B. and others", "title": "T", "journal": "J", "year": "2022", "doi": "10.1/x_y"}
+    )
+    assert work.text() == "A, B. et al. T. J (2022). doi:10.1/x_y."
+    assert "doi = {10.1/x_y}" in work.bibtex()
+
+
+def test_the_works_are_numbered():
+    text = as_text(works(version("fscm-bench"), RECORD), "A paragraph.")
+    assert text.splitlines()[:2] == ["A paragraph.", ""]
+    assert [line.split()[0] for line in text.splitlines()[2:]] == [f"[{number}]" for number in range(1, 7)]

@@ -1,0 +1,82 @@
+"""The gallery and the notebooks: every script draws, every notebook computes what is stored in it."""
+
+import ast
+import re
+from pathlib import Path
+
+import matplotlib as mpl
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+SCRIPTS = sorted((DOCS / "gallery").glob("*.py"))
+NOTEBOOKS = sorted((DOCS / "notebooks").glob("*.ipynb"))
+
+#: A number below this is a bound, of which the size counts.
+_BOUND = 1e-5
+
+
+@pytest.fixture(autouse=True)
+def no_window():
+    with mpl.rc_context({"figure.max_open_warning": 0}):
+        mpl.use("Agg")
+        yield
+        from matplotlib import pyplot
+
+        pyplot.close("all")
+
+
+def test_there_are_scripts_and_notebooks():
+    assert len(SCRIPTS) >= 15
+    assert len(NOTEBOOKS) == 2
+
+
+@pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.stem)
+def test_a_script_of_the_gallery_draws(path, monkeypatch, tmp_path):
+    from matplotlib import pyplot
+
+    shown = []
+    monkeypatch.setattr(pyplot, "show", lambda: shown.append(pyplot.gcf()))
+    monkeypatch.chdir(tmp_path)
+    text = path.read_text(encoding="utf-8")
+    exec(compile(text, str(path), "exec"), {"__name__": "__main__"})
+    (figure,) = shown
+    figure.canvas.draw()
+    for axes in figure.axes:
+        assert axes.has_data()
+        # Not the axis of a colour bar, which has no label here.
+        assert axes.get_xlabel() or axes.get_label() == "<colorbar>"
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.stem)
+def test_a_script_of_the_gallery_has_a_title_and_a_text(path):
+    title, line, empty, *text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))).splitlines()
+    assert line == "=" * len(title)
+    assert empty == ""
+    assert len(" ".join(text)) > 50
+
+
+def numbers(cells):
+    """The numbers that the cells print, in order; a picture has none."""
+    outputs = [output for cell in cells if cell.cell_type == "code" for output in cell.outputs]
+    texts = [
+        output.text if output.output_type == "stream" else output.data.get("text/plain", "")
+        for output in outputs
+        if "image/svg+xml" not in output.get("data", {})
+    ]
+    return [float(text) for text in re.findall(r"(?<![\w.])-?\d+\.?\d*(?:e[-+]\d+)?", "\n".join(texts))]
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_a_notebook_computes_what_is_stored_in_it(path):
+    stored = nbformat.read(path, as_version=4)
+    again = nbformat.read(path, as_version=4)
+    NotebookClient(
+        again, timeout=1800, kernel_name="python3", resources={"metadata": {"path": str(path.parent)}}
+    ).execute()
+    before, after = numbers(stored.cells), numbers(again.cells)
+    assert len(before) == len(after) > 10
+    for one, other in zip(before, after, strict=True):
+        assert other == pytest.approx(one, rel=1e-6) or max(abs(one), abs(other)) < _BOUND

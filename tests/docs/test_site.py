@@ -1,0 +1,165 @@
+"""The documentation site: every public name, every page in a table of contents, spelling, and the whole site."""
+
+import doctest
+import re
+import subprocess
+import sys
+from functools import cache
+from importlib import import_module, util
+from pathlib import Path
+from pkgutil import walk_packages
+
+import pytest
+
+import comparisons
+import fem_reference
+import fscm
+
+ROOT = Path(__file__).resolve().parents[2]
+DOCS = ROOT / "docs"
+
+
+def extension(name):
+    """A module of `docs/_extensions`, which is no package."""
+    spec = util.spec_from_file_location(f"docs_{name}", DOCS / "_extensions" / f"{name}.py")
+    module = util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def api():
+    return extension("api_pages")
+
+
+@pytest.fixture(scope="module")
+def reference(api):
+    """The pages of the API reference: name -> text."""
+    return dict(api.pages())
+
+
+def documented(reference):
+    """What the directives of the reference describe."""
+    return set(re.findall(r"^\.\. (?:auto(?:class|function)|py:data):: (\S+)$", "\n".join(reference.values()), re.M))
+
+
+@pytest.mark.parametrize("name", ["api_pages", "repository_pages"])
+def test_examples_of_an_extension(name):
+    assert doctest.testmod(extension(name)) == (0, doctest.testmod(extension(name)).attempted)
+
+
+@pytest.mark.parametrize("package", [fscm, fem_reference, comparisons], ids=lambda package: package.__name__)
+def test_every_name_of_a_package_is_in_the_reference(package, reference):
+    names = {f"{package.__name__}.{name}" for name in package.__all__} - {f"{package.__name__}.LAYERS"}
+    assert len(names) > 10
+    assert names - documented(reference) == set()
+
+
+def public(package):
+    """Public modules, found by importing the packages; without the plugin of pytest, a package of its own."""
+    names = [module.name for module in walk_packages(package.__path__, f"{package.__name__}.")]
+    return [name for name in names if not any(part.startswith("_") for part in name.split("."))]
+
+
+@pytest.mark.parametrize("package", [fscm, fem_reference, comparisons], ids=lambda package: package.__name__)
+def test_every_name_of_a_public_module_is_in_the_reference(package, reference):
+    found = documented(reference)
+    objects = {id(getattr(package, name)) for name in package.__all__}
+    missing = [
+        f"{module}.{name}"
+        for module in public(package)
+        for name in getattr(import_module(module), "__all__", ())
+        if f"{module}.{name}" not in found
+        and name != "LAYERS"
+        and id(getattr(import_module(module), name)) not in objects
+    ]
+    assert missing == []
+
+
+def test_every_name_of_a_package_has_a_text(api, reference):
+    """A docstring, or for data the comment before them."""
+    data = re.findall(r"^\.\. py:data:: (\w+)\.(\w+)$", "\n".join(reference.values()), re.M)
+    assert len(data) >= 10
+    silent = [f"{package}.{name}" for package, name in data if not api.comment(package, name)]
+    silent += [
+        f"{package.__name__}.{name}"
+        for package in (fscm, fem_reference, comparisons)
+        for name in package.__all__
+        if callable(getattr(package, name)) and not getattr(package, name).__doc__
+    ]
+    assert silent == []
+
+
+def test_private_modules_are_not_in_the_reference(reference):
+    assert [name for name in documented(reference) if any(part.startswith("_") for part in name.split("."))] == []
+
+
+@cache
+def contents():
+    """What the tables of contents of the first page list."""
+    tables = re.findall(r"^```\{toctree\}\n(.*?)^```", (DOCS / "index.md").read_text(encoding="utf-8"), re.M | re.S)
+    return [line for table in tables for line in table.splitlines() if line and not line.startswith(":")]
+
+
+def test_every_page_is_in_one_table_of_contents():
+    pages = {path.stem for path in DOCS.glob("*.md")} - {"index"}
+    pages |= {f"notebooks/{path.stem}" for path in (DOCS / "notebooks").glob("*.ipynb")}
+    assert len(contents()) == len(set(contents()))
+    assert {name for name in contents() if not name.startswith("_generated/")} == pages
+
+
+def test_every_generated_page_exists():
+    generated = {name.removeprefix("_generated/") for name in contents() if name.startswith("_generated/")}
+    others = {Path(name).stem for name in extension("repository_pages").pages()}
+    assert generated == {*others, "gallery/index", "api/index"}
+
+
+def test_links_of_the_pages_from_other_files_resolve():
+    for name, text in extension("repository_pages").pages().items():
+        for link in re.findall(r"\]\(([^)#\s]+)", text):
+            assert (
+                "://" in link
+                or (DOCS / "_generated" / link).resolve().exists()
+                or link in extension("repository_pages").pages()
+            ), (name, link)
+
+
+def test_spelling():
+    """The documents, the names of files aside; words of the trade are in `[tool.codespell]` of pyproject.toml."""
+    names = (
+        "README.md",
+        "CONTRIBUTING.md",
+        "CHANGELOG.md",
+        "CITATION.cff",
+        "docs",
+        "fscm",
+        "fem_reference",
+        "comparisons",
+    )
+    command = [sys.executable, "-m", "codespell_lib", *names]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert (done.stdout, done.returncode) == ("", 0)
+
+
+def test_a_wrong_word_is_found(tmp_path):
+    (tmp_path / "page.md").write_text("The presure of the contact.\n", encoding="utf-8")
+    command = [sys.executable, "-m", "codespell_lib", str(tmp_path)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert "presure ==> pressure" in done.stdout
+
+
+@pytest.mark.heavy
+def test_the_site_builds_without_a_warning_and_needs_no_network(tmp_path):
+    """All references resolve (-n), warnings are errors (-W), and no page loads anything from elsewhere."""
+    if util.find_spec("sphinx") is None:
+        pytest.skip("the extra docs is not installed")
+    site = tmp_path / "site"
+    command = [sys.executable, "-m", "sphinx", "-nW", "--keep-going", "-q", "-d", tmp_path / "doctrees", DOCS, site]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[-4000:]
+    pages = {path.relative_to(site).as_posix(): path.read_text(encoding="utf-8") for path in site.rglob("*.html")}
+    assert {"index.html", "search.html", "theory.html", "_generated/api/fscm.html"} <= pages.keys()
+    assert "<math" in pages["theory.html"]
+    loaded = re.compile(r"<(?:script|img|iframe)[^>]*src=\"(?:https?:)?//|<link[^>]*href=\"(?:https?:)?//")
+    assert [name for name, text in pages.items() if loaded.search(text)] == []
+    assert (site / "searchindex.js").stat().st_size > 100_000

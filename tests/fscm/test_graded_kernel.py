@@ -1,0 +1,127 @@
+"""Response of graded solids to a ring: images against quadrature of the Hankel integral, and limits."""
+
+from functools import lru_cache
+
+import numpy as np
+import pytest
+import scipy
+from numpy.polynomial import chebyshev
+
+from fscm import ring_response
+from fscm._panels import gauss_rule
+from fscm._response_factor import response_factor
+from fscm.graded import Coating, Exponential, GradedKernel, GradedSolid, OffsetPowerLaw, TabulatedModulus
+from fscm.graded.compliance import compliance
+from fscm.graded.patches import ImageTable
+from fscm.graded.solids import contact_modulus
+
+SOLIDS = {
+    "offset": OffsetPowerLaw(1.0, 1.0, 0.4, 1.0, 0.3),
+    "offset 0.8": OffsetPowerLaw(1.0, 1.0, 0.8, 1.0, 0.3),
+    "exponential": Exponential(1.0, 10.0, 1.0, 0.3),
+    "soft below": Exponential(10.0, 1.0, 1.0, 0.5),
+    "tanh coating": Coating(10.0, 1.0, 1.0, 0.1, 0.3, 0.45),
+    "sharp layer": Coating(1.0, 10.0, 1.0, 0.0, 0.3),
+    "table": TabulatedModulus([0.0, 1.0, 2.0, 5.0], [1.0, 3.0, 4.0, 10.0], 0.3),
+    "waves": GradedSolid(lambda z: 2.0 + np.sin(3.0 * z) * np.exp(-z), 0.3, 1.0),
+}
+
+
+@lru_cache
+def kernel(name):
+    return GradedKernel(SOLIDS[name])
+
+
+@lru_cache
+def compliance_between(name):
+    """D - 1 as Chebyshev polynomials on pieces of log xi, from the compliance alone."""
+    solid, nodes = SOLIDS[name], chebyshev.chebpts1(20)
+    ends = np.linspace(np.log(1e-11), np.log(1e5), 97)
+    xi = np.exp(ends[:-1, None] + 0.5 * (ends[1] - ends[0]) * (1.0 + nodes))
+    values = 0.5 * contact_modulus(solid) * compliance(solid, xi.ravel()).reshape(xi.shape) - 1.0
+    return ends, chebyshev.chebfit(nodes, values.T, 19)
+
+
+def excess(name, xi):
+    ends, modes = compliance_between(name)
+    x = np.clip(np.log(xi), ends[0], ends[-1])
+    i = np.clip(np.searchsorted(ends, x) - 1, 0, len(ends) - 2)
+    u = 2.0 * (x - ends[i]) / (ends[1] - ends[0]) - 1.0
+    return np.einsum("mn,mn->n", chebyshev.chebvander(u, 19).T, modes[:, i])
+
+
+def by_quadrature(name, r, t):
+    """G(r, t) - G_0(r, t) by Gauss quadrature of the Hankel integral, and its change with half the points.
+
+    D - 1 falls like c/xi; c xi/(xi^2 + 1) has the closed form I0(r) K0(t), r < t, and the rest falls like 1/xi^2.
+    """
+    c = float(1e5 * excess(name, np.array([1e5]))[0])
+    least, most = min(r, t), max(r, t)
+    total = c * scipy.special.i0e(least) * scipy.special.k0e(most) * np.exp(least - most)
+    found = []
+    for step in (1.0, 0.5):
+        low = np.geomspace(1e-12, 0.3, int(60 / step))
+        high = np.arange(0.3, 1500.0, step * min(0.7, 4.0 / (r + t + 1.0)))
+        ends = np.concatenate([[0.0], low, high[1:]])
+        rule = gauss_rule(12)
+        xi = (ends[:-1, None] + np.diff(ends)[:, None] * rule.nodes).ravel()
+        weights = (np.diff(ends)[:, None] * rule.weights).ravel()
+        # A smooth end: what is left behind it oscillates, and cancels.
+        rest = (excess(name, xi) - c * xi / (xi * xi + 1.0)) * 0.5 * scipy.special.erfc((xi - 1100.0) / 60.0)
+        found.append(float((weights * rest * scipy.special.j0(xi * r)) @ scipy.special.j0(xi * t)))
+    return t * (total + found[1]), t * abs(found[1] - found[0])
+
+
+@pytest.mark.parametrize("name", SOLIDS)
+def test_images_agree_with_the_hankel_integral(name):
+    rng = np.random.default_rng(sorted(SOLIDS).index(name))
+    r, t = 10.0 ** rng.uniform(-1.0, 1.0, (2, 80))
+    r, t = (x[np.abs(r - t) > 0.1][:50] for x in (r, t))
+    values, bounds = kernel(name).response(r, t), kernel(name).error(r, t)
+    errors = []
+    for i in range(50):
+        exact, change = by_quadrature(name, r[i], t[i])
+        exact += float(ring_response(0.0, r[i], t[i]))
+        assert change < 2e-9 * exact
+        errors.append(abs(values[i] / exact - 1.0))
+        assert abs(values[i] - exact) <= bounds[i] + 2e-11 * exact
+    assert max(errors) < 1e-9
+
+
+@pytest.mark.parametrize("name", SOLIDS)
+def test_the_table_follows_the_images(name):
+    rng = np.random.default_rng(7)
+    images = kernel(name).images
+    table = ImageTable(images, SOLIDS[name].length)
+    A = 10.0 ** rng.uniform(-3.0, 3.0, 400)
+    B = A * 10.0 ** rng.uniform(-7.0, 0.0, 400)
+    value, rate = table.of(A, B)
+    assert np.allclose(value, A * kernel(name).images_at(A, B), rtol=0.0, atol=table.error)
+    step = 1e-3
+    ahead, behind = (table.of(A * np.exp(x), B * np.exp(x))[0] for x in (step, -step))
+    assert np.allclose(rate, (ahead - behind) / (2.0 * step), rtol=0.0, atol=1e-5)
+
+
+def test_homogeneous_limits():
+    r, t = 10.0 ** np.random.default_rng(2).uniform(-2.0, 2.0, (2, 50))
+    plain = ring_response(0.0, r, t)
+    for solid in (
+        Exponential(2.0, 2.0, 1.0, 0.3),
+        OffsetPowerLaw(1.0, 1.0, 0.0, 1.0, 0.3),
+        Coating(2.0, 2.0, 1.0, 0.0, 0.3),
+    ):
+        assert np.allclose(GradedKernel(solid).response(r, t), plain, rtol=1e-9, atol=0.0)
+    thick, thin = Coating(1.0, 4.0, 1e12, 0.0, 0.3), Coating(1.0, 4.0, 1e-13, 0.0, 0.3)
+    assert np.allclose(GradedKernel(thick).response(r, t), plain, rtol=1e-9, atol=0.0)
+    assert np.allclose(GradedKernel(thin, 1e3).response(r, t), 0.25 * plain, rtol=1e-9, atol=0.0)
+
+
+@pytest.mark.parametrize("k", [0.2, 0.4])
+def test_a_small_offset_gives_the_exact_kernel_of_the_power_law(k):
+    z_s = 1e-9
+    r, t = np.random.default_rng(3).uniform(0.1, 10.0, (2, 50))
+    # (2 / E*(0)) G against (2 b / E*) G_k
+    found = GradedKernel(OffsetPowerLaw(1.0, 1.0, k, z_s, 0.3), 1e2).response(r, t) * z_s**-k
+    exact = response_factor(k, 0.3) * ring_response(k, r, t)
+    apart = np.abs(r - t) > 0.05  # the offset changes the kernel by its ratio to the distance
+    assert np.allclose(found[apart], exact[apart], rtol=1e-8 * 10, atol=0.0)

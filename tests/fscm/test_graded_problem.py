@@ -1,0 +1,119 @@
+"""Events on graded solids: limits, finite elements, exact rates, bounds, bad input."""
+
+import numpy as np
+import pytest
+
+from fscm import NotConverged, PowerSum, Problem, solve, solve_together
+from fscm._arc_length import parameter_of, rates_of
+from fscm._continuation import moved
+from fscm.analysis import Analysis
+from fscm.graded import Coating, Exponential, GradedProblem, OffsetPowerLaw, TabulatedModulus, graded_problem
+from fscm.stability import margins
+
+SOFT_BELOW = Coating(5.0, 1.0, 0.7, 0.1, 0.3)
+
+
+def test_a_homogeneous_solid_has_the_numbers_of_the_power_law():
+    found, exact = (
+        solve_together(problem, ["pull_off_force", "jump_in_displacement", "jump_out_gap"])
+        for problem in (GradedProblem(2, 1.0, Exponential(1.0, 1.0, 1.0, 0.3)), Problem(2, 0, 1.0))
+    )
+    for name, value in found.items():
+        assert abs(value.value - exact[name].value) <= value.u_num + exact[name].u_num + 1e-13
+
+
+def test_a_thin_or_thick_coating_has_the_numbers_of_one_modulus():
+    for thickness, mu in ((1e-13, 1.0 / 4.0 ** (2.0 / 3.0)), (1e8, 1.0)):
+        found = solve(GradedProblem(2, 1.0, Coating(1.0, 4.0, thickness, 0.0, 0.3)), "pull_off_force")
+        # 2e-9: the coating changes the response at radii of its thickness, or of its inverse.
+        assert found.value == pytest.approx(solve(Problem(2, 0, mu), "pull_off_force").value, rel=2e-9)
+
+
+def test_rates_along_the_path_are_exact():
+    state = Analysis(GradedProblem(2, 1.0, SOFT_BELOW)).event("pull_off").value
+    rates, step = rates_of(state), 1e-3
+    assert state.parameter == "log_scale"
+    after, before = (moved(state, rates, parameter_of(state) + sign * step, 1e-12) for sign in (1.0, -1.0))
+    for name in ("displacement", "central_gap", "load"):
+        slope = (getattr(after, name) - getattr(before, name)) / (2.0 * step)
+        # 1e-5: the third derivative times the square of the step
+        assert slope == pytest.approx(getattr(rates, name), abs=1e-5)
+
+
+#: Values of `fem_reference` at its default accuracy, with its bounds, for unit Q, z0 and work of adhesion, n = 2.
+FINITE_ELEMENTS = [
+    (
+        OffsetPowerLaw(0.91, 1.0, 0.4, 1.0, 0.3),
+        {
+            "pull_off_force": (1.74302095588, 2.2e-8),
+            "jump_in_displacement": (-1.32916086976, 7.9e-8),
+            "jump_out_displacement": (-1.33851188361, 1.0e-7),
+        },
+    ),
+    (Coating(0.91, 4.55, 0.7, 0.1, 0.3), {"pull_off_force": (1.88374381887, 1.8e-8)}),
+    (
+        Coating(0.91, 0.182, 0.7, 0.0, 0.3),
+        {
+            "pull_off_force": (1.39415784109, 9.4e-8),
+            "jump_in_displacement": (-2.89799085593, 1.4e-7),
+        },
+    ),
+]
+
+
+@pytest.mark.parametrize(("solid", "values"), FINITE_ELEMENTS)
+def test_events_agree_with_the_finite_elements(solid, values):
+    problem, _ = graded_problem(solid, Q=1.0, n=2, work_of_adhesion=1.0, z0=1.0)
+    found = solve_together(problem, values)
+    for name, (value, bound) in values.items():
+        assert found[name].value == pytest.approx(value, abs=bound + found[name].u_num)
+
+
+@pytest.mark.parametrize(("n", "mu"), [(2, 0.3), (1, 1.0), (2, 3.0)])
+@pytest.mark.parametrize(
+    "solid",
+    [
+        SOFT_BELOW,
+        OffsetPowerLaw(1.0, 1.0, 0.4, 0.5, 0.3),
+        Coating(1.0, 10.0, 0.5, 0.0, 0.3, 0.5),
+        TabulatedModulus([0.0, 1.0, 2.0, 5.0], [1.0, 3.0, 4.0, 10.0], 0.3),
+    ],
+)
+def test_the_bound_covers_the_distance_to_finer_meshes(n, mu, solid):
+    problem = GradedProblem(n, mu, solid)
+    coarse, fine = (solve(problem, "pull_off_force", accuracy) for accuracy in (1e-5, 1e-9))
+    assert coarse.u_num < 1e-5 * coarse.value
+    assert fine.u_num < 1e-7 * fine.value
+    # The kernel is the same for both.
+    apart = abs(coarse.value - fine.value)
+    assert apart <= coarse.u_num + fine.u_num - coarse.parts["kernel"] - fine.parts["kernel"] + 1e-13
+
+
+def test_the_error_of_the_kernel_is_a_part_of_the_bound():
+    parts = solve(GradedProblem(2, 1.0, SOFT_BELOW), "pull_off_force").parts
+    assert 0.0 < parts["kernel"] < 1e-7
+    assert solve(Problem(2, 0, 1.0), "pull_off_force").parts["kernel"] == 0.0
+
+
+def test_physical_units_scale_out():
+    solid = Exponential(E_surface=1e9, E_depth=5e9, length=1e-7, nu=0.3)
+    metres, _ = graded_problem(solid, Q=1e-6, n=2, work_of_adhesion=0.05, z0=3e-10)
+    other = Exponential(E_surface=1.0, E_depth=5.0, length=1e2, nu=0.3)
+    nanometres, surface = graded_problem(other, Q=1e3, n=2, work_of_adhesion=0.05, z0=0.3)
+    assert metres.mu == pytest.approx(nanometres.mu, rel=1e-12)
+    assert metres.solid.length == pytest.approx(nanometres.solid.length, rel=1e-12)
+    assert surface.scales["radius"] == pytest.approx((1e3 * 0.3) ** 0.5)
+
+
+def test_what_needs_a_power_law_is_refused_in_one_sentence():
+    with pytest.raises(ValueError, match=r"k = 0.4 is outside \[0, 0\]"):
+        GradedProblem(2, 1.0, SOFT_BELOW, k=0.4)
+    with pytest.raises(ValueError, match="is no graded solid"):
+        GradedProblem(2, 1.0, solid=3.0)
+    state = Analysis(GradedProblem(2, 0.3, SOFT_BELOW)).event("pull_off").value
+    assert np.isfinite(margins(state, 0)).all()
+    with pytest.raises(NotConverged, match="power-law modulus only"):
+        margins(state, 1)
+    rough = PowerSum([3.0, -2.0, 0.5], [2, 3, 4])
+    with pytest.raises(NotConverged, match="power-law modulus only"):
+        Analysis(GradedProblem(4, 1.0, SOFT_BELOW, punch=rough)).event("zero_load")
