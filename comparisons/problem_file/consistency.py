@@ -8,7 +8,7 @@ from comparisons.problem_file.source import Source
 
 __all__ = ["check_consistency"]
 
-#: Largest and smallest admissible ratio of the radius of curvature of the punch to the range of the law.  A lens of 10 m
+#: Largest and smallest admissible ratio of the radius of the punch to the range of the law.  A lens of 10 m
 #: and a range of 0.2 nm give 5e10; a tip with a radius far below an atom has no meaning.
 _RATIOS = 1e-3, 1e12
 
@@ -34,8 +34,8 @@ def check_consistency(problem: ProblemFile, source: Source) -> None:
         raise source.refusal(
             "punch",
             key,
-            f"the length {radius:.3g} m of the punch is {radius / z0:.1e} times the range {z0:.3g} m of the law, outside "
-            f"[{low:g}, {high:g}]; check the units of both",
+            f"the length {radius:.3g} m of the punch is {radius / z0:.1e} times the range {z0:.3g} m of the law, "
+            f"outside [{low:g}, {high:g}]; check the units of both",
         )
     try:
         found, units = dimensionless_problem(problem)
@@ -50,6 +50,6 @@ def check_consistency(problem: ProblemFile, source: Source) -> None:
             raise source.refusal(
                 "punch",
                 "file",
-                f'the profile {problem.punch["file"]} ends at the height {height:.3g} m inside the contact, which '
+                f"the profile {problem.punch['file']} ends at the height {height:.3g} m inside the contact, which "
                 f"reaches about {needed:.3g} m; measure it further out",
             )

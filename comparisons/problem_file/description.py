@@ -86,5 +86,5 @@ class ProblemFile:
 
     @property
     def label(self) -> str:
-        """The kinds of its parts, in one line."""
-        return f"{self.path.name}: {self.solid.kind} solid, {self.punch.kind} punch, {self.law.kind} law"
+        """The name of the file and the kind of its solid, in one line."""
+        return f"{self.path.stem}: {self.solid.kind} solid"

@@ -56,9 +56,7 @@ def dimensionless_problem(problem: ProblemFile) -> tuple[Problem, Mapping[str, f
 
     unit = (Q * z0) ** (1.0 / n)
     shape = _punch(problem.punch, unit, z0)
-    found, surface = graded_problem(
-        _solid(solid), Q=Q, n=n, work_of_adhesion=work, z0=z0, punch=shape, law=law
-    )
+    found, surface = graded_problem(_solid(solid), Q=Q, n=n, work_of_adhesion=work, z0=z0, punch=shape, law=law)
     return found, surface.scales
 
 

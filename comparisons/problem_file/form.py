@@ -54,7 +54,9 @@ def checked_section(document: Mapping[str, Any], section: str, source: Source) -
     """
     table = document[section]
     if not isinstance(table, Mapping):
-        raise source.refusal(section, None, f"is {shown(table)} and no table; write a section [{section}] with its keys")
+        raise source.refusal(
+            section, None, f"is {shown(table)} and no table; write a section [{section}] with its keys"
+        )
     known = kinds(section)
     if "kind" not in table:
         raise source.refusal(section, None, f"has no kind; write one of {', '.join(known)}")

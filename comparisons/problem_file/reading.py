@@ -88,7 +88,8 @@ def _document(source: Source) -> dict[str, Any]:
         reason = str(error)[: found.start()].partition(": ")[2]
         text = source.text.splitlines()[int(found[1]) - 1].strip()
         raise ValueError(
-            f"{source.path}, line {found[1]}: {shown(text)} is not TOML ({reason}); write key = value, and text in quotes"
+            f"{source.path}, line {found[1]}: {shown(text)} is not TOML ({reason}); "
+            "write key = value, and text in quotes"
         ) from None
 
 
@@ -101,7 +102,7 @@ def _section(document: Mapping[str, Any], name: str, source: Source) -> Section:
     path = source.path.parent / values["file"]
     if not path.is_file():
         raise source.refusal(
-            name, "file", f'file = {shown(values["file"])} is not in the folder of {source.path.name}; check the name'
+            name, "file", f"file = {shown(values['file'])} is not in the folder of {source.path.name}; check the name"
         )
     found = read_columns(path, columns, _FEWEST_SMOOTHED if "smoothing" in values else fewest)
     if name == "solid" and ("nu" in found) == ("nu" in values):

@@ -39,11 +39,11 @@ def read_text(path: Path, what: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A problem file.
+    r"""A problem file.
 
     Examples
     --------
-    >>> source = Source(Path("pad.toml"), "[solid]\\nkind = 'power-law'\\nE0 = -1\\n")
+    >>> source = Source(Path("pad.toml"), "[solid]\nkind = 'power-law'\nE0 = -1\n")
     >>> source.refusal("solid", "E0", "E0 = -1 must be positive")
     ValueError('pad.toml, line 3: [solid] E0 = -1 must be positive')
     """
