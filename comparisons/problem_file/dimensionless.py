@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from comparisons.problem_file.description import ProblemFile, Section
 from comparisons.problem_file.punch_shapes import RoundedFlat, SmoothedProfile
 from fscm.laws import Mie, SurfaceLaw
@@ -69,13 +67,14 @@ def adhesion(law: Section) -> tuple[float, float, SurfaceLaw | None]:
         return law["work_of_adhesion"], law["z0"], None
     if law.kind == "mie":
         return law["work_of_adhesion"], law["z0"], Mie(law["m"], law["n"])
-    gaps, tractions = (np.array(law.columns[name]) for name in ("gap", "traction"))
+    gaps, tractions = law.columns["gap"], law.columns["traction"]
     exponent = law.get("tail_exponent")
     z0 = law.get("z0")
     if z0 is None:
-        length = float(gaps[-1] - gaps[0])
-        z0 = TabulatedLaw(gaps / length, tractions, exponent).work_of_adhesion * length / float(-np.min(tractions))
-    table = TabulatedLaw(gaps / z0, tractions, exponent)
+        length = gaps[-1] - gaps[0]
+        table = TabulatedLaw([gap / length for gap in gaps], tractions, exponent)
+        z0 = table.work_of_adhesion * length / -min(tractions)
+    table = TabulatedLaw([gap / z0 for gap in gaps], tractions, exponent)
     return table.work_of_adhesion * z0, z0, table
 
 

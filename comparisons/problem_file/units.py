@@ -115,7 +115,7 @@ def si_text(value: float, u_num: float, unit: str) -> str:
 
     Examples
     --------
-    >>> si_text(2.7165e-8, 4e-11, "N"), si_text(-3.2e-10, 0.0, "m"), si_text(1.5, 1e-3, "1")
+    >>> si_text(2.7172e-8, 4e-11, "N"), si_text(-3.2e-10, 0.0, "m"), si_text(1.5, 1e-3, "1")
     ('27.17(4) nN', '-320 pm', '1.5000(10)')
     """
     if unit == "1":

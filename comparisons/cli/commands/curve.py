@@ -39,7 +39,11 @@ def add(parser: argparse.ArgumentParser) -> None:
         help=MODEL_SPEC,
     )
     parser.add_argument(
-        "--quantity", choices=tuple(CURVES), default="force_curve", help="what to draw (default: force_curve)"
+        "--quantity",
+        metavar="NAME",
+        choices=tuple(CURVES),
+        default="force_curve",
+        help=f"what to draw: {', '.join(CURVES)} (default: %(default)s)",
     )
     add_case_or_file(parser)
     parser.add_argument("--csv", metavar="FILE", type=Path, help="write the points here; by default to stdout")

@@ -73,7 +73,7 @@ def test_every_kind_of_the_schema_is_tested(section):
     assert list(SECTIONS[section]) == list(kinds(section))
 
 
-@pytest.mark.parametrize(("solid", "punch", "law"), product(*(SECTIONS[name] for name in SECTIONS)))
+@pytest.mark.parametrize(("solid", "punch", "law"), [*product(*SECTIONS.values())])
 def test_both_solvers_have_the_same_problem(solid, punch, law, written):
     found = written(solid=solid, punch=punch, law=law)
     problem, units = dimensionless_problem(found)
