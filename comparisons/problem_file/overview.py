@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import fscm
 from comparisons.model import Model
 from comparisons.problem_file.description import ProblemFile
 from comparisons.problem_file.dimensionless import dimensionless_problem
@@ -141,8 +140,4 @@ def _closed_forms() -> list[Model]:
 def _critical(problem: ProblemFile) -> float | None:
     if not problem.is_of_the_paper:
         return None
-    posed, _ = dimensionless_problem(problem)
-    try:
-        return float(fscm.atlas(posed.n, posed.k, posed.mu, "critical_tabor_number").value)
-    except (fscm.OutsideAtlas, fscm.NoSuchEvent):
-        return None
+    return evaluate_problem(problem, "atlas", "critical_tabor_number").value
