@@ -47,6 +47,8 @@ ALLOWED = {
     "comparisons.paper.values.scheme_ingredients": ("fscm",),
     # Only the adapters know the solvers.
     "comparisons.models.fscm_model": ("fscm",),
+    # The references of the error maps are those of the atlas.
+    "comparisons.paper.studies.error_lines": ("fscm.interpolation",),
     "comparisons.models.atlas_model": ("fscm",),
     "comparisons.models.gibson_limit": ("fscm",),
     "comparisons.models.stieltjes_model": ("fscm",),

@@ -63,7 +63,9 @@ def external(*folders: str) -> set[str]:
 
 def test_every_import_of_the_packages_is_declared_and_nothing_else():
     # An optional package is imported where it is used.
-    optional = [requirement for name in ("report", "cluster", "bench", "pytest") for requirement in EXTRAS[name]]
+    optional = [
+        requirement for name in ("report", "cluster", "bench", "pytest", "completion") for requirement in EXTRAS[name]
+    ]
     assert external(*PACKAGES) == {canonical(requirement) for requirement in RUNTIME + optional + FOR_BUILD}
 
 
@@ -77,7 +79,7 @@ def test_the_tests_need_every_extra():
 
 
 def test_every_import_of_the_tests_is_declared():
-    own = {"tests", *(path.stem for path in (ROOT / "tests").rglob("*.py"))}
+    own = {"tests", *(path.stem for folder in ("tests", "docs") for path in (ROOT / folder).rglob("*.py"))}
     declared = {canonical(requirement) for requirement in RUNTIME + FOR_TESTS}
     assert external("tests") - declared - {canonical(name) for name in own} == set()
 

@@ -16,7 +16,7 @@ class Column(NamedTuple):
     Attributes
     ----------
     unit : str
-        ``"1"`` of a plain number, empty of a text or a truth value.
+        ``"1"`` of a plain number, empty of a text, and of what is true or false.
     description : str
     """
 

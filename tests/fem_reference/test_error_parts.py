@@ -40,13 +40,27 @@ SPEC = MeshSpec(0.0625, 0.01, 64.0, 1.4, 4, 0.05)
 
 
 @lru_cache(maxsize=1)
+def _chosen():
+    return chosen(PROBLEM, ("zero_load", "landing"), "quick")
+
+
+@lru_cache(maxsize=1)
 def _meshes():
-    return events_on_meshes(*chosen(PROBLEM, ("zero_load", "landing"), "quick"))
+    return events_on_meshes(*_chosen())
 
 
-def _contact(spec, problem=PROBLEM):
-    choice, _, size = chosen(problem, ("pull_off",), "quick")
+def _contact(spec):
+    choice, _, size = _chosen()
     return choice.contact(spec, size)
+
+
+@lru_cache(maxsize=1)
+def _finer_events():
+    """The same events on a mesh of another degree, on which every feature is finer too."""
+    choice, spec, _ = _chosen()
+    depth, density = spec.surface_depth / 4, 0.85 * choice.level.densities[-1]
+    finer = replace(spec, order=7, density=density, surface_depth=depth, extent=4 * spec.extent)
+    return ResolvedEvents(_meshes().path, _contact(finer))
 
 
 @pytest.mark.parametrize("quantity", TABLE)
@@ -60,11 +74,7 @@ def test_parts_add_up(quantity):
 
 @pytest.mark.parametrize("quantity", TABLE)
 def test_bound_covers_the_error_against_a_finer_mesh(quantity):
-    """The finer mesh has another degree, and every feature is finer too."""
-    meshes = _meshes()
-    spec = chosen(PROBLEM, ("zero_load", "landing"), "quick")[1]
-    finer = replace(spec, order=7, density=0.7, surface_depth=spec.surface_depth / 4, extent=4 * spec.extent)
-    reference = TABLE[quantity].functional(ResolvedEvents(meshes.path, _contact(finer)))
+    reference = TABLE[quantity].functional(_finer_events())
     solution = solved()[quantity]
     assert abs(solution.value - reference) <= solution.u_num
 
@@ -97,11 +107,11 @@ def test_added_part_is_added_to_the_bound():
 )
 def test_a_part_responds_to_its_cause(part, change):
     """A mesh that is worse in one feature has a larger part of that name."""
-    choice, spec, size = chosen(PROBLEM, ("zero_load", "landing"), "quick")
+    choice, spec, size = _chosen()
     worse = replace(spec, **{name: factor * getattr(spec, name) for name, factor in change.items()})
     good, bad = (
-        events_on_meshes(choice, mesh, size).estimate(TABLE["jump_in_displacement"].functional, 6.0).parts[part]
-        for mesh in (spec, worse)
+        meshes.estimate(TABLE["jump_in_displacement"].functional, 6.0).parts[part]
+        for meshes in (_meshes(), events_on_meshes(choice, worse, size))
     )
     assert bad > 3.0 * good
 
@@ -167,12 +177,12 @@ def test_tail_is_that_of_a_longer_mesh():
     """What the mesh leaves out is found again on one that ends much farther away."""
     problem = problem_with(0.2, 0.5, n=1.2)
     choice, spec, size = chosen(problem, ("pull_off",), "quick")
-    meshes = events_on_meshes(choice, spec, size)
+    path = choice.traced(spec, size)
     functional = TABLE["pull_off_displacement"].functional
     short = replace(spec, extent=64.0)
     near, far = (choice.contact(mesh, size) for mesh in (short, spec))
     tail = TailContact(near.punch, near.law, near.compliance, 0.2)
-    plain, corrected, complete = (functional(ResolvedEvents(meshes.path, c)) for c in (near, tail, far))
+    plain, corrected, complete = (functional(ResolvedEvents(path, c)) for c in (near, tail, far))
     assert abs(plain - complete) > 1e-6
     assert abs(corrected - complete) < 0.2 * abs(plain - complete)
 

@@ -118,23 +118,35 @@ def spoiled_path():
     return PathEvents(traced(_soft_contact(SPOILED)))
 
 
-def _forget():
-    kept = (
-        mesh_choice._traced,
-        error_parts.events_on_meshes,
-        uncondensed.uncondensed_events,
-        uncondensed._preconditioned,
-    )
+CONDENSED = mesh_choice._traced, error_parts.events_on_meshes
+WHOLE = uncondensed.uncondensed_events, uncondensed._preconditioned
+
+
+def _forget(*kept):
     for cache in kept:
         cache.cache_clear()
 
 
 @pytest.fixture
-def no_kept_events():
-    """Nothing solved before or after is reused."""
-    _forget()
+def no_kept_whole_system():
+    """No event of a whole system that was solved before or after is used again."""
+    _forget(*WHOLE)
     yield
-    _forget()
+    _forget(*WHOLE)
+
+
+@pytest.fixture
+def no_kept_events(no_kept_whole_system):
+    """Nothing solved here is used again after the test."""
+    yield
+    _forget(*CONDENSED)
+
+
+@pytest.fixture(scope="module")
+def solved():
+    """A problem and its solution, and what was kept of its condensed system."""
+    problem = _problem(Solid(3.0, 1.3, 0.4, NU))
+    return problem, solve(problem, "pull_off_force", "quick")
 
 
 def test_the_value_is_that_of_the_whole_system_and_not_of_the_condensed_path(soft_path, spoiled_path, soft_system):
@@ -209,17 +221,17 @@ def test_without_pyamg_there_is_no_value(monkeypatch, soft_path, soft_system):
         events.value(TABLE["pull_off_force"].functional)
 
 
-@pytest.mark.usefixtures("no_kept_events")
-def test_without_its_preconditioner_there_is_no_solution(monkeypatch):
+@pytest.mark.usefixtures("no_kept_whole_system")
+def test_without_its_preconditioner_there_is_no_solution(solved, monkeypatch):
+    """The condensed system alone, which is solved already, is no solution."""
     monkeypatch.setattr(ElasticPreconditioner, "__call__", _not_preconditioned)
     with pytest.raises(NotConverged, match="conjugate gradients reached a residual"):
-        solve(_problem(Solid(3.0, 1.3, 0.4, NU)), "pull_off_force", "quick")
+        solve(solved[0], "pull_off_force", "quick")
 
 
 @pytest.mark.usefixtures("no_kept_events")
-def test_a_solution_holds_the_value_of_the_whole_system(monkeypatch):
-    problem = _problem(Solid(3.0, 1.3, 0.4, NU))
-    right = solve(problem, "pull_off_force", "quick")
+def test_a_solution_holds_the_value_of_the_whole_system(solved, monkeypatch):
+    problem, right = solved
     assert right.value != right.values[-1]
     assert right.parts["algebra"] <= ALGEBRA
     assert 0 < right.iterations <= 25
@@ -227,7 +239,7 @@ def test_a_solution_holds_the_value_of_the_whole_system(monkeypatch):
     assert right.u_num == pytest.approx(sum(right.parts.values()))
     _, point = event_state(problem, "pull_off", "quick")
     assert -point.state.load == right.value
-    _forget()
+    _forget(*CONDENSED, *WHOLE)
 
     def spoiled(*arguments):
         compliance = compliance_for(*arguments)

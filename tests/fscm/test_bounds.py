@@ -95,7 +95,15 @@ def test_an_edge_that_needs_too_many_panels_is_refused_at_once_with_the_cause() 
         solve(Problem(2, 0.999, 1.0), "pull_off_force")
 
 
-@pytest.mark.parametrize(("n", "k", "mu"), [(30.0, 0.0, 1.0), (30.0, 0.4, 1.0), (30.0, 0.0, 0.05), (50.0, 0.0, 1.0)])
+@pytest.mark.parametrize(
+    ("n", "k", "mu"),
+    [
+        (30.0, 0.0, 1.0),
+        (30.0, 0.4, 1.0),
+        (30.0, 0.0, 0.05),
+        pytest.param(50.0, 0.0, 1.0, marks=pytest.mark.heavy),
+    ],
+)
 def test_a_flat_punch_is_solved(n: float, k: float, mu: float) -> None:
     """The first mesh sees how steeply the punch rises, and each step moves its shape exactly."""
     problem = Problem(n, k, mu)

@@ -17,7 +17,7 @@ from tests.fscm.equilibria_on_finer_meshes import pair
 RATE = 2e-3
 #: Bound over error: those of single panels cancel.  Measured 32 (load at jump-out).
 LARGEST = 100.0
-ERRORS = Errors(np.array([1.0, -2.0, 0.5]), np.array([0.1, -0.3]), np.array([-0.01, 0.02]), 0.004)
+ERRORS = Errors(np.array([1.0, -2.0, 0.5]), np.array([0.1, -0.3]), np.array([-0.01, 0.02]), 0.004, 0.0005)
 
 
 def _exactly(parts):
@@ -26,9 +26,9 @@ def _exactly(parts):
 
 def test_sizes_add_up_by_cause_and_the_mesh_counts_twice():
     """The finer mesh may leave half of the error; the tail is computed to first order, a tenth is its square."""
-    expected = Parts(mesh=7.0, tail=1.1 * 0.4, domain=0.03, rounding=0.004)
+    expected = Parts(mesh=7.0, tail=1.1 * 0.4, domain=0.03, rounding=0.004, kernel=0.0005)
     assert list(bounds(ERRORS).values()) == _exactly(expected)
-    amplified = Parts(*(3.0 * part for part in expected.values()))
+    amplified = Parts(**{name: 3.0 * part for name, part in expected.items()})
     assert list(bounds(ERRORS, 3.0).values()) == _exactly(amplified)
 
 
@@ -81,7 +81,8 @@ def test_a_value_at_a_displacement_next_to_its_fold_moves_with_the_root_of_the_e
 
 def test_the_energy_of_a_jump_has_the_errors_of_both_ends(monkeypatch):
     """The landing is at the displacement of the fold: an error of that moves the energy there by the load."""
-    displacement = Errors(10.0 * ERRORS.mesh, 10.0 * ERRORS.tail, 10.0 * ERRORS.domain, 10.0 * ERRORS.rounding)
+    unsigned = (10.0 * ERRORS.rounding, 10.0 * ERRORS.kernel)
+    displacement = Errors(10.0 * ERRORS.mesh, 10.0 * ERRORS.tail, 10.0 * ERRORS.domain, *unsigned)
     called = []
 
     class OfLanding:

@@ -106,9 +106,9 @@ def test_gibson_limit(n: float) -> None:
     k=st.floats(0.0, 0.8),
     log_mu=st.floats(math.log(0.01), math.log(3.0)),
 )
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=5, deadline=None)
 def test_random_problems_obey_what_all_obey(n: float, k: float, log_mu: float) -> None:
-    """Signs, order of events, and stationarity of the load at pull-off."""
+    """Signs, order of events, and stationarity of the load at pull-off; other tests have values of random problems."""
     problem = Problem(n, k, math.exp(log_mu))
     if (1.03 * problem.compliance) ** (-1 / (1 - k)) < 1e-4:
         return

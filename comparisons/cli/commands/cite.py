@@ -13,7 +13,10 @@ from comparisons.runs.environment import package_version
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import check_files, read_record
 
-__all__ = ["add", "call"]
+__all__ = ["EXAMPLES", "add", "call"]
+
+#: Examples of the help.
+EXAMPLES = ("fscm-bench cite", "fscm-bench cite --format bibtex results/runs/TIME")
 
 
 def add(parser: argparse.ArgumentParser) -> None:

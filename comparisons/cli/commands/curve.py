@@ -43,7 +43,7 @@ def add(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         choices=tuple(CURVES),
         default="force_curve",
-        help=f"what to draw: {', '.join(CURVES)} (default: %(default)s)",
+        help=f"what to draw: {', '.join(CURVES)} (default: force_curve)",
     )
     add_case_or_file(parser)
     parser.add_argument("--csv", metavar="FILE", type=Path, help="write the points here; by default to stdout")

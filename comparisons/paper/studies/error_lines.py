@@ -11,7 +11,7 @@ import pandas as pd
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.studies.error_grid import GRADIENT_SLICES, ONSET_EXCESS, SHAPE_SLICES, error
 from comparisons.paper.tasks import quantity
-from fscm import atlas
+from fscm.interpolation.atlas import atlas
 
 __all__ = ["MAPPED", "TABOR_RANGE", "along_gradients", "along_shapes", "calls", "line_errors", "table_of"]
 

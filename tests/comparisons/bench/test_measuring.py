@@ -78,7 +78,7 @@ def test_a_stopped_run_keeps_what_is_finished_and_leaves_no_process(end, status,
     _, messages = process.communicate(timeout=120)
     assert process.returncode == status
     # After SIGKILL Python itself remarks on semaphores.
-    assert messages == "fscm-bench: interrupted\n" if end == signal.SIGINT else "Traceback" not in messages
+    assert messages == "python -m comparisons: interrupted\n" if end == signal.SIGINT else "Traceback" not in messages
     lines = journal.read_text().splitlines()
     assert 2 <= len(lines) < 26
     assert all(json.loads(line) for line in lines[:2])

@@ -295,8 +295,9 @@ def test_a_run_completes_the_others_and_its_files_are_its_own(write_model, tmp_p
     bodies = {
         "good": GOOD,
         "vandal": vandal,
-        "leaver": "os._exit(0)",
-        "looper": "while True:\n    pass",
+        # Only where the run evaluates it: its process is started again after each end.
+        "leaver": "if problem.mu == 1:\n    os._exit(0)\nraise NotApplicable('mu = 1 only')",
+        "looper": "while True:\n    time.sleep(1000)",
         "nonsense": "return Result(float('nan'), 0.0)",
     }
     specs = [write_model(body, name) for name, body in bodies.items()]

@@ -161,12 +161,15 @@ def random_problems(count: int) -> list[tuple[float, float, float]]:
 
 
 SEARCHED = [(0.8, 0.0, 1e-3), (10.0, 0.95, 20.0), (2.0, 0.0, 1e-3), *random_problems(25)]
+LIGHT = 14
+"""The first of them are searched in every test run."""
 
 
 @pytest.mark.parametrize(
     ("model", "n", "k", "mu"),
     [
-        *((MaugisDugdaleImproved(), *case) for case in SEARCHED),
+        *((MaugisDugdaleImproved(), *case) for case in SEARCHED[:LIGHT]),
+        *(pytest.param(MaugisDugdaleImproved(), *case, marks=pytest.mark.heavy) for case in SEARCHED[LIGHT:]),
         # Of the other model the stress alone is another (see below): the ends of the domain and a few more.
         *((MaugisDugdaleOriginal(), *case) for case in SEARCHED[:8]),
     ],

@@ -34,10 +34,10 @@ def test_every_word_is_whole_at_every_width(width, optional):
     shown = table.lines(width)
     assert max(map(len, shown)) <= width
     text = "\n".join(shown)
-    left_out = "without seconds" in text
+    omitted = "without seconds" in text
     for name in TABLE:
         for cell in TABLE[name]:
-            if not (left_out and name == "seconds"):
+            if not (omitted and name == "seconds"):
                 assert all(word in text.split() for word in cell.split())
 
 
@@ -45,7 +45,7 @@ def test_a_wide_terminal_has_one_line_a_row():
     assert len(FittedTable(TABLE).lines(200)) == 2 + len(TABLE)
 
 
-def test_a_group_becomes_headings_before_anything_is_left_out():
+def test_a_group_becomes_headings_before_anything_is_omitted():
     shown = FittedTable(TABLE, group="quantity", optional=("seconds",)).lines(75)
     assert [line for line in shown if line.startswith("quantity: ")] == [
         "quantity: zero_load_displacement",
@@ -54,7 +54,7 @@ def test_a_group_becomes_headings_before_anything_is_left_out():
     assert not any("without" in line for line in shown)
 
 
-def test_columns_that_are_left_out_are_named():
+def test_columns_that_are_omitted_are_named():
     table = FittedTable(TABLE.drop(columns=["domain", "quantity"]), optional=("seconds", "kappa"))
     assert table.lines(42)[-2:] == ["without seconds, for which 42 columns are", "too few"]
     assert not table.is_table(42)
