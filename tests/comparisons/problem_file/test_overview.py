@@ -42,3 +42,16 @@ def test_another_solid_has_the_force_of_the_integral_equation(capsys):
 
 def test_every_reference_is_a_model():
     assert set(REFERENCES) <= set(MODELS)
+
+
+def test_the_page_shows_the_example_and_what_is_printed(capsys):
+    page = (EXAMPLES.parents[1] / "problem_files.md").read_text(encoding="utf-8")
+    example = (EXAMPLES / "coated_solid.toml").read_text(encoding="utf-8")
+    assert example.partition("\n")[2] in page
+    path = str(EXAMPLES / "coated_solid.toml")
+    assert main(["solve", "--model", "fscm", "--quantity", "pull_off_force", "--problem", path]) == 0
+    heading, force, scaled = capsys.readouterr().out.splitlines()
+    assert heading in page
+    # The digits in brackets, a bound, may differ between machines.
+    assert force.partition("(")[0] in page
+    assert scaled.partition("(")[0] in page
