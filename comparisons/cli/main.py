@@ -33,6 +33,7 @@ _COMMANDS = {
     "merge": ("merge", "put the shards of a sweep into one folder"),
     "solve": ("solve", "compute one quantity of one problem by one model"),
     "curve": ("curve", "compute curves or surfaces at pull-off, as CSV and as a plot"),
+    "describe": ("describe", "Tabor number, pull-off force and admissible models of a problem file"),
     "fem": ("fem", "write fields of the finite elements (vtu, picture), print their verification and solver tables"),
     "list": ("listing", "list the models, quantities, cases or gates"),
     "check-model": ("check_model", "check that an external model keeps the contract"),

@@ -21,6 +21,7 @@ __all__ = [
     "OK",
     "WRONG_INPUT",
     "add_case",
+    "add_case_or_file",
     "add_jobs",
     "add_out",
     "add_quiet",
@@ -77,6 +78,15 @@ def add_case(parser: argparse.ArgumentParser, required: bool = True) -> None:
         parser.add_argument(name, type=number, required=required, help=meaning)
 
 
+def add_case_or_file(parser: argparse.ArgumentParser) -> None:
+    """Declare the parameters of one problem, and the file that takes their place."""
+    add_case(parser, required=False)
+    parser.add_argument("--nu", type=number, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one")
+    parser.add_argument(
+        "--problem", metavar="FILE", type=Path, help="in place of these: a file in physical units; results are in SI"
+    )
+
+
 def add_jobs(parser: argparse.ArgumentParser) -> None:
     """Declare the number of processes."""
     parser.add_argument("--jobs", metavar="N", type=int, default=usable_cores(), help="processes (default: one a core)")
@@ -112,5 +122,10 @@ def add_retry_failed(parser: argparse.ArgumentParser) -> None:
 
 
 def case_of(args: argparse.Namespace) -> Case:
-    """Return the case the arguments describe; `ValueError` if it is inadmissible."""
+    """Return the case the arguments describe; `ValueError` if it is inadmissible or not complete."""
+    missing = [f"--{name}" for name in ("n", "k", "mu") if getattr(args, name) is None]
+    if missing and "problem" in args:
+        raise ValueError(
+            f"the following arguments are required: {', '.join(missing)}; or give a file with --problem FILE"
+        )
     return Case(args.n, args.k, args.mu, getattr(args, "nu", None))

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Protocol
 
 import pandas as pd
 
-from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case, case_of, number
+from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case_or_file, case_of
 from comparisons.console.progress import log, waiting
 from comparisons.model import ComputationFailed, Model, NotApplicable
 from comparisons.output.figures import curves
 from comparisons.output.style import picture_path, save
-from comparisons.quantities import CURVES, Points
+from comparisons.quantities import CURVES, CurveQuantity, Points
 from comparisons.registry import create, identify
 from comparisons.runs.atomic_files import atomic, writable_file
 from comparisons.runs.cases import Case
@@ -21,7 +22,10 @@ from comparisons.runs.csv_format import csv_text
 __all__ = ["EXAMPLES", "add", "call"]
 
 #: Examples of the help.
-EXAMPLES = ("fscm-bench curve --model fscm jkr --n 2 --k 0.4 --mu 3 --plot curve.png --csv curve.csv",)
+EXAMPLES = (
+    "fscm-bench curve --model fscm jkr --n 2 --k 0.4 --mu 3 --plot curve.png --csv curve.csv",
+    "fscm-bench curve --model fscm fem --problem pad.toml --plot pad.png",
+)
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -41,15 +45,14 @@ def add(parser: argparse.ArgumentParser) -> None:
         default="force_curve",
         help=f"what to draw: {', '.join(CURVES)} (default: force_curve)",
     )
-    add_case(parser)
-    parser.add_argument("--nu", type=number, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one")
+    add_case_or_file(parser)
     parser.add_argument("--csv", metavar="FILE", type=Path, help="write the points here; by default to stdout")
     parser.add_argument("--plot", metavar="FILE", type=Path, help="draw the curves here (.png, .pdf or .svg)")
 
 
 def call(args: argparse.Namespace) -> int:
     """Trace, write, draw; return the exit status."""
-    case = case_of(args)
+    case = _request(args)
     # All that can be wrong with the request is found out before anything is computed.
     names, external = identify(args.model)
     models = {name: create(external[name].spec if name in external else name, case.nu) for name in names}
@@ -59,26 +62,65 @@ def call(args: argparse.Namespace) -> int:
         writable_file(picture_path(args.plot))
     if args.csv and args.plot and args.csv.resolve() == args.plot.resolve():
         raise ValueError(f"--csv and --plot are both {args.plot}: one would replace the other; give two files")
-    found, status = _evaluated(models, args.quantity, case)
-    table = _table(found, args.quantity)
+    found, status = _evaluated(models, case)
+    table = case.table(_table(found, args.quantity))
     if args.csv:
         with atomic(args.csv) as file:
             file.write(csv_text(table).encode())
     if args.plot:
-        save(curves.draw(found, CURVES[args.quantity], case.label), args.plot)
+        save(curves.draw(found, case.axes, case.label), args.plot)
     if not args.csv and not args.plot:
         print(csv_text(table), end="")
     return status
 
 
-def _evaluated(models: dict[str, Model], quantity: str, case: Case) -> tuple[dict[str, Points], int]:
+def _request(args: argparse.Namespace) -> _Request:
+    if args.problem is None:
+        return _Dimensionless(case_of(args), args.quantity)
+    # Imported here: a dimensionless problem does not need it.
+    from comparisons.cli.problem_output import InSI, problem_of
+
+    return InSI(problem_of(args), args.quantity)
+
+
+class _Request(Protocol):
+    """What is drawn: a curve of a dimensionless problem, or of the problem of a file."""
+
+    nu: float | None
+    label: str
+    axes: CurveQuantity
+
+    def points(self, model: Model) -> Points:
+        """Return the points of a model, or raise `NotApplicable` or `ComputationFailed`."""
+        ...
+
+    def table(self, table: pd.DataFrame) -> pd.DataFrame:
+        """Return the table of points as it is written."""
+        ...
+
+
+class _Dimensionless:
+    """A curve of a dimensionless problem."""
+
+    def __init__(self, case: Case, quantity: str) -> None:
+        self._case = case
+        self.nu, self.label, self.axes = case.nu, case.label, CURVES[quantity]
+
+    def points(self, model: Model) -> Points:
+        return self.axes.evaluate(model, self._case.problem())
+
+    def table(self, table: pd.DataFrame) -> pd.DataFrame:
+        return table
+
+
+def _evaluated(models: dict[str, Model], case: _Request) -> tuple[dict[str, Points], int]:
     """Return the points of the models that have them, and the exit status; the others are named on stderr."""
     found: dict[str, Points] = {}
     status = OK
     for name, model in models.items():
         try:
             with waiting(f"{name}, {case.label}"):
-                found[name] = CURVES[quantity].evaluate(model, case.problem())
+                found[name] = case.points(model)
         except NotApplicable as refusal:
             log(f"{name}: not-applicable: {refusal}")
         except ComputationFailed as failure:

@@ -6,7 +6,7 @@ import argparse
 import json
 import sys
 
-from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case, case_of, number, output
+from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case_or_file, case_of, output
 from comparisons.console.folding import hanging
 from comparisons.console.progress import waiting
 from comparisons.numerics.number_text import case_text, short
@@ -21,6 +21,7 @@ __all__ = ["EXAMPLES", "add", "call"]
 EXAMPLES = (
     "fscm-bench solve --model fscm --quantity pull_off_force --n 2 --k 0.4 --mu 1",
     "fscm-bench solve --model jkr --quantity jump_out_gap --n 2 --k 0 --mu 2 --format json",
+    "fscm-bench solve --model fscm --quantity pull_off_force --problem pad.toml",
 )
 
 
@@ -28,8 +29,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("--model", metavar="SPEC", required=True, help=MODEL_SPEC)
     parser.add_argument("--quantity", metavar="NAME", required=True, help="see: fscm-bench list quantities")
-    add_case(parser)
-    parser.add_argument("--nu", type=number, help="Poisson's ratio, 0 <= nu < 0.5, for the models that need one")
+    add_case_or_file(parser)
     parser.add_argument(
         "--format", choices=tuple(_FORMATS), default="text", help="json and csv have every digit (default: %(default)s)"
     )
@@ -39,6 +39,11 @@ def call(args: argparse.Namespace) -> int:
     """Compute and print; return the exit status."""
     if args.quantity not in QUANTITIES:
         raise ValueError(f"unknown quantity {args.quantity!r}; the quantities are {', '.join(QUANTITIES)}")
+    if args.problem is not None:
+        # Imported here: a dimensionless problem does not need it.
+        from comparisons.cli.problem_output import solve_file
+
+        return solve_file(args)
     case = case_of(args)
     model = create(args.model, case.nu)
     with waiting(f"{args.model}, {case.label}"):

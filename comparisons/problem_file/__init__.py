@@ -1,0 +1,1 @@
+"""Problems in physical units, read from a file, and their values by each model."""

@@ -1,0 +1,90 @@
+"""Problem of a file as data: the sections in SI, and the tables that they name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+__all__ = ["ProblemFile", "Section"]
+
+
+@dataclass(frozen=True)
+class Section:
+    """One section of a problem file.
+
+    Attributes
+    ----------
+    kind : str
+    values : mapping of str to float or str
+        Numbers in SI, and the name of the file of a table.
+    columns : mapping of str to tuple of float
+        The columns of that file, in SI.
+
+    Examples
+    --------
+    >>> Section("sphere", {"R": 1e-6})["R"]
+    1e-06
+    """
+
+    kind: str
+    values: Mapping[str, Any]
+    columns: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+
+    def __getitem__(self, key: str) -> Any:
+        return self.values[key]
+
+    def get(self, key: str, default: Any = None) -> Any:
+        """Return a value, or the default where the file does not have it."""
+        return self.values.get(key, default)
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """The kind and the values, for output."""
+        return {"kind": self.kind, **self.values}
+
+
+@dataclass(frozen=True)
+class ProblemFile:
+    """A problem in SI units.
+
+    Attributes
+    ----------
+    path : Path
+        The file that was read.
+    solid, punch, law : Section
+
+    Examples
+    --------
+    >>> solid = Section("power-law", {"E0": 1e9, "c0": 1e-7, "k": 0.0, "nu": 0.3})
+    >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 3e-10})
+    >>> ProblemFile(Path("pad.toml"), solid, Section("sphere", {"R": 1e-6}), law).is_of_the_paper
+    True
+    """
+
+    path: Path
+    solid: Section
+    punch: Section
+    law: Section
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """The content for output: the name of the file and the three sections."""
+        sections = {name: getattr(self, name).parameters for name in ("solid", "punch", "law")}
+        return {"file": self.path.name, **sections}
+
+    @property
+    def has_power_punch(self) -> bool:
+        """Whether the punch is r^n / (n Q), so that the units of the paper are defined."""
+        return self.punch.kind in ("sphere", "power-law")
+
+    @property
+    def is_of_the_paper(self) -> bool:
+        """Whether it is the problem of three numbers n, k and mu, which every model takes."""
+        return self.solid.kind == "power-law" and self.has_power_punch and self.law.kind == "lennard-jones-9-3"
+
+    @property
+    def label(self) -> str:
+        """The name of the file and the kind of its solid, in one line."""
+        return f"{self.path.stem}: {self.solid.kind} solid"

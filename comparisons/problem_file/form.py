@@ -1,0 +1,133 @@
+"""Form of a problem file: the keys of every kind of section, from the JSON schema, and the check of their values."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from difflib import get_close_matches
+from functools import lru_cache
+from importlib.resources import files
+from typing import Any
+
+from comparisons.problem_file.source import Source, shown
+from comparisons.problem_file.units import NotAValue, in_si
+
+__all__ = ["SECTIONS", "checked_section", "kinds"]
+
+#: The sections, all required.
+SECTIONS = ("solid", "punch", "law")
+
+#: Limits of the schema: keyword, and the comparison that holds.
+_LIMITS = {
+    "exclusiveMinimum": (lambda value, limit: value > limit, "above {:g}"),
+    "minimum": (lambda value, limit: value >= limit, "at least {:g}"),
+    "maximum": (lambda value, limit: value <= limit, "at most {:g}"),
+    "exclusiveMaximum": (lambda value, limit: value < limit, "below {:g}"),
+}
+
+
+@lru_cache
+def _schema() -> dict[str, Any]:
+    text = files("comparisons.data").joinpath("problem.schema.json").read_text(encoding="utf-8")
+    schema: dict[str, Any] = json.loads(text)
+    return schema
+
+
+def kinds(section: str) -> dict[str, dict[str, Any]]:
+    """Return the kinds of a section and the part of the schema for each.
+
+    Examples
+    --------
+    >>> list(kinds("law"))
+    ['lennard-jones-9-3', 'mie', 'table']
+    """
+    return {part["properties"]["kind"]["const"]: part for part in _schema()["properties"][section]["oneOf"]}
+
+
+def checked_section(document: Mapping[str, Any], section: str, source: Source) -> dict[str, Any]:
+    """Return the values of a section in SI, its kind and names of files as they are.
+
+    Raises
+    ------
+    ValueError
+        One sentence with file, line, value and remedy.
+    """
+    table = document[section]
+    if not isinstance(table, Mapping):
+        raise source.refusal(
+            section, None, f"is {shown(table)} and no table; write a section [{section}] with its keys"
+        )
+    known = kinds(section)
+    if "kind" not in table:
+        raise source.refusal(section, None, f"has no kind; write one of {', '.join(known)}")
+    kind = table["kind"]
+    if not isinstance(kind, str) or kind not in known:
+        raise source.refusal(section, "kind", f"kind = {shown(kind)} is unknown; {_near(str(kind), known)}")
+    form = known[kind]
+    keys = form["properties"]
+    for key in table:
+        if key not in keys:
+            raise source.refusal(section, key, f"unknown key {shown(key)} of the kind {kind}; {_near(key, keys)}")
+    for key in form["required"]:
+        if key not in table:
+            raise source.refusal(section, None, f"{key} is missing; the kind {kind} needs {_listed(form['required'])}")
+    choices = [choice["required"] for choice in form.get("oneOf", ())]
+    if choices and sum(any(key in table for key in choice) for choice in choices) != 1:
+        raise source.refusal(
+            section, None, f"the kind {kind} needs {' or else '.join(map(_listed, choices))}; give one of these"
+        )
+    for choice in choices:
+        for key in choice:
+            if key not in table and any(other in table for other in choice):
+                raise source.refusal(section, None, f"{key} is missing; {_listed(choice)} stand together")
+    values = {"kind": kind}
+    for key in keys:
+        if key in table and key != "kind":
+            values[key] = _checked_value(section, key, table, keys[key], source)
+    return values
+
+
+def _checked_value(section: str, key: str, table: Mapping[str, Any], part: Mapping[str, Any], source: Source) -> Any:
+    rule = _schema()["$defs"][part["$ref"].rpartition("/")[2]]
+    value = table[key]
+    written = f"{key} = {shown(value)}"
+    if rule["type"] == "string":
+        if not isinstance(value, str) or not value:
+            raise source.refusal(section, key, f"{written} must be {rule['description']}")
+        return value
+    number, remedy = _number(section, key, table, rule, source)
+    for keyword, (holds, words) in _LIMITS.items():
+        if keyword in rule and not holds(number, rule[keyword]):
+            raise source.refusal(
+                section, key, f"{written} must be {words.format(rule[keyword])}; it is {rule['description']}{remedy}"
+            )
+    return number
+
+
+def _number(
+    section: str, key: str, table: Mapping[str, Any], rule: Mapping[str, Any], source: Source
+) -> tuple[float, str]:
+    """A value in SI, and how to write it."""
+    value, unit, remedy, power = table[key], rule.get("unit"), "", 1.0
+    if unit == "m^(n-1)":
+        # The shape index stands before Q in the schema and so has been checked.
+        unit, power = "m", float(table["n"]) - 1.0
+    if unit is None:
+        if isinstance(value, str):
+            raise source.refusal(section, key, f"{key} = {shown(value)} is a text; it is {rule['description']}")
+    else:
+        remedy = f', as "{rule["example"]}" or a plain number in {rule["unit"]}'
+    try:
+        return in_si(value, unit or "", power), remedy
+    except NotAValue as error:
+        sentence = f"{key} = {shown(value)} {error}; it is {rule['description']}{remedy}"
+        raise source.refusal(section, key, sentence) from None
+
+
+def _near(name: str, known: Mapping[str, Any]) -> str:
+    near = get_close_matches(name, known, n=1)
+    return f"did you mean {near[0]}?" if near else f"known are {', '.join(known)}"
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(names[:-1]) + f" and {names[-1]}" if len(names) > 1 else names[0]

@@ -1,0 +1,143 @@
+"""Overview of a problem file: Tabor number, pull-off force, error of every closed form, recommended models."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from comparisons.model import Model
+from comparisons.problem_file.description import ProblemFile
+from comparisons.problem_file.dimensionless import dimensionless_problem
+from comparisons.problem_file.evaluation import PhysicalValue, evaluate_problem
+from comparisons.registry import MODELS, create
+
+__all__ = ["LIMITS", "REFERENCES", "ModelError", "Overview", "overview_of", "recommended"]
+
+#: Models that solve the equations; every other one is a closed form or another approximation.
+REFERENCES = ("fscm", "fem", "fscm-stieltjes", "fscm-stieltjes-400", "atlas")
+
+#: Errors for which a model is recommended.
+LIMITS = (0.01, 0.05)
+
+
+@dataclass(frozen=True, slots=True)
+class ModelError:
+    """Relative error of the pull-off force of a model, and the bound of its numerical error.
+
+    Examples
+    --------
+    >>> ModelError("jkr", -0.004, 1e-9).within(0.01)
+    True
+    """
+
+    model: str
+    error: float
+    bound: float
+
+    def within(self, limit: float) -> bool:
+        """Whether the error is certainly at most a limit."""
+        return abs(self.error) + self.bound <= limit
+
+
+@dataclass(frozen=True)
+class Overview:
+    """What is known of a problem without a choice of a model.
+
+    Attributes
+    ----------
+    tabor_number : float
+        Generalised Tabor number (Eq. 29); of a solid that is no power law that with the modulus of its surface.
+    critical_tabor_number : float or None
+        Where jumps begin, for a problem of the paper in the range of the atlas.
+    force : PhysicalValue
+        Pull-off force of the FSCM, or of the atlas where it has the problem.
+    errors : tuple of ModelError
+        Of the closed forms that take the problem, smallest first.
+    """
+
+    problem: ProblemFile
+    tabor_number: float
+    critical_tabor_number: float | None
+    force: PhysicalValue
+    errors: tuple[ModelError, ...]
+
+    @property
+    def regime(self) -> str:
+        """The limit whose pull-off force is within 5 %, by a sentence.
+
+        A problem without closed forms has none.
+        """
+        errors = {found.model: found for found in self.errors}
+        near = [name for name in ("bradley", "jkr") if name in errors and errors[name].within(LIMITS[-1])]
+        if not errors:
+            return "not classified: no closed form takes this problem"
+        if len(near) == 2:
+            return "the rigid limit (Bradley) and the limit of JKR are both within 5 % of the pull-off force"
+        if near:
+            limit = "rigid limit (Bradley, DMT)" if near[0] == "bradley" else "limit of soft solids (JKR)"
+            return f"{limit}, within 5 % of the pull-off force"
+        return "transition between the rigid limit (Bradley, DMT) and that of soft solids (JKR)"
+
+
+def recommended(overview: Overview, limit: float) -> str:
+    """Return the closed form of the smallest error if it is within a limit, or else the reference.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> some = SimpleNamespace(errors=(ModelError("md-improved", -0.003, 1e-9),), force=SimpleNamespace(model="atlas"))
+    >>> recommended(some, 0.01), recommended(some, 1e-3)
+    ('md-improved', 'atlas')
+    """
+    near = [found for found in overview.errors if found.within(limit)]
+    return near[0].model if near else overview.force.model
+
+
+def overview_of(problem: ProblemFile) -> Overview:
+    """Compute the overview of a problem.
+
+    Returns
+    -------
+    Overview
+        The status of its force is "failed" where the FSCM does not converge; there are no errors then.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from comparisons.problem_file.description import Section
+    >>> solid = Section("power-law", {"E0": 70e9, "c0": 1.0, "k": 0.0, "nu": 0.2})
+    >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 3e-10})
+    >>> overview = overview_of(ProblemFile(Path("silica.toml"), solid, Section("sphere", {"R": 1e-6}), law))
+    >>> overview.force.model, recommended(overview, 0.01)
+    ('atlas', 'md-improved')
+    """
+    posed, _ = dimensionless_problem(problem)
+    force = _reference(problem)
+    errors: list[ModelError] = []
+    if problem.is_of_the_paper and force.value is not None and force.u_num is not None:
+        for model in _closed_forms():
+            found = evaluate_problem(problem, model, "pull_off_force")
+            if found.value is not None and found.u_num is not None:
+                ratio = found.value / force.value
+                bound = (found.u_num + abs(ratio) * force.u_num) / (force.value - force.u_num)
+                errors.append(ModelError(model.name, ratio - 1.0, bound))
+    errors.sort(key=lambda found: abs(found.error))
+    return Overview(problem, posed.mu, _critical(problem), force, tuple(errors))
+
+
+def _reference(problem: ProblemFile) -> PhysicalValue:
+    """The force of the atlas where it has the problem, and else that of the FSCM."""
+    if problem.is_of_the_paper:
+        found = evaluate_problem(problem, "atlas", "pull_off_force")
+        if found.status == "ok":
+            return found
+    return evaluate_problem(problem, "fscm", "pull_off_force")
+
+
+def _closed_forms() -> list[Model]:
+    return [create(name) for name in MODELS if name not in REFERENCES]
+
+
+def _critical(problem: ProblemFile) -> float | None:
+    if not problem.is_of_the_paper:
+        return None
+    return evaluate_problem(problem, "atlas", "critical_tabor_number").value

@@ -1,0 +1,120 @@
+"""Reader of problem files."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from comparisons.data.toml_text import parse
+from comparisons.problem_file.columns import Column, read_columns
+from comparisons.problem_file.consistency import check_consistency
+from comparisons.problem_file.description import ProblemFile, Section
+from comparisons.problem_file.form import SECTIONS, checked_section
+from comparisons.problem_file.source import Source, read_text, shown
+
+__all__ = ["load_problem"]
+
+#: Columns of the tables, and the smallest number of rows.
+_TABLES: dict[str, tuple[dict[str, Column], int]] = {
+    "solid": (
+        {
+            "z": Column("m", low=0.0, rising=True),
+            "E": Column("Pa", low=0.0, open=True),
+            "nu": Column("1", low=0.0, high=0.5, optional=True),
+        },
+        2,
+    ),
+    "punch": ({"r": Column("m", low=0.0, rising=True), "height": Column("m")}, 2),
+    "law": ({"gap": Column("m", rising=True), "traction": Column("Pa")}, 10),
+}
+
+#: Rows that a smoothed profile needs: a cubic spline has four coefficients.
+_FEWEST_SMOOTHED = 8
+
+
+def load_problem(path: str | os.PathLike[str]) -> ProblemFile:
+    """Read a problem file.
+
+    Parameters
+    ----------
+    path : str or path
+        A TOML file with the sections solid, punch and law; tables are beside it.
+
+    Returns
+    -------
+    ProblemFile
+        In SI units.
+
+    Raises
+    ------
+    ValueError
+        One sentence with file, line, value and remedy.
+
+    Examples
+    --------
+    >>> load_problem("no_such_file.toml")
+    Traceback (most recent call last):
+    ValueError: no_such_file.toml: the problem file cannot be read (No such file or directory); check the name
+    """
+    path = Path(path)
+    source = Source(path, read_text(path, "the problem file"))
+    document = _document(source)
+    for name in document:
+        if name not in SECTIONS:
+            near = get_close_matches(name, SECTIONS, n=1)
+            remedy = f"did you mean {near[0]}?" if near else f"the sections are {', '.join(SECTIONS)}"
+            raise source.refusal(name, None, f"is unknown; {remedy}")
+    for name in SECTIONS:
+        if name not in document:
+            raise ValueError(f"{path}: the section [{name}] is missing; a problem file has {', '.join(SECTIONS)}")
+    solid, punch, law = (_section(document, name, source) for name in SECTIONS)
+    problem = ProblemFile(path, solid, punch, law)
+    check_consistency(problem, source)
+    return problem
+
+
+def _document(source: Source) -> dict[str, Any]:
+    try:
+        return parse(source.text, str(source.path))
+    except ValueError as error:
+        # tomllib has the line at the end of its sentence, in brackets.
+        found = re.search(r" \(at line (\d+), column \d+\)$", str(error))
+        if found is None:
+            raise
+        reason = str(error)[: found.start()].partition(": ")[2]
+        text = source.text.splitlines()[int(found[1]) - 1].strip()
+        raise ValueError(
+            f"{source.path}, line {found[1]}: {shown(text)} is not TOML ({reason}); "
+            "write key = value, and text in quotes"
+        ) from None
+
+
+def _section(document: Mapping[str, Any], name: str, source: Source) -> Section:
+    values = checked_section(document, name, source)
+    kind = values.pop("kind")
+    if kind != "table":
+        return Section(kind, values)
+    columns, fewest = _TABLES[name]
+    path = source.path.parent / values["file"]
+    if not path.is_file():
+        raise source.refusal(
+            name, "file", f"file = {shown(values['file'])} is not in the folder of {source.path.name}; check the name"
+        )
+    found = read_columns(path, columns, _FEWEST_SMOOTHED if "smoothing" in values else fewest)
+    if name == "solid" and ("nu" in found) == ("nu" in values):
+        has = "both have" if "nu" in found else "have no"
+        raise source.refusal(name, None, f"the table and the section {has} nu; give it in one of the two")
+    if name == "punch":
+        first = found["r"][0], found["height"][0]
+        if first[0] != 0.0 or (first[1] != 0.0 and "smoothing" not in values):
+            raise ValueError(
+                f"{path}: the first row is ({first[0]:g} m, {first[1]:g} m) and not the apex (0, 0); "
+                "subtract the position of the apex"
+            )
+        if not found["height"][-1] > found["height"][0]:
+            raise ValueError(f"{path}: the last height is not above the first one; a punch rises to the outside")
+    return Section(kind, values, found)

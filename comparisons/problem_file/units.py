@@ -1,0 +1,127 @@
+"""Values with a unit as numbers in SI, and numbers in SI as text with a prefix."""
+
+from __future__ import annotations
+
+import math
+import re
+from functools import lru_cache
+from typing import Any
+
+from comparisons.numerics.number_text import short
+
+__all__ = ["NotAValue", "in_si", "si_text", "unit_factor"]
+
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_NAME = r"[A-Za-zµμΩÅ]+(?:\s*(?:\^|\*\*)\s*\(?[+-]?\d{1,2}(?:\.\d{1,4})?\)?)?"
+#: A product of powers of units, and nothing else: pint would also calculate.
+_UNIT = re.compile(rf"(?:1\s*/\s*)?{_NAME}(?:\s*[*/·]\s*{_NAME}|\s+{_NAME})*")
+_VALUE = re.compile(rf"\s*({_NUMBER})\s*(.*?)\s*")
+
+#: Prefixes by which text shows a number, and their powers of ten; energies of contacts are of 1e-18 J.
+_PREFIXES = ((0, ""), (-3, "m"), (-6, "µ"), (-9, "n"), (-12, "p"), (-15, "f"), (-18, "a"), (-21, "z"))
+
+#: Relative error of a few multiplications.
+_ROUNDING = 1e-14
+
+#: Names of dimensions, by their unit in SI.
+_KINDS = {"Pa": "a modulus or pressure", "m": "a length", "J/m^2": "an energy per area"}
+
+
+class NotAValue(Exception):
+    """The text is no value of the dimension; the message is the end of a sentence."""
+
+
+@lru_cache
+def _registry() -> Any:
+    # Imported here: a file with plain numbers does not need it, nor do other commands.
+    import pint
+
+    return pint.UnitRegistry()
+
+
+@lru_cache(maxsize=256)
+def unit_factor(unit: str, target: str, power: float = 1.0) -> float:
+    """Return the number of target units to a power that one unit is.
+
+    Raises
+    ------
+    NotAValue
+        If the unit is unknown, or of another dimension.
+
+    Examples
+    --------
+    >>> unit_factor("GPa", "Pa"), round(unit_factor("um^2", "m", 2.0) * 1e12, 12)
+    (1000000000.0, 1.0)
+    """
+    if not _UNIT.fullmatch(unit):
+        raise NotAValue(f"has the unit {unit!r}, which is no product of units")
+    registry = _registry()
+    aim = registry.Unit(target) ** power
+    try:
+        found = registry.Unit(unit.replace("·", "*"))
+        if found.dimensionality != aim.dimensionality:
+            raise NotAValue(f"has the unit {unit}, which is not that of {_KINDS.get(target, target)}")
+        factor = float(registry.Quantity(1.0, found).to(aim).magnitude)
+    except NotAValue:
+        raise
+    except Exception:  # pint has several for what it does not know, and the tokens of Python others
+        raise NotAValue(f"has the unknown unit {unit!r}") from None
+    # pint multiplies factors one after the other: a power of ten has lost its last digit.
+    ten = float(f"1e{round(math.log10(factor))}")
+    return ten if abs(factor / ten - 1.0) < _ROUNDING else factor
+
+
+def in_si(value: object, target: str, power: float = 1.0) -> float:
+    """Return a value in SI.
+
+    Parameters
+    ----------
+    value : object
+        A number, which is in SI, or a text of a number and a unit.
+    target : str
+        The unit in SI.
+    power : float
+        Its exponent.
+
+    Raises
+    ------
+    NotAValue
+
+    Examples
+    --------
+    >>> in_si("2 GPa", "Pa"), in_si(3e-7, "m"), in_si("50 mJ/m^2", "J/m^2")
+    (2000000000.0, 3e-07, 0.05)
+    """
+    if isinstance(value, str):
+        match = _VALUE.fullmatch(value)
+        if not match:
+            raise NotAValue("is no number with a unit")
+        if not match[2]:
+            raise NotAValue("has no unit")
+        factor = unit_factor(match[2], target, power)
+        # Division by 10^9 keeps all digits of 100 nm; the double of 1e-9 is no power of ten.
+        scaled = float(match[1]) * factor if factor >= 1.0 else float(match[1]) / round(1.0 / factor, 6)
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        scaled = float(value) if abs(value) < 1e300 else math.inf
+    else:
+        raise NotAValue("is no number")
+    if not math.isfinite(scaled):
+        raise NotAValue("is not a finite number")
+    return scaled
+
+
+def si_text(value: float, u_num: float, unit: str) -> str:
+    """Return a value in SI with the prefix of its size.
+
+    Examples
+    --------
+    >>> si_text(2.7172e-8, 4e-11, "N"), si_text(-3.2e-10, 0.0, "m"), si_text(1.5, 1e-3, "1")
+    ('27.17(4) nN', '-320 pm', '1.5000(10)')
+    """
+    if unit == "1":
+        return short(value, u_num)
+    size = max(abs(value), u_num)
+    power, prefix = next((pair for pair in _PREFIXES if size >= 10.0 ** pair[0]), _PREFIXES[-1] if size else (0, ""))
+    # A floor for the uncertainty: scaling by the prefix changes the last bit of an exact value.
+    scaled = float(f"{value * 10.0**-power:.15g}")
+    return f"{short(scaled, u_num * 10.0**-power)} {prefix}{unit}"

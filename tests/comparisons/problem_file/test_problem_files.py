@@ -1,0 +1,208 @@
+"""Values of problem files: every kind by both solvers, the closed forms, and the contract of the output."""
+
+import json
+import math
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pytest
+from jsonschema import Draft202012Validator
+
+import fem_reference
+import fscm
+from comparisons import evaluate_problem, load_problem
+from comparisons.cli.main import main
+from comparisons.problem_file.dimensionless import dimensionless_problem
+from comparisons.problem_file.evaluation import model_for, points_of
+from comparisons.problem_file.finite_elements import body_of
+from comparisons.problem_file.form import _schema, kinds
+from comparisons.problem_file.punch_shapes import RoundedFlat, SmoothedProfile
+
+EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
+
+#: Of the order of the pull-off force of a sphere, in N; bounds are smaller by far.
+FEW_DIGITS = 1e-6
+
+SECTIONS = {
+    "solid": {
+        "power-law": 'E0 = "1 GPa"\nc0 = "100 nm"\nk = 0.3\nnu = 0.3',
+        "offset-power-law": 'E0 = "1 GPa"\nc0 = "100 nm"\nk = 0.3\nz_s = "10 nm"\nnu = 0.3',
+        "exponential": 'E_surface = "1 GPa"\nE_depth = "3 GPa"\nlength = "10 nm"\nnu = 0.3',
+        "coating": 'E_coating = "1 GPa"\nE_substrate = "3 GPa"\nthickness = "10 nm"\ntransition = "1 nm"\n'
+        "nu_coating = 0.4\nnu_substrate = 0.2",
+        "table": 'file = "modulus.csv"',
+    },
+    "punch": {
+        "sphere": 'R = "100 nm"',
+        "power-law": 'n = 3\nQ = "1e4 nm^2"',
+        "rounded-cone": 'R = "30 nm"\nslope = 0.5',
+        "rounded-flat": 'flat_radius = "5 nm"\nR = "100 nm"',
+        "table": 'file = "profile.csv"\ngrowth = 2',
+    },
+    "law": {
+        "lennard-jones-9-3": 'work_of_adhesion = "50 mJ/m^2"\nz0 = "0.4 nm"',
+        "mie": 'work_of_adhesion = "50 mJ/m^2"\nz0 = "0.4 nm"\nm = 12\nn = 6',
+        "table": 'file = "law.csv"\ntail_exponent = 3',
+    },
+}
+
+
+@pytest.fixture
+def written(tmp_path):
+    """A function that writes a problem of three kinds with its tables, and reads it."""
+    (tmp_path / "modulus.csv").write_text("z [nm],E [GPa],nu\n0,1,0.3\n10,1.5,0.35\n40,3,0.4\n")
+    r = np.arange(0.0, 41.0, 2.0)
+    rows = "\n".join(f"{a},{a**2 / 200}" for a in r)
+    (tmp_path / "profile.csv").write_text(f"r [nm],height [nm]\n{rows}\n")
+    gap = np.geomspace(0.3, 8.0, 80) / 0.4
+    traction = 50e-3 / 0.4e-9 * (8 / 3) * (gap**-9 - gap**-3)
+    rows = "\n".join(f"{a:.17g},{b:.17g}" for a, b in zip(0.4 * gap, traction, strict=True))
+    (tmp_path / "law.csv").write_text(f"gap [nm],traction [Pa]\n{rows}\n")
+
+    def write(**chosen):
+        parts = [f'[{name}]\nkind = "{kind}"\n{SECTIONS[name][kind]}\n' for name, kind in chosen.items()]
+        (tmp_path / "mine.toml").write_text("\n".join(parts))
+        return load_problem(tmp_path / "mine.toml")
+
+    return write
+
+
+@pytest.mark.parametrize("section", SECTIONS)
+def test_every_kind_of_the_schema_is_tested(section):
+    assert list(SECTIONS[section]) == list(kinds(section))
+
+
+@pytest.mark.parametrize(("solid", "punch", "law"), [*product(*SECTIONS.values())])
+def test_both_solvers_have_the_same_problem(solid, punch, law, written):
+    found = written(solid=solid, punch=punch, law=law)
+    problem, units = dimensionless_problem(found)
+    body = body_of(found)
+    r = np.geomspace(1e-9, 1e-6, 30)
+    heights = problem.punch.height(r / units["radius"]) * units["displacement"]
+    assert np.allclose(heights, body.punch.height(r), rtol=1e-12, atol=0)
+    slopes = problem.punch.slope(r / units["radius"]) * units["displacement"] / units["radius"]
+    assert np.allclose(slopes, body.punch.slope(r), rtol=1e-12, atol=0)
+    gap = np.array([-0.05, 0.0, 0.2, 1.0, 10.0, 100.0])
+    tractions = problem.law.traction(gap) * units["traction"]
+    # Two splines through the same points differ by rounding alone, the two fits of the tail by the same.
+    assert np.allclose(tractions, body.law.traction(gap * units["gap"]), rtol=1e-7, atol=1e-9 * units["traction"])
+    assert math.isclose(body.law.work_of_adhesion, units["energy_per_area"], rel_tol=1e-9)
+    if solid != "power-law":
+        z = np.geomspace(1e-10, 1e-6, 30)
+        ratio = problem.solid.modulus(z / units["radius"]) / body.solid.modulus(z)
+        assert np.allclose(ratio, 1.0, rtol=1e-12)
+
+
+def test_the_force_of_the_power_law_is_that_of_the_physical_problem(written):
+    found = written(solid="power-law", punch="sphere", law="lennard-jones-9-3")
+    physical = fscm.PhysicalProblem(1e9, 1e-7, 0.3, 0.3, 1e-7, 2.0, 0.05, 4e-10)
+    expected = fscm.solve(physical.problem(), "pull_off_force")
+    value = evaluate_problem(found, "fscm", "pull_off_force")
+    assert value.status == "ok"
+    assert value.unit == "N"
+    assert math.isclose(value.value, expected.value * physical.scales["load"], rel_tol=1e-12)
+    assert math.isclose(value.dimensionless["value"], expected.value, rel_tol=1e-12)
+    jkr = evaluate_problem(found, "jkr", "pull_off_force")
+    assert math.isclose(jkr.value, (3 + 0.3) / 2 * math.pi * 1e-7 * 0.05, rel_tol=1e-12)
+
+
+def test_a_coated_solid_by_both_references():
+    found = load_problem(EXAMPLES / "coated_solid.toml")
+    values = [evaluate_problem(found, model, "pull_off_force") for model in ("fscm", "fem")]
+    assert [value.status for value in values] == ["ok", "ok"]
+    difference = abs(values[0].value - values[1].value)
+    assert difference <= values[0].u_num + values[1].u_num
+    assert difference <= FEW_DIGITS * values[0].value
+    refused = evaluate_problem(found, "jkr", "pull_off_force")
+    assert refused.status == "not-applicable"
+    assert "a coating solid" in refused.reason
+    critical = evaluate_problem(found, "fscm", "critical_tabor_number")
+    assert critical.status == "not-applicable"
+
+
+def test_what_the_finite_elements_do_not_take_is_not_applicable(written, tmp_path):
+    written(solid="exponential", punch="sphere", law="mie")
+    path = tmp_path / "mine.toml"
+    path.write_text(path.read_text().replace("nu = 0.3", "nu = 0.5"))
+    value = evaluate_problem(load_problem(path), "fem", "pull_off_force")
+    assert value.status == "not-applicable"
+    assert "nu = 0.5" in value.reason
+
+
+def test_a_curve_is_in_si(written):
+    found = written(solid="power-law", punch="sphere", law="lennard-jones-9-3")
+    points = points_of(found, model_for(found, "jkr"), "force_curve")
+    assert math.isclose(-min(points.y), 1.65 * math.pi * 1e-7 * 0.05, rel_tol=1e-3)
+    assert 1e-11 < max(points.x) < 1e-7
+
+
+def test_the_json_is_the_contract(capsys):
+    file = EXAMPLES / "graded_pad.toml"
+    command = ["solve", "--model", "jkr", "--quantity", "pull_off_force", "--problem", str(file)]
+    assert main([*command, "--format", "json"]) == 0
+    content = json.loads(capsys.readouterr().out)
+    keys = ["model", "quantity", "problem", "value", "u_num", "status", "unit", "seconds", "dimensionless"]
+    assert list(content) == keys
+    assert content["unit"] == "N"
+    assert content["problem"]["file"] == "graded_pad.toml"
+    assert content["problem"]["solid"] == {"kind": "power-law", "E0": 2e9, "c0": 1e-6, "k": 0.4, "nu": 0.3}
+    assert math.isclose(content["value"], 1.7 * math.pi * 2.5e-6 * 0.05, rel_tol=1e-12)
+    assert content["dimensionless"]["unit"] == "pi Q^(2/n) dgamma z0^(2/n-1)"
+    assert main(command) == 0
+    assert "-P_c = 667.5884388878" in capsys.readouterr().out
+    # No value: null, and a reason.
+    assert main([*command[:4], "jump_in_gap", *command[5:], "--format", "json"]) == 0
+    content = json.loads(capsys.readouterr().out)
+    assert content["value"] is None
+    assert content["status"] == "not-applicable"
+    assert content["reason"]
+
+
+def test_the_csv_of_a_curve_names_the_units(capsys):
+    command = ["curve", "--model", "jkr", "bradley", "--problem", str(EXAMPLES / "graded_pad.toml")]
+    assert main(command) == 0
+    header, first, *_ = capsys.readouterr().out.splitlines()
+    assert header.startswith("model,displacement [m],load [N]")
+    assert first.startswith("jkr,")
+
+
+def test_the_parameters_of_a_case_or_a_file_are_required(capsys):
+    assert main(["solve", "--model", "jkr", "--quantity", "pull_off_force", "--n", "2"]) == 2
+    error = capsys.readouterr().err
+    assert "required: --k, --mu" in error
+    assert "--problem FILE" in error
+
+
+def test_the_schema_takes_the_examples():
+    tomllib = pytest.importorskip("tomllib")
+    validator = Draft202012Validator(_schema())
+    for path in sorted(EXAMPLES.glob("*.toml")):
+        document = tomllib.loads(path.read_text())
+        assert not list(validator.iter_errors(document))
+        document["solid"]["colour"] = "red"
+        assert list(validator.iter_errors(document))
+
+
+def test_a_flat_end_with_a_rounded_edge():
+    punch = RoundedFlat(flat_radius=1.0, R=2.0)
+    assert isinstance(punch, fem_reference.Punch)
+    assert isinstance(punch, fscm.PunchShape)
+    r = np.array([0.0, 0.5, 1.5, 4.0])
+    h = 1e-6
+    assert np.allclose((punch.height(r + h) - punch.height(r - h)) / (2 * h), punch.slope(r), atol=1e-9)
+
+
+def test_a_noisy_profile_is_smooth():
+    rng = np.random.default_rng(1)
+    r = np.linspace(0.0, 10.0, 201)
+    noise = 0.02
+    heights = r**2 / 2 + noise * rng.standard_normal(len(r))
+    punch = SmoothedProfile(tuple(r), tuple(heights), smoothing=noise)
+    assert float(punch.height(np.zeros(1))[0]) == 0.0
+    inside = np.linspace(0.0, 9.99, 77)
+    assert np.max(np.abs(punch.height(inside) - inside**2 / 2)) < 2 * noise
+    # The slope of straight lines between the noisy points is wrong by 0.5 there.
+    assert np.max(np.abs(punch.slope(inside) - inside)) < 0.1
+    assert math.isclose(float(punch.height(np.array([20.0]))[0]), 4 * float(punch.height(np.array([10.0]))[0]))
+    assert hash(punch) == hash(SmoothedProfile(tuple(r), tuple(heights), smoothing=noise))
