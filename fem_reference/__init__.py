@@ -12,7 +12,7 @@ import lazy_loader
 
 #: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
 LAYERS = (
-    ("_typing", "_threads", "errors"),
+    ("_typing", "_threads", "_validation", "errors"),
     (
         "modulus",
         "coating",

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem_reference._typing import Array
+from fem_reference._validation import check_positive
 from fem_reference.modulus import Interface
 
 __all__ = ["CoatingModulus"]
@@ -44,9 +45,7 @@ class CoatingModulus:
 
     def __post_init__(self) -> None:
         for name in ("E_coating", "E_substrate", "thickness"):
-            value = getattr(self, name)
-            if not (math.isfinite(value) and value > 0):
-                raise ValueError(f"{name} = {value} is outside (0, infinity)")
+            check_positive(name, getattr(self, name))
         if not (math.isfinite(self.transition) and self.transition >= 0):
             raise ValueError(f"transition = {self.transition} is outside [0, infinity): it is a length; 0 is sharp")
 

@@ -11,6 +11,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from fem_reference._typing import Array
+from fem_reference._validation import check_positive
 from fem_reference.modulus import Interface
 from fem_reference.poisson import check_poisson
 
@@ -51,9 +52,7 @@ class ExponentialModulus:
 
     def __post_init__(self) -> None:
         for name in ("E_surface", "E_depth", "length"):
-            value = getattr(self, name)
-            if not (math.isfinite(value) and value > 0):
-                raise ValueError(f"{name} = {value} is outside (0, infinity)")
+            check_positive(name, getattr(self, name))
 
     @property
     def surface_exponent(self) -> float:

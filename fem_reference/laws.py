@@ -9,6 +9,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from fem_reference._typing import Array
+from fem_reference._validation import check_positive
 
 __all__ = ["LennardJones", "Mie", "SurfaceLaw"]
 
@@ -85,9 +86,8 @@ class LennardJones:
     z0: float
 
     def __post_init__(self) -> None:
-        for name, value in (("work of adhesion", self.work_of_adhesion), ("range z0", self.z0)):
-            if not (math.isfinite(value) and value > 0):
-                raise ValueError(f"{name} = {value} is outside (0, infinity)")
+        check_positive("work of adhesion", self.work_of_adhesion)
+        check_positive("range z0", self.z0)
 
     @property
     def length(self) -> float:
@@ -160,9 +160,8 @@ class Mie:
     n: float
 
     def __post_init__(self) -> None:
-        for name, value in (("work of adhesion", self.work_of_adhesion), ("range z0", self.z0)):
-            if not (math.isfinite(value) and value > 0):
-                raise ValueError(f"{name} = {value} is outside (0, infinity)")
+        check_positive("work of adhesion", self.work_of_adhesion)
+        check_positive("range z0", self.z0)
         if not (math.isfinite(self.n) and self.n > 1):
             raise ValueError(
                 f"exponent n = {self.n} of the attraction is outside (1, infinity): its energy is infinite"

@@ -15,6 +15,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from fem_reference._typing import Array
+from fem_reference._validation import check_positive
 
 __all__ = ["CustomModulus", "Interface", "Modulus", "OffsetPowerLawModulus", "PowerLawModulus", "interfaces_of"]
 
@@ -54,11 +55,6 @@ def _check_exponent(k: float) -> None:
         raise ValueError(f"gradient exponent k = {k} is outside [0, 1): at k = 1 the surface displacement is unbounded")
 
 
-def _check_positive(name: str, value: float) -> None:
-    if not (math.isfinite(value) and value > 0):
-        raise ValueError(f"{name} = {value} is outside (0, infinity)")
-
-
 @dataclass(frozen=True, slots=True)
 class Interface:
     """A depth where the modulus changes.
@@ -81,7 +77,7 @@ class Interface:
     transition: float = 0.0
 
     def __post_init__(self) -> None:
-        _check_positive("depth of an interface", self.depth)
+        check_positive("depth of an interface", self.depth)
         if not (math.isfinite(self.transition) and self.transition >= 0):
             raise ValueError(f"transition = {self.transition} of an interface is outside [0, infinity): it is a length")
 
@@ -113,8 +109,8 @@ class PowerLawModulus:
     k: float
 
     def __post_init__(self) -> None:
-        _check_positive("reference modulus E0", self.E0)
-        _check_positive("characteristic depth c0", self.c0)
+        check_positive("reference modulus E0", self.E0)
+        check_positive("characteristic depth c0", self.c0)
         _check_exponent(self.k)
 
     @property
@@ -153,9 +149,9 @@ class OffsetPowerLawModulus:
     z_s: float
 
     def __post_init__(self) -> None:
-        _check_positive("reference modulus E0", self.E0)
-        _check_positive("characteristic depth c0", self.c0)
-        _check_positive("surface offset z_s", self.z_s)
+        check_positive("reference modulus E0", self.E0)
+        check_positive("characteristic depth c0", self.c0)
+        check_positive("surface offset z_s", self.z_s)
         _check_exponent(self.k)
 
     @property
@@ -210,7 +206,7 @@ class CustomModulus:
     def __post_init__(self) -> None:
         _check_exponent(self.surface_exponent)
         _check_exponent(self.depth_exponent)
-        _check_positive("surface depth", self.surface_depth)
+        check_positive("surface depth", self.surface_depth)
         if not (isinstance(self.interfaces, tuple) and all(isinstance(i, Interface) for i in self.interfaces)):
             raise ValueError(f"interfaces = {self.interfaces!r} is not a tuple of Interface(depth, transition)")
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from fem_reference._typing import Array
+from fem_reference._validation import check_positive
 
 __all__ = ["MeasuredPunch", "PowerSum", "RoundedCone"]
 
@@ -54,9 +55,7 @@ class RoundedCone:
 
     def __post_init__(self) -> None:
         for name in ("rounding", "cone_slope"):
-            value = getattr(self, name)
-            if not (math.isfinite(value) and value > 0):
-                raise ValueError(f"{name} = {value} of a rounded cone is outside (0, infinity)")
+            check_positive(f"{name} of a rounded cone", getattr(self, name))
 
     def height(self, r: Array) -> Array:
         """f(r), shape of `r`; r^2 over the sum of both lengths does not cancel at the tip."""

@@ -10,6 +10,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from fem_reference._typing import Array
+from fem_reference._validation import check_positive
 from fem_reference.errors import NotConverged
 
 __all__ = ["CustomPunch", "PowerPunch", "Punch", "check_without_asperities", "kinks_of", "radius_at_height"]
@@ -63,8 +64,7 @@ class PowerPunch:
     def __post_init__(self) -> None:
         if not (math.isfinite(self.n) and self.n >= 1):
             raise ValueError(f"shape index n = {self.n} is outside [1, infinity): a cusp has no bounded pressure")
-        if not (math.isfinite(self.Q) and self.Q > 0):
-            raise ValueError(f"shape parameter Q = {self.Q} is outside (0, infinity)")
+        check_positive("shape parameter Q", self.Q)
 
     def height(self, r: Array) -> Array:
         """f(r), shape of `r`."""

@@ -106,8 +106,8 @@ def test_too_many_kinks_are_refused():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: RoundedCone(0.0, 1.0), "rounding = 0.0 of a rounded cone"),
-        (lambda: RoundedCone(1.0, math.inf), "cone_slope = inf"),
+        (lambda: RoundedCone(0.0, 1.0), "rounding of a rounded cone = 0.0"),
+        (lambda: RoundedCone(1.0, math.inf), "cone_slope of a rounded cone = inf"),
         (lambda: PowerSum((1.0,), (2.0, 3.0)), "do not form a sum"),
         (lambda: PowerSum((1.0, 1.0), (2.0, 2.0)), "do not form a sum"),
         (lambda: PowerSum((1.0,), (0.5,)), "exponent 0.5 is outside"),
