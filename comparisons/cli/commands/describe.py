@@ -24,6 +24,8 @@ def add(parser: argparse.ArgumentParser) -> None:
 def call(args: argparse.Namespace) -> int:
     """Compute and print; return the exit status."""
     # Imported here: the help does not need them.
+    from comparisons.problem_file import equivalent_text
+    from comparisons.problem_file.equivalent_power_law import equivalent_power_law
     from comparisons.problem_file.overview import overview_of
     from comparisons.problem_file.overview_text import content, lines
     from comparisons.problem_file.reading import load_problem
@@ -31,8 +33,15 @@ def call(args: argparse.Namespace) -> int:
     problem = load_problem(args.file)
     with waiting(problem.label):
         overview = overview_of(problem)
+        equivalent = equivalent_power_law(problem, overview.force)
     if args.format == "json":
-        print(json.dumps(content(overview), allow_nan=False))
+        found = content(overview)
+        if equivalent is not None:
+            found["equivalent_power_law"] = equivalent_text.content(equivalent)
+        print(json.dumps(found, allow_nan=False))
     else:
-        print("\n".join(lines(overview)))
+        text = lines(overview)
+        if equivalent is not None:
+            text += equivalent_text.lines(equivalent)
+        print("\n".join(text))
     return FAILED if overview.force.status == "failed" else OK
