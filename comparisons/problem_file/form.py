@@ -12,7 +12,7 @@ from typing import Any
 from comparisons.problem_file.source import Source, shown
 from comparisons.problem_file.units import NotAValue, in_si
 
-__all__ = ["SECTIONS", "checked_section", "kinds"]
+__all__ = ["SECTIONS", "checked_section", "kinds", "unit_of"]
 
 #: The sections, all required.
 SECTIONS = ("solid", "punch", "law")
@@ -42,6 +42,19 @@ def kinds(section: str) -> dict[str, dict[str, Any]]:
     ['lennard-jones-9-3', 'mie', 'table']
     """
     return {part["properties"]["kind"]["const"]: part for part in _schema()["properties"][section]["oneOf"]}
+
+
+def unit_of(section: str, kind: str, key: str) -> str | None:
+    """Return the unit in SI of a key, None for a plain number or a text.
+
+    Examples
+    --------
+    >>> unit_of("solid", "coating", "thickness"), unit_of("solid", "coating", "nu")
+    ('m', None)
+    """
+    rule = _schema()["$defs"][kinds(section)[kind]["properties"][key]["$ref"].rpartition("/")[2]]
+    unit: str | None = rule.get("unit")
+    return unit
 
 
 def checked_section(document: Mapping[str, Any], section: str, source: Source) -> dict[str, Any]:
