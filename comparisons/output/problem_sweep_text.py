@@ -17,11 +17,11 @@ def problem_lines(table: pd.DataFrame) -> list[str]:
 
     Examples
     --------
-    >>> row = {"model": "fscm", "quantity": "pull_off_force", "punch.R [m]": 1e-7, "value": 2e-8, "u_num": 1e-15}
+    >>> row = {"model": "fscm", "quantity": "pull_off_force", "punch.R [m]": 1e-7, "value": 2e-8, "u_num": 1.54e-15}
     >>> for line in problem_lines(pd.DataFrame([row | {"unit": "N", "status": "ok"}])):
     ...     print(line)
     punch.R  model  pull_off_force
-    100 nm   fscm   20.0000000(10) nN
+    100 nm   fscm   20.0000000(16) nN
     """
     varied = [name for name in table.columns if name not in _OWN]
     lines: list[str] = []

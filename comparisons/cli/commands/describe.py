@@ -24,7 +24,7 @@ def add(parser: argparse.ArgumentParser) -> None:
 def call(args: argparse.Namespace) -> int:
     """Compute and print; return the exit status."""
     # Imported here: the help does not need them.
-    from comparisons.problem_file import equivalent_text
+    from comparisons.problem_file import equivalent_text, profile_sensitivity
     from comparisons.problem_file.equivalent_power_law import equivalent_power_law
     from comparisons.problem_file.overview import overview_of
     from comparisons.problem_file.overview_text import content, lines
@@ -34,14 +34,19 @@ def call(args: argparse.Namespace) -> int:
     with waiting(problem.label):
         overview = overview_of(problem)
         equivalent = equivalent_power_law(problem, overview.force)
+        changes = profile_sensitivity.profile_sensitivity(problem, overview.force)
     if args.format == "json":
         found = content(overview)
         if equivalent is not None:
             found["equivalent_power_law"] = equivalent_text.content(equivalent)
+        if changes:
+            found["profile_sensitivity"] = profile_sensitivity.content(changes)
         print(json.dumps(found, allow_nan=False))
     else:
         text = lines(overview)
         if equivalent is not None:
             text += equivalent_text.lines(equivalent)
+        if changes:
+            text += profile_sensitivity.lines(changes)
         print("\n".join(text))
     return FAILED if overview.force.status == "failed" else OK
