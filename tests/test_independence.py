@@ -43,6 +43,8 @@ ALLOWED = {
     # Pose the problem of a file to each solver: any solid, punch and law.
     "comparisons.problem_file.dimensionless": ("fscm",),
     "comparisons.problem_file.finite_elements": ("fem_reference",),
+    # Derivatives of a value, which are no quantity of a model.
+    "comparisons.problem_file.propagation": ("fscm",),
     # Changes one ingredient of the Stieltjes scheme at a time.
     "comparisons.paper.values.scheme_ingredients": ("fscm",),
     # Only the adapters know the solvers.
