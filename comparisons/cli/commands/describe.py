@@ -43,8 +43,9 @@ def call(args: argparse.Namespace) -> int:
         raise ValueError("--quantity is that of --uncertain; give both, or take solve for the value")
     problem = load_problem(args.file)
     with waiting(problem.label):
-        overview = overview_of(problem)
+        # First: it may refuse the file or the quantity.
         uncertain = _uncertain(problem, args.quantity or "pull_off_force") if args.uncertain else None
+        overview = overview_of(problem)
     if args.format == "json":
         found = content(overview)
         if uncertain is not None:
