@@ -2,6 +2,7 @@
 
 import json
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,8 @@ from comparisons.problem_file.form import _schema
 from comparisons.problem_file.propagation import propagated
 from comparisons.problem_file.uncertain import is_uncertain, uncertain_in_si
 from comparisons.problem_file.units import NotAValue
+
+EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
 
 #: Sensitivities that have to cancel: the error of the differences of kernels.
 IDENTITY = 1e-6
@@ -219,6 +222,18 @@ def test_the_command_prints_what_follows(tmp_path, capsys):
     assert [row["parameter"] for row in found["parameters"]][:2] == ["solid.E0", "solid.c0"]
     assert found["range"]["is_monotone"] is True
     assert len(found["range"]["solved"]) == 2
+
+
+def test_the_page_shows_the_example_and_what_is_printed(capsys):
+    page = (EXAMPLES.parents[1] / "problem_files.md").read_text(encoding="utf-8")
+    example = (EXAMPLES / "uncertain_pad.toml").read_text(encoding="utf-8")
+    assert example.partition("\n")[2] in page
+    assert main(["describe", str(EXAMPLES / "uncertain_pad.toml"), "--uncertain"]) == 0
+    printed = capsys.readouterr().out
+    value, *rows = printed[printed.index("uncertainty of") :].splitlines()
+    # The digits in brackets, a bound, may differ between machines, as may the last digits before them.
+    assert value[:40] in page
+    assert all(row in page for row in rows)
 
 
 def test_an_event_that_does_not_exist_has_a_reason(tmp_path, capsys):
