@@ -47,6 +47,8 @@ ALLOWED = {
     "comparisons.problem_file.elastic_energy": ("fscm",),
     # The factor of Poisson's ratio in the surface compliance of a power law.
     "comparisons.problem_file.equivalent_power_law": ("fscm.physical",),
+    # Derivatives of a value, which are no quantity of a model.
+    "comparisons.problem_file.propagation": ("fscm",),
     # Changes one ingredient of the Stieltjes scheme at a time.
     "comparisons.paper.values.scheme_ingredients": ("fscm",),
     # Only the adapters know the solvers.

@@ -116,10 +116,10 @@ def _document(source: Source) -> dict[str, Any]:
 
 
 def _section(document: Mapping[str, Any], name: str, source: Source) -> Section:
-    values = checked_section(document, name, source)
+    values, uncertain = checked_section(document, name, source)
     kind = values.pop("kind")
     if kind != "table":
-        return Section(kind, values)
+        return Section(kind, values, uncertain=uncertain)
     columns, fewest = _TABLES[name]
     path = source.path.parent / values["file"]
     if not path.is_file():
@@ -139,4 +139,4 @@ def _section(document: Mapping[str, Any], name: str, source: Source) -> Section:
             )
         if not found["height"][-1] > found["height"][0]:
             raise ValueError(f"{path}: the last height is not above the first one; a punch rises to the outside")
-    return Section(kind, values, found)
+    return Section(kind, values, found, uncertain)

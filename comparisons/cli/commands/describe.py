@@ -5,19 +5,30 @@ from __future__ import annotations
 import argparse
 import json
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from comparisons.cli.options import FAILED, OK
 from comparisons.console.progress import waiting
 
+if TYPE_CHECKING:
+    from comparisons.problem_file.description import ProblemFile
+    from comparisons.problem_file.propagation_text import Outcome
+
 __all__ = ["EXAMPLES", "add", "call"]
 
 #: Examples of the help.
-EXAMPLES = ("fscm-bench describe pad.toml",)
+EXAMPLES = ("fscm-bench describe pad.toml", "fscm-bench describe pad.toml --uncertain")
 
 
 def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("file", metavar="FILE", type=Path, help="a problem file, see docs/problem_files.md")
+    parser.add_argument(
+        "--uncertain",
+        action="store_true",
+        help="what the standard deviations and intervals of the file mean for the pull-off force",
+    )
+    parser.add_argument("--quantity", metavar="NAME", help="another value at an event, with --uncertain")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="(default: %(default)s)")
 
 
@@ -30,8 +41,12 @@ def call(args: argparse.Namespace) -> int:
     from comparisons.problem_file.overview_text import content, lines
     from comparisons.problem_file.reading import load_problem
 
+    if args.quantity is not None and not args.uncertain:
+        raise ValueError("--quantity is that of --uncertain; give both, or take solve for the value")
     problem = load_problem(args.file)
     with waiting(problem.label):
+        # First: it may refuse the file or the quantity.
+        uncertain = _uncertain(problem, args.quantity or "pull_off_force") if args.uncertain else None
         overview = overview_of(problem)
         equivalent = equivalent_power_law(problem, overview.force)
         changes = profile_sensitivity.profile_sensitivity(problem, overview.force)
@@ -41,6 +56,8 @@ def call(args: argparse.Namespace) -> int:
             found["equivalent_power_law"] = equivalent_text.content(equivalent)
         if changes:
             found["profile_sensitivity"] = profile_sensitivity.content(changes)
+        if uncertain is not None:
+            found["uncertainty"] = uncertain.content
         print(json.dumps(found, allow_nan=False))
     else:
         text = lines(overview)
@@ -48,5 +65,13 @@ def call(args: argparse.Namespace) -> int:
             text += equivalent_text.lines(equivalent)
         if changes:
             text += profile_sensitivity.lines(changes)
+        if uncertain is not None:
+            text += uncertain.lines
         print("\n".join(text))
-    return FAILED if overview.force.status == "failed" else OK
+    return FAILED if overview.force.status == "failed" or (uncertain is not None and uncertain.failed) else OK
+
+
+def _uncertain(problem: ProblemFile, quantity: str) -> Outcome:
+    from comparisons.problem_file.propagation_text import outcome_of
+
+    return outcome_of(problem, quantity)
