@@ -35,6 +35,7 @@ def test_the_file_has_twelve_lines_and_the_page_three_commands():
     assert len(TOML.splitlines()) == 12
     assert (DOCS / "examples" / "problems" / "coated_pad.toml").read_text(encoding="utf-8") == TOML
     assert [command[0] for command in COMMANDS] == ["describe", "solve", "curve"]
+    assert "--uncertain" in COMMANDS[0]
 
 
 def test_describe_prints_what_the_page_shows(folder, capsys):
