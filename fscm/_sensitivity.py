@@ -29,7 +29,7 @@ from fscm.analysis import EXTREMAL, Analysis
 from fscm.errors import NotConverged
 from fscm.gibson import GibsonSolid
 from fscm.problem import Problem
-from fscm.punch import PowerPunch
+from fscm.punch import PowerPunch, kinks_of
 from fscm.quantities import TABLE, AtEvent, quantity_named
 from fscm.solution import Solution
 
@@ -101,11 +101,20 @@ def _unit(name: str) -> Control:
 
 
 def _at_fixed_unknowns(state: State, disc: Discretisation) -> State:
-    if state.lift is None:
+    """The state with the same unknowns, but for a punch with kinks: the mesh has breaks there and follows them.
+
+    To first order a change does not depend on the unknowns at which the equations of the other problem are evaluated.
+    """
+    known, new = kinks_of(state.disc.problem.punch), kinks_of(disc.problem.punch)
+    scale = state.scale * new[0] / known[0] if known and len(new) == len(known) else state.scale
+    if state.lift is not None:
+        return State.lifted(
+            disc, scale, state.lift, state.displacement, state.follows_edge, state.edge_gap, state.turned
+        )
+    if scale == state.scale:
         return replace(state, disc=disc)
-    return State.lifted(
-        disc, state.scale, state.lift, state.displacement, state.follows_edge, state.edge_gap, state.turned
-    )
+    gap = state.gap + (disc.height(scale * disc.mesh.nodes) - state.disc.height(state.radius))
+    return replace(state, disc=disc, scale=scale, gap=gap)
 
 
 class _AtExtreme:
