@@ -2,9 +2,21 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from fscm import SENSITIVE, Mie, NoSuchEvent, PhysicalProblem, Problem, RoundedCone, Sensitivity, sensitivity, solve
+from fscm import (
+    SENSITIVE,
+    MeasuredPunch,
+    Mie,
+    NoSuchEvent,
+    PhysicalProblem,
+    Problem,
+    RoundedCone,
+    Sensitivity,
+    sensitivity,
+    solve,
+)
 from fscm.graded import Coating, Exponential, GradedProblem
 
 #: Step of the differences of solved problems: their error is the third derivative times its square over 6, measured at
@@ -72,6 +84,18 @@ def test_another_law_and_another_punch():
         slope = found.derivative(lambda x, posed=posed: (posed(x), 1.0), at, at)
         expected = difference(lambda x, posed=posed: solve(posed(x), "pull_off_force").value, at)
         assert close(slope, expected, DIFFERENCE, scale=0.1)
+
+
+def test_the_state_follows_the_kinks_of_a_measured_punch():
+    r = np.linspace(0.0, 4.0, 6)
+
+    def posed(x):
+        return Problem(2, 0.0, 1.0, MeasuredPunch((x * r).tolist(), (r**2 / 2).tolist()))
+
+    slope = sensitivity(posed(1.0)).derivative(lambda x: (posed(x), 1.0), 1.0, 1.0)
+    # A radius that is stretched by x is that of a sphere of radius x^2: the force is proportional to about x^2.
+    expected = difference(lambda x: solve(posed(x), "pull_off_force").value, 1.0)
+    assert close(slope, expected, DIFFERENCE)
 
 
 def coated(E_coating=1.0, E_substrate=9.0, thickness=1.0, nu=0.3):
