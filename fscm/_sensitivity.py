@@ -33,7 +33,7 @@ from fscm.punch import PowerPunch, kinks_of
 from fscm.quantities import TABLE, AtEvent, quantity_named
 from fscm.solution import Solution
 
-__all__ = ["SENSITIVE", "Sensitivity", "sensitivity"]
+__all__ = ["SENSITIVE", "ValueSensitivity", "sensitivity"]
 
 #: Quantities that have a sensitivity: those that are functionals of the state at one event.
 SENSITIVE = tuple(name for name, row in TABLE.items() if isinstance(row, AtEvent))
@@ -151,7 +151,7 @@ def _parameter(state: State) -> tuple[str, float]:
     return state.parameter, 1.0 if state.parameter == "log_scale" else 1.0 + abs(parameter_of(state))
 
 
-class Sensitivity:
+class ValueSensitivity:
     """A value at an event, and its change with the problem to first order.
 
     Parameters
@@ -205,7 +205,7 @@ class Sensitivity:
 
         Examples
         --------
-        >>> found = sensitivity(Problem(n=2, k=0.4, mu=1.0))
+        >>> found = sensitivity(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
         >>> round(found.change(Problem(n=2, k=0.4, mu=1.01)) / 0.01, 3)
         -0.1
         """
@@ -250,7 +250,7 @@ class Sensitivity:
         ...     found = PhysicalProblem(70e9, 1.0, 0, 0.2, Q=R, n=2, work_of_adhesion=0.05, z0=3e-10)
         ...     return found.problem(), found.scales["load"]
         >>> posed, newtons = sphere(1e-6)
-        >>> found = sensitivity(posed)
+        >>> found = sensitivity(posed, "pull_off_force")
         >>> slope = found.derivative(sphere, 1e-6, 1e-6)
         >>> round(slope * 1e-6 / (found.solution.value * newtons), 4)     # d ln P / d ln R
         0.9772
@@ -275,7 +275,8 @@ class Sensitivity:
 
         Examples
         --------
-        >>> {name: round(slope, 4) for name, slope in sensitivity(Problem(n=2, k=0.4, mu=1.0)).gradient.items()}
+        >>> found = sensitivity(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
+        >>> {name: round(slope, 4) for name, slope in found.gradient.items()}
         {'mu': -0.0996, 'k': 0.3184, 'n': -0.8187}
         """
         p = self.problem
@@ -290,7 +291,7 @@ class Sensitivity:
 
 
 @one_thread()
-def sensitivity(problem: Problem, quantity: str = "pull_off_force", accuracy: Accuracy = "default") -> Sensitivity:
+def sensitivity(problem: Problem, quantity: str, accuracy: Accuracy = "default") -> ValueSensitivity:
     """Compute a value at an event and prepare its derivatives: one more linear solution, with the adjoint.
 
     Parameters
@@ -302,7 +303,7 @@ def sensitivity(problem: Problem, quantity: str = "pull_off_force", accuracy: Ac
 
     Returns
     -------
-    Sensitivity
+    ValueSensitivity
         The value with its bound (`solution`), its derivatives by n, k and mu (`gradient`), by a parameter of the user
         (`derivative`), and its first-order change to any problem nearby (`change`).
 
@@ -317,4 +318,4 @@ def sensitivity(problem: Problem, quantity: str = "pull_off_force", accuracy: Ac
     >>> round(found.solution.value, 6), round(found.gradient["mu"], 6)
     (2.075069, 1.932362)
     """
-    return Sensitivity(problem, quantity, accuracy)
+    return ValueSensitivity(problem, quantity, accuracy)
