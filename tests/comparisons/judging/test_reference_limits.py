@@ -23,8 +23,8 @@ FULL = [gate for gate in GATES if gate.tier == "full"]
 ROOM = 12.0
 #: A limit that is small enough whatever was measured: absolute, and as a fraction of the gate's limits of the error.
 SMALL, FRACTION = 1e-7, 0.1
-#: The same for claims, whose limits of the error are in units of the bounds: 1e-6 of the value.
-SMALL_CLAIM = 1e-6
+#: The same for gates of |E_n|, whose limits of the error are in units of the bounds: 1e-6 of the value.
+SMALL_FOR_EN = 1e-6
 #: Curves of the full tier are not committed; the limit over that of the error is 0.3 for the pressures.
 FRACTION_OF_A_CURVE = 0.31
 
@@ -43,11 +43,11 @@ def test_of_the_quick_tier(gate):
 
 
 @by_name([gate for gate in FULL if gate.metric == "en"])
-def test_of_the_claims_of_the_full_tier(gate):
+def test_of_the_bounds_of_the_full_tier(gate):
     table = pd.read_csv(ROOT / BASELINE / "references_agreement.csv")
     mine = table[(table["quantity"] == gate.quantity) & (table["reference"] == gate.reference)]
     largest = (mine["u_reference"] / mine["reference_value"].abs()).max()
-    assert gate.max_reference_uncertainty <= max(ROOM * largest, SMALL_CLAIM)
+    assert gate.max_reference_uncertainty <= max(ROOM * largest, SMALL_FOR_EN)
 
 
 @by_name([gate for gate in FULL if gate.metric != "en"])
