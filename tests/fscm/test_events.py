@@ -105,13 +105,7 @@ def test_gibson_limit(n: float) -> None:
     assert changes[1] / changes[2] == pytest.approx(2.5, rel=0.02)
 
 
-@given(
-    n=st.floats(1.0, 6.0),
-    k=st.floats(0.0, 0.8),
-    log_mu=st.floats(math.log(0.01), math.log(3.0)),
-)
-@settings(max_examples=3, deadline=None)
-def test_random_problems_obey_what_all_obey(n: float, k: float, log_mu: float) -> None:
+def _obeys_what_all_obey(n: float, k: float, log_mu: float) -> None:
     """Signs, order of events, and stationarity of the load at pull-off; other tests have values of random problems."""
     problem = Problem(n, k, math.exp(log_mu))
     if (1.03 * problem.compliance) ** (-1 / (1 - k)) < 1e-4:
@@ -129,6 +123,22 @@ def test_random_problems_obey_what_all_obey(n: float, k: float, log_mu: float) -
         jump_in, jump_out = (model.solution(f"jump_{x}_displacement").value for x in ("in", "out"))
         assert jump_out < jump_in < 0
         assert model.solution("jump_out_gap").value < model.solution("jump_in_gap").value
+
+
+PROBLEMS = {"n": st.floats(1.0, 6.0), "k": st.floats(0.0, 0.8), "log_mu": st.floats(math.log(0.01), math.log(3.0))}
+
+
+@given(**PROBLEMS)
+@settings(max_examples=3, deadline=None)
+def test_random_problems_obey_what_all_obey(n: float, k: float, log_mu: float) -> None:
+    _obeys_what_all_obey(n, k, log_mu)
+
+
+@pytest.mark.heavy
+@given(**PROBLEMS)
+@settings(max_examples=60, deadline=None)
+def test_many_random_problems_obey_what_all_obey(n: float, k: float, log_mu: float) -> None:
+    _obeys_what_all_obey(n, k, log_mu)
 
 
 def test_no_hysteresis_quantities_for_a_stiff_solid() -> None:
