@@ -1,14 +1,4 @@
-r"""Sensitivity of a value at an event to the problem, by the adjoint of the equilibrium.
-
-The discrete equilibrium with a control is F(y, p) = 0, and J(y, p) is a value at its solution.  With B = dF/dy and
-B^T a = dJ/dy,
-
-    dJ/dp = J_p - a . F_p,
-
-where J_p and F_p are taken at the fixed state y: one more linear solution serves every parameter, and F_p needs no
-equilibrium.  At its own extreme a value does not change along the path, so that any control will do.  Another value
-also moves with the place s of the extreme, by J_s ds = -J_s d(L_s)/L_ss with the functional L that is extreme.
-"""
+"""Sensitivity of a value at an event to the problem."""
 
 from __future__ import annotations
 
@@ -17,23 +7,19 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-import scipy
 
-from fscm._arc_length import parameter_of, rates_of
-from fscm._continuation import moved
-from fscm._equilibrium import Control, Discretisation, Linearisation, State
+from fscm._event_adjoint import Adjoint, AtExtreme, parameter
 from fscm._meshes import Accuracy, Meshes
 from fscm._threads import one_thread
 from fscm._typing import Array
 from fscm.analysis import EXTREMAL, Analysis
-from fscm.errors import NotConverged
 from fscm.gibson import GibsonSolid
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 from fscm.quantities import TABLE, AtEvent, quantity_named
 from fscm.solution import Solution
 
-__all__ = ["SENSITIVE", "Sensitivity", "sensitivity"]
+__all__ = ["SENSITIVE", "ValueSensitivity", "sensitivity"]
 
 #: Quantities that have a sensitivity: those that are functionals of the state at one event.
 SENSITIVE = tuple(name for name, row in TABLE.items() if isinstance(row, AtEvent))
@@ -43,9 +29,6 @@ SENSITIVE = tuple(name for name, row in TABLE.items() if isinstance(row, AtEvent
 # derivative, and that of the fit of the kernel, 1e-10, counts 1e-7.
 _STEP, _MANY, _FEW = 1e-3, (-2.0, -1.0, 1.0, 2.0), (-1.0, 1.0)
 _MANY_ONE_SIDED, _FEW_ONE_SIDED = (1.0, 2.0, 3.0, 4.0), (1.0, 2.0)
-# Step of the continuation parameter for the rate of a change, relative to its unit: between two states whose rounding
-# is 1e-13.
-_PATH_STEP = 1e-4
 
 
 def difference_rule(places: tuple[float, ...]) -> Array:
@@ -62,87 +45,7 @@ def difference_rule(places: tuple[float, ...]) -> Array:
     return np.asarray(np.linalg.solve(np.vander(x, increasing=True).T, derivative), float)
 
 
-class _Adjoint:
-    """Change of a functional at a fixed value of a control, to first order, when the problem changes.
-
-    Parameters
-    ----------
-    state : State
-        In equilibrium.
-    functional, control : str
-        Of "load", "displacement", "central_gap"; the control may also be "log_scale".
-    """
-
-    def __init__(self, state: State, functional: str, control: str) -> None:
-        self._state, self._functional, self._control = state, functional, control
-        system = Linearisation(state)
-        matrix = system.bordered()
-        matrix[-1] = system.row(_unit(control))
-        lu, pivots, info = scipy.linalg.lapack.dgetrf(matrix, overwrite_a=1)
-        if info != 0:
-            raise NotConverged("the tangent at the event is singular: its adjoint is not known")
-        self._adjoint: Array = scipy.linalg.lapack.dgetrs(lu, pivots, system.row(_unit(functional)), trans=1)[0]
-        self._value, self._left = getattr(state, functional), self._left_sides(state, system)
-
-    def _left_sides(self, state: State, system: Linearisation) -> Array:
-        control = math.log(state.scale) if self._control == "log_scale" else getattr(state, self._control)
-        return np.concatenate([system.residual, [system.anchor, control]])
-
-    def change(self, problem: Problem) -> float:
-        """The change from the problem of the state to another one, on the same mesh."""
-        known = self._state.disc
-        state = _at_fixed_unknowns(self._state, Discretisation(problem, known.mesh, known))
-        left = self._left_sides(state, Linearisation(state))
-        return float(getattr(state, self._functional) - self._value - self._adjoint @ (left - self._left))
-
-
-def _unit(name: str) -> Control:
-    return Control(0.0, **{"gap" if name == "central_gap" else name: 1.0})
-
-
-def _at_fixed_unknowns(state: State, disc: Discretisation) -> State:
-    if state.lift is None:
-        return replace(state, disc=disc)
-    return State.lifted(
-        disc, state.scale, state.lift, state.displacement, state.follows_edge, state.edge_gap, state.turned
-    )
-
-
-class _AtExtreme:
-    """Change of a functional at the extreme of another one, to first order: it moves with the place of the extreme.
-
-    Parameters
-    ----------
-    state : State
-        At the extreme.
-    functional, extremal : str
-        As for `_Adjoint`; the functional is another one.
-    """
-
-    def __init__(self, state: State, functional: str, extremal: str) -> None:
-        parameter, unit = _parameter(state)
-        rates, step = rates_of(state), _PATH_STEP * unit
-        near = [moved(state, rates, parameter_of(state) + side * step) for side in (-1.0, 1.0)]
-        before, after = (getattr(rates_of(one), extremal) for one in near)
-        # s moves by -d(L_s)/L_ss; both derivatives by s are differences over the same steps.
-        self._factor = -getattr(rates, functional) / (after - before)
-        self._here = _Adjoint(state, functional, parameter)
-        self._beside = [_Adjoint(one, extremal, parameter) for one in near]
-
-    def change(self, problem: Problem) -> float:
-        """The change from the problem of the state to another one."""
-        before, after = (one.change(problem) for one in self._beside)
-        return self._here.change(problem) + self._factor * (after - before)
-
-
-def _parameter(state: State) -> tuple[str, float]:
-    """Functional that is the continuation parameter of a state, and its unit."""
-    if state.parameter == "gap":
-        return "central_gap", state.central_gap - state.disc.problem.law.singular_gap
-    return state.parameter, 1.0 if state.parameter == "log_scale" else 1.0 + abs(parameter_of(state))
-
-
-class Sensitivity:
+class ValueSensitivity:
     """A value at an event, and its change with the problem to first order.
 
     Parameters
@@ -177,13 +80,13 @@ class Sensitivity:
         self.solution = analysis.solution(quantity)
         state, extremal = analysis.event(row.event).value, EXTREMAL[row.event]
         self._sign = row.sign
-        self._rule: _Adjoint | _AtExtreme
+        self._rule: Adjoint | AtExtreme
         if extremal is None:
-            self._rule = _Adjoint(state, row.attribute, "load")
+            self._rule = Adjoint(state, row.attribute, "load")
         elif extremal == row.attribute:
-            self._rule = _Adjoint(state, row.attribute, _parameter(state)[0])
+            self._rule = Adjoint(state, row.attribute, parameter(state)[0])
         else:
-            self._rule = _AtExtreme(state, row.attribute, extremal)
+            self._rule = AtExtreme(state, row.attribute, extremal)
 
     @one_thread()
     def change(self, problem: Problem) -> float:
@@ -196,7 +99,7 @@ class Sensitivity:
 
         Examples
         --------
-        >>> found = sensitivity(Problem(n=2, k=0.4, mu=1.0))
+        >>> found = sensitivity(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
         >>> round(found.change(Problem(n=2, k=0.4, mu=1.01)) / 0.01, 3)
         -0.1
         """
@@ -241,7 +144,7 @@ class Sensitivity:
         ...     found = PhysicalProblem(70e9, 1.0, 0, 0.2, Q=R, n=2, work_of_adhesion=0.05, z0=3e-10)
         ...     return found.problem(), found.scales["load"]
         >>> posed, newtons = sphere(1e-6)
-        >>> found = sensitivity(posed)
+        >>> found = sensitivity(posed, "pull_off_force")
         >>> slope = found.derivative(sphere, 1e-6, 1e-6)
         >>> round(slope * 1e-6 / (found.solution.value * newtons), 4)     # d ln P / d ln R
         0.9772
@@ -266,7 +169,8 @@ class Sensitivity:
 
         Examples
         --------
-        >>> {name: round(slope, 4) for name, slope in sensitivity(Problem(n=2, k=0.4, mu=1.0)).gradient.items()}
+        >>> found = sensitivity(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
+        >>> {name: round(slope, 4) for name, slope in found.gradient.items()}
         {'mu': -0.0996, 'k': 0.3184, 'n': -0.8187}
         """
         p = self.problem
@@ -281,7 +185,7 @@ class Sensitivity:
 
 
 @one_thread()
-def sensitivity(problem: Problem, quantity: str = "pull_off_force", accuracy: Accuracy = "default") -> Sensitivity:
+def sensitivity(problem: Problem, quantity: str, accuracy: Accuracy = "default") -> ValueSensitivity:
     """Compute a value at an event and prepare its derivatives: one more linear solution, with the adjoint.
 
     Parameters
@@ -293,7 +197,7 @@ def sensitivity(problem: Problem, quantity: str = "pull_off_force", accuracy: Ac
 
     Returns
     -------
-    Sensitivity
+    ValueSensitivity
         The value with its bound (`solution`), its derivatives by n, k and mu (`gradient`), by a parameter of the user
         (`derivative`), and its first-order change to any problem nearby (`change`).
 
@@ -308,4 +212,4 @@ def sensitivity(problem: Problem, quantity: str = "pull_off_force", accuracy: Ac
     >>> round(found.solution.value, 6), round(found.gradient["mu"], 6)
     (2.075069, 1.932362)
     """
-    return Sensitivity(problem, quantity, accuracy)
+    return ValueSensitivity(problem, quantity, accuracy)

@@ -13,7 +13,7 @@ from comparisons.problem_file.evaluation import SI_UNITS
 from comparisons.problem_file.form import SECTIONS, limits_of
 from comparisons.problem_file.uncertain import Uncertainty
 from comparisons.quantities import QUANTITIES
-from fscm import NoSuchEvent, NotConverged, Sensitivity, sensitivity
+from fscm import NoSuchEvent, NotConverged, ValueSensitivity, sensitivity
 from fscm.problem import Problem
 
 __all__ = ["Contribution", "Propagated", "Range", "propagated"]
@@ -183,7 +183,7 @@ def _contributions(
     # A quantity that is unknown has no kind.
     kind = QUANTITIES[quantity].scale if quantity in QUANTITIES else "load"
     posed, unit = _posed(problem, kind)
-    solved: Sensitivity = sensitivity(posed, quantity)
+    solved: ValueSensitivity = sensitivity(posed, quantity)
     value, found = solved.solution.value * unit, []
     for section, key, uncertainty in uncertain:
         part = getattr(problem, section)

@@ -2,9 +2,21 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from fscm import SENSITIVE, Mie, NoSuchEvent, PhysicalProblem, Problem, RoundedCone, Sensitivity, sensitivity, solve
+from fscm import (
+    SENSITIVE,
+    MeasuredPunch,
+    Mie,
+    NoSuchEvent,
+    PhysicalProblem,
+    Problem,
+    RoundedCone,
+    ValueSensitivity,
+    sensitivity,
+    solve,
+)
 from fscm.graded import Coating, Exponential, GradedProblem
 
 #: Step of the differences of solved problems: their error is the third derivative times its square over 6, measured at
@@ -32,7 +44,7 @@ def close(found, expected, relative, scale=0.0):
 
 def test_a_power_law_by_all_its_numbers():
     problem = Problem(2, 0.4, 1.0)
-    found = sensitivity(problem)
+    found = sensitivity(problem, "pull_off_force")
     assert found.solution.value == solve(problem, "pull_off_force").value
     assert list(found.gradient) == ["mu", "k", "n"]
     for name, slope in found.gradient.items():
@@ -53,18 +65,18 @@ def test_every_quantity_by_the_tabor_number(quantity):
 
 
 def test_one_sided_at_the_homogeneous_solid():
-    slope = sensitivity(Problem(2, 0.0, 1.0)).gradient["k"]
+    slope = sensitivity(Problem(2, 0.0, 1.0), "pull_off_force").gradient["k"]
     assert close(slope, difference(lambda k: solve(Problem(2, k, 1.0), "pull_off_force").value, 0.0, low=0.0), 1e-5)
 
 
 def test_a_steep_punch_with_deformations_as_unknowns():
-    slope = sensitivity(Problem(16, 0.2, 0.5)).gradient["n"]
+    slope = sensitivity(Problem(16, 0.2, 0.5), "pull_off_force").gradient["n"]
     assert close(slope, difference(lambda n: solve(Problem(n, 0.2, 0.5), "pull_off_force").value, 16.0), 1e-5)
 
 
 def test_another_law_and_another_punch():
     problem = Problem(1.0, 0.0, 1.5, RoundedCone(1.0), Mie(12, 6))
-    found = sensitivity(problem)
+    found = sensitivity(problem, "pull_off_force")
     for posed, at in (
         (lambda x: replace(problem, law=Mie(x, 6)), 12.0),
         (lambda x: replace(problem, punch=RoundedCone(x)), 1.0),
@@ -72,6 +84,18 @@ def test_another_law_and_another_punch():
         slope = found.derivative(lambda x, posed=posed: (posed(x), 1.0), at, at)
         expected = difference(lambda x, posed=posed: solve(posed(x), "pull_off_force").value, at)
         assert close(slope, expected, DIFFERENCE, scale=0.1)
+
+
+def test_the_state_follows_the_kinks_of_a_measured_punch():
+    r = np.linspace(0.0, 4.0, 6)
+
+    def posed(x):
+        return Problem(2, 0.0, 1.0, MeasuredPunch((x * r).tolist(), (r**2 / 2).tolist()))
+
+    slope = sensitivity(posed(1.0), "pull_off_force").derivative(lambda x: (posed(x), 1.0), 1.0, 1.0)
+    # A radius that is stretched by x is that of a sphere of radius x^2: the force is proportional to about x^2.
+    expected = difference(lambda x: solve(posed(x), "pull_off_force").value, 1.0)
+    assert close(slope, expected, DIFFERENCE)
 
 
 def coated(E_coating=1.0, E_substrate=9.0, thickness=1.0, nu=0.3):
@@ -84,7 +108,7 @@ def exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3):
 
 @pytest.mark.parametrize(("posed", "name"), [(coated, "thickness"), (exponential, "nu")])
 def test_other_solids(posed, name):
-    found, at = sensitivity(posed()), {"thickness": 1.0, "nu": 0.3}[name]
+    found, at = sensitivity(posed(), "pull_off_force"), {"thickness": 1.0, "nu": 0.3}[name]
     slope = found.derivative(lambda x: (posed(**{name: x}), 1.0), at, at)
     expected = difference(lambda x: solve(posed(**{name: x}), "pull_off_force").value, at)
     assert close(slope, expected, FITTED, scale=0.1)
@@ -101,7 +125,7 @@ def test_every_quantity_of_a_coated_solid(quantity, name):
 
 
 def test_only_the_ratio_of_two_moduli_matters_at_a_fixed_tabor_number():
-    found = sensitivity(exponential())
+    found = sensitivity(exponential(), "pull_off_force")
     slopes = [
         at * found.derivative(lambda x, name=name: (exponential(**{name: x}), 1.0), at, at)
         for name, at in (("E_surface", 1.0), ("E_depth", 4.0))
@@ -119,7 +143,7 @@ def test_dimensions_of_the_force():
         return found.problem(), found.scales["load"]
 
     problem, newtons = posed()
-    found = sensitivity(problem)
+    found = sensitivity(problem, "pull_off_force")
     force = found.solution.value * newtons
     log = {
         name: found.derivative(lambda x, name=name: posed(**{name: x}), at, at) * at / force
@@ -132,7 +156,7 @@ def test_dimensions_of_the_force():
 
 
 def test_the_incompressible_linear_solid():
-    found = sensitivity(Problem(3, 1.0, 1.0))
+    found = sensitivity(Problem(3, 1.0, 1.0), "pull_off_force")
     expected = difference(lambda mu: solve(Problem(3, 1, mu), "pull_off_force").value, 1.0)
     assert close(found.gradient["mu"], expected, DIFFERENCE)
     with pytest.raises(ValueError, match="no neighbours"):
@@ -143,6 +167,6 @@ def test_quantities_without_a_sensitivity():
     with pytest.raises(ValueError, match="hysteresis_energy is none of those"):
         sensitivity(Problem(2, 0, 1.0), "hysteresis_energy")
     with pytest.raises(ValueError, match="unknown quantity"):
-        Sensitivity(Problem(2, 0, 1.0), "force")
+        ValueSensitivity(Problem(2, 0, 1.0), "force")
     with pytest.raises(NoSuchEvent):
         sensitivity(Problem(2, 0, 0.1), "jump_in_gap")
