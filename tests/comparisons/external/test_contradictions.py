@@ -20,8 +20,8 @@ BY_PROCESS = [
 ]
 
 
-# A name and a version: the next test has every kind.
-@pytest.mark.parametrize("more", BY_PROCESS[:2])
+# A name, and in the heavy test a version: the next test has every kind.
+@pytest.mark.parametrize("more", [BY_PROCESS[0], pytest.param(BY_PROCESS[1], marks=pytest.mark.heavy)])
 def test_a_run_goes_on_with_a_model_that_names_itself_by_its_process(write_model, tmp_path, monkeypatch, more):
     monkeypatch.setattr(inputs, "grids", lambda tier: load_grids(GRID))
     out = tmp_path / "out"

@@ -296,7 +296,7 @@ def test_a_run_completes_the_others_and_its_files_are_its_own(write_model, tmp_p
         "good": GOOD,
         "vandal": vandal,
         # Only where the run evaluates it: its process is started again after each end.
-        "leaver": "if problem.mu == 1:\n    os._exit(0)\nraise NotApplicable('mu = 1 only')",
+        "leaver": "if problem.mu == 1 and quantity == 'pull_off_force':\n    os._exit(0)\nraise NotApplicable('no')",
         "looper": "while True:\n    time.sleep(1000)",
         "nonsense": "return Result(float('nan'), 0.0)",
     }
