@@ -312,14 +312,14 @@ def test_a_reader_that_leaves_is_no_disaster():
 
 
 class _Interrupted(ModuleType):
-    """A module whose import is interrupted; whoever else looks at the loaded modules, as pytest does, is not."""
-
+    # Only this name: pytest's plugins ask every module for others.
     def __getattr__(self, name):
-        raise KeyboardInterrupt if name == "main" else AttributeError(name)
+        if name == "main":
+            raise KeyboardInterrupt
+        raise AttributeError(name)
 
 
 def test_an_interruption_of_the_imports_is_one_sentence(monkeypatch, capsys):
-    # The name of the program is in the sentence.
     monkeypatch.setattr(sys, "argv", ["fscm-bench"])
     monkeypatch.setitem(sys.modules, "comparisons.cli.main", _Interrupted("comparisons.cli.main"))
     assert start.main() == 130
