@@ -129,7 +129,7 @@ class Gate:
 
     def reference_case(self, case: Case) -> Case:
         """Return the case in which the reference is taken."""
-        return replace(case, **self.reference_at)
+        return replace(case, **self.reference_at) if self.reference_at else case
 
 
 #: Entries that are sentences.
