@@ -320,6 +320,7 @@ class _Interrupted(ModuleType):
 
 
 def test_an_interruption_of_the_imports_is_one_sentence(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["fscm-bench"])
     monkeypatch.setitem(sys.modules, "comparisons.cli.main", _Interrupted("comparisons.cli.main"))
     assert start.main() == 130
     assert capsys.readouterr().err == "fscm-bench: interrupted\n"
