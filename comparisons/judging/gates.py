@@ -24,6 +24,7 @@ __all__ = ["GIVEN", "METRICS", "Gate", "gates_text", "load_gates", "of_tier"]
 #: The candidate of a gate for every model that is named in a run.
 GIVEN = "given"
 
+#: How the error of a gate is measured: name of the metric -> its formula.
 METRICS = {
     "rel": "(candidate - reference) / |reference|",
     "abs": "candidate - reference",

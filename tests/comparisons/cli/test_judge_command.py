@@ -57,7 +57,7 @@ def test_judging_again_gives_the_same_and_computes_nothing(folder, monkeypatch, 
     assert "TEN-PERCENT" in shown[0]
     printed = shown[0].replace(" \\\n   ", "")
     assert "fscm-bench solve --model ten-percent --quantity pull_off_force --n 2 --k 0" in printed
-    assert shown[0].rstrip().endswith("1 of 1 gates pass, 0 fail as declared, 0 unexpected (4 cases: 4 PASS)")
+    assert shown[0].rstrip().endswith("1 of 1 gate passes, 0 fail as declared, 0 unexpected (4 cases: 4 PASS)")
 
 
 #: The error of the model, and another one.
@@ -183,7 +183,7 @@ def test_a_gate_whose_rival_is_not_computed_is_refused_and_adding_it_helps(
     out[out.index("--out") + 1] = str(tmp_path / "both")
     assert main(["run", *out, *rules]) == 0
     # The rival is not compared with itself.
-    assert "1 of 1 gates pass" in capsys.readouterr().out
+    assert "1 of 1 gate passes" in capsys.readouterr().out
     assert main(["judge", str(tmp_path / "both"), *rules]) == 0
 
 

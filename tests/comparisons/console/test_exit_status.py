@@ -282,7 +282,7 @@ def test_a_summary_page_without_room_loses_no_result_and_no_verdict(small_grid, 
     for arguments in (["run", "--jobs", "1", "--out", str(folder)], ["judge", str(folder)]):
         assert main(arguments) == FAILED
         shown = capsys.readouterr()
-        assert "1 of 1 gates pass" in shown.out
+        assert "1 of 1 gate passes" in shown.out
         (sentence,) = (line for line in shown.err.splitlines() if "GITHUB_STEP_SUMMARY" in line)
         assert f"cannot be written ({os.strerror(errno.ENOSPC)})" in sentence
         assert (folder / "run.json").is_file()
