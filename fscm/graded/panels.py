@@ -29,7 +29,7 @@ _FIRST, _MIRROR = 0.5, 2.0
 # On it the coefficients of F fall like (2 + sqrt 3)^-m.
 _GROWTH, _LAST = 2.0, 1.25
 # Nodes besides those of a panel at the kink, and besides half of those of a panel on the other pieces.
-_AT_KINK, _AWAY = 8, 10
+_AT_KINK, _AWAY = 8, 9
 
 
 class Remainder:
