@@ -72,9 +72,7 @@ class Pieces:
 
     def part(self, chosen: NDArray[np.bool_]) -> Pieces:
         """Those that are chosen."""
-        return Pieces(
-            self.pair[chosen], self.sign[chosen], self.near[chosen], self.length[chosen], self.xi[chosen]
-        )
+        return Pieces(self.pair[chosen], self.sign[chosen], self.near[chosen], self.length[chosen], self.xi[chosen])
 
 
 def _doubling_pieces(
