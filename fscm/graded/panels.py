@@ -92,6 +92,8 @@ def _near_rows(
         (at_kink, gauss_rule(order + _AT_KINK), True),
         (~at_kink, gauss_rule(order // 2 + _AWAY), False),
     ):
+        if not chosen.any():
+            continue
         p = every.part(chosen)
         u, weights = (rule.nodes**2, 2.0 * rule.nodes * rule.weights) if squared else (rule.nodes, rule.weights)
         distance = p.near[:, None] + p.length[:, None] * u

@@ -105,7 +105,7 @@ def test_the_images_are_wrong_by_no_more_than_their_bound_at_any_wave_number(nam
 
 
 def test_the_rate_of_the_error_is_the_measured_one():
-    """Mean of |xi eps'| over a quarter of a decade against the bound of eps: it oscillates between the waves of the fit."""
+    """Mean of |xi eps'| over a quarter of a decade against the bound of eps, which oscillates between its waves."""
     xi = np.geomspace(1e-4, 1e4, 961)
     step = np.log(xi[1] / xi[0])
     worst = 0.0
