@@ -43,6 +43,8 @@ ALLOWED = {
     # Pose the problem of a file to each solver: any solid, punch and law.
     "comparisons.problem_file.dimensionless": ("fscm",),
     "comparisons.problem_file.finite_elements": ("fem_reference",),
+    # Solves the same graded solids by both.
+    "comparisons.graded_agreement.solving": ("fscm", "fem_reference"),
     # Changes one ingredient of the Stieltjes scheme at a time.
     "comparisons.paper.values.scheme_ingredients": ("fscm",),
     # Only the adapters know the solvers.
