@@ -36,17 +36,17 @@ def draw(tables: dict[str, pd.DataFrame]) -> Figure:
         figure = Figure(figsize=(7.2, 7.0), layout="constrained")
         panels = figure.subplots(3, 3, sharex="col", sharey="row")
         letters = iter("abcdefghi")
-        for row, (label, names) in zip(panels, _ROWS, strict=True):
-            for axes, (kind, depth) in zip(row, _LABELS.items(), strict=True):
-                lettered(axes, next(letters), kind if row is panels[0] else "")
+        for index, (label, names) in enumerate(_ROWS):
+            for axes, (kind, depth) in zip(panels[index], _LABELS.items(), strict=True):
+                lettered(axes, next(letters), kind if index == 0 else "")
                 for name in names:
                     part = table[(table["solid"] == kind) & (table["quantity"] == name)]
                     _curves(axes, part, "^" if name == "jump_in_displacement" else "o")
                 axes.set(xscale="log")
-                if row is panels[-1]:
+                if index == len(_ROWS) - 1:
                     axes.set(xlabel=depth, yscale="log")
-            row[0].set_ylabel(label)
-        # The uncoated substrate and the softest surfaces jump far below.
+            panels[index][0].set_ylabel(label)
+        # The softest surfaces jump far below.
         panels[1][0].set(ylim=(-5.2, -1.0))
         panels[2][0].set(ylim=(3e-4, 5.0))
         figure.suptitle(r"sphere, $\nu=0.3$, $L=(Qz_0)^{1/2}$", fontsize=9)
