@@ -236,6 +236,8 @@ def by_elements(event: str, kind: str, parameter: float) -> Json:
     results: Json = {}
     for name, solution in found.items():
         unit = scales[_UNITS.get(name, "displacement")]
-        missing = isinstance(solution, fem_reference.NoSuchEvent)
-        results[name] = str(solution) if missing else [solution.value / unit, solution.u_num / unit]
+        if isinstance(solution, fem_reference.NoSuchEvent):
+            results[name] = str(solution)
+        else:
+            results[name] = [solution.value / unit, solution.u_num / unit]
     return results

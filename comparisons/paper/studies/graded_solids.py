@@ -56,7 +56,7 @@ def _tasks() -> Sequence[CachedCall]:
         calls += [*_elements(kind, parameter, jumps), CachedCall.of(by_fscm, kind, parameter)]
     for kind, parameter, _ in _cases():
         calls += [CachedCall.of(of_power_law, *solid) for solid in _simpler(kind, parameter).values()]
-    return calls
+    return list(dict.fromkeys(calls))
 
 
 def _number(found: dict[str, list[float] | str], name: str) -> tuple[float, float]:
