@@ -101,8 +101,8 @@ def coated_load(radius: float, ratio: float, thickness: float, nu_coating: float
     --------
     The load of JKR, 4/3 a^3 - (8 pi a^3)^(1/2), on a homogeneous solid.
 
-    >>> round(coated_load(1.0, 1.0, 0.5, 0.3, 0.3) - (4 / 3 - math.sqrt(8 * math.pi)), 12)
-    0.0
+    >>> round(coated_load(1.0, 1.0, 0.5, 0.3, 0.3), 9), round(4 / 3 - math.sqrt(8 * math.pi), 9)
+    (-3.679923216, -3.679923216)
     """
     q, weights = _wave_numbers(radius, ratio, thickness)
     panels = max(2, math.ceil(radius / thickness))
@@ -144,7 +144,7 @@ def coated_pull_off(ratio: float, thickness: float, nu_coating: float, nu_substr
     --------
     >>> found = coated_pull_off(1.0, 0.5, 0.3, 0.3)
     >>> round(found["force"], 9), round(found["radius"], 4), round((9 * math.pi / 8) ** (1 / 3), 4)
-    (1.5, 1.5233, 1.5233)
+    (1.5, 1.5232, 1.5232)
     """
 
     def load(log_radius: float) -> float:
@@ -156,4 +156,4 @@ def coated_pull_off(ratio: float, thickness: float, nu_coating: float, nu_substr
     if not 0 < least < len(places) - 1:
         raise ComputationFailed(f"the load is smallest at the contact radius {_RADII[least]:g}, an end of the search")
     found = minimize_scalar(load, bracket=tuple(places[least - 1 : least + 2]), tol=1e-8)
-    return {"force": -found.fun / math.pi, "radius": math.exp(found.x), "u_num": U_NUM}
+    return {"force": -float(found.fun) / math.pi, "radius": math.exp(float(found.x)), "u_num": U_NUM}
