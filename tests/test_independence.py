@@ -26,7 +26,9 @@ ALLOWED = {
     # Shows the functions inside the FSCM.
     "comparisons.paper.figures.fig02_kernel_functions": ("fscm",),
     # A solid that is no power law has no dimensionless problem.
-    "comparisons.paper.studies.surface_modulus": ("fscm.physical", "fscm.problem", "fem_reference"),
+    "comparisons.paper.studies.surface_modulus": ("fscm", "fem_reference"),
+    "comparisons.paper.studies.graded_routes": ("fscm", "fem_reference"),
+    "comparisons.paper.studies.layered_adhesion": ("fscm",),
     # The landing of a jump and the surface at pull-off are no quantities of a model.
     "comparisons.paper.figures.fig03_s_curve": ("fscm",),
     "comparisons.paper.figures.fig05_07_pull_off_surfaces": ("fscm",),
@@ -49,6 +51,8 @@ ALLOWED = {
     "comparisons.problem_file.equivalent_power_law": ("fscm.physical",),
     # Derivatives of a value, which are no quantity of a model.
     "comparisons.problem_file.propagation": ("fscm",),
+    # Solves the same graded solids by both.
+    "comparisons.graded_agreement.solving": ("fscm", "fem_reference"),
     # Changes one ingredient of the Stieltjes scheme at a time.
     "comparisons.paper.values.scheme_ingredients": ("fscm",),
     # Only the adapters know the solvers.
