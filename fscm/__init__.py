@@ -23,7 +23,7 @@ LAYERS = (
     ("_events", "_bounds", "_completeness", "_whole_path", "_pull_off_path", "_curve_density", "folds", "stability"),
     ("path", "critical", "quantities", "analysis"),
     ("gibson", "stieltjes", "interpolation"),
-    ("experiment", "states", "solver"),
+    ("experiment", "states", "solver", "_event_adjoint", "_sensitivity"),
 )
 
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -2,6 +2,7 @@
 
 from ._kernel import Phi as Phi, Psi as Psi, ring_response as ring_response
 from ._meshes import ACCURACIES as ACCURACIES
+from ._sensitivity import SENSITIVE as SENSITIVE, ValueSensitivity as ValueSensitivity, sensitivity as sensitivity
 from .analysis import EVENTS as EVENTS, Analysis as Analysis
 from .custom_punch import CustomPunch as CustomPunch
 from .errors import NoSuchEvent as NoSuchEvent, NotConverged as NotConverged, OutsideAtlas as OutsideAtlas

@@ -73,6 +73,8 @@ class Discretisation:
         self.matrix: Array = response_matrix(kernel, mesh, known)
         self.axis = axis_row(kernel, mesh)
         self._at: tuple[float, Any, Array] | None = None
+        if previous is not None and previous.mesh is mesh and previous.problem.response is problem.response:
+            self._at = previous._at
         #: The last factors of a tangent on this mesh: they serve states nearby.
         self.factor: BorderedFactor | None = None
         edge = int(np.searchsorted(mesh.offsets, 1.0 - mesh.origin))

@@ -24,7 +24,7 @@ from fscm.punch import PowerPunch
 from fscm.quantities import quantity_named
 from fscm.solution import EventPair, Parts, Solution
 
-__all__ = ["EVENTS", "Analysis"]
+__all__ = ["EVENTS", "EXTREMAL", "Analysis"]
 
 # Minima of the load that differ by less than this, relative to 1 + |P|, are compared on the finest mesh.
 _NEAR = 1e-2
@@ -187,7 +187,7 @@ class Analysis:
         True
         """
         if (event, functional) not in self._parts:
-            errors, extremal = self._errors(event), _EXTREMAL[event]
+            errors, extremal = self._errors(event), EXTREMAL[event]
             self._parts[event, functional] = (
                 bounds(errors.controlled(functional, "load", 0.0))
                 if extremal is None
@@ -331,8 +331,8 @@ _EVENTS: dict[str, tuple[Callable[[Analysis], Bracket], Condition]] = {
     "jump_out": (lambda analysis: analysis._folds[1], events.displacement_fold),
     "zero_load": (Analysis._last_zero_load, events.zero_load),
 }
-# The functional that is extreme at an event; none: the load is prescribed.
-_EXTREMAL = {"pull_off": "load", "jump_in": "displacement", "jump_out": "displacement", "zero_load": None}
+#: The functional that is extreme at an event; none: the load is prescribed.
+EXTREMAL = {"pull_off": "load", "jump_in": "displacement", "jump_out": "displacement", "zero_load": None}
 # Where a jump lands among the points of the path with the displacement of its fold: on the last or on the first branch.
 _LANDINGS = {"jump_in": -1, "jump_out": 0}
 

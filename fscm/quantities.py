@@ -63,10 +63,15 @@ class AtEvent(Quantity):
     Attributes
     ----------
     functional : callable
-        PathPoint -> float.
+        PathPoint -> float: the attribute times the sign.
+    attribute : str
+        Of `PathPoint`.
+    sign : float
     """
 
     functional: Callable[[PathPoint], float]
+    attribute: str
+    sign: float
 
     @classmethod
     def of(cls, kind: str, event: str, attribute: str, sign: float = 1.0) -> AtEvent:
@@ -80,7 +85,7 @@ class AtEvent(Quantity):
                 functional(analysis.event(event).value), analysis.parts(event, attribute), [analysis.event(event)]
             )
 
-        return cls(kind, (event,), compute, functional)
+        return cls(kind, (event,), compute, functional, attribute, sign)
 
     @property
     def event(self) -> str:

@@ -45,6 +45,12 @@ ALLOWED = {
     # Pose the problem of a file to each solver: any solid, punch and law.
     "comparisons.problem_file.dimensionless": ("fscm",),
     "comparisons.problem_file.finite_elements": ("fem_reference",),
+    # The pressure at the pull-off force and the surface compliance of a solid, which are no quantities of a model.
+    "comparisons.problem_file.elastic_energy": ("fscm",),
+    # The factor of Poisson's ratio in the surface compliance of a power law.
+    "comparisons.problem_file.equivalent_power_law": ("fscm.physical",),
+    # Derivatives of a value, which are no quantity of a model.
+    "comparisons.problem_file.propagation": ("fscm",),
     # Solves the same graded solids by both.
     "comparisons.graded_agreement.solving": ("fscm", "fem_reference"),
     # Changes one ingredient of the Stieltjes scheme at a time.

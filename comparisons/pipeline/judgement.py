@@ -128,6 +128,10 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
     name, arguments = record["command_name"], record["arguments"]
     if name == "paper":
         raise ValueError(f"{folder} holds figures of the paper, which no gate judges: give the folder of a run")
+    if name == "problem-sweep":
+        raise ValueError(
+            f"{folder} holds values of a problem file in SI, which no gate judges: give the folder of a run"
+        )
     if name == "sweep" and gates is None:
         raise ValueError(f"{folder} is the folder of a sweep, which has no gates: give some with --gates FILE")
     check_files(record, folder, written_again=VERDICT_FILES)

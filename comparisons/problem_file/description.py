@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
+
+from comparisons.problem_file.uncertain import Uncertainty
 
 __all__ = ["ProblemFile", "Section"]
 
@@ -21,6 +23,8 @@ class Section:
         Numbers in SI, and the name of the file of a table.
     columns : mapping of str to tuple of float
         The columns of that file, in SI.
+    uncertain : mapping of str to Uncertainty
+        Of the values that have a standard deviation or an interval.
 
     Examples
     --------
@@ -31,6 +35,7 @@ class Section:
     kind: str
     values: Mapping[str, Any]
     columns: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    uncertain: Mapping[str, Uncertainty] = field(default_factory=dict)
 
     def __getitem__(self, key: str) -> Any:
         return self.values[key]
@@ -38,6 +43,16 @@ class Section:
     def get(self, key: str, default: Any = None) -> Any:
         """Return a value, or the default where the file does not have it."""
         return self.values.get(key, default)
+
+    def changed(self, key: str, value: float) -> Section:
+        """Return the section with another value of a key.
+
+        Examples
+        --------
+        >>> Section("sphere", {"R": 1e-6}).changed("R", 2e-6)["R"]
+        2e-06
+        """
+        return replace(self, values={**self.values, key: value})
 
     @property
     def parameters(self) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping
 from difflib import get_close_matches
 from functools import lru_cache
@@ -10,9 +11,10 @@ from importlib.resources import files
 from typing import Any
 
 from comparisons.problem_file.source import Source, shown
+from comparisons.problem_file.uncertain import Uncertainty, is_uncertain, uncertain_in_si
 from comparisons.problem_file.units import NotAValue, in_si
 
-__all__ = ["SECTIONS", "checked_section", "kinds"]
+__all__ = ["SECTIONS", "checked_section", "kinds", "limits_of", "unit_of"]
 
 #: The sections, all required.
 SECTIONS = ("solid", "punch", "law")
@@ -44,8 +46,37 @@ def kinds(section: str) -> dict[str, dict[str, Any]]:
     return {part["properties"]["kind"]["const"]: part for part in _schema()["properties"][section]["oneOf"]}
 
 
-def checked_section(document: Mapping[str, Any], section: str, source: Source) -> dict[str, Any]:
-    """Return the values of a section in SI, its kind and names of files as they are.
+def unit_of(section: str, kind: str, key: str) -> str | None:
+    """Return the unit in SI of a key, None for a plain number or a text.
+
+    Examples
+    --------
+    >>> unit_of("solid", "coating", "thickness"), unit_of("solid", "coating", "nu")
+    ('m', None)
+    """
+    rule = _rule(kinds(section)[kind]["properties"][key])
+    unit: str | None = rule.get("unit")
+    return unit
+
+
+def limits_of(section: str, kind: str, key: str) -> tuple[float, float]:
+    """Return the ends of the admissible values of a key, in SI.
+
+    Examples
+    --------
+    >>> limits_of("solid", "coating", "nu_coating"), limits_of("punch", "sphere", "R")
+    ((0.0, 0.5), (0.0, inf))
+    """
+    rule = _rule(kinds(section)[kind]["properties"][key])
+    low = rule.get("minimum", rule.get("exclusiveMinimum", -math.inf))
+    high = rule.get("maximum", rule.get("exclusiveMaximum", math.inf))
+    return float(low), float(high)
+
+
+def checked_section(
+    document: Mapping[str, Any], section: str, source: Source
+) -> tuple[dict[str, Any], dict[str, Uncertainty]]:
+    """Return the values of a section in SI, its kind and names of files as they are; and what is uncertain of them.
 
     Raises
     ------
@@ -80,48 +111,55 @@ def checked_section(document: Mapping[str, Any], section: str, source: Source) -
         for key in choice:
             if key not in table and any(other in table for other in choice):
                 raise source.refusal(section, None, f"{key} is missing; {_listed(choice)} stand together")
-    values = {"kind": kind}
+    values: dict[str, Any] = {"kind": kind}
+    uncertain: dict[str, Uncertainty] = {}
     for key in keys:
         if key in table and key != "kind":
-            values[key] = _checked_value(section, key, table, keys[key], source)
-    return values
+            values[key], uncertainty = _checked_value(section, key, table[key], _rule(keys[key]), values, source)
+            if uncertainty:
+                uncertain[key] = uncertainty
+    return values, uncertain
 
 
-def _checked_value(section: str, key: str, table: Mapping[str, Any], part: Mapping[str, Any], source: Source) -> Any:
-    rule = _schema()["$defs"][part["$ref"].rpartition("/")[2]]
-    value = table[key]
+def _rule(part: Mapping[str, Any]) -> Mapping[str, Any]:
+    rule: Mapping[str, Any] = _schema()["$defs"][part["$ref"].rpartition("/")[2]]
+    return rule
+
+
+def _checked_value(
+    section: str, key: str, value: Any, rule: Mapping[str, Any], before: Mapping[str, Any], source: Source
+) -> tuple[Any, Uncertainty | None]:
     written = f"{key} = {shown(value)}"
     if rule["type"] == "string":
         if not isinstance(value, str) or not value:
             raise source.refusal(section, key, f"{written} must be {rule['description']}")
-        return value
-    number, remedy = _number(section, key, table, rule, source)
-    for keyword, (holds, words) in _LIMITS.items():
-        if keyword in rule and not holds(number, rule[keyword]):
-            raise source.refusal(
-                section, key, f"{written} must be {words.format(rule[keyword])}; it is {rule['description']}{remedy}"
-            )
-    return number
-
-
-def _number(
-    section: str, key: str, table: Mapping[str, Any], rule: Mapping[str, Any], source: Source
-) -> tuple[float, str]:
-    """A value in SI, and how to write it."""
-    value, unit, remedy, power = table[key], rule.get("unit"), "", 1.0
+        return value, None
+    unit, remedy, power = rule.get("unit"), "", 1.0
     if unit == "m^(n-1)":
         # The shape index stands before Q in the schema and so has been checked.
-        unit, power = "m", float(table["n"]) - 1.0
-    if unit is None:
-        if isinstance(value, str):
-            raise source.refusal(section, key, f"{key} = {shown(value)} is a text; it is {rule['description']}")
-    else:
+        unit, power = "m", before["n"] - 1.0
+    if unit:
         remedy = f', as "{rule["example"]}" or a plain number in {rule["unit"]}'
+    uncertainty = None
     try:
-        return in_si(value, unit or "", power), remedy
+        if is_uncertain(value) and rule.get("uncertain", True):
+            number, uncertainty = uncertain_in_si(value, unit or "", power)
+        elif unit is None and isinstance(value, str):
+            raise NotAValue("is a text")
+        else:
+            number = in_si(value, unit or "", power)
     except NotAValue as error:
-        sentence = f"{key} = {shown(value)} {error}; it is {rule['description']}{remedy}"
-        raise source.refusal(section, key, sentence) from None
+        raise source.refusal(section, key, f"{written} {error}; it is {rule['description']}{remedy}") from None
+    for end in uncertainty.limits(number) if uncertainty and uncertainty.is_interval else (number,):
+        for keyword, (holds, words) in _LIMITS.items():
+            if keyword in rule and not holds(end, rule[keyword]):
+                limit = words.format(rule[keyword])
+                raise source.refusal(section, key, f"{written} must be {limit}; it is {rule['description']}{remedy}")
+    if uncertainty and "exclusiveMinimum" in rule and not uncertainty.size < number - rule["exclusiveMinimum"]:
+        raise source.refusal(
+            section, key, f"{written} has a standard deviation that reaches the end of its range; write a smaller one"
+        )
+    return number, uncertainty
 
 
 def _near(name: str, known: Mapping[str, Any]) -> str:

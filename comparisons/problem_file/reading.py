@@ -16,7 +16,7 @@ from comparisons.problem_file.description import ProblemFile, Section
 from comparisons.problem_file.form import SECTIONS, checked_section
 from comparisons.problem_file.source import Source, read_text, shown
 
-__all__ = ["load_problem"]
+__all__ = ["document_of", "load_problem", "problem_of"]
 
 #: Columns of the tables, and the smallest number of rows.
 _TABLES: dict[str, tuple[dict[str, Column], int]] = {
@@ -60,9 +60,31 @@ def load_problem(path: str | os.PathLike[str]) -> ProblemFile:
     Traceback (most recent call last):
     ValueError: no_such_file.toml: the problem file cannot be read (No such file or directory); check the name
     """
+    return problem_of(*document_of(path))
+
+
+def document_of(path: str | os.PathLike[str]) -> tuple[dict[str, Any], Source]:
+    """Return the sections of a problem file as they are written, and its text.
+
+    Raises
+    ------
+    ValueError
+        As `load_problem`, if the file cannot be read or is not TOML.
+    """
     path = Path(path)
     source = Source(path, read_text(path, "the problem file"))
-    document = _document(source)
+    return _document(source), source
+
+
+def problem_of(document: Mapping[str, Any], source: Source) -> ProblemFile:
+    """Return the problem of the sections of a file.
+
+    Raises
+    ------
+    ValueError
+        As `load_problem`.
+    """
+    path = source.path
     for name in document:
         if name not in SECTIONS:
             near = get_close_matches(name, SECTIONS, n=1)
@@ -94,10 +116,10 @@ def _document(source: Source) -> dict[str, Any]:
 
 
 def _section(document: Mapping[str, Any], name: str, source: Source) -> Section:
-    values = checked_section(document, name, source)
+    values, uncertain = checked_section(document, name, source)
     kind = values.pop("kind")
     if kind != "table":
-        return Section(kind, values)
+        return Section(kind, values, uncertain=uncertain)
     columns, fewest = _TABLES[name]
     path = source.path.parent / values["file"]
     if not path.is_file():
@@ -117,4 +139,4 @@ def _section(document: Mapping[str, Any], name: str, source: Source) -> Section:
             )
         if not found["height"][-1] > found["height"][0]:
             raise ValueError(f"{path}: the last height is not above the first one; a punch rises to the outside")
-    return Section(kind, values, found)
+    return Section(kind, values, found, uncertain)

@@ -17,8 +17,8 @@ _NAME = r"[A-Za-zµμΩÅ]+(?:\s*(?:\^|\*\*)\s*\(?[+-]?\d{1,2}(?:\.\d{1,4})?\)?)
 _UNIT = re.compile(rf"(?:1\s*/\s*)?{_NAME}(?:\s*[*/·]\s*{_NAME}|\s+{_NAME})*")
 _VALUE = re.compile(rf"\s*({_NUMBER})\s*(.*?)\s*")
 
-#: Prefixes by which text shows a number, and their powers of ten; energies of contacts are of 1e-18 J.
-_PREFIXES = ((0, ""), (-3, "m"), (-6, "µ"), (-9, "n"), (-12, "p"), (-15, "f"), (-18, "a"), (-21, "z"))
+#: Prefixes by which text shows a number, and their powers of ten: moduli of 1e9 Pa, energies of contacts of 1e-18 J.
+_PREFIXES = tuple(zip(range(9, -24, -3), ("G", "M", "k", "", "m", "µ", "n", "p", "f", "a", "z"), strict=True))
 
 #: Relative error of a few multiplications.
 _ROUNDING = 1e-14

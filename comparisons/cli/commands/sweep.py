@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from contextlib import nullcontext
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from comparisons.cli.options import FAILED, OK, add_jobs, add_out, add_quiet, add_retry_failed, output
 from comparisons.console.progress import log, note, quiet
@@ -14,23 +15,49 @@ from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.run import run
 from comparisons.runs.backends import BACKENDS
 
-__all__ = ["EXAMPLES", "add", "call", "show"]
+if TYPE_CHECKING:
+    from comparisons.pipeline.problem_sweep import FinishedProblemSweep
+
+__all__ = ["EXAMPLES", "add", "call", "show", "show_problems"]
 
 #: Examples of the help.
-EXAMPLES = ("fscm-bench sweep my_cases.toml --model jkr md-improved --out results/sweep",)
+EXAMPLES = (
+    "fscm-bench sweep my_cases.toml --model jkr md-improved --out results/sweep",
+    'fscm-bench sweep --problem pad.toml --vary "solid.thickness=5, 10, 20 nm" --vary "punch.R=50:250:5 nm" --out pads',
+)
 
 
 def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument(
-        "file", metavar="FILE", type=Path, help="[[grid]] tables as in comparisons/data/cases.toml, without a tier"
+        "file",
+        metavar="FILE",
+        nargs="?",
+        type=Path,
+        help="[[grid]] tables as in comparisons/data/cases.toml, without a tier",
+    )
+    parser.add_argument(
+        "--problem", metavar="FILE", type=Path, help="in place of these: a problem file, whose keys are varied; in SI"
+    )
+    parser.add_argument(
+        "--vary",
+        metavar="KEY=VALUES",
+        action="append",
+        help="values of a key of the problem file: SECTION.KEY=A, B, C UNIT or SECTION.KEY=FIRST:LAST:NUMBER UNIT",
+    )
+    parser.add_argument(
+        "--quantity",
+        metavar="NAME",
+        nargs="+",
+        action="extend",
+        help="quantities of the problem file (default: pull_off_force)",
     )
     parser.add_argument(
         "--model",
         metavar="SPEC",
         nargs="+",
         action="extend",
-        help="compare these models instead of those each grid names",
+        help="compare these models instead of those each grid names; of a problem file: fscm if there are none",
     )
     add_jobs(parser)
     parser.add_argument(
@@ -53,8 +80,11 @@ def call(args: argparse.Namespace) -> int:
         raise ValueError(
             f"--shard {args.shard} needs --out DIR: each shard has a folder of its own, which is merged later"
         )
+    _require_one_form(args)
     with quiet() if args.quiet else nullcontext():
         try:
+            if args.problem is not None:
+                return _sweep_problem(args)
             finished = run(
                 args.file,
                 models=args.model,
@@ -69,6 +99,48 @@ def call(args: argparse.Namespace) -> int:
             log(str(failure))
             return FAILED
         return show(finished, with_summary=not args.quiet)
+
+
+def _require_one_form(args: argparse.Namespace) -> None:
+    """Refuse arguments of both forms of the command, or of none."""
+    if (args.file is None) == (args.problem is None):
+        raise ValueError("a sweep is of one file: FILE with [[grid]] tables, or --problem FILE with --vary KEY=VALUES")
+    if args.problem is None and (args.vary or args.quantity):
+        option = "--vary" if args.vary else "--quantity"
+        raise ValueError(f"{option} is for --problem FILE; the [[grid]] tables state their cases and quantities")
+    if args.problem is not None and not args.vary:
+        raise ValueError("--problem needs --vary KEY=VALUES; fscm-bench solve --problem computes a single problem")
+
+
+def _sweep_problem(args: argparse.Namespace) -> int:
+    # Imported here: the sweep of dimensionless cases does not need it.
+    from comparisons.pipeline.problem_sweep import problem_sweep
+
+    finished = problem_sweep(
+        args.problem,
+        args.vary,
+        args.model or ("fscm",),
+        args.quantity or ("pull_off_force",),
+        args.out,
+        jobs=args.jobs,
+        retry_failed=args.retry_failed,
+        backend=args.backend,
+        scheduler=args.scheduler,
+        shard=args.shard,
+    )
+    return show_problems(finished, with_summary=not args.quiet)
+
+
+def show_problems(finished: FinishedProblemSweep, *, with_summary: bool) -> int:
+    """Print the table of a sweep over a problem file; return the exit status."""
+    from comparisons.output.problem_sweep_text import problem_lines
+
+    if with_summary:
+        print("\n".join(problem_lines(finished.table)))
+    for row in finished.failures:
+        log(f"{row.model}: {row.quantity} failed: {row.reason}")
+    note(f"results are in {finished.folder}")
+    return FAILED if finished.failures else OK
 
 
 def show(finished: FinishedRun, *, with_summary: bool) -> int:

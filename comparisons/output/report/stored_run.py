@@ -96,6 +96,10 @@ def read_folder(folder: Path) -> Stored:
     """
     files = RunFolder(folder)
     record = read_record(files.record)
+    if record["command_name"] == "problem-sweep":
+        raise ValueError(
+            f"{folder} holds values of a problem file in SI, which have no report: its table is results.csv"
+        )
     check_files(record, folder)
     warn_of_other_code(record, folder)
     tables = {name: _table(folder / f"{name}.parquet", columns) for name, columns in _TABLES.items()}

@@ -1,0 +1,248 @@
+"""Sweep over a problem file: every combination of values of its keys, by any models, in SI."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from concurrent.futures import BrokenExecutor
+from contextlib import closing
+from dataclasses import asdict, dataclass
+from datetime import UTC, datetime
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from comparisons.console.progress import counting, note
+from comparisons.model import ComputationFailed
+from comparisons.pipeline.finished_run import described
+from comparisons.pipeline.record_content import now, record_content
+from comparisons.problem_file.variation import variations
+from comparisons.quantities import QUANTITIES
+from comparisons.registry import ExternalIdentity, identify
+from comparisons.runs.backends import backend_of
+from comparisons.runs.computation import checked_jobs, folder_for
+from comparisons.runs.folder import RunFolder
+from comparisons.runs.journal import alone_in
+from comparisons.runs.problem_tasks import ProblemRow, ProblemTask, compute_problems, plan_problems, problem_journal
+from comparisons.runs.record import write_record
+from comparisons.runs.shards import Shard
+from comparisons.runs.tables import write_table
+from comparisons.runs.workers import LOST, Backend
+
+__all__ = ["COMMAND", "FinishedProblemSweep", "problem_sweep", "problem_table", "write_problem_sweep"]
+
+#: Name of the command in the record.
+COMMAND = "problem-sweep"
+
+
+@dataclass(frozen=True)
+class FinishedProblemSweep:
+    """A finished sweep over a problem file.
+
+    Attributes
+    ----------
+    folder : Path
+    table : DataFrame
+        A row for each model, quantity and problem; the varied keys are columns, with their units in brackets.
+    failures : tuple of ProblemRow
+    """
+
+    folder: Path
+    table: pd.DataFrame
+    failures: tuple[ProblemRow, ...]
+
+
+def problem_sweep(
+    problem: Path,
+    vary: Sequence[str],
+    models: Sequence[str] = ("fscm",),
+    quantities: Sequence[str] = ("pull_off_force",),
+    folder: Path | None = None,
+    *,
+    jobs: int = 1,
+    retry_failed: bool = False,
+    backend: str = "processes",
+    scheduler: str | None = None,
+    shard: str | None = None,
+) -> FinishedProblemSweep:
+    """Compute quantities of a problem file for every combination of values, and write table and record into a folder.
+
+    Parameters
+    ----------
+    problem : Path
+        A problem file.
+    vary : sequence of str
+        ``SECTION.KEY=VALUES``, as of `comparisons.problem_file.variation.parse_variation`.
+    models : sequence of str
+        Names or SPECs.
+    quantities : sequence of str
+        Of `comparisons.QUANTITIES`.
+    folder, jobs, retry_failed, backend, scheduler, shard
+        As of `comparisons.run`.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not admissible, or the folder holds results of other code.
+    comparisons.model.ComputationFailed
+        If the workers cannot compute.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> text = '''
+    ... solid = {kind = "power-law", E0 = "2 GPa", c0 = "1 um", k = 0.4, nu = 0.3}
+    ... punch = {kind = "sphere", R = "1 um"}
+    ... law = {kind = "lennard-jones-9-3", work_of_adhesion = "50 mJ/m^2", z0 = "0.4 nm"}
+    ... '''
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "pad.toml")
+    ...     _ = file.write_text(text)
+    ...     finished = problem_sweep(file, ["punch.R=1, 2 um"], ["bradley"], folder=Path(folder, "out"))
+    >>> (finished.table["value"] * 1e9).round(3).tolist()  # 2 pi R dgamma, in nN
+    [314.159, 628.319]
+    """
+    checked_jobs(jobs)
+    workers = backend_of(backend, scheduler)
+    part = None if shard is None else Shard.parse(shard)
+    for quantity in quantities:
+        if quantity not in QUANTITIES:
+            raise ValueError(f"unknown quantity {quantity!r}; the quantities are {', '.join(QUANTITIES)}")
+    names, external = identify(models)
+    specs = {name: (external[name].spec, external[name].version) if name in external else (name, "") for name in names}
+    tasks = plan_problems(variations(problem, vary), specs, quantities)
+    whole = sha256(json.dumps(sorted(task.key for task in tasks)).encode()).hexdigest()
+    total = len(tasks)
+    if part is not None:
+        tasks = tasks[part.number - 1 :: part.total]
+    start = now()
+    target = RunFolder(folder_for(folder, datetime.now(UTC)))
+    rows, resumed, parts = _completed(tasks, target.path, jobs, retry_failed, workers)
+    others = {"backend": None if backend == "processes" else backend, "scheduler": scheduler, "shard": shard}
+    arguments = {
+        "problem": str(problem),
+        "vary": list(vary),
+        "model": names,
+        "external": {name: identity.spec for name, identity in external.items()},
+        "quantity": list(quantities),
+        "computations": total,
+        "jobs": jobs,
+        **{name: value for name, value in others.items() if value is not None},
+        "out": str(target.path),
+    }
+    return write_problem_sweep(
+        target, rows, resumed, parts, arguments, start, whole, described(set(names), external), external
+    )
+
+
+def _completed(
+    tasks: Sequence[ProblemTask], folder: Path, jobs: int, retry_failed: bool, backend: Backend
+) -> tuple[list[ProblemRow], int, list[dict[str, Any]]]:
+    """Return the rows of the tasks, how many of them were stored, and the parts that computed them."""
+    wanted = {task.key: task for task in tasks}
+
+    def usable(row: ProblemRow) -> bool:
+        task = wanted.get(row.key)
+        return task is not None and task.version in ("", row.model_version)
+
+    def again(row: ProblemRow) -> bool:
+        return row.status == "failed" and (retry_failed or bool(wanted[row.key].version) or row.reason == LOST)
+
+    with alone_in(folder):
+        journal = problem_journal(folder)
+        journal.drop(lambda row: usable(row) and again(row))
+        known = {row.key for row in journal.items if usable(row)}
+        missing = [task for task in tasks if task.key not in known]
+        note(f"{len(missing)} computations" + (f", {len(known)} are stored" if known else ""))
+        try:
+            computing = closing(compute_problems(missing, jobs, backend))
+            with counting("computing", len(missing)) as count, computing as computed:
+                for row, environment in computed:
+                    journal.add(row, environment)
+                    count()
+        except BrokenExecutor as failure:
+            stored = f"{len(journal.items)} finished computations are safe; go on with --out {folder}"
+            raise ComputationFailed(f"{failure}; {stored}") from None
+        # The parameters are those of today's plan: another --vary may name other keys of the same problem.
+        rows = [row for row in journal.items if usable(row)]
+        keys = {row.key for row in rows}
+        parts = journal.parts(lambda row: row.key in keys)
+    for row in rows:
+        row.parameters.clear()
+        row.parameters.update(wanted[row.key].parameters)
+    return rows, len(known), parts
+
+
+def write_problem_sweep(
+    target: RunFolder,
+    rows: Sequence[ProblemRow],
+    resumed: int,
+    parts: Sequence[Mapping[str, Any]],
+    arguments: Mapping[str, Any],
+    started: str,
+    whole: str,
+    models: Mapping[str, Any],
+    external: Mapping[str, ExternalIdentity] | None = None,
+) -> FinishedProblemSweep:
+    """Write the table and the record of a sweep over a problem file.
+
+    Parameters
+    ----------
+    target : RunFolder
+    rows : sequence of ProblemRow
+    resumed : int
+        How many of them were stored.
+    parts : sequence of mapping
+        That computed them.
+    arguments : mapping
+        For the record.
+    started : str
+    whole : str
+        SHA-256 of the keys of all tasks, also of those of other shards.
+    models : mapping
+        Version, citation and domain of each.
+    external : mapping, optional
+        External models.
+    """
+    table = problem_table(rows)
+    write_table(table, target.results, leave_out_of_csv=["seconds"])
+    seconds: Counter[str] = Counter()
+    for row in rows:
+        seconds[row.model] += row.seconds  # type: ignore[assignment]
+    counts = {"all": len(rows), "resumed": resumed, **Counter(row.status for row in rows)}
+    content = record_content(
+        COMMAND,
+        arguments,
+        started=started,
+        parts=parts,
+        rows=counts,
+        seconds=dict(sorted(seconds.items())),
+        verdicts={},
+    )
+    content |= {"cases_sha256": whole, "models": dict(models)}
+    write_record(content, target.record)
+    return FinishedProblemSweep(target.path, table, tuple(row for row in rows if row.status == "failed"))
+
+
+def problem_table(rows: Sequence[ProblemRow]) -> pd.DataFrame:
+    """Return the rows as a sorted table; the varied keys are columns.
+
+    Examples
+    --------
+    >>> row = ProblemRow("fscm", "1", "pull_off_force", {"punch.R [m]": 1e-7}, "ab", 2e-8, 1e-16, "N", "ok", "", 1.0)
+    >>> list(problem_table([row]))[2:5]
+    ['quantity', 'punch.R [m]', 'value']
+    """
+    varied = list(rows[0].parameters) if rows else []
+    records = []
+    for row in rows:
+        record = asdict(row)
+        record |= record.pop("parameters")
+        records.append(record)
+    names = ["model", "model_version", "quantity", *varied, "value", "u_num", "unit", "status", "reason", "seconds"]
+    table = pd.DataFrame(records, columns=names)
+    table = table.astype({"value": float, "u_num": float, "seconds": float})
+    return table.sort_values(["quantity", "model", *varied], ignore_index=True)

@@ -1,0 +1,131 @@
+r"""Elastic energy at the pull-off force by wave number, of a solid that is no power law.
+
+A pressure J0(xi r) displaces the surface by C(xi) J0(xi r).  With the transform q(xi) of the pressure, integral of
+p(r) J0(xi r) r dr, the energy in the solid is pi times the integral of C q^2 xi dxi, so that every decade of xi has a
+share of it.  The pressure is joined by straight lines, and the transform of those is exact:
+
+    q(xi) = -(sum of the slopes times the differences of F(xi r))/xi^3,
+    F(x) = (integral of J0 from 0 to x) - x J0(x).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+
+import fscm
+from comparisons.models.solver import translated
+from comparisons.problem_file.description import ProblemFile
+from comparisons.problem_file.dimensionless import dimensionless_problem
+from fscm.graded import GradedProblem
+from fscm.graded.compliance import compliance
+
+__all__ = ["EnergySpectrum", "energy_spectrum"]
+
+Array = NDArray[np.float64]
+
+#: Wave numbers beside the inverse of the mean radius of the load, and points for each decade.  The shares fall as xi
+#: below and as 1/xi above the contact (less than that above the width of its edge): 2 % are missing at most.
+_LOWEST, _HIGHEST, _POINTS = 1e-2, 1e3, 32
+
+#: Straight lines between two nodes of the solver.
+_PIECES = 4
+
+
+@dataclass(frozen=True, eq=False)
+class EnergySpectrum:
+    """Shares of the elastic energy, and the compliance, at wave numbers with equal ratios; arrays of shape (m,).
+
+    Attributes
+    ----------
+    wave_numbers : ndarray
+        xi in 1/m.
+    compliances : ndarray
+        xi C(xi) in 1/Pa; 2 (1 - nu^2)/E for a homogeneous solid.
+    shares : ndarray
+        Of the energy, by the logarithm of xi; their sum is 1.
+    energy : float
+        In J.
+
+    Examples
+    --------
+    >>> xi = np.array([1e6, 1e7, 1e8])
+    >>> round(EnergySpectrum(xi, np.ones(3), np.array([0.25, 0.5, 0.25]), 1e-18).length(0.5), 12)
+    1e-07
+    """
+
+    wave_numbers: Array
+    compliances: Array
+    shares: Array
+    energy: float
+
+    def length(self, share: float) -> float:
+        """Return the length 1/xi above which a share of the energy is, in m."""
+        # Each share is spread evenly over the interval around its wave number.
+        below = np.cumsum(self.shares) - self.shares / 2.0
+        return float(np.exp(-np.interp(share, below, np.log(self.wave_numbers))))
+
+
+def energy_spectrum(problem: ProblemFile) -> EnergySpectrum:
+    """Return the elastic energy of a problem at its pull-off force by wave number.
+
+    Parameters
+    ----------
+    problem : ProblemFile
+        Its solid is no power law, whose compliance is one.
+
+    Raises
+    ------
+    ValueError
+        If it is a power law.
+    comparisons.model.ComputationFailed
+        If the FSCM does not converge.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from comparisons.problem_file.description import Section
+    >>> solid = Section("exponential", {"E_surface": 1e9, "E_depth": 3e9, "length": 1e-7, "nu": 0.3})
+    >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10})
+    >>> found = energy_spectrum(ProblemFile(Path("pad.toml"), solid, Section("sphere", {"R": 1e-7}), law))
+    >>> 3e-9 < found.length(0.5) < 3e-8  # the contact radius is 12 nm
+    True
+    """
+    posed, units = dimensionless_problem(problem)
+    if not isinstance(posed, GradedProblem):
+        raise ValueError(f"{problem.path.name} has a power-law solid, whose surface compliance is known")
+    with translated(fscm.NoSuchEvent, fscm.NotConverged):
+        # The shares need few digits.
+        field = fscm.profile(posed, "pull_off", "quick")
+        radius = float(np.sum(np.abs(_moments(field.radius, field.pressure, 2))))
+        radius /= float(np.sum(np.abs(_moments(field.radius, field.pressure, 1))))
+        count = round(np.log10(_HIGHEST / _LOWEST)) * _POINTS + 1
+        xi = np.geomspace(_LOWEST, _HIGHEST, count) / radius
+        values = compliance(posed.solid, xi)
+    density = values * xi * _transform(field.radius, field.pressure, xi) ** 2
+    scale = np.pi * units["traction"] ** 2 * units["radius"] ** 3
+    energy = float(np.sum(density)) * np.log(xi[1] / xi[0]) * scale
+    return EnergySpectrum(xi / units["radius"], values, density / np.sum(density), float(energy))
+
+
+def _moments(r: Array, p: Array, power: int) -> Array:
+    """The integrals of |p| r^power between the nodes."""
+    f = np.abs(p) * r**power
+    return np.diff(r) * (f[1:] + f[:-1]) / 2.0
+
+
+def _transform(r: Array, p: Array, xi: Array) -> Array:
+    """q(xi) of a pressure at nodes."""
+    places = np.linspace(0.0, 1.0, _PIECES, endpoint=False)
+    fine = np.append((r[:-1, None] + np.diff(r)[:, None] * places).ravel(), r[-1])
+    values = scipy.interpolate.PchipInterpolator(r, p)(fine)
+    # Even at the axis and zero beyond the last node.
+    fine, values = np.append(0.0, fine), np.append(values[0], values)
+    slopes = np.diff(values) / np.diff(fine)
+    x = xi[:, None] * fine
+    F = scipy.special.itj0y0(x)[0] - x * scipy.special.j0(x)
+    end = values[-1] * fine[-1] ** 2 * scipy.special.j1(x[:, -1]) / x[:, -1]
+    return np.asarray(end - (np.diff(F, axis=1) @ slopes) / xi**3)

@@ -1,0 +1,117 @@
+"""Values with a standard deviation or an interval: their text, as numbers in SI."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from comparisons.problem_file.units import NotAValue, in_si
+
+__all__ = ["Uncertainty", "is_uncertain", "uncertain_in_si"]
+
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_SIGN = re.compile(r"\+/-|\+-|±")
+_INTERVAL = re.compile(rf"\s*\[\s*({_NUMBER})\s*,\s*({_NUMBER})\s*\]\s*(.*?)\s*")
+_BRACKETS = re.compile(r"\s*\(([^()]*)\)\s*(.+?)\s*")
+_PERCENT = re.compile(rf"\s*({_NUMBER})\s*%\s*")
+_PLAIN = re.compile(rf"\s*{_NUMBER}\s*")
+
+
+@dataclass(frozen=True, slots=True)
+class Uncertainty:
+    """What a file states of a value besides the value.
+
+    Attributes
+    ----------
+    size : float
+        Standard deviation, or half the width of the interval around the value; in SI, > 0.
+    is_interval : bool
+    written : str
+        The text of the file.
+
+    Examples
+    --------
+    >>> uncertain_in_si("[1.8, 2.2] GPa", "Pa")[1].limits(2e9)
+    (1800000000.0, 2200000000.0)
+    """
+
+    size: float
+    is_interval: bool
+    written: str
+
+    def limits(self, value: float) -> tuple[float, float]:
+        """Both ends of the interval, or one standard deviation to both sides."""
+        return value - self.size, value + self.size
+
+
+def is_uncertain(value: object) -> bool:
+    """Whether a value of a file is a text with an uncertainty.
+
+    Examples
+    --------
+    >>> [is_uncertain(value) for value in ("2 GPa", "2 GPa +- 5 %", "[1.8, 2.2] GPa", 2e9)]
+    [False, True, True, False]
+    """
+    return isinstance(value, str) and bool(_SIGN.search(value) or value.lstrip().startswith("["))
+
+
+def uncertain_in_si(text: str, target: str, power: float = 1.0) -> tuple[float, Uncertainty]:
+    """Return the value of a text with an uncertainty, in SI; that of an interval is its middle.
+
+    Parameters
+    ----------
+    text : str
+        ``2 +- 0.1 GPa``, ``(2 +- 0.1) GPa``, ``2 GPa +- 100 MPa``, ``2 GPa +- 5 %`` (standard deviations) or
+        ``[1.8, 2.2] GPa``; without a unit for a plain number.  The sign may be ``±`` or ``+/-``.
+    target : str
+        The unit in SI; nothing for a plain number.
+    power : float
+        Its exponent.
+
+    Raises
+    ------
+    NotAValue
+
+    Examples
+    --------
+    >>> value, uncertainty = uncertain_in_si("2 GPa +- 5 %", "Pa")
+    >>> value, uncertainty.size
+    (2000000000.0, 100000000.0)
+    """
+    interval = _INTERVAL.fullmatch(text)
+    if interval:
+        low, high = (_si(f"{number} {interval[3]}", target, power) for number in interval.groups()[:2])
+        if not low < high:
+            raise NotAValue("has an interval whose first end is not below the second")
+        # The middle of 1.8 and 2.2 is 2 to all digits.
+        return float(f"{0.5 * (low + high):.15g}"), Uncertainty(0.5 * (high - low), True, text)
+    first, *rest = _SIGN.split(text)
+    if len(rest) != 1:
+        raise NotAValue("is no value +- standard deviation and no [interval] with a unit behind it")
+    second = rest[0]
+    brackets = _BRACKETS.fullmatch(text)
+    if brackets and _SIGN.search(brackets[1]):
+        first, second = (f"{number} {brackets[2]}" for number in _SIGN.split(brackets[1]))
+    percent = _PERCENT.fullmatch(second)
+    if not percent and _PLAIN.fullmatch(first) and not _PLAIN.fullmatch(second):
+        # One unit behind both numbers.
+        first += re.sub(rf"^\s*{_NUMBER}", "", second)
+    value = _si(first, target, power)
+    if percent:
+        size = abs(value) * float(percent[1]) / 100.0
+    elif target and _PLAIN.fullmatch(second):
+        raise NotAValue("has a standard deviation without a unit")
+    else:
+        size = _si(second, target, power)
+    if not size > 0.0:
+        raise NotAValue("has a standard deviation that is not above 0")
+    return value, Uncertainty(size, False, text)
+
+
+def _si(text: str, target: str, power: float) -> float:
+    """A number with a unit, or a plain one, in SI."""
+    if target:
+        return in_si(text.strip(), target, power)
+    if not _PLAIN.fullmatch(text):
+        raise NotAValue("is no plain number with an uncertainty, as 0.3 +- 0.02 or [0.25, 0.35]")
+    return in_si(float(text), target)

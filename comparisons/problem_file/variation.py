@@ -1,0 +1,152 @@
+"""Variation of a problem file: every combination of values of some of its keys."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from copy import deepcopy
+from dataclasses import dataclass
+from itertools import product
+from math import prod
+from pathlib import Path
+
+import numpy as np
+
+from comparisons.problem_file.description import ProblemFile
+from comparisons.problem_file.form import SECTIONS, unit_of
+from comparisons.problem_file.reading import document_of, problem_of
+from comparisons.problem_file.source import shown
+
+__all__ = ["Variation", "Varied", "parse_variation", "variations"]
+
+#: Most problems of one variation, and most values of a range.
+_MOST = 100_000
+
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_RANGE = re.compile(rf"\s*({_NUMBER})\s*:\s*({_NUMBER})\s*:\s*(\d+)\s*(.*?)\s*")
+_PLAIN = re.compile(rf"\s*{_NUMBER}\s*")
+_UNIT = re.compile(rf"\s*{_NUMBER}\s*(.*?)\s*")
+
+_FORM = 'write SECTION.KEY=VALUES, as "solid.thickness=5 nm, 10 nm" or "law.work_of_adhesion=20:100:5 mJ/m^2"'
+
+
+@dataclass(frozen=True, slots=True)
+class Variation:
+    """The values of one key, as in a problem file.
+
+    Attributes
+    ----------
+    section, key : str
+    values : tuple of float or str
+    text : str
+        As it was written.
+
+    Examples
+    --------
+    >>> Variation("solid", "nu", (0.3, 0.4), "solid.nu=0.3,0.4").name
+    'solid.nu'
+    """
+
+    section: str
+    key: str
+    values: tuple[float | str, ...]
+    text: str
+
+    @property
+    def name(self) -> str:
+        """Section and key."""
+        return f"{self.section}.{self.key}"
+
+
+def parse_variation(text: str) -> Variation:
+    """Read ``SECTION.KEY=VALUES``.
+
+    The values are separated by commas, and the unit of the last one is that of those without; or ``first:last:number
+    unit`` for values at equal distances, both ends included.
+
+    Raises
+    ------
+    ValueError
+        One sentence.
+
+    Examples
+    --------
+    >>> parse_variation("solid.thickness=5, 10, 20 nm").values
+    ('5 nm', '10 nm', '20 nm')
+    >>> parse_variation("law.work_of_adhesion=20:100:5 mJ/m^2").values[:2]
+    ('20 mJ/m^2', '40 mJ/m^2')
+    """
+    name, equals, listed = text.partition("=")
+    section, dot, key = (part.strip() for part in name.partition("."))
+    if not (equals and dot and key and listed.strip()):
+        raise ValueError(f"--vary {shown(text)} names no key with values; {_FORM}")
+    if section not in SECTIONS:
+        raise ValueError(f"--vary {shown(text)}: unknown section {shown(section)}; it is one of {', '.join(SECTIONS)}")
+    if key == "kind":
+        raise ValueError(f"--vary {shown(text)}: a kind is not varied, since its keys differ; write one file for each")
+    if match := _RANGE.fullmatch(listed):
+        count = int(match[3])
+        if not 2 <= count <= _MOST:
+            raise ValueError(f"--vary {shown(text)}: {count} values are outside 2 to {_MOST}; a range has both ends")
+        # Twelve digits: 20:100:5 is 20, 40, 60 and not 60.000000000000007.
+        numbers = [f"{value:.12g}" for value in np.linspace(float(match[1]), float(match[2]), count)]
+        values = [_value(number, match[4]) for number in numbers]
+    else:
+        parts = [part.strip() for part in listed.split(",")]
+        last = _UNIT.fullmatch(parts[-1])
+        values = [_value(part, last[1] if last else "") for part in parts]
+    if "" in values or len(set(values)) < len(values):
+        raise ValueError(f"--vary {shown(text)} has an empty value or one value twice; give each value once")
+    return Variation(section, key, tuple(values), text)
+
+
+def _value(part: str, unit: str) -> float | str:
+    if not _PLAIN.fullmatch(part):
+        return part
+    return f"{part.strip()} {unit}" if unit else float(part)
+
+
+@dataclass(frozen=True)
+class Varied:
+    """A problem of a variation, and the values of the varied keys in SI by the names of their columns."""
+
+    problem: ProblemFile
+    parameters: Mapping[str, float | str]
+
+
+def variations(path: Path, texts: Sequence[str]) -> list[Varied]:
+    """Return the problems of a file for every combination of values, each checked as a file is.
+
+    Raises
+    ------
+    ValueError
+        One sentence, if a text or one of the problems is not admissible.
+    """
+    chosen = [parse_variation(text) for text in texts]
+    names = [variation.name for variation in chosen]
+    twice = [name for name in names if names.count(name) > 1]
+    if twice:
+        raise ValueError(f"--vary {twice[0]} is there twice; give all values of a key in one --vary")
+    if (count := prod(len(variation.values) for variation in chosen)) > _MOST:
+        raise ValueError(f"--vary: {count} problems are more than {_MOST}; give fewer values")
+    return list(_problems(path, chosen))
+
+
+def _problems(path: Path, chosen: Sequence[Variation]) -> Iterator[Varied]:
+    document, source = document_of(path)
+    problem_of(document, source)
+    for values in product(*(variation.values for variation in chosen)):
+        changed = deepcopy(document)
+        for variation, value in zip(chosen, values, strict=True):
+            changed[variation.section][variation.key] = value
+        try:
+            problem = problem_of(changed, source)
+        except ValueError as error:
+            written = ", ".join(f"{each.name}={value}" for each, value in zip(chosen, values, strict=True))
+            raise ValueError(f"--vary {written}: {error}") from None
+        yield Varied(problem, {_column(problem, each): getattr(problem, each.section)[each.key] for each in chosen})
+
+
+def _column(problem: ProblemFile, variation: Variation) -> str:
+    unit = unit_of(variation.section, getattr(problem, variation.section).kind, variation.key)
+    return f"{variation.name} [{unit}]" if unit else variation.name

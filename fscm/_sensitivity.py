@@ -1,0 +1,215 @@
+"""Sensitivity of a value at an event to the problem."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from fscm._event_adjoint import Adjoint, AtExtreme, parameter
+from fscm._meshes import Accuracy, Meshes
+from fscm._threads import one_thread
+from fscm._typing import Array
+from fscm.analysis import EXTREMAL, Analysis
+from fscm.gibson import GibsonSolid
+from fscm.problem import Problem
+from fscm.punch import PowerPunch
+from fscm.quantities import TABLE, AtEvent, quantity_named
+from fscm.solution import Solution
+
+__all__ = ["SENSITIVE", "ValueSensitivity", "sensitivity"]
+
+#: Quantities that have a sensitivity: those that are functionals of the state at one event.
+SENSITIVE = tuple(name for name, row in TABLE.items() if isinstance(row, AtEvent))
+
+# Steps of a parameter, relative to its unit, and places of the differences in steps.  The error of the first rule is of
+# the fourth order; a new solid costs a new kernel, so that two places have to do: their error is 1e-7 of the third
+# derivative, and that of the fit of the kernel, 1e-10, counts 1e-7.
+_STEP, _MANY, _FEW = 1e-3, (-2.0, -1.0, 1.0, 2.0), (-1.0, 1.0)
+_MANY_ONE_SIDED, _FEW_ONE_SIDED = (1.0, 2.0, 3.0, 4.0), (1.0, 2.0)
+
+
+def difference_rule(places: tuple[float, ...]) -> Array:
+    """Weights of the values at some places, in units of the step, for the derivative at 0; the value there is the last.
+
+    Examples
+    --------
+    >>> difference_rule((-1.0, 1.0)).round(12) + 0.0
+    array([-0.5,  0.5,  0. ])
+    """
+    x = np.append(places, 0.0)
+    derivative = np.zeros(len(x))
+    derivative[1] = 1.0
+    return np.asarray(np.linalg.solve(np.vander(x, increasing=True).T, derivative), float)
+
+
+class ValueSensitivity:
+    """A value at an event, and its change with the problem to first order.
+
+    Parameters
+    ----------
+    problem : Problem
+    quantity : str
+        One of `SENSITIVE`.
+    accuracy : float or str
+        As for `solve`.
+
+    Attributes
+    ----------
+    solution : Solution
+        The value.
+    """
+
+    solution: Solution
+
+    def __init__(self, problem: Problem, quantity: str, accuracy: Accuracy = "default") -> None:
+        row = quantity_named(quantity)
+        if not isinstance(row, AtEvent):
+            raise ValueError(
+                f"the quantity {quantity} is none of those with a sensitivity, {', '.join(SENSITIVE)}: "
+                "they are values at one event"
+            )
+        self.problem, self._quantity = problem, quantity
+        meshes = Meshes.of(accuracy)
+        if problem.k == 1.0:
+            self.solution = GibsonSolid(problem).solution(quantity)
+            return
+        analysis = Analysis(problem, meshes)
+        self.solution = analysis.solution(quantity)
+        state, extremal = analysis.event(row.event).value, EXTREMAL[row.event]
+        self._sign = row.sign
+        self._rule: Adjoint | AtExtreme
+        if extremal is None:
+            self._rule = Adjoint(state, row.attribute, "load")
+        elif extremal == row.attribute:
+            self._rule = Adjoint(state, row.attribute, parameter(state)[0])
+        else:
+            self._rule = AtExtreme(state, row.attribute, extremal)
+
+    @one_thread()
+    def change(self, problem: Problem) -> float:
+        """Change of the value when its problem becomes another one nearby, to first order; no equilibrium is solved.
+
+        Parameters
+        ----------
+        problem : Problem
+            With the same units of its radii and heights.
+
+        Examples
+        --------
+        >>> found = sensitivity(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
+        >>> round(found.change(Problem(n=2, k=0.4, mu=1.01)) / 0.01, 3)
+        -0.1
+        """
+        if (problem.k == 1.0) != (self.problem.k == 1.0):
+            raise ValueError("a solid of k < 1 and that of k = 1 are no neighbours: their equations differ")
+        if problem.k == 1.0:
+            # Its equations are local: a value is solved to rounding in no time.
+            return GibsonSolid(problem).solution(self._quantity).value - self.solution.value
+        return self._sign * self._rule.change(problem)
+
+    def _new_solid(self, problem: Problem) -> bool:
+        """Whether a problem needs another kernel that costs time."""
+        return getattr(problem, "solid", None) != getattr(self.problem, "solid", None)
+
+    def derivative(
+        self,
+        vary: Callable[[float], tuple[Problem, float]],
+        at: float,
+        unit: float,
+        low: float = -math.inf,
+        high: float = math.inf,
+    ) -> float:
+        """Derivative of the value, in the user's unit, by a parameter.
+
+        Parameters
+        ----------
+        vary : callable
+            Parameter -> the problem, and the unit of the value.
+        at : float
+            The parameter of the present problem.
+        unit : float
+            Over which the problem changes by its own size; differences are taken over a thousandth of it.
+        low, high : float
+            Range of the parameter; at its end the differences are one-sided.
+
+        Examples
+        --------
+        Of the pull-off force P = pi R dgamma P_c(mu) by the radius of a sphere:
+
+        >>> from fscm import PhysicalProblem
+        >>> def sphere(R):
+        ...     found = PhysicalProblem(70e9, 1.0, 0, 0.2, Q=R, n=2, work_of_adhesion=0.05, z0=3e-10)
+        ...     return found.problem(), found.scales["load"]
+        >>> posed, newtons = sphere(1e-6)
+        >>> found = sensitivity(posed, "pull_off_force")
+        >>> slope = found.derivative(sphere, 1e-6, 1e-6)
+        >>> round(slope * 1e-6 / (found.solution.value * newtons), 4)     # d ln P / d ln R
+        0.9772
+        """
+        step = _STEP * unit
+        few = self._new_solid(vary(at + step if at + step < high else at - step)[0])
+        places: tuple[float, ...] = _FEW if few else _MANY
+        if not low < at + places[0] * step or not at + places[-1] * step < high:
+            places = _FEW_ONE_SIDED if few else _MANY_ONE_SIDED
+            if not at + places[-1] * step < high:
+                places = tuple(-place for place in places)
+        weights = difference_rule(places)
+        total = weights[-1] * self.solution.value * vary(at)[1]
+        for place, weight in zip(places, weights[:-1], strict=True):
+            problem, scale = vary(at + place * step)
+            total += weight * (self.solution.value + self.change(problem)) * scale
+        return float(total / step)
+
+    @property
+    def gradient(self) -> dict[str, float]:
+        """Derivatives by the numbers of the problem: "mu", of a power law "k", and of a power-law punch "n".
+
+        Examples
+        --------
+        >>> found = sensitivity(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
+        >>> {name: round(slope, 4) for name, slope in found.gradient.items()}
+        {'mu': -0.0996, 'k': 0.3184, 'n': -0.8187}
+        """
+        p = self.problem
+        found = {"mu": self.derivative(lambda mu: (replace(p, mu=mu), 1.0), p.mu, p.mu)}
+        if p.response is None and p.k < 1.0:
+            found["k"] = self.derivative(lambda k: (replace(p, k=k), 1.0), p.k, 1.0, low=0.0, high=1.0)
+        if isinstance(p.punch, PowerPunch):
+            found["n"] = self.derivative(
+                lambda n: (replace(p, n=n, punch=PowerPunch(n)), 1.0), p.n, p.n, low=0.5 * (1.0 - p.k), high=300.0
+            )
+        return found
+
+
+@one_thread()
+def sensitivity(problem: Problem, quantity: str, accuracy: Accuracy = "default") -> ValueSensitivity:
+    """Compute a value at an event and prepare its derivatives: one more linear solution, with the adjoint.
+
+    Parameters
+    ----------
+    problem, accuracy
+        As for `solve`.
+    quantity : str
+        One of `SENSITIVE`.
+
+    Returns
+    -------
+    ValueSensitivity
+        The value with its bound (`solution`), its derivatives by n, k and mu (`gradient`), by a parameter of the user
+        (`derivative`), and its first-order change to any problem nearby (`change`).
+
+    Raises
+    ------
+    ValueError, NoSuchEvent, NotConverged
+        As for `solve`.
+
+    Examples
+    --------
+    >>> found = sensitivity(Problem(n=2, k=0, mu=1.0), "zero_load_displacement")
+    >>> round(found.solution.value, 6), round(found.gradient["mu"], 6)
+    (2.075069, 1.932362)
+    """
+    return ValueSensitivity(problem, quantity, accuracy)

@@ -1,0 +1,142 @@
+"""Equivalent power law of a solid that is none."""
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import fscm
+from comparisons.cli.main import main
+from comparisons.model import ComputationFailed
+from comparisons.problem_file import elastic_energy
+from comparisons.problem_file.description import ProblemFile, Section
+from comparisons.problem_file.dimensionless import dimensionless_problem
+from comparisons.problem_file.elastic_energy import energy_spectrum
+from comparisons.problem_file.equivalent_power_law import LARGEST_K, equivalent_power_law, least_wrong
+from comparisons.problem_file.evaluation import evaluate_problem
+from comparisons.problem_file.reading import load_problem
+from fscm.graded import Coating, graded_problem
+
+EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
+COATED = EXAMPLES / "coated_solid.toml"
+
+#: The nodes of a field, joined by straight lines, give its energy to this accuracy (measured: 1e-3).
+_TRAPEZOIDS = 3e-3
+
+
+def on(kind, values, columns=None):
+    """A sphere of 100 nm on a solid."""
+    law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10})
+    return ProblemFile(Path("pad.toml"), Section(kind, values, columns or {}), Section("sphere", {"R": 1e-7}), law)
+
+
+def equivalent(problem):
+    return equivalent_power_law(problem, evaluate_problem(problem, "fscm", "pull_off_force"))
+
+
+def test_a_power_law_with_a_tiny_offset_is_itself():
+    """What is left is the offset: it has a share (z_s/length)^(1-k) or less of the compliance."""
+    found = equivalent(on("offset-power-law", {"E0": 2e9, "c0": 1e-8, "k": 0.4, "z_s": 1e-12, "nu": 0.3}))
+    solid = found.problem.solid
+    assert solid["c0"] == 1e-8
+    assert solid["k"] == found.free_k == pytest.approx(0.4, abs=3e-3)
+    assert solid["E0"] == pytest.approx(2e9, rel=3e-3)
+    assert abs(found.error) < 3e-4
+    assert found.deviation < 2e-3
+
+
+def test_a_power_law_in_a_table_is_itself():
+    z = np.geomspace(1e-10, 1e-6, 25)
+    columns = {"z": tuple(z.tolist()), "E": tuple((2e9 * (z / 1e-8) ** 0.2).tolist())}
+    solid = equivalent(on("table", {"file": "modulus.csv", "nu": 0.3}, columns)).problem.solid
+    assert solid["k"] == pytest.approx(0.2, abs=0.01)
+    assert solid["E0"] * (1e-8 / solid["c0"]) ** solid["k"] == pytest.approx(2e9, rel=0.02)
+
+
+def test_a_thick_coating_is_a_homogeneous_solid():
+    coating = {"E_coating": 1e9, "E_substrate": 10e9, "thickness": 1e-5, "transition": 0.0, "nu": 0.3}
+    found = equivalent(on("coating", coating))
+    assert found.problem.solid["k"] == pytest.approx(0.0, abs=2e-3)
+    assert found.problem.solid["E0"] == pytest.approx(1e9, rel=2e-3)
+    assert abs(found.error) < 1e-3
+
+
+def test_a_stiff_coating_on_a_soft_substrate_has_the_nearest_exponent():
+    coating = {"E_coating": 10e9, "E_substrate": 1e9, "thickness": 20e-9, "transition": 0.0, "nu": 0.3}
+    found = equivalent(on("coating", coating))
+    assert found.free_k < -0.1
+    assert found.problem.solid["k"] == 0.0
+    assert 1e9 < found.problem.solid["E0"] < 10e9
+
+
+def test_a_fit_beyond_the_largest_exponent_stops_there():
+    xi = np.geomspace(1e6, 1e8, 9)
+    k, free_k, deviation, compliance = least_wrong(
+        elastic_energy.EnergySpectrum(xi, xi**1.5, np.full(9, 1.0 / 9.0), 1.0)
+    )
+    assert (k, free_k) == (LARGEST_K, pytest.approx(1.5))
+    assert compliance == pytest.approx(1e7**1.5)
+    assert deviation == pytest.approx(np.std(np.log(xi)) * (1.5 - LARGEST_K))
+
+
+def test_the_error_is_that_of_both_solids_in_the_solver():
+    """Both problems are posed anew, from the numbers that are reported."""
+    problem = load_problem(COATED)
+    found = equivalent(problem)
+    solid = found.problem.solid
+    similar = fscm.PhysicalProblem(**solid.values, n=2, Q=1e-7, work_of_adhesion=0.05, z0=4e-10)
+    coated, surface = graded_problem(Coating(1e9, 10e9, 20e-9, 2e-9, 0.3), Q=1e-7, n=2, work_of_adhesion=0.05, z0=4e-10)
+    loads = [
+        fscm.solve(posed, "pull_off_force").value * units.scales["load"]
+        for posed, units in ((similar.problem(), similar), (coated, surface))
+    ]
+    assert abs(loads[0] / loads[1] - 1.0 - found.error) <= found.bound < 1e-5
+
+
+def test_the_energy_is_the_work_of_the_pressure():
+    problem = load_problem(COATED)
+    posed, units = dimensionless_problem(problem)
+    field = fscm.profile(posed)
+    work = math.pi * np.trapezoid(field.pressure * field.deformation * field.radius, field.radius)
+    work *= units["traction"] * units["displacement"] * units["radius"] ** 2
+    spectrum = energy_spectrum(problem)
+    assert spectrum.energy == pytest.approx(work, rel=_TRAPEZOIDS)
+    assert spectrum.shares.sum() == pytest.approx(1.0)
+
+
+def test_a_power_law_has_no_equivalent(capsys):
+    problem = load_problem(EXAMPLES / "graded_pad.toml")
+    assert equivalent_power_law(problem, evaluate_problem(problem, "atlas", "pull_off_force")) is None
+    with pytest.raises(ValueError, match="has a power-law solid"):
+        energy_spectrum(problem)
+    assert main(["describe", str(problem.path), "--format", "json"]) == 0
+    assert "equivalent_power_law" not in json.loads(capsys.readouterr().out)
+
+
+def test_without_a_pressure_there_is_no_equivalent(monkeypatch):
+    def fails(problem):
+        raise ComputationFailed("no state")
+
+    monkeypatch.setattr("comparisons.problem_file.equivalent_power_law.energy_spectrum", fails)
+    problem = load_problem(COATED)
+    assert equivalent_power_law(problem, evaluate_problem(problem, "fscm", "pull_off_force")) is None
+
+
+def test_describe_states_the_equivalent_and_its_error(capsys):
+    assert main(["describe", str(COATED)]) == 0
+    text = capsys.readouterr().out
+    page = (EXAMPLES.parents[1] / "problem_files.md").read_text(encoding="utf-8")
+    *_, solid, fit, force = text.splitlines()
+    assert solid in page
+    assert fit in page
+    assert force.partition("(")[0] in page
+    assert "equivalent power law E0 (z/c0)^k: E0 = 1.786 GPa, c0 = 8.061 nm, k = 0.4029, nu = 0.3\n" in text
+    assert "over lengths from 1.496 nm to 48.88 nm" in text
+    assert "(atlas), error 3.5693" in text
+    assert main(["describe", str(COATED), "--format", "json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    force = found["equivalent_power_law"]["pull_off_force"]
+    assert force["error"] == pytest.approx(force["value"] / found["pull_off_force"]["value"] - 1.0, abs=1e-12)
+    assert {"E0", "c0", "k", "nu", "free_k", "lengths", "compliance_deviation"} < found["equivalent_power_law"].keys()

@@ -1,0 +1,97 @@
+"""Sensitivity of the pull-off force to smoothing and continuation of a measured profile."""
+
+import json
+
+import numpy as np
+import pytest
+
+from comparisons.cli.main import main
+from comparisons.problem_file import profile_sensitivity as module
+from comparisons.problem_file.evaluation import PhysicalValue, evaluate_problem
+from comparisons.problem_file.reading import load_problem
+
+TEXT = """
+[solid]
+kind = "power-law"
+E0 = "2 GPa"
+c0 = "100 nm"
+k = 0
+nu = 0.3
+[punch]
+kind = "table"
+file = "profile.csv"
+{keys}
+[law]
+kind = "lennard-jones-9-3"
+work_of_adhesion = "50 mJ/m^2"
+z0 = "0.4 nm"
+"""
+
+
+@pytest.fixture
+def written(tmp_path):
+    """A function that writes a file with keys of the punch and the heights of a noisy sphere of 100 nm."""
+    r = np.arange(0.0, 41.0, 2.0)
+    height = r**2 / 200.0 + np.random.default_rng(5).normal(0.0, 0.05, len(r))
+    rows = "\n".join(f"{a},{b:.6f}" for a, b in zip(r, height - height[0], strict=True))
+    (tmp_path / "profile.csv").write_text(f"r [nm],height [nm]\n{rows}\n")
+
+    def write(keys):
+        (tmp_path / "mine.toml").write_text(TEXT.format(keys=keys))
+        return load_problem(tmp_path / "mine.toml")
+
+    return write
+
+
+def force(problem):
+    return evaluate_problem(problem, "fscm", "pull_off_force")
+
+
+def test_the_changes_are_those_of_other_files(written, capsys):
+    path = written('smoothing = "0.05 nm"').path
+    assert main(["describe", str(path), "--format", "json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    changes = found["profile_sensitivity"]
+    assert [(each["key"], each["value"]) for each in changes] == [
+        ("smoothing", pytest.approx(2.5e-11)),
+        ("smoothing", pytest.approx(1e-10)),
+        ("growth", 1.5),
+        ("growth", 3.0),
+    ]
+    others = ['smoothing = "0.025 nm"', 'smoothing = "0.05 nm"\ngrowth = 3']
+    for keys, change in zip(others, (changes[0], changes[3]), strict=True):
+        other = force(written(keys))
+        expected = other.value / found["pull_off_force"]["value"] - 1.0
+        assert abs(change["change"] - expected) <= change["u_num"] + 1e-12
+    # More attraction far away with a profile that is lower there.
+    assert changes[2]["change"] > 0.0 > changes[3]["change"]
+
+
+def counted(problem, monkeypatch, failing=None):
+    """The changes without a computation; the value that fails is refused."""
+
+    def solved(other, model, quantity):
+        if failing in other.punch.values.values():
+            raise ValueError("not admissible")
+        return PhysicalValue(model, quantity, {}, 2.0, 0.0, "N", "ok", "", 0.0)
+
+    monkeypatch.setattr(module, "evaluate_problem", solved)
+    base = PhysicalValue("fscm", "pull_off_force", {}, 1.0, 0.0, "N", "ok", "", 0.0)
+    return module.profile_sensitivity(problem, base)
+
+
+def test_only_other_choices_are_computed(written, monkeypatch):
+    found = counted(written("growth = 3"), monkeypatch)
+    assert [(each.key, each.value, each.change) for each in found] == [("growth", 1.5, 1.0)]
+
+
+def test_a_failure_is_stated(written, monkeypatch):
+    found = counted(written('smoothing = "0.05 nm"'), monkeypatch, failing=3.0)
+    assert [each.status for each in found] == ["ok", "ok", "ok", "failed"]
+    assert module.lines(found)[-1] == "    growth 3: failed: not admissible"
+    assert module.content(found)[-1]["change"] is None
+
+
+def test_without_a_force_there_are_no_changes(written):
+    failed = PhysicalValue("fscm", "pull_off_force", {}, None, None, "N", "failed", "no state", 0.0)
+    assert module.profile_sensitivity(written(""), failed) == []

@@ -1,0 +1,261 @@
+"""Uncertain values of a problem file: their text, and what follows from them for the force."""
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from jsonschema import Draft202012Validator
+
+from comparisons import evaluate_problem, load_problem
+from comparisons.cli.main import main
+from comparisons.problem_file.form import _schema
+from comparisons.problem_file.propagation import propagated
+from comparisons.problem_file.uncertain import is_uncertain, uncertain_in_si
+from comparisons.problem_file.units import NotAValue
+
+EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
+
+#: Sensitivities that have to cancel: the error of the differences of kernels.
+IDENTITY = 1e-6
+#: Second order of the force in 5 %, relative to it: 2e-3 where the force is as curved as a square.
+SECOND_ORDER = 3e-3
+#: So many standard errors of the mean and of the standard deviation of a sample.
+ERRORS = 3.0
+
+LAW = '[law]\nkind = "lennard-jones-9-3"\nwork_of_adhesion = "50 mJ/m^2 +- 4 %"\nz0 = "0.4 +- 0.02 nm"\n'
+PAD = f"""\
+[solid]
+kind = "power-law"
+E0 = "1 GPa +- 0.05 GPa"
+c0 = "100 nm +- 5 %"
+k = "0.3 +- 0.02"
+nu = "0.3 ± 0.02"
+
+[punch]
+kind = "sphere"
+R = "(100 +/- 5) nm"
+
+{LAW}"""
+EXACT = """\
+[solid]
+kind = "power-law"
+E0 = "1 GPa"
+c0 = "100 nm"
+k = 0.3
+nu = 0.3
+
+[punch]
+kind = "sphere"
+R = "100 nm"
+
+[law]
+kind = "lennard-jones-9-3"
+work_of_adhesion = "50 mJ/m^2"
+z0 = "0.4 nm"
+"""
+COATED = PAD.replace(
+    PAD[: PAD.index("[punch]")],
+    """\
+[solid]
+kind = "coating"
+E_coating = "1 GPa +- 5 %"
+E_substrate = "5 GPa +- 5 %"
+thickness = "20 nm +- 1 nm"
+transition = "2 nm +- 5 %"
+nu = "0.3 +- 0.02"
+
+""",
+)
+
+
+def read(folder, text):
+    path = folder / "pad.toml"
+    path.write_text(text, encoding="utf-8")
+    return load_problem(path)
+
+
+@pytest.mark.parametrize(
+    ("text", "value", "size"),
+    [
+        ("2 +- 0.1 GPa", 2e9, 1e8),
+        ("(2 +- 0.1) GPa", 2e9, 1e8),
+        ("2 GPa +- 100 MPa", 2e9, 1e8),
+        ("2 GPa±5%", 2e9, 1e8),
+        ("2e3 MPa +/- 1e2 MPa", 2e9, 1e8),
+        ("[1.9, 2.1] GPa", 2e9, 1e8),
+    ],
+)
+def test_forms(text, value, size):
+    assert is_uncertain(text)
+    found, uncertainty = uncertain_in_si(text, "Pa")
+    assert math.isclose(found, value, rel_tol=1e-15)
+    assert math.isclose(uncertainty.size, size, rel_tol=1e-12)
+    assert uncertainty.is_interval == text.startswith("[")
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("2 GPa +- 0.1", "a standard deviation without a unit"),
+        ("2 +- 5 %", "has no unit"),
+        ("2 GPa +- 0 GPa", "not above 0"),
+        ("2 GPa +- -5 %", "not above 0"),
+        ("2 GPa +- 1 nm", "unit nm, which is not that of a modulus"),
+        ("[2.2, 1.8] GPa", "first end is not below the second"),
+        ("[1.8, 2.2]", "has no unit"),
+        ("[1.8] GPa", "no value +- standard deviation and no"),
+        ("2 +- 1 +- 1 GPa", "no value +- standard deviation and no"),
+        ("(2) GPa +- 1 GPa", "no number with a unit"),
+        ("2 GPa +- x", "no number with a unit"),
+    ],
+)
+def test_bad_forms(text, sentence):
+    with pytest.raises(NotAValue, match=sentence.replace("+", r"\+")):
+        uncertain_in_si(text, "Pa")
+
+
+def test_the_schema_takes_uncertain_numbers():
+    validator = Draft202012Validator(_schema())
+    solid = {"kind": "power-law", "E0": "1 GPa +- 5 %", "c0": 1e-7, "k": "0.3 +- 0.02", "nu": "[0.2, 0.4]"}
+    document = {
+        "solid": solid,
+        "punch": {"kind": "sphere", "R": "[90, 110] nm"},
+        "law": {"kind": "lennard-jones-9-3", "work_of_adhesion": 0.05, "z0": 4e-10},
+    }
+    assert not list(validator.iter_errors(document))
+    solid["k"] = "0.3"
+    assert list(validator.iter_errors(document))
+
+
+def test_the_value_is_that_without_uncertainty(tmp_path):
+    found = read(tmp_path, PAD)
+    assert found.solid.values == {"E0": 1e9, "c0": 1e-7, "k": 0.3, "nu": 0.3}
+    assert found.parameters["punch"] == {"kind": "sphere", "R": 1e-7}
+    assert list(found.law.uncertain) == ["work_of_adhesion", "z0"]
+    middle = read(tmp_path, PAD.replace("1 GPa +- 0.05 GPa", "[0.9, 1.1] GPa"))
+    assert middle.solid["E0"] == 1e9
+    power = '[punch]\nkind = "power-law"\nn = "2 +- 0.1"\nQ = "1 um +- 5 %"\n\n'
+    assert read(tmp_path, PAD[: PAD.index("[punch]")] + power + LAW).punch.values == {"n": 2.0, "Q": 1e-6}
+
+
+def dimensions(found):
+    """What units of force and of length change: nothing but the force itself."""
+    by_name = {one.name: one.elasticity for one in found.contributions}
+    moduli = sum(value for name, value in by_name.items() if ".E" in name)
+    work = by_name["law.work_of_adhesion"]
+    lengths = sum(by_name.get(f"solid.{name}", 0.0) for name in ("c0", "thickness", "transition"))
+    lengths += by_name["punch.R"] + by_name["law.z0"]
+    return moduli + work - 1.0, lengths - 2.0 * moduli - work
+
+
+def draws(problem, found, count, seed):
+    """Forces of a sample of the parameters, and the same to first order."""
+    generator = np.random.default_rng(seed)
+    exact, linear = [], []
+    for _ in range(count):
+        there, change = problem, 0.0
+        for one in found.contributions:
+            shift = generator.normal() * one.uncertainty.size
+            section = getattr(there, one.section).changed(one.key, one.value + shift)
+            there = type(there)(**{**vars(there), one.section: section})
+            change += one.slope * shift
+        exact.append(evaluate_problem(there, "fscm", found.quantity).value)
+        linear.append(found.value + change)
+    return np.array(exact), np.array(linear)
+
+
+def check_sample(problem, count, seed):
+    found = propagated(problem)
+    assert max(map(abs, dimensions(found))) < IDENTITY
+    sizes = [one.size for one in found.contributions]
+    assert math.isclose(found.standard_deviation, math.sqrt(sum(size**2 for size in sizes)), rel_tol=1e-12)
+    exact, linear = draws(problem, found, count, seed)
+    assert np.max(np.abs(exact - linear)) < SECOND_ORDER * found.value * 4.0
+    assert np.mean(np.abs(exact - linear)) < SECOND_ORDER * found.value
+    deviation = found.standard_deviation
+    assert abs(np.mean(exact) - found.value) < ERRORS * deviation / math.sqrt(count) + SECOND_ORDER * found.value
+    assert abs(np.std(exact, ddof=1) / deviation - 1.0) < ERRORS / math.sqrt(2.0 * (count - 1))
+
+
+def test_a_sample_of_a_power_law(tmp_path):
+    check_sample(read(tmp_path, PAD), 8, seed=16)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("text", [PAD, COATED], ids=["power law", "coating"])
+def test_a_large_sample(text, tmp_path):
+    check_sample(read(tmp_path, text), 40, seed=17)
+
+
+INTERVALS = PAD.replace("1 GPa +- 0.05 GPa", "[0.9, 1.1] GPa").replace("(100 +/- 5) nm", "[95, 105] nm")
+
+
+def test_intervals_give_a_range(tmp_path):
+    problem = read(tmp_path, INTERVALS)
+    found = propagated(problem)
+    widths = [one.size for one in found.contributions if one.uncertainty.is_interval]
+    assert len(widths) == 2
+    assert math.isclose(found.range.high - found.range.low, 2.0 * sum(widths), rel_tol=1e-12)
+    assert found.range.is_monotone
+    # The force rises with the radius; with the modulus as its slope says.
+    sign = next(one.slope for one in found.contributions if one.key == "E0") > 0.0
+    ends = []
+    for R, E0 in ((9.5e-8, 0.9e9 if sign else 1.1e9), (1.05e-7, 1.1e9 if sign else 0.9e9)):
+        there = type(problem)(problem.path, problem.solid.changed("E0", E0), problem.punch.changed("R", R), problem.law)
+        ends.append(evaluate_problem(there, "fscm", "pull_off_force").value)
+    assert np.allclose(found.range.solved, ends, rtol=1e-9)
+    assert np.allclose([found.range.low, found.range.high], ends, rtol=SECOND_ORDER)
+
+
+def test_the_command_prints_what_follows(tmp_path, capsys):
+    read(tmp_path, INTERVALS)
+    path = str(tmp_path / "pad.toml")
+    assert main(["describe", path, "--uncertain"]) == 0
+    text = capsys.readouterr().out
+    for part in ("uncertainty of pull_off_force = ", "solid.E0", "[0.9, 1.1] GPa", "standard deviation", "range over"):
+        assert part in text
+    assert main(["describe", path, "--uncertain", "--format", "json", "--quantity", "zero_load_displacement"]) == 0
+    found = json.loads(capsys.readouterr().out)["uncertainty"]
+    assert (found["quantity"], found["unit"], found["status"]) == ("zero_load_displacement", "m", "ok")
+    assert [row["parameter"] for row in found["parameters"]][:2] == ["solid.E0", "solid.c0"]
+    assert found["range"]["is_monotone"] is True
+    assert len(found["range"]["solved"]) == 2
+
+
+def test_the_page_shows_the_example_and_what_is_printed(capsys):
+    page = (EXAMPLES.parents[1] / "problem_files.md").read_text(encoding="utf-8")
+    example = (EXAMPLES / "uncertain_pad.toml").read_text(encoding="utf-8")
+    assert example.partition("\n")[2] in page
+    assert main(["describe", str(EXAMPLES / "uncertain_pad.toml"), "--uncertain"]) == 0
+    printed = capsys.readouterr().out
+    value, *rows = printed[printed.index("uncertainty of") :].splitlines()
+    # The digits in brackets, a bound, may differ between machines, as may the last digits before them.
+    assert value[:40] in page
+    assert all(row in page for row in rows)
+
+
+def test_an_event_that_does_not_exist_has_a_reason(tmp_path, capsys):
+    read(tmp_path, PAD.replace("1 GPa +- 0.05 GPa", "100 GPa +- 5 %"))
+    command = ["describe", str(tmp_path / "pad.toml"), "--uncertain", "--quantity", "jump_in_gap"]
+    assert main(command) == 0
+    assert "uncertainty of jump_in_gap: not-applicable: " in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "sentence"),
+    [
+        (PAD, ["--uncertain", "--quantity", "force"], "unknown quantity 'force'"),
+        (PAD, ["--uncertain", "--quantity", "hysteresis_energy"], "none of those with a sensitivity"),
+        (PAD, ["--quantity", "pull_off_force"], "--quantity is that of --uncertain"),
+        (EXACT, ["--uncertain"], "no value has an uncertainty; write one as"),
+    ],
+)
+def test_bad_requests(text, options, sentence, tmp_path, capsys):
+    (tmp_path / "pad.toml").write_text(text, encoding="utf-8")
+    assert main(["describe", str(tmp_path / "pad.toml"), *options]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.count("\n") == 1
+    assert sentence in captured.err

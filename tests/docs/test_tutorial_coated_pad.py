@@ -1,0 +1,64 @@
+"""Tutorial of the coated pad: its file, its three commands and what they print."""
+
+import re
+import shlex
+from contextlib import chdir
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from comparisons.cli.main import main
+
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+PAGE = (DOCS / "tutorial_coated_pad.md").read_text(encoding="utf-8")
+(TOML,) = re.findall(r"^```toml\n(.*?)^```", PAGE, flags=re.M | re.S)
+PRINTED = re.findall(r"^```text\n(.*?)^```", PAGE, flags=re.M | re.S)
+COMMANDS = [shlex.split(line)[1:] for line in re.findall(r"^fscm-bench .*$", PAGE, flags=re.M)]
+#: Stated in the text, in nN.
+FORCE = 138.242085
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "coated_pad.toml").write_text(TOML)
+    with chdir(tmp_path):
+        yield tmp_path
+
+
+def stable(line):
+    """A line without what differs between machines: the digits of a bound, and the time."""
+    return re.sub(r"\(\d+(e-?\d+)?\)|\([\d.]+ s\)", "", line)
+
+
+def test_the_file_has_twelve_lines_and_the_page_three_commands():
+    assert len(TOML.splitlines()) == 12
+    assert (DOCS / "examples" / "problems" / "coated_pad.toml").read_text(encoding="utf-8") == TOML
+    assert [command[0] for command in COMMANDS] == ["describe", "solve", "curve"]
+    assert "--uncertain" in COMMANDS[0]
+
+
+def test_describe_prints_what_the_page_shows(folder, capsys):
+    assert main(COMMANDS[0]) == 0
+    found, shown = capsys.readouterr().out.splitlines(), PRINTED[0].splitlines()
+    assert [stable(line)[:60] for line in found] == [stable(line)[:60] for line in shown]
+    assert found[3].startswith(f"  pull-off force {FORCE}")
+
+
+@pytest.mark.heavy
+def test_the_finite_elements_print_what_the_page_shows(folder, capsys):
+    assert main(COMMANDS[1]) == 0
+    found = capsys.readouterr().out.splitlines()
+    assert [stable(line) for line in found] == [stable(line) for line in PRINTED[1].splitlines()]
+    assert f"{FORCE}(" in found[1]
+
+
+@pytest.mark.heavy
+def test_the_curve_has_the_pull_off_force_and_both_jumps(folder):
+    assert main([*COMMANDS[2], "--csv", "curve.csv"]) == 0
+    assert (folder / "coated_pad.png").stat().st_size > 10_000
+    curve = pd.read_csv("curve.csv")
+    assert -curve["load [N]"].min() * 1e9 == pytest.approx(FORCE, abs=1e-3)
+    unstable = curve[curve["stable_under_displacement"] == 0]["displacement [m]"] * 1e9
+    assert unstable.max() == pytest.approx(-0.9, abs=0.03)
+    assert unstable.min() == pytest.approx(-1.05, abs=0.03)

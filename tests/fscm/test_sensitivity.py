@@ -1,0 +1,172 @@
+"""Derivatives of values at events, against differences of solved problems, and dimensional identities."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fscm import (
+    SENSITIVE,
+    MeasuredPunch,
+    Mie,
+    NoSuchEvent,
+    PhysicalProblem,
+    Problem,
+    RoundedCone,
+    ValueSensitivity,
+    sensitivity,
+    solve,
+)
+from fscm.graded import Coating, Exponential, GradedProblem
+
+#: Step of the differences of solved problems: their error is the third derivative times its square over 6, measured at
+#: most 6e-7 of the derivative for these problems; the error of the sensitivities is far below.
+STEP, DIFFERENCE = 1e-3, 2e-6
+#: Of differences over five points: at most 1e-10 was measured where the value is extreme itself, 1e-7 elsewhere, where
+#: the value of `solve` is as uncertain as the place of the extreme.
+FINE = 1e-6
+#: Of solids whose kernel is fitted: 1e-10 of it over the step, besides the third derivative.
+FITTED = 1e-5
+#: Of sensitivities that have to cancel: the differences of the kernels.
+IDENTITY = 1e-6
+
+
+def difference(value, at, low=None):
+    """Central difference, or a one-sided one of second order at the lower end of a range."""
+    if low == at:
+        return (-3.0 * value(at) + 4.0 * value(at + STEP) - value(at + 2.0 * STEP)) / (2.0 * STEP)
+    return (value(at + STEP) - value(at - STEP)) / (2.0 * STEP)
+
+
+def close(found, expected, relative, scale=0.0):
+    return abs(found - expected) <= relative * max(abs(expected), scale)
+
+
+def test_a_power_law_by_all_its_numbers():
+    problem = Problem(2, 0.4, 1.0)
+    found = sensitivity(problem, "pull_off_force")
+    assert found.solution.value == solve(problem, "pull_off_force").value
+    assert list(found.gradient) == ["mu", "k", "n"]
+    for name, slope in found.gradient.items():
+
+        def value(x, name=name):
+            numbers = {"n": 2.0, "k": 0.4, "mu": 1.0, name: x}
+            return solve(Problem(**numbers), "pull_off_force").value
+
+        assert close(slope, difference(value, getattr(problem, name)), DIFFERENCE), name
+
+
+@pytest.mark.parametrize("quantity", SENSITIVE)
+def test_every_quantity_by_the_tabor_number(quantity):
+    # Five points: the derivative of a gap at an extreme of the displacement is large near the critical number.
+    values = [solve(Problem(2, 0.3, 2.0 + i * STEP), quantity).value for i in (-2, -1, 1, 2)]
+    expected = (values[0] - 8.0 * values[1] + 8.0 * values[2] - values[3]) / (12.0 * STEP)
+    assert close(sensitivity(Problem(2, 0.3, 2.0), quantity).gradient["mu"], expected, FINE)
+
+
+def test_one_sided_at_the_homogeneous_solid():
+    slope = sensitivity(Problem(2, 0.0, 1.0), "pull_off_force").gradient["k"]
+    assert close(slope, difference(lambda k: solve(Problem(2, k, 1.0), "pull_off_force").value, 0.0, low=0.0), 1e-5)
+
+
+def test_a_steep_punch_with_deformations_as_unknowns():
+    slope = sensitivity(Problem(16, 0.2, 0.5), "pull_off_force").gradient["n"]
+    assert close(slope, difference(lambda n: solve(Problem(n, 0.2, 0.5), "pull_off_force").value, 16.0), 1e-5)
+
+
+def test_another_law_and_another_punch():
+    problem = Problem(1.0, 0.0, 1.5, RoundedCone(1.0), Mie(12, 6))
+    found = sensitivity(problem, "pull_off_force")
+    for posed, at in (
+        (lambda x: replace(problem, law=Mie(x, 6)), 12.0),
+        (lambda x: replace(problem, punch=RoundedCone(x)), 1.0),
+    ):
+        slope = found.derivative(lambda x, posed=posed: (posed(x), 1.0), at, at)
+        expected = difference(lambda x, posed=posed: solve(posed(x), "pull_off_force").value, at)
+        assert close(slope, expected, DIFFERENCE, scale=0.1)
+
+
+def test_the_state_follows_the_kinks_of_a_measured_punch():
+    r = np.linspace(0.0, 4.0, 6)
+
+    def posed(x):
+        return Problem(2, 0.0, 1.0, MeasuredPunch((x * r).tolist(), (r**2 / 2).tolist()))
+
+    slope = sensitivity(posed(1.0), "pull_off_force").derivative(lambda x: (posed(x), 1.0), 1.0, 1.0)
+    # A radius that is stretched by x is that of a sphere of radius x^2: the force is proportional to about x^2.
+    expected = difference(lambda x: solve(posed(x), "pull_off_force").value, 1.0)
+    assert close(slope, expected, DIFFERENCE)
+
+
+def coated(E_coating=1.0, E_substrate=9.0, thickness=1.0, nu=0.3):
+    return GradedProblem(2, 2.0, Coating(E_coating, E_substrate, thickness, 0.1, nu))
+
+
+def exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3):
+    return GradedProblem(2, 1.0, Exponential(E_surface, E_depth, length, nu))
+
+
+@pytest.mark.parametrize(("posed", "name"), [(coated, "thickness"), (exponential, "nu")])
+def test_other_solids(posed, name):
+    found, at = sensitivity(posed(), "pull_off_force"), {"thickness": 1.0, "nu": 0.3}[name]
+    slope = found.derivative(lambda x: (posed(**{name: x}), 1.0), at, at)
+    expected = difference(lambda x: solve(posed(**{name: x}), "pull_off_force").value, at)
+    assert close(slope, expected, FITTED, scale=0.1)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("quantity", SENSITIVE)
+@pytest.mark.parametrize("name", ["E_coating", "E_substrate", "thickness", "nu"])
+def test_every_quantity_of_a_coated_solid(quantity, name):
+    at = {"E_coating": 1.0, "E_substrate": 9.0, "thickness": 1.0, "nu": 0.3}[name]
+    slope = sensitivity(coated(), quantity).derivative(lambda x: (coated(**{name: x}), 1.0), at, at)
+    expected = difference(lambda x: solve(coated(**{name: x}), quantity).value, at)
+    assert close(slope, expected, FITTED, scale=0.1)
+
+
+def test_only_the_ratio_of_two_moduli_matters_at_a_fixed_tabor_number():
+    found = sensitivity(exponential(), "pull_off_force")
+    slopes = [
+        at * found.derivative(lambda x, name=name: (exponential(**{name: x}), 1.0), at, at)
+        for name, at in (("E_surface", 1.0), ("E_depth", 4.0))
+    ]
+    assert abs(sum(slopes)) < IDENTITY
+    assert abs(slopes[0]) > 0.01
+
+
+def test_dimensions_of_the_force():
+    """Units of force and of length change nothing: d ln P / d ln p of all parameters adds up as their dimensions."""
+    values = {"E0": 2e9, "c0": 1e-6, "Q": 2.5e-6, "work_of_adhesion": 0.05, "z0": 4e-10}
+
+    def posed(**changed):
+        found = PhysicalProblem(k=0.4, nu=0.3, n=2.0, **{**values, **changed})
+        return found.problem(), found.scales["load"]
+
+    problem, newtons = posed()
+    found = sensitivity(problem, "pull_off_force")
+    force = found.solution.value * newtons
+    log = {
+        name: found.derivative(lambda x, name=name: posed(**{name: x}), at, at) * at / force
+        for name, at in values.items()
+    }
+    assert abs(log["E0"] + log["work_of_adhesion"] - 1.0) < IDENTITY
+    assert abs(log["c0"] + log["Q"] + log["z0"] - 2.0 * log["E0"] - log["work_of_adhesion"]) < IDENTITY
+    # E ~ E0 c0^-k
+    assert abs(log["c0"] + 0.4 * log["E0"]) < IDENTITY
+
+
+def test_the_incompressible_linear_solid():
+    found = sensitivity(Problem(3, 1.0, 1.0), "pull_off_force")
+    expected = difference(lambda mu: solve(Problem(3, 1, mu), "pull_off_force").value, 1.0)
+    assert close(found.gradient["mu"], expected, DIFFERENCE)
+    with pytest.raises(ValueError, match="no neighbours"):
+        found.change(Problem(3, 0.9, 1.0))
+
+
+def test_quantities_without_a_sensitivity():
+    with pytest.raises(ValueError, match="hysteresis_energy is none of those"):
+        sensitivity(Problem(2, 0, 1.0), "hysteresis_energy")
+    with pytest.raises(ValueError, match="unknown quantity"):
+        ValueSensitivity(Problem(2, 0, 1.0), "force")
+    with pytest.raises(NoSuchEvent):
+        sensitivity(Problem(2, 0, 0.1), "jump_in_gap")
