@@ -5,7 +5,18 @@ import math
 import numpy as np
 import pytest
 
-from fem_reference import CoatingModulus, CustomSolid, LennardJones, NotConverged, PowerPunch, Problem, Solid, solve
+from fem_reference import (
+    CoatingModulus,
+    CustomPunch,
+    CustomSolid,
+    LennardJones,
+    NotConverged,
+    PowerPunch,
+    Problem,
+    Solid,
+    solve,
+)
+from fem_reference._contact.edge_search import MINIMA, EdgeSearch
 from fem_reference._contact.mesh_choice import FAR_SHARE, MeshChoice, chosen
 from fem_reference._elastic.mesh import graded_grid
 from fem_reference.accuracy import level_for
@@ -79,3 +90,17 @@ def test_only_a_mesh_that_is_used_again_is_searched_with_the_full_degree(monkeyp
     with pytest.raises(NotConverged, match="the path stops"):
         MeshChoice(problem, level_for("quick")).adapted(("pull_off",))
     assert tried == degrees
+
+
+def test_an_edge_that_does_not_settle_is_searched_with_a_mesh_for_each_radius():
+    """A flat end with a rounded edge: on one mesh the deepest load is elsewhere each time, and no mesh was found."""
+
+    def outside(r):
+        return np.maximum(r - 1.0, 0.0)
+
+    punch = CustomPunch(lambda r: outside(r) ** 2 / 2.0, outside, kinks=(1.0,))
+    solid = Solid(FLAT_MODULUS, 1.0, 0.3, 0.3)
+    choice = MeshChoice(Problem(solid, punch, LennardJones(1.0, 0.016)), level_for("quick"))
+    settled, spec, size = choice.adapted(("pull_off",))
+    assert settled.event == "pull_off"
+    assert spec.edge_width > 1e-3
