@@ -51,7 +51,9 @@ WIDTHS = 8
 class _Meshes(Protocol):
     """What makes meshes of a problem: `fem_reference._contact.mesh_choice.MeshChoice`."""
 
-    def spec(self, width: float, size: float, smallest: float, far_share: float = 1.0) -> MeshSpec: ...
+    def spec(
+        self, width: float, size: float, smallest: float, far_share: float = 1.0, apex: float = math.inf
+    ) -> MeshSpec: ...
 
     def contact(self, spec: MeshSpec, size: float) -> Contact: ...
 
@@ -76,6 +78,8 @@ class EdgeSearch:
         Of the elements.
     level : float
         Displacement at a landing.
+    apex : float
+        As for `MeshChoice.spec`.
     """
 
     meshes: _Meshes
@@ -85,6 +89,7 @@ class EdgeSearch:
     smallest: float
     degree: int
     level: float = 0.0
+    apex: float = math.inf
     known: dict[float, Point] = field(default_factory=dict)
 
     def found(self, radius: float) -> tuple[MeshSpec, float]:
@@ -179,7 +184,7 @@ class EdgeSearch:
         return point.state.load if self.event == "pull_off" else point.state.displacement
 
     def _spec(self, radius: float) -> MeshSpec:
-        return self.meshes.spec(self.width, radius, self.smallest)
+        return self.meshes.spec(self.width, radius, self.smallest, apex=self.apex)
 
     def _solved(self, radius: float) -> Point:
         """State with the contact edge at a radius, on a mesh that resolves the edge there."""

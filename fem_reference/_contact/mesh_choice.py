@@ -6,6 +6,7 @@ on that mesh shows how wide the edge is, and the mesh is made again until it is 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -83,9 +84,11 @@ class MeshChoice:
         """The path on that mesh, traced once however many quantities are read from it."""
         return _traced(self, spec, size)
 
-    def spec(self, width: float, size: float, smallest: float, far_share: float = 1.0) -> MeshSpec:
+    def spec(
+        self, width: float, size: float, smallest: float, far_share: float = 1.0, apex: float = math.inf
+    ) -> MeshSpec:
         """Mesh for an edge of that relative width, at the coarsest density."""
-        return mesh_spec(self.problem, self.level, width, size, smallest, far_share)
+        return mesh_spec(self.problem, self.level, width, size, smallest, far_share, apex)
 
     def adapted(
         self, events: tuple[str, ...], start: tuple[MeshSpec, float] | None = None
@@ -125,7 +128,7 @@ class MeshChoice:
         spec = self.spec(0.5 * balance / size, size, smallest)
         if start is not None:
             spec, size = replace(start[0], density=self.level.densities[0]), start[1]
-        failures, moves, far_share = 0, 0, spec.far_share
+        failures, moves, far_share, apex = 0, 0, spec.far_share, math.inf
         # Width and radius of an edge need fewer digits than an event; a mesh that scales is used again, as it is.
         degree = spec.order if scaling or events == (CUSP,) else spec.order - SEARCH_DEGREES
         for _ in range(REFINEMENTS):
@@ -140,7 +143,9 @@ class MeshChoice:
                 failures += 1
                 if scaling:
                     smallest, far_share = min(smallest, balance), FAR_SHARE * far_share
-                other = self.spec(NARROWER * spec.edge_width, size, smallest, far_share)
+                else:
+                    apex = balance
+                other = self.spec(NARROWER * spec.edge_width, size, smallest, far_share, apex)
                 if other == spec or failures == FAILURES:
                     raise
                 spec = other
@@ -164,24 +169,30 @@ class MeshChoice:
             # The gap falls at the edge of a mesh that is too coarse to tell the width.
             width = WIDTH_SHARE * narrowest if narrowest > 0.0 else NARROWER * spec.edge_width
             check_width(width)
-            needed = self.spec(width, size, smallest, far_share)
+            needed = self.spec(width, size, smallest, far_share, apex)
             resolved = needed.edge_width >= spec.edge_width and needed.extent <= spec.extent
             if resolved and far_share >= spec.far_share:
                 if scaling:
                     return self, spec, size
                 if events == (CUSP,):
                     return self, spec, size
-                point = path.at(events[0])
+                try:
+                    point = path.at(events[0])
+                except NotConverged:
+                    # Elements that are longer than the edge is wide make more turning points than can be told apart.
+                    if events[0] != "pull_off":
+                        raise
+                    point, moves = min(points, key=lambda sample: sample.state.load), MOVES
                 if not point.branch.touching or abs(point.edge_radius / size - 1.0) <= 0.5 * spec.edge_width:
                     return self, spec, size
                 if moves == MOVES and events[0] in SEARCHED:
                     level = path.jump_in.state.displacement if events[0] == LANDING else 0.0
                     lower = spec.order - SEARCH_DEGREES
-                    search = EdgeSearch(self, events[0], path.samples, spec.edge_width, smallest, lower, level)
+                    search = EdgeSearch(self, events[0], path.samples, spec.edge_width, smallest, lower, level, apex)
                     return replace(self, event=events[0]), *search.found(point.edge_radius)
                 moves += 1
                 size = point.edge_radius
-            spec = self.spec(min(needed.edge_width, spec.edge_width), size, smallest, far_share)
+            spec = self.spec(min(needed.edge_width, spec.edge_width), size, smallest, far_share, apex)
         raise NotConverged(
             "the width of the contact edge was not found; the edge is narrower than the mesh can resolve"
         )
