@@ -205,8 +205,8 @@ class PathEvents:
                 return _root((point, following) if side > 0.0 else (following, point), excess)
             point = following
         raise NotConverged(
-            f"the event {event} is not within {EDGE_STEPS} elements of the edge of the mesh at {size:.6g}; take a finer "
-            "accuracy"
+            f"the event {event} is not within {EDGE_STEPS} elements of the edge of the mesh at {size:.6g}; "
+            "take a finer accuracy"
         )
 
     def _at_displacement(self, delta: float, last: bool) -> Point:
