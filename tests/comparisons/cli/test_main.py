@@ -312,11 +312,15 @@ def test_a_reader_that_leaves_is_no_disaster():
 
 
 class _Interrupted(ModuleType):
+    # Only this name: pytest's plugins ask every module for others.
     def __getattr__(self, name):
-        raise KeyboardInterrupt
+        if name == "main":
+            raise KeyboardInterrupt
+        raise AttributeError(name)
 
 
 def test_an_interruption_of_the_imports_is_one_sentence(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["fscm-bench"])
     monkeypatch.setitem(sys.modules, "comparisons.cli.main", _Interrupted("comparisons.cli.main"))
     assert start.main() == 130
     assert capsys.readouterr().err == "fscm-bench: interrupted\n"
