@@ -48,7 +48,7 @@ def test_an_edge_that_no_mesh_resolves_is_refused():
 
 
 def test_finer_meshes_are_taken_where_only_the_finest_path_fails(monkeypatch):
-    monkeypatch.setattr(MeshChoice, "adapted", lambda choice, events, start: ("the mesh", 1.0))
+    monkeypatch.setattr(MeshChoice, "adapted", lambda choice, events, start: (choice, "the mesh", 1.0))
     tried = []
 
     def usable(choice, *mesh):
