@@ -35,11 +35,11 @@ SEARCHED = ("pull_off", "jump_out", "zero_load", LANDING)
 MINIMA = ("pull_off", "jump_out")
 """Those where the load or the displacement is smallest."""
 
-STEP = 0.2
+STEP = 0.1
 """First change of the logarithm of the radius; it grows by half until the event is enclosed."""
 
 NEAR = 0.1
-"""Difference of the logarithms of two radii up to which the state on one mesh is a start on the other."""
+"""Difference of the logarithms of two radii up to which the state on one mesh is the first start on the other."""
 
 MESHES = 40
 """Largest number of meshes: three to enclose an event, four to locate it and one for each other minimum are usual."""
@@ -215,8 +215,8 @@ class EdgeSearch:
 
         starts = [min((p for p in self.samples if p.branch.touching), key=away)]
         known = min(self.known.values(), key=away, default=None)
-        if known is not None and away(known) <= NEAR:
-            starts.insert(0, known)
+        if known is not None:
+            starts.insert(0 if away(known) <= NEAR else 1, known)
         for start in starts:
             with suppress(NotConverged):
                 return branch.solve(radius, projected(point_at(start, radius), contact, radius))
