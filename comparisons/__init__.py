@@ -27,7 +27,7 @@ LAYERS = (
     ("output",),
     ("paper",),
     ("pipeline",),
-    ("bench",),
+    ("bench", "graded_agreement"),
     ("baseline",),
     ("cli", "pytest_entry", "build_step"),
     ("__main__",),

@@ -22,6 +22,7 @@ from comparisons.quantities import ALL_QUANTITIES
 
 __all__ = ["MOST_TABLES", "PARAMETERS", "Domain", "Range", "declared_domain"]
 
+#: Parameters of a case, which a domain can bound.
 PARAMETERS = ("n", "k", "mu", "nu")
 
 #: The most tables of a domain.  A domain is to be read by people; thousands of points would be a table of results.

@@ -70,6 +70,10 @@ class Pieces:
             *(np.concatenate([getattr(p, f) for p in parts]) for f in ("pair", "sign", "near", "length", "xi"))
         )
 
+    def part(self, chosen: NDArray[np.bool_]) -> Pieces:
+        """Those that are chosen."""
+        return Pieces(self.pair[chosen], self.sign[chosen], self.near[chosen], self.length[chosen], self.xi[chosen])
+
 
 def _doubling_pieces(
     pair: NDArray[np.intp], sign: Array, near: Array, extent: Array, xi: Array, h: Array

@@ -26,7 +26,9 @@ ALLOWED = {
     # Shows the functions inside the FSCM.
     "comparisons.paper.figures.fig02_kernel_functions": ("fscm",),
     # A solid that is no power law has no dimensionless problem.
-    "comparisons.paper.studies.surface_modulus": ("fscm.physical", "fscm.problem", "fem_reference"),
+    "comparisons.paper.studies.surface_modulus": ("fscm", "fem_reference"),
+    "comparisons.paper.studies.graded_routes": ("fscm", "fem_reference"),
+    "comparisons.paper.studies.layered_adhesion": ("fscm",),
     # The landing of a jump and the surface at pull-off are no quantities of a model.
     "comparisons.paper.figures.fig03_s_curve": ("fscm",),
     "comparisons.paper.figures.fig05_07_pull_off_surfaces": ("fscm",),
@@ -43,6 +45,8 @@ ALLOWED = {
     # Pose the problem of a file to each solver: any solid, punch and law.
     "comparisons.problem_file.dimensionless": ("fscm",),
     "comparisons.problem_file.finite_elements": ("fem_reference",),
+    # Solves the same graded solids by both.
+    "comparisons.graded_agreement.solving": ("fscm", "fem_reference"),
     # Changes one ingredient of the Stieltjes scheme at a time.
     "comparisons.paper.values.scheme_ingredients": ("fscm",),
     # Only the adapters know the solvers.

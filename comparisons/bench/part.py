@@ -12,8 +12,9 @@ from matplotlib.figure import Figure
 
 __all__ = ["Item", "Measurement", "Numbers", "Part", "Settings", "table_of"]
 
-#: What a measurement is made with, and what it gives: values that JSON holds.
+#: What a measurement is made with: values that JSON holds, by name.
 Settings = dict[str, Any]
+#: What a measurement gives: values that JSON holds, by name.
 Numbers = dict[str, Any]
 
 

@@ -22,6 +22,7 @@ from comparisons.console.progress import counting, note
 from comparisons.output.style import save
 from comparisons.runs.atomic_files import atomic, prepare_folder, write_json
 from comparisons.runs.csv_format import csv_text
+from comparisons.runs.data_package import write_data_package
 from comparisons.runs.environment import environment, fingerprint
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.journal import alone_in
@@ -176,6 +177,7 @@ def _written(
     head = [f"{machine['cpu']}, {machine['cores']} cores; ratios of one run on it:"[:80]]
     with atomic(RunFolder(folder).bench_summary) as file:
         file.write("".join(f"{line}\n" for line in head + lines).encode())
+    write_data_package(folder, [part.files(folder)[0].name for part in parts])
     return FinishedBench(folder, tables, head + lines, failures)
 
 

@@ -16,6 +16,7 @@ from comparisons.runs.tasks import Task, evaluate_task
 
 __all__ = ["EXPONENTS", "Timed", "exponent", "idle_seconds", "sweep", "timed"]
 
+#: Gradient exponents k of the sweep.
 EXPONENTS = (0.0, 0.1, 0.2, 0.3, 0.4)
 _LEAST_MU, _LARGEST_MU = 0.1, 1.0
 

@@ -16,6 +16,9 @@ SHELLS = ("bash", "zsh", "tcsh")
 #: Functions of the scripts: the names of our models or else files, and the names of the quantities.
 _MODELS, _QUANTITIES = "_fscm_bench_models", "_fscm_bench_quantities"
 
+#: The same for tcsh, whose scripts have no functions: a command that prints words, and a list.
+_TCSH_MODELS, _TCSH_QUANTITIES = f"`echo {' '.join(MODELS)}; ls`", f"({' '.join(ALL_QUANTITIES)})"
+
 
 def completion_script(parser: argparse.ArgumentParser, shell: str) -> str:
     """Return the script that a shell reads.
@@ -71,6 +74,6 @@ def _complete(parser: argparse.ArgumentParser) -> None:
             folder = str(action.metavar or "").startswith("DIR")
             action.complete = shtab.DIRECTORY if folder else shtab.FILE  # type: ignore[attr-defined]
         elif action.metavar in ("SPEC", "MODEL"):
-            action.complete = {"bash": _MODELS, "zsh": _MODELS, "tcsh": "f"}  # type: ignore[attr-defined]
+            action.complete = {"bash": _MODELS, "zsh": _MODELS, "tcsh": _TCSH_MODELS}  # type: ignore[attr-defined]
         elif action.dest == "quantity" and action.choices is None:
-            action.complete = {"bash": _QUANTITIES, "zsh": _QUANTITIES, "tcsh": "c"}  # type: ignore[attr-defined]
+            action.complete = {"bash": _QUANTITIES, "zsh": _QUANTITIES, "tcsh": _TCSH_QUANTITIES}  # type: ignore[attr-defined]

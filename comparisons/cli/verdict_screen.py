@@ -13,7 +13,7 @@ from comparisons.judging.decision import Verdict
 from comparisons.judging.report_card import card_lines, given_models, verdict_sentence
 from comparisons.judging.summary import summarise
 from comparisons.output.fitted_table import FittedTable
-from comparisons.output.run_summary import declared_lines, gates_sentence, not_passed
+from comparisons.output.run_summary import declared_lines, gates_line, not_passed
 from comparisons.output.tables import rich_table
 from comparisons.output.verdicts import matrix
 from comparisons.pipeline.judgement import Judgement
@@ -56,7 +56,7 @@ def summary_lines(judgement: Judgement, width: int, most: int = SHOWN) -> list[s
     return [
         *not_passed(gates, judgement.specs, width, most),
         *declared_lines(gates, width),
-        *folded(gates_sentence(gates, judgement.verdicts, bases), width),
+        *folded(gates_line(gates, judgement.verdicts, bases), width),
     ]
 
 

@@ -34,8 +34,8 @@ __all__ = [
     "writing_stdout",
 ]
 
-#: A gate that fails is 1; a computation or an output that failed, a gate in error, or that there was nothing to
-#: judge, is 4.
+#: Exit statuses: 0 done, and all gates pass; 1 a gate fails; 2 wrong input; 3 a gate is inconclusive; 4 a computation
+#: or an output failed, a gate is in error, or there was nothing to judge.
 OK, FAILS, WRONG_INPUT, INCONCLUSIVE, FAILED = 0, 1, 2, 3, 4
 
 #: 128 and the number of the signal, as shells have it.

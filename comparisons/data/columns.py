@@ -1,4 +1,4 @@
-"""Meaning and unit of each column of the stored tables (`columns.toml`)."""
+"""Meaning and unit of each column of the stored tables (`columns.toml` and the files beside it)."""
 
 from __future__ import annotations
 
@@ -7,7 +7,10 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Any, NamedTuple
 
-__all__ = ["Column", "column", "title"]
+__all__ = ["FILES", "Column", "column", "title"]
+
+#: Files of the descriptions; the columns that the first one states for every table hold in the tables of all files.
+FILES = ("columns.toml", "columns_of_figures.toml", "columns_of_solvers.toml")
 
 
 class Column(NamedTuple):
@@ -33,11 +36,14 @@ def column(table: str, name: str) -> Column | None:
     Column(unit='1', description='generalised Tabor number (Eq. 29 of the paper)')
     >>> column("largest_kappa", "mu").description
     'generalised Tabor number at which abs(kappa) is largest'
+    >>> column("growth", "cpu_seconds").unit
+    's'
     >>> column("results", "depth_of_my_own") is None
     True
     """
-    content = _content()
-    found = content["table"].get(table, {}).get("column", {}).get(name) or content["column"].get(name)
+    by_file = _tables().get(table)
+    layers = [by_file["table"][table].get("column", {}), by_file.get("column", {})] if by_file else []
+    found = next((layer[name] for layer in [*layers, _contents()[0]["column"]] if name in layer), None)
     return Column(**found) if found else None
 
 
@@ -49,10 +55,17 @@ def title(table: str) -> str | None:
     >>> title("results")
     'One row for each model, quantity and case'
     """
-    found: str | None = _content()["table"].get(table, {}).get("title")
-    return found
+    found = _tables().get(table)
+    return str(found["table"][table]["title"]) if found else None
 
 
 @lru_cache(maxsize=1)
-def _content() -> dict[str, Any]:
-    return tomllib.loads(files("comparisons.data").joinpath("columns.toml").read_text(encoding="utf-8"))
+def _contents() -> list[dict[str, Any]]:
+    folder = files("comparisons.data")
+    return [tomllib.loads(folder.joinpath(name).read_text(encoding="utf-8")) for name in FILES]
+
+
+@lru_cache(maxsize=1)
+def _tables() -> dict[str, dict[str, Any]]:
+    """Return the content of the file that describes a table, by the name of the table."""
+    return {table: content for content in _contents() for table in content["table"]}

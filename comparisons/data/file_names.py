@@ -56,18 +56,24 @@ GATES_TEXT, GRID_TEXT = "gates.toml", "grid.toml"
 
 #: Tables: each is written as CSV and as Parquet.
 RESULTS, CURVES, KAPPA, LARGEST_KAPPA, AGREEMENT = "results", "curves", "kappa", "largest_kappa", "agreement"
+#: Tables of the gates: a row for each gate and case, what each requires, a row for each gate and candidate.
 VERDICTS, GATES, SUMMARY = "verdicts", "gates", "summary"
+#: Tables that are written when a run is judged.
 VERDICT_TABLES = (VERDICTS, GATES, SUMMARY)
+#: All tables of a run.
 TABLES = (RESULTS, CURVES, KAPPA, LARGEST_KAPPA, AGREEMENT, *VERDICT_TABLES)
 
-#: Table and picture of `comparisons.compare`, and their files.
+#: Table and picture of `comparisons.compare`.
 COMPARISON = "comparison"
+#: Files of `comparisons.compare`.
 COMPARISON_FILES = tuple(f"{COMPARISON}.{suffix}" for suffix in ("csv", "parquet", "png", "pdf"))
 
 #: Pictures: each is written as PNG and as PDF.
 KAPPA_FIGURE, REFERENCES = "fig16b_kappa", "references"
+#: All pictures of a run.
 FIGURES = (KAPPA_FIGURE, AGREEMENT, REFERENCES)
 
+#: The verdicts as Markdown, as LaTeX and as JUnit XML, and the page of `fscm-bench report`.
 VERDICTS_MARKDOWN, VERDICTS_LATEX, JUNIT, REPORT = "verdicts.md", "verdicts.tex", "junit.xml", "report.html"
 
 #: What is written when a run is judged.

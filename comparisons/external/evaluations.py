@@ -12,8 +12,11 @@ from fscm.problem import Problem
 
 __all__ = ["FAILED", "OK", "SKIPPED", "WRONG", "AnyExternalModel", "Evaluations", "Finding", "Key"]
 
+#: A model of the user: a class or program, or a table of data.
 AnyExternalModel = ExternalModel | DataModel
 
+#: Findings of the check of a model: the part of the contract is kept or broken, could not be computed, or was not
+#: checked.
 OK, WRONG, FAILED, SKIPPED = "ok", "wrong", "failed", "not checked"
 
 

@@ -35,6 +35,7 @@ from fscm.problem import Problem
 
 __all__ = ["MANIFEST", "Key", "check_units", "covered_cases", "read_manifest"]
 
+#: Name of the file that describes a model in a folder.
 MANIFEST = "model.toml"
 
 #: quantity, n, k, mu

@@ -24,6 +24,7 @@ from comparisons.external.text_rules import one_line
 
 __all__ = ["GROUP", "close_models", "installed", "load_again", "load_model", "source_of"]
 
+#: Group of the entry points by which an installed package offers models.
 GROUP = "fscm_bench.models"
 
 _loaded: dict[tuple[str, float | None], ExternalModel | DataModel] = {}

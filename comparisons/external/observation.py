@@ -11,9 +11,10 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from comparisons.external.text_rules import one_line
 
@@ -112,5 +113,5 @@ class Observation:
 
 def _load_what_starts_a_program() -> None:
     """Import the module of NumPy that starts ``lscpu`` when SciPy imports it, which would count for the model."""
-    if tuple(map(int, version("numpy").split(".")[:2])) < _STARTS_NOTHING:
+    if tuple(map(int, np.__version__.split(".")[:2])) < _STARTS_NOTHING:
         import_module("numpy.testing")

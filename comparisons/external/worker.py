@@ -14,7 +14,6 @@ import threading
 import time
 import traceback
 from collections.abc import Callable
-from importlib.metadata import entry_points
 from pathlib import Path
 from typing import IO, Any
 
@@ -147,6 +146,9 @@ def _made(source: dict[str, Any]) -> tuple[Any, str, list[Path]]:
     if source["kind"] == "file":
         file = Path(source["file"])
         return load_file(file, source["attribute"]), file.stem, []
+    # It takes a tenth of the start of a process, and a file does not need it.
+    from importlib.metadata import entry_points
+
     (found,) = {entry for entry in entry_points(group=source["group"]) if entry.name == source["name"]}
     made = found.load()
     files = found.dist.files if found.dist else None

@@ -33,6 +33,7 @@ __all__ = [
 
 #: How the ids of these gates begin.
 CARD = "CARD-"
+#: Ids of the gates on a second evaluation of a model, and on its independence of the stored references.
 SAME_AGAIN, INDEPENDENT = f"{CARD}SAME-AGAIN", f"{CARD}INDEPENDENT"
 
 #: The errors in fresh cases may be so many times the errors in the standing cases.  Those of a formula differ little

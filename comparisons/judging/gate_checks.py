@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["LARGEST_MARGIN", "PARAMETERS", "check_compared", "check_numbers", "plain_text"]
 
+#: Parameters of a case, which the cases of a gate can select.
 PARAMETERS = ("n", "k", "mu", "nu")
 
 #: Unicode categories of characters that a terminal or a browser acts on and does not show: control and format

@@ -24,6 +24,7 @@ __all__ = ["GIVEN", "METRICS", "Gate", "gates_text", "load_gates", "of_tier"]
 #: The candidate of a gate for every model that is named in a run.
 GIVEN = "given"
 
+#: How the error of a gate is measured: name of the metric -> its formula.
 METRICS = {
     "rel": "(candidate - reference) / |reference|",
     "abs": "candidate - reference",
@@ -129,7 +130,7 @@ class Gate:
 
     def reference_case(self, case: Case) -> Case:
         """Return the case in which the reference is taken."""
-        return replace(case, **self.reference_at)
+        return replace(case, **self.reference_at) if self.reference_at else case
 
 
 #: Entries that are sentences.

@@ -15,7 +15,8 @@ from comparisons.runs.rows import Key
 
 __all__ = ["StoredResults", "UnusableResult", "stored_curves", "stored_numbers"]
 
-_KEY = {"model", "quantity", "n", "k", "mu", "nu"}
+_NAMES = ("model", "quantity")
+_KEY = {*_NAMES, "n", "k", "mu", "nu"}
 
 
 class UnusableResult(Exception):
@@ -51,8 +52,7 @@ class StoredResults:
         self.rows: dict[Key, list[dict[Hashable, Any]]] = defaultdict(list)
         if self.missing_columns or not names:
             return
-        chosen = [pair in names for pair in zip(table["model"], table["quantity"], strict=True)]
-        for row in table.loc[chosen, sorted(needed)].to_dict("records"):
+        for row in table.loc[_of_names(table, names), sorted(needed)].to_dict("records"):
             nu = None if row["nu"] is None or pd.isna(row["nu"]) else float(row["nu"])
             self.rows[row["model"], row["quantity"], row["n"], row["k"], row["mu"], nu].append(row)
 
@@ -111,6 +111,20 @@ def stored_numbers(table: pd.DataFrame, names: Collection[tuple[str, str]]) -> S
 def stored_curves(table: pd.DataFrame | None, names: Collection[tuple[str, str]]) -> StoredResults:
     """Return the points of a table of curves that are of some models and quantities."""
     return StoredResults(table, _KEY | {"x", "y", "u_distance", "status", "reason"}, names)
+
+
+def _of_names(table: pd.DataFrame, names: Collection[tuple[str, str]]) -> np.ndarray:
+    """Return which rows of a table are of some models and quantities; each pair of names is compared once."""
+    (models, known_models), (quantities, known_quantities) = (pd.factorize(table[name]) for name in _NAMES)
+    count = len(known_quantities)
+    needed = [
+        model * count + quantity
+        for model, name in enumerate(known_models)
+        for quantity, of in enumerate(known_quantities)
+        if (name, of) in names
+    ]
+    # A row without a name has the code -1.
+    return (models >= 0) & (quantities >= 0) & np.isin(models * count + quantities, needed)
 
 
 def _real(value: float | None) -> float:

@@ -56,22 +56,25 @@ def summarise(judged: pd.DataFrame) -> pd.DataFrame:
     Of cases with the same verdict the worst is the one nearest to a limit, or farthest beyond.  `cases`
     counts those evaluated, `skipped` those that did not apply.
     """
-    summary = []
-    for _, group in judged.groupby(["gate", "candidate"], sort=False):
-        applies = group["verdict"] != Verdict.NOT_APPLICABLE
-        verdict = roll_up(group["verdict"])
-        candidates = group.loc[group["verdict"] == verdict] if applies.any() else group
-        worst = candidates.iloc[int(_margin(candidates).argmax())]
-        summary.append(
-            {
-                "verdict": verdict,
-                **worst.drop(["verdict", "reason"]).to_dict(),
-                "cases": int((applies & group["mu"].notna()).sum()),
-                "skipped": int((~applies).sum()),
-                **coverage(group["status"]),
-                "reason": worst["reason"],
-            }
-        )
+    places: dict[tuple[str, str], list[int]] = {}
+    for place, names in enumerate(zip(judged["gate"], judged["candidate"], strict=True)):
+        places.setdefault(names, []).append(place)
+    verdicts = [Verdict(verdict) for verdict in judged["verdict"]]
+    margins, statuses = _margin(judged).to_numpy(), judged["status"].to_numpy()
+    is_case = judged["mu"].notna().to_numpy()
+    summary: list[dict[str, Any]] = []
+    worst_places = []
+    for group in places.values():
+        applies = [place for place in group if verdicts[place] is not Verdict.NOT_APPLICABLE]
+        verdict = roll_up([verdicts[place] for place in group])
+        candidates = [place for place in applies if verdicts[place] is verdict] or group
+        worst_places.append(candidates[int(margins[candidates].argmax())])
+        counts = {"cases": int(is_case[applies].sum()), "skipped": len(group) - len(applies)}
+        summary.append({"verdict": verdict, **counts, **coverage(statuses[group])})
+    summary = [
+        counted | {name: value for name, value in worst.items() if name != "verdict"}
+        for counted, worst in zip(summary, judged.iloc[worst_places].to_dict("records"), strict=True)
+    ]
     table = pd.DataFrame(
         summary,
         columns=["verdict", *judged.columns.drop(["verdict", "reason"]), "cases", "skipped", *COVERAGE, "reason"],

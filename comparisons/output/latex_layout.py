@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from comparisons.output.latex_text import TOKENS, headed
 
@@ -28,6 +29,9 @@ _UPRIGHT, _SIDEWAYS = 345.0, 598.0
 
 #: Lines of the tallest row with which an arrangement is taken; the next is tried if no arrangement has it.
 _LINES = (4, 7, 12, 60)
+
+#: Texts whose width is kept: the cells of a column are measured more than once, and many are the same.
+_MEASURED = 2**16
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,14 +152,18 @@ class Column:
         return form, width
 
 
+@lru_cache(maxsize=_MEASURED)
 def _em(text: str) -> float:
     """Return the width of a text; a minus sign and a power of ten are wider than their characters."""
-    width = sum(
-        _WIDTHS.get(one, _CAPITAL if one.isupper() or not one.isascii() or not one.isalpha() else _SMALL)
-        for one in text
-    )
+    width = sum(map(_width, text))
     numbers = [match[0] for match in _TOKEN.finditer(text)]
     return _SAFETY * (width + sum(0.4 * number.startswith("-") + 1.8 * ("e" in number) for number in numbers))
+
+
+@lru_cache(maxsize=_MEASURED)
+def _width(one: str) -> float:
+    """Return the width of a character."""
+    return _WIDTHS.get(one, _CAPITAL if one.isupper() or not one.isascii() or not one.isalpha() else _SMALL)
 
 
 def _pieces(text: str) -> Iterator[str]:
@@ -174,9 +182,11 @@ def fitted(columns: Sequence[Column]) -> tuple[Size, list[Column], int]:
     >>> size.name, size.sideways, columns[0].width, lines
     ('small', False, 0.0, 4)
     """
+    natural = [one.natural() for one in columns]
+    least = [0.0 if one.number else one.least() for one in columns]
     for most in _LINES:
         for size in _SIZES:
-            widths = _widths(columns, size, most)
+            widths = _widths(columns, natural, least, size, most)
             if widths is not None:
                 break
         else:
@@ -184,26 +194,27 @@ def fitted(columns: Sequence[Column]) -> tuple[Size, list[Column], int]:
         break
     else:
         # Not even the smallest type has room: what cannot be broken is wider than a page.
-        widths = [0.0 if one.number else one.least() for one in columns]
+        widths = least
     placed = [
-        Column(one.heading, one.texts, 0.0 if one.number or width >= one.natural() else width * size.scale)
-        for one, width in zip(columns, widths, strict=True)
+        Column(one.heading, one.texts, 0.0 if one.number or width >= whole else width * size.scale)
+        for one, width, whole in zip(columns, widths, natural, strict=True)
     ]
     lines = max((one.lines(one.width / size.scale) for one in placed), default=1)
     return size, placed, lines
 
 
-def _widths(columns: Sequence[Column], size: Size, most: int) -> list[float] | None:
+def _widths(
+    columns: Sequence[Column], natural: Sequence[float], least: Sequence[float], size: Size, most: int
+) -> list[float] | None:
     """Return widths in em with which no row has more lines; None if there is no room for them."""
     room = size.room / size.scale - 2 * size.gap * (len(columns) - 1) / size.scale
-    natural = [one.natural() for one in columns]
-    least = [
-        width if one.number else min(width, max(one.least(), width / (0.8 * most)))
-        for one, width in zip(columns, natural, strict=True)
+    narrowest = [
+        width if one.number else min(width, max(unbroken, width / (0.8 * most)))
+        for one, width, unbroken in zip(columns, natural, least, strict=True)
     ]
-    spare = room - sum(least)
+    spare = room - sum(narrowest)
     if spare < 0.0:
         return None
-    wanted = [wide - narrow for wide, narrow in zip(natural, least, strict=True)]
+    wanted = [wide - narrow for wide, narrow in zip(natural, narrowest, strict=True)]
     share = min(1.0, spare / max(sum(wanted), 1e-9))
-    return [narrow + share * more for narrow, more in zip(least, wanted, strict=True)]
+    return [narrow + share * more for narrow, more in zip(narrowest, wanted, strict=True)]

@@ -10,10 +10,10 @@ import unicodedata
 
 __all__ = ["TOKENS", "breakable", "comment", "escaped", "headed", "number_text"]
 
+_MANTISSA, _BRACKET, _POWER = r"[0-9]+(?:\.[0-9]+)?", r"\([0-9]+\)", r"e[+-]?[0-9]+"
 #: Numbers that need a minus sign, a power of ten or an uncertainty, and symbols of parameters that are given a value:
 #: both are typeset as mathematics.  The scripts of the report use the same pattern, so that it has only what Python
 #: and JavaScript read in the same way.
-_MANTISSA, _BRACKET, _POWER = r"[0-9]+(?:\.[0-9]+)?", r"\([0-9]+\)", r"e[+-]?[0-9]+"
 TOKENS = (
     r"(?<![A-Za-z0-9_.)^/+-])(?:"
     rf"(?:-?{_MANTISSA}(?:{_BRACKET})?{_POWER}|-?{_MANTISSA}{_BRACKET}(?!e[0-9+-])|-{_MANTISSA}(?!\())"

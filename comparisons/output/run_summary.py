@@ -11,12 +11,13 @@ from comparisons.console.shell_text import wrapped_command
 from comparisons.judging.decision import Verdict
 from comparisons.numerics.number_text import error_text, exact, limits_text, value_text
 from comparisons.output.fitted_table import FittedTable
+from comparisons.output.gate_sentence import EXPECTED, counted, gates_sentence
 from comparisons.output.verdicts import command
 
 __all__ = [
     "computations_sentence",
     "declared_lines",
-    "gates_sentence",
+    "gates_line",
     "largest_table",
     "not_passed",
     "paper_sentence",
@@ -31,8 +32,8 @@ _FRAME = 4
 #: Names of gates that are listed in one block.
 _NAMES = 12
 
-#: Verdicts of gates that behave as declared.
-_EXPECTED = (Verdict.PASS, Verdict.XFAIL, Verdict.NOT_APPLICABLE)
+#: Verdict on a number of the paper -> its verb where it is said of several.
+_SEVERAL = {"agrees": "agree", "differs": "differ"}
 
 
 def largest_table(maxima: pd.DataFrame, width: int, lines: int) -> FittedTable | None:
@@ -131,7 +132,7 @@ def not_passed(gates: pd.DataFrame, specs: Mapping[str, str], width: int, most: 
     most : int
         Gates that are shown; the last line counts the others.
     """
-    wrong = gates[~gates["verdict"].isin(_EXPECTED)]
+    wrong = gates[~gates["verdict"].isin(EXPECTED)]
     lines: list[str] = []
     for _, row in wrong.head(most).iterrows():
         error = error_text(row["error"], row["uncertainty"])
@@ -154,8 +155,8 @@ def declared_lines(gates: pd.DataFrame, width: int) -> list[str]:
     return hanging(f"as declared (XFAIL; --verbose prints the commands): {', '.join(names[:_NAMES])}{more}", width)
 
 
-def gates_sentence(gates: pd.DataFrame, verdicts: pd.DataFrame, bases: Mapping[str, str]) -> str:
-    """Return how many gates pass, fail as declared, and do neither, and how many cases have each verdict.
+def gates_line(gates: pd.DataFrame, verdicts: pd.DataFrame, bases: Mapping[str, str]) -> str:
+    """Return the sentence on all gates, and how many cases have each verdict.
 
     Parameters
     ----------
@@ -169,26 +170,12 @@ def gates_sentence(gates: pd.DataFrame, verdicts: pd.DataFrame, bases: Mapping[s
     Examples
     --------
     >>> gates = pd.DataFrame({"gate": ["A", "B", "C"], "verdict": ["PASS", "XFAIL", "FAIL"]})
-    >>> gates_sentence(gates, gates, {"B": "published"})
-    '1 of 3 gates pass, 1 differ from the paper as declared, 1 unexpected: 1 FAIL (3 cases: 1 PASS, 1 XFAIL, 1 FAIL)'
+    >>> gates_line(gates, gates, {"B": "published"}).partition(" (")[2]
+    '3 cases: 1 PASS, 1 XFAIL, 1 FAIL)'
     """
-    counts = gates["verdict"].map(str).value_counts()
-    passed, declared = int(counts.get("PASS", 0)), int(counts.get("XFAIL", 0))
-    known = gates.loc[gates["verdict"] == Verdict.XFAIL, "gate"]
-    differs = len(known) and all(bases.get(gate) == "published" for gate in known)
-    verb = "differ from the paper" if differs else "fail"
-    wrong = {
-        str(verdict): int(counts[str(verdict)])
-        for verdict in Verdict
-        if verdict not in _EXPECTED and str(verdict) in counts
-    }
-    listed = ": " + ", ".join(f"{count} {name}" for name, count in wrong.items()) if wrong else ""
     cases = verdicts["verdict"].map(str).value_counts()
     every = ", ".join(f"{cases[str(verdict)]} {verdict}" for verdict in reversed(Verdict) if str(verdict) in cases)
-    return (
-        f"{passed} of {len(gates)} gates pass, {declared} {verb} as declared, "
-        f"{sum(wrong.values())} unexpected{listed} ({len(verdicts)} cases: {every})"
-    )
+    return f"{gates_sentence(gates, bases)} ({counted(len(verdicts), 'cases', 'case')}: {every})"
 
 
 def computations_sentence(counts: Mapping[str, int]) -> str:
@@ -209,14 +196,19 @@ def paper_sentence(maxima: pd.DataFrame) -> str:
 
     Examples
     --------
-    >>> rows = {"k": [0.4, 0.4, 0.0], "paper_percent": ["0.73", "3.5", ""], "verdict": ["differs", "agrees", ""]}
+    >>> rows = {"k": [0.4] * 3, "paper_percent": ["0.73", "3.5", "5"], "verdict": ["differs", "agrees", "differs"]}
     >>> paper_sentence(pd.DataFrame(rows))
-    'the paper prints 2 maxima, for k = 0.4: 1 agrees, 1 differs'
+    'the paper prints 3 maxima, for k = 0.4: 1 agrees, 2 differ'
     """
     stated = maxima[maxima["paper_percent"] != ""]
     if stated.empty:
         return ""
     gradients = ", ".join(exact(k) for k in sorted(set(stated["k"])))
-    listed = ", ".join(f"{count} {verdict}" for verdict, count in sorted(stated["verdict"].value_counts().items()))
-    count = "1 maximum" if len(stated) == 1 else f"{len(stated)} maxima"
-    return f"the paper prints {count}, for k = {gradients}: {listed}"
+    verdicts = sorted(stated["verdict"].value_counts().items())
+    listed = ", ".join(counted(count, _said_of_several(verdict), verdict) for verdict, count in verdicts)
+    return f"the paper prints {counted(len(stated), 'maxima', 'maximum')}, for k = {gradients}: {listed}"
+
+
+def _said_of_several(verdict: str) -> str:
+    verb, _, rest = verdict.partition(" ")
+    return " ".join([_SEVERAL.get(verb, verb), rest]).rstrip()

@@ -40,7 +40,9 @@ __all__ = [
 
 #: Okabe and Ito's colours that stay apart for every kind of colour vision and, in this order, in grey.
 COLOURS = ("#000000", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#666666")
+#: Markers of the points, in the order of `COLOURS`.
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
+#: Dashes of the lines, in the order of `COLOURS`.
 LINES: tuple[Any, ...] = (
     "-",
     "--",
@@ -166,8 +168,9 @@ def model_label(name: str) -> str:
     return _MODELS[name][0] if name in _MODELS else name
 
 
-#: Labels of our models, and the lines of those that the figures of the paper draw side by side.
+#: Labels of our models.
 MODEL_NAMES = {name: label for name, (label, _) in _MODELS.items()}
+#: Lines of the models that the figures of the paper draw side by side.
 MODEL_LINES = {name: model_styles([name])[name].arguments for name in ("fscm", "md-original", "md-improved")}
 
 #: Verdict -> symbol, read beside the colour, and where there is none.

@@ -40,7 +40,7 @@ _PRESSURE = Axis(
 )
 _GAP = Axis("gap", "H", "z0", "gap at pull-off", "H / z₀", "H / z_0")
 
-#: Numbers.  Columns: name, symbol, title, meaning, scale.
+#: Every scalar, by name: symbol, title, meaning and scale.
 QUANTITIES: dict[str, ScalarQuantity] = {
     row[0]: ScalarQuantity(*row)
     for row in (
@@ -128,6 +128,7 @@ CURVES: dict[str, CurveQuantity] = {
     )
 }
 
+#: Every scalar and every curve, by name.
 ALL_QUANTITIES: dict[str, ScalarQuantity | CurveQuantity] = {**QUANTITIES, **CURVES}
 
 

@@ -17,16 +17,13 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_origin
 
+from api_texts import PACKAGES, ROOT, TEXTS, texts_of
+
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
 
-#: The packages, in the order of the reference.
-PACKAGES = ("fscm", "fem_reference", "comparisons")
-
 #: Folder of the pages, relative to the documents.
 FOLDER = "_generated/api"
-
-ROOT = Path(__file__).resolve().parents[2]
 
 
 @cache
@@ -51,10 +48,14 @@ def modules(package: str) -> list[str]:
     """
     found = []
     for path in sorted((ROOT / package).rglob("*.py")):
-        parts = path.relative_to(ROOT).with_suffix("").parts
-        if not any(part.startswith("_") and part != "__init__" for part in parts) and public_names(path):
-            found.append(".".join(part for part in parts if part != "__init__"))
+        name = _module_of(path)
+        if not any(part.startswith("_") for part in name.split(".")) and public_names(path):
+            found.append(name)
     return [name for name in found if name != package]
+
+
+def _module_of(path: Path) -> str:
+    return ".".join(part for part in path.relative_to(ROOT).with_suffix("").parts if part != "__init__")
 
 
 @cache
@@ -134,17 +135,17 @@ def _entry(place: str, name: str) -> str:
 
 
 def comment(place: str, name: str) -> str:
-    """What stands at the definition of data: the comment ``#:`` before it, or the text after it."""
+    """The text on data: that at their definition, the title of a figure, or that of `api_texts.TEXTS`."""
+    value = getattr(import_module(place), name)
     folder = ROOT / Path(*place.split("."))
     for path in sorted(folder.rglob("*.py")) if folder.is_dir() else [folder.with_suffix(".py")]:
-        text = path.read_text(encoding="utf-8")
-        before = re.search(rf"((?:^#:.*\n)+){name}\b[^\n=]*=", text, flags=re.MULTILINE)
-        if before:
-            return escaped(" ".join(line.removeprefix("#:").strip() for line in before[1].splitlines()))
-        after = re.search(rf'^{name}\b[^\n=]* = (?:.*\n)+?"""((?:[^"]|"(?!""))*)"""$', text, flags=re.MULTILINE)
-        if after and "\n\n" not in after[0]:
-            return escaped(" ".join(after[1].split()))
-    return ""
+        # Modules of a package may give the same name to different data.
+        if (text := texts_of(path).get(name, "")) and getattr(import_module(_module_of(path)), name) is value:
+            return escaped(text)
+    title = getattr(value, "title", "")
+    if isinstance(title, str) and title:
+        return escaped(f"{type(value).__name__} `{value.name}`: {title}.")
+    return escaped(TEXTS.get(f"{place}.{name}", ""))
 
 
 def escaped(line: str) -> str:

@@ -13,21 +13,25 @@ from scipy.optimize import brentq
 import fscm
 from comparisons import create
 
-# A sphere of 200 nm on a homogeneous solid, one cycle at a prescribed displacement; the zeros of both axes are unknown.
-RADIUS, NU, Z0 = 200e-9, 0.45, 0.4e-9
+# One cycle at a prescribed displacement; the zeros of both axes are unknown.  Columns: branch (approach or retreat),
+# displacement_nm (larger where the punch is deeper) and load_nN (tension negative).  Change these lines for your own.
 record = pd.read_csv(Path(__file__).with_name("measured_curve.csv"))
+RADIUS, NU, Z0 = 200e-9, 0.45, 0.4e-9  # a sphere on a homogeneous solid
+UNLOADED_NM = 3  # so far from the farthest point there is no load
+U_FORCE, U_DRAWN = 0.1e-9, 0.03e-9  # standard deviations of the two numbers of step 2, in N and m
 
 # 1. The load is zero where the surfaces are far apart; the displacement where the load of the retreat is zero.
-far = record["displacement_nm"] < record["displacement_nm"].min() + 3
+far = record["displacement_nm"] < record["displacement_nm"].min() + UNLOADED_NM
 record["load"] = record["load_nN"] - record.loc[far, "load_nN"].median()
 retreat = record[record["branch"] == "retreat"].sort_values("displacement_nm", ignore_index=True)
-crossing = retreat[(retreat["load"].abs() < 8) & (retreat["displacement_nm"] > 3.5)]
+lowest = int(retreat["load"].idxmin())
+crossing = retreat[(retreat["load"].abs() < -0.2 * retreat["load"][lowest]) & (retreat.index > lowest)]
 zero = np.polynomial.Polynomial.fit(crossing["load"], crossing["displacement_nm"], 2)(0.0)
 
 # 2. Three numbers of the record: the pull-off force, and how far the surfaces are drawn before they part.
 parted = int(retreat["load"].diff().idxmin())  # the first point in contact after the jump
 drawn = (zero - retreat["displacement_nm"][parted]) * 1e-9
-bottom = retreat[(retreat["load"] < 0.9 * retreat["load"].min()) & (retreat.index > parted)]
+bottom = retreat[(retreat["load"] < 0.9 * retreat["load"][lowest]) & (retreat.index > parted)]
 curve = np.polynomial.Polynomial.fit(bottom["displacement_nm"], bottom["load"], 3)
 force = -curve(np.linspace(*curve.domain, 200)).min() * 1e-9
 print(f"pull-off force {force * 1e9:.2f} nN, drawn over {drawn * 1e9:.2f} nm")
@@ -52,7 +56,7 @@ print(f"Tabor number {mu:.2f}, work of adhesion {work * 1e3:.1f} mJ/m^2, modulus
 
 # 3. What the errors of the record and the assumed range of the forces mean for the result.
 rng = np.random.default_rng(1)
-samples = [solid(force + rng.normal(0, 0.1e-9), drawn + rng.normal(0, 0.03e-9), Z0) for _ in range(50)]
+samples = [solid(force + rng.normal(0, U_FORCE), drawn + rng.normal(0, U_DRAWN), Z0) for _ in range(50)]
 _, u_work, u_E0 = 2 * np.std(samples, axis=0)
 print(f"from the record: +- {u_work * 1e3:.1f} mJ/m^2, +- {u_E0 / 1e6:.0f} MPa (two standard deviations)")
 for z0 in (0.3e-9, 0.5e-9):
@@ -77,6 +81,7 @@ for columns, name in ((cycle.loading, "approach, model"), (cycle.unloading, "ret
     axes.plot(columns[0] * nm, columns[1] * nN, label=name)
 jkr = create("jkr").curve(problem)
 axes.plot(jkr.displacement * nm, jkr.load * nN, "k:", label="JKR, same solid")
-axes.set(xlabel="displacement (nm)", ylabel="load (nN)", xlim=(-2.6, 1.4), ylim=(-45, 5))
+axes.set(xlabel="displacement (nm)", ylabel="load (nN)", xlim=(-6.5 * Z0 * 1e9, 3.5 * Z0 * 1e9))
+axes.set_ylim(-1.15 * force * 1e9, 0.15 * force * 1e9)
 axes.legend(frameon=False)
 figure.savefig("measured_curve.png", dpi=120)

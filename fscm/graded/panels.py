@@ -20,10 +20,16 @@ from fscm.graded.patches import ImageTable
 
 __all__ = ["Remainder", "remainder"]
 
-# Longest piece at the kink, and longest panel beside it for which the Gauss rule itself does, in units of the length of
-# the solid: u^2 log u on it leaves (1/10)^2 times the inverse sixth power of the number of nodes, below 1e-10.
-_FIRST, _SHORT = 0.1, 0.02
-_EXTRA_NODES = 10
+# Longest panel beside the kink for which the Gauss rule itself does, in units of the length of the solid.
+_SHORT = 0.02
+# Longest piece at the kink, in units of that length, and of the radius of the target, but at least _SHORT: F is smooth
+# there in the root of the distance, in which u^2 log u is v^4 log v.
+_FIRST, _MIRROR = 0.5, 2.0
+# A piece farther out is so many times as long as its distance; the last one, up to _LAST times longer, takes the rest.
+# On it the coefficients of F fall like (2 + sqrt 3)^-m.
+_GROWTH, _LAST = 2.0, 1.25
+# Nodes besides those of a panel at the kink, and besides half of those of a panel on the other pieces.
+_AT_KINK, _AWAY = 8, 9
 
 
 class Remainder:
@@ -40,15 +46,15 @@ class Remainder:
 
 
 def _pieces(
-    pair: NDArray[np.intp], sign: Array, near: Array, extent: Array, xi: Array, h: Array, first: float
+    pair: NDArray[np.intp], sign: Array, near: Array, extent: Array, xi: Array, h: Array, first: Array
 ) -> list[Pieces]:
-    """Cover distances near ... near + extent by pieces no longer than their distance, or than `first`."""
+    """Cover distances near ... near + extent by pieces no longer than their distance allows, or than `first`."""
     parts = []
     active = np.flatnonzero(extent > 0.0)
     near, extent, xi = near.copy(), extent.copy(), xi.copy()
     while active.size:
-        allowed = np.maximum(near[active], first)
-        length = np.where(extent[active] <= 1.5 * allowed, extent[active], allowed)
+        allowed = np.maximum(_GROWTH * near[active], first[active])
+        length = np.where(extent[active] <= _LAST * allowed, extent[active], allowed)
         parts.append(Pieces(pair[active], sign[active], near[active], length, xi[active]))
         near[active] += length
         extent[active] -= length
@@ -58,16 +64,19 @@ def _pieces(
 
 
 def _near_rows(
-    table: ImageTable, c: float, first: float, r: Array, left: Array, right: Array, h: Array, order: int
+    table: ImageTable, c: float, length: float, r: Array, left: Array, right: Array, h: Array, order: int
 ) -> tuple[Array, Array]:
     """Rows, shape (pairs, order) each, of F and its rate for targets at the radii r.
 
     Parameters
     ----------
+    length : float
+        That of the solid, in the unit of the radii.
     left, right : ndarray
         Distance of the target from the start of the panel (positive behind it), and of the end from the target.
     """
     index = np.arange(len(r))
+    first = np.minimum(_FIRST * length, np.maximum(_MIRROR * r, _SHORT * length))
     parts: list[Pieces] = []
     v = left / h
     for sign, extent, gap in ((-1.0, left, -right), (1.0, right, -left)):
@@ -75,19 +84,27 @@ def _near_rows(
         near = np.maximum(gap, 0.0)
         start = np.where(near > 0.0, 0.5 - 0.5 * sign, v)
         parts += _pieces(index, np.full(len(r), sign), near, np.maximum(extent - near, 0.0), start, h, first)
-    p = Pieces.join(parts)
-    rule = gauss_rule(order + _EXTRA_NODES)
-    distance = p.near[:, None] + p.length[:, None] * rule.nodes
-    radius = r[p.pair][:, None]
-    t = radius + p.sign[:, None] * distance
-    total = radius + t
-    weights = p.length[:, None] * rule.weights * t / total
-    found = table.of((c * total).ravel(), (c * distance).ravel())
+    every = Pieces.join(parts)
+    rows = np.zeros((2, len(r), order))
     modes = gauss_rule(order).to_modes
-    first_rows, rates = (
-        moments(p, values.reshape(total.shape) * weights, rule.nodes, h, order, len(r)) @ modes for values in found
-    )
-    return first_rows, rates
+    at_kink = every.near < first[every.pair]
+    for chosen, rule, squared in (
+        (at_kink, gauss_rule(order + _AT_KINK), True),
+        (~at_kink, gauss_rule(order // 2 + _AWAY), False),
+    ):
+        if not chosen.any():
+            continue
+        p = every.part(chosen)
+        u, weights = (rule.nodes**2, 2.0 * rule.nodes * rule.weights) if squared else (rule.nodes, rule.weights)
+        distance = p.near[:, None] + p.length[:, None] * u
+        radius = r[p.pair][:, None]
+        t = radius + p.sign[:, None] * distance
+        total = radius + t
+        factors = p.length[:, None] * weights * t / total
+        found = table.of((c * total).ravel(), (c * distance).ravel())
+        for row, values in zip(rows, found, strict=True):
+            row += moments(p, values.reshape(total.shape) * factors, u, h, order, len(r)) @ modes
+    return rows[0], rows[1]
 
 
 def remainder(table: ImageTable, length: float, mesh: PanelMesh, c: float) -> Remainder:
@@ -107,7 +124,6 @@ def remainder(table: ImageTable, length: float, mesh: PanelMesh, c: float) -> Re
     both = table.of(c * (s[i] + s[j]), c * np.abs(places[i] - places[j]))
     weights = (s * mesh.weights) / (s[:, None] + s)
     on_axis = table.of(c * s, c * s)
-    first = _FIRST * length / c
     # Distances of the nodes, and of the axis, from both ends of each panel.
     at = np.append(places, -mesh.origin)[:, None]
     left, right = at - mesh.offsets[:-1], mesh.offsets[1:] - at
@@ -116,7 +132,7 @@ def remainder(table: ImageTable, length: float, mesh: PanelMesh, c: float) -> Re
     near = inside | ((np.maximum(-left, -right) < h) & long)
     node, panel = np.nonzero(near)
     radius = np.append(s, 0.0)[node]
-    rows = _near_rows(table, c, first, radius, left[node, panel], right[node, panel], h[panel], q)
+    rows = _near_rows(table, c, length / c, radius, left[node, panel], right[node, panel], h[panel], q)
     matrices, axes = [], []
     for values, on, row in zip(both, on_axis, rows, strict=True):
         matrix = np.empty((N + 1, N))

@@ -20,16 +20,21 @@ __all__ = ["ImageTable"]
 
 # Degree and size of a patch: the singularities are at a distance of pi/2, so that they fall like 4.75^-m.
 _DEGREE, _SIZE = 17, math.log(4.0)
-# Distances below this share of the shallowest image that matters count as this one.
+# Distances below this share of the length of the solid count as this one.
 _LEAST = 1e-11
+# Patches of shorter distances, down to zero, are one where A is larger by so many patches: the polynomial is in B
+# there, and leaves 5e-12 at most (measured; an offset power law): the shallow images follow B in steps of a decade.
+_SHORT, _APART = -7, 2
 # Images shallower than this share of B, or deeper than A over this share, are joined: what their expansion in the
 # square of the ratio leaves is the fourth power of it.
 _FAR = 7e-4
 # Error of the table: its own, and rounding and what is left out for each unit of the strengths of the images; measured
 # worst 2e-10 on a sharp layer, whose strengths are 3e5 together.
-_ERROR, _PER_STRENGTH = 1e-12, 2e-15
+_ERROR, _PER_STRENGTH = 1e-11, 2e-15
 # Numbers of the patches in each direction: a pair of them is one integer.
 _MOST = 200
+# Number of those that are joined.
+_JOINED = 0
 
 
 class ImageTable:
@@ -44,13 +49,18 @@ class ImageTable:
 
     def __init__(self, images: Images, length: float) -> None:
         self._images, self._length = images, length
+        self._short = length * math.exp(_SHORT * _SIZE)
         #: Bound of the error of the value.
         self.error = _ERROR + _PER_STRENGTH * float(np.sum(np.abs(images.strengths)))
         self._patches: dict[int, Array] = {}
         self._nodes = chebyshev.chebpts1(_DEGREE + 1)
         self._to_modes = np.linalg.inv(chebyshev.chebvander(self._nodes, _DEGREE))
         self._derivative = np.zeros((_DEGREE + 1, _DEGREE + 1))
-        self._derivative[:-1] = chebyshev.chebder(np.eye(_DEGREE + 1)) * (2.0 / _SIZE)
+        slopes = chebyshev.chebder(np.eye(_DEGREE + 1))
+        self._derivative[:-1] = slopes * (2.0 / _SIZE)
+        # B d/dB on [0, 1], x = 2 B - 1
+        products = [chebyshev.chebmul(slope, [1.0, 1.0]) for slope in slopes.T]
+        self._linear = np.stack([np.pad(c, (0, _DEGREE + 1 - len(c))) for c in products], axis=1)
 
     def _patch(self, key: int) -> Array:
         """Coefficients of value and derivative, shape (degree + 1, 2, degree + 1): in log A, then in log B."""
@@ -58,10 +68,13 @@ class ImageTable:
             i, j = divmod(key, _MOST)
             half = 0.5 * _SIZE
             A = self._length * np.exp((i - _MOST // 2 + 0.5) * _SIZE + half * self._nodes)[:, None]
-            B = self._length * np.exp((j - _MOST // 2 + 0.5) * _SIZE + half * self._nodes)[None, :]
+            if j == _JOINED:
+                B = self._short * (0.5 + 0.5 * self._nodes)[None, :]
+            else:
+                B = self._length * np.exp((j - _MOST // 2 + 0.5) * _SIZE + half * self._nodes)[None, :]
             values = A * self._sum(A, B)
             c = self._to_modes @ values @ self._to_modes.T
-            rate = self._derivative @ c + c @ self._derivative.T
+            rate = self._derivative @ c + c @ (self._linear if j == _JOINED else self._derivative).T
             self._patches[key] = np.ascontiguousarray(np.stack([c, rate], axis=1))
         return self._patches[key]
 
@@ -88,6 +101,9 @@ class ImageTable:
         x = np.log(A / self._length) / _SIZE + _MOST // 2
         y = np.log(B / self._length) / _SIZE + _MOST // 2
         i, j = np.floor(x), np.floor(y)
+        short = (j < _SHORT + _MOST // 2) & (i >= _SHORT + _APART + _MOST // 2)
+        j[short] = _JOINED
+        y[short] = _JOINED + B[short] / self._short
         keys = (i * _MOST + j).astype(np.uint16)
         order = np.argsort(keys, kind="stable")
         x, y = (2.0 * (x - i) - 1.0)[order], (2.0 * (y - j) - 1.0)[order]

@@ -11,7 +11,8 @@ from tests.certified.panel_bounds import NotProved
 from tests.certified.pull_off_enclosure import CERTIFIED
 from tests.certified.sphere_form import SphereForm
 
-FORM, COUNT = SphereForm(fmpq(1, 10), 5, 120), 64
+FORM, COUNT = SphereForm(fmpq(1, 10), 5, 80), 48
+LONG_FORM, LONG_COUNT = SphereForm(fmpq(1, 10), 5, 120), 64
 PULL_OFF = -0.0586
 
 
@@ -52,7 +53,7 @@ def test_a_piece_that_is_too_wide_is_not_proved():
 @pytest.mark.heavy
 def test_the_certified_pull_off_is_the_only_minimum_of_a_long_branch():
     certified = CERTIFIED["mu = 1/10"]
-    pieces = branch(FORM, COUNT, -1.0, 0.45)
+    pieces = branch(LONG_FORM, LONG_COUNT, -1.0, 0.45)
     assert one_minimum(pieces)
     assert pieces[0].enclosure.load > -0.75
     assert pieces[-1].enclosure.load > 0

@@ -85,6 +85,8 @@ def solved_once():
 
 #: Their finite elements take twenty seconds to half a minute.
 PAD_BY_ELEMENTS, LONG = "gecko_pad.py", "own_modulus.py"
+#: Closed forms of five shapes at many Tabor numbers.
+MODEL_CHOICE = "model_choice.py"
 
 #: The pad in the units of the finite elements, and its pull-off force (N) with its bound, which a heavy test computes.
 PAD = fem_reference.Problem(
@@ -111,12 +113,22 @@ def example_prints(name, folder):
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param(path.name, marks=[pytest.mark.heavy] if path.name in (PAD_BY_ELEMENTS, LONG) else [])
+        pytest.param(path.name, marks=[pytest.mark.heavy] if path.name in (PAD_BY_ELEMENTS, LONG, MODEL_CHOICE) else [])
         for path in EXAMPLES
     ],
 )
 def test_an_example_runs_and_prints_the_quoted_numbers(name, tmp_path):
     example_prints(name, tmp_path)
+
+
+def test_the_example_of_the_choice_prints_the_quoted_numbers_of_a_paraboloid(tmp_path):
+    path = DOCS / "examples" / MODEL_CHOICE
+    text, shapes = path.read_text(encoding="utf-8"), "SHAPES, GRADIENTS = (1, 1.5, 2, 3, 5), "
+    assert shapes in text
+    printed = printed_by(text.replace(shapes, "SHAPES, GRADIENTS = (2,), "), tmp_path, path)
+    quoted = [line for line in QUOTED[MODEL_CHOICE] if line.startswith(("| n |", "| 2 |"))]
+    assert len(quoted) == 8
+    assert [line for line in quoted if line not in printed] == []
 
 
 def test_the_example_of_the_pad_prints_the_quoted_numbers(tmp_path, monkeypatch):

@@ -1,11 +1,14 @@
 """The gallery and the notebooks: every script draws, every notebook computes what is stored in it."""
 
 import ast
+import io
 import re
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import matplotlib as mpl
 import nbformat
+import pandas as pd
 import pytest
 from nbclient import NotebookClient
 
@@ -58,17 +61,55 @@ def test_a_script_of_the_gallery_has_a_title_and_a_text(path):
     assert len(" ".join(text)) > 50
 
 
+def printed_by(cells):
+    """What the code of the cells prints in this process, with messages and the value of the last line of a cell."""
+    names, output = {}, io.StringIO()
+    with (
+        redirect_stdout(output),
+        redirect_stderr(output),
+        pd.option_context("display.max_columns", 20, "display.width", 80),
+    ):
+        for cell in cells:
+            if cell.cell_type == "code":
+                text = "\n".join(line for line in cell.source.splitlines() if not line.startswith("%"))
+                *rest, last = ast.parse(text).body
+                shown = isinstance(last, ast.Expr) and not text.endswith(";")
+                exec(compile(ast.Module(rest if shown else [*rest, last], []), "cell", "exec"), names)
+                value = eval(compile(ast.Expression(last.value), "cell", "eval"), names) if shown else None
+                if value is not None:
+                    print(repr(value))
+    return output.getvalue()
+
+
+def numbers_in(text):
+    return [float(number) for number in re.findall(r"(?<![\w.])-?\d+\.?\d*(?:e[-+]\d+)?", text)]
+
+
 def numbers(cells):
-    """The numbers that the cells print, in order; a picture has none."""
+    """The numbers that are stored in the cells, in order; a picture has none."""
     outputs = [output for cell in cells if cell.cell_type == "code" for output in cell.outputs]
     texts = [
         output.text if output.output_type == "stream" else output.data.get("text/plain", "")
         for output in outputs
         if "image/svg+xml" not in output.get("data", {})
     ]
-    return [float(text) for text in re.findall(r"(?<![\w.])-?\d+\.?\d*(?:e[-+]\d+)?", "\n".join(texts))]
+    return numbers_in("\n".join(texts))
 
 
+def assert_same(before, after):
+    assert len(before) == len(after) > 10
+    for one, other in zip(before, after, strict=True):
+        assert other == pytest.approx(one, rel=1e-6) or max(abs(one), abs(other)) < _BOUND
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_the_code_of_a_notebook_computes_what_is_stored_in_it(path):
+    """In this process; the next test has the kernel of Jupyter."""
+    stored = nbformat.read(path, as_version=4)
+    assert_same(numbers(stored.cells), numbers_in(printed_by(stored.cells)))
+
+
+@pytest.mark.heavy
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_a_notebook_computes_what_is_stored_in_it(path):
     stored = nbformat.read(path, as_version=4)
@@ -76,7 +117,4 @@ def test_a_notebook_computes_what_is_stored_in_it(path):
     NotebookClient(
         again, timeout=1800, kernel_name="python3", resources={"metadata": {"path": str(path.parent)}}
     ).execute()
-    before, after = numbers(stored.cells), numbers(again.cells)
-    assert len(before) == len(after) > 10
-    for one, other in zip(before, after, strict=True):
-        assert other == pytest.approx(one, rel=1e-6) or max(abs(one), abs(other)) < _BOUND
+    assert_same(numbers(stored.cells), numbers(again.cells))

@@ -69,7 +69,9 @@ def test_a_run_has_at_most_40_lines(name, columns):
 
 
 @pytest.mark.skipif(shutil.which("tmux") is None, reason="tmux is not installed")
-@pytest.mark.parametrize("columns", COLUMNS)
+@pytest.mark.parametrize(
+    "columns", [COLUMNS[0], *(pytest.param(columns, marks=pytest.mark.heavy) for columns in COLUMNS[1:])]
+)
 def test_a_terminal_shows_the_stored_screen(tmp_path, columns):
     shown = captured(SCREENS["list_quantities"], columns, tmp_path)
     assert shown.splitlines() == lines("list_quantities", columns)

@@ -20,16 +20,25 @@ DOCS = ROOT / "docs"
 
 
 def extension(name):
-    """A module of `docs/_extensions`, which is no package."""
+    """A module of `docs/_extensions`, which is no package: its modules import each other by their names."""
     spec = util.spec_from_file_location(f"docs_{name}", DOCS / "_extensions" / f"{name}.py")
     module = util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    sys.path.insert(0, str(DOCS / "_extensions"))
+    try:
+        spec.loader.exec_module(module)
+    finally:
+        sys.path.remove(str(DOCS / "_extensions"))
     return module
 
 
 @pytest.fixture(scope="module")
 def api():
     return extension("api_pages")
+
+
+@pytest.fixture(scope="module")
+def texts():
+    return extension("api_texts")
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +52,7 @@ def documented(reference):
     return set(re.findall(r"^\.\. (?:auto(?:class|function)|py:data):: (\S+)$", "\n".join(reference.values()), re.M))
 
 
-@pytest.mark.parametrize("name", ["api_pages", "repository_pages"])
+@pytest.mark.parametrize("name", ["api_pages", "api_texts", "repository_pages"])
 def test_examples_of_an_extension(name):
     assert doctest.testmod(extension(name)) == (0, doctest.testmod(extension(name)).attempted)
 
@@ -76,18 +85,41 @@ def test_every_name_of_a_public_module_is_in_the_reference(package, reference):
     assert missing == []
 
 
-def test_every_name_of_a_package_has_a_text(api, reference):
-    """A docstring, or for data the comment before them."""
-    data = re.findall(r"^\.\. py:data:: (\w+)\.(\w+)$", "\n".join(reference.values()), re.M)
-    assert len(data) >= 10
-    silent = [f"{package}.{name}" for package, name in data if not api.comment(package, name)]
-    silent += [
-        f"{package.__name__}.{name}"
-        for package in (fscm, fem_reference, comparisons)
-        for name in package.__all__
-        if callable(getattr(package, name)) and not getattr(package, name).__doc__
-    ]
+def test_every_name_of_the_reference_has_a_text(api, reference):
+    """A docstring; for data the comment before them or the title of a figure, but not the name of their type."""
+    text = "\n".join(reference.values())
+    data = [name.rpartition(".") for name in re.findall(r"^\.\. py:data:: (\S+)$", text, re.M)]
+    assert len(data) >= 250
+    silent = [f"{place}.{name}" for place, _, name in data if not api.comment(place, name)]
+    others = [name.rpartition(".") for name in re.findall(r"^\.\. auto(?:class|function):: (\S+)$", text, re.M)]
+    silent += [f"{place}.{name}" for place, _, name in others if not getattr(import_module(place), name).__doc__]
     assert silent == []
+
+
+def test_the_text_is_of_the_data_and_not_of_others_with_the_same_name(api):
+    assert api.comment("comparisons", "QUANTITIES") == api.comment("comparisons.quantities", "QUANTITIES")
+    assert api.comment("comparisons", "QUANTITIES") != api.comment(
+        "comparisons.paper.figures.fig08_jumps", "QUANTITIES"
+    )
+
+
+def test_a_text_of_the_site_is_of_data_without_one_in_their_module(texts):
+    for full in texts.TEXTS:
+        place, _, name = full.rpartition(".")
+        assert name in import_module(place).__all__
+        assert texts.texts_of(ROOT / Path(*place.split(".")).with_suffix(".py"))[name] == "", full
+
+
+def test_texts_are_found_before_data_after_them_and_where_they_are_imported_from(texts, tmp_path):
+    module = tmp_path / "module.py"
+    module.write_text(
+        "import x\n\n#: Both,\n#: of one line.\nA, B = 1, 2\nC: int = 3\n'''After it.'''\n# No text.\nD = 4\n"
+        "from comparisons.console.exit_status import FAILED as LOST, OK\n"
+    )
+    found = texts.texts_of(module)
+    assert [found[name] for name in "ABCD"] == ["Both, of one line.", "Both, of one line.", "After it.", ""]
+    assert found["OK"] == found["LOST"]
+    assert found["OK"].startswith("Exit statuses: 0 done")
 
 
 def test_private_modules_are_not_in_the_reference(reference):

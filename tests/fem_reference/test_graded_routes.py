@@ -35,6 +35,7 @@ from fem_reference import (
     solve_together,
 )
 from tests.fem_reference.hankel_reference import pull_off
+from tests.fem_reference.solved_together import COARSEST, pull_off_on_the_coarsest_mesh
 from tests.fem_reference.test_coatings import HANKEL_ERROR
 
 NU = 0.3
@@ -44,6 +45,7 @@ FORCE, DISPLACEMENT = "pull_off_force", "pull_off_displacement"
 JUMPS = ("jump_in_displacement", "jump_out_displacement")
 SOFT = Solid(1.0, 1.0, 0.0, NU)
 NUS = CoatingPoisson(0.2, 0.45, 1.0)
+LAYERS_OF_NU = CustomSolid(PowerLawModulus(1.0, 1.0, 0.0), NUS)
 
 
 def _uniform(z):
@@ -60,19 +62,25 @@ def _agree(found, reference, other=0.0):
             assert abs(value.value - reference[name].value) <= value.u_num + reference[name].u_num + other
 
 
+def test_poissons_ratio_of_layers_on_the_coarsest_mesh():
+    """Force and displacement; the next test has the bounds, and other solids."""
+    reference = pull_off(LAYERS_OF_NU.modulus, NUS, lambda r: r**2 / 2, sharp=(1.0,))
+    state = pull_off_on_the_coarsest_mesh(Problem(LAYERS_OF_NU, SPHERE, LAW))
+    assert -state.load == pytest.approx(reference.force, rel=COARSEST)
+    assert state.displacement == pytest.approx(reference.displacement, rel=COARSEST)
+
+
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("solid", "nu", "options"),
     [
-        pytest.param(CustomSolid(PowerLawModulus(1.0, 1.0, 0.0), NUS), NUS, {}, id="nu of layers"),
-        pytest.param(
-            CustomSolid(CoatingModulus(10.0, 1.0, 1.0), NUS), NUS, {"radius": 22.0}, id="both", marks=pytest.mark.heavy
-        ),
+        pytest.param(LAYERS_OF_NU, NUS, {}, id="nu of layers"),
+        pytest.param(CustomSolid(CoatingModulus(10.0, 1.0, 1.0), NUS), NUS, {"radius": 22.0}, id="both"),
         pytest.param(
             CustomSolid(TableModulus((0.0, 1.0, 2.0), (1.0, 1.5, 4.0)), TablePoisson((0.0, 2.0), (0.4, 0.1))),
             TablePoisson((0.0, 2.0), (0.4, 0.1)),
             {},
             id="table",
-            marks=pytest.mark.heavy,
         ),
     ],
 )
@@ -97,27 +105,31 @@ HEIGHTS = tuple(r**2 / 2 for r in RADII)
 GAPS = np.geomspace(0.75, 20.0, 80)
 
 
+def test_a_measured_punch_on_the_coarsest_mesh_against_the_integral_equation():
+    """Its kinks are nodes of the mesh; the next test has the bounds, other punches and laws."""
+    exact, _ = _integral_equation(punch=fscm.MeasuredPunch(RADII, HEIGHTS))
+    state = pull_off_on_the_coarsest_mesh(Problem(SOFT, MeasuredPunch(RADII, HEIGHTS), LAW))
+    assert -state.load == pytest.approx(exact, rel=COARSEST)
+
+
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("punch", "law", "other"),
     [
         pytest.param(MeasuredPunch(RADII, HEIGHTS), LAW, {"punch": fscm.MeasuredPunch(RADII, HEIGHTS)}, id="measured"),
-        pytest.param(
-            RoundedCone(0.5, 1.0), LAW, {"punch": fscm.RoundedCone(0.5)}, id="rounded cone", marks=pytest.mark.heavy
-        ),
+        pytest.param(RoundedCone(0.5, 1.0), LAW, {"punch": fscm.RoundedCone(0.5)}, id="rounded cone"),
         pytest.param(
             PowerSum((0.5, 0.1), (2.0, 4.0)),
             LAW,
             {"punch": fscm.PowerSum((0.5, 0.1), (2.0, 4.0))},
             id="sum of powers",
-            marks=pytest.mark.heavy,
         ),
-        pytest.param(SPHERE, Mie(1.0, 1.0, 12.0, 6.0), {"law": fscm.Mie(12.0, 6.0)}, id="Mie", marks=pytest.mark.heavy),
+        pytest.param(SPHERE, Mie(1.0, 1.0, 12.0, 6.0), {"law": fscm.Mie(12.0, 6.0)}, id="Mie"),
         pytest.param(
             SPHERE,
             TabulatedLaw(GAPS, GAPS**-9 - GAPS**-3, length=1.0, tail_exponent=3.0, work=1.0),
             {"law": fscm.TabulatedLaw(GAPS, GAPS**-9 - GAPS**-3, tail_exponent=3.0)},
             id="table",
-            marks=pytest.mark.heavy,
         ),
     ],
 )
@@ -128,17 +140,30 @@ def test_punches_and_laws_against_the_integral_equation(punch, law, other):
     assert found.u_num <= 1e-5 * found.value
 
 
-def test_other_units_are_the_same_problem():
-    """Newtons and metres: an exponential solid under a sphere of 100 nm; the mesh is the same, to rounding."""
+def _in_two_units():
+    """An exponential solid under a sphere of 100 nm without units, the same in newtons and metres; the unit of load."""
     E, R, z0 = 2e9, 1e-7, 3e-10
     unit = math.sqrt(R * z0)
     work = E * z0**1.5 / math.sqrt(R)
     dimensionless = Problem(CustomSolid(ExponentialModulus(1.0, 4.0, 2.0), NU), SPHERE, LAW)
     solid = CustomSolid(ExponentialModulus(E, 4.0 * E, 2.0 * unit), NU)
     physical = Problem(solid, PowerPunch(2.0, R), LennardJones(work, z0))
-    first, second = (solve(problem, FORCE, "quick") for problem in (dimensionless, physical))
-    assert second.value == pytest.approx(first.value * work * R, rel=1e-9)
-    assert second.u_num == pytest.approx(first.u_num * work * R, rel=1e-2)
+    return dimensionless, physical, work * R
+
+
+def test_other_units_are_the_same_problem():
+    """The mesh is the same, to rounding; the next test has the bound."""
+    *problems, newton = _in_two_units()
+    first, second = map(pull_off_on_the_coarsest_mesh, problems)
+    assert second.load == pytest.approx(first.load * newton, rel=1e-9)
+
+
+@pytest.mark.heavy
+def test_the_bound_has_the_unit_of_the_load():
+    *problems, newton = _in_two_units()
+    first, second = (solve(problem, FORCE, "quick") for problem in problems)
+    assert second.value == pytest.approx(first.value * newton, rel=1e-9)
+    assert second.u_num == pytest.approx(first.u_num * newton, rel=1e-2)
 
 
 HOMOGENEOUS = [

@@ -30,7 +30,7 @@ from fem_reference._contact.mesh_choice import MeshChoice, chosen
 from fem_reference._contact.uncertainty import three_meshes
 from fem_reference.accuracy import ACCURACIES, level_for
 from fem_reference.verification.reference_solutions import surface_constant
-from tests.fem_reference.solved_together import PROBLEM, solved
+from tests.fem_reference.solved_together import COARSEST, PROBLEM, pull_off_on_the_coarsest_mesh, solved
 from tests.reference_values import OTHER_LAWS, REFERENCE_VALUES
 
 PULL_OFF = {(v.k, v.mu): v.value for v in REFERENCE_VALUES if (v.quantity, v.n) == ("pull_off_force", 2.0)}
@@ -274,11 +274,22 @@ def test_surface_offset_tends_to_the_power_law():
     assert 1.9 < change[0] / change[1] < 3.2
 
 
+def _disguised():
+    """A power law as a function of the depth."""
+    solid = CustomSolid(CustomModulus(_solid(0.4, 1.0, 0.25).modulus, 0.4, 0.4, surface_depth=1e9), 0.25)
+    return Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+
+
+def test_solid_that_does_not_scale_has_the_force_of_the_power_law_it_is():
+    """The path on one mesh of fixed size; the next test has the bound."""
+    state = pull_off_on_the_coarsest_mesh(_disguised())
+    assert -state.load == pytest.approx(math.pi * PULL_OFF[0.4, 1.0], rel=COARSEST)
+
+
+@pytest.mark.heavy
 def test_solid_that_does_not_scale_agrees_with_the_power_law_it_is():
-    """The path on a mesh of fixed size, for a power law in disguise."""
-    disguised = CustomSolid(CustomModulus(_solid(0.4, 1.0, 0.25).modulus, 0.4, 0.4, surface_depth=1e9), 0.25)
     exact = _pull_off(0.4, 1.0, accuracy="quick")
-    result = solve(Problem(disguised, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)), "pull_off_force", "quick")
+    result = solve(_disguised(), "pull_off_force", "quick")
     assert abs(result.value - exact.value) <= result.u_num + exact.u_num
     assert result.u_num <= 1e-5 * exact.value
 

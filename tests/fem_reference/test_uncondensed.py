@@ -229,8 +229,7 @@ def test_without_its_preconditioner_there_is_no_solution(solved, monkeypatch):
         solve(solved[0], "pull_off_force", "quick")
 
 
-@pytest.mark.usefixtures("no_kept_events")
-def test_a_solution_holds_the_value_of_the_whole_system(solved, monkeypatch):
+def test_a_solution_holds_the_value_of_the_whole_system(solved):
     problem, right = solved
     assert right.value != right.values[-1]
     assert right.parts["algebra"] <= ALGEBRA
@@ -239,6 +238,13 @@ def test_a_solution_holds_the_value_of_the_whole_system(solved, monkeypatch):
     assert right.u_num == pytest.approx(sum(right.parts.values()))
     _, point = event_state(problem, "pull_off", "quick")
     assert -point.state.load == pytest.approx(right.value, abs=right.parts["algebra"])
+
+
+@pytest.mark.heavy
+@pytest.mark.usefixtures("no_kept_events")
+def test_a_solution_by_a_wrong_condensation_holds_the_value_of_the_whole_system(solved, monkeypatch):
+    """The whole solution; on one mesh it is the first test of the whole system."""
+    problem, right = solved
     _forget(*CONDENSED, *WHOLE)
 
     def spoiled(*arguments):

@@ -109,8 +109,13 @@ def test_nearly_incompressible_solid():
     _assert_all_pass(gaussian_checks(DEFAULT, "default", (0.4,), (0.49,)))
 
 
-def test_far_field_and_limits():
+def test_far_field():
     _assert_all_pass(far_field_checks())
+
+
+@pytest.mark.heavy
+def test_limits():
+    """Their ends, k = 0 and the power law, and k = 0.1 are in the test under a Gaussian pressure."""
     _assert_all_pass(limit_checks())
 
 

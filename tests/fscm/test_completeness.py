@@ -1,6 +1,7 @@
 """Completeness of the path: hidden turning points, its end, the list of folds, states next to a fold."""
 
 import math
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -17,6 +18,7 @@ from fscm.experiment import load_controlled_retreat
 from fscm.path import EquilibriumPath
 from fscm.punch import PowerSum, RoundedCone
 
+analysis_of, path_of = cache(Analysis), cache(trace)
 ASPERITY = Problem(2, 0, 0.3, punch=CustomPunch(lambda r: -8 * np.expm1(-(r**2)) + r**2 / 50, growth=2))
 
 
@@ -112,11 +114,11 @@ def test_what_may_hide(change: float, first: float, last: float, hides: bool) ->
 
 def test_steps_over_a_pair_of_folds_are_found() -> None:
     """A path with all points near its two folds left out is completed again."""
-    points = Analysis(Problem(2, 0.4, 1.0)).points
+    points = analysis_of(Problem(2, 0.4, 1.0)).points
     turn = [i for i, (a, b) in enumerate(pairwise(points)) if a.rates.displacement * b.rates.displacement < 0.0]
     # The folds of this problem lie on two stretches; those of k = 0.6, mu = 3 on one.
     assert len(turn) == 2
-    full = Analysis(Problem(2, 0.6, 3.0)).points
+    full = analysis_of(Problem(2, 0.6, 3.0)).points
     signs = [point.rates.displacement > 0.0 for point in full]
     down = signs.index(False)
     up = down + signs[down:].index(True)
@@ -136,7 +138,7 @@ def test_the_folds_of_a_path_are_those_of_one_with_short_steps() -> None:
         for name in ("load", "displacement")
         if a.stretch == b.stretch and getattr(a.rates, name) * getattr(b.rates, name) < 0.0
     ]
-    found = [fold.quantity for fold in Analysis(problem).folds]
+    found = [fold.quantity for fold in analysis_of(problem).folds]
     assert sorted(found) == sorted(brute)
     assert len(found) == 13
 
@@ -165,7 +167,7 @@ def test_states_next_to_a_fold_are_all_found(control: str, value: float, number:
 
 
 def test_a_path_lists_its_folds() -> None:
-    path = trace(Problem(2, 0.4, 1.0))
+    path = path_of(Problem(2, 0.4, 1.0))
     assert [(fold.quantity, fold.maximum) for fold in path.folds] == [
         ("displacement", True),
         ("displacement", False),
@@ -181,14 +183,14 @@ def test_a_landing_that_the_path_does_not_contain_is_told() -> None:
     problem = Problem(2, 0.4, 3.0)
     with pytest.raises(ValueError, match=r"ends at delta = -3\.658.* does not contain .*jump-out.* larger start_gap"):
         displacement_cycle(trace(problem, start_gap=3.0))
-    cycle = displacement_cycle(trace(problem))
+    cycle = displacement_cycle(path_of(problem))
     assert cycle.jump_out is not None
     assert cycle.jump_out[1, 1] == pytest.approx(-0.0840, abs=2e-4)
 
 
-@pytest.mark.parametrize("problem", [Problem(2, 0.4, 3.0), Problem(5, 0.6, 3.0)])
+@pytest.mark.parametrize("problem", [Problem(2, 0.4, 3.0), pytest.param(Problem(5, 0.6, 3.0), marks=pytest.mark.heavy)])
 def test_a_landing_is_within_its_bound(problem: Problem) -> None:
-    cycle = displacement_cycle(trace(problem))
+    cycle = displacement_cycle(path_of(problem))
     assert 0.0 < cycle.u_landing < 5e-3  # measured 4.1e-3 and 1.2e-3
     for jump in (cycle.jump_in, cycle.jump_out):
         assert jump is not None
@@ -201,7 +203,7 @@ def test_a_tensile_end_comes_after_pull_off() -> None:
     problem = Problem(2, 0.4, 3.0)
     path = trace(problem, max_load=-0.5)
     assert path.load[-2] <= -0.5 < path.load[-1] < 0.0
-    assert path.load.min() == pytest.approx(trace(problem).load.min(), abs=1e-7)
+    assert path.load.min() == pytest.approx(path_of(problem).load.min(), abs=1e-7)
     assert load_controlled_retreat(path)[1, -1] == path.load.min()
     with pytest.raises(ValueError, match="max_load = -5 is outside"):
         trace(problem, max_load=-5.0)

@@ -39,7 +39,7 @@ def test_uniform_pressure_on_a_disc() -> None:
     assert np.abs(w[inside] - exact).max() < CLOSED_FORM
 
 
-@pytest.mark.parametrize("k", [0.0, 0.6])
+@pytest.mark.parametrize("k", [pytest.param(0.0, marks=pytest.mark.heavy), 0.6])
 def test_hertz_pressure_flattens_the_surface(k: float) -> None:
     """p = (1-r^2)^((1+k)/2) gives w(0) - w(r) proportional to r^2 (Giannakopoulos and Suresh 1997)."""
     mesh = _graded_mesh(depth=40)

@@ -85,7 +85,7 @@ def test_no_number_where_there_is_no_equilibrium(control: Control) -> None:
         newton(_state(Problem(2, 0.4, 3.0), True), control)
 
 
-@pytest.mark.parametrize(("n", "k"), [(300.0, 0.0), (300.0, 0.4)])
+@pytest.mark.parametrize(("n", "k"), [pytest.param(300.0, 0.0, marks=pytest.mark.heavy), (300.0, 0.4)])
 def test_the_flattest_punch_is_solved_without_a_warning(n: float, k: float) -> None:
     solution = solve(Problem(n=n, k=k, mu=1.0), "pull_off_force")
     assert 0.8 < solution.value < 0.9

@@ -62,7 +62,7 @@ def test_stiff_limit_is_bradley(n, bradley):
     assert value(n, 1e-4, "pull_off_force") == pytest.approx(bradley, abs=6e-4)
 
 
-@pytest.mark.parametrize("n", [1.0, 1.5, 2.0, 5.0])
+@pytest.mark.parametrize("n", [1.0, 2.0, *(pytest.param(n, marks=pytest.mark.heavy) for n in (1.5, 5.0))])
 def test_soft_limit_is_jkr(n):
     # Eq. 57 at k = 1: cos(k pi / 2) / (2 pi (1 - k)) -> 1/4 and B(n/2, 1) = 2/n.
     for mu, tolerance in ((20.0, 0.06), (80.0, 0.015)):

@@ -13,20 +13,35 @@ from fscm.stability import margins
 SOFT_BELOW = Coating(5.0, 1.0, 0.7, 0.1, 0.3)
 
 
-def test_a_homogeneous_solid_has_the_numbers_of_the_power_law():
+@pytest.mark.parametrize(
+    "quantities",
+    [
+        ["pull_off_force"],
+        # Of a whole path.
+        pytest.param(["jump_in_displacement", "jump_out_gap"], marks=pytest.mark.heavy),
+    ],
+)
+def test_a_homogeneous_solid_has_the_numbers_of_the_power_law(quantities):
     found, exact = (
-        solve_together(problem, ["pull_off_force", "jump_in_displacement", "jump_out_gap"])
+        solve_together(problem, quantities)
         for problem in (GradedProblem(2, 1.0, Exponential(1.0, 1.0, 1.0, 0.3)), Problem(2, 0, 1.0))
     )
     for name, value in found.items():
         assert abs(value.value - exact[name].value) <= value.u_num + exact[name].u_num + 1e-13
 
 
-def test_a_thin_or_thick_coating_has_the_numbers_of_one_modulus():
-    for thickness, mu in ((1e-13, 1.0 / 4.0 ** (2.0 / 3.0)), (1e8, 1.0)):
-        found = solve(GradedProblem(2, 1.0, Coating(1.0, 4.0, thickness, 0.0, 0.3)), "pull_off_force")
-        # 2e-9: the coating changes the response at radii of its thickness, or of its inverse.
-        assert found.value == pytest.approx(solve(Problem(2, 0, mu), "pull_off_force").value, rel=2e-9)
+@pytest.mark.parametrize(
+    ("thickness", "mu"),
+    [
+        (1e8, 1.0),
+        # Its kernel is in the homogeneous limits of `test_graded_kernel.py`.
+        pytest.param(1e-13, 1.0 / 4.0 ** (2.0 / 3.0), marks=pytest.mark.heavy),
+    ],
+)
+def test_a_thin_or_thick_coating_has_the_numbers_of_one_modulus(thickness, mu):
+    found = solve(GradedProblem(2, 1.0, Coating(1.0, 4.0, thickness, 0.0, 0.3)), "pull_off_force")
+    # 2e-9: the coating changes the response at radii of its thickness, or of its inverse.
+    assert found.value == pytest.approx(solve(Problem(2, 0, mu), "pull_off_force").value, rel=2e-9)
 
 
 def test_rates_along_the_path_are_exact():
@@ -51,13 +66,9 @@ FINITE_ELEMENTS = [
         },
     ),
     (Coating(0.91, 4.55, 0.7, 0.1, 0.3), {"pull_off_force": (1.88374381887, 1.8e-8)}),
-    (
-        Coating(0.91, 0.182, 0.7, 0.0, 0.3),
-        {
-            "pull_off_force": (1.39415784109, 9.4e-8),
-            "jump_in_displacement": (-2.89799085593, 1.4e-7),
-        },
-    ),
+    (SOFT_BELOW_SHARP := Coating(0.91, 0.182, 0.7, 0.0, 0.3), {"pull_off_force": (1.39415784109, 9.4e-8)}),
+    # Of a whole path; the light one is the first solid.
+    pytest.param(SOFT_BELOW_SHARP, {"jump_in_displacement": (-2.89799085593, 1.4e-7)}, marks=pytest.mark.heavy),
 ]
 
 
@@ -69,14 +80,22 @@ def test_events_agree_with_the_finite_elements(solid, values):
         assert found[name].value == pytest.approx(value, abs=bound + found[name].u_num)
 
 
-@pytest.mark.parametrize(("n", "mu"), [(2, 0.3), (1, 1.0), (2, 3.0)])
+SOLIDS = [
+    SOFT_BELOW,
+    OffsetPowerLaw(1.0, 1.0, 0.4, 0.5, 0.3),
+    Coating(1.0, 10.0, 0.5, 0.0, 0.3, 0.5),
+    TabulatedModulus([0.0, 1.0, 2.0, 5.0], [1.0, 3.0, 4.0, 10.0], 0.3),
+]
+#: Shape index, Tabor number and place of the solid of the light tests: every shape and every solid occurs.
+SHAPES = [(2, 3.0, 0), (2, 0.3, 1), (2, 0.3, 2), (1, 1.0, 3)]
+
+
 @pytest.mark.parametrize(
-    "solid",
+    ("n", "mu", "solid"),
     [
-        SOFT_BELOW,
-        OffsetPowerLaw(1.0, 1.0, 0.4, 0.5, 0.3),
-        Coating(1.0, 10.0, 0.5, 0.0, 0.3, 0.5),
-        TabulatedModulus([0.0, 1.0, 2.0, 5.0], [1.0, 3.0, 4.0, 10.0], 0.3),
+        pytest.param(n, mu, solid, id=f"{n}-{mu}-{i}", marks=() if (n, mu, i) in SHAPES else pytest.mark.heavy)
+        for n, mu in ((2, 0.3), (1, 1.0), (2, 3.0))
+        for i, solid in enumerate(SOLIDS)
     ],
 )
 def test_the_bound_covers_the_distance_to_finer_meshes(n, mu, solid):

@@ -18,8 +18,8 @@ MEDIAN, WORST = 1e3, 1e5
 NARROW = "which needs too much memory"
 # Problems whose finer path was not solved either: k above 0.8 and mu above 5.
 UNSOLVED = 8
-# Problems of the quick test: one of each 50.
-EVERY = 50
+# Problems of the quick test: one of each 100.
+EVERY = 100
 # Numbers of problems with a bound that was up to 20 times too small.
 _ONCE_TOO_SMALL = (216, 260, 316)
 KNOWN = known()

@@ -19,10 +19,10 @@ AGREEMENT_OF_PLACE = 1e-9
 
 LIGHT = [
     ("pull_off", 2.0, 0.0, 0.1),
-    ("pull_off", 2.0, 0.4, 0.5),
     ("jump_in", 5.0, 0.4, 3.0),
 ]
 HEAVY = [
+    ("pull_off", 2.0, 0.4, 0.5),
     ("pull_off", 2.0, 0.0, 0.5),
     ("pull_off", 2.0, 0.0, 1.0),
     ("pull_off", 2.0, 0.0, 2.0),

@@ -168,7 +168,7 @@ def test_marks_change_at_folds_and_agree_with_eigenvalues(n: float, k: float, mu
             assert state.stable_under_load == path.stable_under_load[middle]
 
 
-@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.4, 1.0), (8.0, 0.5, 3.0)])
+@pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.4, 1.0), pytest.param(8.0, 0.5, 3.0, marks=pytest.mark.heavy)])
 def test_a_cycle_has_stable_states_only(n: float, k: float, mu: float) -> None:
     """Approach and retreat visit every stable state of a power-law punch, and no unstable one but the folds."""
     path = trace(Problem(n, k, mu))

@@ -39,6 +39,7 @@ class RunFigure:
     rows: Callable[[pd.DataFrame], pd.DataFrame] = lambda table: table
 
 
+#: Every figure of a run, with the table that it draws.
 FIGURES = (
     RunFigure(KAPPA_FIGURE, KAPPA, kappa.draw, kappa.shown),
     RunFigure(AGREEMENT, AGREEMENT, agreement.draw),

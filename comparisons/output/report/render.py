@@ -9,6 +9,7 @@ from __future__ import annotations
 import base64
 import json
 from collections.abc import Iterable, Mapping
+from functools import cache
 from hashlib import sha256
 from importlib.resources import files
 from typing import Any
@@ -78,8 +79,7 @@ def render(page: Page) -> str:
         for name, style in page.model_styles.items()
     }
     plots = [plot.data() for plot in page.every_plot]
-    bokeh = [_script(files("bokeh").joinpath(name).read_text(encoding="utf-8")) for name in _BOKEH]
-    scripts = [*bokeh, *(_script(_asset(name)) for name in (*_SCRIPTS, "plots.js"))]
+    scripts = [*(_script("bokeh", name) for name in _BOKEH), *(_own_script(name) for name in (*_SCRIPTS, "plots.js"))]
     content = {"plots": plots, "model_styles": styles}
     return _filled("report.html", page.tables.values(), page.files, scripts, content, page=page, most_open=_MOST_OPEN)
 
@@ -97,7 +97,7 @@ def render_table(template: str, table: Table, files: Mapping[str, str], **contex
     context
         What else the template shows.
     """
-    return _filled(template, [table], files, [_script(_asset(name)) for name in _SCRIPTS], {}, table=table, **context)
+    return _filled(template, [table], files, [_own_script(name) for name in _SCRIPTS], {}, table=table, **context)
 
 
 def dark_colour(colour: str) -> str:
@@ -137,6 +137,7 @@ def _characters(tables: Iterable[dict[str, Any]]) -> dict[str, str]:
     return {one: form for one in every if not one.isspace() and (form := escaped(one)) != one}
 
 
+@cache
 def environment() -> Environment:
     """Return the environment of all templates: everything that is text is escaped."""
     made = Environment(
@@ -185,15 +186,26 @@ def _asset(name: str) -> str:
     return files(_ASSETS).joinpath("assets", name).read_text(encoding="utf-8")
 
 
-def _script(text: str) -> Markup:
+def _own_script(name: str) -> Markup:
+    return _script(_ASSETS, f"assets/{name}")
+
+
+@cache
+def _script(package: str, name: str) -> Markup:
     """A script as it stands in the page; a browser would fetch a link to a map of its source over the network."""
+    text = files(package).joinpath(name).read_text(encoding="utf-8")
     # HTML reads a carriage return as a line's end, and the hash of the script would then be another.
     lines = [line for line in text.replace("\r", "").split("\n") if not line.startswith("//# sourceMappingURL")]
     return Markup("\n".join(lines).replace("</script", "<\\/script"))
 
 
+@cache
+def _digest(script: Markup) -> str:
+    return base64.b64encode(sha256(script.encode()).digest()).decode()
+
+
 def _policy(scripts: list[Markup]) -> str:
-    hashes = " ".join(f"'sha256-{base64.b64encode(sha256(s.encode()).digest()).decode()}'" for s in scripts)
+    hashes = " ".join(f"'sha256-{_digest(script)}'" for script in scripts)
     # Bokeh styles what it draws with style elements of its own; pictures are those that a reader saves.
     return (
         f"default-src 'none'; script-src {hashes}; style-src 'unsafe-inline'; img-src data: blob:; "

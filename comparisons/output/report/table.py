@@ -129,6 +129,7 @@ def without_empty(table: Table) -> Table:
 
 #: The parameters of a case.
 CASE = ("n", "k", "mu", "nu")
+#: Columns of the parameters of a case.
 CASE_COLUMNS = tuple(Column(label, "number") for label in ("n", "k", "μ", "ν"))
 
 

@@ -34,6 +34,7 @@ _LABELS = {
 #: Places of the insets and what they show.
 _INSETS = {"displacement": (0.13, 0.08, 0.38, 0.4), "gap": (0.52, 0.16, 0.45, 0.33)}
 _NEAR, _NEAR_RANGES = (0.65, 0.95), {"displacement": (-1.7, -1.1), "gap": (0.0, 0.6)}
+#: Quantities at both jumps.
 QUANTITIES = ("jump_in_displacement", "jump_in_gap", "jump_out_displacement", "jump_out_gap")
 
 

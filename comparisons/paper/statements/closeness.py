@@ -136,6 +136,7 @@ def _curve_distances(statement: PaperStatement, results: Results) -> Sequence[Ev
     return rows
 
 
+#: Tests of statements on how near a model is to a reference, by name.
 TESTS = {
     "near": StatementTest(_tasks, _near),
     "near_quantity": StatementTest(_tasks, _small),

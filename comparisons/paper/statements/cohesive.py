@@ -110,6 +110,7 @@ def _distances(case: Case, reference: str, results: Results) -> list[Evidence]:
     return rows
 
 
+#: Tests of statements on the models of Maugis and Dugdale, by name.
 TESTS = {
     "wider_zone": StatementTest(_zone_tasks, _zones),
     "force_above": StatementTest(_sign_tasks, _above),

@@ -25,7 +25,9 @@ __all__ = [
     "verdict",
 ]
 
+#: Outcomes of a comparison of a clause.
 HOLDS, FAILS, UNDECIDED = "holds", "fails", "not decided"
+#: Verdicts on a statement whose comparisons are decided.
 TRUE, FALSE, IN_PART = "true", "false", "true in part"
 
 #: The two references: what fails by one must fail by the other, too.

@@ -181,6 +181,7 @@ def _one_shape(statement: PaperStatement) -> Sequence[Evidence]:
     return rows
 
 
+#: Tests of statements on formulas and functions inside the FSCM, by name.
 TESTS = {
     "kernel_continuous": _formula(_continuous),
     "kernel_sharper": _formula(_sharper_kernel),

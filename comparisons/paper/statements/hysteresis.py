@@ -100,6 +100,7 @@ def _meeting(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
     return [decisive(found) for found in rows.values()]
 
 
+#: Tests of statements on critical Tabor numbers and hysteresis, by name.
 TESTS = {
     "hysteresis_alike": StatementTest(_alike_tasks, _alike),
     "critical_numbers": StatementTest(_critical_tasks, _critical),

@@ -67,4 +67,5 @@ def _one_jump(statement: PaperStatement, results: Results) -> Sequence[Evidence]
     return rows
 
 
+#: Tests of statements on the asymptotes of the jumps, by name.
 TESTS = {"power_of_mu": StatementTest(_power_tasks, _power), "jkr_one_jump": StatementTest(_jkr_tasks, _one_jump)}

@@ -145,6 +145,7 @@ def _branch(path: Json) -> tuple[Array, Array, float]:
     return x[kept], y[kept], float(path["u_load"])
 
 
+#: Tests of statements on the equilibrium path, by name.
 TESTS = {
     "single_valued": _evidence(_single_valued),
     "two_turning_points": _evidence(_two_turns),

@@ -59,6 +59,7 @@ def _earlier_limit(statement: PaperStatement, results: Results) -> Sequence[Evid
     return rows
 
 
+#: Tests of statements on limits of the pull-off force, by name.
 TESTS = {
     "sensitivity_to_k": StatementTest(_tasks, _sensitivity),
     "jkr_earlier_with_k": StatementTest(_jkr_tasks, _earlier_limit),

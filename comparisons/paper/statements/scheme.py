@@ -100,6 +100,7 @@ def _poisson(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
     return rows
 
 
+#: Tests of statements on the Stieltjes scheme, by name.
 TESTS = {
     "segments_suffice": StatementTest(_mesh_tasks, _segments),
     "domain_suffices": StatementTest(_domain_tasks, _domain),

@@ -255,6 +255,7 @@ def _width_title(case: Case) -> str:
     return f"width of the band with more than half of the strength, over its radius, {case_label(case)}"
 
 
+#: Tests of statements on the surface at pull-off, by name.
 TESTS = {
     "pile_up_at_edge": _each_surface(_pile_up),
     "largest_tension": _each_surface(_strength),

@@ -72,4 +72,5 @@ def one_way(clause: str, model: str, numbers: Sequence[Number], relation: str) -
     return [Evidence(clause, model, later, relation, earlier) for earlier, later in combinations(numbers, 2)]
 
 
+#: Tests of statements on trends over n, k and mu, by name.
 TESTS = {"trend": StatementTest(_tasks, _evidence)}

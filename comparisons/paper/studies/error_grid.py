@@ -42,10 +42,12 @@ TABOR = (0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.6, 0.8, 1.0, 1.4, 2.0, 3.2, 5.0)
 
 #: Maps over the shape index (the attraction of the 9-3 law has no finite sum for n <= 2/3), at these gradients.
 SHAPES = (0.8, 1.0, 1.2, 1.5, 2.0, 2.5, 3.5, 5.0, 8.0)
+#: Gradient exponents of the maps over the shape index.
 SHAPE_SLICES = (0.0, 0.4)
 
 #: Maps over the gradient exponent (beyond 0.8 the cohesive edge is too narrow at large mu), at these shapes.
 GRADIENTS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8)
+#: Shape indices of the maps over the gradient exponent.
 GRADIENT_SLICES = (1.5, 2.0)
 
 #: The first errors of the jumps are this fraction above the critical Tabor number, where the jumps merge.

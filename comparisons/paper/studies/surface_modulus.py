@@ -1,16 +1,17 @@
-"""Effect of a non-zero surface modulus, E = E0 ((z + z_s) / c0)^k, by finite elements; not in the paper.
+"""Effect of a non-zero surface modulus, E = E0 ((z + z_s) / c0)^k, by both references; not in the paper.
 
 E0, c0, k, Poisson's ratio, the sphere (n = 2) and the surface law are fixed, so that only the modulus of the skin
 changes: it is E0 (z_s / c0)^k at the surface instead of zero, and hardly changes at depths z >> z_s.  The material is
 stated by mu, the Tabor number (Eq. 29) of the limit z_s = 0, and z_s is measured in the transverse length
-L = (Q z0)^(1/n) (Eq. 25).  Two limits are known from the integral equation, which shares no code with the elements:
+L = (Q z0)^(1/n) (Eq. 25).  The finite elements and the FSCM, which share no code, solve every case.  Both limits are
+power laws:
 
 * z_s -> 0, the graded solid, FSCM at (k, mu).  The skin stiffens a share of about z_s^(1-k) of the compliance.
 * z_s -> infinity, the uniform solid of the modulus E(0) = E0 (z_s / c0)^k, FSCM at k = 0 and its own Tabor number
   mu_0(z_s), which falls as z_s^(-2k/3): a thick skin is a stiff solid, on the way to Bradley's.
 
-Uncertainties are those of three similar meshes, whose elements resolve z_s together with the contact edge; the exact
-exterior takes over at least 64 z_s below the surface, and the results do not depend on where.
+The elements resolve z_s together with the contact edge; their exact exterior takes over at least 64 z_s below the
+surface, and the results do not depend on where.
 """
 
 from __future__ import annotations
@@ -26,10 +27,12 @@ from comparisons.paper.studies.surface_modulus_figure import draw
 from comparisons.paper.studies.surface_modulus_tables import Sample, limits, samples, thresholds
 from comparisons.paper.tasks import quantity
 from comparisons.quantities import QUANTITIES
+from fscm import NoSuchEvent, NotConverged, solve_together
+from fscm.graded import OffsetPowerLaw, graded_problem
 from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
 
-__all__ = ["SURFACE_MODULUS", "homogeneous_tabor_number", "with_skin"]
+__all__ = ["SURFACE_MODULUS", "homogeneous_tabor_number", "with_skin", "with_skin_by_fscm"]
 
 _N, _POISSON = 2.0, 0.3
 
@@ -134,6 +137,42 @@ def with_skin(event: str, k: float, mu: float, depth: float) -> dict[str, Any]:
     return by_quantity
 
 
+def with_skin_by_fscm(k: float, mu: float, depth: float) -> dict[str, Any]:
+    """Return the quantities of the tables by the FSCM, in the same units as `with_skin`.
+
+    Parameters
+    ----------
+    k, mu, depth : float
+        As for `homogeneous_tabor_number`.
+
+    Returns
+    -------
+    dict
+        By quantity ``[value, u_num]``, or the reason why there is no such event.
+
+    Raises
+    ------
+    ComputationFailed
+        If an iteration misses its tolerance.
+
+    Examples
+    --------
+    >>> round(with_skin_by_fscm(0.4, 1.0, 1000.0)["pull_off_force"][0], 6)
+    1.947256
+    """
+    graded = _graded(k, mu)
+    solid = OffsetPowerLaw(graded.E0, graded.c0, k, depth * graded.length_r, _POISSON)
+    problem, _ = graded_problem(solid, Q=graded.Q, n=_N, work_of_adhesion=graded.work_of_adhesion, z0=graded.z0)
+    try:
+        found = solve_together(problem, _REPORTED)
+    except NotConverged as failure:
+        raise ComputationFailed(str(failure)) from failure
+    return {
+        name: str(event) if isinstance(event, NoSuchEvent) else [event.value, event.u_num]
+        for name, event in found.items()
+    }
+
+
 def _kind(name: str) -> str:
     return QUANTITIES[name].scale if name in QUANTITIES else "energy"
 
@@ -151,9 +190,10 @@ def _tasks() -> Sequence[CachedCall]:
     # The sharper the edge and the thinner the skin, the longer it takes.
     cases.sort(key=lambda case: (-case[1], case[2], -case[0]))
     elements = [CachedCall.of(with_skin, event, *case) for case in cases for event in _EVENTS]
+    second = [CachedCall.of(with_skin_by_fscm, *case) for case in cases]
     graded = [_reference(name, k, mu) for k, mu in _SERIES for name in _REPORTED]
     uniform = [_uniform(name, *case) for case in cases if case[2] >= _THICK for name in _REPORTED]
-    return elements + graded + uniform
+    return elements + second + graded + uniform
 
 
 def _sample(results: Results, k: float, mu: float, depth: float, name: str) -> Sample:
@@ -163,6 +203,7 @@ def _sample(results: Results, k: float, mu: float, depth: float, name: str) -> S
     reason = (
         "" if all(piece in known for piece in pieces) else parts["jump-out"]["reason"] or parts["landing"]["reason"]
     )
+    fscm = results[CachedCall.of(with_skin_by_fscm, k, mu, depth)][name]
     return Sample(
         k=k,
         mu=mu,
@@ -170,6 +211,7 @@ def _sample(results: Results, k: float, mu: float, depth: float, name: str) -> S
         mu_homogeneous=homogeneous_tabor_number(k, mu, depth),
         quantity=name,
         elements=None if reason else (sum(known[p][0] for p in pieces), sum(known[p][1] for p in pieces)),
+        fscm=None if isinstance(fscm, str) else (fscm[0], fscm[1]),
         reason=reason,
         graded=_number(results[_reference(name, k, mu)]),
         homogeneous=_number(results[_uniform(name, k, mu, depth)]) if depth >= _THICK else None,

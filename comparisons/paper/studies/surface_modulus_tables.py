@@ -36,8 +36,8 @@ class Sample:
         Tabor number of the uniform solid with the surface modulus.
     quantity : str
         Name in `comparisons.quantities.QUANTITIES`.
-    elements, graded, homogeneous : tuple or None
-        By finite elements at z_s; by FSCM at z_s = 0, and for the uniform solid.
+    elements, fscm, graded, homogeneous : tuple or None
+        By finite elements and by FSCM at z_s; by FSCM at z_s = 0, and for the uniform solid.
     reason : str
         Why the elements have no value, empty if they have.
     """
@@ -48,6 +48,7 @@ class Sample:
     mu_homogeneous: float
     quantity: str
     elements: Number | None
+    fscm: Number | None
     reason: str
     graded: Number | None
     homogeneous: Number | None
@@ -66,6 +67,7 @@ def samples(found: Iterable[Sample]) -> pd.DataFrame:
         }
         for name, number in (("", s.elements), ("graded_", s.graded), ("homogeneous_", s.homogeneous)):
             row[f"{name}value"], row[f"{name}u_num"] = number or (math.nan, math.nan)
+        row["fscm_value"], row["u_fscm"] = s.fscm or (math.nan, math.nan)
         rows.append(row | {"reason": s.reason})
     return pd.DataFrame(rows)
 

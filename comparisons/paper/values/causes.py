@@ -26,7 +26,9 @@ from comparisons.paper.values import scheme_ingredients as scheme
 
 __all__ = ["CONVERGED", "Repeated", "cohesive_forces", "frame", "repeated", "tasks"]
 
+#: Name of the converged computation, without any ingredient changed.
 CONVERGED = "converged: mu from 0.01 to 10, tail carried, sigma_0 exact"
+#: The same for chi, the change by the gradient.
 CONVERGED_CHI = "k up to 1, the Gibson limit"
 #: Rounding of chi in percent, and of the ends of its regions, which are roots to 1e-10.
 CHI_ROUNDING, REGION_ROUNDING = 1e-11, 1e-9

@@ -23,7 +23,9 @@ __all__ = ["GAP_STEPS", "HEIGHTS", "LAST_GAP", "SEGMENTS", "exact_force", "sampl
 HEIGHTS = (50.0, 500.0, 5000.0)
 #: Steps of the central gap; the paper does not state its own.
 GAP_STEPS = (0.1, 0.05, 0.01, 0.001)
+#: Central gap at which the computation of the path ends.
 LAST_GAP = -0.1
+#: Segments of the mesh that the paper states.
 SEGMENTS = 2500
 
 # Of the neglected traction, over log(r): measured error below 1e-8 of the force.

@@ -30,6 +30,8 @@ def test_a_run_writes_table_figure_and_record(tiny, tmp_path):
     assert finished.summary[1:] == ["2 sizes"]
     assert (tmp_path / "bench.txt").read_text().splitlines() == finished.summary
     assert finished.failures == []
+    (resource,) = json.loads((tmp_path / "datapackage.json").read_text())["resources"]
+    assert resource["path"] == "tiny.csv"
 
 
 def test_a_resumed_run_measures_what_is_missing_and_keeps_the_record_of_the_machine(tiny, tmp_path, monkeypatch):

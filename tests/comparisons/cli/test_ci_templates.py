@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 import yaml
 
+from comparisons.cli.main import main
 from comparisons.cli.options import FAILED, FAILS, INCONCLUSIVE, OK, WRONG_INPUT
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -56,6 +57,38 @@ def action():
 @pytest.fixture(scope="module")
 def job():
     return yaml.safe_load(GITLAB.read_text(encoding="utf-8"))[".fscm-bench"]
+
+
+def refused(schema, *paths, more=()):
+    """What `check-jsonschema`, which has the published schemas of both systems, says against these files."""
+    command = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", f"vendor.{schema}", *more]
+    done = subprocess.run([*command, *map(str, paths)], capture_output=True, text=True)
+    return "" if done.returncode == 0 else done.stdout + done.stderr
+
+
+def test_the_files_of_github_and_gitlab_fit_the_published_schemas(tmp_path):
+    assert main(["new-model", str(tmp_path / "my-model")]) == 0
+    workflows = [*(ROOT / ".github" / "workflows").glob("*.yml"), *tmp_path.rglob("*.yml")]
+    assert len(workflows) == 3
+    assert refused("github-workflows", *workflows) == ""
+    assert refused("github-actions", ACTION) == ""
+    assert refused("gitlab-ci", GITLAB, more=["--data-transform", "gitlab-ci"]) == ""
+
+
+def test_the_examples_of_the_page_fit_the_published_schemas(tmp_path):
+    blocks = re.findall(r"^```yaml\n(.*?)^```$", (ROOT / "docs" / "ci.md").read_text(encoding="utf-8"), re.M | re.S)
+    of_github, of_gitlab = [block for block in blocks if "jobs:" in block], [b for b in blocks if "extends:" in b]
+    assert len(of_github) == len(of_gitlab) == 1
+    (tmp_path / "github.yml").write_text(of_github[0])
+    (tmp_path / "gitlab.yml").write_text(of_gitlab[0])
+    assert refused("github-workflows", tmp_path / "github.yml") == ""
+    assert refused("gitlab-ci", tmp_path / "gitlab.yml", more=["--data-transform", "gitlab-ci"]) == ""
+
+
+def test_a_wrong_key_does_not_fit_the_schema(tmp_path):
+    wrong = tmp_path / "action.yml"
+    wrong.write_text(ACTION.read_text(encoding="utf-8").replace("using: composite", "use: composite"))
+    assert "'using' is a required property" in refused("github-actions", wrong)
 
 
 def step(action, name):

@@ -187,12 +187,10 @@ def small_disk(tmp_path):
         subprocess.run(["umount", folder], check=True)
 
 
-def test_a_small_disk_is_full(grid, undisturbed, small_disk):
+def test_a_small_disk_is_full(grid, undisturbed, small_disk, capsys):
     out, enlarge = small_disk
-    with start(grid, out) as process:
-        _, message = process.communicate()
-    assert process.returncode == 4
-    assert "No space left on device" in message
+    assert main(["sweep", str(grid), "--jobs", "1", "--out", str(out), "--quiet"]) == 4
+    assert "No space left on device" in capsys.readouterr().err
     assert 10 < len(lines(out)) < ROWS
     enlarge()
     complete_after_a_torn_line(grid, out, undisturbed)

@@ -216,7 +216,7 @@ def test_a_run_prints_at_most_40_lines_of_80_columns(small_grid, tmp_path, capsy
     assert len(lines) <= 40
     assert max(map(len, shown.out.splitlines())) <= 80
     assert all(name in shown.out + shown.err for name in ("ten-percent", *models[:3]))
-    assert re.search(r"\d+ of \d+ gates pass, 0 fail as declared, \d+\s+unexpected", shown.out)
+    assert re.search(r"\d+ of \d+ gates? pass(?:es)?, 0 fail as declared, \d+\s+unexpected", shown.out)
     assert shown.err.endswith(f"next: fscm-bench report {tmp_path / 'out'}\n")
 
 

@@ -99,8 +99,17 @@ def program(*, redirected, command='["list", "quantities"]', environment=None):
 
 
 @needs_full_device
-@pytest.mark.parametrize("unbuffered", ["", "1"])
-@pytest.mark.parametrize("command", ['["list", "quantities"]', '["--help"]', SOLVE])
+@pytest.mark.parametrize(
+    ("command", "unbuffered"),
+    [
+        ('["list", "quantities"]', ""),
+        ('["--help"]', "1"),
+        (SOLVE, ""),
+        pytest.param('["list", "quantities"]', "1", marks=pytest.mark.heavy),
+        pytest.param('["--help"]', "", marks=pytest.mark.heavy),
+        pytest.param(SOLVE, "1", marks=pytest.mark.heavy),
+    ],
+)
 def test_a_full_standard_output(command, unbuffered):
     status, _, shown = program(redirected="> /dev/full", command=command, environment={"PYTHONUNBUFFERED": unbuffered})
     assert status == FAILED
@@ -116,8 +125,15 @@ def test_a_closed_standard_output():
     assert shown.count("\n") == 1
 
 
-@pytest.mark.parametrize("redirected", ["2>&-", pytest.param("2> /dev/full", marks=needs_full_device)])
-@pytest.mark.parametrize(("command", "status"), [('["list", "quantities"]', 0), ('["list", "colours"]', WRONG_INPUT)])
+@pytest.mark.parametrize(
+    ("redirected", "command", "status"),
+    [
+        ("2>&-", '["list", "quantities"]', 0),
+        pytest.param("2> /dev/full", '["list", "colours"]', WRONG_INPUT, marks=needs_full_device),
+        pytest.param("2>&-", '["list", "colours"]', WRONG_INPUT, marks=pytest.mark.heavy),
+        pytest.param("2> /dev/full", '["list", "quantities"]', 0, marks=[needs_full_device, pytest.mark.heavy]),
+    ],
+)
 def test_messages_that_cannot_be_written_change_no_status(redirected, command, status):
     gave, shown, _ = program(redirected=redirected, command=command)
     assert gave == status
@@ -266,7 +282,7 @@ def test_a_summary_page_without_room_loses_no_result_and_no_verdict(small_grid, 
     for arguments in (["run", "--jobs", "1", "--out", str(folder)], ["judge", str(folder)]):
         assert main(arguments) == FAILED
         shown = capsys.readouterr()
-        assert "1 of 1 gates pass" in shown.out
+        assert "1 of 1 gate passes" in shown.out
         (sentence,) = (line for line in shown.err.splitlines() if "GITHUB_STEP_SUMMARY" in line)
         assert f"cannot be written ({os.strerror(errno.ENOSPC)})" in sentence
         assert (folder / "run.json").is_file()

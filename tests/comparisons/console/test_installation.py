@@ -100,9 +100,10 @@ sys.exit(main())
     [
         (["report", "run"], WRONG_INPUT),
         (["leaderboard", "run", "--out", "a.html"], WRONG_INPUT),
-        (["run", "--help"], 0),
+        # The page of a comparison is the command nearest to the report; the others are heavy.
         (["compare", "--help"], 0),
-        (["paper", "--help"], 0),
+        pytest.param(["run", "--help"], 0, marks=pytest.mark.heavy),
+        pytest.param(["paper", "--help"], 0, marks=pytest.mark.heavy),
         (["solve", "--model", "jkr", "--quantity", "pull_off_force", "--n", "2", "--k", "0", "--mu", "1"], 0),
     ],
 )

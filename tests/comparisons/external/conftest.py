@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from comparisons.external.model_source import close_models
+from comparisons.pipeline import finished_run
 from comparisons.quantities import QUANTITIES
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "double_hertz"
@@ -17,6 +18,22 @@ EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "double_hertz"
 def _no_children_left():
     yield
     close_models()
+
+
+@pytest.fixture
+def no_cards(monkeypatch):
+    """Runs make no report cards, for which they would start several more processes of each model."""
+    monkeypatch.setattr(finished_run, "make_cards", lambda external, rows, parts: {})
+
+
+def light(cases, *places):
+    """Cases of which those at some places are in every test run, and the others are heavy."""
+    cases = list(cases)
+    assert set(places) < set(range(len(cases)))
+    return [
+        pytest.param(*(case if isinstance(case, tuple) else (case,)), marks=() if at in places else pytest.mark.heavy)
+        for at, case in enumerate(cases)
+    ]
 
 
 HEAD = """

@@ -61,7 +61,7 @@ BODY = "return Result(float(Path({data!r}).read_text()), 0.0)"
 
 
 @pytest.fixture
-def once(write_model, tmp_path, tmp_path_factory, monkeypatch, capsys):
+def once(write_model, no_cards, tmp_path, tmp_path_factory, monkeypatch, capsys):
     """Return a function that writes the data the model reads, runs, and returns status and messages.
 
     The data are not in the folder of the model, whose digest would show the change.

@@ -9,7 +9,7 @@ from comparisons.external.contract_checks import examine
 from comparisons.external.model_source import close_models
 from comparisons.registry import create
 
-from .conftest import EXAMPLE, ROWS
+from .conftest import EXAMPLE, ROWS, light
 
 #: JKR, so that everything else about the models below is in order.
 JKR = """if problem.n != 2 or quantity != "pull_off_force":
@@ -46,34 +46,41 @@ def test_a_right_model_passes(write_model, capsys):
 
 @pytest.mark.parametrize(
     ("body", "more", "check", "sentence"),
-    [
-        (JKR + "return Result(-value, 0.0)", "", "keeps the sign rules", "positive"),
-        (JKR + "return Result(-value, 0.0)", "", "is of the right size", "the sign"),
-        (JKR + "return Result(value * math.pi, 0.0)", "", "is of the right size", "a factor pi too much"),
-        (JKR + "return Result(value / 2, 0.0)", "", "is of the right size", "a factor 2 missing"),
-        (JKR + "return Result(value * 1e9, 0.0)", "", "is of the right size", "its unit is pi Q^(2/n)"),
-        (
-            JKR + "return Result(value + 1e-12 * time.perf_counter(), 0.0)",
-            "",
-            "gives the same result again",
-            "a random number, a clock",
-        ),
-        (
-            JKR + "self.calls = getattr(self, 'calls', 0) + 1\nreturn Result(value + 1e-9 * self.calls, 0.0)",
-            "",
-            "gives the same result again",
-            "kept between evaluations",
-        ),
-        (RIGHT, 'limits = ("rigid",)', "is right in the limit rigid", "-25 % off Bradley"),
-        (
-            JKR + "return Result(value * (1 + 1e-4 * problem.mu), 0.0)",
-            'limits = ("jkr",)',
-            "is right in the limit jkr",
-            "it must come nearer",
-        ),
-        (RIGHT, 'limits = ("dmt",)', "is right in the limit dmt", "known are rigid, jkr"),
-        (RIGHT, 'citation = " "', "has version, citation and domain", "citation is empty"),
-    ],
+    light(
+        [
+            (JKR + "return Result(-value, 0.0)", "", "keeps the sign rules", "positive"),
+            (JKR + "return Result(-value, 0.0)", "", "is of the right size", "the sign"),
+            (JKR + "return Result(value * math.pi, 0.0)", "", "is of the right size", "a factor pi too much"),
+            (JKR + "return Result(value / 2, 0.0)", "", "is of the right size", "a factor 2 missing"),
+            (JKR + "return Result(value * 1e9, 0.0)", "", "is of the right size", "its unit is pi Q^(2/n)"),
+            (
+                JKR + "return Result(value + 1e-12 * time.perf_counter(), 0.0)",
+                "",
+                "gives the same result again",
+                "a random number, a clock",
+            ),
+            (
+                JKR + "self.calls = getattr(self, 'calls', 0) + 1\nreturn Result(value + 1e-9 * self.calls, 0.0)",
+                "",
+                "gives the same result again",
+                "kept between evaluations",
+            ),
+            (RIGHT, 'limits = ("rigid",)', "is right in the limit rigid", "-25 % off Bradley"),
+            (
+                JKR + "return Result(value * (1 + 1e-4 * problem.mu), 0.0)",
+                'limits = ("jkr",)',
+                "is right in the limit jkr",
+                "it must come nearer",
+            ),
+            (RIGHT, 'limits = ("dmt",)', "is right in the limit dmt", "known are rigid, jkr"),
+            (RIGHT, 'citation = " "', "has version, citation and domain", "citation is empty"),
+        ],
+        0,
+        2,
+        5,
+        7,
+        10,
+    ),
 )
 def test_what_is_wrong_is_named(write_model, capsys, body, more, check, sentence):
     code, shown = status(capsys, write_model(body, more=more))
@@ -116,12 +123,16 @@ def evaluate_physical(self, problem, quantity):
 
 @pytest.mark.parametrize(
     ("formula", "status"),
-    [
-        ("1.5 * math.pi * R * w", "ok"),
-        ("1.5 * math.pi * R * w * (1 + problem.z0)", "wrong"),
-        ("1.5 * math.pi * R * w ** 1.001", "wrong"),
-        ("1.5 * math.pi * R * 0.05", "wrong"),
-    ],
+    light(
+        [
+            ("1.5 * math.pi * R * w", "ok"),
+            ("1.5 * math.pi * R * w * (1 + problem.z0)", "wrong"),
+            ("1.5 * math.pi * R * w ** 1.001", "wrong"),
+            ("1.5 * math.pi * R * 0.05", "wrong"),
+        ],
+        0,
+        1,
+    ),
 )
 def test_a_model_of_physical_quantities_does_not_depend_on_units(write_model, formula, status):
     findings = found(write_model("return None", more=PHYSICAL.format(formula=formula)))

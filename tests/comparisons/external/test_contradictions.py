@@ -10,6 +10,7 @@ from comparisons.registry import ExternalIdentity, create, identify
 from comparisons.runs.cases import Case, load_grids
 from comparisons.runs.tasks import Task, evaluate, evaluate_task
 
+from .conftest import light
 from .test_hostile_models import CASE, GOOD, GRID
 
 BY_PROCESS = [
@@ -20,9 +21,11 @@ BY_PROCESS = [
 ]
 
 
-# A name and a version: the next test has every kind.
-@pytest.mark.parametrize("more", BY_PROCESS[:2])
-def test_a_run_goes_on_with_a_model_that_names_itself_by_its_process(write_model, tmp_path, monkeypatch, more):
+# A name, and in the heavy test a version: the next test has every kind.
+@pytest.mark.parametrize("more", [BY_PROCESS[0], pytest.param(BY_PROCESS[1], marks=pytest.mark.heavy)])
+def test_a_run_goes_on_with_a_model_that_names_itself_by_its_process(
+    write_model, no_cards, tmp_path, monkeypatch, more
+):
     monkeypatch.setattr(inputs, "grids", lambda tier: load_grids(GRID))
     out = tmp_path / "out"
     specs = [write_model(GOOD, name="good"), write_model(GOOD, more=more)]
@@ -41,7 +44,7 @@ def test_a_run_goes_on_with_a_model_that_names_itself_by_its_process(write_model
     assert set(table.loc[table["model"] == "good", "status"]) == {"ok"}
 
 
-@pytest.mark.parametrize("more", BY_PROCESS)
+@pytest.mark.parametrize("more", light(BY_PROCESS, 0, 3))
 def test_a_row_is_of_the_model_that_the_run_opened(write_model, more):
     spec = write_model(GOOD, more=more)
     (name,), external = identify([spec])

@@ -11,6 +11,8 @@ from comparisons.registry import create, identify
 from comparisons.runs.cases import Case
 from comparisons.runs.tasks import evaluate
 
+from .conftest import light
+
 READS = """
 text = Path({folder!r}, "table.csv").read_text()
 import late
@@ -105,10 +107,13 @@ def test_the_file_that_takes_the_output_does_not_count(folder):
 
 @pytest.mark.parametrize(
     "enlarge",
-    [
-        lambda folder: [(folder / f"{number}.dat").touch() for number in range(module.MOST_FILES)],
-        lambda folder: os.truncate(folder / "solver", module.MOST_BYTES),
-    ],
+    light(
+        [
+            lambda folder: [(folder / f"{number}.dat").touch() for number in range(module.MOST_FILES)],
+            lambda folder: os.truncate(folder / "solver", module.MOST_BYTES),
+        ],
+        0,
+    ),
 )
 def test_of_a_large_folder_what_is_imported_or_declared_counts(folder, write_model, enlarge):
     enlarge(folder)
@@ -137,13 +142,17 @@ def test_a_declared_file_counts_where_others_do_not(tmp_path, write_model):
 
 @pytest.mark.parametrize(
     ("files", "sentence"),
-    [
-        ('"table.csv"', "files = 'table.csv' is not a tuple of texts"),
-        ("(1,)", "files = (1,) is not a tuple of texts"),
-        ('("tabel.csv",)', "files has 'tabel.csv', but there is no such file or folder beside the model"),
-        ('("/etc/passwd",)', "but the names are relative to the folder of the model"),
-        ('("a\\0b",)', "no such file"),
-    ],
+    light(
+        [
+            ('"table.csv"', "files = 'table.csv' is not a tuple of texts"),
+            ("(1,)", "files = (1,) is not a tuple of texts"),
+            ('("tabel.csv",)', "files has 'tabel.csv', but there is no such file or folder beside the model"),
+            ('("/etc/passwd",)', "but the names are relative to the folder of the model"),
+            ('("a\\0b",)', "no such file"),
+        ],
+        0,
+        2,
+    ),
 )
 def test_wrong_names_of_files_are_refused_in_one_sentence(write_model, capsys, files, sentence):
     spec = write_model("return Result(1.5, 0.0)", more=f"files = {files}")

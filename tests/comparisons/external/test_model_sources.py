@@ -18,7 +18,7 @@ from comparisons.registry import create
 from comparisons.runs.cases import Case, load_grids
 from comparisons.runs.tasks import evaluate
 
-from .conftest import EXAMPLE
+from .conftest import EXAMPLE, light
 
 FILE_SOURCE = f"{EXAMPLE / 'double_hertz.py'}:DoubleHertz"
 QUANTITY = "pull_off_force"
@@ -165,7 +165,7 @@ def test_its_curve_is_drawn_beside_ours(installed_example, capsys):
     assert -min(loads) == pytest.approx(1.750971, rel=1e-3)
 
 
-def test_a_run_goes_on_and_notices_that_a_model_changed(write_model, gates, tmp_path, monkeypatch, capsys):
+def test_a_run_goes_on_and_notices_that_a_model_changed(write_model, no_cards, gates, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(inputs, "grids", lambda tier: load_grids(GRID))
     out = tmp_path / "out"
 
@@ -238,15 +238,19 @@ def test_a_folder_with_predictions_and_an_installed_model_of_its_name_are_told_a
 
 @pytest.mark.parametrize(
     ("attributes", "sentence"),
-    [
-        (
-            "name = 'mine'; citation = domain = 'x'",
-            "the model has no version; it needs name, version, citation, domain",
-        ),
-        ("name = version = 'mine'", "the model has no citation, domain; it needs name, version, citation, domain"),
-        ("name = version = citation = domain = 'a'; limits = 'jkr'", "limits = str 'jkr' is not a tuple of texts"),
-        ("name = version = citation = domain = 'a'; limits = 5", "limits = int 5 is not a tuple of texts"),
-    ],
+    light(
+        [
+            (
+                "name = 'mine'; citation = domain = 'x'",
+                "the model has no version; it needs name, version, citation, domain",
+            ),
+            ("name = version = 'mine'", "the model has no citation, domain; it needs name, version, citation, domain"),
+            ("name = version = citation = domain = 'a'; limits = 'jkr'", "limits = str 'jkr' is not a tuple of texts"),
+            ("name = version = citation = domain = 'a'; limits = 5", "limits = int 5 is not a tuple of texts"),
+        ],
+        0,
+        2,
+    ),
 )
 def test_a_model_without_an_attribute_is_refused_with_its_name(tmp_path, capsys, attributes, sentence):
     file = tmp_path / "mine.py"

@@ -8,7 +8,10 @@ from comparisons.registry import create, identify
 from comparisons.runs.cases import Case
 from comparisons.runs.tasks import NOT_INDEPENDENT, Task, evaluate_task
 
+from .conftest import light
+
 ROOT = Path(__file__).resolve().parents[3]
+SHIPPED = ROOT / "comparisons" / "data" / "shipped"
 CASE = Case(2, 0.4, 1)
 
 
@@ -20,28 +23,35 @@ def observed(spec):
 
 @pytest.mark.parametrize(
     ("body", "fact"),
-    [
-        ("import fscm\nfscm.solve\nreturn Result(1.0, 0)", "imports fscm"),
-        ("import fscm\nreturn Result(float(fscm.atlas(2, 0, 1, quantity).value), 0)", "imports fscm"),
-        ("from fscm.errors import NotConverged\nfrom fscm import solve\nreturn Result(1.0, 0)", "imports fscm"),
-        ("import importlib\nimportlib.import_module('fscm.solver')\nreturn Result(1.0, 0)", "imports fscm"),
-        ("import fem_reference\nreturn Result(1.0, 0)", "imports fem_reference"),
-        (
-            "import sys, fscm.solver\nfor name in [m for m in sys.modules if m.startswith('fscm')]:\n"
-            "    del sys.modules[name]\nreturn Result(1.0, 0)",
-            "imports fscm",
-        ),
-        (f"open({str(ROOT / 'fscm' / 'solver.py')!r}).read()\nreturn Result(1.0, 0)", "imports fscm"),
-        (
-            f"open({str(ROOT / 'comparisons' / 'data' / 'shipped' / 'results.csv')!r}).close()\nreturn Result(1.0, 0)",
-            "reads the shipped values of the references (results.csv)",
-        ),
-        (
-            "from importlib.resources import files\n"
-            "files('comparisons.data').joinpath('shipped/results.csv').read_text()\nreturn Result(1.0, 0)",
-            "reads the shipped values of the references (results.csv)",
-        ),
-    ],
+    light(
+        [
+            ("import fscm\nfscm.solve\nreturn Result(1.0, 0)", "imports fscm"),
+            ("import fscm\nreturn Result(float(fscm.atlas(2, 0, 1, quantity).value), 0)", "imports fscm"),
+            ("from fscm.errors import NotConverged\nfrom fscm import solve\nreturn Result(1.0, 0)", "imports fscm"),
+            ("import importlib\nimportlib.import_module('fscm.solver')\nreturn Result(1.0, 0)", "imports fscm"),
+            ("import fem_reference\nreturn Result(1.0, 0)", "imports fem_reference"),
+            (
+                "import sys, fscm.solver\nfor name in [m for m in sys.modules if m.startswith('fscm')]:\n"
+                "    del sys.modules[name]\nreturn Result(1.0, 0)",
+                "imports fscm",
+            ),
+            (f"open({str(ROOT / 'fscm' / 'solver.py')!r}).read()\nreturn Result(1.0, 0)", "imports fscm"),
+            (
+                f"open({str(SHIPPED / 'results.csv')!r}).close()\nreturn Result(1.0, 0)",
+                "reads the shipped values of the references (results.csv)",
+            ),
+            (
+                "from importlib.resources import files\n"
+                "files('comparisons.data').joinpath('shipped/results.csv').read_text()\nreturn Result(1.0, 0)",
+                "reads the shipped values of the references (results.csv)",
+            ),
+        ],
+        0,
+        4,
+        5,
+        6,
+        8,
+    ),
 )
 def test_the_use_of_a_reference_is_seen(write_model, body, fact):
     assert fact in observed(write_model(body)).uses
@@ -54,12 +64,16 @@ def test_an_import_when_the_model_is_loaded_is_seen(write_model):
 
 @pytest.mark.parametrize(
     "body",
-    [
-        "return Result(1.5, 0)",
-        "from fscm import Problem\nfrom fscm.punch import PowerPunch\nimport scipy.optimize\nreturn Result(1.5, 0)",
-        "from comparisons.models.jkr import JKR\nreturn JKR().evaluate(problem, quantity)",
-        "open(__file__).close()\nreturn Result(1.5, 0)",
-    ],
+    light(
+        [
+            "return Result(1.5, 0)",
+            "from fscm import Problem\nfrom fscm.punch import PowerPunch\nimport scipy.optimize\nreturn Result(1.5, 0)",
+            "from comparisons.models.jkr import JKR\nreturn JKR().evaluate(problem, quantity)",
+            "open(__file__).close()\nreturn Result(1.5, 0)",
+        ],
+        1,
+        2,
+    ),
 )
 def test_what_states_a_problem_is_no_use_of_a_reference(write_model, body):
     model = observed(write_model(body))

@@ -14,6 +14,8 @@ from comparisons.model import ComputationFailed, HasCurve, NotApplicable
 from comparisons.registry import create
 from fscm.problem import Problem
 
+from .conftest import light
+
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLE = ROOT / "tests" / "examples" / "program" / "jkr.sh"
 CASE = Problem(2, 0.4, 1)
@@ -146,15 +148,20 @@ def test_a_line_that_stays_in_the_buffer_of_a_program_is_named_as_the_cause(writ
 
 @pytest.mark.parametrize(
     ("describe", "sentence"),
-    [
-        ("{}", "the reply of the program has no name, version, citation, domain"),
-        (DESCRIBE.replace('"1"', "1"), "gave int 1 as version, which is not a text"),
-        (DESCRIBE.replace('"mine"', '"two words"'), "the model's name 'two words' is not 1 to 64 letters"),
-        (DESCRIBE[:-1] + ', "limits": "jkr"}', "gave str 'jkr' as limits, which is not a list of texts"),
-        (DESCRIBE[:-1] + ', "applies_to": {"n": [2, 2]}}', "applies_to: quantities = None is not a list"),
-        (DESCRIBE[:-1] + ', "colour": "red"}', "gave the unknown key 'colour'"),
-        (DESCRIBE[:-1] + ', "files": ["none.csv"]}', "there is no such file or folder beside the model"),
-    ],
+    light(
+        [
+            ("{}", "the reply of the program has no name, version, citation, domain"),
+            (DESCRIBE.replace('"1"', "1"), "gave int 1 as version, which is not a text"),
+            (DESCRIBE.replace('"mine"', '"two words"'), "the model's name 'two words' is not 1 to 64 letters"),
+            (DESCRIBE[:-1] + ', "limits": "jkr"}', "gave str 'jkr' as limits, which is not a list of texts"),
+            (DESCRIBE[:-1] + ', "applies_to": {"n": [2, 2]}}', "applies_to: quantities = None is not a list"),
+            (DESCRIBE[:-1] + ', "colour": "red"}', "gave the unknown key 'colour'"),
+            (DESCRIBE[:-1] + ', "files": ["none.csv"]}', "there is no such file or folder beside the model"),
+        ],
+        0,
+        2,
+        6,
+    ),
 )
 def test_a_program_that_describes_no_model_cannot_be_loaded(write_program, describe, sentence):
     with pytest.raises(ValueError, match=re.escape(sentence)):

@@ -8,7 +8,7 @@ import pytest
 import fscm
 from tests.fem_reference.random_problems import problems, rows, stored
 
-SAMPLE = 16
+SAMPLE = 40
 """Every so many problems of the table are compared in the light test."""
 
 UNIT = {"pull_off_force": math.pi, "hysteresis_energy": math.pi}

@@ -8,7 +8,7 @@ import pytest
 
 from comparisons.console.shell_text import wrapped_command
 from comparisons.judging.decision import Verdict
-from comparisons.output.run_summary import declared_lines, gates_sentence, largest_table, not_passed
+from comparisons.output.run_summary import declared_lines, gates_line, largest_table, not_passed
 
 CASE = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "mu": 1.0, "nu": np.nan}
 
@@ -102,19 +102,19 @@ def test_gates_that_fail_as_declared_are_named():
         (
             ["PASS", "XFAIL"],
             "published",
-            "1 of 2 gates pass, 1 differ from the paper as declared, 0 unexpected (2 cases: 1 PASS, 1 XFAIL)",
+            "1 of 2 gates passes, 1 differs from the paper as declared, 0 unexpected (2 cases: 1 PASS, 1 XFAIL)",
         ),
         (
             ["XFAIL", "XPASS", "ERROR"],
             "measured",
-            "0 of 3 gates pass, 1 fail as declared, 2 unexpected: 1 ERROR, 1 XPASS "
+            "0 of 3 gates pass, 1 fails as declared, 2 unexpected: 1 ERROR, 1 XPASS "
             "(3 cases: 1 XFAIL, 1 XPASS, 1 ERROR)",
         ),
     ],
 )
 def test_one_sentence_on_all_gates(verdicts, basis, sentence):
     table = gates(*map(Verdict, verdicts))
-    assert gates_sentence(table, table, dict.fromkeys(table["gate"], basis)) == sentence
+    assert gates_line(table, table, dict.fromkeys(table["gate"], basis)) == sentence
 
 
 def test_a_folded_command_is_the_same_for_a_shell():

@@ -10,11 +10,14 @@ from comparisons.paper.registry import paper_figures
 
 BASELINE = Path(__file__).parents[3] / "results" / "baseline" / "paper"
 DRAWN = {figure.name: figure for figure in paper_figures() if figure.draw}
+#: Every so many pictures are drawn in every test run.
+LIGHT = 4
+PICTURES = [pytest.param(name, marks=() if at % LIGHT == 0 else pytest.mark.heavy) for at, name in enumerate(DRAWN)]
 #: Of the page, in inches: rounding to pixels.
 EDGE = 0.01
 
 
-@pytest.mark.parametrize("name", DRAWN)
+@pytest.mark.parametrize("name", PICTURES)
 def test_a_picture_is_whole(name):
     figure = DRAWN[name]
     files = sorted(BASELINE.glob(f"{figure.stem}*.csv"))

@@ -126,17 +126,16 @@ def test_different_results_of_one_task_are_refused(sweep, monkeypatch, capsys):
     assert "two has another result than a folder before it for" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        (["part", "none"], "none is not the folder of a finished run"),
-        (["part", "other"], "other and part are not shards of one sweep: they differ in their cases"),
-        (["part", "jkr"], "jkr and part are not shards of one sweep: they differ in their models"),
-        (["part", "part", "--out", "part"], "part is one of the folders that are merged"),
-        (["part", "--out", "mine"], "mine has other cases than part; choose another folder with --out"),
-    ],
-)
-def test_what_is_not_merged(sweep, tmp_path, capsys, arguments, sentence):
+NOT_MERGED = [
+    (["part", "none"], "none is not the folder of a finished run"),
+    (["part", "other"], "other and part are not shards of one sweep: they differ in their cases"),
+    (["part", "jkr"], "jkr and part are not shards of one sweep: they differ in their models"),
+    (["part", "part", "--out", "part"], "part is one of the folders that are merged"),
+    (["part", "--out", "mine"], "mine has other cases than part; choose another folder with --out"),
+]
+
+
+def test_what_is_not_merged(sweep, tmp_path, capsys):
     sweep("part", "--shard", "1/2")
     sweep("jkr", "--model", "jkr", "--shard", "1/2")
     (tmp_path / "mine.toml").write_text(GRID.replace("0.1, 1", "0.1"))
@@ -144,12 +143,13 @@ def test_what_is_not_merged(sweep, tmp_path, capsys, arguments, sentence):
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "grid.toml").write_text("# mine")
     capsys.readouterr()
-    out = [] if "--out" in arguments else ["--out", "merged"]
-    assert main(["merge", *arguments, *out]) == 2
-    message = capsys.readouterr().err
-    assert sentence in message
-    assert message.count("\n") == 1
-    assert (tmp_path / "mine" / "grid.toml").read_text() == "# mine"
+    for arguments, sentence in NOT_MERGED:
+        out = [] if "--out" in arguments else ["--out", "merged"]
+        assert main(["merge", *arguments, *out]) == 2
+        message = capsys.readouterr().err
+        assert sentence in message
+        assert message.count("\n") == 1
+        assert (tmp_path / "mine" / "grid.toml").read_text() == "# mine"
 
 
 def test_only_sweeps_are_merged(small_grid, tmp_path, capsys):

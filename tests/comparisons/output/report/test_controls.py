@@ -2,6 +2,8 @@
 
 from functools import partial
 
+import pytest
+
 from comparisons.quantities import CURVES
 
 from .browsing import DESKTOP, click, find, messages, package, show, tips, wait
@@ -57,19 +59,22 @@ def shows(browser, label, hover):
     return label in text and hover in text
 
 
-def test_values_are_read_off_after_every_choice(opened):
+@pytest.mark.parametrize("whole", [False, pytest.param(True, marks=pytest.mark.heavy)])
+def test_values_are_read_off_after_every_choice(opened, whole):
+    """Of every plot, after its first and its last choice, or after all of them."""
     assert {f"plot-{name.replace('_', '-')}" for name in CURVES} <= set(plots(opened))
     read_off = 0
     for plot in plots(opened):
         every = choices(opened, plot)
+        chosen = every if whole else list(dict.fromkeys([every[0], every[-1]]))
         # The first again: a choice that is made again must be as good as the first time.
-        for group in [*every, every[0]]:
+        for group in [*chosen, *every[: len(chosen) > 1 or whole]]:
             opened.execute_script(CHOOSE, plot, group.split("|") if plot == "plot-kappa" else [group])
             for label, hover, right, down in opened.execute_script(POINTS, plot, group):
                 point(opened, plot, right, down)
                 wait(partial(shows, opened, label, hover))
                 read_off += 1
-    assert read_off >= (4 * 2 + 2 + 1 + 2) + (2 + 2 + 1 + 2)
+    assert read_off >= ((4 * 2 + 2 + 1 + 2) + (2 + 2 + 1 + 2) if whole else 3 * 2 + 2 + 1 + 2)
     # A model that is switched off is not read off.
     click(opened, find(opened, "#plot-pull-off-gap .models input"))
     (_, again) = opened.execute_script(POINTS, "plot-pull-off-gap", "2|0.4|1")
@@ -89,15 +94,18 @@ def test_every_model_of_a_standing_run_is_read_off(browser, standing):
     assert messages(browser) == []
 
 
-def test_fifty_interactions_in_every_plot_leave_the_console_empty(opened, tmp_path):
+@pytest.mark.parametrize(
+    ("rounds", "fewest"), [(2, 20), pytest.param(5, 50, marks=pytest.mark.heavy)], ids=["twenty", "fifty"]
+)
+def test_interactions_in_every_plot_leave_the_console_empty(opened, tmp_path, rounds, fewest):
     opened.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)})
     opened.execute_script("for (const fold of document.querySelectorAll('details')) fold.open = true")
     # More than once, because a fault may show only on the second use.
-    used = opened.execute_script("""
+    script = """
       const every = (selector, inside = document) => Array.from(inside.querySelectorAll(selector));
       const tell = (element, name) => element.dispatchEvent(new Event(name, { bubbles: true }));
       const used = {};
-      for (let round = 0; round < 5; round++) {
+      for (let round = 0; round < arguments[0]; round++) {
         for (const plot of every("figure.plot")) {
           used[plot.id] ??= 0;
           for (const select of every("select", plot)) {
@@ -113,14 +121,15 @@ def test_fifty_interactions_in_every_plot_leave_the_console_empty(opened, tmp_pa
       for (const button of every("button:not([data-save], figure button)")) { button.click(); button.click(); }
       for (const link of every("nav a, a.skip")) link.click();
       return used;
-    """)
+    """
+    used = opened.execute_script(script, rounds)
     assert set(used) == set(plots(opened))
-    assert min(used.values()) >= 50
+    assert min(used.values()) >= fewest
     for plot in plots(opened):
         for right, down in ((-40, 0), (0, 30), (40, -30)):
             point(opened, plot, right, down)
     # One by one, and a few: the browser refuses many files that a page saves without a pause.
-    for button in opened.find_elements("css selector", "[data-save]")[:8]:
+    for button in opened.find_elements("css selector", "[data-save]")[: 8 if fewest == 50 else 2]:
         table = opened.execute_script("return arguments[0].closest('.table').dataset.table", button)
         click(opened, button)
         wait((tmp_path / f"{table}.{button.get_attribute('data-save')}").exists)

@@ -52,12 +52,12 @@ def test_the_same_folder_gives_the_same_bytes(run_folder, text, hostile, tmp_pat
     again = hostile.write_run(tmp_path / "again")
     assert render(make_page(read_folder(again))) == text
     # And in another process, where sets have another order.
-    for seed in ("1", "2"):
-        out = tmp_path / f"{seed}.html"
-        arguments = ["report", str(run_folder), "--out", str(out)]
-        program = f"import sys; from comparisons.cli.main import main; sys.exit(main({arguments!r}))"
-        subprocess.run([hostile.python, "-c", program], check=True, env={**os.environ, "PYTHONHASHSEED": seed})
-        assert out.read_text(encoding="utf-8") == text
+    out = tmp_path / "other.html"
+    arguments = ["report", str(run_folder), "--out", str(out)]
+    program = f"import sys; from comparisons.cli.main import main; sys.exit(main({arguments!r}))"
+    seed = "1" if os.environ.get("PYTHONHASHSEED") != "1" else "2"
+    subprocess.run([hostile.python, "-c", program], check=True, env={**os.environ, "PYTHONHASHSEED": seed})
+    assert out.read_text(encoding="utf-8") == text
 
 
 def test_no_external_text_is_an_element(elements):

@@ -51,6 +51,12 @@ def test_every_number_with_a_bound_is_in_the_evidence(evidence):
         for value, bound in (("value", "u_value"), ("limit", "u_limit"))
         for number, u in zip(evidence[value], evidence[bound], strict=True)
     }
+    # The studies beyond the paper.
+    for stem, columns in (("graded_solids", ("fscm", "fem")), ("layered_adhesion", ("found",))):
+        rows = pd.read_csv(ROOT / PAPER_BASELINE / f"{stem}.csv")
+        for column in columns:
+            known = rows.dropna(subset=column)
+            stored |= {value_text(*pair) for pair in zip(known[column], known[f"u_{column}"], strict=True)}
     quoted = re.findall(r"\d+\.\d+\(\d+\)", TEXT)
     assert len(quoted) > 25
     assert [text for text in quoted if text not in stored] == []
@@ -60,3 +66,26 @@ def test_the_turning_points_are_those_of_the_evidence(evidence):
     stored = " ".join(evidence["what"][evidence["statement"] == "one-fold-pair"])
     for rise in re.findall(r"\| (?:4|6) \| (\S+, bound \S+) \|", TEXT):
         assert f"rises again by at least {rise.replace(', bound', ' (bound')})" in stored
+
+
+def test_the_errors_of_simpler_solids_are_those_of_the_table():
+    """Percentages of the section on solids that are no power law: the largest in size, over each kind."""
+    rows = pd.read_csv(ROOT / PAPER_BASELINE / "graded_solids.csv")
+    names = {
+        "modulus of the surface": "surface",
+        "solid of great depth": "depth",
+        "equivalent power law": "power_law",
+    }
+    quantities = {
+        "pull-off force": "pull_off_force",
+        "jump-out displacement": "jump_out_displacement",
+        "hysteresis energy": "hysteresis_energy",
+    }
+    lines = re.findall(r"^\| ([\w -]+): ([\w -]+) \| (.+) % \| (.+) % \| (.+) % \|$", TEXT, re.MULTILINE)
+    assert len(lines) == 5
+    for quantity, other, *printed in lines:
+        for kind, text in zip(("offset power law", "exponential", "coating"), printed, strict=True):
+            part = rows[(rows["solid"] == kind) & (rows["quantity"] == quantities[quantity])]
+            errors = 100.0 * part[f"{names[other]}_error"]
+            worst = errors.loc[errors.abs().idxmax()]
+            assert float(f"{worst:.2g}") == float(text)

@@ -1,15 +1,18 @@
 """The study of the surface modulus: its limits, its tables, and the depth that the mesh must reach."""
 
 import math
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.special import beta
 from skfem import ElementLinePp
 
 import fem_reference._contact.mesh_lengths
-from comparisons.paper.studies.surface_modulus import homogeneous_tabor_number, with_skin
+from comparisons.paper.baseline import PAPER_BASELINE
+from comparisons.paper.studies.surface_modulus import homogeneous_tabor_number, with_skin, with_skin_by_fscm
 from comparisons.paper.studies.surface_modulus_tables import Sample, limits, samples, thresholds
 from comparisons.paper.tasks import quantity
 from fem_reference._contact.mesh_lengths import EXTERIOR_ERROR
@@ -39,6 +42,17 @@ def test_an_offset_does_nothing_to_a_uniform_solid():
         exact = quantity("fscm", name, 2.0, 0.0, 1.0)["value"]
         # Measured 8e-6, nearly all of it what half the extent changes.
         assert abs(value - exact) <= u_num < 1e-5
+
+
+def test_both_references_agree_within_their_bounds():
+    table = pd.read_csv(Path(__file__).parents[4] / PAPER_BASELINE / "surface_modulus.csv")
+    assert (table["value"].isna() == table["fscm_value"].isna()).all()
+    known = table.dropna(subset="value")
+    assert ((known["value"] - known["fscm_value"]).abs() <= known["u_num"] + known["u_fscm"]).all()
+    assert len(known) > 100
+    force = known[known["quantity"] == "pull_off_force"].iloc[-1]
+    value, u_num = with_skin_by_fscm(force["k"], force["mu"], force["depth"])["pull_off_force"]
+    assert abs(value - force["fscm_value"]) <= u_num + force["u_fscm"]
 
 
 @pytest.mark.heavy
@@ -99,6 +113,7 @@ def series(k=0.4, u_num=1e-9):
             mu_homogeneous=1.0,
             quantity="pull_off_force",
             elements=(2.0 + depth ** (1 - k), u_num) if depth < 1 else (3.0 + 1.0 / depth, u_num),
+            fscm=None,
             reason="",
             graded=(2.0, u_num),
             homogeneous=(3.0, u_num) if depth > 1 else None,

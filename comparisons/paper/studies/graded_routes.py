@@ -1,0 +1,243 @@
+"""Events of a sphere on solids that are no power law, by both references; dimensionless.
+
+Loads, displacements and energies are in the units of Eqs. 25 and 31, which do not contain the solid.  Depths are in the
+transverse length L = (Q z0)^(1/n).  Each solid stands beside three that are simpler: the homogeneous solid of its
+surface, the solid that it is at great depth, and an equivalent power law.  That one has its compliance and slope
+
+    C(xi) and d ln(xi C)/d ln xi = k    at the wave number xi = 1/L,
+
+about the inverse of the contact radius; where the slope is negative, k is 0.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+import fem_reference
+from comparisons.model import ComputationFailed
+from fscm import NoSuchEvent, NotConverged, Problem, solve_together
+from fscm.graded import Coating, Exponential, GradedHalfSpace, OffsetPowerLaw, graded_problem
+from fscm.graded.compliance import compliance
+from fscm.physical import PhysicalProblem
+
+__all__ = ["EVENTS", "QUANTITIES", "GradedCase", "by_elements", "by_fscm", "case_of", "of_power_law"]
+
+Json = dict[str, Any]
+
+_N, NU = 2.0, 0.3
+
+#: The offset power law: exponent, and Tabor number (Eq. 29) of the limit z_s = 0.
+OFFSET = (0.4, 2.0)
+#: Tabor numbers with the modulus of the surface, and moduli at depth over that of the surface.
+EXPONENTIAL = (2.0, 4.0)
+COATING = (0.8, 0.25)
+
+# No scale is 1, so that a wrong power of one shows.
+_SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25}
+
+#: Quantities of the table.
+QUANTITIES = (
+    "pull_off_force",
+    "pull_off_displacement",
+    "jump_in_displacement",
+    "jump_out_displacement",
+    "hysteresis_energy",
+)
+#: Quantities that share a family of meshes; the hysteresis energy is the sum of the losses of both jumps.
+EVENTS = {
+    "pull-off": ("pull_off_force", "pull_off_displacement"),
+    "jump-out": ("jump_out_displacement", "jump_in_displacement", "jump_out_energy"),
+    "landing": ("jump_in_energy",),
+}
+_UNITS = {"pull_off_force": "load", "jump_in_energy": "energy", "jump_out_energy": "energy"}
+
+# Step of ln xi in the slope of the compliance: its error is below 1e-7, a tenth of the last digit of k.
+_STEP = 0.05
+# Digits of k and mu of the equivalent power law.
+_DIGITS = 6
+
+
+@dataclass(frozen=True)
+class GradedCase:
+    """A solid for both references, and the simpler solids beside it.
+
+    Attributes
+    ----------
+    solid : GradedHalfSpace
+        For the FSCM, in the units of `scale`.
+    modulus : fem_reference.Modulus
+        The same for the finite elements.
+    mu : float
+        Tabor number with the modulus of the surface.
+    depth : tuple of float
+        k and mu of the solid at great depth.
+    """
+
+    solid: GradedHalfSpace
+    modulus: fem_reference.Modulus
+    mu: float
+    depth: tuple[float, float]
+
+    @property
+    def equivalent(self) -> tuple[float, float]:
+        """k and mu of the equivalent power law, rounded.
+
+        Examples
+        --------
+        A thin offset hardly changes the power law.
+
+        >>> case_of("offset power law", 1e-4).equivalent
+        (0.398641, 1.997881)
+        """
+        length = _surface(1.0).length_r
+        values = np.log(compliance(self.solid, np.exp(np.array([-2.0, -1.0, 0.0, 1.0, 2.0]) * _STEP) / length))
+        slope = float(values @ np.array([1.0, -8.0, 0.0, 8.0, -1.0])) / (12.0 * _STEP)
+        k = round(max(slope, 0.0), _DIGITS)
+        at = np.zeros(1)
+        surface = 2.0 * (1.0 - self.solid.poisson(at)[0] ** 2) / self.solid.modulus(at)[0]
+        # Under J0(r) a power law moves by 2 mu^((3+k)/2) (1-k) 2^-k gamma((1-k)/2)/gamma((1+k)/2), n = 2.
+        ratio = math.exp(values[2]) / surface * 2.0**k * math.gamma((1.0 + k) / 2.0)
+        power = self.mu**1.5 * ratio / ((1.0 - k) * math.gamma((1.0 - k) / 2.0))
+        return k, round(float(power ** (2.0 / (3.0 + k))), _DIGITS)
+
+
+def _surface(mu: float) -> PhysicalProblem:
+    """The homogeneous problem of a Tabor number, which has the scales of all."""
+    return PhysicalProblem.from_problem(Problem(_N, 0.0, mu), nu=NU, **_SCALES)
+
+
+def case_of(kind: str, parameter: float) -> GradedCase:
+    """Return a solid of the study.
+
+    Parameters
+    ----------
+    kind : {"offset power law", "exponential", "coating"}
+    parameter : float
+        z_s, length of the decay or thickness of a sharp coating, in L.
+
+    Examples
+    --------
+    >>> round(case_of("exponential", 1.0).depth[1], 6)
+    0.793701
+    """
+    if kind == "offset power law":
+        k, mu = OFFSET
+        graded = PhysicalProblem.from_problem(Problem(_N, k, mu), nu=NU, **_SCALES)
+        z_s = parameter * graded.length_r
+        E = graded.E0 * (z_s / graded.c0) ** k
+        mu_surface = PhysicalProblem(E0=E, k=0.0, nu=NU, n=_N, **_SCALES).tabor_number
+        offset = (graded.E0, graded.c0, k, z_s)
+        modulus: fem_reference.Modulus = fem_reference.OffsetPowerLawModulus(*offset)
+        return GradedCase(OffsetPowerLaw(*offset, NU), modulus, mu_surface, OFFSET)
+    mu, ratio = EXPONENTIAL if kind == "exponential" else COATING
+    surface = _surface(mu)
+    E, length = surface.E0, parameter * surface.length_r
+    depth = (0.0, mu / ratio ** (2.0 / 3.0))
+    if kind == "exponential":
+        return GradedCase(
+            Exponential(E, ratio * E, length, NU), fem_reference.ExponentialModulus(E, ratio * E, length), mu, depth
+        )
+    return GradedCase(
+        Coating(E, ratio * E, length, 0.0, NU), fem_reference.CoatingModulus(E, ratio * E, length), mu, depth
+    )
+
+
+def by_fscm(kind: str, parameter: float) -> Json:
+    """Return all quantities of a solid by the FSCM.
+
+    Parameters
+    ----------
+    kind, parameter
+        As for `case_of`.
+
+    Returns
+    -------
+    dict
+        By quantity ``[value, u_num]``, or the reason why there is no such event.
+
+    Raises
+    ------
+    ComputationFailed
+        If an iteration misses its tolerance.
+
+    Examples
+    --------
+    >>> value, u_num = by_fscm("coating", 1.0)["pull_off_force"]
+    >>> round(value, 6), u_num < 1e-7
+    (1.42152, True)
+    """
+    case = case_of(kind, parameter)
+    problem, _ = graded_problem(
+        case.solid,
+        Q=_SCALES["Q"],
+        n=_N,
+        work_of_adhesion=_SCALES["work_of_adhesion"],
+        z0=_SCALES["z0"],
+    )
+    return _solved(problem)
+
+
+def of_power_law(k: float, mu: float) -> Json:
+    """Return all quantities of a power-law solid by the FSCM, as `by_fscm`.
+
+    Examples
+    --------
+    >>> round(of_power_law(0.0, 1.0)["pull_off_force"][0], 8)
+    1.67066478
+    """
+    return _solved(Problem(_N, k, mu))
+
+
+def _solved(problem: Problem) -> Json:
+    try:
+        found = solve_together(problem, QUANTITIES)
+    except NotConverged as failure:
+        raise ComputationFailed(str(failure)) from failure
+    return {
+        name: str(event) if isinstance(event, NoSuchEvent) else [event.value, event.u_num]
+        for name, event in found.items()
+    }
+
+
+def by_elements(event: str, kind: str, parameter: float) -> Json:
+    """Return the quantities of an event by the finite elements, as `by_fscm`.
+
+    Parameters
+    ----------
+    event : {"pull-off", "jump-out", "landing"}
+        Which family of meshes, see `EVENTS`.
+    kind, parameter
+        As for `case_of`.
+
+    Raises
+    ------
+    ComputationFailed
+        If an iteration misses its tolerance.
+
+    Examples
+    --------
+    >>> by_elements("jump-out", "offset power law", 100.0)["jump_out_displacement"]
+    'the displacement rises all along the path: this solid is too stiff for jumps'
+    """
+    case, scales = case_of(kind, parameter), _surface(1.0).scales
+    problem = fem_reference.Problem(
+        fem_reference.CustomSolid(case.modulus, NU),
+        fem_reference.PowerPunch(n=_N, Q=_SCALES["Q"]),
+        fem_reference.LennardJones(work_of_adhesion=_SCALES["work_of_adhesion"], z0=_SCALES["z0"]),
+    )
+    try:
+        found = fem_reference.solve_together(problem, EVENTS[event], "quick")
+    except fem_reference.NotConverged as failure:
+        raise ComputationFailed(str(failure)) from failure
+    results: Json = {}
+    for name, solution in found.items():
+        unit = scales[_UNITS.get(name, "displacement")]
+        if isinstance(solution, fem_reference.NoSuchEvent):
+            results[name] = str(solution)
+        else:
+            results[name] = [solution.value / unit, solution.u_num / unit]
+    return results

@@ -1,0 +1,78 @@
+"""Texts on the data of a module, which have no docstring, for the API reference."""
+
+from __future__ import annotations
+
+import ast
+from functools import cache
+from itertools import takewhile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+#: The packages, in the order of the reference.
+PACKAGES = ("fscm", "fem_reference", "comparisons")
+
+#: Texts on data of the solvers that have none in their modules: place and name -> text.
+TEXTS = {
+    "fscm.interpolation.cells.Cells": "Numbers of the cells of n, of k and, but for the critical Tabor number, of mu.",
+    "fscm.interpolation.components.COMPONENTS": "Every series of the atlas, by name.",
+    "fscm.interpolation.components.QUANTITIES": "Of which series the value of each quantity is composed.",
+    "fscm.interpolation.coordinates.LEAST_MU": "Smallest Tabor number of the atlas.",
+    "fscm.interpolation.coordinates.MOST_MU": "Largest Tabor number of the atlas.",
+    "fscm.interpolation.forms.FORMS": "Smooth forms of quantities, to which series are fitted, by name.",
+    "fscm.quantities.TABLE": "How each quantity is found on the equilibrium path, by name.",
+    "fscm.solution.FLOOR": "Part of a bound that two meshes share: rounding and quadrature, relative to 1 + |value|.",
+    "fscm.solution.SAFETY": "Factor on the difference of two meshes in the bound on a curve or a field.",
+    "fem_reference.verification.checks.EXPONENTS": "Gradient exponents k of the checks.",
+    "fem_reference.verification.checks.POISSON": "Poisson's ratios of the checks.",
+    "fem_reference.verification.checks.RING": "Mesh for a load on the line r = 1, by which w is singular.",
+}
+
+
+@cache
+def texts_of(path: Path) -> dict[str, str]:
+    """Text of each datum of a module: the comment ``#:`` before it, the string after it, or that where it comes from.
+
+    Examples
+    --------
+    >>> texts = texts_of(ROOT / "comparisons" / "cli" / "options.py")
+    >>> texts["OK"] == texts_of(ROOT / "comparisons" / "console" / "exit_status.py")["OK"] != ""
+    True
+    """
+    text = path.read_text(encoding="utf-8")
+    lines, body = text.splitlines(), ast.parse(text).body
+    found = {}
+    for statement, after in zip(body, [*body[1:], None], strict=True):
+        match statement:
+            case ast.Assign(targets=targets):
+                pass
+            case ast.AnnAssign(target=target):
+                targets = [target]
+            case ast.ImportFrom(module=str(module), level=0) if module.partition(".")[0] in PACKAGES:
+                found |= _imported(module, {alias.asname or alias.name: alias.name for alias in statement.names})
+                continue
+            case _:
+                continue
+        names = [node.id for target in targets for node in ast.walk(target) if isinstance(node, ast.Name)]
+        found |= dict.fromkeys(names, _before(lines[: statement.lineno - 1]) or _string(after))
+    return found
+
+
+def _imported(module: str, names: dict[str, str]) -> dict[str, str]:
+    """Texts of a module by the names that another one has imported them as."""
+    path = (ROOT / Path(*module.split("."))).with_suffix(".py")
+    texts = texts_of(path) if path.is_file() else {}
+    return {own: texts[name] for own, name in names.items() if texts.get(name)}
+
+
+def _before(lines: list[str]) -> str:
+    """The comment ``#:`` that ends these lines."""
+    comments = list(takewhile(lambda line: line.startswith("#:"), reversed(lines)))
+    return " ".join(line.removeprefix("#:").strip() for line in reversed(comments))
+
+
+def _string(statement: ast.stmt | None) -> str:
+    match statement:
+        case ast.Expr(value=ast.Constant(value=str(text))):
+            return " ".join(text.split())
+    return ""

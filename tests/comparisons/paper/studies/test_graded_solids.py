@@ -1,0 +1,89 @@
+"""The study of solids that are no power law: both references, and the simpler solids beside them."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from comparisons.paper.baseline import PAPER_BASELINE
+from comparisons.paper.studies.graded_routes import OFFSET, QUANTITIES, by_elements, by_fscm, case_of, of_power_law
+from comparisons.paper.studies.graded_solids import SERIES, SIMPLER
+
+TABLE = pd.read_csv(Path(__file__).parents[4] / PAPER_BASELINE / "graded_solids.csv")
+CASES = [(kind, parameter) for kind, (parameters, _) in SERIES.items() for parameter in parameters]
+
+#: Sum of the bounds over the largest value of a quantity: measured 2.6e-5 (displacement at pull-off, offset 0.1).
+LARGEST_BOUND = 3e-5
+
+
+def rows(kind, parameter):
+    found = TABLE[(TABLE["solid"] == kind) & np.isclose(TABLE["parameter"], parameter, rtol=1e-12)]
+    return found.set_index("quantity")
+
+
+def assert_stored(stored, found, column):
+    """Both are within their bounds of one value."""
+    for name, number in found.items():
+        if name in stored.index and not isinstance(number, str):
+            value, u_num = number
+            assert abs(value - stored.loc[name, column]) <= u_num + stored.loc[name, f"u_{column}"]
+
+
+def test_both_references_agree_within_their_bounds():
+    apart = (TABLE["fscm"] - TABLE["fem"]).abs()
+    known = TABLE["fem"].notna()
+    assert (apart[known] <= (TABLE["u_fscm"] + TABLE["u_fem"])[known]).all()
+    for name, part in TABLE[known].groupby("quantity"):
+        assert (part["u_fscm"] + part["u_fem"]).max() < LARGEST_BOUND * part["fscm"].abs().max(), name
+
+
+def test_the_pull_off_is_there_twice_at_every_point_and_the_jumps_at_two_of_each_kind():
+    assert [(kind, parameter) for kind, parameter in TABLE[["solid", "parameter"]].drop_duplicates().to_numpy()] == [
+        (kind, pytest.approx(parameter)) for kind, parameter in CASES
+    ]
+    assert set(TABLE["quantity"]) == set(QUANTITIES)
+    assert TABLE.loc[TABLE["quantity"] == "pull_off_force", ["fscm", "fem"]].notna().all(axis=None)
+    for _, part in TABLE[TABLE["quantity"] == "hysteresis_energy"].groupby("solid"):
+        assert part["fem"].notna().sum() >= 1
+
+
+def test_a_point_is_computed_again_by_both_references():
+    stored = rows("coating", 1.0)
+    assert_stored(stored, by_fscm("coating", 1.0), "fscm")
+    assert_stored(stored, by_elements("pull-off", "coating", 1.0), "fem")
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize(("kind", "parameter"), CASES)
+def test_every_point_is_computed_again_by_the_fscm(kind, parameter):
+    assert_stored(rows(kind, parameter), by_fscm(kind, parameter), "fscm")
+
+
+def test_the_equivalent_power_law_of_a_power_law_is_itself():
+    """The skin changes the compliance at 1/L by its share, z_s^(1-k) (as `surface_modulus_tables.limits`)."""
+    apart = [np.abs(np.subtract(case_of("offset power law", z_s).equivalent, OFFSET)) for z_s in (1e-4, 1e-6)]
+    assert max(apart[1]) < 3e-4
+    assert apart[0] / apart[1] == pytest.approx(100.0 ** (1.0 - OFFSET[0]), rel=0.05)
+
+
+@pytest.mark.parametrize("kind", ["exponential", "coating"])
+def test_the_equivalent_power_law_of_a_homogeneous_limit_is_homogeneous(kind):
+    """What is left is the share of the depth in the wave length, or of its inverse."""
+    k, mu = case_of(kind, 1e-6).equivalent
+    assert (k, mu) == pytest.approx(case_of(kind, 1e-6).depth, abs=1e-5)
+    deep = case_of(kind, 1e4)
+    assert deep.equivalent == pytest.approx((0.0, deep.mu), abs=1e-3)
+
+
+def test_errors_are_those_of_the_columns():
+    for other in SIMPLER:
+        error = (TABLE[other] - TABLE["fscm"]) / TABLE["fscm"].abs()
+        assert TABLE[f"{other}_error"].to_numpy() == pytest.approx(error.to_numpy(), nan_ok=True)
+    row = rows("exponential", 2.0).iloc[0]
+    value, u_num = of_power_law(row["power_law_k"], row["power_law_mu"])["pull_off_force"]
+    assert abs(value - row["power_law"]) <= 2.0 * u_num
+
+
+def test_a_missing_jump_has_a_reason():
+    assert (TABLE["fscm"].isna() == TABLE["reason"].notna()).all()
