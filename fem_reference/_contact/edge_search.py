@@ -41,6 +41,9 @@ STEP = 0.1
 NEAR = 0.1
 """Difference of the logarithms of two radii up to which the state on one mesh is the first start on the other."""
 
+CONFIRMING = 4.0
+"""Distance, in tolerances, of the radius that confirms a minimum found by the first parabola."""
+
 MESHES = 40
 """Largest number of meshes: three to enclose an event, four to locate it and one for each other minimum are usual."""
 
@@ -133,10 +136,15 @@ class EdgeSearch:
             last, middle, step = middle, following, 1.5 * step
             following = self._point(middle[0] + direction * step)
         low, high = sorted((last, following))
+        wide = True
         while True:
-            x = _vertex(low, middle, high)
-            if abs(x - middle[0]) <= self._tolerance(math.exp(middle[0])):
-                return min(self.known, key=lambda r: abs(math.log(r) - middle[0]))
+            x, tolerance = _vertex(low, middle, high), self._tolerance(math.exp(middle[0]))
+            if abs(x - middle[0]) <= tolerance:
+                if not wide:
+                    return min(self.known, key=lambda r: abs(math.log(r) - middle[0]))
+                # The vertex of a wide parabola may be at the middle by chance.
+                x = middle[0] + math.copysign(CONFIRMING * tolerance, x - middle[0])
+            wide = False
             point = self._point(x)
             inside, outside = sorted((point, middle), key=lambda p: p[1])
             low, high = (outside, high) if outside[0] < inside[0] else (low, outside)
