@@ -12,6 +12,7 @@ import numpy as np
 from fem_reference._contact.events import EVENTS
 from fem_reference._contact.mesh_choice import MeshChoice, chosen
 from fem_reference._contact.path import Point
+from fem_reference._contact.turning import turning_slowly
 from fem_reference._contact.uncondensed import uncondensed_events
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._threads import one_thread
@@ -65,13 +66,16 @@ class RadialField:
     load: float
 
 
-def trace(problem: Problem, accuracy: float | str = "default") -> EquilibriumPath:
+def trace(problem: Problem, accuracy: float | str = "default", largest_turn: float | None = None) -> EquilibriumPath:
     """Trace the equilibrium path from far away until the load is compressive, on the finest mesh.
 
     Parameters
     ----------
     problem, accuracy
         As for `fem_reference.solve`.
+    largest_turn : float, optional
+        Angle in degrees, in (0, 180]: points are inserted where the drawn curve of load over displacement turns by more
+        from one to the next.
 
     Returns
     -------
@@ -81,7 +85,7 @@ def trace(problem: Problem, accuracy: float | str = "default") -> EquilibriumPat
     Raises
     ------
     ValueError
-        For an unknown accuracy.
+        For an unknown accuracy, or an angle outside its range.
     NotConverged
         If the path cannot be followed.
 
@@ -93,9 +97,13 @@ def trace(problem: Problem, accuracy: float | str = "default") -> EquilibriumPat
     >>> bool(path.load[0] < 0 < path.load[-1]), round(float(path.load.min()), 2)
     (True, -6.22)
     """
+    if largest_turn is not None and not 0.0 < largest_turn <= 180.0:
+        raise ValueError(f"largest_turn = {largest_turn} is outside (0, 180]: it is an angle in degrees")
     with one_thread:
         choice, spec, size = _finest(problem, "zero_load", accuracy)
         points = choice.traced(spec, size).points
+        if largest_turn is not None:
+            points = turning_slowly(points, largest_turn)
         return EquilibriumPath(
             np.array([p.state.displacement for p in points]),
             np.array([p.state.load for p in points]),

@@ -38,6 +38,9 @@ CUSP = "cusp"
 SLOPE_STEP = 1e-4
 """Relative change of the parameter for the slope of a rate: an error of this size slows the secant method only."""
 
+EDGE_STEPS = 12
+"""Lengths of the shortest element within which an event is searched at the edge of a mesh; it was put within two."""
+
 Pair = tuple[Point, Point]
 
 
@@ -53,10 +56,13 @@ class PathEvents:
     ----------
     samples : sequence of Point
         As `fem_reference._contact.tracing.traced` returns them.
+    event : str, optional
+        The event whose contact edge is at the edge of the mesh.  It is searched there and nowhere else: away from there
+        the path may have events that are due to the mesh (see `fem_reference._contact.edge_search`).
     """
 
-    def __init__(self, samples: Sequence[Point]) -> None:
-        self.samples = samples
+    def __init__(self, samples: Sequence[Point], event: str = "") -> None:
+        self.samples, self._event = samples, event
         self._anchors: dict[str, tuple[Point, float]] = {}
 
     @cached_property
@@ -109,6 +115,8 @@ class PathEvents:
     @cached_property
     def pull_off(self) -> Point:
         """The deepest minimum of the load along the path."""
+        if self._event == "pull_off":
+            return self._at_edge("pull_off")
         minima = [_root(pair, _load_rate) for pair in _sign_changes(self.points, _load_rate, rising=True)]
         if not minima:
             raise NoSuchEvent("the load has no minimum along the path")
@@ -131,12 +139,16 @@ class PathEvents:
     @cached_property
     def jump_out(self) -> Point:
         """The lowest fold, the last on retreat, where displacement control jumps out of contact."""
+        if self._event == "jump_out":
+            return self._at_edge("jump_out")
         minima = [_root(pair, _displacement_rate) for pair in self._folds[1]]
         return min(minima, key=lambda p: p.state.displacement)
 
     @cached_property
     def zero_load(self) -> Point:
         """The point in contact where the load changes from tension to compression."""
+        if self._event == "zero_load":
+            return self._at_edge("zero_load")
         found = _rise_through(self.points, _load, _load_rate, 0.0, last=True)
         if found is None:
             raise NoSuchEvent("the load does not become compressive on the path")
@@ -145,7 +157,8 @@ class PathEvents:
     @cached_property
     def landing(self) -> Point:
         """The point in contact where the jump into contact ends."""
-        return self._at_displacement(self.jump_in.state.displacement, last=True)
+        level = self.jump_in.state.displacement
+        return self._at_edge(LANDING, level) if self._event == LANDING else self._at_displacement(level, last=True)
 
     @cached_property
     def separated(self) -> Point:
@@ -177,6 +190,24 @@ class PathEvents:
     def jump_out_loss(self) -> float:
         """Energy lost by the jump out of contact."""
         return event_energy(self.jump_out) - event_energy(self.separated)
+
+    def _at_edge(self, event: str, level: float = 0.0) -> Point:
+        """Find an event whose contact edge is on the shortest elements of the mesh."""
+        excess = excess_of(event, level)
+        touching = [point for point in self.samples if point.branch.touching]
+        trace, size = touching[0].branch.contact.compliance.trace, touching[0].state.size
+        step = size * float(trace.nodes[trace.edge + 1] - 1.0)
+        point = point_at(min(touching, key=lambda sample: abs(sample.parameter - size)), size)
+        side = 1.0 if excess(point) < 0.0 else -1.0
+        for _ in range(EDGE_STEPS):
+            following = point_at(point, point.parameter + side * step)
+            if side * excess(following) >= 0.0:
+                return _root((point, following) if side > 0.0 else (following, point), excess)
+            point = following
+        raise NotConverged(
+            f"the event {event} is not within {EDGE_STEPS} elements of the edge of the mesh at {size:.6g}; "
+            "take a finer accuracy"
+        )
 
     def _at_displacement(self, delta: float, last: bool) -> Point:
         """Return the first or the last point where the displacement rises through a value."""

@@ -6,6 +6,7 @@ on that mesh shows how wide the edge is, and the mesh is made again until it is 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -13,7 +14,8 @@ from functools import lru_cache
 
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.cusp import slowest_sample
-from fem_reference._contact.events import CUSP, PathEvents, beyond_pull_off
+from fem_reference._contact.edge_search import SEARCHED, WIDTH_SHARE, EdgeSearch
+from fem_reference._contact.events import CUSP, LANDING, PathEvents, beyond_pull_off
 from fem_reference._contact.mesh_lengths import balance_length, check_width, kinks_within, mesh_spec
 from fem_reference._contact.path import EDGE_RISE, edge_width
 from fem_reference._contact.tracing import traced
@@ -25,9 +27,6 @@ from fem_reference.problem import Problem
 from fem_reference.punch import check_without_asperities, radius_at_height
 
 __all__ = ["MeshChoice", "chosen"]
-
-WIDTH_SHARE = 0.18
-"""Resolved edge width relative to the length over which the gap rises by the length of the law at the edge."""
 
 FAR_SHARE = 0.5
 """Share of the density far beyond the edge, where contact begins on a spot much smaller than the punch and the tension
@@ -51,6 +50,10 @@ above, the tension is 1e-12 of its peak."""
 SEARCH_DEGREES = 2
 """Degrees by which the elements of the search are lower where no mesh of it is used again: a third of the time."""
 
+MOVES = 2
+"""Times that the edge of a mesh follows the event of the path on it; then the event is searched for with a mesh for
+each radius."""
+
 REFINEMENTS = 8
 """Largest number of meshes tried to find the width of the edge."""
 
@@ -64,10 +67,13 @@ class MeshChoice:
     problem : Problem
     level : Level
         Order and densities of the meshes.
+    event : str, optional
+        As for `fem_reference._contact.events.PathEvents`.
     """
 
     problem: Problem
     level: Level
+    event: str = ""
 
     def contact(self, spec: MeshSpec, size: float) -> Contact:
         """Discretise the problem on a mesh with its edge at the radius `size`."""
@@ -78,11 +84,15 @@ class MeshChoice:
         """The path on that mesh, traced once however many quantities are read from it."""
         return _traced(self, spec, size)
 
-    def spec(self, width: float, size: float, smallest: float, far_share: float = 1.0) -> MeshSpec:
+    def spec(
+        self, width: float, size: float, smallest: float, far_share: float = 1.0, apex: float = math.inf
+    ) -> MeshSpec:
         """Mesh for an edge of that relative width, at the coarsest density."""
-        return mesh_spec(self.problem, self.level, width, size, smallest, far_share)
+        return mesh_spec(self.problem, self.level, width, size, smallest, far_share, apex)
 
-    def adapted(self, events: tuple[str, ...], start: tuple[MeshSpec, float] | None = None) -> tuple[MeshSpec, float]:
+    def adapted(
+        self, events: tuple[str, ...], start: tuple[MeshSpec, float] | None = None
+    ) -> tuple[MeshChoice, MeshSpec, float]:
         """Mesh whose edge width (and, if the solid does not scale, size) fits the computed gap.
 
         Parameters
@@ -94,6 +104,8 @@ class MeshChoice:
 
         Returns
         -------
+        choice : MeshChoice
+            This one, or one whose event is at the edge of the mesh.
         spec : MeshSpec
             At the coarsest density of the accuracy.
         size : float
@@ -116,7 +128,7 @@ class MeshChoice:
         spec = self.spec(0.5 * balance / size, size, smallest)
         if start is not None:
             spec, size = replace(start[0], density=self.level.densities[0]), start[1]
-        failures, far_share = 0, spec.far_share
+        failures, moves, far_share, apex = 0, 0, spec.far_share, math.inf
         # Width and radius of an edge need fewer digits than an event; a mesh that scales is used again, as it is.
         degree = spec.order if scaling or events == (CUSP,) else spec.order - SEARCH_DEGREES
         for _ in range(REFINEMENTS):
@@ -131,7 +143,9 @@ class MeshChoice:
                 failures += 1
                 if scaling:
                     smallest, far_share = min(smallest, balance), FAR_SHARE * far_share
-                other = self.spec(NARROWER * spec.edge_width, size, smallest, far_share)
+                else:
+                    apex = balance
+                other = self.spec(NARROWER * spec.edge_width, size, smallest, far_share, apex)
                 if other == spec or failures == FAILURES:
                     raise
                 spec = other
@@ -155,18 +169,30 @@ class MeshChoice:
             # The gap falls at the edge of a mesh that is too coarse to tell the width.
             width = WIDTH_SHARE * narrowest if narrowest > 0.0 else NARROWER * spec.edge_width
             check_width(width)
-            needed = self.spec(width, size, smallest, far_share)
+            needed = self.spec(width, size, smallest, far_share, apex)
             resolved = needed.edge_width >= spec.edge_width and needed.extent <= spec.extent
             if resolved and far_share >= spec.far_share:
                 if scaling:
-                    return spec, size
+                    return self, spec, size
                 if events == (CUSP,):
-                    return spec, size
-                point = path.at(events[0])
+                    return self, spec, size
+                try:
+                    point = path.at(events[0])
+                except NotConverged:
+                    # Elements that are longer than the edge is wide make more turning points than can be told apart.
+                    if events[0] != "pull_off":
+                        raise
+                    point, moves = min(points, key=lambda sample: sample.state.load), MOVES
                 if not point.branch.touching or abs(point.edge_radius / size - 1.0) <= 0.5 * spec.edge_width:
-                    return spec, size
+                    return self, spec, size
+                if moves == MOVES and events[0] in SEARCHED:
+                    level = path.jump_in.state.displacement if events[0] == LANDING else 0.0
+                    lower = spec.order - SEARCH_DEGREES
+                    search = EdgeSearch(self, events[0], path.samples, spec.edge_width, smallest, lower, level, apex)
+                    return replace(self, event=events[0]), *search.found(point.edge_radius)
+                moves += 1
                 size = point.edge_radius
-            spec = self.spec(min(needed.edge_width, spec.edge_width), size, smallest, far_share)
+            spec = self.spec(min(needed.edge_width, spec.edge_width), size, smallest, far_share, apex)
         raise NotConverged(
             "the width of the contact edge was not found; the edge is narrower than the mesh can resolve"
         )
@@ -228,7 +254,7 @@ def _chosen(
     start: tuple[MeshSpec, float] | None,
 ) -> tuple[MeshChoice, MeshSpec, float]:
     """Adapt the meshes of one level, and use them."""
-    spec, size = choice.adapted(events, start)
+    choice, spec, size = choice.adapted(events, start)
     if usable is not None:
         usable(choice, spec, size)
     return choice, spec, size
@@ -237,4 +263,4 @@ def _chosen(
 # The paths of one problem: three densities and the search for the width, on the meshes of two kinds of events.
 @lru_cache(maxsize=12)
 def _traced(choice: MeshChoice, spec: MeshSpec, size: float) -> PathEvents:
-    return PathEvents(tuple(traced(choice.contact(spec, size))))
+    return PathEvents(tuple(traced(choice.contact(spec, size))), choice.event)

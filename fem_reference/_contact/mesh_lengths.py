@@ -22,6 +22,9 @@ APEX_WIDTH = 0.05
 """Radial length resolved at r = 0, relative to the edge radius: a cone then has its pull-off force to
 3e-10."""
 
+SMALLEST_APEX = 1e-6
+"""Smallest radial length resolved at r = 0, relative to the edge radius."""
+
 LAYER_DEPTH = 0.02
 """Depth resolved under the surface relative to the edge width, times min(1, 5 k): the first layer's error is
 linear in its thickness for 0 < k < 0.2, where z^(1-k) and z are hard to tell apart."""
@@ -58,7 +61,13 @@ FINEST_SCALE = 1e-3
 
 
 def mesh_spec(
-    problem: Problem, level: Level, width: float, size: float, smallest: float, far_share: float = 1.0
+    problem: Problem,
+    level: Level,
+    width: float,
+    size: float,
+    smallest: float,
+    far_share: float = 1.0,
+    apex: float = math.inf,
 ) -> MeshSpec:
     """Return the mesh for an edge of a relative width; lengths are rounded so that similar problems share a mesh.
 
@@ -74,6 +83,8 @@ def mesh_spec(
         Radius of the edge where the mesh still ends where the punch is `FAR_HEIGHT` high.
     far_share : float
         As for `fem_reference._elastic.mesh.MeshSpec`.
+    apex : float
+        Radius of the spot on which contact begins, if it is so small that the apex has to be finer for it.
     """
     modulus, nu, law = problem.solid.modulus, problem.solid.nu, problem.law
     k = modulus.surface_exponent
@@ -91,7 +102,8 @@ def mesh_spec(
     scales = depth_scales(modulus, FINEST_SCALE * depth * size, extent * size, nu).scaled(size)
     density, order = level.densities[0], level.order
     kinks = tuple(r / size for r in kinks_within(problem))
-    return MeshSpec(width, depth, extent, density, order, APEX_WIDTH, scales, far_share, kinks)
+    apex_width = min(APEX_WIDTH, max(apex / size, SMALLEST_APEX))
+    return MeshSpec(width, depth, extent, density, order, apex_width, scales, far_share, kinks)
 
 
 def kinks_within(problem: Problem) -> tuple[float, ...]:

@@ -150,7 +150,9 @@ def continuation(point: Point, step: float, stop: float) -> Iterator[Point]:
 
 def point_at(nearest: Point, parameter: float) -> Point:
     """Return the point of a branch at a parameter, continued from a point near it."""
-    *_, point = continuation(nearest, parameter - nearest.parameter, parameter)
+    point = nearest
+    for following in continuation(nearest, parameter - nearest.parameter, parameter):
+        point = following
     return point
 
 

@@ -22,7 +22,7 @@ from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
 
-__all__ = ["ResolvedEvents"]
+__all__ = ["ResolvedEvents", "projected"]
 
 SECANT_STEPS = 12
 """Largest number of secant steps; two are usual, from an event that differs by 1e-6."""
@@ -160,11 +160,26 @@ def _moved(point: Point, contact: Contact, placement: float) -> tuple[Branch, fl
             fixed, parameter = EdgeGap(gap), c
         elif isinstance(fixed, GapRise):
             fixed = GapRise(gap - point.state.central_gap)
-    return replace(branch, contact=contact, fixed=fixed), parameter, _projected(point, contact, c)
+    return replace(branch, contact=contact, fixed=fixed), parameter, projected(point, contact, c)
 
 
-def _projected(point: Point, contact: Contact, c: float) -> Array:
-    """Project the surface displacement onto the functions of another mesh of the size c."""
+def projected(point: Point, contact: Contact, c: float) -> Array:
+    """Project the surface displacement onto the functions of another mesh.
+
+    Parameters
+    ----------
+    point : Point
+        State on its own mesh.
+    contact : Contact
+        The problem on the other mesh.
+    c : float
+        Size of the other mesh.
+
+    Returns
+    -------
+    ndarray
+        Displacement, approach and size on the other mesh.
+    """
     trace, target, y = point.branch.contact.compliance.trace, contact.compliance.trace, point.state.y
     s = np.minimum(target.s * c / point.state.size, trace.extent)
     root = np.sqrt(target.weight)[:, None]

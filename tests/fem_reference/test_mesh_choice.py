@@ -1,11 +1,22 @@
 """Choice of the mesh where contact begins on a small spot, where the edge is very narrow, and where a path fails."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from fem_reference import CoatingModulus, CustomSolid, LennardJones, NotConverged, PowerPunch, Problem, Solid, solve
+from fem_reference import (
+    CoatingModulus,
+    CustomPunch,
+    CustomSolid,
+    LennardJones,
+    NotConverged,
+    PowerPunch,
+    Problem,
+    Solid,
+    solve,
+)
 from fem_reference._contact.mesh_choice import FAR_SHARE, MeshChoice, chosen
 from fem_reference._elastic.mesh import graded_grid
 from fem_reference.accuracy import level_for
@@ -37,7 +48,7 @@ def test_an_edge_that_no_mesh_resolves_is_refused():
 
 
 def test_finer_meshes_are_taken_where_only_the_finest_path_fails(monkeypatch):
-    monkeypatch.setattr(MeshChoice, "adapted", lambda choice, events, start: ("the mesh", 1.0))
+    monkeypatch.setattr(MeshChoice, "adapted", lambda choice, events, start: (choice, "the mesh", 1.0))
     tried = []
 
     def usable(choice, *mesh):
@@ -79,3 +90,31 @@ def test_only_a_mesh_that_is_used_again_is_searched_with_the_full_degree(monkeyp
     with pytest.raises(NotConverged, match="the path stops"):
         MeshChoice(problem, level_for("quick")).adapted(("pull_off",))
     assert tried == degrees
+
+
+def _rounded_flat(flat_radius):
+    """A flat end whose edge has the curvature radius 1, on a graded solid."""
+
+    def outside(r):
+        return np.maximum(r - flat_radius, 0.0)
+
+    punch = CustomPunch(lambda r: outside(r) ** 2 / 2.0, outside, kinks=(flat_radius,))
+    return MeshChoice(Problem(Solid(1.0, 1.0, 0.3, 0.3), punch, LennardJones(0.0005, 0.004)), level_for("quick"))
+
+
+def test_an_edge_that_does_not_settle_is_searched_with_a_mesh_for_each_radius():
+    """The deepest load was elsewhere on each mesh, which followed it until the problem was refused."""
+    choice, spec, size = _rounded_flat(0.05).adapted(("pull_off",))
+    assert choice.event == "pull_off"
+    assert spec.edge_width > 1e-3
+    finest = choice.traced(replace(spec, density=choice.level.densities[-1]), size)
+    assert finest.pull_off.edge_radius == pytest.approx(size, rel=0.01)
+    assert finest.pull_off.state.load == pytest.approx(-3.7757154e-3, rel=1e-5)
+
+
+@pytest.mark.heavy
+def test_contact_that_begins_on_a_small_spot_of_a_flat_end_has_a_fine_apex():
+    """Half as wide as its edge is rounded: the spot was smaller than the elements at the apex."""
+    choice, spec, _ = _rounded_flat(0.5).adapted(("pull_off",))
+    assert choice.event == "pull_off"
+    assert spec.apex_width < 0.05

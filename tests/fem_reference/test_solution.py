@@ -229,6 +229,23 @@ def test_events_lie_on_the_traced_path():
     assert np.all(np.diff(path.edge_radius[path.edge_radius > 0]) > 0)
 
 
+def test_a_path_has_more_points_where_its_curve_turns():
+    """Points are only added, and between two of one branch the chords of the picture turn by the angle at most."""
+    stiff = Problem(Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    plain, path = trace(stiff, "quick"), trace(stiff, "quick", largest_turn=5.0)
+    assert set(plain.displacement) < set(path.displacement)
+    depth = -path.load.min()
+    shown = (path.load < -0.05 * depth) | ((path.load > 0.05 * depth) & (path.load < 0.5 * depth))
+    x = path.displacement / np.ptp(path.displacement[shown])
+    angles = np.abs(np.diff(np.degrees(np.arctan2(np.diff(path.load / (1.5 * depth)), np.diff(x)))))
+    within = np.isnan(path.edge_radius[1:-1]) == np.isnan(path.edge_radius[:-2])
+    within &= np.isnan(path.edge_radius[1:-1]) == np.isnan(path.edge_radius[2:])
+    assert angles[within].max() <= 2 * 5.0
+    for angle in (0.0, 181.0, math.nan):
+        with pytest.raises(ValueError, match="angle in degrees"):
+            trace(stiff, "quick", largest_turn=angle)
+
+
 @pytest.mark.heavy
 def test_contact_that_begins_on_a_small_spot():
     """Under a flat punch on a nearly linear gradient contact begins at 1e-3 of the radius it then has.

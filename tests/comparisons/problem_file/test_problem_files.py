@@ -145,6 +145,18 @@ def test_what_a_coated_solid_does_not_have_is_not_applicable():
     assert critical.status == "not-applicable"
 
 
+@pytest.mark.heavy
+@pytest.mark.parametrize("flat_radius", ["1 nm", "5 nm"])
+def test_a_rounded_flat_end_by_both_references(written, flat_radius, tmp_path):
+    """The finite elements did not find its contact edge."""
+    written(solid="power-law", punch="rounded-flat", law="lennard-jones-9-3")
+    path = tmp_path / "mine.toml"
+    path.write_text(path.read_text().replace("5 nm", flat_radius))
+    exact, value = (evaluate_problem(load_problem(path), model, "pull_off_force") for model in ("fscm", "fem"))
+    assert abs(value.value - exact.value) <= value.u_num + exact.u_num
+    assert value.u_num <= FEW_DIGITS * value.value
+
+
 def test_what_the_finite_elements_do_not_take_is_not_applicable(written, tmp_path):
     written(solid="exponential", punch="sphere", law="mie")
     path = tmp_path / "mine.toml"

@@ -1,0 +1,238 @@
+"""Search for the contact edge at an event, with a mesh for each radius that is fine there.
+
+A solid that does not scale has one mesh, over which the edge moves.  Away from the radius where that mesh is fine, its
+elements may be longer than the edge is wide.  The load along the path then has minima at the nodes of the mesh, deeper
+than that of the problem.  Where a mesh is fine the state is that of the problem: its load or displacement there, on one
+mesh after the other, encloses the event.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from typing import Protocol
+
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.controls import EdgeRadius, Size
+from fem_reference._contact.events import LANDING, excess_of
+from fem_reference._contact.mesh_lengths import check_width
+from fem_reference._contact.path import Branch, Point, edge_width, point_at
+from fem_reference._contact.resolved import projected
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference.errors import NotConverged
+
+__all__ = ["SEARCHED", "WIDTH_SHARE", "EdgeSearch"]
+
+WIDTH_SHARE = 0.18
+"""Resolved edge width relative to the length over which the gap rises by the length of the law at the edge."""
+
+SEARCHED = ("pull_off", "jump_out", "zero_load", LANDING)
+"""Events whose condition changes from negative to positive where the edge moves outwards."""
+
+MINIMA = ("pull_off", "jump_out")
+"""Those where the load or the displacement is smallest."""
+
+STEP = 0.1
+"""First change of the logarithm of the radius; it grows by half until the event is enclosed."""
+
+NEAR = 0.1
+"""Difference of the logarithms of two radii up to which the state on one mesh is the first start on the other."""
+
+CONFIRMING = 4.0
+"""Distance, in tolerances, of the radius that confirms a minimum found by the first parabola."""
+
+MESHES = 40
+"""Largest number of meshes: three to enclose an event, four to locate it and one for each other minimum are usual."""
+
+WIDTHS = 8
+"""Largest number of widths of the edge at one radius."""
+
+
+class _Meshes(Protocol):
+    """What makes meshes of a problem: `fem_reference._contact.mesh_choice.MeshChoice`."""
+
+    def spec(
+        self, width: float, size: float, smallest: float, far_share: float = 1.0, apex: float = math.inf
+    ) -> MeshSpec: ...
+
+    def contact(self, spec: MeshSpec, size: float) -> Contact: ...
+
+
+@dataclass(slots=True)
+class EdgeSearch:
+    """A search for the radius of the contact edge at an event.
+
+    Attributes
+    ----------
+    meshes : MeshChoice
+        Of a solid that does not scale.
+    event : str
+        One of `SEARCHED`.
+    samples : sequence of Point
+        The path on any mesh: where the states on other meshes begin.
+    width : float
+        Relative width of the edge to begin with.
+    smallest : float
+        As for `MeshChoice.spec`.
+    degree : int
+        Of the elements.
+    level : float
+        Displacement at a landing.
+    apex : float
+        As for `MeshChoice.spec`.
+    """
+
+    meshes: _Meshes
+    event: str
+    samples: Sequence[Point]
+    width: float
+    smallest: float
+    degree: int
+    level: float = 0.0
+    apex: float = math.inf
+    known: dict[float, Point] = field(default_factory=dict)
+
+    def found(self, radius: float) -> tuple[MeshSpec, float]:
+        """Return the mesh that is fine at the contact edge of the event, and the radius of that edge.
+
+        Parameters
+        ----------
+        radius : float
+            To begin with.
+
+        Raises
+        ------
+        NotConverged
+            If the event is not enclosed, or the edge is narrower than a mesh can resolve.
+        """
+        radius = self._located(radius)
+        for other in self._lower_minima(self.known[radius]):
+            if any(abs(math.log(known / other)) <= NEAR for known in self.known):
+                continue
+            point = self._solved(other)
+            if self._height(point) < self._height(self.known[radius]):
+                radius = self._located(other)
+        return self._spec(radius), radius
+
+    def _located(self, radius: float) -> float:
+        """Radius of a mesh whose event is on its finest elements."""
+        return self._minimum(radius) if self.event in MINIMA else self._root(radius)
+
+    def _minimum(self, radius: float) -> float:
+        """Radius where load or displacement is smallest, by parabolas in the logarithm of the radius."""
+        # The rate on one mesh tells the direction far away; near the event it is less certain than the values are.
+        first = self._solved(radius)
+        middle = math.log(radius), self._height(first)
+        direction = -math.copysign(1.0, excess_of(self.event)(first))
+        step = STEP
+        following = self._point(middle[0] + direction * step)
+        if following[1] > middle[1]:
+            middle, following, direction = following, middle, -direction
+        last = middle
+        while following[1] <= middle[1]:
+            last, middle, step = middle, following, 1.5 * step
+            following = self._point(middle[0] + direction * step)
+        low, high = sorted((last, following))
+        wide = True
+        while True:
+            x, tolerance = _vertex(low, middle, high), self._tolerance(math.exp(middle[0]))
+            if abs(x - middle[0]) <= tolerance:
+                if not wide:
+                    return min(self.known, key=lambda r: abs(math.log(r) - middle[0]))
+                # The vertex of a wide parabola may be at the middle by chance.
+                x = middle[0] + math.copysign(CONFIRMING * tolerance, x - middle[0])
+            wide = False
+            point = self._point(x)
+            inside, outside = sorted((point, middle), key=lambda p: p[1])
+            low, high = (outside, high) if outside[0] < inside[0] else (low, outside)
+            middle = inside
+
+    def _point(self, x: float) -> tuple[float, float]:
+        """The logarithm of a radius, and load or displacement there."""
+        return x, self._height(self._solved(math.exp(x)))
+
+    def _root(self, radius: float) -> float:
+        """Radius where the condition of the event changes its sign."""
+        excess = excess_of(self.event, self.level)
+        low: tuple[float, float] | None = None
+        high: tuple[float, float] | None = None
+        x, step = math.log(radius), STEP
+        while True:
+            value = excess(self._solved(math.exp(x)))
+            if value < 0.0:
+                # A side that is kept twice loses half of its value, so that both sides move.
+                low, high = (x, value), high and (high[0], 0.5 * high[1] if low else high[1])
+            else:
+                low, high = low and (low[0], 0.5 * low[1] if high else low[1]), (x, value)
+            if low is None or high is None:
+                x, step = x + math.copysign(step, -value), 1.5 * step
+                continue
+            x = low[0] + (high[0] - low[0]) * low[1] / (low[1] - high[1])
+            nearest = min(self.known, key=lambda r: abs(math.log(r) - x))
+            if abs(math.log(nearest) - x) <= self._tolerance(nearest):
+                return nearest
+
+    def _tolerance(self, radius: float) -> float:
+        """Distance from the event, relative to the radius, within which its elements are short enough."""
+        return 0.5 * WIDTH_SHARE * edge_width(self.known[min(self.known, key=lambda r: abs(r - radius))])
+
+    def _lower_minima(self, point: Point) -> list[float]:
+        """Radii where the path on one mesh is lower than at the event, which may be due to that mesh."""
+        touching = [p for p in self.samples if p.branch.touching]
+        rate = excess_of(self.event)
+        pairs = [pair for pair in pairwise(touching) if rate(pair[0]) < 0.0 <= rate(pair[1])]
+        lowest = [min(pair, key=self._height) for pair in pairs] if self.event in MINIMA else []
+        return [p.edge_radius for p in sorted(lowest, key=self._height) if self._height(p) < self._height(point)]
+
+    def _height(self, point: Point) -> float:
+        """Load or displacement, which is smallest at an event of `MINIMA`."""
+        return point.state.load if self.event == "pull_off" else point.state.displacement
+
+    def _spec(self, radius: float) -> MeshSpec:
+        return self.meshes.spec(self.width, radius, self.smallest, apex=self.apex)
+
+    def _solved(self, radius: float) -> Point:
+        """State with the contact edge at a radius, on a mesh that resolves the edge there."""
+        if len(self.known) == MESHES:
+            raise NotConverged(
+                f"the contact edge of {self.event} was not found on {MESHES} meshes, each fine at another radius, "
+                f"between {min(self.known):.4g} and {max(self.known):.4g}; take a finer accuracy"
+            )
+        for _ in range(WIDTHS):
+            spec = self._spec(radius)
+            contact = self.meshes.contact(replace(spec, order=self.degree), radius)
+            point = self._state(contact, radius)
+            relative = edge_width(point)
+            width = WIDTH_SHARE * relative if relative > 0.0 else 0.25 * spec.edge_width
+            check_width(width)
+            if width >= spec.edge_width:
+                self.known[radius] = point
+                return point
+            self.width = width
+        raise NotConverged(f"the width of the contact edge was not found at the radius {radius:.4g}")
+
+    def _state(self, contact: Contact, radius: float) -> Point:
+        """State on a mesh whose edge is at that radius, from the nearest one known."""
+        branch = Branch(contact, Size(radius), lambda r: EdgeRadius(contact.law.peak_gap, r), touching=True)
+
+        def away(point: Point) -> float:
+            return abs(math.log(point.edge_radius / radius))
+
+        starts = [min((p for p in self.samples if p.branch.touching), key=away)]
+        known = min(self.known.values(), key=away, default=None)
+        if known is not None:
+            starts.insert(0 if away(known) <= NEAR else 1, known)
+        for start in starts:
+            with suppress(NotConverged):
+                return branch.solve(radius, projected(point_at(start, radius), contact, radius))
+        raise NotConverged(f"no equilibrium was found with the contact edge at {radius:.6g}; take a finer accuracy")
+
+
+def _vertex(low: tuple[float, float], middle: tuple[float, float], high: tuple[float, float]) -> float:
+    """Place of the extreme value of the parabola through three points."""
+    before, after = middle[0] - low[0], high[0] - middle[0]
+    fall, rise = (middle[1] - low[1]) / before, (high[1] - middle[1]) / after
+    return middle[0] - 0.5 * (after * fall + before * rise) / (rise - fall)

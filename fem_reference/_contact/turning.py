@@ -1,0 +1,64 @@
+"""Additional points of a path where the drawn curve of load over displacement turns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+
+from fem_reference._contact.path import Point, point_at
+
+__all__ = ["turning_slowly"]
+
+HALVINGS = 6
+"""Largest number of times that an interval is halved."""
+
+SHOWN_COMPRESSION, SHOWN_TENSION = 0.5, 0.05
+"""The part of the path that is drawn: up to this compression, and from this tension on, relative to the largest one."""
+
+
+def turning_slowly(points: Sequence[Point], degrees: float) -> list[Point]:
+    """Insert points where the tangent of load over displacement turns by more from one to the next.
+
+    Parameters
+    ----------
+    points : sequence of Point
+        A path.
+    degrees : float
+        Largest angle, in a square picture of the part that carries tension.
+
+    Returns
+    -------
+    list of Point
+        With those inserted, in the order of the path.
+    """
+    units = _ranges(points)
+    found = [points[0]]
+    for a, b in pairwise(points):
+        if a.branch is b.branch:
+            found += _inside(a, b, math.radians(degrees), units, HALVINGS)
+        found.append(b)
+    return found
+
+
+def _ranges(points: Sequence[Point]) -> tuple[float, float]:
+    """Lengths of the axes of the picture."""
+    depth = -min(p.state.load for p in points)
+    shown = [p for p in points if abs(p.state.load) > SHOWN_TENSION * depth > 0.0]
+    displacements = [p.state.displacement for p in shown if p.state.load < SHOWN_COMPRESSION * depth]
+    return (max(displacements) - min(displacements)) or 1.0, (1.0 + SHOWN_COMPRESSION) * depth
+
+
+def _inside(a: Point, b: Point, angle: float, units: tuple[float, float], halvings: int) -> list[Point]:
+    """Points between two neighbours of one branch."""
+    if halvings == 0 or _turn(a, b, units) <= angle:
+        return []
+    middle = point_at(a, 0.5 * (a.parameter + b.parameter))
+    before, after = (_inside(*ends, angle, units, halvings - 1) for ends in ((a, middle), (middle, b)))
+    return [*before, middle, *after]
+
+
+def _turn(a: Point, b: Point, units: tuple[float, float]) -> float:
+    """Angle between the tangents at two points, in [0, pi]."""
+    (ax, ay), (bx, by) = ((p.displacement_rate / units[0], p.load_rate / units[1]) for p in (a, b))
+    return abs(math.atan2(ax * by - ay * bx, ax * bx + ay * by))
