@@ -1,10 +1,11 @@
 """Depths and lengths of a modulus that a mesh has to follow: its jumps, and where it changes within a short length.
 
-Every octave of depth, cut at the declared interfaces, is halved until a polynomial of low degree
-represents E on each part.  A part that stays unresolved down to rounding has a jump, which is found by bisection and
-becomes a mesh line; the parts on both sides of it are then resolved again.  A step between two moduli is found however
-narrow it is, because the modulus differs on both sides; a thin layer between equal moduli is found if it is thicker
-than 1/30 of its depth, or declared.
+Every octave of depth, cut at the declared interfaces, is halved until polynomials of low degree represent E and 1/E on
+each part.  The strain under a given stress follows 1/E: where a modulus falls to a small value it may be a cubic, but
+its elements have to be short there.  A part that stays unresolved down to rounding has a jump, which is found by
+bisection and becomes a mesh line; the parts on both sides of it are then resolved again.  A step between two moduli is
+found however narrow it is, because the modulus differs on both sides; a thin layer between equal moduli is found if it
+is thicker than 1/30 of its depth, or declared.
 """
 
 from __future__ import annotations
@@ -29,8 +30,9 @@ DEGREE = 6
 """Degree of the polynomials: that of the elements, in which the displacement of a modulus resolved so is resolved."""
 
 RESOLVED = 1e-3
-"""Error of a polynomial on a part, relative to the largest E there.  An element of that length and degree has the
-displacement to about as much, and the energy to the square of it, weighted with the share of the part in the depth."""
+"""Error of a polynomial on a part, relative to the largest E, or 1/E, there.  An element of that length and degree has
+the displacement to about as much, and the energy to the square of it, weighted with the share of the part in the
+depth."""
 
 SAMPLES = 32
 """Points a part: enough to see a change on a part from its inside and from both ends."""
@@ -173,7 +175,7 @@ def _octave(modulus: Modulus, octave: int) -> DepthScales:
 
 
 def _resolve(modulus: Modulus, a: float, b: float) -> list[tuple[float, float]] | float:
-    """Parts of [a, b] on each of which a polynomial represents E, or the depth of a jump."""
+    """Parts of [a, b] on each of which polynomials represent E and 1/E, or the depth of a jump."""
     resolved = []
     pending = [(a, b)]
     while pending:
@@ -194,10 +196,10 @@ _REMAINDER = np.eye(SAMPLES) - _BASIS @ np.linalg.pinv(_BASIS)
 
 
 def _is_polynomial(modulus: Modulus, a: float, b: float) -> bool:
-    """Whether a polynomial represents E between two depths, neither of which is sampled."""
+    """Whether polynomials represent E and 1/E between two depths, neither of which is sampled."""
     z = 0.5 * (a + b) + 0.5 * (b - a) * _X
     E = positive_modulus(modulus, z)
-    return float(np.abs(_REMAINDER @ E).max()) <= RESOLVED * float(E.max())
+    return all(float(np.abs(_REMAINDER @ f).max()) <= RESOLVED * float(f.max()) for f in (E, E.min() / E))
 
 
 def _jump(modulus: Modulus, a: float, b: float) -> float:

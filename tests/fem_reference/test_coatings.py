@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy import special
 
 from fem_reference import (
     CoatingModulus,
@@ -14,14 +15,17 @@ from fem_reference import (
     LennardJones,
     PowerPunch,
     Problem,
+    TableModulus,
     solve,
     solve_together,
 )
 from fem_reference._contact.mesh_choice import chosen
-from fem_reference._contact.mesh_lengths import EXTERIOR_ERROR
+from fem_reference._contact.mesh_lengths import EXTERIOR_ERROR, mesh_spec
+from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.depth_scales import FIRST_END, DepthScales, depth_scales
 from fem_reference._elastic.exterior import exterior_error
 from fem_reference._elastic.mesh import graded_grid
+from fem_reference.accuracy import level_for
 from fem_reference.modulus import OffsetPowerLawModulus
 from tests.fem_reference.hankel_reference import pull_off, transform
 from tests.fem_reference.solved_together import COARSEST, pull_off_on_the_coarsest_mesh
@@ -43,6 +47,13 @@ def _exponential(z):
 EXPONENTIAL = CustomModulus(_exponential, 0.0, 0.0, surface_depth=2.0)
 STIFF, SOFT = CoatingModulus(10.0, 1.0, thickness=1.0), CoatingModulus(1.0, 10.0, thickness=1.0)
 SMOOTH = CoatingModulus(10.0, 1.0, thickness=1.0, transition=0.02)
+
+
+FALLING = TableModulus((0.0, 0.5, 1.0, 3.0), (2.0, 1.0, 3.0, 0.5))
+"""Above the depth 3 a cubic that falls with the slope -3.75: 1/E doubles within 0.13."""
+
+ELASTIC_ERROR = 1e-8
+"""Relative error of the displacement of `FALLING` on the finest mesh of "default": 1.5e-9 measured."""
 
 
 def _problem(modulus, n=2.0):
@@ -123,6 +134,24 @@ def test_an_undeclared_interface_is_found():
     assert found.value == pytest.approx(declared.value, rel=1e-12)
 
 
+def test_displacement_of_a_table_that_falls_to_a_small_modulus():
+    """One element spanned the depths 1.4 to 3 on every mesh: the displacements were wrong by 5.1e-6 and 6.6e-6."""
+    radii = np.array([0.0, 1.0])
+    ends = np.array([0.0, 0.03, 0.1, 0.3, 1.0, 2.0, 4.0, 8.0, 12.0])
+    x, w = np.polynomial.legendre.leggauss(16)
+    half = 0.5 * np.diff(ends)[:, None]
+    xi, weight = (ends[:-1, None] + half * (x + 1.0)).ravel(), (half * w).ravel()
+    # The pressure exp(-r^2) has the transform exp(-xi^2/4)/2.
+    waves = weight * transform(FALLING, NU, xi, sharp=FALLING.depths[1:]) * 0.5 * np.exp(-(xi**2) / 4.0)
+    exact = special.j0(np.outer(radii, xi)) @ waves
+    level = level_for("default")
+    spec = replace(mesh_spec(_problem(FALLING), level, 0.25, 1.0, 1.0), density=level.densities[-1])
+    solid = compliance_for(FALLING, NU, spec, 1.0)
+    trace = solid.trace
+    load = trace.phi.T @ (np.exp(-(trace.s**2)) * trace.s * trace.weight)
+    assert trace.evaluate(radii) @ solid.matrix @ load == pytest.approx(exact, rel=ELASTIC_ERROR)
+
+
 @pytest.mark.heavy
 @pytest.mark.parametrize("modulus", [STIFF, SMOOTH])
 def test_finer_meshes_are_more_certain(modulus):
@@ -150,6 +179,12 @@ def test_layers_and_kinks():
     assert scales.lines == ()
     assert min(b - a for a, b in scales.parts) < 0.2
     assert depth_scales(OffsetPowerLawModulus(1.0, 1.0, 0.7, 1.0), 1e-3, 1e6) == DepthScales()
+
+
+def test_a_cubic_that_falls_to_a_small_modulus_has_short_parts():
+    """E is a polynomial there, and 1/E is none; where E rises from 1 to 3 one part is enough."""
+    assert depth_scales(FALLING, 1e-2, 1e2).parts[:2] == ((0.0, 0.5), (0.5, 1.0))
+    assert depth_scales(FALLING, 1e-2, 1e2).parts[-1] == pytest.approx((2.5737, 3.0), rel=1e-4)
 
 
 def test_nodes_follow_the_scales():

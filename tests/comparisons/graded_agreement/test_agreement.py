@@ -13,13 +13,6 @@ from comparisons.paper.cache import CachedCall, CallCache
 
 ROOT = Path(__file__).resolve().parents[3]
 
-#: Events on which the references differ by more than both bounds.  The finite elements state 50 times the bound there
-#: that they state on the other tables; which of both is wrong is open.
-OPEN = {
-    "pull_off_force of table-2, sphere, mu = 1",
-    "jump_in_displacement of table-2, sphere, mu = 1",
-}
-
 
 def test_twenty_solids_of_five_kinds():
     assert len(SOLIDS) == 20
@@ -27,9 +20,9 @@ def test_twenty_solids_of_five_kinds():
     assert len(CASES) == len(set(CASES)) == 20 * len(PUNCHES) * len(MU)
 
 
-def test_committed_values_agree_within_both_bounds_and_their_limits_but_for_the_open_ones():
+def test_committed_values_agree_within_both_bounds_and_their_limits():
     table = pd.read_csv(ROOT / BASELINE_FOLDER / TABLE, keep_default_na=False, na_values=[""])
-    assert {sentence.partition(":")[0] for sentence in worse_than_limits(table)} == OPEN
+    assert worse_than_limits(table) == []
     cases = set(zip(table["solid"], table["punch"], table["mu"], strict=True))
     assert len(table) == len(cases) * len(QUANTITIES)
     assert cases <= {(case.solid, case.punch, case.mu) for case in CASES}
