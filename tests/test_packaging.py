@@ -33,7 +33,7 @@ FOR_BUILD = CONFIGURATION["build-system"]["requires"]
 #: Files that the build adds.
 BUILT = ("PKG-INFO", "setup.cfg", "*.egg-info/*")
 #: Functions whose first argument is the name of a module.
-BY_NAME = {"files", "import_module", "importorskip"}
+BY_NAME = {"files", "import_module", "importorskip", "_script"}
 
 
 def canonical(requirement: str) -> str:

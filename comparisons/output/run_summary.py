@@ -64,7 +64,8 @@ def largest_table(maxima: pd.DataFrame, width: int, lines: int) -> FittedTable |
     if maxima.empty:
         return None
     worst = maxima.loc[maxima.groupby(["quantity", "model", "n"])["kappa"].transform(_is_largest)]
-    cells = worst["shown"] = [value_text(100 * kappa, max(100 * u, _LEAST_PERCENT)) for kappa, u in _pairs(worst)]
+    cells = [value_text(100 * kappa, max(100 * u, _LEAST_PERCENT)) for kappa, u in _pairs(worst)]
+    worst = worst.assign(shown=cells)
     series = ["quantity", "model"] if worst["quantity"].nunique() > 1 else ["model"]
     quantity = "" if len(series) > 1 else f"{worst['quantity'].iloc[0]}: "
     by_shape = worst.assign(

@@ -40,8 +40,8 @@ def lines(found: EquivalentPowerLaw) -> list[str]:
     text = [
         f"  equivalent power law E0 (z/c0)^k: E0 = {_rounded(solid['E0'], 'Pa')}, c0 = {_rounded(solid['c0'], 'm')}, "
         f"k = {solid['k']:.4g}{limited}, nu = {solid['nu']:.4g}",
-        f"    fitted to the surface compliance over lengths from {first} to {last}, by their elastic energy; "
-        f"it misses it by {100.0 * found.deviation:.2g} % (r.m.s.)",
+        f"    fitted to the surface compliance over lengths from {first} to {last},",
+        f"    weighted by elastic energy; misses it by {100.0 * found.deviation:.2g} % (r.m.s.)",
     ]
     if force.value is None or force.u_num is None or found.error is None or found.bound is None:
         return [*text, f"    its pull-off force: {force.status}: {force.reason}"]

@@ -170,7 +170,7 @@ def test_finer_meshes_are_taken_where_a_path_cannot_be_traced(monkeypatch, trace
         tried.append(choice.level)
         if traceable is None or choice.level != level_for(traceable):
             raise NotConverged("the path stops")
-        return "the mesh", 1.0
+        return choice, "the mesh", 1.0
 
     monkeypatch.setattr(MeshChoice, "adapted", adapted)
     problem = _problem(0.0, 1.0)

@@ -38,11 +38,11 @@ def test_the_bound_of_kappa_is_exact_but_for_one_factor(x, u, sign, r, u_r, sign
     assert max(found) == pytest.approx(exact, abs=1e-13)
 
 
-#: Lengths of vectors in the plane of a picture, and a task of a cache as an example.
-_LENGTHS = {"curve_distance.py", "fscm_model.py", "reevaluation.py", "contour_labels.py", "cache.py"}
+#: Lengths of vectors in the plane of a picture, a task of a cache as an example, deviations of the values of a user.
+_LENGTHS = {"curve_distance.py", "fscm_model.py", "reevaluation.py", "contour_labels.py", "cache.py", "propagation.py"}
 
 
 def test_nothing_else_combines_bounds():
-    """A root of a sum of squares is the rule of standard deviations; here it measures lengths only."""
+    """A root of a sum of squares is the rule of standard deviations; it also measures lengths."""
     sources = Path(comparisons.__file__).parent.rglob("*.py")
     assert {path.name for path in sources if "hypot" in path.read_text(encoding="utf-8")} <= _LENGTHS
