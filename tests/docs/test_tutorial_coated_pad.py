@@ -38,6 +38,15 @@ def test_the_file_has_twelve_lines_and_the_page_three_commands():
     assert "--uncertain" in COMMANDS[0]
 
 
+def test_describe_prints_what_the_page_shows_without_the_uncertain_values(folder, capsys):
+    assert main([word for word in COMMANDS[0] if word != "--uncertain"]) == 0
+    found, shown = capsys.readouterr().out.splitlines(), PRINTED[0].splitlines()
+    assert [stable(line)[:60] for line in found] == [stable(line)[:60] for line in shown[: len(found)]]
+    assert found[3].startswith(f"  pull-off force {FORCE}")
+    assert shown[len(found)].startswith("uncertainty of pull_off_force")
+
+
+@pytest.mark.heavy
 def test_describe_prints_what_the_page_shows(folder, capsys):
     assert main(COMMANDS[0]) == 0
     found, shown = capsys.readouterr().out.splitlines(), PRINTED[0].splitlines()

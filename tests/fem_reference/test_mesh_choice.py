@@ -17,7 +17,8 @@ from fem_reference import (
     Solid,
     solve,
 )
-from fem_reference._contact.mesh_choice import FAR_SHARE, MeshChoice, chosen
+from fem_reference._contact.edge_search import EdgeSearch
+from fem_reference._contact.mesh_choice import FAR_SHARE, MOVES, MeshChoice, chosen
 from fem_reference._elastic.mesh import graded_grid
 from fem_reference.accuracy import level_for
 from tests.fem_reference.random_problems import problem_of
@@ -102,6 +103,24 @@ def _rounded_flat(flat_radius):
     return MeshChoice(Problem(Solid(1.0, 1.0, 0.3, 0.3), punch, LennardJones(0.0005, 0.004)), level_for("quick"))
 
 
+def test_an_edge_that_does_not_settle_is_searched(monkeypatch):
+    """After the moves of the mesh: the next test has the search itself."""
+    meshes = []
+    traced = MeshChoice.traced
+
+    def counted(choice, spec, size):
+        meshes.append(size)
+        return traced(choice, spec, size)
+
+    monkeypatch.setattr(MeshChoice, "traced", counted)
+    monkeypatch.setattr(EdgeSearch, "found", lambda search, radius: ("the mesh", radius))
+    choice, spec, size = _rounded_flat(0.05).adapted(("pull_off",))
+    assert (choice.event, spec) == ("pull_off", "the mesh")
+    assert size != meshes[-1]
+    assert len(set(meshes)) > MOVES
+
+
+@pytest.mark.heavy
 def test_an_edge_that_does_not_settle_is_searched_with_a_mesh_for_each_radius():
     """The deepest load was elsewhere on each mesh, which followed it until the problem was refused."""
     choice, spec, size = _rounded_flat(0.05).adapted(("pull_off",))

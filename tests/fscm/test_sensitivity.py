@@ -106,7 +106,9 @@ def exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3):
     return GradedProblem(2, 1.0, Exponential(E_surface, E_depth, length, nu))
 
 
-@pytest.mark.parametrize(("posed", "name"), [(coated, "thickness"), (exponential, "nu")])
+@pytest.mark.parametrize(
+    ("posed", "name"), [(coated, "thickness"), pytest.param(exponential, "nu", marks=pytest.mark.heavy)]
+)
 def test_other_solids(posed, name):
     found, at = sensitivity(posed(), "pull_off_force"), {"thickness": 1.0, "nu": 0.3}[name]
     slope = found.derivative(lambda x: (posed(**{name: x}), 1.0), at, at)

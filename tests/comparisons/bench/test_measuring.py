@@ -65,7 +65,9 @@ def test_the_peak_is_that_since_it_was_reset():
         assert memory("VmHWM") < before + 40.0
 
 
-@pytest.mark.parametrize(("end", "status"), [(signal.SIGINT, 130), (signal.SIGKILL, -9)])
+@pytest.mark.parametrize(
+    ("end", "status"), [(signal.SIGINT, 130), pytest.param(signal.SIGKILL, -9, marks=pytest.mark.heavy)]
+)
 def test_a_stopped_run_keeps_what_is_finished_and_leaves_no_process(end, status, tmp_path):
     command = [sys.executable, "-m", "comparisons", "bench", "--only", "growth", "--out", str(tmp_path), "--quiet"]
     # A group of its own, as a shell makes it: Ctrl-C goes to all its processes.

@@ -157,7 +157,7 @@ def wheel(folder, version="9.9"):
         archive.writestr(f"{info}/RECORD", "")
 
 
-@pytest.mark.parametrize("system", ["github", "gitlab"])
+@pytest.mark.parametrize("system", ["github", pytest.param("gitlab", marks=pytest.mark.heavy)])
 def test_it_installs_from_wheels_without_a_network(action, job, tmp_path, system):
     wheel(tmp_path)
     offline = {

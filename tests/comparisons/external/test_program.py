@@ -130,7 +130,7 @@ def test_a_defect_of_a_program_is_one_sentence_and_costs_one_result(write_progra
         assert model.evaluate(Problem(2, 0, 0.5), "pull_off_force").value == 1.7
 
 
-@pytest.mark.parametrize("body", ["sleep 60", "while :; do :; done"])
+@pytest.mark.parametrize("body", ["sleep 60", pytest.param("while :; do :; done", marks=pytest.mark.heavy)])
 def test_a_program_that_is_silent_or_too_slow_is_ended(write_program, monkeypatch, body):
     monkeypatch.setenv("FSCM_BENCH_TIME_LIMIT", "1.5")
     model = create(write_program(body))

@@ -68,7 +68,8 @@ def test_values_are_read_off_after_every_choice(opened, whole):
         every = choices(opened, plot)
         chosen = every if whole else list(dict.fromkeys([every[0], every[-1]]))
         # The first again: a choice that is made again must be as good as the first time.
-        for group in [*chosen, *every[: len(chosen) > 1 or whole]]:
+        again = len(chosen) > 1 and plot == "plot-kappa"
+        for group in [*chosen, *every[: again or whole]]:
             opened.execute_script(CHOOSE, plot, group.split("|") if plot == "plot-kappa" else [group])
             for label, hover, right, down in opened.execute_script(POINTS, plot, group):
                 point(opened, plot, right, down)
@@ -84,11 +85,13 @@ def test_values_are_read_off_after_every_choice(opened, whole):
     assert messages(opened) == []
 
 
-def test_every_model_of_a_standing_run_is_read_off(browser, standing):
+@pytest.mark.parametrize("every", [3, pytest.param(1, marks=pytest.mark.heavy)])
+def test_every_model_of_a_standing_run_is_read_off(browser, standing, every):
+    """Of the light test, every third and the last."""
     show(browser, standing, *DESKTOP)
     points = browser.execute_script(POINTS, "plot-kappa", choices(browser, "plot-kappa")[0])
     assert len(points) >= 8
-    for label, hover, right, down in points:
+    for label, hover, right, down in points[::-every]:
         point(browser, "plot-kappa", right, down)
         wait(partial(shows, browser, label, hover))
     assert messages(browser) == []

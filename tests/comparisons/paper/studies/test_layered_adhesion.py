@@ -9,6 +9,7 @@ import pytest
 from comparisons.paper.baseline import PAPER_BASELINE
 from comparisons.paper.studies.coated_jkr import coated_pull_off
 from comparisons.paper.studies.layered_adhesion import TABOR_NUMBERS, coated_force, extrapolated, layer_compliance
+from fscm import Problem, solve
 
 TABLE = pd.read_csv(Path(__file__).parents[4] / PAPER_BASELINE / "layered_adhesion.csv")
 
@@ -37,6 +38,16 @@ def test_the_expected_values_are_computed_again():
         assert row.expected == pytest.approx(expected["force"], abs=expected["u_num"])
 
 
+def test_a_coating_like_its_substrate_is_homogeneous_and_approaches_jkr():
+    """Of the coated solid only the first Tabor number is computed; the next test computes all."""
+    homogeneous = [solve(Problem(2, 0, mu), "pull_off_force") for mu in TABOR_NUMBERS]
+    value, u_num = coated_force(1.0, 0.5, TABOR_NUMBERS[0])
+    assert abs(value - homogeneous[0].value) <= u_num + homogeneous[0].u_num
+    value, u_num = extrapolated(TABOR_NUMBERS, [(found.value, found.u_num) for found in homogeneous])
+    assert abs(value - 1.5) <= u_num < LIMIT_BOUND
+
+
+@pytest.mark.heavy
 def test_a_homogeneous_solid_approaches_jkr():
     value, u_num = extrapolated(TABOR_NUMBERS, forces(1.0, 0.5))
     assert abs(value - 1.5) <= u_num < LIMIT_BOUND

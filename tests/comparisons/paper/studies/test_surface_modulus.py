@@ -50,6 +50,13 @@ def test_both_references_agree_within_their_bounds():
     known = table.dropna(subset="value")
     assert ((known["value"] - known["fscm_value"]).abs() <= known["u_num"] + known["u_fscm"]).all()
     assert len(known) > 100
+
+
+@pytest.mark.heavy
+def test_a_point_is_computed_again_by_the_fscm():
+    """Another one is the example in the docstring of the function."""
+    table = pd.read_csv(Path(__file__).parents[4] / PAPER_BASELINE / "surface_modulus.csv")
+    known = table.dropna(subset="value")
     force = known[known["quantity"] == "pull_off_force"].iloc[-1]
     value, u_num = with_skin_by_fscm(force["k"], force["mu"], force["depth"])["pull_off_force"]
     assert abs(value - force["fscm_value"]) <= u_num + force["u_fscm"]
