@@ -122,10 +122,8 @@ def draw(table: pd.DataFrame) -> Figure:
         axes = figure.subplots()
         axes.barh(rows["command"], rows["cpu_seconds"], 0.6, color=COLOURS[1])
         axes.set_xscale("log")
-        for command, seconds in zip(rows["command"], rows["cpu_seconds"], strict=True):
-            axes.annotate(
-                f"{seconds:.2g} s", (seconds, command), xytext=(4, 0), textcoords="offset points", va="center"
-            )
+        for place, seconds in enumerate(rows["cpu_seconds"]):
+            axes.annotate(f"{seconds:.2g} s", (seconds, place), xytext=(4, 0), textcoords="offset points", va="center")
         axes.set_yticks(range(len(rows)), [_short(command) for command in rows["command"]])
         axes.set_xlim(rows["cpu_seconds"].min() / 2.0, 3.0 * rows["cpu_seconds"].max())
         axes.set_xlabel("CPU time from a cold start (s)")

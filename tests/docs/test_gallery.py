@@ -103,18 +103,19 @@ def assert_same(before, after):
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_the_code_of_a_notebook_computes_what_is_stored_in_it(path):
-    """In this process; the next test has the kernel of Jupyter."""
+def test_the_code_of_a_notebook_computes_what_is_stored_in_it(path, monkeypatch, tmp_path):
+    """In this process; the next test has the kernel of Jupyter.  The folder of its results is not in the repository."""
+    monkeypatch.chdir(tmp_path)
     stored = nbformat.read(path, as_version=4)
     assert_same(numbers(stored.cells), numbers_in(printed_by(stored.cells)))
 
 
 @pytest.mark.heavy
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_a_notebook_computes_what_is_stored_in_it(path):
+def test_a_notebook_computes_what_is_stored_in_it(path, tmp_path):
     stored = nbformat.read(path, as_version=4)
     again = nbformat.read(path, as_version=4)
     NotebookClient(
-        again, timeout=1800, kernel_name="python3", resources={"metadata": {"path": str(path.parent)}}
+        again, timeout=1800, kernel_name="python3", resources={"metadata": {"path": str(tmp_path)}}
     ).execute()
     assert_same(numbers(stored.cells), numbers(again.cells))

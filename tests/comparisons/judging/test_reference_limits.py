@@ -16,6 +16,8 @@ from comparisons.runs.cases import grids
 
 ROOT = Path(__file__).parents[3]
 GATES = [gate for gate in load_gates(gates_text()) if gate.candidate != GIVEN]
+GRIDS = grids("quick")
+ROWS, CURVES = read_baseline(ROOT / BASELINE)
 QUICK = [gate for gate in GATES if gate.tier == "quick"]
 FULL = [gate for gate in GATES if gate.tier == "full"]
 
@@ -35,8 +37,7 @@ def by_name(gates):
 
 @by_name(QUICK)
 def test_of_the_quick_tier(gate):
-    rows, curves = read_baseline(ROOT / BASELINE)
-    largest = judge([gate], grids("quick"), rows, curves)["u_reference"].max()
+    largest = judge([gate], GRIDS, ROWS, CURVES)["u_reference"].max()
     limits = [abs(limit) for limit in (gate.lower, gate.upper) if math.isfinite(limit) and limit != 0.0]
     small = min([SMALL] + [FRACTION * limit for limit in limits])
     assert gate.max_reference_uncertainty <= max(ROOM * largest, small)
