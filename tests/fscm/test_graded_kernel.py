@@ -114,11 +114,14 @@ def _signed_error(name, xi):
     return (found - 0.5 * contact_modulus(SOLIDS[name]) * compliance(SOLIDS[name], xi)).astype(float)
 
 
-# 1e-15: rounding of the compliance
+#: Rounding of the compliance: 4.4e-15 beyond the bound was measured with SciPy 1.13, on the exponential solid.
+_ROUNDING = 1e-14
+
+
 @pytest.mark.parametrize("name", SOLIDS)
 def test_the_images_are_wrong_by_no_more_than_their_bound_at_any_wave_number(name):
     xi = np.geomspace(1e-4, 1e4, 961)
-    assert np.all(np.abs(_signed_error(name, xi)) <= kernel(name).images.error(xi) + 1e-15)
+    assert np.all(np.abs(_signed_error(name, xi)) <= kernel(name).images.error(xi) + _ROUNDING)
 
 
 def test_the_rate_of_the_error_is_the_measured_one():
