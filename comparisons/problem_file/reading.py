@@ -63,8 +63,16 @@ def load_problem(path: str | os.PathLike[str]) -> ProblemFile:
     return problem_of(*document_of(path))
 
 
-def document_of(path: str | os.PathLike[str]) -> tuple[dict[str, Any], Source]:
+def document_of(
+    path: str | os.PathLike[str], tables: Mapping[str, Path] | None = None
+) -> tuple[dict[str, Any], Source]:
     """Return the sections of a problem file as they are written, and its text.
+
+    Parameters
+    ----------
+    path : str or path
+    tables : mapping of str to Path, optional
+        Copies of tables that it names, where they are not beside it.
 
     Raises
     ------
@@ -72,7 +80,7 @@ def document_of(path: str | os.PathLike[str]) -> tuple[dict[str, Any], Source]:
         As `load_problem`, if the file cannot be read or is not TOML.
     """
     path = Path(path)
-    source = Source(path, read_text(path, "the problem file"))
+    source = Source(path, read_text(path, "the problem file"), tables or {})
     return _document(source), source
 
 
@@ -121,7 +129,7 @@ def _section(document: Mapping[str, Any], name: str, source: Source) -> Section:
     if kind != "table":
         return Section(kind, values, uncertain=uncertain)
     columns, fewest = _TABLES[name]
-    path = source.path.parent / values["file"]
+    path = source.table(values["file"])
     if not path.is_file():
         raise source.refusal(
             name, "file", f"file = {shown(values['file'])} is not in the folder of {source.path.name}; check the name"

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 __all__ = ["Source", "read_text", "shown"]
@@ -50,6 +51,11 @@ class Source:
 
     path: Path
     text: str
+    tables: Mapping[str, Path] = field(default_factory=dict)
+
+    def table(self, name: str) -> Path:
+        """Return the path of a table that the file names: beside the file, or its copy in `tables`."""
+        return self.tables.get(name, self.path.parent / name)
 
     def line(self, section: str, key: str | None = None) -> int | None:
         """Line of a key, or else of its section; None where neither is written on a line of its own."""
