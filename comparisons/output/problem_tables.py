@@ -11,18 +11,19 @@ from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.problem_file.overview import REFERENCES
 from comparisons.runs.problem_tasks import ProblemRow
 
-__all__ = ["problem_errors", "problem_table", "varied_of"]
+__all__ = ["ERROR_COLUMNS", "VALUE_COLUMNS", "problem_errors", "problem_table", "varied_of"]
 
-#: Columns that every table of values or of errors has; the others are the varied keys.
-_OWN = (
+#: Columns of the table of values and of that of errors; the others are the varied keys, which stand before the value.
+VALUE_COLUMNS = (
     *("model", "model_version", "quantity", "value", "u_num", "unit"),
     *("dimensionless_value", "dimensionless_u_num", "dimensionless_unit", "status", "reason", "seconds"),
+)
+ERROR_COLUMNS = (
+    *("model", "quantity", "value", "u_num", "unit"),
     *("reference", "reference_value", "u_reference", "kappa", "u_kappa"),
 )
 
 _NUMBERS = ("value", "u_num", "dimensionless_value", "dimensionless_u_num", "seconds")
-
-_ERRORS = ("reference", "reference_value", "u_reference", "kappa", "u_kappa")
 
 
 def varied_of(table: pd.DataFrame) -> list[str]:
@@ -33,7 +34,7 @@ def varied_of(table: pd.DataFrame) -> list[str]:
     >>> varied_of(pd.DataFrame(columns=["model", "punch.R [m]", "value"]))
     ['punch.R [m]']
     """
-    return [name for name in table.columns if name not in _OWN]
+    return [name for name in table.columns if name not in VALUE_COLUMNS + ERROR_COLUMNS]
 
 
 def problem_table(rows: Sequence[ProblemRow]) -> pd.DataFrame:
@@ -52,7 +53,7 @@ def problem_table(rows: Sequence[ProblemRow]) -> pd.DataFrame:
         scaled = record.pop("dimensionless") or {"unit": ""}
         record |= {f"dimensionless_{name}": number for name, number in scaled.items()} | record.pop("parameters")
         records.append(record)
-    before, after = _OWN[:3], _OWN[3:12]
+    before, after = VALUE_COLUMNS[:3], VALUE_COLUMNS[3:]
     table = pd.DataFrame(records, columns=[*before, *varied, *after])
     table = table.astype(dict.fromkeys(_NUMBERS, float))
     return table.sort_values(["quantity", "model", *varied], ignore_index=True)
@@ -80,7 +81,7 @@ def problem_errors(table: pd.DataFrame) -> pd.DataFrame:
     [-0.05]
     """
     varied = varied_of(table)
-    columns = ["model", "quantity", *varied, "value", "u_num", "unit", *_ERRORS]
+    columns = [*ERROR_COLUMNS[:2], *varied, *ERROR_COLUMNS[2:]]
     known = table[table["status"] == "ok"]
     models = set(known["model"])
     reference = next((name for name in REFERENCES if name in models), None)

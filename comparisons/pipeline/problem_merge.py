@@ -15,15 +15,10 @@ from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.journal import alone_in
 from comparisons.runs.problem_tasks import ProblemRow, ProblemTask, plan_problems, problem_journal
-from comparisons.runs.record import PROBLEM_SWEEP, read_record
+from comparisons.runs.record import PROBLEM_SWEEP
 from comparisons.runs.reevaluation import same_value
 
-__all__ = ["is_problem_sweep", "merge_problem_sweeps"]
-
-
-def is_problem_sweep(folder: Path) -> bool:
-    """Whether a folder is that of a finished sweep over a problem file; `ValueError` as `read_record`."""
-    return bool(read_record(RunFolder(folder).record)["command_name"] == PROBLEM_SWEEP)
+__all__ = ["merge_problem_sweeps"]
 
 
 def merge_problem_sweeps(folders: Sequence[Path], out: Path) -> FinishedProblemSweep:

@@ -9,7 +9,7 @@ from typing import Any
 
 from comparisons.numerics.number_text import short
 
-__all__ = ["NotAValue", "in_si", "si_text", "unit_factor"]
+__all__ = ["NotAValue", "in_si", "prefixed_unit", "si_text", "unit_factor"]
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _NAME = r"[A-Za-zµμΩÅ]+(?:\s*(?:\^|\*\*)\s*\(?[+-]?\d{1,2}(?:\.\d{1,4})?\)?)?"
@@ -120,8 +120,25 @@ def si_text(value: float, u_num: float, unit: str) -> str:
     """
     if unit == "1":
         return short(value, u_num)
-    size = max(abs(value), u_num)
-    power, prefix = next((pair for pair in _PREFIXES if size >= 10.0 ** pair[0]), _PREFIXES[-1] if size else (0, ""))
+    power, prefix = _prefix(max(abs(value), u_num))
     # A floor for the uncertainty: scaling by the prefix changes the last bit of an exact value.
     scaled = float(f"{value * 10.0**-power:.15g}")
     return f"{short(scaled, u_num * 10.0**-power)} {prefix}{unit}"
+
+
+def prefixed_unit(size: float, unit: str) -> tuple[int, str]:
+    """Return the power of ten and the name of a unit in SI with the prefix of a size.
+
+    Examples
+    --------
+    >>> prefixed_unit(2.7e-8, "N"), prefixed_unit(0.05, "J/m^2"), prefixed_unit(0.3, "1"), prefixed_unit(1e-12, "m^2")
+    ((-9, 'nN'), (-3, 'mJ/m^2'), (0, '1'), (0, 'm^2'))
+    """
+    if unit == "1" or "^" in unit.partition("/")[0]:
+        return 0, unit
+    power, prefix = _prefix(size)
+    return power, f"{prefix}{unit}"
+
+
+def _prefix(size: float) -> tuple[int, str]:
+    return next((pair for pair in _PREFIXES if size >= 10.0 ** pair[0]), _PREFIXES[-1] if size else (0, ""))

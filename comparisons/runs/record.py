@@ -23,7 +23,15 @@ from comparisons.runs.atomic_files import write_json
 from comparisons.runs.data_package import write_data_package
 from comparisons.runs.environment import differences, fingerprint
 
-__all__ = ["FORMAT", "PROBLEM_SWEEP", "check_files", "read_record", "warn_of_other_code", "write_record"]
+__all__ = [
+    "FORMAT",
+    "PROBLEM_SWEEP",
+    "check_files",
+    "is_problem_sweep",
+    "read_record",
+    "warn_of_other_code",
+    "write_record",
+]
 
 #: Version of the schema.
 FORMAT = 4
@@ -107,6 +115,11 @@ def read_record(path: Path) -> dict[str, Any]:
     if stated != _own_sum(content):
         raise ValueError(_changed(path, f"run again with --out {path.parent}"))
     return dict(content)
+
+
+def is_problem_sweep(folder: Path) -> bool:
+    """Whether a folder is that of a finished sweep over a problem file; `ValueError` as `read_record`."""
+    return bool(read_record(folder / RECORD)["command_name"] == PROBLEM_SWEEP)
 
 
 def check_files(record: dict[str, Any], folder: Path, written_again: Collection[str] = ()) -> None:
