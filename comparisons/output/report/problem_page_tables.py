@@ -54,7 +54,6 @@ def results(stored: StoredProblemSweep) -> Table:
                 *(key_cell(row, name) for name in stored.varied),
                 value_cell(row),
                 number(row["u_num"], ".1e"),
-                Cell(row["unit"] if row["status"] == "ok" else ""),
                 value(row["dimensionless_value"], row["dimensionless_u_num"]),
                 Cell(row["dimensionless_unit"]),
                 Cell(row["status"]),
@@ -65,7 +64,7 @@ def results(stored: StoredProblemSweep) -> Table:
     columns = (
         *(Column("model", "head"), Column("version"), Column("quantity")),
         *_key_columns(stored),
-        *(Column("value", "number"), Column("u_num", "number"), Column("unit of u_num")),
+        *(Column("value", "number"), Column("u_num (SI)", "number")),
         *(Column("dimensionless value", "number"), Column("its unit"), Column("status")),
     )
     return without_empty(Table("results", "Every computed number", columns, rows, "results.csv"))

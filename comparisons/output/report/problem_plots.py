@@ -115,7 +115,7 @@ def numbers_of(stored: StoredProblemSweep, plot: Plot, over: str) -> Table:
         *(Column(unit_in(name)[0], "number") for name in (over, *others)),
         Column("value", "number"),
         Column("u_num", "number"),
-        Column("unit of u_num"),
+        Column("unit"),
     )
     return without_empty(Table(plot.table, plot.title, columns, rows, "results.csv", lines=tuple(lines)))
 
