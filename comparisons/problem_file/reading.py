@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 from collections.abc import Mapping
 from difflib import get_close_matches
 from pathlib import Path
@@ -34,6 +35,9 @@ _TABLES: dict[str, tuple[dict[str, Column], int]] = {
 
 #: Rows that a smoothed profile needs: a cubic spline has four coefficients.
 _FEWEST_SMOOTHED = 8
+
+#: A whole number that Python does not read.
+_MANY_DIGITS = re.compile(rf"\d{{{sys.int_info.default_max_str_digits + 1},}}")
 
 
 def load_problem(path: str | os.PathLike[str]) -> ProblemFile:
@@ -112,6 +116,11 @@ def _document(source: Source) -> dict[str, Any]:
         return parse(source.text, str(source.path))
     except ValueError as error:
         # tomllib has the line at the end of its sentence, in brackets.
+        if digits := _MANY_DIGITS.search(source.text):
+            line = source.text.count("\n", 0, digits.start()) + 1
+            raise ValueError(
+                f"{source.path}, line {line}: {shown(digits[0])} has too many digits; write a power of ten, as 1e9"
+            ) from None
         found = re.search(r" \(at line (\d+), column \d+\)$", str(error))
         if found is None:
             raise
@@ -130,7 +139,8 @@ def _section(document: Mapping[str, Any], name: str, source: Source) -> Section:
         return Section(kind, values, uncertain=uncertain)
     columns, fewest = _TABLES[name]
     path = source.table(values["file"])
-    if not path.is_file():
+    # False for a name that is too long, too.
+    if not os.path.isfile(path):
         raise source.refusal(
             name, "file", f"file = {shown(values['file'])} is not in the folder of {source.path.name}; check the name"
         )

@@ -8,6 +8,7 @@ from functools import lru_cache
 from typing import Any
 
 from comparisons.numerics.number_text import short
+from comparisons.problem_file.source import shortened
 
 __all__ = ["NotAValue", "in_si", "prefixed_unit", "si_text", "unit_factor"]
 
@@ -54,18 +55,21 @@ def unit_factor(unit: str, target: str, power: float = 1.0) -> float:
     (1000000000.0, 1.0)
     """
     if not _UNIT.fullmatch(unit):
-        raise NotAValue(f"has the unit {unit!r}, which is no product of units")
+        if unit.startswith(","):
+            raise NotAValue("has a comma in place of a decimal point")
+        raise NotAValue(f"has the unit {shortened(repr(unit))}, which is no product of units")
     registry = _registry()
     aim = registry.Unit(target) ** power
     try:
         found = registry.Unit(unit.replace("·", "*"))
         if found.dimensionality != aim.dimensionality:
-            raise NotAValue(f"has the unit {unit}, which is not that of {_KINDS.get(target, target)}")
+            kind = _KINDS.get(target, target) if power == 1.0 else f"{target}^({power:g})"
+            raise NotAValue(f"has the unit {unit}, which is not that of {kind}")
         factor = float(registry.Quantity(1.0, found).to(aim).magnitude)
     except NotAValue:
         raise
     except Exception:  # pint has several for what it does not know, and the tokens of Python others
-        raise NotAValue(f"has the unknown unit {unit!r}") from None
+        raise NotAValue(f"has the unknown unit {shortened(repr(unit))}") from None
     # pint multiplies factors one after the other: a power of ten has lost its last digit.
     ten = float(f"1e{round(math.log10(factor))}")
     return ten if abs(factor / ten - 1.0) < _ROUNDING else factor
