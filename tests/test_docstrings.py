@@ -18,7 +18,7 @@ MODULES = sorted(
 )
 
 
-#: Modules whose examples solve problems of other solids than power laws, or by the finite elements, for a second or more;
+#: Modules whose examples solve problems of other solids than power laws or by the finite elements, a second or more;
 #: the functions that users call are not among them.
 LONG = {
     "comparisons.graded_agreement.solving",
