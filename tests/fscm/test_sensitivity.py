@@ -110,7 +110,7 @@ def exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3):
 @pytest.mark.parametrize(
     ("posed", "name"),
     [
-        pytest.param(coated, "thickness", marks=pytest.mark.heavy),
+        (coated, "thickness"),
         pytest.param(exponential, "nu", marks=pytest.mark.heavy),
     ],
 )
