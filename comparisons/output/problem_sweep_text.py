@@ -44,7 +44,7 @@ def problem_summary(table: pd.DataFrame, errors: pd.DataFrame) -> list[FittedTab
             {**_keys(row, varied_of(table)), "model": row["model"], str(quantity): _value(row)}
             for row in rows.head(_MOST).to_dict("records")
         ]
-        tables.append(FittedTable(pd.DataFrame(cells, dtype=object), _title("", len(rows))))
+        tables.append(FittedTable(pd.DataFrame(cells, dtype=object), _title("", len(rows)), group="model"))
     if len(errors):
         worst = errors.loc[errors["kappa"].abs().groupby([errors["quantity"], errors["model"]]).idxmax()]
         cells = [

@@ -4,12 +4,14 @@ import dataclasses
 import json
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
 from comparisons.cli.main import main
+from comparisons.output.problem_sweep_text import problem_summary
 from comparisons.problem_file import evaluation
 from comparisons.problem_file.variation import parse_variation, variations
 from comparisons.runs.record import read_record
@@ -294,10 +296,32 @@ def test_a_long_table_is_short_on_the_terminal(tmp_path, capsys):
     assert lines[0] == "the first 24 of 40 rows; the CSV file has all"
 
 
+def test_the_tables_fit_a_narrow_terminal(tmp_path):
+    assert sweep(tmp_path, "--model", "jkr", "atlas", "--quiet") == 0
+    table, errors = (read_table(tmp_path / f"{name}.parquet") for name in ("results", "kappa"))
+    for shown in problem_summary(table, errors):
+        for width in (60, 80, 120):
+            assert max(map(len, shown.lines(width))) <= width
+            assert shown.is_table(width)
+
+
+def test_lines_of_a_problem_are_folded_on_a_terminal_and_whole_in_a_file(monkeypatch, capsys):
+    options = ["solve", "--model", "jkr", "--quantity", "pull_off_force", "--problem", str(COATED)]
+    assert main(options) == 0
+    whole = capsys.readouterr().out.splitlines()
+    assert max(map(len, whole)) > 100
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    monkeypatch.setattr("comparisons.cli.options.output", lambda: SimpleNamespace(width=60))
+    assert main(options) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= 60
+    assert " ".join(" ".join(lines).split()) == " ".join(" ".join(whole).split())
+
+
 def test_other_commands_refuse_the_folder_in_one_sentence(tmp_path, capsys):
     assert sweep(tmp_path / "out", "--model", "jkr", "--quiet") == 0
-    for command in ("judge", "report"):
-        assert main([command, str(tmp_path / "out")]) == 2
+    for command in (("judge",), ("leaderboard", "--out", str(tmp_path / "board.html"))):
+        assert main([*command, str(tmp_path / "out")]) == 2
         error = capsys.readouterr().err
         assert "Traceback" not in error
         assert error.count("\n") == 1
