@@ -185,6 +185,16 @@ def test_the_folder_has_copies_of_the_problem_file_and_its_tables(tmp_path):
     assert [path.name for path in (tmp_path / "one" / "inputs").rglob("*") if path.is_file()] == [PAD.name]
 
 
+def test_a_record_without_the_copies_is_refused(tmp_path, capsys):
+    assert sweep(tmp_path, "--model", "jkr", "--quiet") == 0
+    record = json.loads((tmp_path / "run.json").read_text())
+    del record["inputs"]
+    (tmp_path / "run.json").write_text(json.dumps(record))
+    for command in (("report", str(tmp_path)), ("merge", str(tmp_path), "--out", str(tmp_path / "all"))):
+        assert main(command) == 2
+        assert "'inputs' is a required property" in capsys.readouterr().err
+
+
 def test_a_file_of_the_user_is_not_replaced_by_a_copy(tmp_path, capsys):
     (tmp_path / "inputs").mkdir()
     (tmp_path / "inputs" / PAD.name).write_text("# mine")
