@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Collection, Hashable
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
@@ -49,7 +49,7 @@ class StoredResults:
     def __init__(self, table: pd.DataFrame | None, needed: set[str], names: Collection[tuple[str, str]]) -> None:
         table = pd.DataFrame(columns=sorted(needed)) if table is None else table
         self.missing_columns = sorted(needed - set(table.columns))
-        self.rows: dict[Key, list[dict[Hashable, Any]]] = defaultdict(list)
+        self.rows: dict[Key, list[dict[str, Any]]] = defaultdict(list)
         if self.missing_columns or not names:
             return
         places = np.flatnonzero(_of_names(table, names))
@@ -94,7 +94,7 @@ class StoredResults:
             raise UnusableResult(Verdict.ERROR, f"{key[0]} states the uncertainty {u:g} of its curve")
         return table["x"].to_numpy(float), table["y"].to_numpy(float), u
 
-    def _usable(self, key: Key) -> list[dict[Hashable, Any]]:
+    def _usable(self, key: Key) -> list[dict[str, Any]]:
         rows = self.rows.get(key, [])
         if not rows:
             raise UnusableResult(Verdict.ERROR, f"{key[0]} has no row")
