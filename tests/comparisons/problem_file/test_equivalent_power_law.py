@@ -37,6 +37,7 @@ def equivalent(problem):
     return equivalent_power_law(problem, evaluate_problem(problem, "fscm", "pull_off_force"))
 
 
+@pytest.mark.heavy
 def test_a_power_law_with_a_tiny_offset_is_itself():
     """What is left is the offset: it has a share (z_s/length)^(1-k) or less of the compliance."""
     found = equivalent(on("offset-power-law", {"E0": 2e9, "c0": 1e-8, "k": 0.4, "z_s": 1e-12, "nu": 0.3}))
@@ -56,6 +57,7 @@ def test_a_power_law_in_a_table_is_itself():
     assert solid["E0"] * (1e-8 / solid["c0"]) ** solid["k"] == pytest.approx(2e9, rel=0.02)
 
 
+@pytest.mark.heavy
 def test_a_thick_coating_is_a_homogeneous_solid():
     coating = {"E_coating": 1e9, "E_substrate": 10e9, "thickness": 1e-5, "transition": 0.0, "nu": 0.3}
     found = equivalent(on("coating", coating))
