@@ -11,15 +11,21 @@ from dataclasses import dataclass, field, replace
 from fem_reference._contact.critical import stiffer_than_critical
 from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
 from fem_reference._contact.mesh_choice import chosen
+from fem_reference._contact.mesh_lengths import kinks_within
 from fem_reference._contact.uncondensed import UncondensedValue, uncondensed_events
+from fem_reference._elastic.compliance import is_scaling
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._threads import one_thread
-from fem_reference.accuracy import Level, coarser_accuracy
+from fem_reference.accuracy import Level, coarser_accuracy, relative_error
 from fem_reference.errors import NoSuchEvent, NotConverged
 from fem_reference.problem import Problem
 from fem_reference.quantities import CRITICAL_MODULUS, QUANTITIES, TABLE, Quantity, critical_quantity, quantity_named
 
 __all__ = ["Solution", "solve", "solve_together"]
+
+OWN_MESH = 100.0
+"""Bound, relative to the value and in units of the accuracy, from which on a quantity of several gets a mesh of its
+own: it costs as much as the first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,8 +154,8 @@ def solve_together(
         As for `solve`.
     quantities : iterable of str
         Of `QUANTITIES`, `LOSSES` and `CRITICAL_MODULUS`; all of `QUANTITIES` by default.  The mesh suits the first of
-        them that exists: in a solid that is no power law, others whose contact edge is elsewhere have a larger `u_num`.
-        The critical modulus has meshes of its own.
+        them that exists: in a solid that is no power law, others whose contact edge is elsewhere have a larger `u_num`,
+        up to `OWN_MESH` times the accuracy; beyond, they get a mesh of their own, as the critical modulus does.
 
     Returns
     -------
@@ -228,6 +234,7 @@ def _solved_together(
     """Compute quantities whose path is that of the problem, on meshes found from `start`."""
     begin = time.perf_counter()
     found: dict[str, Solution | NoSuchEvent] = {}
+    missed: dict[str, NotConverged] = {}
     for name, row in rows.items():
         try:
             choice, spec, size = chosen(problem, row.events, accuracy, events_on_meshes, start)
@@ -244,15 +251,53 @@ def _solved_together(
                 found[name] = _solution(row, meshes, choice.level)
             except NoSuchEvent as reason:
                 found[name] = reason.with_traceback(None)
+            except NotConverged as reason:
+                missed[name] = reason
+    solved = {name: solution for name, solution in found.items() if isinstance(solution, Solution)}
+    again = _uncertain(problem, rows, accuracy, solved, missed)
     # All events of the whole system are columns of one linear system.
     events = uncondensed_events(choice, replace(spec, density=choice.level.densities[-1]), size)
-    solved = {name: solution for name, solution in found.items() if isinstance(solution, Solution)}
-    events.prepare(rows[name].functional for name in solved)
-    seconds = time.perf_counter() - begin
-    for name, solution in solved.items():
-        whole = events.value(rows[name].functional)
-        found[name] = replace(solution.with_whole_system(whole), seconds=seconds)
+
+    def whole(names: Iterable[str]) -> None:
+        named = list(names)
+        events.prepare(rows[name].functional for name in named)
+        seconds = time.perf_counter() - begin
+        for name in named:
+            value = events.value(rows[name].functional)
+            found[name] = replace(solved[name].with_whole_system(value), seconds=seconds)
+
+    whole(name for name in solved if name not in again)
+    others: dict[str, Solution | NoSuchEvent] = {}
+    if again:
+        with suppress(NotConverged):
+            others = _solved_together(problem, again, accuracy)
+    for name, other in others.items():
+        if name in missed or (isinstance(other, Solution) and other.u_num <= solved[name].u_num):
+            found[name] = other
+    for name, failure in missed.items():
+        if name not in found:
+            raise failure
+    whole(name for name in solved if found[name] is solved[name])
     return found
+
+
+def _uncertain(
+    problem: Problem,
+    rows: Mapping[str, Quantity],
+    accuracy: float | str,
+    solved: Mapping[str, Solution],
+    missed: Iterable[str],
+) -> dict[str, Quantity]:
+    """Quantities that the mesh of another event leaves uncertain, or has missed.
+
+    The mesh of a solid that does not scale is fine at the contact edge of one event only.
+    """
+    if is_scaling(problem.solid.modulus, problem.solid.nu, kinks_within(problem)):
+        return {}
+    limit = OWN_MESH * relative_error(accuracy)
+    known = [name for name in rows if name in solved or name in missed]
+    poor = [name for name in known if name in missed or solved[name].u_num > limit * abs(solved[name].value)]
+    return {name: rows[name] for name in poor if rows[name].events[0] != rows[known[0]].events[0]}
 
 
 def _solution(row: Quantity, meshes: EventsOnMeshes, level: Level) -> Solution:
