@@ -103,6 +103,8 @@ class EventsOnMeshes:
         Refinement ratio of neighbouring densities.
     refined : bool
         As for `fem_reference._contact.uncertainty.three_meshes`.
+    scaling : bool
+        Whether one mesh serves every size of the contact.
     """
 
     path: PathEvents
@@ -117,6 +119,7 @@ class EventsOnMeshes:
     rounding: ResolvedEvents
     ratio: float
     refined: bool
+    scaling: bool
 
     def estimate(self, functional: Functional, declared: float) -> Estimate:
         """Return the parts of the error of a quantity, given its declared order.
@@ -152,10 +155,9 @@ class EventsOnMeshes:
 
     def _change(self, functional: Functional, feature: str, values: tuple[float, float, float]) -> float:
         """Difference that a coarser feature makes on the coarsest mesh."""
-        scaling = not isinstance(self.path.samples[0].branch.contact.compliance, FixedCompliance)
         with suppress(NotConverged):
             change = abs(functional(self.features[feature]) - functional(self.base))
-            if scaling or change <= UNCERTAIN * abs(values[-1]):
+            if self.scaling or change <= UNCERTAIN * abs(values[-1]):
                 return change
         # The lower degree does not resolve the edge, or what is under the surface.
         return abs(functional(self.full_degree(feature)) - values[0])
@@ -214,6 +216,7 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
         ResolvedEvents(path, _rounded(contact)),
         math.sqrt(choice.level.densities[0] / finest),
         fine.refines(medium),
+        not isinstance(coarse.compliance, FixedCompliance),
     )
 
 
