@@ -52,7 +52,10 @@ class StoredResults:
         self.rows: dict[Key, list[dict[Hashable, Any]]] = defaultdict(list)
         if self.missing_columns or not names:
             return
-        for row in table.loc[_of_names(table, names), sorted(needed)].to_dict("records"):
+        places = np.flatnonzero(_of_names(table, names))
+        columns = [table[name].iloc[places].tolist() for name in sorted(needed)]
+        for values in zip(*columns, strict=True):
+            row = dict(zip(sorted(needed), values, strict=True))
             nu = None if row["nu"] is None or pd.isna(row["nu"]) else float(row["nu"])
             self.rows[row["model"], row["quantity"], row["n"], row["k"], row["mu"], nu].append(row)
 
