@@ -21,6 +21,7 @@ from fem_reference import (
 from fem_reference._contact.error_parts import events_on_meshes
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._elastic.mesh import MeshSpec
+from fem_reference.accuracy import ACCURACIES
 from fem_reference.quantities import TABLE
 
 FORCE, JUMP_IN, JUMP_OUT = NAMES = ("pull_off_force", "jump_in_displacement", "jump_out_displacement")
@@ -55,11 +56,12 @@ def test_one_mesh_serves_every_event_of_a_solid_that_scales():
 
 @pytest.mark.heavy
 def test_the_jumps_of_a_cone_are_as_certain_together_as_alone():
-    """On the mesh of the pull-off alone they have bounds of 3e-4 and 5e-3 of their values."""
+    """On the mesh of the pull-off the jump out of contact is not found on all densities."""
     together = solve_together(CONE, NAMES, "quick")
-    assert all(together[name].u_num <= 1e-5 * abs(together[name].value) for name in NAMES)
+    largest = solution_module.OWN_MESH * ACCURACIES["quick"]
+    assert all(together[name].u_num <= largest * abs(together[name].value) for name in NAMES)
     alone = solve(CONE, JUMP_OUT, "quick")
-    assert abs(alone.value - together[JUMP_OUT].value) <= 1e-12 * abs(alone.value)
+    assert abs(alone.value - together[JUMP_OUT].value) <= alone.parts["algebra"] + together[JUMP_OUT].parts["algebra"]
 
 
 def test_a_mesh_with_an_interval_of_one_element_is_not_a_refined_one():
