@@ -42,6 +42,7 @@ class GradedResponse:
         self.kernel = GradedKernel(solid, _LONGEST)
         self._table = ImageTable(self.kernel.images, solid.length)
         self._length = min([solid.length, *solid.interfaces])
+        self._last: tuple[float, PanelMesh, Remainder] | None = None
 
     @property
     def softest(self) -> float:
@@ -49,8 +50,12 @@ class GradedResponse:
         return max(1.0, float(np.max(self.kernel.images.values)))
 
     def remainder(self, mesh: PanelMesh, c: float) -> Remainder:
-        """R(c) of `fscm.graded.panels`."""
-        return remainder(self._table, self._length, mesh, c)
+        """R(c) of `fscm.graded.panels`; a mesh that is refined at one c keeps what it has."""
+        last = self._last
+        previous = last[1:] if last is not None and last[0] == c else None
+        found = remainder(self._table, self._length, mesh, c, previous)
+        self._last = c, mesh, found
+        return found
 
     def far(self, radius: float) -> float:
         """Response at the center to a distant ring, in units of that of a homogeneous solid."""
