@@ -46,6 +46,12 @@ class Remainder:
     def __init__(self, matrix: Array, rate: Array, axis: Array, axis_rate: Array) -> None:
         self.matrix, self.rate, self.axis, self.axis_rate = matrix, rate, axis, axis_rate
 
+    def moved(self, step: float) -> Remainder:
+        """The same at a scale whose logarithm is larger by a small step."""
+        if step == 0.0:
+            return self
+        return Remainder(self.matrix + step * self.rate, self.rate, self.axis + step * self.axis_rate, self.axis_rate)
+
 
 def _pieces(
     pair: NDArray[np.intp], sign: Array, near: Array, extent: Array, xi: Array, h: Array, first: Array
@@ -77,6 +83,8 @@ def _near_rows(
     left, right : ndarray
         Distance of the target from the start of the panel (positive behind it), and of the end from the target.
     """
+    if not len(r):
+        return np.zeros((0, order)), np.zeros((0, order))
     index = np.arange(len(r))
     first = np.minimum(_FIRST * length, np.maximum(_MIRROR * r, _SHORT * length))
     parts: list[Pieces] = []

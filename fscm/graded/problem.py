@@ -27,6 +27,9 @@ _POINTS = 12
 # Decades beyond the waves of the fit.
 _BEYOND = 4
 _BESSEL = 2.0 / math.pi
+# Largest change of log c for which the response is moved by its rate: that changes by as much, less than the table's
+# error.
+_SAME = 1e-12
 
 
 class GradedResponse:
@@ -51,8 +54,9 @@ class GradedResponse:
 
     def remainder(self, mesh: PanelMesh, c: float) -> Remainder:
         """R(c) of `fscm.graded.panels`; a mesh that is refined at one c keeps what it has."""
-        last = self._last
-        previous = last[1:] if last is not None and last[0] == c else None
+        last, previous = self._last, None
+        if last is not None and abs(math.log(c / last[0])) <= _SAME:
+            previous = last[1], last[2].moved(math.log(c / last[0]))
         found = remainder(self._table, self._length, mesh, c, previous)
         self._last = c, mesh, found
         return found

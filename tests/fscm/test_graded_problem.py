@@ -135,6 +135,12 @@ def test_a_refined_mesh_keeps_the_response_between_its_old_panels():
         assert counted[0] < fine.size * (fine.size + 1) // 2
         for name in ("matrix", "rate", "axis", "axis_rate"):
             assert np.array_equal(getattr(whole, name), getattr(known, name))
+        step = 1e-4
+        moved, there = whole.moved(step), remainder(table, length, fine, c * np.exp(step))
+        # The second derivative times half the square of the step.
+        assert np.allclose(moved.matrix, there.matrix, rtol=0.0, atol=1e-7)
+        same = remainder(table, length, fine, c, (fine, moved))
+        assert np.array_equal(same.matrix, moved.matrix)
 
 
 def test_a_solid_that_is_soft_below_needs_no_more_points_of_the_path_than_its_softest_part():
