@@ -27,6 +27,8 @@ SOLIDS = {
     "table": TabulatedModulus([0.0, 1.0, 2.0, 5.0], [1.0, 3.0, 4.0, 10.0], 0.3),
     "waves": GradedSolid(lambda z: 2.0 + np.sin(3.0 * z) * np.exp(-z), 0.3, 1.0),
 }
+#: One solid of each kind of a problem file.
+KINDS = ("offset", "exponential", "tanh coating", "sharp layer", "table")
 
 
 @lru_cache
@@ -90,7 +92,9 @@ def by_quadrature(name, r, t):
     return t * (total + found[1]), t * abs(found[1] - found[0])
 
 
-@pytest.mark.parametrize("name", SOLIDS)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in KINDS else pytest.mark.heavy) for name in SOLIDS]
+)
 def test_images_agree_with_the_hankel_integral(name):
     rng = np.random.default_rng(sorted(SOLIDS).index(name))
     r, t = 10.0 ** rng.uniform(-1.0, 1.0, (2, 80))
@@ -124,6 +128,7 @@ def test_the_images_are_wrong_by_no_more_than_their_bound_at_any_wave_number(nam
     assert np.all(np.abs(_signed_error(name, xi)) <= kernel(name).images.error(xi) + _ROUNDING)
 
 
+@pytest.mark.heavy
 def test_the_rate_of_the_error_is_the_measured_one():
     """Mean of |xi eps'| over a quarter of a decade against the bound of eps, which oscillates between its waves."""
     xi = np.geomspace(1e-4, 1e4, 961)
@@ -174,13 +179,17 @@ def _offset_and_exact(k, z_s):
     return found, response_factor(k, 0.3) * ring_response(k, r, t)
 
 
-@pytest.mark.parametrize("k", [0.2, 0.4, 0.6])
+@pytest.mark.parametrize(
+    "k", [pytest.param(0.2, marks=pytest.mark.heavy), 0.4, pytest.param(0.6, marks=pytest.mark.heavy)]
+)
 def test_a_small_offset_gives_the_exact_kernel_of_the_power_law(k):
     """For larger k, 1 - D at distances of 1e9 offsets has lost its digits: D = 6e-8 for 0.8."""
     assert np.allclose(*_offset_and_exact(k, 1e-9), rtol=1e-8, atol=0.0)
 
 
-@pytest.mark.parametrize(("k", "z_s"), [(0.2, 1e-6), (0.4, 1e-6), (0.6, 1e-6), (0.8, 1e-5)])
+@pytest.mark.parametrize(
+    ("k", "z_s"), [*(pytest.param(k, 1e-6, marks=pytest.mark.heavy) for k in (0.2, 0.4, 0.6)), (0.8, 1e-5)]
+)
 def test_the_limit_of_small_offsets_is_the_exact_kernel_of_the_power_law(k, z_s):
     """The difference falls like z_s, and the limit from two offsets is exact to 1e-8."""
     found, exact = _offset_and_exact(k, z_s)
