@@ -41,7 +41,8 @@ class ArcLength:
     @classmethod
     def of(cls, problem: Problem) -> ArcLength:
         """Units of a problem, from the sizes of displacement and load in the two limits."""
-        return cls(1.0 + problem.mu, 2.0 * max(1.0, problem.mu ** ((2.0 - problem.n) / problem.n)))
+        mu = problem.largest_mu  # of a graded solid, where it is softest
+        return cls(1.0 + mu, 2.0 * max(1.0, mu ** ((2.0 - problem.n) / problem.n)))
 
     def parameter_unit(self, state: State) -> float:
         """Unit of the continuation parameter: 1 for log c, the distance to the singular gap for the central gap."""

@@ -16,6 +16,7 @@ from fscm._arc_length import parameter_of, rates_of
 from fscm._continuation import moved
 from fscm._defect import Defect, Errors, finer
 from fscm._equilibrium import Discretisation, Rates, State
+from fscm._events import MISSED_EXTREME
 from fscm.errors import NotConverged
 from fscm.punch import kinks_of
 from fscm.solution import Parts
@@ -155,7 +156,8 @@ class EventErrors:
     def at_extreme(self, functional: str, extremal: str) -> Parts:
         """Bounds on the error of a functional at the extreme of another, or at its own."""
         if functional == extremal:
-            return self.on_path(functional)
+            missed = MISSED_EXTREME * (1.0 + abs(getattr(self.state, functional)))
+            return self.on_path(functional).plus(Parts(rounding=missed))
         _, curvature, third = self.derivatives(extremal)
         if curvature == 0.0:
             raise NotConverged(f"the {extremal} has no curvature at its extreme: the event is about to vanish")

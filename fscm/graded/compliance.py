@@ -43,17 +43,46 @@ def _collocation(stages: int) -> tuple[Array, Array, Array]:
     return c, rule.weights, integrals @ np.linalg.inv(c[:, None] ** powers)
 
 
-def _system(E: Array, nu: Array) -> Array:
-    """Matrices of the equations for (U, W, T, S), shape (..., 4, 4)."""
-    A = np.zeros((*E.shape, 4, 4))
-    A[..., 0, 1] = 1.0
-    A[..., 0, 2] = 2.0 * (1.0 + nu) / E
-    A[..., 1, 0] = -nu / (1.0 - nu)
-    A[..., 1, 3] = (1.0 + nu) * (1.0 - 2.0 * nu) / (E * (1.0 - nu))
-    A[..., 2, 0] = E / (1.0 - nu**2)
-    A[..., 2, 3] = nu / (1.0 - nu)
-    A[..., 3, 2] = -1.0
-    return A
+def _stages(
+    E: Array, nu: Array, h: Array, displacement: Array, stress: Array
+) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+    """Both states at the end of a step, from those at its start, and the constants at its stages.
+
+    The rates of (U, S) follow from (W, T), and those of (W, T) from (U, S): one of the two is eliminated.
+
+    Parameters
+    ----------
+    E, nu : ndarray, shape (n, stages)
+    h : ndarray, shape (n,)
+        Lengths of the steps, negative upwards.
+    displacement, stress : ndarray, shape (n, 2, 2)
+        (U, W) and (T, S) of two solutions.
+    """
+    _, b, a = _collocation(_STAGES)
+    s, h = _STAGES, h[:, None]
+    shear, coupling, stiff = 2.0 * (1.0 + nu) / E, nu / (1.0 - nu), E / (1.0 - nu**2)
+    normal = (1.0 + nu) * (1.0 - 2.0 * nu) / (E * (1.0 - nu))
+    U, W, T, S = displacement[:, 0], displacement[:, 1], stress[:, 0], stress[:, 1]
+    # W and T at the stages by constant U and S, and by each rate of U and S.
+    fixed = h[..., None] * a
+    on_W = fixed @ (normal[..., None] * S[:, None] - coupling[..., None] * U[:, None])
+    on_T = fixed @ (stiff[..., None] * U[:, None] + coupling[..., None] * S[:, None])
+    twice = [fixed @ (x[..., None] * fixed) for x in (coupling, normal, stiff)]
+    matrix = np.empty((len(E), 2 * s, 2 * s))
+    matrix[:, :s, :s] = twice[0] - shear[..., None] * twice[2]
+    matrix[:, :s, s:] = -twice[1] - shear[..., None] * twice[0]
+    matrix[:, s:, :s] = twice[2]
+    matrix[:, s:, s:] = twice[0]
+    matrix[:, np.arange(2 * s), np.arange(2 * s)] += 1.0
+    on_W += W[:, None]
+    on_T += T[:, None]
+    rates = np.linalg.solve(matrix, np.concatenate([on_W + shear[..., None] * on_T, -on_T], axis=1))
+    dU, dS = rates[:, :s], rates[:, s:]
+    U_stage, S_stage = U[:, None] + fixed @ dU, S[:, None] + fixed @ dS
+    dW = normal[..., None] * S_stage - coupling[..., None] * U_stage
+    dT = stiff[..., None] * U_stage + coupling[..., None] * S_stage
+    U, W, T, S = (x + h * (b @ rate) for x, rate in ((U, dU), (W, dW), (T, dT), (S, dS)))
+    return (U, W), (T, S)
 
 
 def _homogeneous(E: Array, nu: Array) -> Array:
@@ -107,27 +136,22 @@ def compliance(solid: GradedHalfSpace, xi: Array, refinement: int = 1) -> Array:
     >>> compliance(solid, np.array([1e-6, 1e6])).round(5)
     array([1., 2.])
     """
-    c, b, a = _collocation(_STAGES)
-    s = _STAGES
+    c = _collocation(_STAGES)[0]
     steps = _steps(solid, xi, _STEP)
     z = steps[0] / xi
     Q = _homogeneous(solid.modulus(z), solid.poisson(z))
-    identity = np.eye(4 * s)
     for start, stop in pairwise(steps):
         active = np.flatnonzero(start > stop)
         for part in range(refinement):
             h = (stop - start)[active] / refinement
             x = start[active] + part * h
             z = ((x[:, None] + h[:, None] * c) / xi[active, None]).ravel()
-            A = _system(solid.modulus(z), solid.poisson(z)).reshape(len(active), s, 4, 4)
-            Y = np.zeros((len(active), 4, 2))
-            Y[:, :2] = Q[active]
-            Y[:, 2, 0] = Y[:, 3, 1] = 1.0
-            # K_i = A_i (Y + h sum_j a_ij K_j)
-            left = identity - (h[:, None, None, None, None] * a[None, :, None, :, None] * A[:, :, :, None, :]).reshape(
-                len(active), 4 * s, 4 * s
-            )
-            K = np.linalg.solve(left, (A @ Y[:, None]).reshape(len(active), 4 * s, 2)).reshape(len(active), s, 4, 2)
-            Y += h[:, None, None] * np.einsum("j,njkl->nkl", b, K)
-            Q[active] = Y[:, :2] @ np.linalg.inv(Y[:, 2:])
+            E, nu = (values.reshape(len(active), _STAGES) for values in (solid.modulus(z), solid.poisson(z)))
+            identity = np.broadcast_to(np.eye(2), (len(active), 2, 2))
+            (U, W), (T, S) = _stages(E, nu, h, Q[active], identity)
+            # (U, W) by the inverse of (T, S)
+            det = (T[:, 0] * S[:, 1] - T[:, 1] * S[:, 0])[:, None]
+            for row, Y in enumerate((U, W)):
+                Q[active, row, 0] = ((Y[:, :1] * S[:, 1:] - Y[:, 1:] * S[:, :1]) / det)[:, 0]
+                Q[active, row, 1] = ((Y[:, 1:] * T[:, :1] - Y[:, :1] * T[:, 1:]) / det)[:, 0]
     return -Q[:, 1, 1]

@@ -25,10 +25,10 @@ __all__ = ["Images", "images_of"]
 
 # Wave numbers of the fit: first and last, in units of the inverse of the deepest and of the shallowest change of the
 # constants, their number for each decade, and the larger one between these factors of the same.
-_LOW, _HIGH, _WAVES, _MANY, _AFTER, _BEFORE = 1e-10, 1e12, 10, 24, 0.01, 100.0
+_LOW, _HIGH, _WAVES, _MANY, _AFTER, _BEFORE = 1e-10, 1e13, 10, 24, 0.01, 100.0
 # Depths of the images: from _SHALLOW of the inverse of the last wave number to _DEEP of that of the first; so many for
 # each decade, and more from _FROM of the shallowest to _TO of the deepest change: fewer follow a coating to 1e-6 only.
-_SHALLOW, _DEEP, _SPARSE, _DENSE, _FROM, _TO = 1.0, 10.0, 7, 80, 0.3, 40.0
+_SHALLOW, _DEEP, _SPARSE, _DENSE, _FROM, _TO = 10.0, 10.0, 7, 80, 0.3, 40.0
 # A sharp interface at the depth h reflects like powers of xi h times exp(-2 xi h n): differences, of this step and up
 # to this order, of exponentials around 2 h n for n up to _REFLECTIONS, at most so many interfaces.  As columns of their
 # own they are not lost among the small singular values: the error of a layer falls from 1e-9 to 1e-10.

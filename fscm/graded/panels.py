@@ -10,6 +10,8 @@ a node is integrated on pieces that double in length from there on, and so are i
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -44,6 +46,12 @@ class Remainder:
     def __init__(self, matrix: Array, rate: Array, axis: Array, axis_rate: Array) -> None:
         self.matrix, self.rate, self.axis, self.axis_rate = matrix, rate, axis, axis_rate
 
+    def moved(self, step: float) -> Remainder:
+        """The same at a scale whose logarithm is larger by a small step."""
+        if step == 0.0:
+            return self
+        return Remainder(self.matrix + step * self.rate, self.rate, self.axis + step * self.axis_rate, self.axis_rate)
+
 
 def _pieces(
     pair: NDArray[np.intp], sign: Array, near: Array, extent: Array, xi: Array, h: Array, first: Array
@@ -75,6 +83,8 @@ def _near_rows(
     left, right : ndarray
         Distance of the target from the start of the panel (positive behind it), and of the end from the target.
     """
+    if not len(r):
+        return np.zeros((0, order)), np.zeros((0, order))
     index = np.arange(len(r))
     first = np.minimum(_FIRST * length, np.maximum(_MIRROR * r, _SHORT * length))
     parts: list[Pieces] = []
@@ -107,7 +117,17 @@ def _near_rows(
     return rows[0], rows[1]
 
 
-def remainder(table: ImageTable, length: float, mesh: PanelMesh, c: float) -> Remainder:
+def _kept(old: PanelMesh, mesh: PanelMesh) -> NDArray[np.intp]:
+    """Place in the old mesh of each panel, shape (m,); -1 for a new one."""
+    if (old.order, old.origin) != (mesh.order, mesh.origin):
+        return np.full(len(mesh.lengths), -1)
+    where = {ends: i for i, ends in enumerate(pairwise(old.offsets.tolist()))}
+    return np.array([where.get(ends, -1) for ends in pairwise(mesh.offsets.tolist())])
+
+
+def remainder(
+    table: ImageTable, length: float, mesh: PanelMesh, c: float, previous: tuple[PanelMesh, Remainder] | None = None
+) -> Remainder:
     """R(c) on a mesh.
 
     Parameters
@@ -118,9 +138,16 @@ def remainder(table: ImageTable, length: float, mesh: PanelMesh, c: float) -> Re
     mesh : PanelMesh
     c : float
         Radius of s = 1.
+    previous : tuple, optional
+        R(c) on another mesh: what lies between panels of both is not computed again.
     """
     q, N, s, places, h = mesh.order, mesh.size, mesh.nodes, mesh.places, mesh.lengths
+    match = np.full(len(h), -1) if previous is None else _kept(previous[0], mesh)
+    old = np.repeat(match >= 0, q)
     i, j = np.triu_indices(N)
+    if previous is not None:
+        new = ~(old[i] & old[j])
+        i, j = i[new], j[new]
     both = table.of(c * (s[i] + s[j]), c * np.abs(places[i] - places[j]))
     weights = (s * mesh.weights) / (s[:, None] + s)
     on_axis = table.of(c * s, c * s)
@@ -130,17 +157,22 @@ def remainder(table: ImageTable, length: float, mesh: PanelMesh, c: float) -> Re
     inside = (left > 0.0) & (right > 0.0)
     long = c * h > _SHORT * length
     near = inside | ((np.maximum(-left, -right) < h) & long)
+    near[:N] &= ~(old[:, None] & (match >= 0))
     node, panel = np.nonzero(near)
     radius = np.append(s, 0.0)[node]
     rows = _near_rows(table, c, length / c, radius, left[node, panel], right[node, panel], h[panel], q)
+    known = np.flatnonzero(old)
+    kept = (match[match >= 0, None] * q + np.arange(q)).ravel()
     matrices, axes = [], []
-    for values, on, row in zip(both, on_axis, rows, strict=True):
-        matrix = np.empty((N + 1, N))
+    for values, on, row, name in zip(both, on_axis, rows, ("matrix", "rate"), strict=True):
+        matrix = np.zeros((N + 1, N))
         matrix[i, j] = values
         matrix[j, i] = values
         matrix[:N] *= weights
         matrix[N] = on * mesh.weights
         matrix.reshape(N + 1, len(h), q)[node, panel] = row
+        if previous is not None:
+            matrix[np.ix_(known, known)] = getattr(previous[1], name)[np.ix_(kept, kept)]
         # In Fortran order, like the matrix that it is taken from.
         matrices.append(np.asfortranarray(matrix[:N]))
         axes.append(matrix[N].copy())

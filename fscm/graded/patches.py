@@ -35,6 +35,8 @@ _ERROR, _PER_STRENGTH = 1e-11, 2e-15
 _MOST = 200
 # Number of those that are joined.
 _JOINED = 0
+# Points whose polynomials are evaluated together: they take 1 MB.
+_AT_A_TIME = 2048
 
 
 class ImageTable:
@@ -110,25 +112,29 @@ class ImageTable:
         keys = keys[order]
         starts = np.flatnonzero(np.append(True, keys[1:] != keys[:-1])) if len(keys) else np.empty(0, int)
         ends = np.append(starts[1:], len(keys))
-        value, rate = np.empty(len(x)), np.empty(len(x))
-        for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
-            part = slice(start, end)
-            X, Y = _polynomials(x[part]), _polynomials(y[part])
-            c = self._patch(int(keys[start]))
-            rows = np.tensordot(c, X, axes=(0, 0))
-            value[part] = np.einsum("jn,jn->n", rows[0], Y)
-            rate[part] = np.einsum("jn,jn->n", rows[1], Y)
+        sums, count = np.empty((2, len(x))), _DEGREE + 1
+        work = np.empty((4, count, _AT_A_TIME))
+        for first in range(0, len(x), _AT_A_TIME):
+            last = min(first + _AT_A_TIME, len(x))
+            X, Y, rows = work[0, :, : last - first], work[1, :, : last - first], work[2:, :, : last - first]
+            _polynomials(x[first:last], X)
+            _polynomials(y[first:last], Y)
+            patches = np.searchsorted(ends, first, side="right"), np.searchsorted(starts, last)
+            for one in range(int(patches[0]), int(patches[1])):
+                part = slice(max(int(starts[one]), first) - first, min(int(ends[one]), last) - first)
+                c = self._patch(int(keys[starts[one]]))
+                rows[..., part] = (c.reshape(count, -1).T @ X[:, part]).reshape(2, count, -1)
+            rows *= Y
+            rows.sum(axis=1, out=sums[:, first:last])
         found = np.empty((2, len(x)))
-        found[0, order], found[1, order] = value, rate
+        found[:, order] = sums
         return found[0], found[1]
 
 
-def _polynomials(x: Array) -> Array:
-    """Chebyshev polynomials up to _DEGREE, shape (_DEGREE + 1, n)."""
-    out = np.empty((_DEGREE + 1, len(x)))
+def _polynomials(x: Array, out: Array) -> None:
+    """Chebyshev polynomials up to _DEGREE, in `out`, shape (_DEGREE + 1, n)."""
     out[0], out[1] = 1.0, x
     twice = 2.0 * x
     for m in range(1, _DEGREE):
         np.multiply(twice, out[m], out=out[m + 1])
         out[m + 1] -= out[m - 1]
-    return out

@@ -27,6 +27,9 @@ _POINTS = 12
 # Decades beyond the waves of the fit.
 _BEYOND = 4
 _BESSEL = 2.0 / math.pi
+# Largest change of log c for which the response is moved by its rate: that changes by as much, less than the table's
+# error.
+_SAME = 1e-12
 
 
 class GradedResponse:
@@ -42,6 +45,7 @@ class GradedResponse:
         self.kernel = GradedKernel(solid, _LONGEST)
         self._table = ImageTable(self.kernel.images, solid.length)
         self._length = min([solid.length, *solid.interfaces])
+        self._last: tuple[float, PanelMesh, Remainder] | None = None
 
     @property
     def softest(self) -> float:
@@ -49,8 +53,13 @@ class GradedResponse:
         return max(1.0, float(np.max(self.kernel.images.values)))
 
     def remainder(self, mesh: PanelMesh, c: float) -> Remainder:
-        """R(c) of `fscm.graded.panels`."""
-        return remainder(self._table, self._length, mesh, c)
+        """R(c) of `fscm.graded.panels`; a mesh that is refined at one c keeps what it has."""
+        last, previous = self._last, None
+        if last is not None and abs(math.log(c / last[0])) <= _SAME:
+            previous = last[1], last[2].moved(math.log(c / last[0]))
+        found = remainder(self._table, self._length, mesh, c, previous)
+        self._last = c, mesh, found
+        return found
 
     def far(self, radius: float) -> float:
         """Response at the center to a distant ring, in units of that of a homogeneous solid."""

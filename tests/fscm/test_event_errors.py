@@ -6,10 +6,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fscm import _bounds
+from fscm import Analysis, Problem, _bounds, solve
 from fscm._arc_length import rates_of
 from fscm._bounds import EventErrors, bounds, energy_of_jump, root_shift
 from fscm._defect import Errors
+from fscm._events import MISSED_EXTREME
+from fscm._meshes import Mesh, Meshes
 from fscm.solution import Parts
 from tests.fscm.equilibria_on_finer_meshes import pair
 
@@ -18,6 +20,21 @@ RATE = 2e-3
 #: Bound over error: those of single panels cancel.  Measured 32 (load at jump-out).
 LARGEST = 100.0
 ERRORS = Errors(np.array([1.0, -2.0, 0.5]), np.array([0.1, -0.3]), np.array([-0.01, 0.02]), 0.004, 0.0005)
+
+
+class RoundedFlat:
+    """(r - a)^2 / 2 outside of a flat end of the radius a."""
+
+    growth = 2.0
+
+    def __init__(self, flat):
+        self.flat, self.kinks = flat, (flat,)
+
+    def height(self, r):
+        return 0.5 * np.maximum(np.asarray(r) - self.flat, 0.0) ** 2
+
+    def slope(self, r):
+        return np.maximum(np.asarray(r) - self.flat, 0.0)
 
 
 def _exactly(parts):
@@ -99,3 +116,23 @@ def test_the_energy_of_a_jump_has_the_errors_of_both_ends(monkeypatch):
     assert called == [(landing, "energy", "displacement")]
     # e + 0.7 (10 e) at the fold, and e at the landing: 9 times the size of `ERRORS`.
     assert list(found.values()) == _exactly(bounds(ERRORS, 9.0))
+
+
+def test_an_extreme_of_large_curvature_is_not_missed():
+    """Under a flat end the load changes within a gap of 1e-5: a step of 1e-8 still left 4e-12 of 8.7."""
+    state = Analysis(Problem(2, 0, 3.0, punch=RoundedFlat(5.0))).event("pull_off").value
+    errors = EventErrors(state)
+    rate, curvature, _ = errors.derivatives("load")
+    assert curvature > 1e5
+    assert 0.5 * rate**2 / curvature <= MISSED_EXTREME * (1.0 + abs(state.load))
+    assert errors.at_extreme("load", "load").rounding >= MISSED_EXTREME * (1.0 + abs(state.load))
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize(("k", "flat", "mu"), [(0, 5.0, 3.0), (0, 1.5, 1.0), (0.3, 1.5, 0.3), (0.3, 0.3, 3.0)])
+def test_the_bound_of_a_flat_end_covers_the_distance_to_a_finer_mesh(k, flat, mu):
+    problem = Problem(2, k, mu, punch=RoundedFlat(flat))
+    found = solve(problem, "pull_off_force")
+    fine = solve(problem, "pull_off_force", Meshes(value=Mesh(18, 1e-10)))
+    assert abs(found.value - fine.value) <= found.u_num + fine.u_num
+    assert fine.u_num < 2e-12

@@ -170,15 +170,38 @@ def test_homogeneous_limits():
     assert np.allclose(GradedKernel(thin, 1e3).response(r, t), 0.25 * plain, rtol=1e-9, atol=0.0)
 
 
+def _offset_and_exact(k, z_s):
+    """(2 / E*(0)) G of a small offset against (2 b / E*) G_k, at radii up to a tenth of the longest distance."""
+    r, t = np.random.default_rng(3).uniform(0.1, 10.0, (2, 50))
+    apart = np.abs(r - t) > 0.05  # the offset changes the kernel by its ratio to the distance
+    r, t = r[apart], t[apart]
+    found = GradedKernel(OffsetPowerLaw(1.0, 1.0, k, z_s, 0.3), 1e2).response(r, t) * z_s**-k
+    return found, response_factor(k, 0.3) * ring_response(k, r, t)
+
+
 @pytest.mark.parametrize(
     "k", [pytest.param(0.2, marks=pytest.mark.heavy), 0.4, pytest.param(0.6, marks=pytest.mark.heavy)]
 )
 def test_a_small_offset_gives_the_exact_kernel_of_the_power_law(k):
-    """At radii up to a tenth of the longest distance of the images."""
-    z_s = 1e-9
-    r, t = np.random.default_rng(3).uniform(0.1, 10.0, (2, 50))
-    # (2 / E*(0)) G against (2 b / E*) G_k
-    found = GradedKernel(OffsetPowerLaw(1.0, 1.0, k, z_s, 0.3), 1e2).response(r, t) * z_s**-k
-    exact = response_factor(k, 0.3) * ring_response(k, r, t)
-    apart = np.abs(r - t) > 0.05  # the offset changes the kernel by its ratio to the distance
-    assert np.allclose(found[apart], exact[apart], rtol=1e-8, atol=0.0)
+    """For larger k, 1 - D at distances of 1e9 offsets has lost its digits: D = 6e-8 for 0.8."""
+    assert np.allclose(*_offset_and_exact(k, 1e-9), rtol=1e-8, atol=0.0)
+
+
+@pytest.mark.parametrize(
+    ("k", "z_s"), [*(pytest.param(k, 1e-6, marks=pytest.mark.heavy) for k in (0.2, 0.4, 0.6)), (0.8, 1e-5)]
+)
+def test_the_limit_of_small_offsets_is_the_exact_kernel_of_the_power_law(k, z_s):
+    """The difference falls like z_s, and the limit from two offsets is exact to 1e-8."""
+    found, exact = _offset_and_exact(k, z_s)
+    half, _ = _offset_and_exact(k, 0.5 * z_s)
+    first, second = (float(np.max(np.abs(x / exact - 1.0))) for x in (found, half))
+    assert second > 5e-8 * k
+    assert first / second == pytest.approx(2.0, abs=5e-2)
+    assert np.allclose(2.0 * half - found, exact, rtol=1e-8, atol=0.0)
+
+
+def test_nothing_is_left_of_the_images_beyond_their_last_wave_number():
+    """Under a layer so thick that its radii are there; strengths that cancelled below left 6e-9 of the kernel."""
+    images = GradedKernel(Coating(1.0, 4.0, 1e12, 0.0, 0.3)).images
+    xi = images.waves[-1] * np.geomspace(1.0, 1e4, 200)
+    assert np.max(np.abs(images.at(xi) - 1.0)) < 1e-11

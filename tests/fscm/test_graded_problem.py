@@ -1,13 +1,20 @@
 """Events on graded solids: limits, finite elements, exact rates, bounds, bad input."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from fscm import NotConverged, PowerSum, Problem, solve, solve_together
 from fscm._arc_length import parameter_of, rates_of
 from fscm._continuation import moved
+from fscm._meshes import Meshes
+from fscm._panels import PanelMesh
+from fscm._pull_off_path import pull_off_path
 from fscm.analysis import Analysis
 from fscm.graded import Coating, Exponential, GradedProblem, OffsetPowerLaw, TabulatedModulus, graded_problem
+from fscm.graded.panels import remainder
+from fscm.graded.problem import response_of
 from fscm.stability import margins
 
 SOFT_BELOW = Coating(5.0, 1.0, 0.7, 0.1, 0.3)
@@ -112,6 +119,35 @@ def test_the_error_of_the_kernel_is_a_part_of_the_bound():
     parts = solve(GradedProblem(2, 1.0, SOFT_BELOW), "pull_off_force").parts
     assert 0.0 < parts["kernel"] < 1e-7
     assert solve(Problem(2, 0, 1.0), "pull_off_force").parts["kernel"] == 0.0
+
+
+def test_a_refined_mesh_keeps_the_response_between_its_old_panels():
+    ends = [-1.0, -0.75, -0.5, -0.1, 0.0, 0.25, 1.0, 3.0, 9.0]
+    coarse, fine = (PanelMesh(np.array(x), 8, 1.0) for x in (ends, sorted({*ends, -0.3, 0.1} - {3.0})))
+    response = response_of(SOFT_BELOW)
+    for c in (1.0, 20.0):
+        table, length = response._table, 0.6
+        whole = remainder(table, length, fine, c)
+        points = table.of
+        counted = []
+        spy = SimpleNamespace(of=lambda A, B, seen=counted, of=points: (seen.append(A.size), of(A, B))[1])
+        known = remainder(spy, length, fine, c, (coarse, remainder(table, length, coarse, c)))
+        assert counted[0] < fine.size * (fine.size + 1) // 2
+        for name in ("matrix", "rate", "axis", "axis_rate"):
+            assert np.array_equal(getattr(whole, name), getattr(known, name))
+        step = 1e-4
+        moved, there = whole.moved(step), remainder(table, length, fine, c * np.exp(step))
+        # The second derivative times half the square of the step.
+        assert np.allclose(moved.matrix, there.matrix, rtol=0.0, atol=1e-7)
+        same = remainder(table, length, fine, c, (fine, moved))
+        assert np.array_equal(same.matrix, moved.matrix)
+
+
+def test_a_solid_that_is_soft_below_needs_no_more_points_of_the_path_than_its_softest_part():
+    """The units of the path are those of the largest Tabor number: with that of the surface it had 61 points."""
+    below = GradedProblem(1, 3.0, Coating(5.0, 1.0, 0.7, 0.1, 0.3))
+    points = pull_off_path(below, Meshes())
+    assert len(points) < 40
 
 
 def test_physical_units_scale_out():

@@ -1,0 +1,95 @@
+"""Stated uncertainty of events on random graded solids, against finer meshes and another fit of the response.
+
+The reference has panels of order 16 (tolerance 1e-9 against order 12, 1e-7), ends ten times farther out, and has half
+as many images and wave numbers again, and more nodes on the pieces of the response.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from fscm import NoSuchEvent, solve_together
+from fscm._meshes import Mesh, Meshes
+from fscm.graded import Coating, Exponential, GradedProblem, OffsetPowerLaw, TabulatedModulus, images, panels, patches
+from fscm.graded import problem as graded_problem
+
+COUNT, LIGHT = 40, 2
+QUANTITIES = ("pull_off_force", "jump_in_displacement", "jump_out_displacement")
+FINE = Meshes(value=Mesh(16, 1e-9), end_height=1e7)
+#: Rounding of the reference, relative: the scatter between orders 16 to 24 (test_honesty.py).
+ROUNDING = 1e-14
+
+
+def _between(rng, low, high):
+    return float(math.exp(rng.uniform(math.log(low), math.log(high))))
+
+
+def _solid(rng):
+    """One of five kinds; moduli within a factor of 10 of each other, lengths about those of the punch."""
+    kind, nu, length = int(rng.integers(5)), float(rng.uniform(0.0, 0.5)), _between(rng, 0.2, 5.0)
+    ratio = _between(rng, 0.1, 10.0)
+    if kind == 0:
+        return OffsetPowerLaw(1.0, 1.0, float(rng.uniform(0.0, 0.8)), length, nu)
+    if kind == 1:
+        return Exponential(1.0, ratio, length, nu)
+    if kind == 2:
+        return Coating(1.0, ratio, length, length * float(rng.uniform(0.1, 0.5)), nu, float(rng.uniform(0.0, 0.5)))
+    if kind == 3:
+        return Coating(1.0, ratio, length, 0.0, nu, float(rng.uniform(0.0, 0.5)))
+    depths = np.concatenate([[0.0], np.cumsum(length * rng.uniform(0.3, 1.5, 3))])
+    return TabulatedModulus(depths.tolist(), [1.0, *(_between(rng, 0.3, 3.0) for _ in range(3))], nu)
+
+
+def problems():
+    """The random problems, the same in every run."""
+    rng = np.random.default_rng(20261122)
+    found = []
+    for _ in range(COUNT):
+        n = float(rng.choice([1.0, 1.5, 2.0, 3.0]))
+        found.append(GradedProblem(n, _between(rng, 0.1, 3.0), _solid(rng)))
+    return found
+
+
+@pytest.fixture
+def finer(monkeypatch):
+    """A function that makes the responses of solids finer from then on."""
+
+    def forget():
+        images.images_of.cache_clear()
+        graded_problem.response_of.cache_clear()
+
+    def make():
+        for module, name, factor in (
+            (images, "_WAVES", 1.5),
+            (images, "_MANY", 1.5),
+            (images, "_SPARSE", 1.5),
+            (images, "_DENSE", 1.25),
+            (panels, "_AWAY", 1.4),
+            (panels, "_AT_KINK", 1.5),
+        ):
+            monkeypatch.setattr(module, name, round(factor * getattr(module, name)))
+        # Smaller patches; those of short distances begin at the same one.
+        for name, value in (("_SIZE", math.log(3.0)), ("_SHORT", -9), ("_APART", 3)):
+            monkeypatch.setattr(patches, name, value)
+        forget()
+
+    yield make
+    monkeypatch.undo()
+    forget()
+
+
+@pytest.mark.parametrize("place", [i if i < LIGHT else pytest.param(i, marks=pytest.mark.heavy) for i in range(COUNT)])
+def test_events_on_random_graded_solids_are_honest(place, finer):
+    problem = problems()[place]
+    # The light tests have no jumps, which take a whole path.
+    names = QUANTITIES[:1] if place < LIGHT else QUANTITIES
+    found = solve_together(problem, names)
+    finer()
+    exact = solve_together(problem, names, FINE)
+    for name in names:
+        assert isinstance(found[name], NoSuchEvent) == isinstance(exact[name], NoSuchEvent), name
+        if not isinstance(exact[name], NoSuchEvent):
+            error = abs(found[name].value - exact[name].value)
+            assert error <= found[name].u_num + ROUNDING * abs(exact[name].value), (problem, name, error)
+            assert found[name].u_num < 1e-5 * (1.0 + abs(exact[name].value)), (problem, name)
