@@ -242,7 +242,7 @@ def test_a_release_is_refused_while_something_does_not_agree():
     )
 
 
-def test_the_recipe_of_conda_has_the_requirements():
+def test_the_recipe_of_conda_has_the_requirements_and_the_names_of_the_project():
     text = (ROOT / ".github" / "packaging" / "conda" / "recipe.yaml").read_text(encoding="utf-8")
     recipe = yaml.safe_load(text)
     names = {"matplotlib": "matplotlib-base"}
@@ -250,6 +250,12 @@ def test_the_recipe_of_conda_has_the_requirements():
     expected = {f"{names.get(name, name)} >={version}" for name, _, version in needed}
     assert set(recipe["requirements"]["run"]) == expected | {f"python {PROJECT['requires-python']}"}
     assert recipe["context"]["version"] == PROJECT["version"]
+    assert recipe["package"]["name"] == PROJECT["name"]
+    about = recipe["about"]
+    assert (about["summary"], about["license"]) == (PROJECT["description"], PROJECT["license"])
+    assert about["homepage"] == PROJECT["urls"]["Homepage"]
+    (setuptools,) = FOR_BUILD
+    assert recipe["requirements"]["host"] == ["python 3.11.*", "pip", setuptools.replace(">=", " >=")]
     (entry,) = recipe["build"]["python"]["entry_points"]
     assert entry == f"fscm-bench = {PROJECT['scripts']['fscm-bench']}"
 
