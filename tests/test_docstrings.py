@@ -18,7 +18,21 @@ MODULES = sorted(
 )
 
 
-@pytest.mark.parametrize("name", MODULES)
+#: Modules whose examples solve problems of other solids than power laws or by the finite elements, a second or more;
+#: the functions that users call are not among them.
+LONG = {
+    "comparisons.graded_agreement.solving",
+    "comparisons.paper.studies.graded_routes",
+    "comparisons.paper.studies.layered_adhesion",
+    "comparisons.paper.studies.surface_modulus",
+    "comparisons.problem_file.equivalent_power_law",
+    "fem_reference.verification.element_checks",
+}
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.heavy) if name in LONG else name for name in MODULES]
+)
 def test_examples(name: str) -> None:
     module = importlib.import_module(name)
     failed, _ = doctest.testmod(module, optionflags=OPTIONS)
@@ -26,6 +40,7 @@ def test_examples(name: str) -> None:
 
 
 def test_there_are_examples() -> None:
+    assert set(MODULES) > LONG
     finder = doctest.DocTestFinder(exclude_empty=True)
     examples = sum(len(t.examples) for n in MODULES for t in finder.find(importlib.import_module(n)))
     assert examples > 60

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NoReturn
 
 from rich.console import Console
 
 from comparisons.console.exit_status import FAILED, FAILS, INCONCLUSIVE, OK, WRONG_INPUT, writing_stdout
+from comparisons.console.folding import hanging
 from comparisons.runs.cases import Case
 from comparisons.runs.workers import usable_cores
 
@@ -28,6 +30,7 @@ __all__ = [
     "add_retry_failed",
     "add_verbose",
     "case_of",
+    "for_terminal",
     "number",
     "output",
 ]
@@ -52,6 +55,14 @@ class _Output(Console):
 def output() -> Console:
     """Return the console for results: stdout with the columns of the terminal, or 80 where it is none."""
     return _Output(width=None if sys.stdout.isatty() else _WIDTH, highlight=False)
+
+
+def for_terminal(lines: Iterable[str]) -> str:
+    """Return lines as a text; on a terminal they are folded between words, in a file they are whole."""
+    if sys.stdout.isatty():
+        width = output().width
+        lines = [part for line in lines for part in hanging(line, width)]
+    return "\n".join(lines) + "\n"
 
 
 def number(text: str) -> float:

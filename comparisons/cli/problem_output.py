@@ -10,7 +10,7 @@ import json
 
 import pandas as pd
 
-from comparisons.cli.options import FAILED, OK
+from comparisons.cli.options import FAILED, OK, for_terminal
 from comparisons.console.progress import waiting
 from comparisons.model import Model
 from comparisons.problem_file.description import ProblemFile
@@ -45,7 +45,8 @@ def solve_file(args: argparse.Namespace) -> int:
     model = model_for(problem, args.model)
     with waiting(f"{args.model}, {problem.label}"):
         found = evaluate_problem(problem, model, args.quantity)
-    print(_FORMATS[args.format](found), end="")
+    shown = _FORMATS[args.format](found)
+    print(for_terminal(shown.splitlines()) if args.format == "text" else shown, end="")
     return FAILED if found.status == "failed" else OK
 
 

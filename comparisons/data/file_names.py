@@ -18,6 +18,7 @@ __all__ = [
     "GATES",
     "GATES_TEXT",
     "GRID_TEXT",
+    "INPUTS",
     "JOURNAL",
     "JUNIT",
     "KAPPA",
@@ -53,6 +54,9 @@ BENCH, MEASUREMENTS, BENCH_SUMMARY = "bench.json", "bench.jsonl", "bench.txt"
 
 #: Copies of the gates and of the grids of the run, whose own files may change.
 GATES_TEXT, GRID_TEXT = "gates.toml", "grid.toml"
+
+#: Folder of the copies of a problem file and of its tables.
+INPUTS = "inputs"
 
 #: Tables: each is written as CSV and as Parquet.
 RESULTS, CURVES, KAPPA, LARGEST_KAPPA, AGREEMENT = "results", "curves", "kappa", "largest_kappa", "agreement"

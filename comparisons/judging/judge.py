@@ -20,7 +20,7 @@ from comparisons.judging.stored_results import StoredResults, UnusableResult, st
 from comparisons.numerics.number_text import exact
 from comparisons.runs.cases import Case, Grid
 from comparisons.runs.rows import Key
-from comparisons.runs.tasks import case_for, plan
+from comparisons.runs.tasks import Task, case_for
 
 __all__ = ["NO_EVENT", "OUTSIDE", "Judged", "judge"]
 
@@ -118,10 +118,16 @@ def judge(
 
 
 def _planned(gates: Collection[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> set[Key]:
-    """Return the keys of the declared cases, of the quantities of some gates."""
+    """Return the keys of the declared cases, of the candidates and quantities of some gates."""
+    candidates = {gate.candidate for gate in gates}
     quantities = {gate.quantity for gate in gates}
-    narrowed = [replace(grid, quantities=tuple(q for q in grid.quantities if q in quantities)) for grid in grids]
-    return {task.key for task in plan(narrowed, None if models is None else list(models))}
+    return {
+        Task(model, quantity, case).key
+        for grid in grids
+        for model in candidates.intersection((grid.reference, *(models or grid.models)))
+        for quantity in quantities.intersection(grid.quantities)
+        for case in (case_for(model, declared) for declared in grid.cases)
+    }
 
 
 def _judge_gate(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Collection, Hashable
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
@@ -49,10 +49,13 @@ class StoredResults:
     def __init__(self, table: pd.DataFrame | None, needed: set[str], names: Collection[tuple[str, str]]) -> None:
         table = pd.DataFrame(columns=sorted(needed)) if table is None else table
         self.missing_columns = sorted(needed - set(table.columns))
-        self.rows: dict[Key, list[dict[Hashable, Any]]] = defaultdict(list)
+        self.rows: dict[Key, list[dict[str, Any]]] = defaultdict(list)
         if self.missing_columns or not names:
             return
-        for row in table.loc[_of_names(table, names), sorted(needed)].to_dict("records"):
+        places = np.flatnonzero(_of_names(table, names))
+        columns = [table[name].iloc[places].tolist() for name in sorted(needed)]
+        for values in zip(*columns, strict=True):
+            row = dict(zip(sorted(needed), values, strict=True))
             nu = None if row["nu"] is None or pd.isna(row["nu"]) else float(row["nu"])
             self.rows[row["model"], row["quantity"], row["n"], row["k"], row["mu"], nu].append(row)
 
@@ -91,7 +94,7 @@ class StoredResults:
             raise UnusableResult(Verdict.ERROR, f"{key[0]} states the uncertainty {u:g} of its curve")
         return table["x"].to_numpy(float), table["y"].to_numpy(float), u
 
-    def _usable(self, key: Key) -> list[dict[Hashable, Any]]:
+    def _usable(self, key: Key) -> list[dict[str, Any]]:
         rows = self.rows.get(key, [])
         if not rows:
             raise UnusableResult(Verdict.ERROR, f"{key[0]} has no row")

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 
-from comparisons.output.latex_text import TOKENS, headed
+from comparisons.output.latex_text import TOKENS, breakable, headed
 
 __all__ = ["NUMBER", "Column", "Size", "fitted"]
 
@@ -101,7 +101,7 @@ class Column:
         """The heading, in lines that are no wider than the column needs to be."""
         lines = [headed(line) for line in self._head_lines()]
         if len(lines) == 1:
-            return f"{{{lines[0]}}}" if self.number else lines[0]
+            return f"{{{lines[0]}}}" if self.number else breakable(lines[0]) if self.width else lines[0]
         stacked = r" \\ ".join(lines)
         return rf"{{\shortstack{{{stacked}}}}}" if self.number else rf"\shortstack[l]{{{stacked}}}"
 

@@ -63,7 +63,7 @@ def renew(folder: Path, target: Path = PAPER_BASELINE) -> list[Path]:
 def changes(stored: pd.DataFrame, computed: pd.DataFrame) -> list[str]:
     """Return the differences between two tables of a figure, one sentence a column.
 
-    Uncertainties (columns named u or u_...) are not compared: they are bounds, and rounding changes their digits.
+    Bounds (columns named u, u_... or ..._u_num) are not compared: rounding changes their digits.
 
     Examples
     --------
@@ -74,7 +74,7 @@ def changes(stored: pd.DataFrame, computed: pd.DataFrame) -> list[str]:
     if list(stored.columns) != list(computed.columns) or len(stored) != len(computed):
         return [f"{len(stored)} rows of {list(stored.columns)}, now {len(computed)} of {list(computed.columns)}"]
     found = []
-    for name in (name for name in stored.columns if not (name == "u" or name.startswith("u_"))):
+    for name in (name for name in stored.columns if not _is_bound(name)):
         before, now = stored[name], computed[name]
         if _is_real(before) and _is_real(now):
             apart = (now - before).abs()
@@ -85,6 +85,10 @@ def changes(stored: pd.DataFrame, computed: pd.DataFrame) -> list[str]:
         elif not np.array_equal(before.fillna("").astype(str), now.fillna("").astype(str)):
             found.append(f"{name}: other texts")
     return found
+
+
+def _is_bound(name: str) -> bool:
+    return name == "u" or name.startswith("u_") or name.endswith("_u_num")
 
 
 def _is_real(column: pd.Series) -> bool:

@@ -26,7 +26,7 @@ from comparisons.registry import ExternalIdentity
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.record import check_files, read_record, warn_of_other_code, write_record
+from comparisons.runs.record import PROBLEM_SWEEP, check_files, read_record, warn_of_other_code, write_record
 from comparisons.runs.rows import Key
 from comparisons.runs.tables import read_table
 from comparisons.runs.tasks import plan
@@ -128,7 +128,7 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
     name, arguments = record["command_name"], record["arguments"]
     if name == "paper":
         raise ValueError(f"{folder} holds figures of the paper, which no gate judges: give the folder of a run")
-    if name == "problem-sweep":
+    if name == PROBLEM_SWEEP:
         raise ValueError(
             f"{folder} holds values of a problem file in SI, which no gate judges: give the folder of a run"
         )

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,21 +14,18 @@ from comparisons.pipeline.finished_run import FinishedRun, write_run
 from comparisons.pipeline.inputs import RunInputs, load_cases
 from comparisons.pipeline.record_content import now
 from comparisons.pipeline.results import Results
+from comparisons.pipeline.shard_folders import checked_records, take_rows
 from comparisons.registry import ExternalIdentity
 from comparisons.runs.atomic_files import atomic, prepare_folder
 from comparisons.runs.computation import Completed
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.journal import alone_in
-from comparisons.runs.record import read_record
 from comparisons.runs.reevaluation import same
 from comparisons.runs.row_journal import RowJournal
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import Task
 
 __all__ = ["merge"]
-
-#: Entries of the records that all shards of a sweep have in common.
-_COMMON = {"cases_sha256": "cases", "models": "models or versions of them"}
 
 
 def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
@@ -55,12 +53,8 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
         If tasks of the sweep are in none of the folders; the others are then merged.
     """
     started = now()
-    records = {folder: _record(folder) for folder in dict.fromkeys(folders)}
-    if any(folder.resolve() == out.resolve() for folder in records):
-        raise ValueError(f"{out} is one of the folders that are merged; choose another folder with --out")
+    records = checked_records(folders, out, "sweep", _common)
     first = next(iter(records))
-    for folder in records:
-        _require_same_sweep(first, records[first], folder, records[folder])
     inputs = _inputs(first, records[first])
     wanted = {task.key: task for task in inputs.plan()}
     target = RunFolder(prepare_folder(out))
@@ -68,10 +62,10 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
         raise ValueError(f"{out} has other cases than {first}; choose another folder with --out")
     with alone_in(out):
         journal = RowJournal(out)
+        usable = partial(_usable, wanted=wanted)
         for folder in records:
-            with alone_in(folder):
-                _take(RowJournal(folder), folder, journal, wanted)
-        rows = _usable(journal, wanted)
+            take_rows(folder, RowJournal, journal, usable, same, _place)
+        rows = usable(journal.items)
     with atomic(target.grid_text) as file:
         file.write(inputs.cases.text.encode())
     if missing := len(wanted) - len(rows):
@@ -84,22 +78,13 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
     return write_run(target, inputs, Results(completed, [], {}), arguments, started)
 
 
-def _record(folder: Path) -> dict[str, Any]:
-    files = RunFolder(folder)
-    record = read_record(files.record)
-    if record["command_name"] != "sweep":
-        raise ValueError(f"{folder} is the folder of fscm-bench {record['command_name']}; only sweeps are merged")
-    if not files.journal.exists():
-        raise ValueError(f"{files.journal} does not exist: only folders with their journal are merged")
-    return record
-
-
-def _require_same_sweep(first: Path, expected: dict[str, Any], folder: Path, record: dict[str, Any]) -> None:
-    different = [words for name, words in _COMMON.items() if record[name] != expected[name]]
-    if record["arguments"]["model"] != expected["arguments"]["model"]:
-        different.append("option --model")
-    if different:
-        raise ValueError(f"{folder} and {first} are not shards of one sweep: they differ in their {different[0]}")
+def _common(record: Mapping[str, Any]) -> dict[str, Any]:
+    """Entries of the records that all shards of a sweep have in common."""
+    return {
+        "cases": record["cases_sha256"],
+        "models or versions of them": record["models"],
+        "option --model": record["arguments"]["model"],
+    }
 
 
 def _inputs(folder: Path, record: dict[str, Any]) -> RunInputs:
@@ -118,31 +103,18 @@ def _inputs(folder: Path, record: dict[str, Any]) -> RunInputs:
     return RunInputs(cases, None, models, external, domains)
 
 
-def _usable(journal: RowJournal, wanted: dict[Any, Task]) -> list[Row]:
-    """Return the rows of a journal that are wanted, of the version of their external model that is."""
+def _usable(rows: Iterable[Row], wanted: Mapping[Any, Task]) -> list[Row]:
+    """Return the rows that are wanted, of the version of their external model that is."""
     return [
         row
-        for row in journal.items
+        for row in rows
         if row.key in wanted
         and ((external := wanted[row.key].external) is None or external.version == row.model_version)
     ]
 
 
-def _take(source: RowJournal, folder: Path, journal: RowJournal, wanted: dict[Any, Task]) -> None:
-    """Add the rows that a journal does not have, or has as failures only."""
-    stored = {row.key: row for row in _usable(journal, wanted)}
-    taken = set()
-    for row in _usable(source, wanted):
-        known = stored.get(row.key)
-        if known is None or (known.status == "failed" and row.status != "failed"):
-            taken.add(row.key)
-        elif row.status != "failed" and not same(known, row):
-            raise ValueError(
-                f"{folder} has another result than a folder before it for {row.quantity} of {row.model} at "
-                f"n = {row.n:g}, k = {row.k:g}, mu = {row.mu:g}: they differ by more than both uncertainties"
-            )
-    journal.drop(lambda row: row.key in taken)
-    journal.take(source, lambda row: row.key in taken)
+def _place(row: Row) -> str:
+    return f"{row.quantity} of {row.model} at n = {row.n:g}, k = {row.k:g}, mu = {row.mu:g}"
 
 
 def _model_option(record: dict[str, Any]) -> str:

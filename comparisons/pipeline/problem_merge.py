@@ -2,30 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from comparisons.model import ComputationFailed
-from comparisons.pipeline.problem_sweep import COMMAND, FinishedProblemSweep, write_problem_sweep
+from comparisons.pipeline.problem_inputs import stored_inputs, stored_problems
+from comparisons.pipeline.problem_sweep import FinishedProblemSweep, digest_of, write_problem_sweep
 from comparisons.pipeline.record_content import now
+from comparisons.pipeline.shard_folders import checked_records, take_rows
 from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.journal import alone_in
-from comparisons.runs.part_journal import PartJournal
-from comparisons.runs.problem_tasks import ProblemRow, problem_journal
-from comparisons.runs.record import read_record
+from comparisons.runs.problem_tasks import ProblemRow, ProblemTask, plan_problems, problem_journal
+from comparisons.runs.record import PROBLEM_SWEEP
+from comparisons.runs.reevaluation import same_value
 
-__all__ = ["is_problem_sweep", "merge_problem_sweeps"]
-
-
-def is_problem_sweep(folder: Path) -> bool:
-    """Whether a folder is that of a finished sweep over a problem file; `ValueError` as `read_record`."""
-    return bool(read_record(RunFolder(folder).record)["command_name"] == COMMAND)
+__all__ = ["merge_problem_sweeps"]
 
 
 def merge_problem_sweeps(folders: Sequence[Path], out: Path) -> FinishedProblemSweep:
     """Put the rows of finished shards of one sweep into one folder, and write its table and record.
+
+    What the folder has already is kept.
 
     Parameters
     ----------
@@ -37,59 +36,60 @@ def merge_problem_sweeps(folders: Sequence[Path], out: Path) -> FinishedProblemS
     Raises
     ------
     ValueError
-        If a folder is not that of a finished sweep over a problem file, or two are not of the same sweep.
+        If a folder is not that of a finished sweep over a problem file, two are not of the same sweep, or two have
+        different results of one computation.
     comparisons.model.ComputationFailed
         If computations of the sweep are in none of the folders; the others are then merged.
     """
     started = now()
-    records = {folder: read_record(RunFolder(folder).record) for folder in dict.fromkeys(folders)}
+    records = checked_records(folders, out, PROBLEM_SWEEP, _common)
     first, expected = next(iter(records.items()))
-    for folder, record in records.items():
-        _check(first, expected, folder, record)
-        if folder.resolve() == out.resolve():
-            raise ValueError(f"{out} is one of the folders that are merged; choose another folder with --out")
+    wanted = _plan(first, expected)
+    inputs = stored_inputs(first, expected)
     target = RunFolder(prepare_folder(out))
-    versions = {name: model["version"] for name, model in expected["models"].items()}
-    quantities = expected["arguments"]["quantity"]
-    total = expected["arguments"]["computations"]
+    inputs.check(target)
+
+    def usable(rows: Iterable[ProblemRow]) -> list[ProblemRow]:
+        return [row for row in rows if row.key in wanted and wanted[row.key].version == row.model_version]
+
     with alone_in(out):
         journal = problem_journal(out)
         for folder in records:
-            with alone_in(folder):
-                source = problem_journal(folder)
-                _take(source, journal, versions, quantities)
-        rows, parts = journal.items, journal.parts()
-    if missing := total - len(rows):
+            take_rows(folder, problem_journal, journal, usable, same_value, _place)
+        rows = usable(journal.items)
+        keys = {row.key for row in rows}
+        parts = journal.parts(lambda row: row.key in keys and wanted[row.key].version == row.model_version)
+    if missing := len(wanted) - len(rows):
         raise ComputationFailed(
-            f"{missing} of {total} computations are in none of the folders; merge more of them, or compute what is "
-            f"missing by the command without --shard and with --out {out}"
+            f"{missing} of {len(wanted)} computations are in none of the folders; merge more of them, or compute what "
+            f"is missing by the command without --shard and with --out {out}"
         )
     arguments = {name: value for name, value in expected["arguments"].items() if name != "shard"}
     arguments |= {"jobs": 1, "merged": [str(folder) for folder in records], "out": str(out)}
     return write_problem_sweep(
-        target, rows, len(rows), parts, arguments, started, expected["cases_sha256"], expected["models"]
+        target, rows, len(rows), parts, arguments, started, expected["cases_sha256"], expected["models"], inputs
     )
 
 
-def _check(first: Path, expected: dict[str, Any], folder: Path, record: dict[str, Any]) -> None:
-    if record["command_name"] != COMMAND:
-        raise ValueError(
-            f"{folder} is the folder of fscm-bench {record['command_name']}, and {first} is of sweep --problem"
-        )
-    for name, words in (("cases_sha256", "problems, models or quantities"), ("models", "versions of the models")):
-        if record[name] != expected[name]:
-            raise ValueError(f"{folder} and {first} are not shards of one sweep: they differ in their {words}")
-
-
-def _take(
-    source: PartJournal[ProblemRow], journal: PartJournal[ProblemRow], versions: dict[str, str], quantities: list[str]
-) -> None:
-    """Add the rows that a journal does not have, or has as failures only."""
-    known = {row.key for row in journal.items if row.status != "failed"}
-    taken = {
-        row.key
-        for row in source.items
-        if row.key not in known and versions.get(row.model) == row.model_version and row.quantity in quantities
+def _common(record: Mapping[str, Any]) -> dict[str, Any]:
+    """Entries of the records that all shards of a sweep have in common."""
+    return {
+        "problems, models or quantities": record["cases_sha256"],
+        "versions of the models": record["models"],
+        "varied keys": record["arguments"]["vary"],
     }
-    journal.drop(lambda row: row.key in taken)
-    journal.take(source, lambda row: row.key in taken)
+
+
+def _plan(folder: Path, record: Mapping[str, Any]) -> dict[Any, ProblemTask]:
+    """Return every task of the whole sweep by its key: external models are not loaded."""
+    arguments, models = record["arguments"], record["models"]
+    specs = {name: (arguments["external"].get(name, name), models[name]["version"]) for name in arguments["model"]}
+    tasks = plan_problems(stored_problems(folder, record, arguments["vary"]), specs, arguments["quantity"])
+    if digest_of(tasks) != record["cases_sha256"]:
+        raise ValueError(f"a file in {RunFolder(folder).inputs} was changed after it was written: run the sweep again")
+    return {task.key: task for task in tasks}
+
+
+def _place(row: ProblemRow) -> str:
+    where = ", ".join(f"{name} = {value}" for name, value in row.parameters.items())
+    return f"{row.quantity} of {row.model} at {where}"

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from concurrent.futures import BrokenExecutor
 from contextlib import closing
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from hashlib import sha256
 from pathlib import Path
@@ -16,26 +16,29 @@ from typing import Any
 import pandas as pd
 
 from comparisons.console.progress import counting, note
+from comparisons.data.file_names import RUN_FILES
 from comparisons.model import ComputationFailed
+from comparisons.output.problem_tables import problem_errors, problem_table
 from comparisons.pipeline.finished_run import described
+from comparisons.pipeline.problem_inputs import ProblemInputs, inputs_of
 from comparisons.pipeline.record_content import now, record_content
 from comparisons.problem_file.variation import variations
 from comparisons.quantities import QUANTITIES
-from comparisons.registry import ExternalIdentity, identify
+from comparisons.registry import identify
 from comparisons.runs.backends import backend_of
 from comparisons.runs.computation import checked_jobs, folder_for
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.journal import alone_in
 from comparisons.runs.problem_tasks import ProblemRow, ProblemTask, compute_problems, plan_problems, problem_journal
-from comparisons.runs.record import write_record
+from comparisons.runs.record import PROBLEM_SWEEP, write_record
 from comparisons.runs.shards import Shard
 from comparisons.runs.tables import write_table
 from comparisons.runs.workers import LOST, Backend
 
-__all__ = ["COMMAND", "FinishedProblemSweep", "problem_sweep", "problem_table", "write_problem_sweep"]
+__all__ = ["FinishedProblemSweep", "digest_of", "problem_sweep", "write_problem_sweep"]
 
-#: Name of the command in the record.
-COMMAND = "problem-sweep"
+#: Names under which the columns of the tables are described.
+_DESCRIBED_AS = {"results": "problem_results", "kappa": "problem_kappa"}
 
 
 @dataclass(frozen=True)
@@ -47,11 +50,14 @@ class FinishedProblemSweep:
     folder : Path
     table : DataFrame
         A row for each model, quantity and problem; the varied keys are columns, with their units in brackets.
+    errors : DataFrame
+        Relative errors of the models against the reference among them; no rows without one.
     failures : tuple of ProblemRow
     """
 
     folder: Path
     table: pd.DataFrame
+    errors: pd.DataFrame
     failures: tuple[ProblemRow, ...]
 
 
@@ -113,13 +119,15 @@ def problem_sweep(
             raise ValueError(f"unknown quantity {quantity!r}; the quantities are {', '.join(QUANTITIES)}")
     names, external = identify(models)
     specs = {name: (external[name].spec, external[name].version) if name in external else (name, "") for name in names}
-    tasks = plan_problems(variations(problem, vary), specs, quantities)
-    whole = sha256(json.dumps(sorted(task.key for task in tasks)).encode()).hexdigest()
-    total = len(tasks)
+    problems = variations(problem, vary)
+    inputs = inputs_of(problem, problems)
+    tasks = plan_problems(problems, specs, quantities)
+    whole, total = digest_of(tasks), len(tasks)
     if part is not None:
         tasks = tasks[part.number - 1 :: part.total]
     start = now()
     target = RunFolder(folder_for(folder, datetime.now(UTC)))
+    inputs.check(target)
     rows, resumed, parts = _completed(tasks, target.path, jobs, retry_failed, workers)
     others = {"backend": None if backend == "processes" else backend, "scheduler": scheduler, "shard": shard}
     arguments = {
@@ -134,8 +142,13 @@ def problem_sweep(
         "out": str(target.path),
     }
     return write_problem_sweep(
-        target, rows, resumed, parts, arguments, start, whole, described(set(names), external), external
+        target, rows, resumed, parts, arguments, start, whole, described(set(names), external), inputs
     )
+
+
+def digest_of(tasks: Sequence[ProblemTask]) -> str:
+    """Return the SHA-256 of the keys of all tasks of a sweep."""
+    return sha256(json.dumps(sorted(task.key for task in tasks)).encode()).hexdigest()
 
 
 def _completed(
@@ -185,9 +198,9 @@ def write_problem_sweep(
     started: str,
     whole: str,
     models: Mapping[str, Any],
-    external: Mapping[str, ExternalIdentity] | None = None,
+    inputs: ProblemInputs,
 ) -> FinishedProblemSweep:
-    """Write the table and the record of a sweep over a problem file.
+    """Write the tables, the copies of the problem file and its tables, and the record of a sweep over a problem file.
 
     Parameters
     ----------
@@ -204,17 +217,20 @@ def write_problem_sweep(
         SHA-256 of the keys of all tasks, also of those of other shards.
     models : mapping
         Version, citation and domain of each.
-    external : mapping, optional
-        External models.
+    inputs : ProblemInputs
+        The copies.
     """
     table = problem_table(rows)
-    write_table(table, target.results, leave_out_of_csv=["seconds"])
+    errors = problem_errors(table)
+    inputs.write(target)
+    write_table(table, target.results, leave_out_of_csv=["seconds"], described_as=_DESCRIBED_AS["results"])
+    write_table(errors, target.kappa, described_as=_DESCRIBED_AS["kappa"])
     seconds: Counter[str] = Counter()
     for row in rows:
         seconds[row.model] += row.seconds  # type: ignore[assignment]
     counts = {"all": len(rows), "resumed": resumed, **Counter(row.status for row in rows)}
     content = record_content(
-        COMMAND,
+        PROBLEM_SWEEP,
         arguments,
         started=started,
         parts=parts,
@@ -222,27 +238,6 @@ def write_problem_sweep(
         seconds=dict(sorted(seconds.items())),
         verdicts={},
     )
-    content |= {"cases_sha256": whole, "models": dict(models)}
-    write_record(content, target.record)
-    return FinishedProblemSweep(target.path, table, tuple(row for row in rows if row.status == "failed"))
-
-
-def problem_table(rows: Sequence[ProblemRow]) -> pd.DataFrame:
-    """Return the rows as a sorted table; the varied keys are columns.
-
-    Examples
-    --------
-    >>> row = ProblemRow("fscm", "1", "pull_off_force", {"punch.R [m]": 1e-7}, "ab", 2e-8, 1e-16, "N", "ok", "", 1.0)
-    >>> list(problem_table([row]))[2:5]
-    ['quantity', 'punch.R [m]', 'value']
-    """
-    varied = list(rows[0].parameters) if rows else []
-    records = []
-    for row in rows:
-        record = asdict(row)
-        record |= record.pop("parameters")
-        records.append(record)
-    names = ["model", "model_version", "quantity", *varied, "value", "u_num", "unit", "status", "reason", "seconds"]
-    table = pd.DataFrame(records, columns=names)
-    table = table.astype({"value": float, "u_num": float, "seconds": float})
-    return table.sort_values(["quantity", "model", *varied], ignore_index=True)
+    content |= {"cases_sha256": whole, "models": dict(models), "inputs": inputs.entry}
+    write_record(content, target.record, [*RUN_FILES, *inputs.contents], _DESCRIBED_AS)
+    return FinishedProblemSweep(target.path, table, errors, tuple(row for row in rows if row.status == "failed"))

@@ -74,10 +74,12 @@ def read_columns(path: Path, columns: Mapping[str, Column], fewest: int) -> dict
     if not lines:
         raise ValueError(f"{path}: the table is empty; its first row has the names {example}")
     number, heading = lines[0]
-    names, factors = _headings(f"{path}, line {number}", _cells(heading), columns, example)
+    place = f"{path}, line {number}"
+    names, factors = _headings(place, _cells(place, heading), columns, example)
     found: dict[str, list[float]] = {name: [] for name in names}
     for number, line in lines[1:]:
-        place, cells = f"{path}, line {number}", _cells(line)
+        place = f"{path}, line {number}"
+        cells = _cells(place, line)
         if len(cells) != len(names):
             raise ValueError(f"{place}: {len(cells)} values for {len(names)} columns; write one for each of {example}")
         for name, factor, cell in zip(names, factors, cells, strict=True):
@@ -88,8 +90,11 @@ def read_columns(path: Path, columns: Mapping[str, Column], fewest: int) -> dict
     return {name: tuple(values) for name, values in found.items()}
 
 
-def _cells(line: str) -> list[str]:
-    return next(csv.reader([line]))
+def _cells(place: str, line: str) -> list[str]:
+    try:
+        return next(csv.reader([line]))
+    except csv.Error as error:
+        raise ValueError(f"{place}: {shown(line)} is no row of CSV ({error}); write numbers between commas") from None
 
 
 def _headings(

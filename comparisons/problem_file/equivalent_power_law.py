@@ -2,6 +2,7 @@ r"""Equivalent power law of a solid that is none, and the error that it makes in
 
 The surface compliance of E0 (z/c0)^k is C(xi) = A xi^(k-1).  ln(xi C) of the solid is fitted by k ln(xi) + ln(A): least
 squares, each wave number with its share of the elastic energy at the pull-off force.  The force itself is not fitted.
+This is the one rule for the equivalent power law of a solid.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from comparisons.problem_file.description import ProblemFile, Section
 from comparisons.problem_file.dimensionless import dimensionless_problem
 from comparisons.problem_file.elastic_energy import EnergySpectrum, energy_spectrum
 from comparisons.problem_file.evaluation import PhysicalValue, evaluate_problem
+from comparisons.problem_file.overview import ModelError, model_errors
 from fscm.physical import PhysicalProblem
 
 __all__ = ["LARGEST_K", "EquivalentPowerLaw", "equivalent_power_law", "least_wrong", "power_law_of"]
@@ -46,6 +48,9 @@ class EquivalentPowerLaw:
         Pull-off force with the power law: of the atlas in its range, and else of the FSCM.
     error, bound : float or None
         Relative error of this force and its bound; None where there is no force.
+    closed_forms : tuple of ModelError
+        Relative errors of the closed forms with this power law against the force of the solid itself, smallest first;
+        none where they do not take the punch or the law.
     """
 
     problem: ProblemFile
@@ -55,6 +60,7 @@ class EquivalentPowerLaw:
     force: PhysicalValue
     error: float | None
     bound: float | None
+    closed_forms: tuple[ModelError, ...]
 
 
 def equivalent_power_law(problem: ProblemFile, force: PhysicalValue) -> EquivalentPowerLaw | None:
@@ -95,7 +101,8 @@ def equivalent_power_law(problem: ProblemFile, force: PhysicalValue) -> Equivale
     if found.value is not None and found.u_num is not None:
         error = relative_difference(found.value, force.value)
         bound = relative_uncertainty(found.value, found.u_num, force.value, force.u_num)
-    return EquivalentPowerLaw(similar, free_k, deviation, (last, first), found, error, bound)
+    closed_forms = model_errors(similar, force)
+    return EquivalentPowerLaw(similar, free_k, deviation, (last, first), found, error, bound, closed_forms)
 
 
 def least_wrong(spectrum: EnergySpectrum) -> tuple[float, float, float, float]:

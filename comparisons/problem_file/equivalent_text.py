@@ -6,6 +6,7 @@ from typing import Any
 
 from comparisons.numerics.number_text import percent_text
 from comparisons.problem_file.equivalent_power_law import EquivalentPowerLaw
+from comparisons.problem_file.overview import LIMITS, first_within
 from comparisons.problem_file.units import si_text
 
 __all__ = ["content", "lines"]
@@ -29,6 +30,8 @@ def content(found: EquivalentPowerLaw) -> dict[str, Any]:
             "error": found.error,
             "error_u_num": found.bound,
         },
+        "closed_forms": [{"model": row.model, "error": row.error, "u_num": row.bound} for row in found.closed_forms],
+        "closed_form_within": {f"{100 * limit:g} %": first_within(found.closed_forms, limit) for limit in LIMITS},
     }
 
 
@@ -44,11 +47,26 @@ def lines(found: EquivalentPowerLaw) -> list[str]:
         f"    weighted by elastic energy; misses it by {100.0 * found.deviation:.2g} % (r.m.s.)",
     ]
     if force.value is None or force.u_num is None or found.error is None or found.bound is None:
-        return [*text, f"    its pull-off force: {force.status}: {force.reason}"]
+        return [*text, f"    its pull-off force: {force.status}: {force.reason}", *_closed_forms(found)]
     return [
         *text,
         f"    its pull-off force {si_text(force.value, force.u_num, force.unit)}  ({force.model}), "
         f"error {percent_text(found.error, found.bound)} %",
+        *_closed_forms(found),
+    ]
+
+
+def _closed_forms(found: EquivalentPowerLaw) -> list[str]:
+    if not found.closed_forms:
+        return ["    no closed form takes this punch or this law"]
+    width = max(len(row.model) for row in found.closed_forms)
+    near = "; ".join(
+        f"within {100 * limit:g} %: {first_within(found.closed_forms, limit) or 'none'}" for limit in LIMITS
+    )
+    return [
+        "    errors of the closed forms with this power law:",
+        *(f"      {row.model:{width}}  {percent_text(row.error, row.bound)} %" for row in found.closed_forms),
+        f"    {near}",
     ]
 
 

@@ -85,6 +85,10 @@ def checked_section(
     """
     table = document[section]
     if not isinstance(table, Mapping):
+        if isinstance(table, list) and all(isinstance(each, Mapping) for each in table):
+            raise source.refusal(
+                section, None, f"is a list of sections; write one section, [{section}] in single brackets"
+            )
         raise source.refusal(
             section, None, f"is {shown(table)} and no table; write a section [{section}] with its keys"
         )
@@ -138,8 +142,10 @@ def _checked_value(
     if unit == "m^(n-1)":
         # The shape index stands before Q in the schema and so has been checked.
         unit, power = "m", before["n"] - 1.0
-    if unit:
-        remedy = f', as "{rule["example"]}" or a plain number in {rule["unit"]}'
+    if unit and power == 1.0:
+        remedy = f', as "{rule["example"]}" or a plain number in {unit}'
+    elif unit:
+        remedy = f', as "{rule["example"]}^({power:g})" or a plain number in {unit}^({power:g})'
     uncertainty = None
     try:
         if is_uncertain(value) and rule.get("uncertain", True):

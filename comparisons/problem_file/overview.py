@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from comparisons.model import Model
@@ -10,7 +11,16 @@ from comparisons.problem_file.dimensionless import dimensionless_problem
 from comparisons.problem_file.evaluation import PhysicalValue, evaluate_problem
 from comparisons.registry import MODELS, create
 
-__all__ = ["LIMITS", "REFERENCES", "ModelError", "Overview", "overview_of", "recommended"]
+__all__ = [
+    "LIMITS",
+    "REFERENCES",
+    "ModelError",
+    "Overview",
+    "first_within",
+    "model_errors",
+    "overview_of",
+    "recommended",
+]
 
 #: Models that solve the equations; every other one is a closed form or another approximation.
 REFERENCES = ("fscm", "fem", "fscm-stieltjes", "fscm-stieltjes-400", "atlas")
@@ -78,6 +88,18 @@ class Overview:
         return "transition between the rigid limit (Bradley, DMT) and that of soft solids (JKR)"
 
 
+def first_within(errors: Sequence[ModelError], limit: float) -> str | None:
+    """Return the closed form of the smallest error if it is within a limit.
+
+    Examples
+    --------
+    >>> errors = (ModelError("md-improved", -0.003, 1e-9), ModelError("jkr", 0.02, 1e-9))
+    >>> first_within(errors, 0.01), first_within(errors, 1e-3)
+    ('md-improved', None)
+    """
+    return next((found.model for found in errors if found.within(limit)), None)
+
+
 def recommended(overview: Overview, limit: float) -> str:
     """Return the closed form of the smallest error if it is within a limit, or else the reference.
 
@@ -88,8 +110,7 @@ def recommended(overview: Overview, limit: float) -> str:
     >>> recommended(some, 0.01), recommended(some, 1e-3)
     ('md-improved', 'atlas')
     """
-    near = [found for found in overview.errors if found.within(limit)]
-    return near[0].model if near else overview.force.model
+    return first_within(overview.errors, limit) or overview.force.model
 
 
 def overview_of(problem: ProblemFile) -> Overview:
@@ -112,6 +133,30 @@ def overview_of(problem: ProblemFile) -> Overview:
     """
     posed, _ = dimensionless_problem(problem)
     force = _reference(problem)
+    return Overview(problem, posed.mu, _critical(problem), force, model_errors(problem, force))
+
+
+def model_errors(problem: ProblemFile, force: PhysicalValue) -> tuple[ModelError, ...]:
+    """Return the errors of the closed forms that take a problem against a pull-off force, smallest first.
+
+    Parameters
+    ----------
+    problem : ProblemFile
+        For the closed forms.
+    force : PhysicalValue
+        Of this problem, or of another one that this one stands for.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from comparisons.problem_file.description import Section
+    >>> solid = Section("power-law", {"E0": 70e9, "c0": 1.0, "k": 0.0, "nu": 0.2})
+    >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 3e-10})
+    >>> problem = ProblemFile(Path("silica.toml"), solid, Section("sphere", {"R": 1e-6}), law)
+    >>> errors = model_errors(problem, evaluate_problem(problem, "bradley", "pull_off_force"))
+    >>> {found.model: round(found.error, 9) for found in errors}["jkr"]
+    -0.25
+    """
     errors: list[ModelError] = []
     if problem.is_of_the_paper and force.value is not None and force.u_num is not None:
         for model in _closed_forms():
@@ -120,8 +165,7 @@ def overview_of(problem: ProblemFile) -> Overview:
                 ratio = found.value / force.value
                 bound = (found.u_num + abs(ratio) * force.u_num) / (force.value - force.u_num)
                 errors.append(ModelError(model.name, ratio - 1.0, bound))
-    errors.sort(key=lambda found: abs(found.error))
-    return Overview(problem, posed.mu, _critical(problem), force, tuple(errors))
+    return tuple(sorted(errors, key=lambda found: abs(found.error)))
 
 
 def _reference(problem: ProblemFile) -> PhysicalValue:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 from collections.abc import Mapping
 from difflib import get_close_matches
 from pathlib import Path
@@ -35,6 +36,9 @@ _TABLES: dict[str, tuple[dict[str, Column], int]] = {
 #: Rows that a smoothed profile needs: a cubic spline has four coefficients.
 _FEWEST_SMOOTHED = 8
 
+#: A whole number that Python does not read.
+_MANY_DIGITS = re.compile(rf"\d{{{sys.int_info.default_max_str_digits + 1},}}")
+
 
 def load_problem(path: str | os.PathLike[str]) -> ProblemFile:
     """Read a problem file.
@@ -63,8 +67,16 @@ def load_problem(path: str | os.PathLike[str]) -> ProblemFile:
     return problem_of(*document_of(path))
 
 
-def document_of(path: str | os.PathLike[str]) -> tuple[dict[str, Any], Source]:
+def document_of(
+    path: str | os.PathLike[str], tables: Mapping[str, Path] | None = None
+) -> tuple[dict[str, Any], Source]:
     """Return the sections of a problem file as they are written, and its text.
+
+    Parameters
+    ----------
+    path : str or path
+    tables : mapping of str to Path, optional
+        Copies of tables that it names, where they are not beside it.
 
     Raises
     ------
@@ -72,7 +84,7 @@ def document_of(path: str | os.PathLike[str]) -> tuple[dict[str, Any], Source]:
         As `load_problem`, if the file cannot be read or is not TOML.
     """
     path = Path(path)
-    source = Source(path, read_text(path, "the problem file"))
+    source = Source(path, read_text(path, "the problem file"), tables or {})
     return _document(source), source
 
 
@@ -104,6 +116,11 @@ def _document(source: Source) -> dict[str, Any]:
         return parse(source.text, str(source.path))
     except ValueError as error:
         # tomllib has the line at the end of its sentence, in brackets.
+        if digits := _MANY_DIGITS.search(source.text):
+            line = source.text.count("\n", 0, digits.start()) + 1
+            raise ValueError(
+                f"{source.path}, line {line}: {shown(digits[0])} has too many digits; write a power of ten, as 1e9"
+            ) from None
         found = re.search(r" \(at line (\d+), column \d+\)$", str(error))
         if found is None:
             raise
@@ -121,8 +138,9 @@ def _section(document: Mapping[str, Any], name: str, source: Source) -> Section:
     if kind != "table":
         return Section(kind, values, uncertain=uncertain)
     columns, fewest = _TABLES[name]
-    path = source.path.parent / values["file"]
-    if not path.is_file():
+    path = source.table(values["file"])
+    # False for a name that is too long, too.
+    if not os.path.isfile(path):
         raise source.refusal(
             name, "file", f"file = {shown(values['file'])} is not in the folder of {source.path.name}; check the name"
         )

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from datetime import date, time
 from pathlib import Path
 
-__all__ = ["Source", "read_text", "shown"]
+__all__ = ["Source", "read_text", "shortened", "shown"]
 
 #: Longest value that a sentence shows in full.
 _LONGEST = 60
@@ -26,6 +28,8 @@ def read_text(path: Path, what: str) -> str:
     Traceback (most recent call last):
     ValueError: no_such_file.toml: the problem file cannot be read (No such file or directory); check the name
     """
+    if str(path) == "-":
+        raise ValueError(f"-: {what} is not read from the standard input; give the name of a file")
     try:
         return path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
@@ -33,8 +37,10 @@ def read_text(path: Path, what: str) -> str:
         raise ValueError(
             f"{path}, line {line}: the byte 0x{error.object[error.start]:02x} is not UTF-8; save the file as UTF-8"
         ) from None
-    except OSError as error:
-        raise ValueError(f"{path}: {what} cannot be read ({error.strerror or error}); check the name") from None
+    except (OSError, ValueError) as error:
+        # A name with a NUL is a `ValueError`.
+        reason = getattr(error, "strerror", None) or error
+        raise ValueError(f"{path}: {what} cannot be read ({reason}); check the name") from None
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,10 +56,15 @@ class Source:
 
     path: Path
     text: str
+    tables: Mapping[str, Path] = field(default_factory=dict)
+
+    def table(self, name: str) -> Path:
+        """Return the path of a table that the file names: beside the file, or its copy in `tables`."""
+        return self.tables.get(name, self.path.parent / name)
 
     def line(self, section: str, key: str | None = None) -> int | None:
         """Line of a key, or else of its section; None where neither is written on a line of its own."""
-        header = re.compile(rf"\s*(\[\s*[\"']?{re.escape(section)}[\"']?\s*\]|{re.escape(section)}\s*[.=])")
+        header = re.compile(rf"\s*(\[{{1,2}}\s*[\"']?{re.escape(section)}[\"']?\s*\]|{re.escape(section)}\s*[.=])")
         entry = re.compile(rf"\s*({re.escape(section)}\s*\.\s*)?[\"']?{re.escape(key or '')}[\"']?\s*[.=]")
         found, inside = None, False
         for number, line in enumerate(self.text.splitlines(), start=1):
@@ -82,5 +93,17 @@ def shown(value: object) -> str:
     """
     if isinstance(value, bool):
         return "true" if value else "false"
-    text = f'"{ascii(value)[1:-1]}"' if isinstance(value, str) else ascii(value)
+    if isinstance(value, date | time):
+        return value.isoformat()
+    return shortened(f'"{ascii(value)[1:-1]}"' if isinstance(value, str) else ascii(value))
+
+
+def shortened(text: str) -> str:
+    """Return a text that is not too long for a sentence.
+
+    Examples
+    --------
+    >>> shortened("pad.toml"), len(shortened("x" * 5000))
+    ('pad.toml', 60)
+    """
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."

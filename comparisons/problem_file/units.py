@@ -8,8 +8,9 @@ from functools import lru_cache
 from typing import Any
 
 from comparisons.numerics.number_text import short
+from comparisons.problem_file.source import shortened
 
-__all__ = ["NotAValue", "in_si", "si_text", "unit_factor"]
+__all__ = ["NotAValue", "in_si", "prefixed_unit", "si_text", "unit_factor"]
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _NAME = r"[A-Za-zµμΩÅ]+(?:\s*(?:\^|\*\*)\s*\(?[+-]?\d{1,2}(?:\.\d{1,4})?\)?)?"
@@ -54,18 +55,21 @@ def unit_factor(unit: str, target: str, power: float = 1.0) -> float:
     (1000000000.0, 1.0)
     """
     if not _UNIT.fullmatch(unit):
-        raise NotAValue(f"has the unit {unit!r}, which is no product of units")
+        if unit.startswith(","):
+            raise NotAValue("has a comma in place of a decimal point")
+        raise NotAValue(f"has the unit {shortened(repr(unit))}, which is no product of units")
     registry = _registry()
     aim = registry.Unit(target) ** power
     try:
         found = registry.Unit(unit.replace("·", "*"))
         if found.dimensionality != aim.dimensionality:
-            raise NotAValue(f"has the unit {unit}, which is not that of {_KINDS.get(target, target)}")
+            kind = _KINDS.get(target, target) if power == 1.0 else f"{target}^({power:g})"
+            raise NotAValue(f"has the unit {unit}, which is not that of {kind}")
         factor = float(registry.Quantity(1.0, found).to(aim).magnitude)
     except NotAValue:
         raise
     except Exception:  # pint has several for what it does not know, and the tokens of Python others
-        raise NotAValue(f"has the unknown unit {unit!r}") from None
+        raise NotAValue(f"has the unknown unit {shortened(repr(unit))}") from None
     # pint multiplies factors one after the other: a power of ten has lost its last digit.
     ten = float(f"1e{round(math.log10(factor))}")
     return ten if abs(factor / ten - 1.0) < _ROUNDING else factor
@@ -120,8 +124,25 @@ def si_text(value: float, u_num: float, unit: str) -> str:
     """
     if unit == "1":
         return short(value, u_num)
-    size = max(abs(value), u_num)
-    power, prefix = next((pair for pair in _PREFIXES if size >= 10.0 ** pair[0]), _PREFIXES[-1] if size else (0, ""))
+    power, prefix = _prefix(max(abs(value), u_num))
     # A floor for the uncertainty: scaling by the prefix changes the last bit of an exact value.
     scaled = float(f"{value * 10.0**-power:.15g}")
     return f"{short(scaled, u_num * 10.0**-power)} {prefix}{unit}"
+
+
+def prefixed_unit(size: float, unit: str) -> tuple[int, str]:
+    """Return the power of ten and the name of a unit in SI with the prefix of a size.
+
+    Examples
+    --------
+    >>> prefixed_unit(2.7e-8, "N"), prefixed_unit(0.05, "J/m^2"), prefixed_unit(0.3, "1"), prefixed_unit(1e-12, "m^2")
+    ((-9, 'nN'), (-3, 'mJ/m^2'), (0, '1'), (0, 'm^2'))
+    """
+    if unit == "1" or "^" in unit.partition("/")[0]:
+        return 0, unit
+    power, prefix = _prefix(size)
+    return power, f"{prefix}{unit}"
+
+
+def _prefix(size: float) -> tuple[int, str]:
+    return next((pair for pair in _PREFIXES if size >= 10.0 ** pair[0]), _PREFIXES[-1] if size else (0, ""))

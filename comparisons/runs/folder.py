@@ -74,6 +74,11 @@ class RunFolder:
         return self.path / file_names.GRID_TEXT
 
     @property
+    def inputs(self) -> Path:
+        """The copies of a problem file and of its tables."""
+        return self.path / file_names.INPUTS
+
+    @property
     def results(self) -> Path:
         """Stem of the table of results: without its suffix, as of every table below."""
         return self.path / file_names.RESULTS

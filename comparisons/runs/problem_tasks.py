@@ -57,6 +57,8 @@ class ProblemRow:
         SHA-256 of the whole problem with its tables: rows of another file are not used.
     value, u_num, unit, status, reason, seconds
         As of `comparisons.problem_file.evaluation.PhysicalValue`.
+    dimensionless : dict or None
+        As there.
     """
 
     model: str
@@ -70,6 +72,7 @@ class ProblemRow:
     status: str
     reason: str
     seconds: float
+    dimensionless: dict[str, float | str] | None = None
 
     @property
     def key(self) -> tuple[str, str, str]:
@@ -130,6 +133,7 @@ def evaluate_problem_task(task: ProblemTask) -> ProblemRow:
         found.status,
         found.reason,
         found.seconds,
+        found.dimensionless,
     )
 
 

@@ -7,7 +7,7 @@ record is written and not years later.  The record has a checksum of its own.
 from __future__ import annotations
 
 import json
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from functools import lru_cache
 from hashlib import sha256
 from importlib.resources import files as package_files
@@ -23,10 +23,21 @@ from comparisons.runs.atomic_files import write_json
 from comparisons.runs.data_package import write_data_package
 from comparisons.runs.environment import differences, fingerprint
 
-__all__ = ["FORMAT", "check_files", "read_record", "warn_of_other_code", "write_record"]
+__all__ = [
+    "FORMAT",
+    "PROBLEM_SWEEP",
+    "check_files",
+    "is_problem_sweep",
+    "read_record",
+    "warn_of_other_code",
+    "write_record",
+]
 
 #: Version of the schema.
 FORMAT = 4
+
+#: Name of the command in the record of a sweep over a problem file.
+PROBLEM_SWEEP = "problem-sweep"
 
 
 @lru_cache(maxsize=1)
@@ -41,7 +52,12 @@ def _problem(content: object) -> str | None:
     return None if error is None else f"{error.json_path}: {error.message}"
 
 
-def write_record(content: dict[str, Any], path: Path, files: Collection[str] = RUN_FILES) -> None:
+def write_record(
+    content: dict[str, Any],
+    path: Path,
+    files: Collection[str] = RUN_FILES,
+    described_as: Mapping[str, str] | None = None,
+) -> None:
     """Write a record with the checksums of the files beside it, and before it the data package of the tables.
 
     Parameters
@@ -51,13 +67,15 @@ def write_record(content: dict[str, Any], path: Path, files: Collection[str] = R
     path : Path
     files : collection of str
         Names of the files that get a checksum, as far as they exist.
+    described_as : mapping of str to str, optional
+        As of `comparisons.runs.data_package.write_data_package`.
 
     Raises
     ------
     RuntimeError
         If it does not fit the schema: a defect of the code that made it.
     """
-    if write_data_package(path.parent, files):
+    if write_data_package(path.parent, files, described_as):
         files = [*files, DATA_PACKAGE]
     sums = {name: _sum_of(path.parent / name) for name in files if (path.parent / name).is_file()}
     content = content | {"files": sums}
@@ -97,6 +115,11 @@ def read_record(path: Path) -> dict[str, Any]:
     if stated != _own_sum(content):
         raise ValueError(_changed(path, f"run again with --out {path.parent}"))
     return dict(content)
+
+
+def is_problem_sweep(folder: Path) -> bool:
+    """Whether a folder is that of a finished sweep over a problem file; `ValueError` as `read_record`."""
+    return bool(read_record(folder / RECORD)["command_name"] == PROBLEM_SWEEP)
 
 
 def check_files(record: dict[str, Any], folder: Path, written_again: Collection[str] = ()) -> None:

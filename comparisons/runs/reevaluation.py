@@ -10,7 +10,7 @@ import random
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from comparisons.runs.rows import Row
 from comparisons.runs.tasks import Task
 from comparisons.runs.workers import Backend, processes
 
-__all__ = ["AT_MOST", "Reevaluation", "chosen", "evaluate_again", "same"]
+__all__ = ["AT_MOST", "Comparable", "Reevaluation", "chosen", "evaluate_again", "same", "same_value"]
 
 #: Stored tasks of each external model that are evaluated again.
 AT_MOST = 3
@@ -95,18 +95,39 @@ def evaluate_again(
     }
 
 
-def same(stored: Row, now: Row) -> bool:
-    """Whether two rows of one task agree: in their status, and within the sum of both uncertainties.
+class Comparable(Protocol):
+    """A row with a status, and with a value and its bound where there is one."""
 
-    The points of a curve are compared one by one, as fractions of its ranges, as its uncertainty is.
-    """
+    @property
+    def status(self) -> str:
+        """One of "ok", "not-applicable" and "failed"."""
+
+    @property
+    def value(self) -> float | None:
+        """The result, None where there is none."""
+
+    @property
+    def u_num(self) -> float | None:
+        """Its bound."""
+
+
+def same_value(stored: Comparable, now: Comparable) -> bool:
+    """Whether two rows of one task agree: in their status, and within the sum of both uncertainties."""
     if stored.status != now.status:
         return False
-    if stored.points is not None and now.points is not None:
-        return _same_curve(stored.points, now.points)
     if stored.value is None or now.value is None:
         return stored.value is now.value
     return abs(stored.value - now.value) <= (stored.u_num or 0.0) + (now.u_num or 0.0)
+
+
+def same(stored: Row, now: Row) -> bool:
+    """Whether two rows of one task agree as in `same_value`.
+
+    The points of a curve are compared one by one, as fractions of its ranges, as its uncertainty is.
+    """
+    if stored.status == now.status and stored.points is not None and now.points is not None:
+        return _same_curve(stored.points, now.points)
+    return same_value(stored, now)
 
 
 def _same_curve(stored: tuple[list[float], list[float], float], now: tuple[list[float], list[float], float]) -> bool:

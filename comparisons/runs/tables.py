@@ -32,9 +32,16 @@ def write_curves(table: pd.DataFrame, stem: Path) -> None:
 
 
 def write_table(
-    table: pd.DataFrame, stem: Path, *, schema: pa.Schema | None = None, leave_out_of_csv: Iterable[str] = ()
+    table: pd.DataFrame,
+    stem: Path,
+    *,
+    schema: pa.Schema | None = None,
+    leave_out_of_csv: Iterable[str] = (),
+    described_as: str = "",
 ) -> None:
     """Write a table as `stem`.csv and `stem`.parquet, the latter with the types of `schema` if given.
+
+    `described_as` is the name of the table in `comparisons.data.columns`, if that is another than the file's.
 
     The Parquet file has unit and description of each column in the metadata of its field, and the units of the
     quantities, as JSON, in the metadata of the table.
@@ -44,7 +51,9 @@ def write_table(
     with atomic(stem.with_suffix(".parquet")) as file:
         stored = pa.Table.from_pandas(table, schema=schema, preserve_index=False)
         units = {**(stored.schema.metadata or {}), "quantities": json.dumps(quantities())}
-        pq.write_table(stored.cast(described(stem.name, stored.schema)).replace_schema_metadata(units), file)
+        pq.write_table(
+            stored.cast(described(described_as or stem.name, stored.schema)).replace_schema_metadata(units), file
+        )
 
 
 def read_table(path: Path) -> pd.DataFrame:

@@ -99,6 +99,8 @@ def test_a_bad_approximation_widens_the_ball_but_does_not_move_it_off_the_value(
         assert getattr(wide, name).rad() > 3 * getattr(good, name).rad()
 
 
+#: One of the state, one of the problem, one of the proof of the minimum; the others take as long and are heavy tests.
+LIGHT_WRONG = {"one coefficient of the traction", "compliance", "a comparison function of the wrong sign"}
 WRONG = {
     "one coefficient of the traction": lambda s: replace(s, traction=changed(s.traction, 3, 1e-6)),
     "far traction": lambda s: replace(s, far=s.far * 1.01),
@@ -116,7 +118,7 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("name", WRONG)
+@pytest.mark.parametrize("name", [n if n in LIGHT_WRONG else pytest.param(n, marks=pytest.mark.heavy) for n in WRONG])
 def test_a_wrong_number_is_not_proved(states, name):
     wrong = WRONG[name](states)
     with pytest.raises(NotProved):

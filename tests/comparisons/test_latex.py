@@ -8,6 +8,7 @@ import pandas as pd
 import pytest
 
 from comparisons.output.latex import latex
+from comparisons.output.latex_layout import Column
 from comparisons.output.latex_text import comment, escaped
 
 PAPER = Path(__file__).parents[2] / "results" / "baseline" / "paper"
@@ -24,6 +25,13 @@ TEXTS = (
     "≠ ≈ ≡ ∼ ∝ ≪ ≫ ∓ ÷ · ⋅ ∂ ∇ ∫ ∑ ∏ ∈ → ← ↑ ↓ ↔ ⇒ ′ § ⁄ ‰ ½",
     "",
 )
+
+
+def test_a_long_word_of_a_heading_is_broken_in_a_narrow_column():
+    assert Column("law.work_of_adhesion", ["20 mJ/m^2"], width=40.0).head == (
+        r"law.work\_\allowbreak{}of\_\allowbreak{}adhesion"
+    )
+    assert Column("law.work_of_adhesion", ["20 mJ/m^2"]).head == r"law.work\_of\_adhesion"
 
 
 def plain(text):

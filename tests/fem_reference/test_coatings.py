@@ -116,6 +116,7 @@ def test_pull_off_of_coatings(modulus, n, options):
         assert found[name].u_num <= 1e-5
 
 
+@pytest.mark.heavy
 def test_displacement_does_not_depend_on_the_extent():
     """It moved by 5e-5, because the skin was left out of the solid beyond the mesh."""
     choice, spec, size = chosen(_problem(EXPONENTIAL, 5.0), ("pull_off",), "quick")

@@ -140,6 +140,7 @@ def _with_steps(monkeypatch, step):
     return Problem(problem.solid, problem.punch, LennardJones(1.0 + step * 1e-12, 1.0))
 
 
+@pytest.mark.heavy
 def test_the_step_of_one_path_does_not_choose_the_fold(monkeypatch):
     """Twice as large; on the coarsest mesh of the choice alone."""
     choice, spec, size = chosen(_with_steps(monkeypatch, 0.4), ("jump_in",), "quick")

@@ -111,6 +111,7 @@ def test_a_path_with_folds_is_not_taken_for_one_without():
         PathEvents(traced(at(GRADED, 0.95))).at(CUSP)
 
 
+@pytest.mark.heavy
 def test_a_solid_whose_compliance_does_not_scale():
     """With a large offset of its surface the solid is homogeneous but for a / z_s = 1e-6."""
     offset = 1e6

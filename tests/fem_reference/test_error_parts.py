@@ -184,6 +184,7 @@ def test_condensation_shows_its_rounding():
     assert change == pytest.approx(change.T, abs=1e-15 * largest)
 
 
+@pytest.mark.heavy
 def test_tail_is_that_of_a_longer_mesh():
     """What the mesh leaves out is found again on one that ends much farther away."""
     problem = problem_with(0.2, 0.5, n=1.2)

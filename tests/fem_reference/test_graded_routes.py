@@ -62,6 +62,7 @@ def _agree(found, reference, other=0.0):
             assert abs(value.value - reference[name].value) <= value.u_num + reference[name].u_num + other
 
 
+@pytest.mark.heavy
 def test_poissons_ratio_of_layers_on_the_coarsest_mesh():
     """Force and displacement; the next test has the bounds, and other solids."""
     reference = pull_off(LAYERS_OF_NU.modulus, NUS, lambda r: r**2 / 2, sharp=(1.0,))
@@ -151,6 +152,7 @@ def _in_two_units():
     return dimensionless, physical, work * R
 
 
+@pytest.mark.heavy
 def test_other_units_are_the_same_problem():
     """The mesh is the same, to rounding; the next test has the bound."""
     *problems, newton = _in_two_units()

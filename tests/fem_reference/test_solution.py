@@ -229,6 +229,7 @@ def test_events_lie_on_the_traced_path():
     assert np.all(np.diff(path.edge_radius[path.edge_radius > 0]) > 0)
 
 
+@pytest.mark.heavy
 def test_a_path_has_more_points_where_its_curve_turns():
     """Points are only added, and between two of one branch the chords of the picture turn by the angle at most."""
     stiff = Problem(Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
@@ -280,6 +281,7 @@ def _disguised():
     return Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
 
 
+@pytest.mark.heavy
 def test_solid_that_does_not_scale_has_the_force_of_the_power_law_it_is():
     """The path on one mesh of fixed size; the next test has the bound."""
     state = pull_off_on_the_coarsest_mesh(_disguised())
@@ -314,6 +316,7 @@ def test_another_surface_law(exponents, reference):
     assert result.u_num <= 1e-5 * exact
 
 
+@pytest.mark.heavy
 def test_a_quantity_that_does_not_exist_does_not_hide_the_others():
     """Also where it is the first, in a solid whose mesh is placed at its contact edge."""
     solid = CustomSolid(CustomModulus(lambda z: 50.0 + 0.0 * z, 0.0, 0.0, surface_depth=1.0), 0.3)

@@ -49,7 +49,7 @@ def _start(full, contact, state):
     return 0.97 * full.under_pressure(full.law.traction(gap), full.factor(state.size))
 
 
-@pytest.mark.parametrize(("n", "k"), [(2.0, 0.4), (1.0, 0.0)])
+@pytest.mark.parametrize(("n", "k"), [pytest.param(2.0, 0.4, marks=pytest.mark.heavy), (1.0, 0.0)])
 def test_equilibrium_and_pull_off_agree_with_the_condensed_path(n, k):
     modulus, nu = PowerLawModulus(0.8, 1.3, k), 0.3
     punch, law = PowerPunch(n, 1.1), LennardJones(1.2, 0.9)
@@ -221,6 +221,7 @@ def test_without_pyamg_there_is_no_value(monkeypatch, soft_path, soft_system):
         events.value(TABLE["pull_off_force"].functional)
 
 
+@pytest.mark.heavy
 @pytest.mark.usefixtures("no_kept_whole_system")
 def test_without_its_preconditioner_there_is_no_solution(solved, monkeypatch):
     """The condensed system alone, which is solved already, is no solution."""

@@ -101,6 +101,7 @@ def test_the_checks_of_the_elements_can_fail(monkeypatch):
     assert broken == {"manufactured solution, graded", "patch test"}
 
 
+@pytest.mark.heavy
 def test_gaussian_checks_on_the_default_mesh():
     _assert_all_pass(gaussian_checks(DEFAULT, "default", (0.0, 0.1, 0.4, 0.8), (0.25,)))
 
@@ -109,6 +110,7 @@ def test_nearly_incompressible_solid():
     _assert_all_pass(gaussian_checks(DEFAULT, "default", (0.4,), (0.49,)))
 
 
+@pytest.mark.heavy
 def test_far_field():
     _assert_all_pass(far_field_checks())
 
@@ -123,6 +125,7 @@ def test_disc_hertz_and_flat_punch():
     _assert_all_pass(disc_checks((0.4,)))
 
 
+@pytest.mark.heavy
 def test_ring_load():
     _assert_all_pass(ring_checks(RING, "ring", (0.4,), (0.25,)))
 

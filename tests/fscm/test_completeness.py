@@ -178,6 +178,7 @@ def test_a_path_lists_its_folds() -> None:
     assert path.folds[-1].edge_radius > 1.0
 
 
+@pytest.mark.heavy
 def test_a_landing_that_the_path_does_not_contain_is_told() -> None:
     """It was extrapolated to -0.761; the true load is -0.084."""
     problem = Problem(2, 0.4, 3.0)
@@ -199,6 +200,7 @@ def test_a_landing_is_within_its_bound(problem: Problem) -> None:
         assert min(abs(state.load - load) for state in states) <= cycle.u_landing
 
 
+@pytest.mark.heavy
 def test_a_tensile_end_comes_after_pull_off() -> None:
     problem = Problem(2, 0.4, 3.0)
     path = trace(problem, max_load=-0.5)

@@ -153,7 +153,7 @@ def test_hysteresis_is_the_area_between_loading_and_unloading(mu):
     assert model.solution("hysteresis_energy").value == pytest.approx(area, rel=1e-8)
 
 
-@pytest.mark.parametrize("n", [1.0, 2.0, 5.0])
+@pytest.mark.parametrize("n", [1.0, 2.0, pytest.param(5.0, marks=pytest.mark.heavy)])
 def test_load_is_stationary_at_pull_off_and_zero_at_zero_load(n):
     for mu in (0.5, 2.0):
         model = solid(n, mu)

@@ -27,6 +27,8 @@ SOLIDS = {
     "table": TabulatedModulus([0.0, 1.0, 2.0, 5.0], [1.0, 3.0, 4.0, 10.0], 0.3),
     "waves": GradedSolid(lambda z: 2.0 + np.sin(3.0 * z) * np.exp(-z), 0.3, 1.0),
 }
+#: One solid of each kind of a problem file.
+KINDS = ("offset", "exponential", "tanh coating", "sharp layer", "table")
 
 
 @lru_cache
@@ -90,7 +92,9 @@ def by_quadrature(name, r, t):
     return t * (total + found[1]), t * abs(found[1] - found[0])
 
 
-@pytest.mark.parametrize("name", SOLIDS)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in KINDS else pytest.mark.heavy) for name in SOLIDS]
+)
 def test_images_agree_with_the_hankel_integral(name):
     rng = np.random.default_rng(sorted(SOLIDS).index(name))
     r, t = 10.0 ** rng.uniform(-1.0, 1.0, (2, 80))
@@ -124,6 +128,7 @@ def test_the_images_are_wrong_by_no_more_than_their_bound_at_any_wave_number(nam
     assert np.all(np.abs(_signed_error(name, xi)) <= kernel(name).images.error(xi) + _ROUNDING)
 
 
+@pytest.mark.heavy
 def test_the_rate_of_the_error_is_the_measured_one():
     """Mean of |xi eps'| over a quarter of a decade against the bound of eps, which oscillates between its waves."""
     xi = np.geomspace(1e-4, 1e4, 961)
@@ -165,7 +170,9 @@ def test_homogeneous_limits():
     assert np.allclose(GradedKernel(thin, 1e3).response(r, t), 0.25 * plain, rtol=1e-9, atol=0.0)
 
 
-@pytest.mark.parametrize("k", [0.2, 0.4, 0.6])
+@pytest.mark.parametrize(
+    "k", [pytest.param(0.2, marks=pytest.mark.heavy), 0.4, pytest.param(0.6, marks=pytest.mark.heavy)]
+)
 def test_a_small_offset_gives_the_exact_kernel_of_the_power_law(k):
     """At radii up to a tenth of the longest distance of the images."""
     z_s = 1e-9

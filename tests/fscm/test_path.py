@@ -63,7 +63,7 @@ def test_work_equals_change_of_energy(n: float, k: float, mu: float) -> None:
     assert worst < 3e-6
 
 
-@pytest.mark.parametrize("mu", [0.3, 3.0])
+@pytest.mark.parametrize("mu", [0.3, pytest.param(3.0, marks=pytest.mark.heavy)])
 def test_path_contains_the_exact_events(mu: float) -> None:
     problem = Problem(2, 0.4, mu)
     path = trace(problem)
@@ -231,6 +231,7 @@ def test_the_edge_of_a_small_nucleus_is_followed(n: float, k: float, mu: float) 
     assert solution.u_num < 1e-7
 
 
+@pytest.mark.heavy
 def test_the_pull_off_with_an_edge_below_the_rounding_of_its_radius() -> None:
     """The first solid of the next test, whose zero load is at the end of a long path."""
     solution = solve(Problem(2.0, 0.0, 1e5), "pull_off_force")

@@ -27,7 +27,7 @@ CASES = [
 analysis_of = cache(Analysis)
 
 
-@pytest.mark.parametrize("case", [*CASES[:6], *(pytest.param(case, marks=pytest.mark.heavy) for case in CASES[6:])])
+@pytest.mark.parametrize("case", [*CASES[:4], *(pytest.param(case, marks=pytest.mark.heavy) for case in CASES[4:])])
 def test_the_pull_off_is_that_of_the_whole_path(case: tuple[float, float, float]) -> None:
     problem = Problem(*case)
     with one_thread():

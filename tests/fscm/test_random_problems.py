@@ -73,6 +73,7 @@ def test_a_sample_of_the_random_problems() -> None:
     judge(problems()[:: 2 * EVERY])
 
 
+@pytest.mark.heavy
 def test_bounds_that_were_once_too_small() -> None:
     """The tip of a rigid solid, and a nucleus at which the rate of an error changes fast."""
     judge([problems()[i] for i in _ONCE_TOO_SMALL])

@@ -86,6 +86,7 @@ def test_another_law_and_another_punch():
         assert close(slope, expected, DIFFERENCE, scale=0.1)
 
 
+@pytest.mark.heavy
 def test_the_state_follows_the_kinks_of_a_measured_punch():
     r = np.linspace(0.0, 4.0, 6)
 
@@ -107,7 +108,11 @@ def exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3):
 
 
 @pytest.mark.parametrize(
-    ("posed", "name"), [(coated, "thickness"), pytest.param(exponential, "nu", marks=pytest.mark.heavy)]
+    ("posed", "name"),
+    [
+        (coated, "thickness"),
+        pytest.param(exponential, "nu", marks=pytest.mark.heavy),
+    ],
 )
 def test_other_solids(posed, name):
     found, at = sensitivity(posed(), "pull_off_force"), {"thickness": 1.0, "nu": 0.3}[name]
@@ -126,6 +131,7 @@ def test_every_quantity_of_a_coated_solid(quantity, name):
     assert close(slope, expected, FITTED, scale=0.1)
 
 
+@pytest.mark.heavy
 def test_only_the_ratio_of_two_moduli_matters_at_a_fixed_tabor_number():
     found = sensitivity(exponential(), "pull_off_force")
     slopes = [

@@ -145,7 +145,7 @@ def test_margin_is_zero_at_the_folds_of_the_displacement(n: float, k: float, mu:
     [
         (2.0, 0.4, 0.3, 1),
         (2.0, 0.4, 1.0, 3),
-        (5.0, 0.2, 2.0, 5),
+        pytest.param(5.0, 0.2, 2.0, 5, marks=pytest.mark.heavy),
         pytest.param(2.0, 0.6, 3.0, 13, marks=pytest.mark.heavy),
     ],
 )

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from comparisons.cli.options import FAILED, OK
+from comparisons.cli.options import FAILED, OK, for_terminal
 from comparisons.console.progress import waiting
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def call(args: argparse.Namespace) -> int:
             text += profile_sensitivity.lines(changes)
         if uncertain is not None:
             text += uncertain.lines
-        print("\n".join(text))
+        print(for_terminal(text), end="")
     return FAILED if overview.force.status == "failed" or (uncertain is not None and uncertain.failed) else OK
 
 

@@ -11,7 +11,8 @@ from comparisons.cli.options import FAILED, add_quiet
 from comparisons.console.progress import log, quiet
 from comparisons.model import ComputationFailed
 from comparisons.pipeline.merge import merge
-from comparisons.pipeline.problem_merge import is_problem_sweep, merge_problem_sweeps
+from comparisons.pipeline.problem_merge import merge_problem_sweeps
+from comparisons.runs.record import is_problem_sweep
 
 __all__ = ["EXAMPLES", "add", "call"]
 

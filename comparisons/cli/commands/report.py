@@ -8,11 +8,14 @@ from pathlib import Path
 from comparisons.cli.options import OK
 from comparisons.console.progress import log
 from comparisons.data.file_names import CALLS, JOURNAL, LOCK, RECORD, RUN_FILES
-from comparisons.output.report.page import make_page
+from comparisons.output.report.page import Page, make_page
+from comparisons.output.report.problem_page import ProblemPage, make_problem_page
 from comparisons.output.report.render import render
+from comparisons.output.report.stored_problem_sweep import read_problem_sweep
 from comparisons.output.report.stored_run import read_folder
 from comparisons.runs.atomic_files import atomic, writable_file
 from comparisons.runs.folder import RunFolder
+from comparisons.runs.record import is_problem_sweep, read_record
 
 __all__ = ["EXAMPLES", "add", "call"]
 
@@ -28,9 +31,13 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 def call(args: argparse.Namespace) -> int:
     """Read, lay out and write; return the exit status."""
-    stored = read_folder(args.folder)
+    page: Page | ProblemPage
+    if is_problem_sweep(args.folder):
+        page = make_problem_page(read_problem_sweep(args.folder))
+    else:
+        page = make_page(read_folder(args.folder))
     path = _page_path(args.folder, args.out)
-    text = render(make_page(stored))
+    text = render(page)
     with atomic(path) as file:
         file.write(text.encode())
     log(f"the report is {path}")
@@ -40,7 +47,7 @@ def call(args: argparse.Namespace) -> int:
 def _page_path(folder: Path, out: Path | None) -> Path:
     """Return where the page goes, which is no other file of the run."""
     path = writable_file(out or RunFolder(folder).report)
-    for name in (RECORD, JOURNAL, CALLS, LOCK, *RUN_FILES):
+    for name in (RECORD, JOURNAL, CALLS, LOCK, *RUN_FILES, *read_record(RunFolder(folder).record)["files"]):
         if path.resolve() == (folder / name).resolve():
             raise ValueError(f"--out {path} is a file of the run, which the page would replace; choose another file")
     return path

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 
-from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case_or_file, case_of, output
-from comparisons.console.folding import hanging
+from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case_or_file, case_of, for_terminal
 from comparisons.console.progress import waiting
 from comparisons.numerics.number_text import case_text, short
 from comparisons.quantities import QUANTITIES
@@ -49,10 +47,7 @@ def call(args: argparse.Namespace) -> int:
     with waiting(f"{args.model}, {case.label}"):
         row = evaluate(model, args.quantity, case)
     shown = _FORMATS[args.format](row)
-    if args.format == "text" and sys.stdout.isatty():
-        width = output().width
-        shown = "\n".join(line for text in shown.splitlines() for line in hanging(text, width)) + "\n"
-    print(shown, end="")
+    print(for_terminal(shown.splitlines()) if args.format == "text" else shown, end="")
     return FAILED if row.status == "failed" else OK
 
 

@@ -132,13 +132,15 @@ def _sweep_problem(args: argparse.Namespace) -> int:
 
 
 def show_problems(finished: FinishedProblemSweep, *, with_summary: bool) -> int:
-    """Print the table of a sweep over a problem file; return the exit status."""
-    from comparisons.output.problem_sweep_text import problem_lines
+    """Print the tables of a sweep over a problem file; return the exit status."""
+    from comparisons.output.problem_sweep_text import problem_failure_lines, problem_summary
 
     if with_summary:
-        print("\n".join(problem_lines(finished.table)))
-    for row in finished.failures:
-        log(f"{row.model}: {row.quantity} failed: {row.reason}")
+        console = output()
+        for table in problem_summary(finished.table, finished.errors):
+            console.print(table)
+    for line in problem_failure_lines(finished.failures):
+        log(line)
     note(f"results are in {finished.folder}")
     return FAILED if finished.failures else OK
 

@@ -40,6 +40,8 @@ class Series:
 class Plot:
     """One plot: axes, choices, series; `views` holds the first view [x0, x1, y0, y1] of a group if not all of it.
 
+    `y_labels` has the label of the second axis for a group whose label is another.
+
     `mark` is "both" for a line with markers, "line" or "points"; `table` the id of the table with the numbers.
     """
 
@@ -55,6 +57,7 @@ class Plot:
     table: str
     caption: str
     views: dict[str, list[float]] = field(default_factory=dict)
+    y_labels: dict[str, str] = field(default_factory=dict)
 
     @property
     def models(self) -> list[str]:
@@ -63,7 +66,7 @@ class Plot:
 
     def data(self) -> dict[str, Any]:
         """Return what the page's script draws, ready for JSON."""
-        wanted = ("id", "x_label", "y_label", "x_scale", "y_scale", "mark", "table", "views")
+        wanted = ("id", "x_label", "y_label", "x_scale", "y_scale", "mark", "table", "views", "y_labels")
         return {name: getattr(self, name) for name in wanted} | {"series": [asdict(series) for series in self.series]}
 
 

@@ -8,7 +8,7 @@ from typing import Any
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.output.report.stored_run import Stored
 
-__all__ = ["provenance", "verdict_counts"]
+__all__ = ["provenance", "record_facts", "verdict_counts"]
 
 
 def verdict_counts(stored: Stored) -> list[tuple[str, int]]:
@@ -19,7 +19,16 @@ def verdict_counts(stored: Stored) -> list[tuple[str, int]]:
 
 def provenance(stored: Stored) -> list[tuple[str, str]]:
     """Return the facts about the origin of the numbers, each with its name."""
-    record = stored.record
+    facts = record_facts(stored.record)
+    then = stored.record["verdicts"]
+    now = {"all": str(roll_up(stored.verdicts["verdict"])), **dict(verdict_counts(stored))}
+    if stored.judged and then != now:
+        facts.append(("judged again", f"yes; at the end of the run the verdicts were {_pairs(then)}"))
+    return facts
+
+
+def record_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
+    """Return the facts of a record (`run.json`), each with its name."""
     package, machine = record["package"], record["machine"]
     dirty = {True: "changed since that commit", False: "clean", None: "not known"}[package["dirty"]]
     facts = [
@@ -34,7 +43,7 @@ def provenance(stored: Stored) -> list[tuple[str, str]]:
         ("work tree", dirty),
         ("SHA-256 of the code", package["code_sha256"]),
         ("SHA-256 of the cases", record["cases_sha256"]),
-        *([("SHA-256 of the gates", record["gates_sha256"])] if stored.judged else []),
+        *([("SHA-256 of the gates", record["gates_sha256"])] if "gates_sha256" in record else []),
         ("Python", record["python"]),
         ("dependencies", _pairs(record["dependencies"])),
         ("system", machine["system"]),
@@ -49,9 +58,6 @@ def provenance(stored: Stored) -> list[tuple[str, str]]:
     if "judged_again" in record:
         again = record["judged_again"]
         facts.append(("judged again", f"by {again['gates']}, SHA-256 {again['gates_sha256']}"))
-    then, now = record["verdicts"], {"all": str(roll_up(stored.verdicts["verdict"])), **dict(verdict_counts(stored))}
-    if stored.judged and then != now:
-        facts.append(("judged again", f"yes; at the end of the run the verdicts were {_pairs(then)}"))
     return facts
 
 

@@ -17,7 +17,7 @@ from comparisons.output.comparison import COLUMNS as COMPARED
 from comparisons.output.verdicts import GATE_COLUMNS
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
-from comparisons.runs.record import check_files, read_record, warn_of_other_code
+from comparisons.runs.record import PROBLEM_SWEEP, check_files, read_record, warn_of_other_code
 from comparisons.runs.tables import read_table
 
 __all__ = ["Stored", "read_folder"]
@@ -96,10 +96,8 @@ def read_folder(folder: Path) -> Stored:
     """
     files = RunFolder(folder)
     record = read_record(files.record)
-    if record["command_name"] == "problem-sweep":
-        raise ValueError(
-            f"{folder} holds values of a problem file in SI, which have no report: its table is results.csv"
-        )
+    if record["command_name"] == PROBLEM_SWEEP:
+        raise ValueError(f"{folder} holds values of a problem file in SI, which have no place beside other runs")
     check_files(record, folder)
     warn_of_other_code(record, folder)
     tables = {name: _table(folder / f"{name}.parquet", columns) for name, columns in _TABLES.items()}

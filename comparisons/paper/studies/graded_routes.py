@@ -2,29 +2,31 @@
 
 Loads, displacements and energies are in the units of Eqs. 25 and 31, which do not contain the solid.  Depths are in the
 transverse length L = (Q z0)^(1/n).  Each solid stands beside three that are simpler: the homogeneous solid of its
-surface, the solid that it is at great depth, and an equivalent power law.  That one has its compliance and slope
-
-    C(xi) and d ln(xi C)/d ln xi = k    at the wave number xi = 1/L,
-
-about the inverse of the contact radius; where the slope is negative, k is 0.
+surface, the solid that it is at great depth, and its equivalent power law at the pull-off force, see
+`comparisons.paper.studies.graded_equivalent`.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 import fem_reference
 from comparisons.model import ComputationFailed
+from comparisons.problem_file.description import Section
 from fscm import NoSuchEvent, NotConverged, Problem, solve_together
 from fscm.graded import Coating, Exponential, GradedHalfSpace, OffsetPowerLaw, graded_problem
-from fscm.graded.compliance import compliance
 from fscm.physical import PhysicalProblem
 
-__all__ = ["EVENTS", "QUANTITIES", "GradedCase", "by_elements", "by_fscm", "case_of", "of_power_law"]
+__all__ = [
+    "EVENTS",
+    "QUANTITIES",
+    "GradedCase",
+    "by_elements",
+    "by_fscm",
+    "case_of",
+    "of_power_law",
+]
 
 Json = dict[str, Any]
 
@@ -36,8 +38,8 @@ OFFSET = (0.4, 2.0)
 EXPONENTIAL = (2.0, 4.0)
 COATING = (0.8, 0.25)
 
-# No scale is 1, so that a wrong power of one shows.
-_SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25}
+#: Of every problem; no scale is 1, so that a wrong power of one shows.
+SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25}
 
 #: Quantities of the table.
 QUANTITIES = (
@@ -55,11 +57,6 @@ EVENTS = {
 }
 _UNITS = {"pull_off_force": "load", "jump_in_energy": "energy", "jump_out_energy": "energy"}
 
-# Step of ln xi in the slope of the compliance: its error is below 1e-7, a tenth of the last digit of k.
-_STEP = 0.05
-# Digits of k and mu of the equivalent power law.
-_DIGITS = 6
-
 
 @dataclass(frozen=True)
 class GradedCase:
@@ -75,39 +72,20 @@ class GradedCase:
         Tabor number with the modulus of the surface.
     depth : tuple of float
         k and mu of the solid at great depth.
+    section : Section
+        The solid as in a problem file.
     """
 
     solid: GradedHalfSpace
     modulus: fem_reference.Modulus
     mu: float
     depth: tuple[float, float]
-
-    @property
-    def equivalent(self) -> tuple[float, float]:
-        """k and mu of the equivalent power law, rounded.
-
-        Examples
-        --------
-        A thin offset hardly changes the power law.
-
-        >>> case_of("offset power law", 1e-4).equivalent
-        (0.398641, 1.997881)
-        """
-        length = _surface(1.0).length_r
-        values = np.log(compliance(self.solid, np.exp(np.array([-2.0, -1.0, 0.0, 1.0, 2.0]) * _STEP) / length))
-        slope = float(values @ np.array([1.0, -8.0, 0.0, 8.0, -1.0])) / (12.0 * _STEP)
-        k = round(max(slope, 0.0), _DIGITS)
-        at = np.zeros(1)
-        surface = 2.0 * (1.0 - self.solid.poisson(at)[0] ** 2) / self.solid.modulus(at)[0]
-        # Under J0(r) a power law moves by 2 mu^((3+k)/2) (1-k) 2^-k gamma((1-k)/2)/gamma((1+k)/2), n = 2.
-        ratio = math.exp(values[2]) / surface * 2.0**k * math.gamma((1.0 + k) / 2.0)
-        power = self.mu**1.5 * ratio / ((1.0 - k) * math.gamma((1.0 - k) / 2.0))
-        return k, round(float(power ** (2.0 / (3.0 + k))), _DIGITS)
+    section: Section
 
 
 def _surface(mu: float) -> PhysicalProblem:
     """The homogeneous problem of a Tabor number, which has the scales of all."""
-    return PhysicalProblem.from_problem(Problem(_N, 0.0, mu), nu=NU, **_SCALES)
+    return PhysicalProblem.from_problem(Problem(_N, 0.0, mu), nu=NU, **SCALES)
 
 
 def case_of(kind: str, parameter: float) -> GradedCase:
@@ -126,24 +104,25 @@ def case_of(kind: str, parameter: float) -> GradedCase:
     """
     if kind == "offset power law":
         k, mu = OFFSET
-        graded = PhysicalProblem.from_problem(Problem(_N, k, mu), nu=NU, **_SCALES)
+        graded = PhysicalProblem.from_problem(Problem(_N, k, mu), nu=NU, **SCALES)
         z_s = parameter * graded.length_r
         E = graded.E0 * (z_s / graded.c0) ** k
-        mu_surface = PhysicalProblem(E0=E, k=0.0, nu=NU, n=_N, **_SCALES).tabor_number
+        mu_surface = PhysicalProblem(E0=E, k=0.0, nu=NU, n=_N, **SCALES).tabor_number
         offset = (graded.E0, graded.c0, k, z_s)
         modulus: fem_reference.Modulus = fem_reference.OffsetPowerLawModulus(*offset)
-        return GradedCase(OffsetPowerLaw(*offset, NU), modulus, mu_surface, OFFSET)
+        section = Section("offset-power-law", dict(zip(("E0", "c0", "k", "z_s", "nu"), (*offset, NU), strict=True)))
+        return GradedCase(OffsetPowerLaw(*offset, NU), modulus, mu_surface, OFFSET, section)
     mu, ratio = EXPONENTIAL if kind == "exponential" else COATING
     surface = _surface(mu)
     E, length = surface.E0, parameter * surface.length_r
     depth = (0.0, mu / ratio ** (2.0 / 3.0))
     if kind == "exponential":
-        return GradedCase(
-            Exponential(E, ratio * E, length, NU), fem_reference.ExponentialModulus(E, ratio * E, length), mu, depth
-        )
-    return GradedCase(
-        Coating(E, ratio * E, length, 0.0, NU), fem_reference.CoatingModulus(E, ratio * E, length), mu, depth
-    )
+        section = Section("exponential", {"E_surface": E, "E_depth": ratio * E, "length": length, "nu": NU})
+        modulus = fem_reference.ExponentialModulus(E, ratio * E, length)
+        return GradedCase(Exponential(E, ratio * E, length, NU), modulus, mu, depth, section)
+    coating = {"E_coating": E, "E_substrate": ratio * E, "thickness": length, "transition": 0.0, "nu": NU}
+    modulus = fem_reference.CoatingModulus(E, ratio * E, length)
+    return GradedCase(Coating(E, ratio * E, length, 0.0, NU), modulus, mu, depth, Section("coating", coating))
 
 
 def by_fscm(kind: str, parameter: float) -> Json:
@@ -173,10 +152,10 @@ def by_fscm(kind: str, parameter: float) -> Json:
     case = case_of(kind, parameter)
     problem, _ = graded_problem(
         case.solid,
-        Q=_SCALES["Q"],
+        Q=SCALES["Q"],
         n=_N,
-        work_of_adhesion=_SCALES["work_of_adhesion"],
-        z0=_SCALES["z0"],
+        work_of_adhesion=SCALES["work_of_adhesion"],
+        z0=SCALES["z0"],
     )
     return _solved(problem)
 
@@ -226,8 +205,8 @@ def by_elements(event: str, kind: str, parameter: float) -> Json:
     case, scales = case_of(kind, parameter), _surface(1.0).scales
     problem = fem_reference.Problem(
         fem_reference.CustomSolid(case.modulus, NU),
-        fem_reference.PowerPunch(n=_N, Q=_SCALES["Q"]),
-        fem_reference.LennardJones(work_of_adhesion=_SCALES["work_of_adhesion"], z0=_SCALES["z0"]),
+        fem_reference.PowerPunch(n=_N, Q=SCALES["Q"]),
+        fem_reference.LennardJones(work_of_adhesion=SCALES["work_of_adhesion"], z0=SCALES["z0"]),
     )
     try:
         found = fem_reference.solve_together(problem, EVENTS[event], "quick")

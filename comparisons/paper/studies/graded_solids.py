@@ -19,7 +19,15 @@ import pandas as pd
 from comparisons.numerics.kappa import relative_difference
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
-from comparisons.paper.studies.graded_routes import EVENTS, QUANTITIES, by_elements, by_fscm, case_of, of_power_law
+from comparisons.paper.studies.graded_equivalent import of_equivalent
+from comparisons.paper.studies.graded_routes import (
+    EVENTS,
+    QUANTITIES,
+    by_elements,
+    by_fscm,
+    case_of,
+    of_power_law,
+)
 from comparisons.paper.studies.graded_solids_figure import draw
 
 __all__ = ["GRADED_SOLIDS", "SERIES", "SIMPLER"]
@@ -40,10 +48,14 @@ def _cases() -> Iterator[tuple[str, float, bool]]:
             yield kind, parameter, parameter in with_jumps
 
 
-def _simpler(kind: str, parameter: float) -> dict[str, tuple[float, float]]:
-    """k and mu of the simpler solids."""
+def _simpler(kind: str, parameter: float) -> dict[str, CachedCall]:
+    """Computations of the simpler solids; those of known k and mu have them as arguments."""
     case = case_of(kind, parameter)
-    return {"surface": (0.0, case.mu), "depth": case.depth, "power_law": case.equivalent}
+    return {
+        "surface": CachedCall.of(of_power_law, 0.0, case.mu),
+        "depth": CachedCall.of(of_power_law, *case.depth),
+        "power_law": CachedCall.of(of_equivalent, kind, parameter),
+    }
 
 
 def _elements(kind: str, parameter: float, jumps: bool) -> list[CachedCall]:
@@ -55,7 +67,7 @@ def _tasks() -> Sequence[CachedCall]:
     for kind, parameter, jumps in _cases():
         calls += [*_elements(kind, parameter, jumps), CachedCall.of(by_fscm, kind, parameter)]
     for kind, parameter, _ in _cases():
-        calls += [CachedCall.of(of_power_law, *solid) for solid in _simpler(kind, parameter).values()]
+        calls += _simpler(kind, parameter).values()
     return list(dict.fromkeys(calls))
 
 
@@ -80,8 +92,9 @@ def _tables(results: Results) -> Tables:
             row |= {"fscm": value, "u_fscm": row_u}
             row["fem"], row["u_fem"] = _number(elements, name)
             for other in SIMPLER:
-                k, mu = simpler[other]
-                found, u_num = _number(results[CachedCall.of(of_power_law, k, mu)], name)
+                solved = results[simpler[other]]
+                k, mu = (solved["k"], solved["mu"]) if other == "power_law" else simpler[other].arguments
+                found, u_num = _number(solved, name)
                 error = relative_difference(found, value)
                 row |= {f"{other}_k": k, f"{other}_mu": mu, other: found, f"u_{other}": u_num, f"{other}_error": error}
             row["reason"] = reference[name] if isinstance(reference[name], str) else ""

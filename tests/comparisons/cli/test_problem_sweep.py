@@ -1,13 +1,18 @@
 """Sweeps over a problem file: values in SI, resumption, shards, refused keys."""
 
+import dataclasses
 import json
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import pandas as pd
+import pyarrow.parquet as pq
 import pytest
 
 from comparisons.cli.main import main
+from comparisons.output.problem_sweep_text import problem_summary
+from comparisons.problem_file import evaluation
 from comparisons.problem_file.variation import parse_variation, variations
 from comparisons.runs.record import read_record
 from comparisons.runs.tables import read_table
@@ -44,7 +49,9 @@ def test_every_combination_by_every_model(tmp_path, capsys):
     assert sorted(set(table["law.work_of_adhesion [J/m^2]"])) == [0.02, 0.04, 0.06]
     lines = capsys.readouterr().out.splitlines()
     assert lines[0].split() == ["punch.R", "law.work_of_adhesion", "model", "pull_off_force"]
-    assert len(lines) == 13
+    assert lines[2].split() == ["1", "µm", "20", "mJ/m^2", "bradley", "125.6637061435920(16)", "nN"]
+    # The names of the columns and a line below them.
+    assert len(lines) == 2 + 12
     stored = pd.read_csv(tmp_path / "results.csv")
     assert "seconds" not in stored
     record = read_record(tmp_path / "run.json")
@@ -83,7 +90,7 @@ def test_the_merged_shards_are_the_whole_sweep(tmp_path, capsys):
     assert "6 of 12 computations are in none of the folders" in capsys.readouterr().err
     assert main(["merge", *(str(tmp_path / f"part{n}") for n in (1, 2)), "--out", str(tmp_path / "merged")]) == 0
     assert sweep(tmp_path / "whole", *options) == 0
-    for name in ("results.csv",):
+    for name in ("results.csv", "kappa.csv", f"inputs/{PAD.name}", "datapackage.json"):
         assert (tmp_path / "merged" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
     assert sweep(tmp_path / "other", "--model", "jkr") == 0
     assert main(["merge", str(tmp_path / "part1"), str(tmp_path / "other"), "--out", str(tmp_path / "no")]) == 2
@@ -142,10 +149,189 @@ def test_bad_combinations_of_options(capsys, tmp_path):
     assert main(["sweep"]) == 2
 
 
+def test_the_folder_has_copies_of_the_problem_file_and_its_tables(tmp_path):
+    problem, tables = tmp_path / "given", tmp_path / "elsewhere"
+    for folder in (problem / "tips", tables):
+        folder.mkdir(parents=True)
+    rows = "r [nm],height [nm]\n" + "".join(f"{r},{r * r / 200}\n" for r in range(40))
+    text = PAD.read_text().partition("[punch]")
+    (problem / "tip.toml").write_text(
+        f'{text[0]}[punch]\nkind = "table"\nfile = "tips/a.csv"\n[law]{text[2].partition("[law]")[2]}'
+    )
+    (problem / "tips" / "a.csv").write_text(rows)
+    (tables / "a.csv").write_text(rows.replace("0,0.0", "0,0.00"))
+    vary = ("--vary", "punch.file=tips/a.csv, ../elsewhere/a.csv")
+    for name in ("one", "two"):
+        number = {"one": 1, "two": 2}[name]
+        options = ("--model", "bradley", "--shard", f"{number}/2", "--quiet")
+        assert sweep(tmp_path / name, *options, problem=problem / "tip.toml", vary=vary) == 0
+    record = read_record(tmp_path / "one" / "run.json")
+    assert record["inputs"] == {
+        "problem": "inputs/tip.toml",
+        "tables": {"tips/a.csv": "inputs/tips/a.csv", "../elsewhere/a.csv": "inputs/tables/1/a.csv"},
+    }
+    copies = ["inputs/tip.toml", "inputs/tips/a.csv", "inputs/tables/1/a.csv"]
+    assert [name for name in record["files"] if name.startswith("inputs")] == copies
+    given = [problem / "tip.toml", problem / "tips" / "a.csv", tables / "a.csv"]
+    assert [(tmp_path / "one" / name).read_bytes() for name in copies] == [path.read_bytes() for path in given]
+    # A merged folder needs the copies alone.
+    for path in given:
+        path.unlink()
+    assert main(["merge", str(tmp_path / "one"), str(tmp_path / "two"), "--out", str(tmp_path / "all"), "--quiet"]) == 0
+    assert read_table(tmp_path / "all" / "results.parquet")["status"].tolist() == ["not-applicable"] * 2
+    assert (tmp_path / "all" / "inputs" / "tables" / "1" / "a.csv").exists()
+    # Another sweep of the folder has other copies.
+    assert sweep(tmp_path / "one", "--model", "bradley", "--quiet") == 0
+    assert [path.name for path in (tmp_path / "one" / "inputs").rglob("*") if path.is_file()] == [PAD.name]
+
+
+def test_a_record_without_the_copies_is_refused(tmp_path, capsys):
+    assert sweep(tmp_path, "--model", "jkr", "--quiet") == 0
+    record = json.loads((tmp_path / "run.json").read_text())
+    del record["inputs"]
+    (tmp_path / "run.json").write_text(json.dumps(record))
+    for command in (("report", str(tmp_path)), ("merge", str(tmp_path), "--out", str(tmp_path / "all"))):
+        assert main(command) == 2
+        assert "'inputs' is a required property" in capsys.readouterr().err
+
+
+def test_a_file_of_the_user_is_not_replaced_by_a_copy(tmp_path, capsys):
+    (tmp_path / "inputs").mkdir()
+    (tmp_path / "inputs" / PAD.name).write_text("# mine")
+    assert sweep(tmp_path, "--model", "bradley") == 2
+    assert "was not written by a sweep, and a sweep would replace it" in capsys.readouterr().err
+
+
+def test_errors_against_the_reference_among_the_models(tmp_path, capsys):
+    """JKR is (3 + k)/4 of Bradley: the reference of the solvers is not needed for the table of a test."""
+    vary = ("--vary", "punch.R=1, 2 um")
+    assert sweep(tmp_path, "--model", "jkr", "bradley", "atlas", vary=vary) == 0
+    values = read_table(tmp_path / "results.parquet").set_index(["model", "punch.R [m]"])
+    errors = pd.read_csv(tmp_path / "kappa.csv")
+    assert errors["model"].tolist() == ["bradley", "bradley", "jkr", "jkr"]
+    assert set(errors["reference"]) == {"atlas"}
+    for row in errors.to_dict("records"):
+        key = row["punch.R [m]"]
+        ratio = values.loc[(row["model"], key), "value"] / values.loc[("atlas", key), "value"]
+        assert row["kappa"] == pytest.approx(ratio - 1.0, rel=1e-12)
+        bound = values.loc[("atlas", key), "u_num"] / values.loc[("atlas", key), "value"] * ratio
+        assert row["u_kappa"] == pytest.approx(bound, rel=1e-3)
+    assert "largest error against atlas in percent" in capsys.readouterr().out
+    # In the unit of the paper, Bradley's force is 2.
+    assert values.loc["bradley", "dimensionless_value"].tolist() == pytest.approx([2.0, 2.0], rel=1e-12)
+
+
+def test_every_column_is_described_in_si(tmp_path):
+    assert sweep(tmp_path, "--model", "jkr", "atlas", "--quiet") == 0
+    package = json.loads((tmp_path / "datapackage.json").read_text())
+    tables = {table["name"]: table for table in package["resources"]}
+    assert set(tables) == {"results", "kappa"}
+    for table in tables.values():
+        assert "problem file" in table["title"]
+        fields = {field["name"]: field for field in table["schema"]["fields"]}
+        assert [name for name, field in fields.items() if not field.get("description")] == []
+        assert fields["punch.R [m]"]["unit"] == "m"
+        assert "SI" in fields["value"]["description"]
+    described = pq.read_schema(tmp_path / "results.parquet")
+    assert described.field("law.work_of_adhesion [J/m^2]").metadata[b"unit"] == b"J/m^2"
+
+
+def test_different_results_of_one_computation_are_refused(tmp_path, monkeypatch, capsys):
+    assert sweep(tmp_path / "one", "--model", "jkr", "--quiet") == 0
+    with monkeypatch.context() as patch:
+        patch.setattr("comparisons.problem_file.evaluation._value", larger(evaluation._value))
+        assert sweep(tmp_path / "two", "--model", "jkr", "--quiet") == 0
+    capsys.readouterr()
+    assert main(["merge", *(str(tmp_path / name) for name in ("one", "two")), "--out", str(tmp_path / "all")]) == 2
+    error = capsys.readouterr().err
+    assert "two has another result than a folder before it for pull_off_force of jkr at punch.R [m] = 1e-06" in error
+    assert error.count("\n") == 1
+
+
+def larger(value):
+    """The values of a model, increased by 1 %."""
+
+    def increased(*arguments):
+        found = value(*arguments)
+        return dataclasses.replace(found, value=1.01 * found.value)
+
+    return increased
+
+
+def test_a_failure_gives_way_to_a_value(tmp_path, monkeypatch):
+    assert sweep(tmp_path / "good", "--model", "jkr", "--quiet") == 0
+    with monkeypatch.context() as patch:
+        patch.setattr("comparisons.problem_file.evaluation._value", fails)
+        assert sweep(tmp_path / "bad", "--model", "jkr", "--quiet") == 4
+    for order in (["bad", "good"], ["good", "bad"]):
+        out = tmp_path / "-".join(order)
+        assert main(["merge", *(str(tmp_path / name) for name in order), "--out", str(out), "--quiet"]) == 0
+        assert (out / "results.csv").read_bytes() == (tmp_path / "good" / "results.csv").read_bytes()
+
+
+def fails(*arguments):
+    raise ArithmeticError("on purpose")
+
+
+def test_rows_of_another_sweep_in_the_folder_of_a_shard_are_not_merged(tmp_path):
+    options = ("--model", "jkr", "--quiet")
+    assert sweep(tmp_path / "one", *options, vary=("--vary", "punch.R=5, 6, 7 um")) == 0
+    for number, name in ((1, "one"), (2, "two")):
+        assert sweep(tmp_path / name, *options, "--shard", f"{number}/2") == 0
+    folders = [str(tmp_path / name) for name in ("one", "two")]
+    assert main(["merge", *folders, "--out", str(tmp_path / "all"), "--quiet"]) == 0
+    assert len(read_table(tmp_path / "all" / "results.parquet")) == 6
+
+
+def test_folders_of_other_sweeps_are_not_merged(tmp_path, capsys):
+    assert sweep(tmp_path / "one", "--model", "jkr", "--quiet") == 0
+    assert sweep(tmp_path / "two", "--model", "jkr", "--quiet", vary=("--vary", "punch.R=1 um")) == 0
+    capsys.readouterr()
+    one, two, out = (str(tmp_path / name) for name in ("one", "two", "all"))
+    for folders, words in (
+        ((one, two), "are not shards of one sweep: they differ in their problems"),
+        ((one, one, "--out", one), "one is one of the folders that are merged"),
+    ):
+        assert main(["merge", *folders, *(() if "--out" in folders else ("--out", out))]) == 2
+        assert words in capsys.readouterr().err
+    (tmp_path / "one" / "inputs" / PAD.name).write_text(PAD.read_text().replace("0.4 nm", "0.3 nm"))
+    assert main(["merge", one, "--out", out]) == 2
+    assert "was changed after it was written" in capsys.readouterr().err
+
+
+def test_a_long_table_is_short_on_the_terminal(tmp_path, capsys):
+    assert sweep(tmp_path, "--model", "bradley", vary=("--vary", "punch.R=1:100:40 um")) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 27
+    assert lines[0] == "the first 24 of 40 rows; the CSV file has all"
+
+
+def test_the_tables_fit_a_narrow_terminal(tmp_path):
+    assert sweep(tmp_path, "--model", "jkr", "atlas", "--quiet") == 0
+    table, errors = (read_table(tmp_path / f"{name}.parquet") for name in ("results", "kappa"))
+    for shown in problem_summary(table, errors):
+        for width in (60, 80, 120):
+            assert max(map(len, shown.lines(width))) <= width
+            assert shown.is_table(width)
+
+
+def test_lines_of_a_problem_are_folded_on_a_terminal_and_whole_in_a_file(monkeypatch, capsys):
+    options = ["solve", "--model", "jkr", "--quantity", "pull_off_force", "--problem", str(COATED)]
+    assert main(options) == 0
+    whole = capsys.readouterr().out.splitlines()
+    assert max(map(len, whole)) > 100
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    monkeypatch.setattr("comparisons.cli.options.output", lambda: SimpleNamespace(width=60))
+    assert main(options) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= 60
+    assert " ".join(" ".join(lines).split()) == " ".join(" ".join(whole).split())
+
+
 def test_other_commands_refuse_the_folder_in_one_sentence(tmp_path, capsys):
     assert sweep(tmp_path / "out", "--model", "jkr", "--quiet") == 0
-    for command in ("judge", "report"):
-        assert main([command, str(tmp_path / "out")]) == 2
+    for command in (("judge",), ("leaderboard", "--out", str(tmp_path / "board.html"))):
+        assert main([*command, str(tmp_path / "out")]) == 2
         error = capsys.readouterr().err
         assert "Traceback" not in error
         assert error.count("\n") == 1

@@ -131,6 +131,7 @@ def test_all_sources_give_the_same_rows_and_verdicts(
     assert sum("PASS" in line for line in of_gates[0]) == len(CASES)
 
 
+@pytest.mark.heavy
 def test_the_sources_agree_in_solve(data_source, installed_example, capsys):
     values = []
     for spec in (installed_example, FILE_SOURCE, data_source):

@@ -6,6 +6,7 @@ The mistakes are those people make: a factor, a sign, a wrong exponent, n and k 
 
 import math
 import shlex
+from functools import cache
 from itertools import product
 from pathlib import Path
 
@@ -35,8 +36,36 @@ EVERY_GATE = pytest.mark.parametrize("gate", GATES, ids=lambda gate: gate.id)
 ROWS, CURVES = read_baseline(Path(__file__).parents[3] / BASELINE)
 
 
-def verdict(gate, rows=ROWS, curves=CURVES):
-    return roll_up(judge([gate], GRIDS, rows, curves)["verdict"])
+BY_ID = {gate.id: gate for gate in GATES}
+
+
+@cache
+def _tables(gate_id):
+    gate = BY_ID[gate_id]
+    models = [gate.candidate, gate.reference, *filter(None, [gate.rival])]
+    return tuple(table[(table["quantity"] == gate.quantity) & table["model"].isin(models)] for table in (ROWS, CURVES))
+
+
+def tables_of(gate):
+    """The rows and the points of curves that the gate judges: of its models and its quantity."""
+    return _tables(gate.id)
+
+
+@cache
+def _committed(gate_id):
+    return judge([BY_ID[gate_id]], GRIDS, *_tables(gate_id))
+
+
+def committed(gate):
+    """The judgement of the committed results; not to be changed."""
+    return _committed(gate.id)
+
+
+def verdict(gate, rows=None, curves=None):
+    """That of the committed tables but for the one that is given."""
+    own_rows, own_curves = tables_of(gate)
+    tables = own_rows if rows is None else rows, own_curves if curves is None else curves
+    return roll_up(judge([gate], GRIDS, *tables)["verdict"])
 
 
 def where(table, gate, model, at=None):
@@ -54,18 +83,21 @@ def shapeless(gate):
 
 @EVERY_GATE
 def test_the_committed_results_pass(gate):
-    assert verdict(gate) == (Verdict.XFAIL if gate.expected_failure else Verdict.PASS)
+    # With the rows of all other models in the tables.
+    assert roll_up(judge([gate], GRIDS, ROWS, CURVES)["verdict"]) == (
+        Verdict.XFAIL if gate.expected_failure else Verdict.PASS
+    )
 
 
 @pytest.mark.parametrize("gate", [gate for gate in GATES if gate.worst_measured is not None], ids=lambda gate: gate.id)
 def test_the_worst_case_stated_is_that_of_the_committed_results(gate):
     """To two digits, as it is written."""
-    errors = judge([gate], GRIDS, ROWS, CURVES)["error"]
+    errors = committed(gate)["error"]
     assert gate.worst_measured == pytest.approx(errors[errors.abs().idxmax()], rel=0.05)
 
 
 def errors_of(gate):
-    judged = judge([gate], GRIDS, ROWS, CURVES)
+    judged = committed(gate)
     return judged[judged["verdict"] != "NOT-APPLICABLE"]
 
 
@@ -112,14 +144,14 @@ def test_a_change_that_keeps_the_limits_fails(gate):
         pytest.skip("no range, or the error is not linear in the value; the mistakes below are seen")
     case = errors_of(gate).iloc[0]
     end = max(gate.measured_range, key=abs)
-    rows = ROWS.copy()
+    rows, curves = (table.copy() for table in tables_of(gate))
     mine = where(rows, gate, gate.candidate)
     for name in ("n", "k", "mu"):
         mine &= rows[name] == case[name]
     mine &= rows["nu"].isna() if pd.isna(case["nu"]) else rows["nu"] == case["nu"]
     scale = abs(case["reference_value"]) if gate.metric == "rel" else 1.0
     rows.loc[mine, "value"] += (1.001 * end - case["error"]) * scale
-    judged = judge([gate], GRIDS, rows, CURVES)
+    judged = judge([gate], GRIDS, rows, curves)
     assert roll_up(judged["verdict"]) == Verdict.FAIL
     assert judged["reason"].str.contains("has changed: the errors measured").any()
 
@@ -155,7 +187,7 @@ def test_the_command_that_is_shown_computes_the_case_of_the_gate(monkeypatch):
 
 def changed(gate, change):
     """The results with the values of the gate's candidate changed, in the gate's cases."""
-    rows, curves = ROWS.copy(), CURVES.copy()
+    rows, curves = (table.copy() for table in tables_of(gate))
     if shapeless(gate):
         mine = where(rows, gate, gate.candidate)
         rows.loc[mine, "value"] = change(rows[mine])
@@ -195,10 +227,10 @@ def test_an_error_a_little_outside_the_limits_fails(gate):
     """The sharpest mistake: the upper limit is overstepped by a tenth of the width and by what U hides."""
     if gate.rival or not shapeless(gate):
         pytest.skip("the error is not linear in the value; the mistakes above are seen")
-    judged = judge([gate], GRIDS, ROWS, CURVES)
+    judged = committed(gate)
     width, hidden = gate.upper - gate.lower, 2.5 * judged["uncertainty"].max()
     shift = gate.upper - judged["error"].min() + 0.1 * width + hidden
-    rows = ROWS.copy()
+    rows = tables_of(gate)[0].copy()
     for case in judged.itertuples():
         mine = where(rows, gate, gate.candidate)
         for name in ("n", "k", "mu"):
@@ -211,9 +243,9 @@ def test_an_error_a_little_outside_the_limits_fails(gate):
 @pytest.mark.parametrize("gate", [gate for gate in GATES if gate.expected_failure], ids=lambda gate: gate.id)
 def test_an_expected_failure_that_passes_is_reported(gate):
     """The candidate is given the error in the middle of the limits."""
-    rows = ROWS.copy()
+    rows = tables_of(gate)[0].copy()
     mine = where(rows, gate, gate.candidate)
-    of_reference = ROWS[ROWS["model"] == gate.reference].set_index(["quantity", "n", "k", "mu"])["value"]
+    of_reference = rows[rows["model"] == gate.reference].set_index(["quantity", "n", "k", "mu"])["value"]
     keys = pd.MultiIndex.from_frame(rows.loc[mine, ["quantity", "n", "k", "mu"]])
     middle = 0.0 if math.isinf(gate.lower) else 0.5 * (gate.lower + gate.upper)
     rows.loc[mine, "value"] = of_reference.loc[keys].to_numpy() * (1.0 + middle)
@@ -222,7 +254,7 @@ def test_an_expected_failure_that_passes_is_reported(gate):
 
 @EVERY_GATE
 def test_an_uncertain_reference_is_not_passed(gate):
-    rows, curves = ROWS.copy(), CURVES.copy()
+    rows, curves = (table.copy() for table in tables_of(gate))
     at = dict(gate.reference_at)
     if shapeless(gate):
         mine = where(rows, gate, gate.reference, at)
@@ -236,7 +268,7 @@ def test_an_uncertain_reference_is_not_passed(gate):
 
 @EVERY_GATE
 def test_a_reference_just_less_certain_than_tolerated_is_not_passed(gate):
-    rows, curves = ROWS.copy(), CURVES.copy()
+    rows, curves = (table.copy() for table in tables_of(gate))
     at = dict(gate.reference_at)
     if shapeless(gate):
         mine = where(rows, gate, gate.reference, at)
@@ -256,11 +288,10 @@ def test_a_row_lost_a_nan_and_a_column_lost_are_errors(gate, side):
     model = getattr(gate, side)
     at = dict(gate.reference_at) if side == "reference" else None
     name, column = ("rows", "value") if shapeless(gate) else ("curves", "y")
-    table = {"rows": ROWS, "curves": CURVES}[name]
+    table = dict(zip(("rows", "curves"), tables_of(gate), strict=True))[name]
     mine = where(table, gate, model, at)
     if gate.cases.get("tags") is not None and "nu" not in gate.cases and shapeless(gate):
-        judged = judge([gate], GRIDS, ROWS, CURVES)
-        case = judged.iloc[0]
+        case = committed(gate).iloc[0]
         mine &= np.logical_and.reduce(
             [table[p] == at[p] if at and p in at else table[p] == case[p] for p in ("n", "k", "mu")]
         )

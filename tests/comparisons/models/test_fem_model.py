@@ -75,6 +75,7 @@ def test_the_critical_tabor_number_is_that_of_the_modulus_and_has_the_bound_of_i
     assert FiniteElements().evaluate(replace(PROBLEM, mu=1e-9), "critical_tabor_number") == result
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("levels", [("quick", "quick"), pytest.param(_LEVELS, marks=pytest.mark.heavy)], ids=str)
 def test_gap_and_pressure_at_pull_off_are_those_of_the_integral_equation(monkeypatch, levels):
     """On the coarsest meshes, which keep the limits too, and in the heavy test on those of the model."""

@@ -21,7 +21,7 @@ def test_the_load_on_a_paraboloid_is_twice_the_energy_at_its_axis(mu):
     assert np.abs(curve.load - expected).max() < curve.u_distance * np.ptp(curve.load)
 
 
-@pytest.mark.parametrize(("n", "mu"), [(1, 1.0), (2, 0.3), (5, 1.0)])
+@pytest.mark.parametrize(("n", "mu"), [(1, 1.0), (2, 0.3), pytest.param(5, 1.0, marks=pytest.mark.heavy)])
 def test_the_curve_has_the_events_of_the_solid(n, mu):
     problem = Problem(n, 1, mu)
     solid, curve = GibsonSolid(problem), gibson_curve(problem)
@@ -39,7 +39,7 @@ def test_the_curve_has_the_events_of_the_solid(n, mu):
         assert not len(falling)
 
 
-@pytest.mark.parametrize(("n", "mu"), [(1, 0.3), (2, 0.3), (2, 1.0), (5, 1.0)])
+@pytest.mark.parametrize(("n", "mu"), [(1, 0.3), (2, 0.3), (2, 1.0), pytest.param(5, 1.0, marks=pytest.mark.heavy)])
 def test_the_surface_balances_and_carries_the_pull_off_force(n, mu):
     problem = Problem(n, 1, mu)
     solid = GibsonSolid(problem)

@@ -98,7 +98,9 @@ def test_an_edge_singularity_decides_the_order_not_the_rule():
     assert abs(found.value - 2.0) <= found.u_num <= 4 * abs(found.value - 2.0)
 
 
-@pytest.mark.parametrize("quantity", ["pull_off_force", "zero_load_displacement"])
+@pytest.mark.parametrize(
+    "quantity", ["pull_off_force", pytest.param("zero_load_displacement", marks=pytest.mark.heavy)]
+)
 def test_the_bound_of_a_low_order_scheme_holds_against_a_finer_grid(quantity):
     problem = Problem(n=3, k=0.2, mu=0.5)
     # A ninth of the error of the finest grid; the time grows with the third power.

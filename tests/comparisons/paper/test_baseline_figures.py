@@ -66,6 +66,14 @@ def test_a_changed_number_text_or_row_is_seen():
     assert changes(stored, gone) == ["kappa: a number where there was none, or none where there was"]
 
 
+def test_bounds_of_every_name_are_no_values():
+    stored = committed(paper_figures(["surface-modulus"])[0], "")
+    bounds = [name for name in stored.columns if name.endswith("u_num") or name.startswith("u_")]
+    assert {"u_num", "graded_u_num", "homogeneous_u_num", "u_fscm"} == set(bounds)
+    assert changes(stored, stored.assign(**{name: 2.0 * stored[name] for name in bounds})) == []
+    assert changes(stored, stored.assign(graded_value=2.0 * stored["graded_value"])) != []
+
+
 def test_a_folder_is_compared_with_the_committed_figures(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(FOLDER.parents[2])
     for name in ("2", "3", "16"):

@@ -16,6 +16,7 @@ from comparisons.registry import create
 from comparisons.runs.cases import Case
 
 
+@pytest.mark.heavy
 def test_chi_of_the_paraboloid_is_a_third_of_the_gradient(tables_of):
     # Eq. 57 at n = 2: (k + 3) / 2, so that chi = k / 3.
     tables = tables_of(GRADIENT_EFFECT)
@@ -64,6 +65,7 @@ def pull_off(tmp_path_factory):
         yield [figure.tables(cache.results) for figure in paper_figures]
 
 
+@pytest.mark.heavy
 def test_pull_off_forces_tend_to_both_limits(pull_off):
     forces, rigid, soft = pull_off
     assert (forces[""]["status"] == "ok").all()

@@ -98,6 +98,24 @@ BAD_TEXT = [
         "nu = 0.2\nnu_coating = 0.3\n\n",
         ["line 1", "needs nu or else nu_coating and nu_substrate"],
     ),
+    ("thousands of digits", E0, f"E0 = 1{'0' * 5000}", ["line 3", "has too many digits", "1e9"]),
+    ("decimal comma", E0, 'E0 = "2,5 GPa"', ["line 3", "has a comma in place of a decimal point", '"2 GPa"']),
+    ("a long unit", E0, f'E0 = "2 {"G" * 5000}Pa"', ["line 3", "has the unknown unit 'GGG", "...; it is a positive"]),
+    ("a date", E0, "E0 = 2024-01-01", ["line 3", "E0 = 2024-01-01 is no number"]),
+    ("list of sections", "[solid]", "[[solid]]", ["line 1", "is a list of sections", "[solid] in single brackets"]),
+    (
+        "a power of a length",
+        PUNCH,
+        '[punch]\nkind = "power-law"\nn = 3\nQ = "1 um"\n\n',
+        ["line 12", "unit um, which is not that of m^(2)", '"1 um^(2)" or a plain number in m^(2)'],
+    ),
+    (
+        "a name that is too long",
+        PUNCH,
+        f'[punch]\nkind = "table"\nfile = "{"a" * 5000}"\n\n',
+        ["line 11", 'file = "aaa', "... is not in the folder"],
+    ),
+    ("a name with a NUL", PUNCH, PUNCH_TABLE.replace("profile", "a\\u0000b"), ["line 11", "is not in the folder"]),
 ]
 
 #: Name, sections, file and content of a table, and parts of the sentence.
@@ -130,6 +148,7 @@ BAD_TABLES = [
     ),
     ("no apex", PUNCH_TABLE, "profile.csv", "r,height\n1e-7,1e-8\n2e-7,4e-8\n", ["the apex (0, 0)", "subtract"]),
     ("hollow", PUNCH_TABLE, "profile.csv", "r,height\n0,0\n2e-7,-4e-8\n", ["not above the first one"]),
+    ("a long cell", PUNCH_TABLE, "profile.csv", f"r,height\n0,{'1' * 200_000}\n", ["line 2", "is no row of CSV"]),
     ("short law", LAW_TABLE, "law.csv", "gap,traction\n0,1\n1,-1\n", ["has 2 rows; it needs at least 10"]),
     (
         "law without attraction",
@@ -179,6 +198,30 @@ def test_a_file_that_is_missing(tmp_path, capsys):
 def test_a_folder(tmp_path, capsys):
     (tmp_path / "pad.toml").mkdir()
     refused(tmp_path, capsys, "pad.toml: the problem file cannot be read")
+
+
+def test_the_standard_input(capsys):
+    assert main(["describe", "-"]) == 2
+    assert capsys.readouterr().err == (
+        "fscm-bench: -: the problem file is not read from the standard input; give the name of a file\n"
+    )
+
+
+def test_a_name_with_a_nul_or_that_is_too_long(capsys):
+    for name, words in (("a\0b", "embedded null byte"), ("x" * 5000, "File name too long")):
+        assert main(["describe", name]) == 2
+        error = capsys.readouterr().err
+        assert f"the problem file cannot be read ({words}); check the name" in error
+
+
+@pytest.mark.parametrize("form", ["utf-8-sig", "CRLF", "CR"])
+def test_marks_and_ends_of_lines_of_other_systems(form, tmp_path):
+    text = GOOD.replace("um", "µm")
+    (tmp_path / "plain.toml").write_text(text, encoding="utf-8")
+    ends = {"CRLF": "\r\n", "CR": "\r"}
+    content = text.replace("\n", ends.get(form, "\n")).encode("utf-8" if form in ends else form)
+    (tmp_path / "pad.toml").write_bytes(content)
+    assert load_problem(tmp_path / "pad.toml").solid == load_problem(tmp_path / "plain.toml").solid
 
 
 def test_a_file_that_is_not_utf_8(tmp_path, capsys):

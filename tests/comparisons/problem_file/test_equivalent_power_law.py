@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import mpmath
@@ -11,7 +12,7 @@ import pytest
 import fscm
 from comparisons.cli.main import main
 from comparisons.model import ComputationFailed
-from comparisons.problem_file import elastic_energy
+from comparisons.problem_file import elastic_energy, equivalent_text
 from comparisons.problem_file.description import ProblemFile, Section
 from comparisons.problem_file.dimensionless import dimensionless_problem
 from comparisons.problem_file.elastic_energy import energy_spectrum
@@ -49,6 +50,7 @@ def equivalent(problem):
     return equivalent_power_law(problem, evaluate_problem(problem, "fscm", "pull_off_force"))
 
 
+@pytest.mark.heavy
 def test_a_power_law_with_a_tiny_offset_is_itself():
     """What is left is the offset: it has a share (z_s/length)^(1-k) or less of the compliance."""
     found = equivalent(on("offset-power-law", {"E0": 2e9, "c0": 1e-8, "k": 0.4, "z_s": 1e-12, "nu": 0.3}))
@@ -68,6 +70,7 @@ def test_a_power_law_in_a_table_is_itself():
     assert solid["E0"] * (1e-8 / solid["c0"]) ** solid["k"] == pytest.approx(2e9, rel=0.02)
 
 
+@pytest.mark.heavy
 def test_a_thick_coating_is_a_homogeneous_solid():
     coating = {"E_coating": 1e9, "E_substrate": 10e9, "thickness": 1e-5, "transition": 0.0, "nu": 0.3}
     found = equivalent(on("coating", coating))
@@ -108,6 +111,28 @@ def test_the_error_is_that_of_both_solids_in_the_solver():
     assert abs(loads[0] / loads[1] - 1.0 - found.error) <= found.bound < 1e-5
 
 
+def test_closed_forms_have_the_power_law_and_their_error_is_that_against_the_solid_itself():
+    problem = load_problem(COATED)
+    found = equivalent(problem)
+    force = evaluate_problem(problem, "fscm", "pull_off_force")
+    errors = {one.model: one for one in found.closed_forms}
+    # Forces that need no model: of rigid spheres 2 pi R w for every solid, and of soft ones (3 + k)/2 pi R w.
+    pull = math.pi * 1e-7 * 0.05
+    for model, factor in (("bradley", 2.0), ("jkr", (3.0 + found.problem.solid["k"]) / 2.0)):
+        assert abs(factor * pull / force.value - 1.0 - errors[model].error) <= errors[model].bound < 1e-7
+    assert [abs(one.error) for one in found.closed_forms] == sorted(abs(one.error) for one in found.closed_forms)
+    assert not {"fscm", "fem", "atlas"} & set(errors)
+
+
+def test_closed_forms_that_do_not_take_the_punch_are_not_stated():
+    problem = load_problem(COATED)
+    cone = replace(problem, punch=Section("rounded-cone", {"R": 1e-7, "slope": 0.5}))
+    found = equivalent(cone)
+    assert found.closed_forms == ()
+    assert "    no closed form takes this punch or this law" in equivalent_text.lines(found)
+    assert equivalent_text.content(found)["closed_form_within"] == {"1 %": None, "5 %": None}
+
+
 def test_the_energy_is_the_work_of_the_pressure():
     problem = load_problem(COATED)
     posed, units = dimensionless_problem(problem)
@@ -141,10 +166,10 @@ def test_describe_states_the_equivalent_and_its_error(capsys):
     assert main(["describe", str(COATED)]) == 0
     text = capsys.readouterr().out
     page = (EXAMPLES.parents[1] / "problem_files.md").read_text(encoding="utf-8")
-    *_, solid, fit, force = text.splitlines()
-    assert solid in page
-    assert fit in page
-    assert force.partition("(")[0] in page
+    lines = text.splitlines()
+    first = next(place for place, line in enumerate(lines) if "equivalent power law" in line)
+    for line in lines[first : first + 7]:
+        assert line.partition("(")[0] in page
     assert "equivalent power law E0 (z/c0)^k: E0 = 1.786 GPa, c0 = 8.061 nm, k = 0.4029, nu = 0.3\n" in text
     assert "over lengths from 1.496 nm to 48.88 nm" in text
     assert "(atlas), error 3.5693" in text
@@ -152,4 +177,8 @@ def test_describe_states_the_equivalent_and_its_error(capsys):
     found = json.loads(capsys.readouterr().out)
     force = found["equivalent_power_law"]["pull_off_force"]
     assert force["error"] == pytest.approx(force["value"] / found["pull_off_force"]["value"] - 1.0, abs=1e-12)
+    closed = found["equivalent_power_law"]["closed_forms"]
+    assert [f"{one['model']}" for one in closed] == [line.split()[0] for line in lines[first + 5 : -1]]
+    assert found["equivalent_power_law"]["closed_form_within"] == {"1 %": "md-original", "5 %": "md-original"}
+    assert lines[-1] == "    within 1 %: md-original; within 5 %: md-original"
     assert {"E0", "c0", "k", "nu", "free_k", "lengths", "compliance_deviation"} < found["equivalent_power_law"].keys()

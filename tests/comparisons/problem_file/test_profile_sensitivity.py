@@ -47,6 +47,7 @@ def force(problem):
     return evaluate_problem(problem, "fscm", "pull_off_force")
 
 
+@pytest.mark.heavy
 def test_the_changes_are_those_of_other_files(written, capsys):
     path = written('smoothing = "0.05 nm"').path
     assert main(["describe", str(path), "--format", "json"]) == 0

@@ -179,6 +179,7 @@ def check_sample(problem, count, seed):
     assert abs(np.std(exact, ddof=1) / deviation - 1.0) < ERRORS / math.sqrt(2.0 * (count - 1))
 
 
+@pytest.mark.heavy
 def test_a_sample_of_a_power_law(tmp_path):
     check_sample(read(tmp_path, PAD), 8, seed=16)
 

@@ -125,6 +125,8 @@ const Plots = (() => {
       `${label.firstChild.textContent.trim()}: ${label.querySelector("select").selectedOptions[0]?.textContent ?? ""}`);
     one.figure.querySelector(".choice").textContent = words.join(", ");
     Tables.choose(one.plot.table, group);
+    const label = one.plot.y_labels[group] ?? one.plot.y_label;
+    for (const axis of one.drawn.yaxes) axis.setv({ axis_label: label });
     const visible = chosen.filter(({ series }) => on.has(series.model));
     one.shown = visible.map(({ series }) => series);
     // What is pointed at: the nearest of a line's points, or a point itself.

@@ -2,6 +2,7 @@
 
 import base64
 import importlib
+import json
 import os
 import re
 import shutil
@@ -115,6 +116,12 @@ def tips(browser):
 def messages(browser):
     """What the console has beyond information."""
     return [entry for entry in browser.get_log("browser") if entry["level"] not in {"INFO", "DEBUG"}]
+
+
+def requests(browser):
+    """The addresses of everything that the page has asked for."""
+    sent = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
+    return [one["params"]["request"]["url"] for one in sent if one["method"] == "Network.requestWillBeSent"]
 
 
 def width(browser, selector="html"):

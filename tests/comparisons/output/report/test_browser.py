@@ -5,7 +5,6 @@ Skipped where there is no Chromium with its driver, unless FSCM_BENCH_BROWSER=re
 
 import csv
 import io
-import json
 import re
 
 import numpy as np
@@ -30,6 +29,7 @@ from .browsing import (
     press,
     printed,
     ranges,
+    requests,
     show,
     size,
     sorting,
@@ -39,11 +39,6 @@ from .browsing import (
     wait,
     width,
 )
-
-
-def requests(browser):
-    messages = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
-    return [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
 
 
 def test_it_opens_without_an_error_and_without_the_network_and_admits_no_other_script(browser, page, hostile):

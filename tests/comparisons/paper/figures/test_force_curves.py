@@ -37,6 +37,7 @@ def test_over_tabor_numbers(family):
     assert (table[["u_displacement", "u_load"]] < 1e-5).all(axis=None)
 
 
+@pytest.mark.heavy
 def test_over_gradients(family):
     table = family(*((2.0, k, 0.5) for k in (0.0, 0.6, 1.0)))
     # Sec. 3.2.2: the pull-off force grows with k, to 2 in the Gibson limit of a paraboloid.

@@ -16,6 +16,7 @@ def critical():
     return near_critical(2.0, 0.4)
 
 
+@pytest.mark.heavy
 def test_the_branches_part_as_at_a_cusp(critical):
     assert round(critical["mu"], 2) == 0.78
     first, later = critical["jumps"][0], critical["jumps"][3]

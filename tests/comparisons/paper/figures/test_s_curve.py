@@ -18,6 +18,7 @@ def points(tables):
     return tables["points"].set_index("name")
 
 
+@pytest.mark.heavy
 def test_the_path_meets_the_points_in_order(tables, points):
     assert list(points.index) == ["B'", "A", "B", "A'", "C", "D"]
     assert points["central_gap"].is_monotonic_decreasing

@@ -5,6 +5,7 @@ import pytest
 from comparisons.paper.figures import fig10_transition as transition
 
 
+@pytest.mark.heavy
 def test_both_limits(tables_of, monkeypatch):
     monkeypatch.setattr(transition, "_SHAPES", (2.0, 5.0))
     monkeypatch.setattr(transition, "_GRADIENTS", (0.4, 1.0))

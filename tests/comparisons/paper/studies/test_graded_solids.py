@@ -8,14 +8,26 @@ import pandas as pd
 import pytest
 
 from comparisons.paper.baseline import PAPER_BASELINE
+from comparisons.paper.studies.graded_equivalent import equivalent_of
 from comparisons.paper.studies.graded_routes import OFFSET, QUANTITIES, by_elements, by_fscm, case_of, of_power_law
 from comparisons.paper.studies.graded_solids import SERIES, SIMPLER
+from comparisons.problem_file.description import ProblemFile, Section
+from comparisons.problem_file.dimensionless import dimensionless_problem
+from comparisons.problem_file.equivalent_power_law import equivalent_power_law
+from comparisons.problem_file.evaluation import evaluate_problem
 
 TABLE = pd.read_csv(Path(__file__).parents[4] / PAPER_BASELINE / "graded_solids.csv")
 CASES = [(kind, parameter) for kind, (parameters, _) in SERIES.items() for parameter in parameters]
 
 #: Sum of the bounds over the largest value of a quantity: measured 2.6e-5 (displacement at pull-off, offset 0.1).
 LARGEST_BOUND = 3e-5
+
+#: Distance of k and mu from those of a power law with an offset of 1e-6 L: see the test for how it falls.
+LARGEST_OFFSET = 3e-4
+
+#: Distance of k and mu from those of the surface where the modulus changes over 1e4 L: measured 2.6e-3 (exponential),
+#: since a share of the energy is at lengths far above the contact radius.
+LARGEST_DEPTH = 4e-3
 
 
 def rows(kind, parameter):
@@ -69,19 +81,30 @@ def test_every_point_is_computed_again_by_the_fscm(kind, parameter):
 
 
 def test_the_equivalent_power_law_of_a_power_law_is_itself():
-    """The skin changes the compliance at 1/L by its share, z_s^(1-k) (as `surface_modulus_tables.limits`)."""
-    apart = [np.abs(np.subtract(case_of("offset power law", z_s).equivalent, OFFSET)) for z_s in (1e-4, 1e-6)]
-    assert max(apart[1]) < 3e-4
-    assert apart[0] / apart[1] == pytest.approx(100.0 ** (1.0 - OFFSET[0]), rel=0.05)
+    """The skin changes the compliance at the contact radius by its share, z_s^(1-k)."""
+    apart = [np.abs(np.subtract(equivalent_of("offset power law", z_s), OFFSET)) for z_s in (1e-4, 1e-6)]
+    assert max(apart[1]) < LARGEST_OFFSET
+    assert max(apart[1]) < max(apart[0]) / 3.0
 
 
 @pytest.mark.parametrize("kind", ["exponential", "coating"])
 def test_the_equivalent_power_law_of_a_homogeneous_limit_is_homogeneous(kind):
-    """What is left is the share of the depth in the wave length, or of its inverse."""
-    k, mu = case_of(kind, 1e-6).equivalent
-    assert (k, mu) == pytest.approx(case_of(kind, 1e-6).depth, abs=1e-5)
-    deep = case_of(kind, 1e4)
-    assert deep.equivalent == pytest.approx((0.0, deep.mu), abs=1e-3)
+    """What is left is the share of the depth in the lengths of the contact, or of its inverse."""
+    assert equivalent_of(kind, 1e-6) == pytest.approx(case_of(kind, 1e-6).depth, abs=1e-5)
+    assert equivalent_of(kind, 1e4) == pytest.approx((0.0, case_of(kind, 1e4).mu), abs=LARGEST_DEPTH)
+
+
+def test_the_equivalent_power_laws_are_those_of_the_rule_of_a_problem_file():
+    """A file with the numbers of a case, by the command that describes it."""
+    case = case_of("exponential", 2.0)
+    law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.7, "z0": 0.25})
+    problem = ProblemFile(Path("pad.toml"), case.section, Section("sphere", {"R": 2.0}), law)
+    found = equivalent_power_law(problem, evaluate_problem(problem, "fscm", "pull_off_force"))
+    posed, _ = dimensionless_problem(found.problem)
+    stored = rows("exponential", 2.0).loc["pull_off_force"]
+    # Six digits are stored.
+    assert (posed.k, posed.mu) == pytest.approx((stored["power_law_k"], stored["power_law_mu"]), abs=2e-6)
+    assert found.error == pytest.approx(stored["power_law_error"], abs=2e-6)
 
 
 def test_errors_are_those_of_the_columns():

@@ -38,6 +38,7 @@ def test_the_expected_values_are_computed_again():
         assert row.expected == pytest.approx(expected["force"], abs=expected["u_num"])
 
 
+@pytest.mark.heavy
 def test_a_coating_like_its_substrate_is_homogeneous_and_approaches_jkr():
     """Of the coated solid only the first Tabor number is computed; the next test computes all."""
     homogeneous = [solve(Problem(2, 0, mu), "pull_off_force") for mu in TABOR_NUMBERS]

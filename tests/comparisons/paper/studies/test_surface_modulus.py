@@ -35,6 +35,7 @@ def test_tabor_number_of_the_uniform_solid(k, mu, depth):
     assert homogeneous_tabor_number(k, mu, depth) == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.heavy
 def test_an_offset_does_nothing_to_a_uniform_solid():
     found = with_skin("pull-off", 0.0, 1.0, 30.0)
     for name in ("pull_off_force", "pull_off_displacement"):

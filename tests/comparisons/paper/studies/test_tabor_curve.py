@@ -10,7 +10,7 @@ from comparisons.paper.values.causes import cohesive_forces
 from comparisons.runs.cases import Case
 
 
-@pytest.mark.parametrize("n", [1.5, 5.0])
+@pytest.mark.parametrize("n", [1.5, pytest.param(5.0, marks=pytest.mark.heavy)])
 def test_between_the_points_the_curve_is_the_model(n):
     curve = TaborCurve.through(np.array(cohesive_forces(n, 0.4, eta(n))))
     rng = np.random.default_rng(7)

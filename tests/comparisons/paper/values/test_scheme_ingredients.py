@@ -36,6 +36,7 @@ def test_the_scheme_tends_to_the_converged_force_without_what_is_beyond(n, mu):
     assert abs(errors[1]) < 0.1 * found["beyond"][0] + 1e-3
 
 
+@pytest.mark.heavy
 def test_the_scheme_is_its_own_model():
     """The stationary load found from the accurate surface is that of the path followed from afar."""
     followed = create("fscm-stieltjes-400").evaluate(Case(2.0, 0.4, 0.5).problem(), "pull_off_force").value
@@ -43,6 +44,7 @@ def test_the_scheme_is_its_own_model():
     assert direct["force"] == pytest.approx(followed, abs=direct["u_num"] + 1e-7)
 
 
+@pytest.mark.heavy
 def test_samples_of_the_central_gap_miss_the_largest_force():
     force = exact_force(5.0, 0.4, 0.836)["force"]
     found = sampled_force(5.0, 0.4, 0.836)

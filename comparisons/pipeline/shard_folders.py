@@ -1,0 +1,126 @@
+"""Folders of the shards of a sweep that are merged: their records, and the rows that are taken of each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, Protocol, TypeVar
+
+from comparisons.runs.folder import RunFolder
+from comparisons.runs.journal import alone_in
+from comparisons.runs.part_journal import PartJournal
+from comparisons.runs.record import PROBLEM_SWEEP, read_record
+from comparisons.runs.reevaluation import Comparable
+
+__all__ = ["checked_records", "take_rows"]
+
+#: Commands whose folders are merged, in words.
+_SWEEPS = {"sweep": "sweep FILE", PROBLEM_SWEEP: "sweep --problem"}
+
+
+class _Keyed(Comparable, Protocol):
+    """A row with what identifies it."""
+
+    @property
+    def key(self) -> Any: ...
+
+
+_Row = TypeVar("_Row", bound=_Keyed)
+
+
+def checked_records(
+    folders: Sequence[Path],
+    out: Path,
+    command_name: str,
+    common: Callable[[Mapping[str, Any]], Mapping[str, Any]],
+) -> dict[Path, dict[str, Any]]:
+    """Return the records of the folders of one sweep, each folder once.
+
+    Parameters
+    ----------
+    folders : sequence of Path
+    out : Path
+        For the merged rows; none of `folders`.
+    command_name : str
+        Of the command that writes such folders, as their records have it.
+    common : callable
+        Entries of a record that all shards of a sweep have in common, each by its name in words.
+
+    Raises
+    ------
+    ValueError
+        One sentence: a folder is not that of a finished sweep, it has no journal, it is `out`, or it is of another
+        sweep than the first.
+    """
+    records: dict[Path, dict[str, Any]] = {}
+    first: Path | None = None
+    for folder in dict.fromkeys(folders):
+        files = RunFolder(folder)
+        record = read_record(files.record)
+        first = first or folder
+        found = record["command_name"]
+        if found not in _SWEEPS:
+            raise ValueError(f"{folder} is the folder of fscm-bench {found}; only sweeps are merged")
+        if found != command_name:
+            raise ValueError(
+                f"{folder} is the folder of fscm-bench {_SWEEPS[found]}, and {first} of {_SWEEPS[command_name]}: only "
+                "shards of one sweep are merged"
+            )
+        if not files.journal.exists():
+            raise ValueError(f"{files.journal} does not exist: only folders with their journal are merged")
+        if folder.resolve() == out.resolve():
+            raise ValueError(f"{out} is one of the folders that are merged; choose another folder with --out")
+        records[folder] = record
+        expected, own = common(records[first]), common(record)
+        different = [words for words in expected if own[words] != expected[words]]
+        if different:
+            raise ValueError(f"{folder} and {first} are not shards of one sweep: they differ in their {different[0]}")
+    return records
+
+
+def take_rows(
+    folder: Path,
+    source: Callable[[Path], PartJournal[_Row]],
+    journal: PartJournal[_Row],
+    usable: Callable[[Iterable[_Row]], list[_Row]],
+    same: Callable[[_Row, _Row], bool],
+    place: Callable[[_Row], str],
+) -> None:
+    """Add the rows of a folder that a journal does not have, or has as failures only.
+
+    Parameters
+    ----------
+    folder : Path
+        Of a shard.
+    source : callable
+        The journal of a folder.
+    journal : PartJournal
+        To which the rows are added.
+    usable : callable
+        The rows that belong to the sweep.
+    same : callable
+        Whether two rows of one computation agree.
+    place : callable
+        What a row is about, in words.
+
+    Raises
+    ------
+    ValueError
+        If a row has another result than one of the journal.
+    """
+    with alone_in(folder):
+        given = source(folder)
+        stored = {row.key: row for row in usable(journal.items)}
+        taken = set()
+        for row in usable(given.items):
+            known = stored.get(row.key)
+            if known is None or (known.status == "failed" and row.status != "failed"):
+                taken.add(row.key)
+            elif row.status != "failed" and not same(known, row):
+                raise ValueError(
+                    f"{folder} has another result than a folder before it for {place(row)}: they differ by more than "
+                    "both uncertainties"
+                )
+        journal.drop(lambda row: row.key in taken)
+        chosen = {id(row) for row in usable(given.items) if row.key in taken}
+        journal.take(given, lambda row: id(row) in chosen)

@@ -1,0 +1,247 @@
+"""The page of a sweep over a problem file: values over the varied keys, errors, failures and the file."""
+
+import csv
+import io
+import json
+import math
+import re
+import shutil
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from comparisons.cli.main import main
+from comparisons.output.latex_text import escaped
+from comparisons.output.report.problem_page import make_problem_page, problem_headline
+from comparisons.output.report.render import render
+from comparisons.output.report.stored_problem_sweep import read_problem_sweep
+from comparisons.output.report.table import table_tex
+from comparisons.runs.record import read_record, write_record
+
+from .browsing import (
+    DESKTOP,
+    PHONE,
+    cells,
+    click,
+    dark,
+    find,
+    head,
+    messages,
+    ranges,
+    requests,
+    show,
+    sorting,
+    text_of,
+    unfold,
+    width,
+)
+
+PAD = Path(__file__).parents[4] / "docs" / "examples" / "problems" / "graded_pad.toml"
+RADII, WORKS = [1e-7, 1e-6, 5e-6], [0.02, 0.06]
+HOSTILE = "# </script><script>window.hostile = 1</script> <img src=x onerror=\"window.hostile='image'\">\n"
+
+
+def report(folder):
+    return render(make_problem_page(read_problem_sweep(folder)))
+
+
+@pytest.fixture(scope="module")
+def swept(tmp_path_factory):
+    """Closed forms alone, and the atlas; never written to by a test."""
+    folder = tmp_path_factory.mktemp("swept")
+    (folder / "pad.toml").write_text(HOSTILE + PAD.read_text())
+    options = ["--model", "bradley", "jkr", "atlas", "--quantity", "pull_off_force", "jump_out_displacement", "--quiet"]
+    vary = ["--vary", "punch.R=0.1, 1, 5 um", "--vary", "law.work_of_adhesion=20, 60 mJ/m^2"]
+    out = folder / "out"
+    assert main(["sweep", "--problem", str(folder / "pad.toml"), *vary, *options, "--out", str(out)]) == 0
+    return out
+
+
+@pytest.fixture(scope="module")
+def laid_out(swept):
+    return make_problem_page(read_problem_sweep(swept))
+
+
+@pytest.fixture(scope="module")
+def page_of_sweep(swept):
+    path = swept.parent / "report.html"
+    assert main(["report", str(swept), "--out", str(path)]) == 0
+    return path
+
+
+def test_the_headline_is_the_range_of_the_reference(laid_out, swept):
+    force = pd.read_csv(swept / "results.csv").query("model == 'atlas' and quantity == 'pull_off_force'")["value"]
+    found = re.fullmatch(
+        r"The pull-off force of atlas is between (\S+) nN \(R = 100 nm, work_of_adhesion = 20 mJ/m\^2\) and (\S+) µN "
+        r"\(R = 5 µm, work_of_adhesion = 60 mJ/m\^2\)",
+        laid_out.headline,
+    )
+    assert (float(found[1]) * 1e-9, float(found[2]) * 1e-6) == pytest.approx((force.min(), force.max()), rel=5e-4)
+    assert "Of 2 models bradley differs most from atlas: by 17.36" in laid_out.summary
+    assert "36 computations of 6 problems" in laid_out.summary
+
+
+def test_a_value_that_is_less_certain_than_four_digits_keeps_its_bound():
+    row = {"model": "fem", "quantity": "pull_off_force", "punch.R [m]": 1e-7, "unit": "N", "status": "ok"}
+    values = pd.DataFrame([row | {"value": 2.7172e-8, "u_num": 4e-11}])
+    assert problem_headline(values) == "The pull-off force of fem is 27.17(4) nN (R = 100 nm)"
+    assert problem_headline(values.assign(status="failed")) == "No computation of this sweep has a value"
+
+
+def test_every_choice_of_a_plot_shows_the_stored_numbers(laid_out, swept):
+    stored = pd.read_csv(swept / "results.csv").set_index(
+        ["quantity", "model", "punch.R [m]", "law.work_of_adhesion [J/m^2]"]
+    )
+    over_radius, over_work = laid_out.every_plot
+    assert (over_radius.x_label, over_radius.x_scale) == ("punch.R (µm)", "log")
+    assert (over_work.x_label, over_work.x_scale) == ("law.work_of_adhesion (mJ/m^2)", "linear")
+    seen = 0
+    for plot, power in ((over_radius, 1e-6), (over_work, 1e-3)):
+        for series in plot.series:
+            quantity, unit, other = series.group.split("|")
+            scale = {"N": 1.0, "nN": 1e-9, "µN": 1e-6, "nm": 1e-9, "pm": 1e-12}
+            label = plot.y_labels[series.group]
+            column, factor = (
+                ("value", scale[label.rpartition("(")[2].removesuffix(")")])
+                if unit == "si"
+                else ("dimensionless_value", 1.0)
+            )
+            for x, y, low, high in zip(series.x, series.y, series.low, series.high, strict=True):
+                key = (round(x * power, 12), float(other)) if plot is over_radius else (float(other), x * power)
+                row = stored.loc[(quantity, series.model)]
+                distance = [math.dist(key, one) / max(one) for one in row.index]
+                row = row.iloc[distance.index(min(distance))]
+                assert y * factor == pytest.approx(row[column], rel=1e-9)
+                bound = row["u_num"] if unit == "si" else row["dimensionless_u_num"]
+                assert (high - low) / 2 * factor == pytest.approx(bound, rel=1e-3, abs=1e-9 * abs(row[column]))
+                seen += 1
+    # Both units of 30 values (Bradley has no jump), in both plots.
+    assert seen == 2 * 2 * 30
+    groups = {row.group for row in laid_out.tables["plot-1-numbers"].rows}
+    assert groups == {series.group for series in over_radius.series}
+
+
+def test_each_row_stands_for_lines_of_its_file(laid_out):
+    for table in laid_out.tables.values():
+        stored = list(csv.DictReader(io.StringIO(laid_out.files[table.source])))
+        lines = table.lines if table.lines is not None else range(len(table.rows))
+        assert len(lines) == len(table.rows)
+        for row, line in zip(table.rows, lines, strict=True):
+            assert row.cells[0].text == stored[line]["model"]
+        if table.rows:
+            assert escaped(table.caption) in table_tex(table)
+
+
+def test_what_has_no_value_has_its_reason(laid_out):
+    rows = laid_out.tables["lacking"].rows
+    assert [row.cells[0].text for row in rows] == ["bradley"] * 6
+    assert all("does not define jump_out_displacement" in row.cells[-1].text for row in rows)
+
+
+def test_the_same_folder_gives_the_same_page_and_a_changed_one_none(swept, tmp_path, capsys):
+    assert report(swept) == report(swept)
+    folder = tmp_path / "changed"
+    shutil.copytree(swept, folder)
+    (folder / "inputs" / "pad.toml").write_text("# other")
+    assert main(["report", str(folder)]) == 2
+    error = capsys.readouterr().err
+    assert "pad.toml was changed after it was written" in error
+    assert error.count("\n") == 1
+    assert not (folder / "report.html").exists()
+
+
+def test_a_table_without_a_column_is_refused(swept, tmp_path, capsys):
+    folder = tmp_path / "changed"
+    shutil.copytree(swept, folder)
+    pd.read_parquet(folder / "results.parquet").drop(columns="unit").to_parquet(folder / "results.parquet")
+    write_record(read_record(folder / "run.json"), folder / "run.json")
+    assert main(["report", str(folder)]) == 2
+    assert "results.parquet has no column unit" in capsys.readouterr().err
+
+
+def test_the_page_replaces_no_file_of_the_sweep(swept, capsys):
+    for name in ("results.csv", "inputs/pad.toml"):
+        assert main(["report", str(swept), "--out", str(swept / name)]) == 2
+        assert "is a file of the run, which the page would replace" in capsys.readouterr().err
+
+
+def test_keys_with_texts_are_choices(tmp_path):
+    rows = "r [nm],height [nm]\n" + "".join(f"{r},{r * r / 200}\n" for r in range(40))
+    for name in ("a.csv", "b.csv"):
+        (tmp_path / name).write_text(rows)
+    before, _, after = PAD.read_text().partition("[punch]")
+    after = after.partition("[law]")[2]
+    (tmp_path / "tip.toml").write_text(f'{before}[punch]\nkind = "table"\nfile = "a.csv"\n[law]{after}')
+    vary = ["--vary", "punch.file=a.csv, b.csv"]
+    out = ["--model", "bradley", "--quiet", "--out", str(tmp_path / "out")]
+    assert main(["sweep", "--problem", str(tmp_path / "tip.toml"), *vary, *out]) == 0
+    page = make_problem_page(read_problem_sweep(tmp_path / "out"))
+    assert (page.every_plot, page.headline) == ([], "No computation of this sweep has a value")
+    assert "No varied key has two numbers with values." in render(page)
+
+
+def test_the_page_in_a_browser(browser, page_of_sweep, swept):
+    show(browser, page_of_sweep, *DESKTOP)
+    assert messages(browser) == []
+    assert {url for url in requests(browser) if not url.startswith("data:")} == {page_of_sweep.as_uri()}
+    assert browser.execute_script("return [window.hostile ?? null, document.images.length]") == [None, 0]
+    assert HOSTILE.strip() in find(browser, "pre.file").text
+    # A choice shows its numbers and its unit.
+    unfold(browser, "plot-1-numbers")
+    stored = pd.read_csv(swept / "results.csv").query("quantity == 'pull_off_force' and status == 'ok'")
+    chosen = stored[stored["law.work_of_adhesion [J/m^2]"] == WORKS[0]]
+    assert [float(text) for text in cells(browser, "plot-1-numbers", "value")] == chosen["value"].tolist()
+    assert label(browser) == "pull-off force (nN)"
+    before = ranges(browser, "plot-1")
+    browser.execute_script("""
+      const unit = document.querySelectorAll("#plot-1 select")[1];
+      unit.value = "paper"; unit.dispatchEvent(new Event("change"));
+    """)
+    shown = [float(text) for text in cells(browser, "plot-1-numbers", "value")]
+    assert shown == chosen["dimensionless_value"].tolist()
+    assert label(browser) == "pull-off force (pi Q^(2/n) dgamma z0^(2/n-1))"
+    assert ranges(browser, "plot-1")[:2] == before[:2]
+    assert ranges(browser, "plot-1")[2:] != before[2:]
+    # Tables sort, filter and are saved as they are shown.
+    unfold(browser, "results")
+    click(browser, head(browser, "results", "value"))
+    assert sorting(browser, "results", "value") == "ascending"
+    find(browser, "#table-results .filter").send_keys("jkr force")
+    rows = list(csv.DictReader(io.StringIO(text_of(browser, "results", "csv"))))
+    assert {row["model"] for row in rows} == {"jkr"}
+    values = [float(row["value"]) for row in rows]
+    assert len(values) == len(RADII) * len(WORKS)
+    assert values == sorted(values)
+    assert "\\begin{" in text_of(browser, "results", "tex")
+    light = dark(browser)
+    click(browser, find(browser, "#theme"))
+    assert dark(browser) == [not one for one in light]
+
+
+def label(browser):
+    script = "return Bokeh.documents.flatMap((one) => one.roots())[0].yaxes[0].axis_label"
+    return browser.execute_script(script)
+
+
+def test_the_page_fits_a_phone(browser, page_of_sweep):
+    show(browser, page_of_sweep, *PHONE)
+    whole, window = width(browser)
+    assert whole <= window
+    boxes = browser.execute_script("""
+      return Array.from(document.querySelectorAll("#plot-1 select"), (one) => {
+        const { left, right, top, bottom } = one.getBoundingClientRect();
+        return [left, right, top, bottom];
+      });
+    """)
+    for place, one in enumerate(boxes):
+        assert one[1] <= PHONE[0]
+        for other in boxes[:place]:
+            assert one[0] >= other[1] or one[2] >= other[3] or other[0] >= one[1]
+
+
+def test_the_data_of_the_page_has_every_label(page_of_sweep):
+    text = page_of_sweep.read_text(encoding="utf-8")
+    data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.DOTALL)[1])
+    for plot in data["plots"]:
+        assert set(plot["y_labels"]) == {series["group"] for series in plot["series"]}
