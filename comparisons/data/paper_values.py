@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import tomllib
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from decimal import Decimal
 from importlib.resources import files
 
@@ -22,7 +22,7 @@ REPRODUCED = ("agrees", TRUNCATED)
 _ROUNDING = 2.0**-52
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class PaperValue:
     """A number a paper prints, and what it is of.
 
@@ -56,6 +56,20 @@ class PaperValue:
     k: float = math.nan
     index: int = 0
     exact: float | None = None
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all is equal; no case equals no case.
+
+        From Python 3.13 on a dataclass with a NaN is not equal to itself.
+        """
+        return isinstance(other, PaperValue) and self._compared == other._compared
+
+    def __hash__(self) -> int:
+        return hash(self._compared)
+
+    @property
+    def _compared(self) -> tuple[object, ...]:
+        return tuple(None if part != part else part for part in astuple(self))
 
     @property
     def value(self) -> float:

@@ -177,6 +177,13 @@ def test_the_committed_verdicts_and_causes_follow_from_the_committed_repetitions
         assert of_value == [] or of_value[0].verdict == plain
 
 
+def test_a_number_without_a_case_equals_itself_and_another_object_of_the_same_number():
+    one, same = (PaperValue("a", "b", "c", "1", n=float("nan")) for _ in range(2))
+    assert one == same
+    assert hash(one) == hash(same)
+    assert one != PaperValue("a", "b", "c", "2")
+
+
 def paper_value_of(row):
     """The paper value of a row of a committed table."""
     (found,) = [
