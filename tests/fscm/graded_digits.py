@@ -59,7 +59,7 @@ def _product(a, b):
 
 def _of(p, E, roots=()):
     slope = [j * c for j, c in enumerate(E)][1:] or [mpf(0)]
-    return Variable(_product(p, E), E, _product(p, slope), [*roots, *mpmath.polyroots(E[::-1], maxsteps=200)])
+    return Variable(_product(p, E), E, _product(p, slope), [*roots, *np.roots(np.array(E[::-1], float)).tolist()])
 
 
 def _stretches(solid, deepest):
@@ -144,7 +144,7 @@ def relative_compliance(solid, xi):
         for variable, y, top in _stretches(solid, START / xi):
             while y != top:
                 reach = min((abs(y - root) for root in variable.roots), default=mpf(10) ** 9) / SHARE
-                p = mpmath.polyval(variable.rate[::-1], y) / mpmath.polyval(variable.factor[::-1], y)
+                p = _shifted(variable.rate, y)[0] / _shifted(variable.factor, y)[0]
                 h = min(reach, 2 * abs(p) / xi, abs(top - y))
                 last = h == abs(top - y)
                 h = h if top > y else -h
