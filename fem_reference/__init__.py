@@ -30,7 +30,7 @@ LAYERS = (
     ("_elastic",),
     ("_linear",),
     ("_contact",),
-    ("quantities", "solution", "states", "export"),
+    ("quantities", "result", "solution", "states", "export"),
     ("verification",),
 )
 

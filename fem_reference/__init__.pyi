@@ -21,8 +21,9 @@ from .problem import Problem as Problem
 from .profiles import MeasuredPunch as MeasuredPunch, PowerSum as PowerSum, RoundedCone as RoundedCone
 from .punch import CustomPunch as CustomPunch, PowerPunch as PowerPunch, Punch as Punch
 from .quantities import CRITICAL_MODULUS as CRITICAL_MODULUS, LOSSES as LOSSES, QUANTITIES as QUANTITIES
+from .result import Solution as Solution
 from .solid import CustomSolid as CustomSolid, Solid as Solid
-from .solution import Solution as Solution, solve as solve, solve_together as solve_together
+from .solution import solve as solve, solve_together as solve_together
 from .states import (
     EVENTS as EVENTS,
     EquilibriumPath as EquilibriumPath,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-__all__ = ["ACCURACIES", "Level", "coarser_accuracy", "finer_levels", "level_for"]
+__all__ = ["ACCURACIES", "Level", "coarser_accuracy", "finer_levels", "level_for", "relative_error"]
 
 ACCURACIES = {"quick": 1e-6, "default": 1e-7, "fine": 1e-8}
 """Names of accuracies.  Measured for n = 2 and the 9-3 law: the pull-off force has these relative errors.  The bound
@@ -38,8 +38,14 @@ _LEVELS = {
 }
 
 
-def _number(accuracy: float | str) -> float:
-    """Check an accuracy and return the number it stands for."""
+def relative_error(accuracy: float | str) -> float:
+    """Check an accuracy and return the number it stands for.
+
+    Examples
+    --------
+    >>> relative_error("quick")
+    1e-06
+    """
     finest = min(_LEVELS)
     known = ", ".join(f"{name!r} ({number:g})" for name, number in ACCURACIES.items())
     if isinstance(accuracy, str):
@@ -77,7 +83,7 @@ def level_for(accuracy: float | str) -> Level:
     >>> [round(density, 3) for density in level_for(3e-7).densities]
     [1.204, 0.982, 0.804]
     """
-    number = min(_number(accuracy), max(_LEVELS))
+    number = min(relative_error(accuracy), max(_LEVELS))
     if number in _LEVELS:
         return _LEVELS[number]
     coarse, fine = min(n for n in _LEVELS if n > number), max(n for n in _LEVELS if n < number)
@@ -95,7 +101,7 @@ def coarser_accuracy(accuracy: float | str) -> tuple[float, str] | None:
     >>> coarser_accuracy("fine"), coarser_accuracy("default")
     ((1e-08, 'default'), None)
     """
-    number = _number(accuracy)
+    number = relative_error(accuracy)
     return (number, "default") if number < ACCURACIES["default"] else None
 
 
@@ -107,5 +113,5 @@ def finer_levels(accuracy: float | str) -> list[Level]:
     >>> finer_levels("default") == [level_for("default"), level_for("fine")]
     True
     """
-    number = min(_number(accuracy), max(_LEVELS))
+    number = min(relative_error(accuracy), max(_LEVELS))
     return [level_for(number), *(_LEVELS[n] for n in sorted(_LEVELS, reverse=True) if n < number)]

@@ -1,4 +1,4 @@
-"""Solutions: quantities of a contact problem, with a bound of their error in parts."""
+"""Quantities of a contact problem, each computed on meshes that suit it."""
 
 from __future__ import annotations
 
@@ -6,93 +6,27 @@ import math
 import time
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 from fem_reference._contact.critical import stiffer_than_critical
 from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
 from fem_reference._contact.mesh_choice import chosen
-from fem_reference._contact.uncondensed import UncondensedValue, uncondensed_events
+from fem_reference._contact.mesh_lengths import kinks_within
+from fem_reference._contact.uncondensed import uncondensed_events
+from fem_reference._elastic.compliance import is_scaling
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._threads import one_thread
-from fem_reference.accuracy import Level, coarser_accuracy
+from fem_reference.accuracy import Level, coarser_accuracy, relative_error
 from fem_reference.errors import NoSuchEvent, NotConverged
 from fem_reference.problem import Problem
 from fem_reference.quantities import CRITICAL_MODULUS, QUANTITIES, TABLE, Quantity, critical_quantity, quantity_named
+from fem_reference.result import Solution
 
-__all__ = ["Solution", "solve", "solve_together"]
+__all__ = ["solve", "solve_together"]
 
-
-@dataclass(frozen=True, slots=True)
-class Solution:
-    """One quantity, in the units of the input.
-
-    Attributes
-    ----------
-    value, u_num : float
-        The quantity and a bound on its numerical error, the sum of `parts`.
-    size : int
-        Unknowns of the finest finite-element mesh.
-    iterations : int
-        Conjugate-gradient iterations with pyamg for all displacements of the finest mesh at the events.
-    residual : float
-        Residual of the whole nonlinear system there, relative to the traction.
-    seconds : float
-        Wall-clock time of everything.
-    observed_order : float
-        Order of convergence in the mesh density over the three meshes.
-    declared_order : float
-        Order beyond which the observed one is not used: that of the quantity, or else of the elements.
-    densities, values : tuple of float
-        The meshes, coarse to fine, and the quantity on each from its condensed system.
-    parts : mapping of str to float
-        Causes of the error and the share of each in `u_num`: "mesh" (density and degree), "first layer", "interior and
-        exterior" (extent of the mesh), "edge" (placement of the contact edge, size of the elements at the apex), "tail"
-        (displacement that the mesh leaves out) and "algebra" (rounding,
-        the distance of `value` from the condensed one, and what conjugate gradients leave).
-    """
-
-    value: float
-    u_num: float
-    size: int
-    iterations: int
-    residual: float
-    seconds: float
-    observed_order: float
-    declared_order: float
-    densities: tuple[float, float, float]
-    values: tuple[float, float, float]
-    parts: Mapping[str, float] = field(default_factory=dict, hash=False)
-
-    def with_part(self, name: str, error: float) -> Solution:
-        """Return the solution with an error added to a part, and to the bound.
-
-        Parameters
-        ----------
-        name : str
-            Of a part, or of a new one.
-        error : float
-            Non-negative and finite.
-
-        Raises
-        ------
-        ValueError
-            If the error is negative or not finite.
-
-        Examples
-        --------
-        >>> solution = Solution(1.0, 3e-9, 100, 3, 0.0, 0.1, 6.0, 6.0, (1.0, 0.8, 0.6), (1.0, 1.0, 1.0), {"mesh": 3e-9})
-        >>> solution.with_part("algebra", 1e-9).parts
-        {'mesh': 3e-09, 'algebra': 1e-09}
-        """
-        if not 0.0 <= error < math.inf:
-            raise ValueError(f"error {error} of the part {name!r} is outside [0, inf): it is added to a bound")
-        parts = {**self.parts, name: self.parts.get(name, 0.0) + error}
-        return replace(self, u_num=self.u_num + error, parts=parts)
-
-    def with_whole_system(self, whole: UncondensedValue) -> Solution:
-        """Return the solution with the value of the whole system, whose algebraic error is added to the bound."""
-        added = self.with_part("algebra", whole.algebra)
-        return replace(added, value=whole.value, iterations=whole.iterations, residual=whole.residual)
+OWN_MESH = 100.0
+"""Bound, relative to the value and in units of the accuracy, from which on a quantity of several gets a mesh of its
+own: it costs as much as the first."""
 
 
 def solve(problem: Problem, quantity: str, accuracy: float | str = "default") -> Solution:
@@ -148,8 +82,8 @@ def solve_together(
         As for `solve`.
     quantities : iterable of str
         Of `QUANTITIES`, `LOSSES` and `CRITICAL_MODULUS`; all of `QUANTITIES` by default.  The mesh suits the first of
-        them that exists: in a solid that is no power law, others whose contact edge is elsewhere have a larger `u_num`.
-        The critical modulus has meshes of its own.
+        them that exists: in a solid that is no power law, others whose contact edge is elsewhere have a larger `u_num`,
+        up to `OWN_MESH` times the accuracy; beyond, they get a mesh of their own, as the critical modulus does.
 
     Returns
     -------
@@ -228,6 +162,7 @@ def _solved_together(
     """Compute quantities whose path is that of the problem, on meshes found from `start`."""
     begin = time.perf_counter()
     found: dict[str, Solution | NoSuchEvent] = {}
+    missed: dict[str, NotConverged] = {}
     for name, row in rows.items():
         try:
             choice, spec, size = chosen(problem, row.events, accuracy, events_on_meshes, start)
@@ -244,15 +179,56 @@ def _solved_together(
                 found[name] = _solution(row, meshes, choice.level)
             except NoSuchEvent as reason:
                 found[name] = reason.with_traceback(None)
+            except NotConverged as reason:
+                missed[name] = reason
+    solved = {name: solution for name, solution in found.items() if isinstance(solution, Solution)}
+    again = _uncertain(problem, rows, accuracy, solved, missed)
     # All events of the whole system are columns of one linear system.
     events = uncondensed_events(choice, replace(spec, density=choice.level.densities[-1]), size)
-    solved = {name: solution for name, solution in found.items() if isinstance(solution, Solution)}
-    events.prepare(rows[name].functional for name in solved)
-    seconds = time.perf_counter() - begin
-    for name, solution in solved.items():
-        whole = events.value(rows[name].functional)
-        found[name] = replace(solution.with_whole_system(whole), seconds=seconds)
+
+    def whole(names: Iterable[str]) -> None:
+        named = list(names)
+        events.prepare(rows[name].functional for name in named)
+        seconds = time.perf_counter() - begin
+        for name in named:
+            value = events.value(rows[name].functional)
+            found[name] = replace(solved[name].with_whole_system(value), seconds=seconds)
+
+    whole(name for name in solved if name not in again)
+    others: dict[str, Solution | NoSuchEvent] = {}
+    if again:
+        with suppress(NotConverged):
+            others = _solved_together(problem, again, accuracy)
+    for name, other in others.items():
+        if name in missed or (isinstance(other, Solution) and other.u_num <= solved[name].u_num):
+            found[name] = other
+    for name, failure in missed.items():
+        if name not in found:
+            raise failure
+    whole(name for name in solved if found[name] is solved[name])
     return found
+
+
+def _uncertain(
+    problem: Problem,
+    rows: Mapping[str, Quantity],
+    accuracy: float | str,
+    solved: Mapping[str, Solution],
+    missed: Iterable[str],
+) -> dict[str, Quantity]:
+    """Quantities that the mesh of another event leaves uncertain, or has missed.
+
+    The mesh of a solid that does not scale is fine at the contact edge of one event only.  The quantities of the jump
+    out of contact come first: before the jump into contact there is no edge, and the mesh of the other jump is fine
+    enough for it.
+    """
+    if is_scaling(problem.solid.modulus, problem.solid.nu, kinks_within(problem)):
+        return {}
+    limit = OWN_MESH * relative_error(accuracy)
+    known = [name for name in rows if name in solved or name in missed]
+    poor = [name for name in known if name in missed or solved[name].u_num > limit * abs(solved[name].value)]
+    others = [name for name in poor if rows[name].events[0] != rows[known[0]].events[0]]
+    return {name: rows[name] for name in sorted(others, key=lambda name: rows[name].events[0] != "jump_out")}
 
 
 def _solution(row: Quantity, meshes: EventsOnMeshes, level: Level) -> Solution:

@@ -187,7 +187,7 @@ def test_the_wheel_has_the_packages_and_the_tables_of_the_baseline(wheel):
 
 
 def test_the_wheel_is_small(wheel):
-    """2.3 MB when this was written; PyPI shows the size, and every job of a CI downloads it."""
+    """2.8 MB when this was written; PyPI shows the size, and every job of a CI downloads it."""
     (path,) = (wheel.parent / "dist").iterdir()
     assert path.stat().st_size < 4e6
 
@@ -242,7 +242,7 @@ def test_a_release_is_refused_while_something_does_not_agree():
     )
 
 
-def test_the_recipe_of_conda_has_the_requirements():
+def test_the_recipe_of_conda_has_the_requirements_and_the_names_of_the_project():
     text = (ROOT / ".github" / "packaging" / "conda" / "recipe.yaml").read_text(encoding="utf-8")
     recipe = yaml.safe_load(text)
     names = {"matplotlib": "matplotlib-base"}
@@ -250,8 +250,21 @@ def test_the_recipe_of_conda_has_the_requirements():
     expected = {f"{names.get(name, name)} >={version}" for name, _, version in needed}
     assert set(recipe["requirements"]["run"]) == expected | {f"python {PROJECT['requires-python']}"}
     assert recipe["context"]["version"] == PROJECT["version"]
+    assert recipe["package"]["name"] == PROJECT["name"]
+    about = recipe["about"]
+    assert (about["summary"], about["license"]) == (PROJECT["description"], PROJECT["license"])
+    assert about["homepage"] == PROJECT["urls"]["Homepage"]
+    (setuptools,) = FOR_BUILD
+    assert recipe["requirements"]["host"] == ["python 3.11.*", "pip", setuptools.replace(">=", " >=")]
     (entry,) = recipe["build"]["python"]["entry_points"]
     assert entry == f"fscm-bench = {PROJECT['scripts']['fscm-bench']}"
+
+
+def test_an_image_is_built_from_every_file_of_the_repository_and_without_an_old_build():
+    ignored = (ROOT / ".github" / "packaging" / "Dockerfile.dockerignore").read_text(encoding="utf-8").split("\n")[1:]
+    patterns = [line.removeprefix("**/") for line in ignored if line]
+    assert [name for name in repository() if any(_is_under(name, pattern) for pattern in patterns)] == []
+    assert all(any(_is_under(name, one) for one in patterns) for name in ("build/lib/fscm/x.py", ".venv/bin/python"))
 
 
 @pytest.mark.parametrize("name", ["tests.yml", "release.yml"])

@@ -73,7 +73,7 @@ def works(version: str, record: Mapping[str, Any] | None = None) -> list[Work]:
     Parameters
     ----------
     version : str
-        Of fscm-bench, where there is no record.
+        Of fscm-bench, with its commit if that is known; of a run it is that of the record.
     record : mapping, optional
         Of a run, as `comparisons.runs.record.read_record` returns it.
 
@@ -83,8 +83,8 @@ def works(version: str, record: Mapping[str, Any] | None = None) -> list[Work]:
     ['fscm-bench', 'zhu-adhesion']
     """
     cff = json.loads(_data("citation.json"))
-    package = record["package"] if record else {"version": version, "commit": None}
-    own = {"author": _names(cff["authors"]), "title": cff["title"], "note": f"version {_version(package)}"}
+    note = f"version {_version(record['package']) if record else version}"
+    own = {"author": _names(cff["authors"]), "title": cff["title"], "note": note}
     found = [Work("fscm-bench", "misc", own | _some(cff, "year", "doi", "url"))]
     found += [_article(reference) for reference in cff["references"]]
     if record:

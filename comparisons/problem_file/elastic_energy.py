@@ -5,7 +5,9 @@ p(r) J0(xi r) r dr, the energy in the solid is pi times the integral of C q^2 xi
 share of it.  The pressure is joined by straight lines, and the transform of those is exact:
 
     q(xi) = -(sum of the slopes times the differences of F(xi r))/xi^3,
-    F(x) = (integral of J0 from 0 to x) - x J0(x).
+    F(x) = (integral of J0 from 0 to x) - x J0(x) = (pi x/2) (J1(x) H0(x) - J0(x) H1(x)),  H: Struve functions.
+
+The first form cancels at small x, and its function in SciPy 1.13.0 is wrong above x = 20.
 """
 
 from __future__ import annotations
@@ -126,6 +128,12 @@ def _transform(r: Array, p: Array, xi: Array) -> Array:
     fine, values = np.append(0.0, fine), np.append(values[0], values)
     slopes = np.diff(values) / np.diff(fine)
     x = xi[:, None] * fine
-    F = scipy.special.itj0y0(x)[0] - x * scipy.special.j0(x)
+    F = _linear_part(x)
     end = values[-1] * fine[-1] ** 2 * scipy.special.j1(x[:, -1]) / x[:, -1]
     return np.asarray(end - (np.diff(F, axis=1) @ slopes) / xi**3)
+
+
+def _linear_part(x: Array) -> Array:
+    """F of the first lines of this module."""
+    j0, j1, struve = scipy.special.j0, scipy.special.j1, scipy.special.struve
+    return np.asarray(np.pi / 2.0 * x * (j1(x) * struve(0, x) - j0(x) * struve(1, x)))

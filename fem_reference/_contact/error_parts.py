@@ -7,8 +7,9 @@ another method, and none is a factor times another.
 * first layer, interior and exterior, apex: one feature of the coarsest mesh is made coarser, and what that changes is
   the part.  These features are `density` times a length too (the extent is the same at all densities), and so the
   error on the finest mesh is smaller.  For the first layer and the apex the elements have a lower degree, whose error
-  is larger as well; for the extent they have the full one, since at a lower degree the elements next to the end alone
-  change a displacement by a hundred times as much as the end does (n = 5).
+  is larger as well; they have the full one where that difference is too large (`UNCERTAIN`) and the solid does not
+  scale.  For the extent they have the full one, since at a lower degree the elements next to the end alone change a
+  displacement by a hundred times as much as the end does (n = 5).
 * edge: the same mesh, with the contact edge half an element further in and out, plus the apex.
 * tail: the displacement that the mesh leaves out, by its first term.
 * algebra: another triangle of the factorisation, another start of Newton's method, another root search.  The whole
@@ -19,6 +20,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -44,6 +46,12 @@ FEATURE_DEGREES = 2
 """Degrees by which the elements of the meshes that differ in one feature are lower: they cost a third of those of the
 full degree, and the difference that a feature makes is larger (measured: 2.4 to 1400 times for five quantities of ten
 random problems, n = 1 ... 5.7, k = 0 ... 0.65, mu = 0.06 ... 2)."""
+
+UNCERTAIN = 1e-6
+"""Difference that a feature makes with the lower degree, relative to the quantity, beyond which it is found with the
+full degree where the solid does not scale: ten times the accuracy "default".  Two layers taken together may be as thick
+as the length in which the modulus changes, and the lower degree then shows its own error there (measured: 2e-6 with
+degree 4 and 2e-7 with 6, where a modulus grows tenfold within 0.4 contact radii)."""
 
 ROUNDING = 1e-15
 """Relative rounding of a quantity itself: a few units of its last place."""
@@ -86,13 +94,17 @@ class EventsOnMeshes:
         On that mesh with one feature made coarser.
     full_degree : callable
         Returns the same for the name of a feature on the coarsest mesh with the full degree: for the extent, and for
-        edges that the lower degree cannot resolve.
+        what the lower degree cannot resolve.
     placements : tuple of ResolvedEvents
         On the finest mesh with another placement of the contact edge.
     tail, rounding : ResolvedEvents
         On the finest mesh, with the displacement beyond it, and with the rounding of its condensation.
     ratio : float
         Refinement ratio of neighbouring densities.
+    refined : bool
+        As for `fem_reference._contact.uncertainty.three_meshes`.
+    scaling : bool
+        Whether one mesh serves every size of the contact.
     """
 
     path: PathEvents
@@ -106,6 +118,8 @@ class EventsOnMeshes:
     tail: ResolvedEvents
     rounding: ResolvedEvents
     ratio: float
+    refined: bool
+    scaling: bool
 
     def estimate(self, functional: Functional, declared: float) -> Estimate:
         """Return the parts of the error of a quantity, given its declared order.
@@ -125,13 +139,8 @@ class EventsOnMeshes:
         except NotConverged:
             # The coarse mesh replaces it, and is farther away than the medium one.
             lower_degree = values[0]
-        convergence = three_meshes(values, self.ratio, declared, lower_degree, algebra)
-        try:
-            base = functional(self.base)
-            feature = {name: abs(functional(events) - base) for name, events in self.features.items()}
-        except NotConverged:
-            # An edge that is too narrow for the lower degree.
-            feature = {name: abs(functional(self.full_degree(name)) - values[0]) for name in self.features}
+        convergence = three_meshes(values, self.ratio, declared, lower_degree, algebra, self.refined)
+        feature = {name: self._change(functional, name, values) for name in self.features}
         extent = abs(functional(self.full_degree(EXTENT)) - values[0])
         placement = max((abs(functional(events) - fine) for events in self.placements), default=0.0)
         parts = (
@@ -143,6 +152,15 @@ class EventsOnMeshes:
             algebra,
         )
         return Estimate(values, convergence, dict(zip(PARTS, parts, strict=True)))
+
+    def _change(self, functional: Functional, feature: str, values: tuple[float, float, float]) -> float:
+        """Difference that a coarser feature makes on the coarsest mesh."""
+        with suppress(NotConverged):
+            change = abs(functional(self.features[feature]) - functional(self.base))
+            if self.scaling or change <= UNCERTAIN * abs(values[-1]):
+                return change
+        # The lower degree does not resolve the edge, or what is under the surface.
+        return abs(functional(self.full_degree(feature)) - values[0])
 
 
 # The quantities of one problem are requested one after the other, on the meshes of two kinds of events.
@@ -197,6 +215,8 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
         ResolvedEvents(path, _with_tail(contact, choice)),
         ResolvedEvents(path, _rounded(contact)),
         math.sqrt(choice.level.densities[0] / finest),
+        fine.refines(medium),
+        not isinstance(coarse.compliance, FixedCompliance),
     )
 
 

@@ -11,12 +11,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 from skfem import MeshQuad
 
 from fem_reference._elastic.depth_scales import DepthScales
+from fem_reference._elastic.nodes import depth_nodes, outer_nodes, radial_nodes, sinh_nodes
 from fem_reference._typing import Array
 
 __all__ = ["Grid", "MeshSpec", "graded_grid", "uniform_grid"]
@@ -59,90 +59,6 @@ class Grid:
     def quads(self) -> MeshQuad:
         """Return the scikit-fem mesh (columns of quadrilaterals in r, rows in z)."""
         return MeshQuad.init_tensor(self.r, self.z)
-
-
-def _sinh_nodes(width: float, length: float, density: float) -> Array:
-    """0 ... length, spaced like width * sinh(x) with x steps of at most `density`."""
-    reach = math.asinh(length / width)
-    count = max(2, math.ceil(reach / density))
-    nodes = width * np.sinh(np.linspace(0.0, reach, count + 1))
-    nodes[-1] = length
-    return nodes
-
-
-def _outer_nodes(edge: float, width: float, length: float, density: float, far_share: float) -> Array:
-    """0 ... length, spaced as `_sinh_nodes` up to the distance `edge`, and at equal ratios of radii beyond."""
-    if far_share == 1.0 or length <= edge:
-        return _sinh_nodes(width, length, density)
-    near, reach = _sinh_nodes(width, edge, density), math.log((edge + length) / (2.0 * edge))
-    count = math.ceil(reach / (far_share * density))
-    far = 2.0 * edge * np.exp(np.linspace(0.0, reach, count + 1)) - edge
-    far[-1] = length
-    return np.concatenate([near, far[1:]])
-
-
-KINK_SHARE = 0.5
-"""Length of the elements at a kink of the punch, relative to the distance of the next one, at the density 1.  A kink
-that is as near to the contact edge as this share of the edge replaces the mesh line there."""
-
-CURVE_POINTS = 400
-"""Points for the integral of the node density, for each length that it has to follow."""
-
-
-def _depth_nodes(width: float, length: float, density: float, scales: DepthScales) -> Array:
-    """0 ... length, spaced as `_sinh_nodes` and as the modulus asks for, with its lines among them."""
-    lines = [z for z in scales.lines if 0 < z < length]
-    parts = np.array([part for part in scales.parts if part[0] < length]).reshape(-1, 2)
-    if not lines and not parts.size:
-        return _sinh_nodes(width, length, density)
-    curves = [width * np.sinh(np.linspace(0.0, math.asinh(length / width), 4 * CURVE_POINTS)), np.array(lines)]
-    for a, b in parts:
-        away = (b - a) * np.sinh(np.linspace(0.0, math.asinh(length / (b - a)), CURVE_POINTS))
-        curves += [a - away, b + away, np.linspace(a, b, 9)]
-    z, middle = _curve(curves, length)
-    longest = np.hypot(width, middle)
-    for a, b in parts:
-        longest = np.minimum(longest, b - a + np.maximum(np.maximum(a - middle, middle - b), 0.0))
-    return _counted_nodes(z, longest, lines, density)
-
-
-def _radial_nodes(edge: float, width: float, apex: float, length: float, density: float, kinks: Array) -> Array:
-    """0 ... length, short at the apex, the edge and the kinks; lines at the kinks, and at the edge if it is apart."""
-    inside = kinks[(kinks > 0) & (kinks < length)]
-    lines = inside.tolist()
-    if not lines or np.abs(inside - edge).min() > KINK_SHARE * width:
-        lines = sorted([*lines, edge])
-    ends = np.array([0.0, *lines, length])
-    away = np.minimum(np.diff(ends)[:-1], np.diff(ends)[1:])
-    centres = [(0.0, apex), (edge, width)]
-    centres += [(z, KINK_SHARE * d) for z, d in zip(lines, away.tolist(), strict=True) if z != edge]
-    curves = [np.array(lines)]
-    for centre, short in centres:
-        far = short * np.sinh(np.linspace(0.0, math.asinh(length / short), CURVE_POINTS))
-        curves += [centre - far, centre + far]
-    r, middle = _curve(curves, length)
-    longest = np.min([np.hypot(short, middle - centre) for centre, short in centres], axis=0)
-    return _counted_nodes(r, longest, lines, density)
-
-
-def _curve(curves: list[Array], length: float) -> tuple[Array, Array]:
-    """Points from 0 to length for the integral of the node density, and their middles."""
-    x = np.unique(np.concatenate(curves))
-    x = np.concatenate([[0.0], x[(x > 0) & (x < length)], [length]])
-    return x, 0.5 * (x[:-1] + x[1:])
-
-
-def _counted_nodes(x: Array, longest: Array, lines: list[float], density: float) -> Array:
-    """Nodes between 0, the lines and the last x, of a length `density` times the longest there."""
-    count = np.concatenate([[0.0], np.cumsum(np.diff(x) / longest)]) / density
-    z, ends = x, np.array([0.0, *lines, x[-1]])
-    nodes = [np.zeros(1)]
-    for low, high in pairwise(ends):
-        first, last = np.interp([low, high], z, count)
-        elements = max(1, math.ceil(last - first))
-        inside = np.interp(np.linspace(first, last, elements + 1)[1:-1], count, z)
-        nodes += [inside, np.array([high])]
-    return np.concatenate(nodes)
 
 
 def graded_grid(
@@ -195,17 +111,17 @@ def graded_grid(
         raise ValueError(f"edge = {edge} is outside (0, extent = {extent}): the refined radius must lie in the mesh")
     if not 0 < far_share <= 1:
         raise ValueError(f"far_share = {far_share} is outside (0, 1]: it is a share of the density")
-    depths = _depth_nodes(surface_depth, extent, density, scales)
+    depths = depth_nodes(surface_depth, extent, density, scales)
     if kinks:
         apex = edge if apex_width is None else apex_width
-        return Grid(_radial_nodes(edge, edge_width, apex, extent, density, np.array(kinks)), depths)
+        return Grid(radial_nodes(edge, edge_width, apex, extent, density, np.array(kinks)), depths)
     if apex_width is None:
-        inside = edge - _sinh_nodes(edge_width, edge, density)[::-1]
+        inside = edge - sinh_nodes(edge_width, edge, density)[::-1]
     else:
         half = 0.5 * edge
-        inside = edge - _sinh_nodes(edge_width, half, density)[::-1]
-        inside = np.concatenate([_sinh_nodes(apex_width, half, density), inside[1:]])
-    outside = edge + _outer_nodes(edge, edge_width, extent - edge, density, far_share)
+        inside = edge - sinh_nodes(edge_width, half, density)[::-1]
+        inside = np.concatenate([sinh_nodes(apex_width, half, density), inside[1:]])
+    outside = edge + outer_nodes(edge, edge_width, extent - edge, density, far_share)
     inside[0], outside[-1] = 0.0, extent
     return Grid(np.concatenate([inside, outside[1:]]), depths)
 
@@ -276,3 +192,26 @@ class MeshSpec:
         (0.5,)
         """
         return replace(self, scales=self.scales.scaled(ratio), kinks=tuple(r / ratio for r in self.kinks))
+
+    def refines(self, coarser: MeshSpec) -> bool:
+        """Whether this mesh has more elements between all neighbouring lines than a coarser one with the same lines.
+
+        Examples
+        --------
+        >>> coarse = MeshSpec(0.1, 0.05, 100.0, 1.0, 4, scales=DepthScales((2.0, 2.1)))
+        >>> replace(coarse, density=0.5).refines(coarse), replace(coarse, density=0.02).refines(coarse)
+        (False, True)
+        """
+        grids = self.grid(), coarser.grid()
+        return all(
+            bool(np.all(np.diff(np.searchsorted(fine, lines)) > np.diff(np.searchsorted(coarse, lines))))
+            for fine, coarse, lines in (
+                (grids[0].r, grids[1].r, _within(self.kinks, self.extent)),
+                (grids[0].z, grids[1].z, _within(self.scales.lines, self.extent)),
+            )
+        )
+
+
+def _within(lines: tuple[float, ...], length: float) -> Array:
+    """Ends of the intervals between lines."""
+    return np.array([0.0, *(z for z in lines if 0.0 < z < length), length])

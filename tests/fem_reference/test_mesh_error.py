@@ -75,6 +75,7 @@ ON_MESHES = {
     "base": 1.1, "features": {"first layer": 1.1 + 1e-3, "apex": 1.1 - 2e-4},
     "full_degree": {"extent": 1.016 + 5e-3, "first layer": 1.016 - 7e-3, "apex": 1.016 + 9e-4}.__getitem__,
     "placements": (1.001 - 3e-5, 1.001 + 4e-5), "tail": 1.001 - 6e-6, "rounding": 1.001 + 8e-7, "ratio": 2.0,
+    "refined": True, "scaling": True,
 }  # fmt: skip
 EXPECTED = {
     "mesh": 0.001, "first layer": 1e-3, "interior and exterior": 5e-3, "edge": 4e-5 + 2e-4, "tail": 6e-6,
@@ -98,6 +99,18 @@ def test_an_edge_that_the_lower_degree_cannot_resolve_takes_the_features_of_the_
     assert parts["mesh"] == pytest.approx(0.012 / 4.0, rel=ROUNDED)
     assert parts["first layer"] == pytest.approx(7e-3, rel=ROUNDED)
     assert parts["edge"] == pytest.approx(4e-5 + 9e-4, rel=ROUNDED)
+
+
+def test_features_of_a_solid_that_does_not_scale_have_the_full_degree_where_the_lower_one_hides_them():
+    small = {"first layer": 1.1 + 1e-3, "apex": 1.1 - 5e-7}
+    parts = _parts(scaling=False, features=small)
+    assert parts["first layer"] == pytest.approx(7e-3, rel=ROUNDED)
+    assert parts["edge"] == pytest.approx(4e-5 + 5e-7, rel=ROUNDED)
+
+
+def test_the_difference_of_the_degrees_is_not_divided_where_an_interval_keeps_its_elements():
+    assert _parts(lower_degree=1.0)["mesh"] == pytest.approx(1e-3, rel=ROUNDED)
+    assert _parts(lower_degree=1.0, refined=False)["mesh"] == pytest.approx(4e-3, rel=ROUNDED)
 
 
 def test_a_solid_whose_edge_cannot_be_placed_elsewhere_keeps_the_part_of_the_apex():

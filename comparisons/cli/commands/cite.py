@@ -9,7 +9,7 @@ import pandas as pd
 
 from comparisons.cli.options import OK
 from comparisons.output.citation import as_bibtex, as_text, methods, works
-from comparisons.runs.environment import package_version
+from comparisons.runs.environment import version_text
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import check_files, read_record
 
@@ -44,7 +44,7 @@ def call(args: argparse.Namespace) -> int:
         record = read_record(folder.record)
         check_files(record, args.folder)
         paragraph = methods(record, _references(folder.parquet(folder.kappa)))
-    found = works(package_version(), record)
+    found = works("" if record else version_text(), record)
     print(as_bibtex(found) if args.format == "bibtex" else as_text(found, paragraph), end="")
     return OK
 

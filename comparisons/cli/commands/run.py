@@ -91,7 +91,7 @@ def call(args: argparse.Namespace) -> int:
         judgement = finished.judgement
         if args.verbose:
             _print_every_row(finished)
-        _show(finished, verbose=args.verbose, failures_only=args.quiet)
+        _show(finished, verbose=args.verbose, failures_only=args.quiet, with_paper=args.gates is None)
         note(f"results are in {finished.folder}")
         if judgement is not None and not judgement.verdicts.empty:
             note(f"next: fscm-bench report {finished.folder}")
@@ -102,15 +102,18 @@ def call(args: argparse.Namespace) -> int:
     return FAILED if failed or judgement is None else STATUS[judgement.verdict]
 
 
-def _show(finished: FinishedRun, *, verbose: bool, failures_only: bool) -> None:
-    """Print the errors and the verdicts, and the failed computations on stderr."""
+def _show(finished: FinishedRun, *, verbose: bool, failures_only: bool, with_paper: bool) -> None:
+    """Print the errors and the verdicts, and the failed computations on stderr.
+
+    The numbers of the paper belong to the standing gates: by gates of one's own they are not shown.
+    """
     judgement, maxima = finished.judgement, finished.tables.largest
     failures = list(failure_lines(finished.failures))
     lines = taken = 0
     judged = judgement is not None and not judgement.verdicts.empty
     if not (verbose or failures_only):
         width = output().width
-        sentences = [computations_sentence(finished.counts), paper_sentence(maxima)]
+        sentences = [computations_sentence(finished.counts), paper_sentence(maxima) if with_paper else ""]
         below = [line for sentence in sentences if sentence for line in folded(sentence, width)]
         messages = [*failures, *(error_lines(judgement) if judgement is not None and judged else ())]
         room = _LINES - _MESSAGES - len(below) - sum(len(folded(line, width)) for line in messages)

@@ -35,6 +35,14 @@ def test_without_a_folder(capsys):
     assert len(capsys.readouterr().out.splitlines()) == 2
 
 
+@pytest.mark.parametrize("form", ["text", "bibtex"])
+def test_without_a_folder_it_has_the_commit_that_the_version_has(form, capsys):
+    assert main(["--version"]) == 0
+    version = capsys.readouterr().out.strip().removeprefix("fscm-bench ")
+    assert main(["cite", "--format", form]) == 0
+    assert f"version {version}" in capsys.readouterr().out
+
+
 def test_a_folder_without_a_run_is_one_sentence(tmp_path, capsys):
     assert main(["cite", str(tmp_path)]) == 2
     out, err = capsys.readouterr()

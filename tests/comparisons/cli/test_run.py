@@ -100,6 +100,35 @@ def test_the_figure_and_numbers_of_the_paper_are_shown_where_there_are_some(tmp_
     assert "beside that of the paper" in capsys.readouterr().out
 
 
+GATE = """
+[[gate]]
+id = "ABOVE-BRADLEY"
+requirement = "The improved model is not twice the Bradley force."
+quantity = "pull_off_force"
+candidate = "md-improved"
+reference = "bradley"
+cases = { n = [2, 2] }
+metric = "rel"
+lower = -1
+upper = 1
+max_reference_uncertainty = 1e-4
+basis = "derived"
+grounds = "a test"
+min_cases = 1
+tier = "quick"
+"""
+
+
+def test_the_numbers_of_the_paper_are_not_shown_beside_gates_of_ones_own(tmp_path, monkeypatch, capsys):
+    grid = STANDING.replace('"jkr"', '"md-improved"').replace("1.5, 2", "2")
+    monkeypatch.setattr("comparisons.pipeline.inputs.grids", lambda tier: load_grids(grid))
+    (tmp_path / "gates.toml").write_text(GATE, encoding="utf-8")
+    assert run(tmp_path / "out", "--gates", str(tmp_path / "gates.toml")) == 0
+    shown = capsys.readouterr().out
+    assert "1 of 1 gate passes" in shown
+    assert "the paper" not in shown
+
+
 def test_two_runs_give_the_same_bytes(small_grid, tmp_path):
     run(tmp_path / "a")
     run(tmp_path / "b")

@@ -1,0 +1,84 @@
+"""Quantity of a contact problem, with a bound of its error in parts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from fem_reference._contact.uncondensed import UncondensedValue
+
+__all__ = ["Solution"]
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    """One quantity, in the units of the input.
+
+    Attributes
+    ----------
+    value, u_num : float
+        The quantity and a bound on its numerical error, the sum of `parts`.
+    size : int
+        Unknowns of the finest finite-element mesh.
+    iterations : int
+        Conjugate-gradient iterations with pyamg for all displacements of the finest mesh at the events.
+    residual : float
+        Residual of the whole nonlinear system there, relative to the traction.
+    seconds : float
+        Wall-clock time of everything.
+    observed_order : float
+        Order of convergence in the mesh density over the three meshes.
+    declared_order : float
+        Order beyond which the observed one is not used: that of the quantity, or else of the elements.
+    densities, values : tuple of float
+        The meshes, coarse to fine, and the quantity on each from its condensed system.
+    parts : mapping of str to float
+        Causes of the error and the share of each in `u_num`: "mesh" (density and degree), "first layer", "interior and
+        exterior" (extent of the mesh), "edge" (placement of the contact edge, size of the elements at the apex), "tail"
+        (displacement that the mesh leaves out) and "algebra" (rounding,
+        the distance of `value` from the condensed one, and what conjugate gradients leave).
+    """
+
+    value: float
+    u_num: float
+    size: int
+    iterations: int
+    residual: float
+    seconds: float
+    observed_order: float
+    declared_order: float
+    densities: tuple[float, float, float]
+    values: tuple[float, float, float]
+    parts: Mapping[str, float] = field(default_factory=dict, hash=False)
+
+    def with_part(self, name: str, error: float) -> Solution:
+        """Return the solution with an error added to a part, and to the bound.
+
+        Parameters
+        ----------
+        name : str
+            Of a part, or of a new one.
+        error : float
+            Non-negative and finite.
+
+        Raises
+        ------
+        ValueError
+            If the error is negative or not finite.
+
+        Examples
+        --------
+        >>> solution = Solution(1.0, 3e-9, 100, 3, 0.0, 0.1, 6.0, 6.0, (1.0, 0.8, 0.6), (1.0, 1.0, 1.0), {"mesh": 3e-9})
+        >>> solution.with_part("algebra", 1e-9).parts
+        {'mesh': 3e-09, 'algebra': 1e-09}
+        """
+        if not 0.0 <= error < math.inf:
+            raise ValueError(f"error {error} of the part {name!r} is outside [0, inf): it is added to a bound")
+        parts = {**self.parts, name: self.parts.get(name, 0.0) + error}
+        return replace(self, u_num=self.u_num + error, parts=parts)
+
+    def with_whole_system(self, whole: UncondensedValue) -> Solution:
+        """Return the solution with the value of the whole system, whose algebraic error is added to the bound."""
+        added = self.with_part("algebra", whole.algebra)
+        return replace(added, value=whole.value, iterations=whole.iterations, residual=whole.residual)

@@ -1,0 +1,87 @@
+"""Meshes of their own for the events that the mesh of another event leaves uncertain."""
+
+from dataclasses import replace
+
+import pytest
+
+import fem_reference.solution as solution_module
+from fem_reference import (
+    CustomSolid,
+    ExponentialModulus,
+    LennardJones,
+    NotConverged,
+    PowerPunch,
+    Problem,
+    Solid,
+    Solution,
+    TableModulus,
+    solve,
+    solve_together,
+)
+from fem_reference._contact.error_parts import events_on_meshes
+from fem_reference._contact.mesh_choice import chosen
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference.accuracy import ACCURACIES
+from fem_reference.quantities import TABLE
+
+FORCE, JUMP_IN, JUMP_OUT = NAMES = ("pull_off_force", "jump_in_displacement", "jump_out_displacement")
+ROWS = {name: TABLE[name] for name in NAMES}
+LAW = LennardJones(1.0, 1.0)
+GRADED = Problem(CustomSolid(ExponentialModulus(3.0, 1.0, 5.0), 0.1), PowerPunch(2.0, 1.0), LAW)
+CONE = replace(GRADED, solid=CustomSolid(ExponentialModulus(0.9, 0.3, 5.0), 0.1), punch=PowerPunch(1.0, 1.0))
+
+
+def _solution(u_num):
+    return Solution(1.0, u_num, 1, 1, 0.0, 1.0, 6.0, 6.0, (1.0, 0.8, 0.6), (1.0, 1.0, 1.0), {"mesh": u_num})
+
+
+def _uncertain(problem, bounds, missed=()):
+    solved = {name: _solution(u_num) for name, u_num in bounds.items()}
+    return list(solution_module._uncertain(problem, ROWS, "default", solved, missed))
+
+
+def test_a_quantity_that_is_uncertain_or_missed_is_computed_again():
+    assert _uncertain(GRADED, {FORCE: 1e-8, JUMP_IN: 1e-7, JUMP_OUT: 2e-4}) == [JUMP_OUT]
+    assert _uncertain(GRADED, {FORCE: 1e-8, JUMP_IN: 1e-7}, {JUMP_OUT: NotConverged()}) == [JUMP_OUT]
+    # The mesh of the first event is its own.
+    assert _uncertain(GRADED, {FORCE: 1e-3, JUMP_IN: 1e-7, JUMP_OUT: 1e-7}) == []
+    # The mesh of the jump out of contact serves the other one, which has no contact edge.
+    assert _uncertain(GRADED, {FORCE: 1e-8, JUMP_IN: 1e-3, JUMP_OUT: 1e-3}) == [JUMP_OUT, JUMP_IN]
+
+
+def test_one_mesh_serves_every_event_of_a_solid_that_scales():
+    scaling = replace(GRADED, solid=Solid(1.0, 1.0, 0.4, 0.3))
+    assert _uncertain(scaling, {FORCE: 1e-8, JUMP_IN: 1e-3, JUMP_OUT: 1e-3}) == []
+
+
+@pytest.mark.heavy
+def test_the_jumps_of_a_cone_are_as_certain_together_as_alone():
+    """On the mesh of the pull-off the jump out of contact is not found on all densities."""
+    together = solve_together(CONE, NAMES, "quick")
+    largest = solution_module.OWN_MESH * ACCURACIES["quick"]
+    assert all(together[name].u_num <= largest * abs(together[name].value) for name in NAMES)
+    alone = solve(CONE, JUMP_OUT, "quick")
+    assert abs(alone.value - together[JUMP_OUT].value) <= alone.parts["algebra"] + together[JUMP_OUT].parts["algebra"]
+
+
+def test_a_mesh_with_an_interval_of_one_element_is_not_a_refined_one():
+    """Rows of a table that are close to each other: the meshes differ in the other intervals only."""
+    table = CustomSolid(TableModulus((0.0, 1.0, 1.2, 1.5, 9.0), (1.0, 2.0, 2.1, 2.5, 3.0)), 0.3)
+    for problem, refined in ((replace(GRADED, solid=table), False), (GRADED, True)):
+        choice, spec, _ = chosen(problem, ("pull_off",), "quick")
+        densities = choice.level.densities
+        fine, medium = (replace(spec, density=density) for density in reversed(densities[1:]))
+        assert fine.refines(medium) is refined
+
+
+def test_lines_of_the_punch_count_as_well():
+    spec = MeshSpec(0.1, 0.05, 100.0, 1.0, 4, kinks=(2.0, 2.01))
+    assert not replace(spec, density=0.99).refines(spec)
+    assert replace(spec, density=0.01).refines(spec)
+
+
+def test_the_bound_of_a_problem_knows_whether_its_meshes_are_refined(monkeypatch):
+    monkeypatch.setattr(MeshSpec, "refines", lambda fine, coarser: False)
+    meshes = events_on_meshes(*chosen(GRADED, ("pull_off",), 2e-6))
+    assert not meshes.refined
+    assert not meshes.scaling
