@@ -73,8 +73,13 @@ class Discretisation:
         self.matrix: Array = response_matrix(kernel, mesh, known)
         self.axis = axis_row(kernel, mesh)
         self._at: tuple[float, Any, Array] | None = None
-        if previous is not None and previous.mesh is mesh and previous.problem.response is problem.response:
-            self._at = previous._at
+        # On the mesh before this one: its panels are kept where this one has them, at the same scale.
+        self._before: tuple[PanelMesh, float, Any] | None = None
+        if previous is not None and previous._at is not None and previous.problem.response is problem.response:
+            if previous.mesh is mesh:
+                self._at = previous._at
+            else:
+                self._before = previous.mesh, *previous._at[:2]
         #: The last factors of a tangent on this mesh: they serve states nearby.
         self.factor: BorderedFactor | None = None
         edge = int(np.searchsorted(mesh.offsets, 1.0 - mesh.origin))
@@ -102,7 +107,8 @@ class Discretisation:
         """What the images of a graded solid take from the response at a scale, and what is left of it."""
         if self._at is None or self._at[0] != c:
             self._at = None  # its memory is free before the new one is made
-            found = self.problem.response.remainder(self.mesh, c)
+            found = self.problem.response.remainder(self.mesh, c, self._before)
+            self._before = None
             self._at = c, found, self.matrix - found.matrix
         return self._at[1:]
 

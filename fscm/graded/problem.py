@@ -45,21 +45,20 @@ class GradedResponse:
         self.kernel = GradedKernel(solid, _LONGEST)
         self._table = ImageTable(self.kernel.images, solid.length)
         self._length = min([solid.length, *solid.interfaces])
-        self._last: tuple[float, PanelMesh, Remainder] | None = None
 
     @property
     def softest(self) -> float:
         """Largest compliance at any wave number, in units of that of the surface, at least 1."""
         return max(1.0, float(np.max(self.kernel.images.values)))
 
-    def remainder(self, mesh: PanelMesh, c: float) -> Remainder:
-        """R(c) of `fscm.graded.panels`; a mesh that is refined at one c keeps what it has."""
-        last, previous = self._last, None
-        if last is not None and abs(math.log(c / last[0])) <= _SAME:
-            previous = last[1], last[2].moved(math.log(c / last[0]))
-        found = remainder(self._table, self._length, mesh, c, previous)
-        self._last = c, mesh, found
-        return found
+    def remainder(
+        self, mesh: PanelMesh, c: float, known: tuple[PanelMesh, float, Remainder] | None = None
+    ) -> Remainder:
+        """R(c) of `fscm.graded.panels`; what is known of another mesh at the same c is kept."""
+        previous = None
+        if known is not None and abs(math.log(c / known[1])) <= _SAME:
+            previous = known[0], known[2].moved(math.log(c / known[1]))
+        return remainder(self._table, self._length, mesh, c, previous)
 
     def far(self, radius: float) -> float:
         """Response at the center to a distant ring, in units of that of a homogeneous solid."""
