@@ -40,6 +40,8 @@ _SHARE, _SHARE_OF_FLAT = 0.6, 0.3
 _NEAR = 1.0
 # Ratio of one central gap that is tried to the last one.
 _RATIO = 1.2
+# A smaller rise of the load is none: the error that Newton's method leaves, also between two meshes at one state.
+_RISE = 1e-6
 # The mesh ends at this height: the error of the closed tail behind it, 1e-6 of the tail, does not move a bracket.
 _END = 1e3
 # A step is refused for a turn of the tangent above 60 degrees only, because `completed` finds what hides between two
@@ -56,7 +58,7 @@ class PullOffEnd:
     def __call__(self, state: State) -> bool:
         compressed = state.follows_edge and float(state.disc.problem.law.traction(np.array(state.central_gap))) > 0.0
         before, self.load = self.load, state.load
-        return compressed and self.load > before
+        return compressed and self.load > before + _RISE * (1.0 + abs(state.load))
 
 
 class _RigidSolid:

@@ -1,5 +1,6 @@
-"""Response of a layer to a ring against quadrature of the Hankel integral in 40 digits."""
+"""Responses of graded solids to a ring against the Hankel integral: a layer in 40 digits, four others in 25."""
 
+import json
 from functools import lru_cache
 from itertools import pairwise
 
@@ -8,6 +9,9 @@ import numpy as np
 import pytest
 
 from fscm.graded import Coating, GradedKernel
+from fscm.graded.compliance import compliance
+from fscm.graded.solids import contact_modulus
+from tests.fscm import graded_digits
 
 THICKNESS, COATING, SUBSTRATE = 1, (mpmath.mpf(1), mpmath.mpf("0.3")), (mpmath.mpf(10), mpmath.mpf("0.45"))
 SOLID = Coating(1.0, 10.0, 1.0, 0.0, 0.3, 0.45)
@@ -73,3 +77,71 @@ def test_the_response_of_a_layer_in_40_digits(count):
         assert abs(values[i] - exact) <= 1e-9 * exact
         # Rounding of the sum: the strengths of the images are 3e5 together.
         assert abs(values[i] - exact) <= bounds[i] + 1e-16 * float(np.abs(kernel.images.strengths).sum()) * t[i]
+
+
+@lru_cache
+def _stored():
+    return json.loads(graded_digits.FILE.read_text())
+
+
+@pytest.mark.parametrize("name", graded_digits.SOLIDS)
+def test_the_response_of_a_solid_from_25_digits(name):
+    """1e-9 of the kernel at 50 random pairs of radii, and the stated bound is never exceeded."""
+    known, kernel = _stored()[name], GradedKernel(graded_digits.SOLIDS[name])
+    r, t, exact = (np.array(known[key]) for key in ("r", "t", "G"))
+    assert len(exact) == 50
+    assert known["error"] < 1e-13
+    errors = np.abs(kernel.response(r, t) - exact)
+    assert np.max(errors / exact) < 1e-9
+    # Rounding of the sum, as above; the values themselves change by so much with fewer nodes.
+    rounding = 1e-16 * float(np.abs(kernel.images.strengths).sum()) * t + known["error"] * exact
+    assert np.all(errors <= kernel.error(r, t) + rounding)
+
+
+@pytest.mark.parametrize("name", graded_digits.SOLIDS)
+@pytest.mark.parametrize("count", [1, pytest.param(20, marks=pytest.mark.heavy)])
+def test_the_stored_compliances_are_those_of_the_series(name, count):
+    """Between the nodes of the table, and in double precision by collocation."""
+    solid, modes = graded_digits.SOLIDS[name], np.array(_stored()[name]["modes"]).T
+    # Below, the series take many steps.
+    xi = 10.0 ** np.random.default_rng(8).uniform(-1.0 if count > 1 else 1.0, 2.5, count)
+    exact = np.array([float(graded_digits.relative_compliance(solid, x)) for x in xi])
+    # What the pieces of the table leave; one step of collocation leaves 6e-13 on the smooth coating.
+    assert np.allclose(graded_digits.excess(modes, xi), exact - 1.0, rtol=0.0, atol=1e-12)
+    assert np.allclose(0.5 * contact_modulus(solid) * compliance(solid, xi), exact, rtol=2e-12, atol=0.0)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", graded_digits.SOLIDS)
+def test_the_series_has_25_digits(name, monkeypatch):
+    solid, xi = graded_digits.SOLIDS[name], 0.3
+    value = graded_digits.relative_compliance(solid, xi)
+    for constant, finer in (("BITS", 170), ("TERMS", 80), ("SHARE", 4), ("START", 45), ("CONSTANT", 95)):
+        monkeypatch.setattr(graded_digits, constant, finer)
+    with mpmath.workdps(DIGITS):
+        assert abs(value / graded_digits.relative_compliance(solid, xi) - 1) < mpmath.mpf(10) ** -25
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("name", graded_digits.SOLIDS)
+def test_the_stored_responses_are_those_of_adaptive_quadrature(name):
+    """The integral to the end of the table by `mpmath.quad` between zeros, the same closed form, at two pairs."""
+    known = _stored()[name]
+    modes = np.array(known["modes"]).T
+    last = graded_digits.END + 4.2 * graded_digits.WIDTH
+    c = float(last * graded_digits.excess(modes, np.array([last]))[0])
+
+    def rest(x):
+        value = graded_digits.excess(modes, np.array([float(x)]))[0] - c * float(x) / (float(x) ** 2 + 1.0)
+        smooth = mpmath.erfc((x - graded_digits.END) / graded_digits.WIDTH) / 2
+        return value * smooth * mpmath.besselj(0, x * r) * mpmath.besselj(0, x * t)
+
+    for i in np.argsort(np.array(known["r"]) + np.array(known["t"]))[:2].tolist():
+        r, t = known["r"][i], known["t"][i]
+        zeros = np.arange(1.0, last * (r + t) / np.pi) * np.pi / (r + t)
+        # Up to the first of them D changes, by a power of xi at the start.
+        ends = [0.0, *np.geomspace(1e-10, zeros[0], 40).tolist(), *zeros[1:].tolist(), last]
+        total = mpmath.quad(rest, ends, method="gauss-legendre", maxdegree=4)
+        closed = c * mpmath.besseli(0, min(r, t)) * mpmath.besselk(0, max(r, t))
+        exact = t * (1 / mpmath.agm(r + t, abs(r - t)) + closed + total)
+        assert abs(known["G"][i] - exact) < 2e-12 * exact
