@@ -13,11 +13,12 @@ from comparisons.runs.problem_tasks import ProblemRow
 
 __all__ = ["ERROR_COLUMNS", "VALUE_COLUMNS", "problem_errors", "problem_table", "varied_of"]
 
-#: Columns of the table of values and of that of errors; the others are the varied keys, which stand before the value.
+#: Columns of the table of values; the others are the varied keys, which stand before the value.
 VALUE_COLUMNS = (
     *("model", "model_version", "quantity", "value", "u_num", "unit"),
     *("dimensionless_value", "dimensionless_u_num", "dimensionless_unit", "status", "reason", "seconds"),
 )
+#: Columns of the table of errors, besides the varied keys.
 ERROR_COLUMNS = (
     *("model", "quantity", "value", "u_num", "unit"),
     *("reference", "reference_value", "u_reference", "kappa", "u_kappa"),
