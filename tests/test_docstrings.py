@@ -22,6 +22,7 @@ MODULES = sorted(
 #: the functions that users call are not among them.
 LONG = {
     "comparisons.graded_agreement.solving",
+    "comparisons.paper.studies.graded_equivalent",
     "comparisons.paper.studies.graded_routes",
     "comparisons.paper.studies.layered_adhesion",
     "comparisons.paper.studies.surface_modulus",

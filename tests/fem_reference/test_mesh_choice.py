@@ -33,6 +33,7 @@ UNRESOLVED = (1.8234594621046147, 0.8778961468202925, 5.103826446508255, 0.38948
 """The edge is 1e-10 of its radius wide."""
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("parameters", [FLAT, pytest.param(STEEP, marks=pytest.mark.heavy)])
 def test_the_edge_is_no_narrower_than_the_gap_needs(parameters):
     """Both meshes had edges of a millionth, the narrowest; one path could not be traced for want of far elements."""

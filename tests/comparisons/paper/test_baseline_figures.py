@@ -17,7 +17,7 @@ from comparisons.runs.csv_format import csv_text
 
 FOLDER = Path(__file__).parents[3] / PAPER_BASELINE
 #: Figures of closed forms, which take seconds; the others take minutes.
-CHEAP = ("1", "2", "11", "12")
+CHEAP = ("1", "2", "12")
 COMPARED = [
     pytest.param(figure.name, marks=() if figure.name in CHEAP else pytest.mark.heavy)
     for figure in paper_figures()

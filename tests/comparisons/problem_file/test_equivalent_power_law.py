@@ -124,6 +124,7 @@ def test_closed_forms_have_the_power_law_and_their_error_is_that_against_the_sol
     assert not {"fscm", "fem", "atlas"} & set(errors)
 
 
+@pytest.mark.heavy
 def test_closed_forms_that_do_not_take_the_punch_are_not_stated():
     problem = load_problem(COATED)
     cone = replace(problem, punch=Section("rounded-cone", {"R": 1e-7, "slope": 0.5}))

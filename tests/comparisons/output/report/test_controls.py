@@ -50,7 +50,7 @@ def plots(browser):
 def point(browser, plot, right, down):
     canvas = find(browser, f"#{plot} .canvas")
     browser.execute_script("arguments[0].scrollIntoView({ block: 'center' })", canvas)
-    actions = package("selenium.webdriver.common.action_chains").ActionChains(browser)
+    actions = package("selenium.webdriver.common.action_chains").ActionChains(browser, duration=0)
     actions.move_to_element_with_offset(canvas, right + 3, down).move_by_offset(-3, 0).perform()
 
 
@@ -98,12 +98,12 @@ def test_every_model_of_a_standing_run_is_read_off(browser, standing, every):
 
 
 @pytest.mark.parametrize(
-    ("rounds", "fewest"), [(1, 10), pytest.param(5, 50, marks=pytest.mark.heavy)], ids=["ten", "fifty"]
+    ("rounds", "fewest"), [(2, 20), pytest.param(5, 50, marks=pytest.mark.heavy)], ids=["twenty", "fifty"]
 )
 def test_interactions_in_every_plot_leave_the_console_empty(opened, tmp_path, rounds, fewest):
     opened.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)})
     opened.execute_script("for (const fold of document.querySelectorAll('details')) fold.open = true")
-    # The heavy test uses all more than once, because a fault may show only on the second use.
+    # More than once, because a fault may show only on the second use.
     script = """
       const every = (selector, inside = document) => Array.from(inside.querySelectorAll(selector));
       const tell = (element, name) => element.dispatchEvent(new Event(name, { bubbles: true }));

@@ -80,6 +80,7 @@ def test_every_point_is_computed_again_by_the_fscm(kind, parameter):
     assert_stored(rows(kind, parameter), by_fscm(kind, parameter), "fscm")
 
 
+@pytest.mark.heavy
 def test_the_equivalent_power_law_of_a_power_law_is_itself():
     """The skin changes the compliance at the contact radius by its share, z_s^(1-k)."""
     apart = [np.abs(np.subtract(equivalent_of("offset power law", z_s), OFFSET)) for z_s in (1e-4, 1e-6)]
@@ -87,7 +88,7 @@ def test_the_equivalent_power_law_of_a_power_law_is_itself():
     assert max(apart[1]) < max(apart[0]) / 3.0
 
 
-@pytest.mark.parametrize("kind", ["exponential", "coating"])
+@pytest.mark.parametrize("kind", [pytest.param("exponential", marks=pytest.mark.heavy), "coating"])
 def test_the_equivalent_power_law_of_a_homogeneous_limit_is_homogeneous(kind):
     """What is left is the share of the depth in the lengths of the contact, or of its inverse."""
     assert equivalent_of(kind, 1e-6) == pytest.approx(case_of(kind, 1e-6).depth, abs=1e-5)
