@@ -59,7 +59,9 @@ def failure_lines(failures: Sequence[Row]) -> Iterator[str]:
 def _computations(results: pd.DataFrame, curves: pd.DataFrame) -> pd.DataFrame:
     # A curve has a row for each point.
     whole = curves[curves["point"] == 0] if "point" in curves else curves
-    rows = pd.concat([results[["model", "status", "seconds"]], whole[["model", "status", "seconds"]]])
+    tables = [table[["model", "status", "seconds"]] for table in (results, whole)]
+    # Not one without rows: older versions of pandas warn that its types will count.
+    rows = pd.concat([table for table in tables if len(table)] or tables)
     counts = rows.groupby(["model", "status"]).size().unstack(fill_value=0)
     for status in ("ok", "not-applicable", "failed"):
         if status not in counts:

@@ -59,6 +59,7 @@ def test_a_smaller_degree_proves_fewer_digits_of_the_same_value(states, bounds):
     assert 1e-11 < found.force.rad() < 1e-9
 
 
+@pytest.mark.heavy
 def test_the_interval_contains_the_states_inside_it(states, bounds):
     whole = enclose(states, bounds, arb(ETA), arb(1e-5))
     for share in (-0.9, 0.5):

@@ -200,6 +200,7 @@ def test_a_steep_punch_on_a_stiff_solid_has_the_pull_off_force_of_bradley(n: flo
     assert solve(Problem(n, 0.2, 1e-5), "pull_off_force").value == pytest.approx(-least.fun, rel=1e-7)
 
 
+@pytest.mark.heavy
 def test_a_punch_near_the_least_shape_index_is_followed_in_steps_of_its_load() -> None:
     """The tail carries loads of 1e3 near n = 2/3; steps in the unit of the contact needed more than 1500 points."""
     problem = Problem(0.67, 0.4, 1.0)
@@ -213,7 +214,7 @@ def test_a_punch_near_the_least_shape_index_is_followed_in_steps_of_its_load() -
 @pytest.mark.parametrize(
     ("n", "k", "mu"),
     [
-        (2.0, 0.95, 1.0),
+        pytest.param(2.0, 0.95, 1.0, marks=pytest.mark.heavy),
         pytest.param(5.0, 0.95, 1.0, marks=pytest.mark.heavy),
         pytest.param(2.0, 0.9, 2.0, marks=pytest.mark.heavy),
         pytest.param(2.0, 0.98, 1.0, marks=pytest.mark.heavy),

@@ -208,6 +208,7 @@ def test_a_punch_with_an_asperity() -> None:
         assert np.all(run > 0.0) or np.all(run < 0.0)
 
 
+@pytest.mark.heavy
 @settings(max_examples=6, derandomize=True)
 @given(
     n=st.floats(1.0, 6.0),

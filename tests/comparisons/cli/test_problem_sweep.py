@@ -14,6 +14,7 @@ from comparisons.cli.main import main
 from comparisons.output.problem_sweep_text import problem_summary
 from comparisons.problem_file import evaluation
 from comparisons.problem_file.variation import parse_variation, variations
+from comparisons.runs.csv_format import read_csv
 from comparisons.runs.record import read_record
 from comparisons.runs.tables import read_table
 
@@ -207,7 +208,7 @@ def test_errors_against_the_reference_among_the_models(tmp_path, capsys):
     vary = ("--vary", "punch.R=1, 2 um")
     assert sweep(tmp_path, "--model", "jkr", "bradley", "atlas", vary=vary) == 0
     values = read_table(tmp_path / "results.parquet").set_index(["model", "punch.R [m]"])
-    errors = pd.read_csv(tmp_path / "kappa.csv")
+    errors = read_csv(tmp_path / "kappa.csv", {"model", "quantity", "unit", "reference"})
     assert errors["model"].tolist() == ["bradley", "bradley", "jkr", "jkr"]
     assert set(errors["reference"]) == {"atlas"}
     for row in errors.to_dict("records"):

@@ -62,6 +62,7 @@ def test_a_power_law_with_a_tiny_offset_is_itself():
     assert found.deviation < 2e-3
 
 
+@pytest.mark.heavy
 def test_a_power_law_in_a_table_is_itself():
     z = np.geomspace(1e-10, 1e-6, 25)
     columns = {"z": tuple(z.tolist()), "E": tuple((2e9 * (z / 1e-8) ** 0.2).tolist())}

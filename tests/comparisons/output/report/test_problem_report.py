@@ -18,6 +18,7 @@ from comparisons.output.report.render import render
 from comparisons.output.report.stored_problem_sweep import read_problem_sweep
 from comparisons.output.report.table import table_tex
 from comparisons.runs.record import read_record, write_record
+from comparisons.runs.tables import read_table
 
 from .browsing import (
     DESKTOP,
@@ -189,7 +190,7 @@ def test_the_page_in_a_browser(browser, page_of_sweep, swept):
     assert HOSTILE.strip() in find(browser, "pre.file").text
     # A choice shows its numbers and its unit.
     unfold(browser, "plot-1-numbers")
-    stored = pd.read_csv(swept / "results.csv").query("quantity == 'pull_off_force' and status == 'ok'")
+    stored = read_table(swept / "results.parquet").query("quantity == 'pull_off_force' and status == 'ok'")
     chosen = stored[stored["law.work_of_adhesion [J/m^2]"] == WORKS[0]]
     assert [float(text) for text in cells(browser, "plot-1-numbers", "value")] == chosen["value"].tolist()
     assert label(browser) == "pull-off force (nN)"
