@@ -1,6 +1,7 @@
 """Meshes of their own for the events that the mesh of another event leaves uncertain."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
@@ -18,7 +19,7 @@ from fem_reference import (
     solve,
     solve_together,
 )
-from fem_reference._contact.error_parts import events_on_meshes
+from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import ACCURACIES
@@ -52,6 +53,15 @@ def test_a_quantity_that_is_uncertain_or_missed_is_computed_again():
 def test_one_mesh_serves_every_event_of_a_solid_that_scales():
     scaling = replace(GRADED, solid=Solid(1.0, 1.0, 0.4, 0.3))
     assert _uncertain(scaling, {FORCE: 1e-8, JUMP_IN: 1e-3, JUMP_OUT: 1e-3}) == []
+
+
+@pytest.mark.parametrize(
+    ("change", "scaling", "degree"), [(5e-7, False, "low"), (2e-6, False, "full"), (1.0, True, "low")]
+)
+def test_a_feature_takes_the_full_degree_where_the_lower_one_shows_too_large_a_change(change, scaling, degree):
+    stub = SimpleNamespace(features={"apex": 1.0 + change}, base=1.0, scaling=scaling, full_degree=lambda _: 9.0)
+    found = EventsOnMeshes._change(stub, lambda value: value, "apex", (2.0, 1.0, 1.0))
+    assert found == pytest.approx(change if degree == "low" else 7.0)
 
 
 @pytest.mark.heavy
