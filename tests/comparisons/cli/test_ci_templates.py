@@ -238,6 +238,7 @@ def test_the_job_ends_with_the_status_of_the_run(action, job, tmp_path, status):
     ]
 
 
+@pytest.mark.heavy
 def test_the_steps_judge_a_model_and_write_the_report(action, tmp_path):
     (tmp_path / "mine.py").write_text(MODEL)
     (tmp_path / "gates.toml").write_text(GATES)
