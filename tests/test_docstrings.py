@@ -18,14 +18,18 @@ MODULES = sorted(
 )
 
 
-#: Modules whose examples solve problems of other solids than power laws or by the finite elements, a second or more;
+#: Modules whose examples solve several problems, or of other solids than power laws, half a second or more;
 #: the functions that users call are not among them.
 LONG = {
     "comparisons.graded_agreement.solving",
+    "comparisons.paper.figures.fig11_gradient_effect",
+    "comparisons.paper.studies.error_lines",
+    "comparisons.paper.values.causes",
     "comparisons.paper.studies.graded_equivalent",
     "comparisons.paper.studies.graded_routes",
     "comparisons.paper.studies.layered_adhesion",
     "comparisons.paper.studies.surface_modulus",
+    "comparisons.problem_file.elastic_energy",
     "comparisons.problem_file.equivalent_power_law",
     "fem_reference.verification.element_checks",
 }

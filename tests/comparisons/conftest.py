@@ -7,16 +7,21 @@ import subprocess
 import sys
 from copy import deepcopy
 from functools import cache
+from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
 
+import comparisons
 from comparisons.judging.gates import gates_text
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
+from comparisons.pipeline import record_content
 from comparisons.registry import MODELS
+from comparisons.runs import environment
 from comparisons.runs.cases import load_grids
-from comparisons.runs.environment import environment
+from comparisons.runs.environment import code_digest as code
+from comparisons.runs.environment import solver_digest as solvers
 
 
 class Toy:
@@ -104,18 +109,32 @@ tier = "quick"
 """
 
 
-@cache
-def _environment():
-    return environment()
+@pytest.fixture(scope="session", autouse=True)
+def code_read_once():
+    """What a record has of code and machine is determined once: neither changes while the tests run.
+
+    A test that gives the package another folder, or the functions of this module other results, has these.
+    """
+    running, code_digest, solver_digest = Path(comparisons.__file__).parents[1], cache(code), cache(solvers)
+    once = cache(environment.environment)
+
+    def of_record():
+        return deepcopy(once())
+
+    def code_of(root=None):
+        return code_digest() if (root or environment._running_root()) == running else code(root)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(environment, "version", cache(environment.version))
+        patch.setattr(environment, "code_digest", code_of)
+        patch.setattr(environment, "solver_digest", solver_digest)
+        patch.setattr(record_content, "environment", of_record)
+        yield
 
 
 @pytest.fixture
 def small_grid(toys, monkeypatch):
-    """Make `fscm-bench run` compute four cases of toy models and judge them by one gate.
-
-    What the record has of code and machine is determined once for all tests.
-    """
-    monkeypatch.setattr("comparisons.pipeline.record_content.environment", lambda: deepcopy(_environment()))
+    """Make `fscm-bench run` compute four cases of toy models and judge them by one gate."""
     monkeypatch.setattr("comparisons.pipeline.inputs.grids", lambda tier: load_grids(GRID))
     monkeypatch.setattr("comparisons.pipeline.inputs.gates_text", lambda path: gates_text(path) if path else GATES)
     return GATES

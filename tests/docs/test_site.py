@@ -156,6 +156,7 @@ def test_links_of_the_pages_from_other_files_resolve():
             ), (name, link)
 
 
+@pytest.mark.lint
 def test_spelling():
     """The documents, the names of files aside; words of the trade are in `[tool.codespell]` of pyproject.toml."""
     names = (
@@ -173,6 +174,7 @@ def test_spelling():
     assert (done.stdout, done.returncode) == ("", 0)
 
 
+@pytest.mark.lint
 def test_a_wrong_word_is_found(tmp_path):
     (tmp_path / "page.md").write_text("The presure of the contact.\n", encoding="utf-8")
     command = [sys.executable, "-m", "codespell_lib", str(tmp_path)]

@@ -29,6 +29,8 @@ SOLIDS = {
 }
 #: Of the other kinds of solid there are values of 25 digits (test_graded_digits.py).
 LIGHT = ("sharp layer",)
+#: One solid of each class.
+OFTEN = ("offset", "exponential", "sharp layer", "table", "waves")
 
 
 @lru_cache
@@ -122,7 +124,10 @@ def _signed_error(name, xi):
 _ROUNDING = 1e-14
 
 
-@pytest.mark.parametrize("name", SOLIDS)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=() if name in OFTEN else pytest.mark.heavy) for name in SOLIDS],
+)
 def test_the_images_are_wrong_by_no_more_than_their_bound_at_any_wave_number(name):
     xi = np.geomspace(1e-4, 1e4, 961)
     assert np.all(np.abs(_signed_error(name, xi)) <= kernel(name).images.error(xi) + _ROUNDING)

@@ -104,7 +104,9 @@ def solved(problem):
 
 
 @pytest.mark.parametrize("quantity", list(STIELTJES_QUANTITIES))
-@pytest.mark.parametrize("problem", [Problem(2, 0.4, 1.0), Problem(5, 0.2, 1.0), Problem(2, 0.0, 1.0)])
+@pytest.mark.parametrize(
+    "problem", [Problem(5, 0.2, 1.0), *(pytest.param(Problem(2, k, 1.0), marks=pytest.mark.heavy) for k in (0.4, 0.0))]
+)
 def test_the_uncertainty_covers_the_error(problem, quantity):
     found = stieltjes_solution(problem, quantity, 200, **COARSE)
     error = abs(found.value - solved(problem)[quantity].value)

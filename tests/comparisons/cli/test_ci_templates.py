@@ -66,6 +66,7 @@ def refused(schema, *paths, more=()):
     return "" if done.returncode == 0 else done.stdout + done.stderr
 
 
+@pytest.mark.lint
 def test_the_files_of_github_and_gitlab_fit_the_published_schemas(tmp_path):
     assert main(["new-model", str(tmp_path / "my-model")]) == 0
     workflows = [*(ROOT / ".github" / "workflows").glob("*.yml"), *tmp_path.rglob("*.yml")]
@@ -75,16 +76,35 @@ def test_the_files_of_github_and_gitlab_fit_the_published_schemas(tmp_path):
     assert refused("gitlab-ci", GITLAB, more=["--data-transform", "gitlab-ci"]) == ""
 
 
-def test_the_examples_of_the_page_fit_the_published_schemas(tmp_path):
+@pytest.fixture(scope="module")
+def examples():
+    """The workflow of GitHub and the job of GitLab that the page shows."""
     blocks = re.findall(r"^```yaml\n(.*?)^```$", (ROOT / "docs" / "ci.md").read_text(encoding="utf-8"), re.M | re.S)
     of_github, of_gitlab = [block for block in blocks if "jobs:" in block], [b for b in blocks if "extends:" in b]
     assert len(of_github) == len(of_gitlab) == 1
-    (tmp_path / "github.yml").write_text(of_github[0])
-    (tmp_path / "gitlab.yml").write_text(of_gitlab[0])
+    return of_github[0], of_gitlab[0]
+
+
+def test_the_examples_of_the_page_use_what_there_is(examples, action, job):
+    """The next test has the whole of their keys."""
+    of_github, of_gitlab = map(yaml.safe_load, examples)
+    *_, judge = of_github["jobs"]["judge"]["steps"]
+    required = {name for name, value in action["inputs"].items() if value.get("required")}
+    assert required <= judge["with"].keys() <= action["inputs"].keys()
+    assert of_gitlab["judge"]["extends"] == ".fscm-bench"
+    assert of_gitlab["judge"]["variables"].keys() <= job["variables"].keys()
+
+
+@pytest.mark.lint
+def test_the_examples_of_the_page_fit_the_published_schemas(examples, tmp_path):
+    of_github, of_gitlab = examples
+    (tmp_path / "github.yml").write_text(of_github)
+    (tmp_path / "gitlab.yml").write_text(of_gitlab)
     assert refused("github-workflows", tmp_path / "github.yml") == ""
     assert refused("gitlab-ci", tmp_path / "gitlab.yml", more=["--data-transform", "gitlab-ci"]) == ""
 
 
+@pytest.mark.lint
 def test_a_wrong_key_does_not_fit_the_schema(tmp_path):
     wrong = tmp_path / "action.yml"
     wrong.write_text(ACTION.read_text(encoding="utf-8").replace("using: composite", "use: composite"))
@@ -218,6 +238,7 @@ def test_the_job_ends_with_the_status_of_the_run(action, job, tmp_path, status):
     ]
 
 
+@pytest.mark.heavy
 def test_the_steps_judge_a_model_and_write_the_report(action, tmp_path):
     (tmp_path / "mine.py").write_text(MODEL)
     (tmp_path / "gates.toml").write_text(GATES)

@@ -113,7 +113,8 @@ def test_the_command_is_killed(grid, undisturbed, tmp_path, kills):
 
 
 @needs_proc
-@pytest.mark.parametrize("kills", [1, pytest.param(10, marks=pytest.mark.heavy)])
+@pytest.mark.heavy
+@pytest.mark.parametrize("kills", [1, 10])
 def test_workers_are_killed(grid, undisturbed, tmp_path, kills):
     chosen = random.Random(SEED)
     killed = 0
@@ -146,7 +147,7 @@ def test_a_task_whose_process_ended_twice_is_computed_by_the_next_command(grid, 
     assert tables(tmp_path) == undisturbed
 
 
-@pytest.mark.parametrize("room", [0, 5000])
+@pytest.mark.parametrize("room", [pytest.param(0, marks=pytest.mark.heavy), 5000])
 def test_the_disk_is_full_while_a_row_is_written(grid, undisturbed, tmp_path, monkeypatch, capsys, room):
     """A line of the journal is written in part."""
 

@@ -96,6 +96,7 @@ def test_the_figure_and_numbers_of_the_paper_are_shown_where_there_are_some(tmp_
     run(tmp_path)
     assert (tmp_path / "fig16b_kappa.png").exists()
     assert "the paper prints 1 maximum, for k = 0.4" in capsys.readouterr().out
+    monkeypatch.setattr("comparisons.pipeline.tables.save", lambda figure, path: path.touch())
     run(tmp_path, "--verbose")
     assert "beside that of the paper" in capsys.readouterr().out
 
@@ -123,6 +124,7 @@ def test_the_numbers_of_the_paper_are_not_shown_beside_gates_of_ones_own(tmp_pat
     grid = STANDING.replace('"jkr"', '"md-improved"').replace("1.5, 2", "2")
     monkeypatch.setattr("comparisons.pipeline.inputs.grids", lambda tier: load_grids(grid))
     (tmp_path / "gates.toml").write_text(GATE, encoding="utf-8")
+    monkeypatch.setattr("comparisons.pipeline.tables.save", lambda figure, path: path.touch())
     assert run(tmp_path / "out", "--gates", str(tmp_path / "gates.toml")) == 0
     shown = capsys.readouterr().out
     assert "1 of 1 gate passes" in shown

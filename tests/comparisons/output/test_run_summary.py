@@ -36,7 +36,7 @@ def test_each_shape_has_its_largest_error_with_its_place():
 
 
 @pytest.mark.parametrize("width", [60, 80, 120])
-@pytest.mark.parametrize("count", [1, 5, 12, 40, 200])
+@pytest.mark.parametrize("count", [1, 5, 12, 40, pytest.param(200, marks=pytest.mark.heavy)])
 @pytest.mark.parametrize("shapes", [(2.0,), (1.0, 1.5, 2.0, 5.0), tuple(np.linspace(1, 10, 19))])
 def test_the_table_has_no_more_lines_than_there_are(width, count, shapes):
     room = 25

@@ -39,6 +39,18 @@ mu = [0.1, 1]
 """
 
 
+@pytest.fixture(autouse=True)
+def pictures(request, monkeypatch):
+    """Whether a picture is drawn; without `drawn` its file is empty: drawing takes longer than all the rest."""
+    if "drawn" not in request.fixturenames:
+        monkeypatch.setattr("comparisons.pipeline.compare.save", lambda figure, path: path.touch())
+
+
+@pytest.fixture
+def drawn():
+    """Pictures are drawn in a test with this fixture."""
+
+
 def test_every_case_and_model_has_a_row(toys, tmp_path):
     models = ["ten-percent", "refuses", "fails"]
     found = comparisons.compare(models, GRID, folder=tmp_path / "out")
@@ -59,13 +71,16 @@ def test_every_case_and_model_has_a_row(toys, tmp_path):
     assert [row.model for row in found.failures] == ["fails"] * 8
 
 
-def test_the_folder_is_a_run_folder_that_is_resumed(toys, tmp_path, capsys):
+def test_the_folder_is_a_run_folder_that_is_resumed(toys, tmp_path, capsys, monkeypatch, drawn):
     first = comparisons.compare(["ten-percent"], GRID, folder=tmp_path)
     record = read_record(tmp_path / "run.json")
     check_files(record, tmp_path)
     assert {"comparison.csv", "comparison.parquet", "comparison.png", "comparison.pdf"} <= record["files"].keys()
     pd.testing.assert_frame_equal(read_table(tmp_path / "comparison.parquet"), first.table, check_dtype=False)
+    for kind in ("png", "pdf"):
+        assert (tmp_path / f"comparison.{kind}").stat().st_size > 1000
     capsys.readouterr()
+    monkeypatch.setattr("comparisons.pipeline.compare.save", lambda figure, path: path.touch())
     comparisons.compare(["ten-percent", "refuses"], GRID, folder=tmp_path)
     assert "8 computations on 1 processes, 16 are stored" in capsys.readouterr().err
     # A sweep of the folder leaves no comparison of other models in it.

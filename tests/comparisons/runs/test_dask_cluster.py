@@ -112,6 +112,7 @@ def test_a_local_cluster_writes_the_same_bytes(grid, tmp_path):
     assert tables(tmp_path / "dask") == tables(tmp_path / "one")
 
 
+@pytest.mark.heavy
 def test_a_worker_that_ends_is_replaced_and_its_item_tried_once_more(tmp_path):
     (tmp_path / "items.py").write_text(ITEMS)
     (tmp_path / "caller.py").write_text(CALLER)
