@@ -19,18 +19,21 @@ from fem_reference import (
     Solution,
     solve_together,
 )
-from fem_reference._contact import carried_path as carried_module
+from fem_reference._contact import edge_search
 from fem_reference._contact.carried_path import carried_path, found_on_carried
+from fem_reference._contact.edge_search import EdgeSearch
 from fem_reference._contact.events import JUMP_IN, LANDING, PathEvents
 from fem_reference._contact.mesh_choice import MeshChoice
 from fem_reference._contact.tracing import traced_to_fold
+from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import level_for
 
 NAMES = ("pull_off_force", "jump_in_displacement", "jump_out_displacement")
 CONE = Problem(CustomSolid(ExponentialModulus(0.9, 0.3, 5.0), 0.1), PowerPunch(1.0, 1.0), LennardJones(1.0, 1.0))
 
+STEP = 0.2
 # Load and displacement in x = log r: the load has two minima that are closer to each other than two meshes at first.
-NARROW, AT = 0.07, 2.69
+NARROW, AT = 0.1, 2.75
 LOAD = np.polynomial.Polynomial([-1.0, -1.0, 0.25])
 
 
@@ -70,21 +73,23 @@ def test_a_carried_path_goes_from_the_first_edge_into_compression():
     assert radii == sorted(radii)
     assert radii[0] == 0.5
     assert points[-1].state.load > 0.0 >= points[-2].state.load
-    assert max(np.diff(np.log(radii))) <= carried_module.CARRIED_STEP * (1.0 + 1e-12)
+    assert max(np.diff(np.log(radii))) <= STEP * (1.0 + 1e-12)
     assert _minima(points) == 1
 
 
-def test_turning_points_between_two_meshes_are_found():
-    """Loads and rates at radii a step apart show one minimum; the path has two."""
-    states = _States(0.05)
-    coarse = [states.at(2.0 * math.exp(carried_module.CARRIED_STEP * i)) for i in range(20)]
+@pytest.mark.parametrize("height", [0.056, 0.05])
+def test_turning_points_between_two_meshes_are_found(height):
+    """Loads and rates at radii a step apart show one minimum; the path has two, for the lower bump with a rise of 2e-4
+    of the largest tension between them."""
+    states = _States(height)
+    coarse = [states.at(2.0 * math.exp(STEP * i)) for i in range(20)]
     assert _minima(coarse) == 1
-    points = carried_path(_States(0.05), 2.0, 2.0)
+    points = carried_path(_States(height), 2.0, 2.0)
     assert _minima(points) == 2
 
 
 def test_the_lowest_of_several_minima_is_searched_from_each():
-    states = _States(0.05)
+    states = _States(0.056)
     points = carried_path(states, 2.0, 2.0)
     assert found_on_carried(states, points) == ("the mesh", states.begun[0])
     assert len(states.begun) == 2
@@ -95,6 +100,37 @@ def test_the_lowest_of_several_minima_is_searched_from_each():
     states.event = "jump_out"
     with pytest.raises(NoSuchEvent, match="no point of jump_out"):
         found_on_carried(states, points)
+
+
+class _Meshes:
+    """Meshes on which a state is found from another if that is within a tenth of the radius."""
+
+    def spec(self, width, size, smallest, far_share=1.0, apex=math.inf):
+        return MeshSpec(width, 0.05, 100.0, 1.0, 4)
+
+    def contact(self, spec, size):
+        return size
+
+
+def _from_near(contact, radius, starts):
+    if min(abs(math.log(start.edge_radius / radius)) for start in starts) > 0.1:
+        raise NotConverged("too far")
+    return _States(0.0).at(radius)
+
+
+def test_a_state_that_is_not_found_at_once_is_reached_by_way_of_others(monkeypatch):
+    monkeypatch.setattr(edge_search, "state_at", _from_near)
+    monkeypatch.setattr(edge_search, "edge_width", lambda point: 1.0)
+    search = EdgeSearch(_Meshes(), "pull_off", [_States(0.0).at(1.0)], 0.1, 0.1, 4)
+    search.at(1.0)
+    assert search.at(1.5).edge_radius == 1.5
+    assert len(search.known) > 4
+    # Where there is none, the radii come so close that it is refused.
+    monkeypatch.setattr(edge_search, "state_at", lambda contact, radius, starts: _from_near(contact, 9.0, starts))
+    with pytest.raises(NotConverged, match="too far"):
+        search.at(1.6)
+    with pytest.raises(NotConverged, match=r"not found on \d+ meshes"):
+        replace(search, most=len(search.known)).at(1.4)
 
 
 def test_a_part_of_a_path_is_not_taken_for_the_whole():
