@@ -21,8 +21,8 @@ from fem_reference.errors import NoSuchEvent
 __all__ = ["carried_path", "found_on_carried"]
 
 CARRIED_STEP = 0.2
-"""Change of the logarithm of the radius from one mesh to the next: with 0.3 one state in four is not found from the
-last and takes a mesh between (cones, modulus falling to a fifth below, mu = 3)."""
+"""Change of the logarithm of the radius from one mesh to the next.  The test of turning points asks for no mesh between
+on cones at mu = 3 whose modulus falls to a fifth below the surface, and each state is found from the last."""
 
 LARGEST_CHANGE = 1e-4
 """Change of delta in lengths of the law, and of P relative to the largest tension, below which two turning points are

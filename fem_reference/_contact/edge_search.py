@@ -15,6 +15,8 @@ from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Protocol
 
+import numpy as np
+
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import EdgeRadius, Size
 from fem_reference._contact.events import LANDING, excess_of
@@ -22,6 +24,7 @@ from fem_reference._contact.mesh_lengths import check_width
 from fem_reference._contact.path import Branch, Point, edge_width, point_at
 from fem_reference._contact.resolved import projected
 from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
 
 __all__ = ["MESHES", "MINIMA", "SEARCHED", "WIDTH_SHARE", "EdgeSearch", "state_at"]
@@ -283,8 +286,30 @@ def state_at(contact: Contact, radius: float, starts: Sequence[Point]) -> Point:
     branch = Branch(contact, Size(radius), lambda r: EdgeRadius(contact.law.peak_gap, r), touching=True)
     for start in starts:
         with suppress(NotConverged):
+            return branch.solve(radius, _shifted(start, contact, radius))
+        with suppress(NotConverged):
             return branch.solve(radius, projected(point_at(start, radius), contact, radius))
     raise NotConverged(f"no equilibrium was found with the contact edge at {radius:.6g}; take a finer accuracy")
+
+
+def _shifted(point: Point, contact: Contact, radius: float) -> Array:
+    """Start on a mesh whose edge is at a radius: the gap of another state, moved with its edge.
+
+    The edge keeps its shape where it moves.  The displacement that belongs to the gap is no equilibrium, but the first
+    Newton step finds it: it depends linearly on the traction, which changes little.
+    """
+    trace, target, y, size = (
+        point.branch.contact.compliance.trace,
+        contact.compliance.trace,
+        point.state.y,
+        point.state.size,
+    )
+    move, r = radius - point.edge_radius, radius * target.s
+    s = np.clip((r - move) / size, 0.0, trace.extent)
+    gap = -y[-2] + contact.punch.height(size * s) + trace.evaluate(s) @ y[:-2]
+    approach = point.state.displacement + move * point.displacement_rate
+    w = target.projection(gap + approach - contact.punch.height(r))
+    return np.concatenate([w, [approach, radius]])
 
 
 def _vertex(low: tuple[float, float], middle: tuple[float, float], high: tuple[float, float]) -> float:
