@@ -15,7 +15,7 @@ from fem_reference._contact.hermite import Interval, Sample
 from fem_reference._contact.path import Point, point_at
 from fem_reference.errors import NotConverged
 
-__all__ = ["complete_path", "displacement_range"]
+__all__ = ["complete_branch", "complete_path", "displacement_range", "displacement_sample", "load_sample"]
 
 SMALLEST_CHANGE = 1e-9
 """Change of delta in lengths of the law, and of P in units of its largest tension, below which two turning points are
@@ -25,11 +25,13 @@ ROUNDS = 14
 """Largest number of passes over the path; each halves the intervals that are undecided."""
 
 
-def _displacement(point: Point) -> Sample:
+def displacement_sample(point: Point) -> Sample:
+    """Displacement and its rate along the path at a point."""
     return Sample(point.parameter, point.state.displacement, point.state.displacement_rate)
 
 
-def _load(point: Point) -> Sample:
+def load_sample(point: Point) -> Sample:
+    """Load and its rate along the path at a point."""
     return Sample(point.parameter, point.state.load, point.state.load_rate)
 
 
@@ -51,7 +53,7 @@ def displacement_range(points: Sequence[Point]) -> tuple[float, float]:
         Neighbours, at least one.
     """
     branches = [list(group) for _, group in groupby(points, key=lambda point: id(point.branch))]
-    found = [interval.range() for branch in branches for interval in _intervals(branch, _displacement)]
+    found = [interval.range() for branch in branches for interval in _intervals(branch, displacement_sample)]
     end = points[-1].state.displacement
     return min([end, *(low for low, _ in found)]), max([end, *(high for _, high in found)])
 
@@ -88,7 +90,7 @@ def complete_path(points: Sequence[Point]) -> list[Point]:
     """
     length = points[0].branch.contact.law.length
     scale = max(abs(min(point.state.load for point in points)), 1e-300)
-    tests = ((_displacement, SMALLEST_CHANGE * length), (_load, SMALLEST_CHANGE * scale))
+    tests = ((displacement_sample, SMALLEST_CHANGE * length), (load_sample, SMALLEST_CHANGE * scale))
     branches = [list(group) for _, group in groupby(points, key=lambda point: id(point.branch))]
     for before, after in pairwise(branches):
         a, b = before[-1], after[0]
@@ -98,11 +100,30 @@ def complete_path(points: Sequence[Point]) -> list[Point]:
                 f"the path turns back at delta = {a.state.displacement:.6g}, where the contact edge is formed; refine "
                 "the mesh at the edge"
             )
-    return [point for branch in branches for point in _complete_branch(branch, tests)]
+    return [point for branch in branches for point in complete_branch(branch, tests)]
 
 
-def _complete_branch(points: list[Point], tests: Sequence[tuple[Callable[[Point], Sample], float]]) -> list[Point]:
-    """Insert samples in one branch."""
+def complete_branch(
+    points: list[Point],
+    tests: Sequence[tuple[Callable[[Point], Sample], float]],
+    inserted: Callable[[Point, float], Point] = point_at,
+) -> list[Point]:
+    """Insert samples in one branch.
+
+    Parameters
+    ----------
+    points : list of Point
+        With one kind of parameter.
+    tests : sequence of (callable, float)
+        What must have no pair of turning points between two samples, and the change that is none.
+    inserted : callable
+        Returns the point at a parameter from the nearest sample.
+
+    Raises
+    ------
+    NotConverged
+        If that needs more than `ROUNDS` passes.
+    """
     for _ in range(ROUNDS):
         places: dict[int, float] = {}
         for sample, tolerance in tests:
@@ -117,7 +138,7 @@ def _complete_branch(points: list[Point], tests: Sequence[tuple[Callable[[Point]
             refined.append(point)
             if i in places:
                 nearest = min(points[i : i + 2], key=lambda end: abs(end.parameter - places[i]))
-                refined.append(point_at(nearest, places[i]))
+                refined.append(inserted(nearest, places[i]))
         points = refined
     at = points[min(places)].state.displacement
     raise NotConverged(

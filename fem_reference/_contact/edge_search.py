@@ -15,6 +15,8 @@ from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Protocol
 
+import numpy as np
+
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import EdgeRadius, Size
 from fem_reference._contact.events import LANDING, excess_of
@@ -22,9 +24,10 @@ from fem_reference._contact.mesh_lengths import check_width
 from fem_reference._contact.path import Branch, Point, edge_width, point_at
 from fem_reference._contact.resolved import projected
 from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
 
-__all__ = ["SEARCHED", "WIDTH_SHARE", "EdgeSearch"]
+__all__ = ["MESHES", "MINIMA", "SEARCHED", "WIDTH_SHARE", "EdgeSearch", "state_at"]
 
 WIDTH_SHARE = 0.18
 """Resolved edge width relative to the length over which the gap rises by the length of the law at the edge."""
@@ -40,6 +43,9 @@ STEP = 0.1
 
 NEAR = 0.1
 """Difference of the logarithms of two radii up to which the state on one mesh is the first start on the other."""
+
+CLOSE = 0.02
+"""Difference of the logarithms of two radii from which on a state is also looked for by way of one between."""
 
 CONFIRMING = 4.0
 """Distance, in tolerances, of the radius that confirms a minimum found by the first parabola."""
@@ -83,6 +89,10 @@ class EdgeSearch:
         Displacement at a landing.
     apex : float
         As for `MeshChoice.spec`.
+    known : dict of float to Point
+        States by the radius of their edge, each on its own mesh.
+    most : int
+        Largest number of them.
     """
 
     meshes: _Meshes
@@ -94,6 +104,7 @@ class EdgeSearch:
     level: float = 0.0
     apex: float = math.inf
     known: dict[float, Point] = field(default_factory=dict)
+    most: int = MESHES
 
     def found(self, radius: float) -> tuple[MeshSpec, float]:
         """Return the mesh that is fine at the contact edge of the event, and the radius of that edge.
@@ -112,9 +123,20 @@ class EdgeSearch:
         for other in self._lower_minima(self.known[radius]):
             if any(abs(math.log(known / other)) <= NEAR for known in self.known):
                 continue
-            point = self._solved(other)
+            point = self.at(other)
             if self._height(point) < self._height(self.known[radius]):
                 radius = self._located(other)
+        return self._spec(radius), radius
+
+    def lowest(self, radii: Sequence[float]) -> tuple[MeshSpec, float]:
+        """Return the mesh and the radius of the lowest event that a search from one of the radii finds.
+
+        Raises
+        ------
+        NotConverged
+            As `found`.
+        """
+        radius = min((self._located(radius) for radius in radii), key=lambda r: self._height(self.known[r]))
         return self._spec(radius), radius
 
     def _located(self, radius: float) -> float:
@@ -124,7 +146,7 @@ class EdgeSearch:
     def _minimum(self, radius: float) -> float:
         """Radius where load or displacement is smallest, by parabolas in the logarithm of the radius."""
         # The rate on one mesh tells the direction far away; near the event it is less certain than the values are.
-        first = self._solved(radius)
+        first = self.at(radius)
         middle = math.log(radius), self._height(first)
         direction = -math.copysign(1.0, excess_of(self.event)(first))
         step = STEP
@@ -152,7 +174,7 @@ class EdgeSearch:
 
     def _point(self, x: float) -> tuple[float, float]:
         """The logarithm of a radius, and load or displacement there."""
-        return x, self._height(self._solved(math.exp(x)))
+        return x, self._height(self.at(math.exp(x)))
 
     def _root(self, radius: float) -> float:
         """Radius where the condition of the event changes its sign."""
@@ -161,7 +183,7 @@ class EdgeSearch:
         high: tuple[float, float] | None = None
         x, step = math.log(radius), STEP
         while True:
-            value = excess(self._solved(math.exp(x)))
+            value = excess(self.at(math.exp(x)))
             if value < 0.0:
                 # A side that is kept twice loses half of its value, so that both sides move.
                 low, high = (x, value), high and (high[0], 0.5 * high[1] if low else high[1])
@@ -194,17 +216,23 @@ class EdgeSearch:
     def _spec(self, radius: float) -> MeshSpec:
         return self.meshes.spec(self.width, radius, self.smallest, apex=self.apex)
 
-    def _solved(self, radius: float) -> Point:
-        """State with the contact edge at a radius, on a mesh that resolves the edge there."""
-        if len(self.known) == MESHES:
+    def at(self, radius: float) -> Point:
+        """Return the state with the contact edge at a radius, on a mesh that resolves the edge there.
+
+        Raises
+        ------
+        NotConverged
+            If it is not found, or on too many meshes.
+        """
+        if len(self.known) >= self.most:
             raise NotConverged(
-                f"the contact edge of {self.event} was not found on {MESHES} meshes, each fine at another radius, "
+                f"the contact edge of {self.event} was not found on {self.most} meshes, each fine at another radius, "
                 f"between {min(self.known):.4g} and {max(self.known):.4g}; take a finer accuracy"
             )
         for _ in range(WIDTHS):
             spec = self._spec(radius)
             contact = self.meshes.contact(replace(spec, order=self.degree), radius)
-            point = self._state(contact, radius)
+            point = self._reached(contact, radius)
             relative = edge_width(point)
             width = WIDTH_SHARE * relative if relative > 0.0 else 0.25 * spec.edge_width
             check_width(width)
@@ -214,9 +242,19 @@ class EdgeSearch:
             self.width = width
         raise NotConverged(f"the width of the contact edge was not found at the radius {radius:.4g}")
 
+    def _reached(self, contact: Contact, radius: float) -> Point:
+        """State on a mesh whose edge is at that radius, by way of states between if it is not found at once."""
+        while True:
+            try:
+                return self._state(contact, radius)
+            except NotConverged:
+                nearest = min(self.known, key=lambda r: abs(math.log(r / radius)), default=radius)
+                if abs(math.log(nearest / radius)) <= CLOSE:
+                    raise
+                self.at(math.sqrt(nearest * radius))
+
     def _state(self, contact: Contact, radius: float) -> Point:
         """State on a mesh whose edge is at that radius, from the nearest one known."""
-        branch = Branch(contact, Size(radius), lambda r: EdgeRadius(contact.law.peak_gap, r), touching=True)
 
         def away(point: Point) -> float:
             return abs(math.log(point.edge_radius / radius))
@@ -224,11 +262,54 @@ class EdgeSearch:
         starts = [min((p for p in self.samples if p.branch.touching), key=away)]
         known = min(self.known.values(), key=away, default=None)
         if known is not None:
-            starts.insert(0 if away(known) <= NEAR else 1, known)
-        for start in starts:
-            with suppress(NotConverged):
-                return branch.solve(radius, projected(point_at(start, radius), contact, radius))
-        raise NotConverged(f"no equilibrium was found with the contact edge at {radius:.6g}; take a finer accuracy")
+            starts.insert(0 if away(known) <= max(NEAR, away(starts[0])) else 1, known)
+        return state_at(contact, radius, starts)
+
+
+def state_at(contact: Contact, radius: float, starts: Sequence[Point]) -> Point:
+    """Return the state with the contact edge at a radius where a mesh is fine, from states on other meshes.
+
+    Parameters
+    ----------
+    contact : Contact
+        The problem on the mesh.
+    radius : float
+        Of its edge.
+    starts : sequence of Point
+        In the order in which they are tried.
+
+    Raises
+    ------
+    NotConverged
+        If the state is not found from any of them.
+    """
+    branch = Branch(contact, Size(radius), lambda r: EdgeRadius(contact.law.peak_gap, r), touching=True)
+    for start in starts:
+        with suppress(NotConverged):
+            return branch.solve(radius, _shifted(start, contact, radius))
+        with suppress(NotConverged):
+            return branch.solve(radius, projected(point_at(start, radius), contact, radius))
+    raise NotConverged(f"no equilibrium was found with the contact edge at {radius:.6g}; take a finer accuracy")
+
+
+def _shifted(point: Point, contact: Contact, radius: float) -> Array:
+    """Start on a mesh whose edge is at a radius: the gap of another state, moved with its edge.
+
+    The edge keeps its shape where it moves.  The displacement that belongs to the gap is no equilibrium, but the first
+    Newton step finds it: it depends linearly on the traction, which changes little.
+    """
+    trace, target, y, size = (
+        point.branch.contact.compliance.trace,
+        contact.compliance.trace,
+        point.state.y,
+        point.state.size,
+    )
+    move, r = radius - point.edge_radius, radius * target.s
+    s = np.clip((r - move) / size, 0.0, trace.extent)
+    gap = -y[-2] + contact.punch.height(size * s) + trace.evaluate(s) @ y[:-2]
+    approach = point.state.displacement + move * point.displacement_rate
+    w = target.projection(gap + approach - contact.punch.height(r))
+    return np.concatenate([w, [approach, radius]])
 
 
 def _vertex(low: tuple[float, float], middle: tuple[float, float], high: tuple[float, float]) -> float:

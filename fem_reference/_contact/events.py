@@ -17,7 +17,17 @@ from fem_reference._contact.cusp import cusp_from, slowest
 from fem_reference._contact.path import Point, point_at
 from fem_reference.errors import NoSuchEvent, NotConverged
 
-__all__ = ["CUSP", "EVENTS", "LANDING", "SEPARATED", "PathEvents", "beyond_pull_off", "event_energy", "excess_of"]
+__all__ = [
+    "CUSP",
+    "EVENTS",
+    "JUMP_IN",
+    "LANDING",
+    "SEPARATED",
+    "PathEvents",
+    "beyond_pull_off",
+    "event_energy",
+    "excess_of",
+]
 
 ROOT_TOLERANCE = 1e-11
 """Relative tolerance of the parameter at an event; P is stationary there and delta moves by as little."""
@@ -31,6 +41,9 @@ LANDING = "landing"
 
 SEPARATED = "separated"
 """The point out of contact at the displacement of the jump out of contact: where that jump ends."""
+
+JUMP_IN = "jump_in"
+"""The first fold on approach."""
 
 CUSP = "cusp"
 """The point where the two folds merge, at the modulus at which they do; its compliance has that modulus."""
@@ -59,10 +72,12 @@ class PathEvents:
     event : str, optional
         The event whose contact edge is at the edge of the mesh.  It is searched there and nowhere else: away from there
         the path may have events that are due to the mesh (see `fem_reference._contact.edge_search`).
+    whole : bool
+        Whether the samples are those of the whole path; otherwise they serve that event alone.
     """
 
-    def __init__(self, samples: Sequence[Point], event: str = "") -> None:
-        self.samples, self._event = samples, event
+    def __init__(self, samples: Sequence[Point], event: str = "", whole: bool = True) -> None:
+        self.samples, self._event, self._whole = samples, event, whole
         self._anchors: dict[str, tuple[Point, float]] = {}
 
     @cached_property
@@ -72,8 +87,13 @@ class PathEvents:
         Raises
         ------
         NotConverged
-            If such a pair cannot be excluded.
+            If such a pair cannot be excluded, or the samples are a part of the path.
         """
+        if not self._whole:
+            raise NotConverged(
+                "the path is not known as a whole on this mesh: the contact grows to many times the radius where it is "
+                "fine; ask for the pull-off force, a jump or the zero load"
+            )
         return tuple(complete_path(self.samples))
 
     def at(self, event: str) -> Point:
@@ -134,6 +154,10 @@ class PathEvents:
     @cached_property
     def jump_in(self) -> Point:
         """The first fold on approach, where displacement control jumps into contact."""
+        if self._event == JUMP_IN:
+            return _root(
+                _sign_changes(complete_path(self.samples), _displacement_rate, rising=False)[0], _displacement_rate
+            )
         return _root(self._folds[0][0], _displacement_rate)
 
     @cached_property

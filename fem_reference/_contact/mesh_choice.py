@@ -7,18 +7,19 @@ on that mesh shows how wide the edge is, and the mesh is made again until it is 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from fem_reference._contact.carried_path import carried_path, found_on_carried
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.cusp import slowest_sample
-from fem_reference._contact.edge_search import SEARCHED, WIDTH_SHARE, EdgeSearch
-from fem_reference._contact.events import CUSP, LANDING, PathEvents, beyond_pull_off
+from fem_reference._contact.edge_search import MESHES, SEARCHED, WIDTH_SHARE, EdgeSearch, state_at
+from fem_reference._contact.events import CUSP, JUMP_IN, LANDING, PathEvents, beyond_pull_off
 from fem_reference._contact.mesh_lengths import balance_length, check_width, kinks_within, mesh_spec
-from fem_reference._contact.path import EDGE_RISE, edge_width
-from fem_reference._contact.tracing import traced
+from fem_reference._contact.path import EDGE_RISE, Point, edge_width, point_at
+from fem_reference._contact.tracing import first_in_contact, traced, traced_to_fold
 from fem_reference._elastic.compliance import compliance_for, is_scaling
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import Level, finer_levels
@@ -54,6 +55,10 @@ MOVES = 2
 """Times that the edge of a mesh follows the event of the path on it; then the event is searched for with a mesh for
 each radius."""
 
+MOST_CARRIED = 120
+"""Largest number of meshes that carry a path: 40 are usual where the contact grows to a hundred times the radius at
+which it begins."""
+
 REFINEMENTS = 8
 """Largest number of meshes tried to find the width of the edge."""
 
@@ -69,11 +74,14 @@ class MeshChoice:
         Order and densities of the meshes.
     event : str, optional
         As for `fem_reference._contact.events.PathEvents`.
+    near : Point, optional
+        A state near that event on another mesh, where no mesh carries the whole path.
     """
 
     problem: Problem
     level: Level
     event: str = ""
+    near: Point | None = None
 
     def contact(self, spec: MeshSpec, size: float) -> Contact:
         """Discretise the problem on a mesh with its edge at the radius `size`."""
@@ -81,8 +89,17 @@ class MeshChoice:
         return Contact(punch, law, compliance_for(solid.modulus, solid.nu, spec, size))
 
     def traced(self, spec: MeshSpec, size: float) -> PathEvents:
-        """The path on that mesh, traced once however many quantities are read from it."""
-        return _traced(self, spec, size)
+        """The path on that mesh, traced once however many quantities are read from it.
+
+        Raises
+        ------
+        NotConverged
+            If it cannot be traced there.
+        """
+        path = _traced(self, spec, size)
+        if isinstance(path, str):
+            raise NotConverged(path)
+        return path
 
     def spec(
         self, width: float, size: float, smallest: float, far_share: float = 1.0, apex: float = math.inf
@@ -94,6 +111,8 @@ class MeshChoice:
         self, events: tuple[str, ...], start: tuple[MeshSpec, float] | None = None
     ) -> tuple[MeshChoice, MeshSpec, float]:
         """Mesh whose edge width (and, if the solid does not scale, size) fits the computed gap.
+
+        Where no mesh carries the whole path of a solid that does not scale, a mesh for each radius does.
 
         Parameters
         ----------
@@ -118,8 +137,48 @@ class MeshChoice:
         NotConverged
             If the edge is narrower than the mesh can resolve.
         """
-        punch, law = self.problem.punch, self.problem.law
         scaling = is_scaling(self.problem.solid.modulus, self.problem.solid.nu, kinks_within(self.problem))
+        try:
+            return self._adapted(events, scaling, start)
+        except NotConverged:
+            # A landing is at the displacement of another event, which another mesh resolves.
+            if scaling or LANDING in events or events[0] not in (*SEARCHED, JUMP_IN):
+                raise
+        return self._before_contact() if events[0] == JUMP_IN else self._carried(events[0])
+
+    def _before_contact(self) -> tuple[MeshChoice, MeshSpec, float]:
+        """Mesh for a jump into contact before there is a contact edge, where no mesh carries the path beyond."""
+        spec, size, _ = self._first_mesh()
+        choice = replace(self, event=JUMP_IN)
+        choice.traced(spec, size)
+        return choice, spec, size
+
+    def _carried(self, event: str) -> tuple[MeshChoice, MeshSpec, float]:
+        """Mesh that is fine at an event in contact, where no mesh carries the path there."""
+        points = _carried_path(self)
+        known = {point.edge_radius: point for point in points}
+        search = replace(self._search(points), event=event, known=known, most=MESHES + len(known))
+        spec, radius = found_on_carried(search, points)
+        return replace(self, event=event, near=search.known[radius]), spec, radius
+
+    def _search(self, samples: Sequence[Point]) -> EdgeSearch:
+        """Solver on a mesh for each radius, from states that are known."""
+        spec, size, smallest = self._first_mesh()
+        lower, apex = spec.order - SEARCH_DEGREES, balance_length(self.problem, size)
+        return EdgeSearch(self, "", samples, spec.edge_width, smallest, lower, apex=apex)
+
+    def _first_mesh(self) -> tuple[MeshSpec, float, float]:
+        """Mesh on which a path begins, its size, and the radius that tells its extent."""
+        law, punch = self.problem.law, self.problem.punch
+        size, smallest = 2.0 * radius_at_height(punch, law.length), radius_at_height(punch, EDGE_RISE * law.length)
+        balance = balance_length(self.problem, size)
+        return self.spec(0.5 * balance / size, size, smallest, apex=balance), size, smallest
+
+    def _adapted(
+        self, events: tuple[str, ...], scaling: bool, start: tuple[MeshSpec, float] | None
+    ) -> tuple[MeshChoice, MeshSpec, float]:
+        """Mesh on which the path is traced as often as it takes to know the edge of the event."""
+        punch, law = self.problem.punch, self.problem.law
         first = smallest = radius_at_height(punch, EDGE_RISE * law.length)
         # The folds merge before there is a sharp edge: the mesh of a solid that scales is fine at this radius, too.
         size = first if events == (CUSP,) and not scaling else 2.0 * radius_at_height(punch, law.length)
@@ -262,5 +321,24 @@ def _chosen(
 
 # The paths of one problem: three densities and the search for the width, on the meshes of two kinds of events.
 @lru_cache(maxsize=12)
-def _traced(choice: MeshChoice, spec: MeshSpec, size: float) -> PathEvents:
-    return PathEvents(tuple(traced(choice.contact(spec, size))), choice.event)
+def _traced(choice: MeshChoice, spec: MeshSpec, size: float) -> PathEvents | str:
+    """The path, or why it cannot be traced: the next quantity would try it again."""
+    contact = choice.contact(spec, size)
+    try:
+        if choice.event == JUMP_IN:
+            return PathEvents(traced_to_fold(contact), JUMP_IN, whole=False)
+        if choice.near is not None:
+            return PathEvents([state_at(contact, size, [choice.near])], choice.event, whole=False)
+        return PathEvents(tuple(traced(contact)), choice.event)
+    except NotConverged as reason:
+        return str(reason)
+
+
+# Both jumps and the pull-off are on one of them.
+@lru_cache(maxsize=2)
+def _carried_path(choice: MeshChoice) -> tuple[Point, ...]:
+    spec, size, _ = choice._first_mesh()
+    first = first_in_contact(choice.contact(replace(spec, order=spec.order - SEARCH_DEGREES), size))
+    # The solver begins at the edge of the first mesh, where it is fine.
+    samples = [point_at(first, size)]
+    return carried_path(replace(choice._search(samples), most=MOST_CARRIED), first.edge_radius, size)

@@ -11,7 +11,6 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from scipy import linalg
 
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import Control, EdgeGap, GapRise, Size
@@ -182,6 +181,5 @@ def projected(point: Point, contact: Contact, c: float) -> Array:
     """
     trace, target, y = point.branch.contact.compliance.trace, contact.compliance.trace, point.state.y
     s = np.minimum(target.s * c / point.state.size, trace.extent)
-    root = np.sqrt(target.weight)[:, None]
-    w = linalg.lstsq(root * target.phi, root[:, 0] * (trace.evaluate(s) @ y[:-2]), check_finite=False)[0]
+    w = target.projection(trace.evaluate(s) @ y[:-2])
     return np.concatenate([w, [point.state.displacement, c]])

@@ -60,8 +60,9 @@ NEWTON_STEPS = 6
 """Steps before giving up: the start is an equilibrium of the same mesh, and one step is usual."""
 
 RESIDUAL_TOLERANCE = 1e-6
-"""Largest residual of the whole nonlinear system at the end, relative to the traction: the Newton tolerance times the
-slope of the traction, some hundred tractions in a displacement."""
+"""Largest residual of the whole nonlinear system at the end, relative to the traction, where the displacement is up to
+one length of the law; it grows with the displacement.  It is the Newton tolerance times the slope of the traction, some
+hundred tractions in a length of the law."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -261,10 +262,12 @@ class UncondensedEvents:
         u = factors * result.solution[:, : len(equations)]
         residuals = system.residuals(u, deltas, sizes, factors)
         for (name, equation), residual in zip(equations.items(), map(float, residuals), strict=True):
-            if not residual <= RESIDUAL_TOLERANCE:
+            displacement = float(np.abs(equation.y[:-2]).max()) / equation.contact.law.length
+            limit = RESIDUAL_TOLERANCE * max(1.0, displacement)
+            if not residual <= limit:
                 raise NotConverged(
                     f"the whole nonlinear system is left with a residual of {residual:.1e} of the traction, not "
-                    f"{RESIDUAL_TOLERANCE:.0e}; take a finer accuracy"
+                    f"{limit:.0e}; take a finer accuracy"
                 )
             self._found[name] = equation.point_of(system, iterations, residual)
             self._shifted[name] = shifted[name].point_of(system, iterations, residual)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import linalg
 
 from fem_reference._elastic.mesh import Grid
 from fem_reference._typing import Array
@@ -47,6 +48,11 @@ class Trace:
     def evaluate(self, s: Array) -> Array:
         """Return function values at any radii inside the mesh, shape (len(s), m)."""
         return _line_functions(self.nodes, self.order, np.asarray(s, float))
+
+    def projection(self, values: Array) -> Array:
+        """Return the coefficients, shape (m,), closest in the mean square to values at the Gauss points."""
+        root = np.sqrt(self.weight)
+        return np.asarray(linalg.lstsq(root[:, None] * self.phi, root * values, check_finite=False)[0])
 
     def slopes(self, s: Array) -> Array:
         """Return the derivatives of the functions at any radii inside the mesh, on the outer side of a node."""

@@ -77,17 +77,26 @@ def test_far_elements_have_a_share_of_the_density():
 
 @pytest.mark.parametrize(
     ("solid", "degrees"),
-    [(CustomSolid(CoatingModulus(10.0, 1.0, 1.0), 0.3), [4, 6, 6, 6]), (Solid(1.0, 1.0, 0.4, 0.3), [6, 6, 6])],
+    [
+        (CustomSolid(CoatingModulus(10.0, 1.0, 1.0), 0.3), [4, 6, 6, 6, "pull_off"]),
+        (Solid(1.0, 1.0, 0.4, 0.3), [6, 6, 6]),
+    ],
 )
 def test_only_a_mesh_that_is_used_again_is_searched_with_the_full_degree(monkeypatch, solid, degrees):
-    """Where elements of a lower degree lose the path, those of the full degree take over."""
+    """Where elements of a lower degree lose the path, those of the full degree take over, and then a mesh for each
+    radius if the solid does not scale."""
     tried = []
 
     def traced(choice, spec, size):
         tried.append(spec.order)
         raise NotConverged("the path stops")
 
+    def carried(choice, event):
+        tried.append(event)
+        raise NotConverged("the path stops on every mesh")
+
     monkeypatch.setattr(MeshChoice, "traced", traced)
+    monkeypatch.setattr(MeshChoice, "_carried", carried)
     problem = Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
     with pytest.raises(NotConverged, match="the path stops"):
         MeshChoice(problem, level_for("quick")).adapted(("pull_off",))
