@@ -62,7 +62,7 @@ def _settled(point: Point) -> bool:
     return point.state.load > 0.0 and point.load_rate > 0.0 and point.displacement_rate > 0.0
 
 
-def found_on_carried(search: EdgeSearch, points: tuple[Point, ...]) -> tuple[MeshSpec, float]:
+def found_on_carried(search: EdgeSearch, points: tuple[Point, ...], degree: int) -> tuple[MeshSpec, float]:
     """Return the mesh that is fine at the contact edge of an event on such a path, and the radius of that edge.
 
     Parameters
@@ -71,6 +71,8 @@ def found_on_carried(search: EdgeSearch, points: tuple[Point, ...]) -> tuple[Mes
         For the event.
     points : tuple of Point
         As `carried_path` returns them.
+    degree : int
+        Of the elements on which the event will be solved.
 
     Raises
     ------
@@ -83,4 +85,4 @@ def found_on_carried(search: EdgeSearch, points: tuple[Point, ...]) -> tuple[Mes
     starts = [b.edge_radius for a, b in pairwise(points) if excess(a) < 0.0 <= excess(b)]
     if not starts:
         raise NoSuchEvent(f"the path in contact has no point of {search.event}")
-    return search.lowest(starts if search.event in MINIMA else starts[-1:])
+    return search.lowest(starts if search.event in MINIMA else starts[-1:], degree)

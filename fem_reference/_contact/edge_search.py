@@ -126,10 +126,18 @@ class EdgeSearch:
             point = self.at(other)
             if self._height(point) < self._height(self.known[radius]):
                 radius = self._located(other)
-        return self._spec(radius), radius
+        return self.spec(radius), radius
 
-    def lowest(self, radii: Sequence[float]) -> tuple[MeshSpec, float]:
+    def lowest(self, radii: Sequence[float], degree: int) -> tuple[MeshSpec, float]:
         """Return the mesh and the radius of the lowest event that a search from one of the radii finds.
+
+        Parameters
+        ----------
+        radii : sequence of float
+        degree : int
+            Of elements on which the radius is located at the end: where the edge is narrow, those of the search put
+            it by more elements beside the event than it is looked for (0.5 % at a degree of 4, exponential-4 of the
+            agreement, mu = 3).
 
         Raises
         ------
@@ -137,11 +145,14 @@ class EdgeSearch:
             As `found`.
         """
         radius = min((self._located(radius) for radius in radii), key=lambda r: self._height(self.known[r]))
-        return self._spec(radius), radius
+        last = replace(self, degree=degree, samples=list(self.known.values()), known={}, most=MESHES)
+        radius = last.root(radius)
+        self.known[radius] = last.known[radius]
+        return last.spec(radius), radius
 
     def _located(self, radius: float) -> float:
         """Radius of a mesh whose event is on its finest elements."""
-        return self._minimum(radius) if self.event in MINIMA else self._root(radius)
+        return self._minimum(radius) if self.event in MINIMA else self.root(radius)
 
     def _minimum(self, radius: float) -> float:
         """Radius where load or displacement is smallest, by parabolas in the logarithm of the radius."""
@@ -176,7 +187,7 @@ class EdgeSearch:
         """The logarithm of a radius, and load or displacement there."""
         return x, self._height(self.at(math.exp(x)))
 
-    def _root(self, radius: float) -> float:
+    def root(self, radius: float) -> float:
         """Radius where the condition of the event changes its sign."""
         excess = excess_of(self.event, self.level)
         low: tuple[float, float] | None = None
@@ -213,7 +224,8 @@ class EdgeSearch:
         """Load or displacement, which is smallest at an event of `MINIMA`."""
         return point.state.load if self.event == "pull_off" else point.state.displacement
 
-    def _spec(self, radius: float) -> MeshSpec:
+    def spec(self, radius: float) -> MeshSpec:
+        """Mesh that is fine at a radius, for the edge as wide as it is found so far."""
         return self.meshes.spec(self.width, radius, self.smallest, apex=self.apex)
 
     def at(self, radius: float) -> Point:
@@ -230,7 +242,7 @@ class EdgeSearch:
                 f"between {min(self.known):.4g} and {max(self.known):.4g}; take a finer accuracy"
             )
         for _ in range(WIDTHS):
-            spec = self._spec(radius)
+            spec = self.spec(radius)
             contact = self.meshes.contact(replace(spec, order=self.degree), radius)
             point = self._reached(contact, radius)
             relative = edge_width(point)

@@ -158,7 +158,7 @@ class MeshChoice:
         points = _carried_path(self)
         known = {point.edge_radius: point for point in points}
         search = replace(self._search(points), event=event, known=known, most=MESHES + len(known))
-        spec, radius = found_on_carried(search, points)
+        spec, radius = found_on_carried(search, points, self.level.order)
         return replace(self, event=event, near=search.known[radius]), spec, radius
 
     def _search(self, samples: Sequence[Point]) -> EdgeSearch:

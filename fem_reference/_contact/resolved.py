@@ -16,7 +16,7 @@ from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import Control, EdgeGap, GapRise, Size
 from fem_reference._contact.cusp import cusp_from
 from fem_reference._contact.events import CUSP, PathEvents, event_energy, excess_of
-from fem_reference._contact.path import Branch, Point
+from fem_reference._contact.path import Branch, Point, point_at
 from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
@@ -127,7 +127,7 @@ class ResolvedEvents:
             step = float(np.clip(-value / slope if slope else 0.0, -LARGEST_SHIFT * unit, LARGEST_SHIFT * unit))
             if step == 0.0:
                 return point
-            following = branch.solve(point.parameter + step, point.predict(point.parameter + step))
+            following = point_at(point, point.parameter + step)
             change = excess(following) - value
             point, value = following, value + change
             if abs(step) <= SECANT_TOLERANCE * unit:

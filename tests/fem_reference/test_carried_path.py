@@ -57,7 +57,7 @@ class _States:
         rates = {"load_rate": rate, "displacement_rate": 1.0 / radius}
         return SimpleNamespace(state=state, branch=branch, edge_radius=radius, parameter=radius, **rates)
 
-    def lowest(self, radii):
+    def lowest(self, radii, degree):
         self.begun = list(radii)
         return "the mesh", radii[0]
 
@@ -91,15 +91,15 @@ def test_turning_points_between_two_meshes_are_found(height):
 def test_the_lowest_of_several_minima_is_searched_from_each():
     states = _States(0.056)
     points = carried_path(states, 2.0, 2.0)
-    assert found_on_carried(states, points) == ("the mesh", states.begun[0])
+    assert found_on_carried(states, points, 6) == ("the mesh", states.begun[0])
     assert len(states.begun) == 2
     # The load vanishes once.
     states.event = "zero_load"
-    found_on_carried(states, points)
+    found_on_carried(states, points, 6)
     assert len(states.begun) == 1
     states.event = "jump_out"
     with pytest.raises(NoSuchEvent, match="no point of jump_out"):
-        found_on_carried(states, points)
+        found_on_carried(states, points, 6)
 
 
 class _Meshes:
