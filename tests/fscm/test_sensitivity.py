@@ -1,6 +1,7 @@
 """Derivatives of values at events, against differences of solved problems, and dimensional identities."""
 
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from fscm import (
     ValueSensitivity,
     sensitivity,
     solve,
+    solve_together,
 )
 from fscm.graded import Coating, Exponential, GradedProblem
 
@@ -25,8 +27,9 @@ STEP, DIFFERENCE = 1e-3, 2e-6
 #: Of differences over five points: at most 1e-10 was measured where the value is extreme itself, 1e-7 elsewhere, where
 #: the value of `solve` is as uncertain as the place of the extreme.
 FINE = 1e-6
-#: Of solids whose kernel is fitted: 1e-10 of it over the step, besides the third derivative.
-FITTED = 1e-5
+#: Of solids whose kernel is fitted: at most 8e-7 was measured over five points, at the pull-off displacement by nu.
+#: Over two points the third derivative by nu leaves 1.4e-5 there.
+FITTED = 2e-6
 #: Of sensitivities that have to cancel: the differences of the kernels.
 IDENTITY = 1e-6
 
@@ -36,6 +39,12 @@ def difference(value, at, low=None):
     if low == at:
         return (-3.0 * value(at) + 4.0 * value(at + STEP) - value(at + 2.0 * STEP)) / (2.0 * STEP)
     return (value(at + STEP) - value(at - STEP)) / (2.0 * STEP)
+
+
+def five_points(value, at):
+    """Central difference of fourth order."""
+    values = [value(at + i * STEP) for i in (-2, -1, 1, 2)]
+    return (values[0] - 8.0 * values[1] + 8.0 * values[2] - values[3]) / (12.0 * STEP)
 
 
 def close(found, expected, relative, scale=0.0):
@@ -58,9 +67,8 @@ def test_a_power_law_by_all_its_numbers():
 
 @pytest.mark.parametrize("quantity", SENSITIVE)
 def test_every_quantity_by_the_tabor_number(quantity):
-    # Five points: the derivative of a gap at an extreme of the displacement is large near the critical number.
-    values = [solve(Problem(2, 0.3, 2.0 + i * STEP), quantity).value for i in (-2, -1, 1, 2)]
-    expected = (values[0] - 8.0 * values[1] + 8.0 * values[2] - values[3]) / (12.0 * STEP)
+    # The third derivative of a gap at an extreme of the displacement is large near the critical number.
+    expected = five_points(lambda mu: solve(Problem(2, 0.3, mu), quantity).value, 2.0)
     assert close(sensitivity(Problem(2, 0.3, 2.0), quantity).gradient["mu"], expected, FINE)
 
 
@@ -108,17 +116,22 @@ def exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3):
 
 
 @pytest.mark.parametrize(
-    ("posed", "name"),
+    ("posed", "name", "rule"),
     [
-        (coated, "thickness"),
-        pytest.param(exponential, "nu", marks=pytest.mark.heavy),
+        (coated, "thickness", difference),
+        pytest.param(exponential, "nu", five_points, marks=pytest.mark.heavy),
     ],
 )
-def test_other_solids(posed, name):
+def test_other_solids(posed, name, rule):
     found, at = sensitivity(posed(), "pull_off_force"), {"thickness": 1.0, "nu": 0.3}[name]
     slope = found.derivative(lambda x: (posed(**{name: x}), 1.0), at, at)
-    expected = difference(lambda x: solve(posed(**{name: x}), "pull_off_force").value, at)
+    expected = rule(lambda x: solve(posed(**{name: x}), "pull_off_force").value, at)
     assert close(slope, expected, FITTED, scale=0.1)
+
+
+@lru_cache(maxsize=4)
+def all_quantities_of_a_coated_solid(name, value):
+    return solve_together(coated(**{name: value}), SENSITIVE)
 
 
 @pytest.mark.heavy
@@ -127,7 +140,7 @@ def test_other_solids(posed, name):
 def test_every_quantity_of_a_coated_solid(quantity, name):
     at = {"E_coating": 1.0, "E_substrate": 9.0, "thickness": 1.0, "nu": 0.3}[name]
     slope = sensitivity(coated(), quantity).derivative(lambda x: (coated(**{name: x}), 1.0), at, at)
-    expected = difference(lambda x: solve(coated(**{name: x}), quantity).value, at)
+    expected = five_points(lambda x: all_quantities_of_a_coated_solid(name, x)[quantity].value, at)
     assert close(slope, expected, FITTED, scale=0.1)
 
 
