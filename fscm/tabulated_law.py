@@ -27,6 +27,8 @@ _FEWEST_POINTS = 10
 _WALL_EXPONENT = 9.0
 # Fewest points that the tail is fitted to; otherwise all of the last octave of the distance from the wall.
 _TAIL_POINTS = 4
+# Rounding of the curve, relative to the largest traction.
+_ROUNDOFF = 2.0**-52
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -299,6 +301,9 @@ def _checked_shape(spline: scipy.interpolate.PPoly, gap: Array, p: Array) -> flo
     """Return the gap of the largest tension; refuse a spline with waves that the data do not have."""
     extrema = spline.derivative().roots(discontinuity=False, extrapolate=False)
     extrema = extrema[(extrema > gap[0]) & (extrema < gap[-1])]
+    # A curve that ends without slope has its last root beside the end, by rounding.
+    ending = (extrema > gap[-2]) & (np.abs(spline(extrema) - p[-1]) <= _ROUNDOFF * np.abs(p).max())
+    extrema = extrema[~ending]
     steps = np.diff(p)
     turns = int(np.sum(np.diff(np.sign(steps[steps != 0.0])) != 0))
     if len(extrema) != turns:

@@ -116,12 +116,14 @@ class Images:
     def error(self, xi: Array) -> Array:
         """Bound of the error of D at any xi > 0, shape of `xi`.
 
-        Between two waves the larger one of both, doubled.  Beyond the last wave 1 - D falls like 1/xi; before the first
-        one both the solid and the images change by less than they do over the decade behind it.
+        Between two waves the largest one of both and their neighbours, doubled: both may be small by chance.  Beyond
+        the last wave 1 - D falls like 1/xi; before the first one both the solid and the images change by less than they
+        do over the decade behind it.
         """
         xi = np.asarray(xi, float)
         i = np.clip(np.searchsorted(self.waves, xi), 1, len(self.waves) - 1)
-        found = _BETWEEN * np.maximum(self.errors[i - 1], self.errors[i])
+        around = np.pad(self.errors, 1, mode="edge")
+        found = _BETWEEN * np.maximum.reduce([around[i - 1], around[i], around[i + 1], around[i + 2]])
         last = _BETWEEN * (abs(1.0 - self.values[-1]) + self.errors[-1]) * self.waves[-1] / xi
         decade = int(np.searchsorted(self.waves, 10.0 * self.waves[0]))
         first = _BETWEEN * (abs(self.values[decade] - self.values[0]) + self.errors[0])
