@@ -36,8 +36,8 @@ def test_a_bound_may_change_by_the_declared_factor_and_by_no_more(factor, seen):
 
 def test_bounds_of_rounding_do_not_drift():
     zero = _results(u_num=0.0)
-    assert drift(zero, _results(u_num=1e-16)).empty
-    assert len(drift(zero, _results(u_num=1e-15))) == 2
+    assert drift(zero, _results(u_num=1e-13)).empty
+    assert len(drift(zero, _results(u_num=6e-13))) == 2
 
 
 def test_another_status_and_a_row_that_is_not_stored_have_drifted():
