@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import sys
 from copy import deepcopy
-from functools import cache
+from functools import cache, wraps
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
@@ -121,6 +121,7 @@ def code_read_once():
     def of_record():
         return deepcopy(once())
 
+    @wraps(code)
     def code_of(root=None):
         return code_digest() if (root or environment._running_root()) == running else code(root)
 
