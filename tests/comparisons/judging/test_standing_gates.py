@@ -388,7 +388,9 @@ def test_drift_is_seen():
 
 @pytest.mark.parametrize(("factor", "seen"), [(0.3, True), (0.5, False), (2.0, False), (3.5, True)])
 def test_drift_of_a_bound_is_seen(factor, seen):
-    for model in ("fscm", "fem", "md-improved", "bradley"):
-        some = ROWS[(ROWS["model"] == model) & (ROWS["u_num"] > 0)].head(3)
+    # A third of each bound is still more than rounding, which closed forms have alone.
+    of_numerics = ROWS["u_num"] > 1e-12 * ROWS["value"].abs().clip(lower=1.0)
+    for model in ("fscm", "fem", "fscm-stieltjes-400"):
+        some = ROWS[(ROWS["model"] == model) & of_numerics].head(3)
         assert len(some) == 3
         assert len(drift(ROWS, some.assign(u_num=factor * some["u_num"]))) == 3 * seen
