@@ -16,7 +16,7 @@ from fem_reference._contact.edge_search import MINIMA, EdgeSearch
 from fem_reference._contact.events import excess_of
 from fem_reference._contact.path import Point
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference.errors import NoSuchEvent
+from fem_reference.errors import NotConverged
 
 __all__ = ["carried_path", "found_on_carried"]
 
@@ -26,7 +26,8 @@ on cones at mu = 3 whose modulus falls to a fifth below the surface, and each st
 
 LARGEST_CHANGE = 1e-4
 """Change of delta in lengths of the law, and of P relative to the largest tension, below which two turning points are
-not told from none: ten times what the meshes of the search leave of a state (measured: 1e-5 of the largest tension)."""
+not told from none.  It is above what the meshes of the search leave of a state: at most 6e-5 of the largest tension
+(measured between the degrees 4 and 6 on a cone whose modulus falls to a fifth)."""
 
 
 def carried_path(search: EdgeSearch, inner: float, start: float) -> tuple[Point, ...]:
@@ -76,13 +77,11 @@ def found_on_carried(search: EdgeSearch, points: tuple[Point, ...], degree: int)
 
     Raises
     ------
-    NoSuchEvent
-        If the path has no such point.
     NotConverged
-        As `EdgeSearch.found`.
+        If the path has no such point: it may lie before there is a contact edge.  Also as `EdgeSearch.found`.
     """
     excess = excess_of(search.event, search.level)
     starts = [b.edge_radius for a, b in pairwise(points) if excess(a) < 0.0 <= excess(b)]
     if not starts:
-        raise NoSuchEvent(f"the path in contact has no point of {search.event}")
+        raise NotConverged(f"the path beyond the first contact edge, on a mesh for each radius, has no {search.event}")
     return search.lowest(starts if search.event in MINIMA else starts[-1:], degree)

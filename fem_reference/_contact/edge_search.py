@@ -135,9 +135,8 @@ class EdgeSearch:
         ----------
         radii : sequence of float
         degree : int
-            Of elements on which the radius is located at the end: where the edge is narrow, those of the search put
-            it by more elements beside the event than it is looked for (0.5 % at a degree of 4, exponential-4 of the
-            agreement, mu = 3).
+            Of elements on which the radius is located at the end.  Elements of the search alone would put it 0.5 %
+            beside the event (measured with a degree of 4 on a cone whose modulus falls to a quarter, mu = 3).
 
         Raises
         ------

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 
 from fem_reference._contact.carried_path import carried_path, found_on_carried
 from fem_reference._contact.contact import Contact
@@ -107,12 +107,65 @@ class MeshChoice:
         """Mesh for an edge of that relative width, at the coarsest density."""
         return mesh_spec(self.problem, self.level, width, size, smallest, far_share, apex)
 
+    @property
+    def scaling(self) -> bool:
+        """Whether the compliance of one size is that of every size, but for a factor."""
+        return is_scaling(self.problem.solid.modulus, self.problem.solid.nu, kinks_within(self.problem))
+
+    def carried(self, event: str) -> tuple[MeshChoice, MeshSpec, float]:
+        """Mesh for an event of a solid that does not scale, where no mesh carries the path to it.
+
+        Parameters
+        ----------
+        event : str
+            `JUMP_IN`, or one of `fem_reference._contact.edge_search.SEARCHED` but a landing.
+
+        Returns
+        -------
+        choice, spec, size
+            As `adapted` returns them, of a choice that knows this event alone.
+
+        Raises
+        ------
+        NotConverged
+            If a state on the way is not found, or the path in contact has no such point.
+        """
+        return self._before_contact() if event == JUMP_IN else self._fine_at(event)
+
+    def _before_contact(self) -> tuple[MeshChoice, MeshSpec, float]:
+        """Mesh for a jump into contact, which needs the path up to its fold only."""
+        spec, size, _ = self._first_mesh()
+        choice = replace(self, event=JUMP_IN)
+        choice.traced(spec, size)
+        return choice, spec, size
+
+    def _fine_at(self, event: str) -> tuple[MeshChoice, MeshSpec, float]:
+        """Mesh that is fine at an event in contact, on a path of a mesh for each radius."""
+        points = _carried_path(self)
+        known = {point.edge_radius: point for point in points}
+        search = replace(self._search(points), event=event, known=known, most=MESHES + len(known))
+        spec, radius = found_on_carried(search, points, self.level.order)
+        return replace(self, event=event, near=search.known[radius]), spec, radius
+
+    def _search(self, samples: Sequence[Point]) -> EdgeSearch:
+        """Solver on a mesh for each radius, from states that are known."""
+        spec, size, smallest = self._first_mesh()
+        lower, apex = spec.order - SEARCH_DEGREES, balance_length(self.problem, size)
+        return EdgeSearch(self, "", samples, spec.edge_width, smallest, lower, apex=apex)
+
+    def _first_mesh(self) -> tuple[MeshSpec, float, float]:
+        """Mesh on which a path begins, its size, and the radius that tells its extent."""
+        law, punch = self.problem.law, self.problem.punch
+        size, smallest = 2.0 * radius_at_height(punch, law.length), radius_at_height(punch, EDGE_RISE * law.length)
+        balance = balance_length(self.problem, size)
+        return self.spec(0.5 * balance / size, size, smallest, apex=balance), size, smallest
+
     def adapted(
         self, events: tuple[str, ...], start: tuple[MeshSpec, float] | None = None
     ) -> tuple[MeshChoice, MeshSpec, float]:
         """Mesh whose edge width (and, if the solid does not scale, size) fits the computed gap.
 
-        Where no mesh carries the whole path of a solid that does not scale, a mesh for each radius does.
+        The path is traced on one mesh after the other until the edge of the event is known.
 
         Parameters
         ----------
@@ -135,49 +188,9 @@ class MeshChoice:
         NoSuchEvent
             If the solid does not scale and the path has no such point.
         NotConverged
-            If the edge is narrower than the mesh can resolve.
+            If the path cannot be traced, or the edge is narrower than the mesh can resolve.
         """
-        scaling = is_scaling(self.problem.solid.modulus, self.problem.solid.nu, kinks_within(self.problem))
-        try:
-            return self._adapted(events, scaling, start)
-        except NotConverged:
-            # A landing is at the displacement of another event, which another mesh resolves.
-            if scaling or LANDING in events or events[0] not in (*SEARCHED, JUMP_IN):
-                raise
-        return self._before_contact() if events[0] == JUMP_IN else self._carried(events[0])
-
-    def _before_contact(self) -> tuple[MeshChoice, MeshSpec, float]:
-        """Mesh for a jump into contact before there is a contact edge, where no mesh carries the path beyond."""
-        spec, size, _ = self._first_mesh()
-        choice = replace(self, event=JUMP_IN)
-        choice.traced(spec, size)
-        return choice, spec, size
-
-    def _carried(self, event: str) -> tuple[MeshChoice, MeshSpec, float]:
-        """Mesh that is fine at an event in contact, where no mesh carries the path there."""
-        points = _carried_path(self)
-        known = {point.edge_radius: point for point in points}
-        search = replace(self._search(points), event=event, known=known, most=MESHES + len(known))
-        spec, radius = found_on_carried(search, points, self.level.order)
-        return replace(self, event=event, near=search.known[radius]), spec, radius
-
-    def _search(self, samples: Sequence[Point]) -> EdgeSearch:
-        """Solver on a mesh for each radius, from states that are known."""
-        spec, size, smallest = self._first_mesh()
-        lower, apex = spec.order - SEARCH_DEGREES, balance_length(self.problem, size)
-        return EdgeSearch(self, "", samples, spec.edge_width, smallest, lower, apex=apex)
-
-    def _first_mesh(self) -> tuple[MeshSpec, float, float]:
-        """Mesh on which a path begins, its size, and the radius that tells its extent."""
-        law, punch = self.problem.law, self.problem.punch
-        size, smallest = 2.0 * radius_at_height(punch, law.length), radius_at_height(punch, EDGE_RISE * law.length)
-        balance = balance_length(self.problem, size)
-        return self.spec(0.5 * balance / size, size, smallest, apex=balance), size, smallest
-
-    def _adapted(
-        self, events: tuple[str, ...], scaling: bool, start: tuple[MeshSpec, float] | None
-    ) -> tuple[MeshChoice, MeshSpec, float]:
-        """Mesh on which the path is traced as often as it takes to know the edge of the event."""
+        scaling = self.scaling
         punch, law = self.problem.punch, self.problem.law
         first = smallest = radius_at_height(punch, EDGE_RISE * law.length)
         # The folds merge before there is a sharp edge: the mesh of a solid that scales is fine at this radius, too.
@@ -276,7 +289,7 @@ def chosen(
     accuracy : float or str
         As for `fem_reference.accuracy.level_for`.
     usable : callable, optional
-        Called with the result; if it raises NotConverged, finer meshes are tried.
+        Called with the result; if it raises NotConverged, other meshes are tried.
     start : tuple, optional
         As for `MeshChoice.adapted`.
 
@@ -284,7 +297,7 @@ def chosen(
     -------
     choice : MeshChoice
     spec, size
-        As `MeshChoice.adapted` returns them.
+        As `MeshChoice.adapted` or `MeshChoice.carried` returns them.
 
     Raises
     ------
@@ -299,24 +312,29 @@ def chosen(
         raise ValueError(f"problem = {problem!r} is not a Problem; make one of a solid, a punch and a surface law")
     length = problem.law.length
     check_without_asperities(problem.punch, LOWEST * length, HIGHEST * length)
-    *coarser, finest = finer_levels(accuracy)
-    for level in coarser:
+
+    def used(meshes: tuple[MeshChoice, MeshSpec, float]) -> tuple[MeshChoice, MeshSpec, float]:
+        if usable is not None:
+            usable(*meshes)
+        return meshes
+
+    choices = [MeshChoice(problem, level) for level in finer_levels(accuracy)]
+    *others, last = [route for choice in choices for route in _routes(choice, events, start)]
+    for route in others:
         with suppress(NotConverged):
-            return _chosen(MeshChoice(problem, level), events, usable, start)
-    return _chosen(MeshChoice(problem, finest), events, usable, start)
+            return used(route())
+    return used(last())
 
 
-def _chosen(
-    choice: MeshChoice,
-    events: tuple[str, ...],
-    usable: Callable[[MeshChoice, MeshSpec, float], object] | None,
-    start: tuple[MeshSpec, float] | None,
-) -> tuple[MeshChoice, MeshSpec, float]:
-    """Adapt the meshes of one level, and use them."""
-    choice, spec, size = choice.adapted(events, start)
-    if usable is not None:
-        usable(choice, spec, size)
-    return choice, spec, size
+def _routes(
+    choice: MeshChoice, events: tuple[str, ...], start: tuple[MeshSpec, float] | None
+) -> list[Callable[[], tuple[MeshChoice, MeshSpec, float]]]:
+    """Ways to a mesh of one level: one that carries the path; a mesh for each radius if the solid does not scale."""
+    routes: list[Callable[[], tuple[MeshChoice, MeshSpec, float]]] = [partial(choice.adapted, events, start)]
+    # A landing is at the displacement of another event, which another mesh resolves.
+    if not choice.scaling and LANDING not in events and events[0] in (*SEARCHED, JUMP_IN):
+        routes.append(partial(choice.carried, events[0]))
+    return routes
 
 
 # The paths of one problem: three densities and the search for the width, on the meshes of two kinds of events.

@@ -20,7 +20,7 @@ from fem_reference import (
 from fem_reference._contact.edge_search import EdgeSearch
 from fem_reference._contact.mesh_choice import FAR_SHARE, MOVES, MeshChoice, chosen
 from fem_reference._elastic.mesh import graded_grid
-from fem_reference.accuracy import level_for
+from fem_reference.accuracy import finer_levels, level_for
 from tests.fem_reference.random_problems import problem_of
 
 FLAT = (6.180836153861795, 0.526850329086271, 2.9502804518410177, 0.2754212941419664)
@@ -84,7 +84,7 @@ def test_far_elements_have_a_share_of_the_density():
 )
 def test_only_a_mesh_that_is_used_again_is_searched_with_the_full_degree(monkeypatch, solid, degrees):
     """Where elements of a lower degree lose the path, those of the full degree take over, and then a mesh for each
-    radius if the solid does not scale."""
+    radius if the solid does not scale; finer meshes follow."""
     tried = []
 
     def traced(choice, spec, size):
@@ -96,11 +96,32 @@ def test_only_a_mesh_that_is_used_again_is_searched_with_the_full_degree(monkeyp
         raise NotConverged("the path stops on every mesh")
 
     monkeypatch.setattr(MeshChoice, "traced", traced)
-    monkeypatch.setattr(MeshChoice, "_carried", carried)
+    monkeypatch.setattr(MeshChoice, "carried", carried)
     problem = Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
     with pytest.raises(NotConverged, match="the path stops"):
-        MeshChoice(problem, level_for("quick")).adapted(("pull_off",))
-    assert tried == degrees
+        chosen(problem, ("pull_off",), "quick")
+    assert tried[: len(degrees)] == degrees
+    assert len(tried) == len(degrees) * len(finer_levels("quick"))
+
+
+def test_an_event_that_its_mesh_misses_is_searched_with_a_mesh_for_each_radius(monkeypatch):
+    """At the same accuracy, before finer meshes."""
+
+    def ordinary(choice, events, start):
+        return choice, "a mesh", 1.0
+
+    def carried(choice, event):
+        return replace(choice, event=event), "its mesh", 2.0
+
+    def usable(choice, spec, size):
+        if not choice.event:
+            raise NotConverged("the event is not there")
+
+    monkeypatch.setattr(MeshChoice, "adapted", ordinary)
+    monkeypatch.setattr(MeshChoice, "carried", carried)
+    problem = Problem(CustomSolid(CoatingModulus(10.0, 1.0, 1.0), 0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    choice, *mesh = chosen(problem, ("pull_off",), "quick", usable)
+    assert (choice, mesh) == (MeshChoice(problem, level_for("quick"), "pull_off"), ["its mesh", 2.0])
 
 
 def _rounded_flat(flat_radius):
