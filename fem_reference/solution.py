@@ -7,10 +7,11 @@ import time
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 
 from fem_reference._contact.critical import stiffer_than_critical
 from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
-from fem_reference._contact.mesh_choice import chosen
+from fem_reference._contact.mesh_choice import MeshChoice, chosen
 from fem_reference._contact.mesh_lengths import kinks_within
 from fem_reference._contact.uncondensed import uncondensed_events
 from fem_reference._elastic.compliance import is_scaling
@@ -165,7 +166,7 @@ def _solved_together(
     missed: dict[str, NotConverged] = {}
     for name, row in rows.items():
         try:
-            choice, spec, size = chosen(problem, row.events, accuracy, events_on_meshes, start)
+            choice, spec, size = chosen(problem, row.events, accuracy, partial(_estimated, row), start)
         except NoSuchEvent as reason:
             found[name] = reason.with_traceback(None)
         else:
@@ -207,6 +208,12 @@ def _solved_together(
             raise failure
     whole(name for name in solved if found[name] is solved[name])
     return found
+
+
+def _estimated(row: Quantity, choice: MeshChoice, spec: MeshSpec, size: float) -> None:
+    """Solve a quantity on the condensed system of all meshes, which keep the states."""
+    with suppress(NoSuchEvent):
+        _solution(row, events_on_meshes(choice, spec, size), choice.level)
 
 
 def _uncertain(

@@ -1,6 +1,7 @@
 """The condensed path against Newton on every displacement, with facet forms and pyamg."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pyamg
@@ -16,6 +17,7 @@ from fem_reference._contact.uncondensed import UncondensedEvents
 from fem_reference._elastic.assembly import assemble_half_space
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._linear.linear_solver import solve_cg
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference.laws import LennardJones
 from fem_reference.modulus import PowerLawModulus
@@ -190,6 +192,14 @@ def test_a_missed_tolerance_is_no_number(soft_path, soft_system, monkeypatch, to
     monkeypatch.setattr(uncondensed, "LINEAR_TOLERANCE", 1e-25 if tolerance == "ROUNDING" else 1e-11)
     events = UncondensedEvents(soft_path, lambda: soft_system)
     with pytest.raises(NotConverged, match=r"conjugate gradients|Newton steps|nonlinear system"):
+        events.value(TABLE["pull_off_force"].functional)
+
+
+def test_an_iteration_that_ends_early_is_no_solution(soft_path, soft_system, monkeypatch):
+    """One that leaves 1.7e-6 is not taken for rounding."""
+    monkeypatch.setattr(uncondensed, "solve_cg", partial(solve_cg, iterations=4))
+    events = UncondensedEvents(soft_path, lambda: soft_system)
+    with pytest.raises(NotConverged, match=r"conjugate gradients reached a residual of 1\.7e-06 in 4 iterations"):
         events.value(TABLE["pull_off_force"].functional)
 
 

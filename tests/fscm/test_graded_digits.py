@@ -63,7 +63,7 @@ def _exact(r, t, nodes):
         return t * (1 / mpmath.agm(r + t, abs(r - t)) + total)
 
 
-@pytest.mark.parametrize("count", [4, pytest.param(50, marks=pytest.mark.heavy)])
+@pytest.mark.parametrize("count", [2, pytest.param(50, marks=pytest.mark.heavy)])
 def test_the_response_of_a_layer_in_40_digits(count):
     """1e-9 of the kernel at random pairs of radii, and the stated bound is never exceeded."""
     r, t = 10.0 ** np.random.default_rng(12).uniform(-1.0, 0.7, (2, count))
@@ -72,7 +72,7 @@ def test_the_response_of_a_layer_in_40_digits(count):
     for i in range(count):
         exact = _exact(r[i], t[i], 16)
         # Each node of the quadrature takes a matrix exponential in 40 digits; the nodes are the same for all pairs.
-        if count > 4:
+        if count > 2:
             assert abs(exact - _exact(r[i], t[i], 12)) < 1e-12 * exact
         assert abs(values[i] - exact) <= 1e-9 * exact
         # Rounding of the sum: the strengths of the images are 3e5 together.

@@ -135,7 +135,7 @@ REACHED = 0.85
     ("accuracy", "every"),
     [
         # The default accuracy is that of the tests above.
-        (1e-5, 3 * EVERY),
+        (1e-5, 5 * EVERY),
         *(pytest.param(accuracy, EVERY, marks=pytest.mark.heavy) for accuracy in (1e-5, *ACCURACIES)),
     ],
 )

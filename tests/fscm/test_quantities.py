@@ -76,6 +76,7 @@ def test_unknown_events_are_refused_with_the_known_names() -> None:
         model.landing("pull_off")
 
 
+@pytest.mark.heavy
 def test_the_critical_tabor_number_by_an_analysis_is_that_by_solve() -> None:
     by_analysis = Analysis(SOFT, "quick").solution("critical_tabor_number")
     by_solve = solve(SOFT, "critical_tabor_number", "quick")

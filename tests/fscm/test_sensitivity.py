@@ -184,6 +184,7 @@ def test_dimensions_of_the_force():
     assert abs(log["c0"] + 0.4 * log["E0"]) < IDENTITY
 
 
+@pytest.mark.heavy
 def test_the_incompressible_linear_solid_has_no_neighbours():
     found = sensitivity(Problem(3, 1.0, 1.0), "pull_off_force")
     assert found.gradient["mu"] < 0.0

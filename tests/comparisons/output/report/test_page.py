@@ -156,6 +156,7 @@ def test_every_table_compiles_as_latex_whatever_the_texts(page, run_folder, type
     typeset(*texts, (run_folder / "verdicts.tex").read_text(encoding="utf-8"), fits=False)
 
 
+@pytest.mark.heavy
 def test_the_tables_of_a_standing_run_fit_a_page_of_paper(standing_run, typeset):
     tables = make_page(standing_run).tables
     # The names in the other tables are hostile: they have no place at which a line could end.
