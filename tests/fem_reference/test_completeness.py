@@ -156,7 +156,6 @@ def test_the_step_of_the_path_does_not_choose_the_fold(monkeypatch, step):
     assert found["jump_in_gap"].value == pytest.approx(FOLDED["jump_in_gap"], abs=2e-5)
 
 
-@pytest.mark.heavy
 def test_the_path_begins_beyond_the_jump_out_of_contact():
     """The jump out of a soft solid ends at a distance of 13 lengths of the law; its values are in the next test.
 

@@ -134,7 +134,6 @@ def _rounded_flat(flat_radius):
     return MeshChoice(Problem(Solid(1.0, 1.0, 0.3, 0.3), punch, LennardJones(0.0005, 0.004)), level_for("quick"))
 
 
-@pytest.mark.heavy
 def test_an_edge_that_does_not_settle_is_searched(monkeypatch):
     """After the moves of the mesh: the next test has the search itself."""
     meshes = []

@@ -184,18 +184,19 @@ def test_dimensions_of_the_force():
     assert abs(log["c0"] + 0.4 * log["E0"]) < IDENTITY
 
 
-@pytest.mark.heavy
 def test_the_incompressible_linear_solid_has_no_neighbours():
-    found = sensitivity(Problem(3, 1.0, 1.0), "pull_off_force")
-    assert found.gradient["mu"] < 0.0
+    found = sensitivity(Problem(2, 1.0, 0.1), "pull_off_force")
+    # A paraboloid has the same force at any Tabor number.
+    assert abs(found.gradient["mu"]) < IDENTITY
     with pytest.raises(ValueError, match="no neighbours"):
-        found.change(Problem(3, 0.9, 1.0))
+        found.change(Problem(2, 0.9, 0.1))
 
 
 @pytest.mark.heavy
 def test_the_incompressible_linear_solid():
     found = sensitivity(Problem(3, 1.0, 1.0), "pull_off_force")
     expected = difference(lambda mu: solve(Problem(3, 1, mu), "pull_off_force").value, 1.0)
+    assert found.gradient["mu"] < 0.0
     assert close(found.gradient["mu"], expected, DIFFERENCE)
 
 

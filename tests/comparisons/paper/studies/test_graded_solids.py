@@ -88,11 +88,16 @@ def test_the_equivalent_power_law_of_a_power_law_is_itself():
     assert max(apart[1]) < max(apart[0]) / 3.0
 
 
+@pytest.mark.parametrize("kind", [pytest.param("exponential", marks=pytest.mark.heavy), "coating"])
+def test_the_equivalent_power_law_of_a_thin_layer_is_that_of_the_depth(kind):
+    """What is left is the share of the depth in the lengths of the contact."""
+    assert equivalent_of(kind, 1e-6) == pytest.approx(case_of(kind, 1e-6).depth, abs=1e-5)
+
+
 @pytest.mark.heavy
 @pytest.mark.parametrize("kind", ["exponential", "coating"])
-def test_the_equivalent_power_law_of_a_homogeneous_limit_is_homogeneous(kind):
-    """What is left is the share of the depth in the lengths of the contact, or of its inverse."""
-    assert equivalent_of(kind, 1e-6) == pytest.approx(case_of(kind, 1e-6).depth, abs=1e-5)
+def test_the_equivalent_power_law_of_a_thick_layer_is_that_of_the_surface(kind):
+    """What is left is the share of the contact in the depth."""
     assert equivalent_of(kind, 1e4) == pytest.approx((0.0, case_of(kind, 1e4).mu), abs=LARGEST_DEPTH)
 
 
