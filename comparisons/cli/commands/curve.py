@@ -46,7 +46,9 @@ def add(parser: argparse.ArgumentParser) -> None:
         help=f"what to draw: {', '.join(CURVES)} (default: force_curve)",
     )
     add_case_or_file(parser)
-    parser.add_argument("--csv", metavar="FILE", type=Path, help="write the points here; by default to stdout")
+    parser.add_argument(
+        "--csv", metavar="FILE", type=Path, help="write the points here; by default, and with -, to stdout"
+    )
     parser.add_argument("--plot", metavar="FILE", type=Path, help="draw the curves here (.png, .pdf or .svg)")
 
 
@@ -56,20 +58,22 @@ def call(args: argparse.Namespace) -> int:
     # All that can be wrong with the request is found out before anything is computed.
     names, external = identify(args.model)
     models = {name: create(external[name].spec if name in external else name, case.nu) for name in names}
-    if args.csv:
-        writable_file(args.csv)
+    to_stdout = args.csv == Path("-") or not (args.csv or args.plot)
+    file_of_points = None if to_stdout else args.csv
+    if file_of_points:
+        writable_file(file_of_points)
     if args.plot:
         writable_file(picture_path(args.plot))
-    if args.csv and args.plot and args.csv.resolve() == args.plot.resolve():
+    if file_of_points and args.plot and file_of_points.resolve() == args.plot.resolve():
         raise ValueError(f"--csv and --plot are both {args.plot}: one would replace the other; give two files")
     found, status = _evaluated(models, case)
     table = case.table(_table(found, args.quantity))
-    if args.csv:
-        with atomic(args.csv) as file:
+    if file_of_points:
+        with atomic(file_of_points) as file:
             file.write(csv_text(table).encode())
     if args.plot:
         save(curves.draw(found, case.axes, case.label), args.plot)
-    if not args.csv and not args.plot:
+    if to_stdout:
         print(csv_text(table), end="")
     return status
 

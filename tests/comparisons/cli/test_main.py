@@ -207,8 +207,11 @@ def test_every_list_has_a_form_for_programs(capsys, what):
         assert {(row[0], float(row[-2]), float(row[-1])) for row in rows} == limits
 
 
-def test_curve_goes_to_stdout_as_csv(capsys):
-    assert main(["curve", "--model", "jkr", "bradley", *CASE]) == 0
+@pytest.mark.parametrize("asked", [[], ["--csv", "-"]])
+def test_curve_goes_to_stdout_as_csv(capsys, tmp_path, monkeypatch, asked):
+    monkeypatch.chdir(tmp_path)
+    assert main(["curve", "--model", "jkr", "bradley", *CASE, *asked]) == 0
+    assert list(tmp_path.iterdir()) == []
     shown = capsys.readouterr()
     table = pd.read_csv(io.StringIO(shown.out))
     assert list(table)[:3] == ["model", "displacement", "load"]
