@@ -114,6 +114,7 @@ class ChartMapping(Mapping):
         self.base = base
         self.mesh = mesh
         self.chart = chart
+        self._inverse: tuple[Array, Any, Array] | None = None
 
     def F(self, X: Array, tind: Any = None) -> Array:
         """Image of the reference points."""
@@ -130,6 +131,10 @@ class ChartMapping(Mapping):
         return J[0, 0] * J[1, 1] - J[0, 1] * J[1, 0]
 
     def invDF(self, X: Array, tind: Any = None) -> Array:
-        """Inverse of the Jacobian."""
-        J = self.DF(X, tind)
-        return np.array([[J[1, 1], -J[0, 1]], [-J[1, 0], J[0, 0]]]) / (J[0, 0] * J[1, 1] - J[0, 1] * J[1, 0])
+        """Inverse of the Jacobian, kept for the next function of the element at the same points."""
+        known = self._inverse
+        if known is None or known[0] is not X or known[1] is not tind:
+            J = self.DF(X, tind)
+            inverse = np.array([[J[1, 1], -J[0, 1]], [-J[1, 0], J[0, 0]]]) / (J[0, 0] * J[1, 1] - J[0, 1] * J[1, 0])
+            known = self._inverse = (X, tind, inverse)
+        return known[2]

@@ -30,8 +30,8 @@ def factorise(matrix: Any) -> SuperLU:
 
     Parameters
     ----------
-    matrix : sparse array, shape (N, N)
-        With a symmetric pattern.
+    matrix : csr_array or csc_array, shape (N, N)
+        Symmetric, so that its rows are its columns.
 
     Raises
     ------
@@ -43,7 +43,8 @@ def factorise(matrix: Any) -> SuperLU:
     >>> factorise(sparse.csr_array(np.array([[2.0, 1.0], [1.0, 2.0]]))).solve(np.array([3.0, 3.0]))
     array([1., 1.])
     """
-    return splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    columns = matrix.T if matrix.format == "csr" else matrix
+    return splu(columns, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
 
 @dataclass(frozen=True, slots=True, eq=False)
