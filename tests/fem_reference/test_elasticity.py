@@ -7,7 +7,7 @@ from skfem import Basis, BilinearForm, ElementQuadP
 from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.elasticity import Body, gauss_product, stiffness
 from fem_reference._elastic.exterior import exterior_stiffness
-from fem_reference._elastic.mapping import InteriorChart
+from fem_reference._elastic.mapping import ChartMapping, InteriorChart
 from fem_reference._elastic.mesh import Grid, MeshSpec, graded_grid, uniform_grid
 from fem_reference._elastic.trace import trace_of
 from fem_reference.modulus import OffsetPowerLawModulus, PowerLawModulus
@@ -138,6 +138,16 @@ def test_the_exterior_resists_every_displacement_of_its_boundary():
     S = exterior_stiffness(grid, PowerLawModulus(1.0, 1.0, 0.4), nu=0.3, order=3)
     assert S.shape == (26, 26)
     assert np.sum(np.linalg.eigvalsh(S) > 1e-6) == 25
+
+
+def test_the_jacobian_that_is_kept_is_that_of_the_points_and_elements():
+    mesh = uniform_grid(2.0, 2).quads()
+    mapping = ChartMapping(mesh, InteriorChart(first=1.0, k=0.5))
+    some, others = np.array([[0.25], [0.5]]), np.array([[0.5], [0.25]])
+    upper, lower = (np.array([i]) for i in (0, mesh.nelements - 1))
+    for points, elements in ((some, None), (others, None), (some, upper), (some, lower), (some, lower)):
+        product = np.einsum("ijkl,jmkl->imkl", mapping.DF(points, elements), mapping.invDF(points, elements))
+        assert product == pytest.approx(np.broadcast_to(np.eye(2)[:, :, None, None], product.shape), abs=1e-14)
 
 
 def test_one_compliance_serves_every_size_of_a_power_law():
