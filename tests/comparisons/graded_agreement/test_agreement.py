@@ -22,20 +22,14 @@ def test_twenty_solids_of_five_kinds():
     assert len(CASES) == len(set(CASES)) == 20 * len(PUNCHES) * len(MU)
 
 
-#: A cone on a solid that is softer below: the finite elements do not find its pull-off on the finest mesh.
-NOT_SOLVED = {("table-4", "cone", 3.0)}
-
-
 def test_committed_values_agree_within_both_bounds_and_their_limits():
     table = pd.read_csv(ROOT / BASELINE_FOLDER / TABLE, keep_default_na=False, na_values=[""])
     cases = list(dict.fromkeys(zip(table["solid"], table["punch"], table["mu"], strict=True)))
     assert cases == [(case.solid, case.punch, case.mu) for case in CASES]
     assert len(table) == len(cases) * len(QUANTITIES)
-    failed = table[(table["fscm"] == "failed") | (table["fem"] == "failed")]
-    assert set(failed[["solid", "punch", "mu"]].itertuples(index=False, name=None)) == NOT_SOLVED
-    assert set(failed["fscm"]) == {"solved"}
+    assert set(table["fscm"]) == set(table["fem"]) == {"solved", "no event"}
     assert (table["u_fem"].dropna() <= LARGEST_BOUND * table["fem_value"].abs().dropna()).all()
-    assert worse_than_limits(table[~table.index.isin(failed.index)]) == []
+    assert worse_than_limits(table) == []
 
 
 def _journal(path, function, event):
