@@ -27,7 +27,7 @@ on cones at mu = 3 whose modulus falls to a fifth below the surface, and each st
 LARGEST_CHANGE = 1e-4
 """Change of delta in lengths of the law, and of P relative to the largest tension, below which two turning points are
 not told from none.  It is above what the meshes of the search leave of a state: at most 6e-5 of the largest tension
-(measured between the degrees 4 and 6 on a cone whose modulus falls to a fifth)."""
+(measured between the degrees 4 and 6 under a cone at mu = 3 on a solid whose modulus falls to a third)."""
 
 
 def carried_path(search: EdgeSearch, inner: float, start: float) -> tuple[Point, ...]:

@@ -136,7 +136,7 @@ class EdgeSearch:
         radii : sequence of float
         degree : int
             Of elements on which the radius is located at the end.  Elements of the search alone would put it 0.5 %
-            beside the event (measured with a degree of 4 on a cone whose modulus falls to a quarter, mu = 3).
+            beside the event (measured with a degree of 4 under a cone at mu = 3 where the modulus falls to a third).
 
         Raises
         ------

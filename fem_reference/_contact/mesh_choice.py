@@ -112,54 +112,6 @@ class MeshChoice:
         """Whether the compliance of one size is that of every size, but for a factor."""
         return is_scaling(self.problem.solid.modulus, self.problem.solid.nu, kinks_within(self.problem))
 
-    def carried(self, event: str) -> tuple[MeshChoice, MeshSpec, float]:
-        """Mesh for an event of a solid that does not scale, where no mesh carries the path to it.
-
-        Parameters
-        ----------
-        event : str
-            `JUMP_IN`, or one of `fem_reference._contact.edge_search.SEARCHED` but a landing.
-
-        Returns
-        -------
-        choice, spec, size
-            As `adapted` returns them, of a choice that knows this event alone.
-
-        Raises
-        ------
-        NotConverged
-            If a state on the way is not found, or the path in contact has no such point.
-        """
-        return self._before_contact() if event == JUMP_IN else self._fine_at(event)
-
-    def _before_contact(self) -> tuple[MeshChoice, MeshSpec, float]:
-        """Mesh for a jump into contact, which needs the path up to its fold only."""
-        spec, size, _ = self._first_mesh()
-        choice = replace(self, event=JUMP_IN)
-        choice.traced(spec, size)
-        return choice, spec, size
-
-    def _fine_at(self, event: str) -> tuple[MeshChoice, MeshSpec, float]:
-        """Mesh that is fine at an event in contact, on a path of a mesh for each radius."""
-        points = _carried_path(self)
-        known = {point.edge_radius: point for point in points}
-        search = replace(self._search(points), event=event, known=known, most=MESHES + len(known))
-        spec, radius = found_on_carried(search, points, self.level.order)
-        return replace(self, event=event, near=search.known[radius]), spec, radius
-
-    def _search(self, samples: Sequence[Point]) -> EdgeSearch:
-        """Solver on a mesh for each radius, from states that are known."""
-        spec, size, smallest = self._first_mesh()
-        lower, apex = spec.order - SEARCH_DEGREES, balance_length(self.problem, size)
-        return EdgeSearch(self, "", samples, spec.edge_width, smallest, lower, apex=apex)
-
-    def _first_mesh(self) -> tuple[MeshSpec, float, float]:
-        """Mesh on which a path begins, its size, and the radius that tells its extent."""
-        law, punch = self.problem.law, self.problem.punch
-        size, smallest = 2.0 * radius_at_height(punch, law.length), radius_at_height(punch, EDGE_RISE * law.length)
-        balance = balance_length(self.problem, size)
-        return self.spec(0.5 * balance / size, size, smallest, apex=balance), size, smallest
-
     def adapted(
         self, events: tuple[str, ...], start: tuple[MeshSpec, float] | None = None
     ) -> tuple[MeshChoice, MeshSpec, float]:
@@ -268,6 +220,54 @@ class MeshChoice:
         raise NotConverged(
             "the width of the contact edge was not found; the edge is narrower than the mesh can resolve"
         )
+
+    def carried(self, event: str) -> tuple[MeshChoice, MeshSpec, float]:
+        """Mesh for an event of a solid that does not scale, where no mesh carries the path to it.
+
+        Parameters
+        ----------
+        event : str
+            `JUMP_IN`, or one of `fem_reference._contact.edge_search.SEARCHED` but a landing.
+
+        Returns
+        -------
+        choice, spec, size
+            As `adapted` returns them, of a choice that knows this event alone.
+
+        Raises
+        ------
+        NotConverged
+            If a state on the way is not found, or the path in contact has no such point.
+        """
+        return self._before_contact() if event == JUMP_IN else self._fine_at(event)
+
+    def _before_contact(self) -> tuple[MeshChoice, MeshSpec, float]:
+        """Mesh for a jump into contact, which needs the path up to its fold only."""
+        spec, size, _ = self._first_mesh()
+        choice = replace(self, event=JUMP_IN)
+        choice.traced(spec, size)
+        return choice, spec, size
+
+    def _fine_at(self, event: str) -> tuple[MeshChoice, MeshSpec, float]:
+        """Mesh that is fine at an event in contact, on a path of a mesh for each radius."""
+        points = _carried_path(self)
+        known = {point.edge_radius: point for point in points}
+        search = replace(self._search(points), event=event, known=known, most=MESHES + len(known))
+        spec, radius = found_on_carried(search, points, self.level.order)
+        return replace(self, event=event, near=search.known[radius]), spec, radius
+
+    def _search(self, samples: Sequence[Point]) -> EdgeSearch:
+        """Solver on a mesh for each radius, from states that are known."""
+        spec, size, smallest = self._first_mesh()
+        lower, apex = spec.order - SEARCH_DEGREES, balance_length(self.problem, size)
+        return EdgeSearch(self, "", samples, spec.edge_width, smallest, lower, apex=apex)
+
+    def _first_mesh(self) -> tuple[MeshSpec, float, float]:
+        """Mesh on which a path begins, its size, and the radius that tells its extent."""
+        law, punch = self.problem.law, self.problem.punch
+        size, smallest = 2.0 * radius_at_height(punch, law.length), radius_at_height(punch, EDGE_RISE * law.length)
+        balance = balance_length(self.problem, size)
+        return self.spec(0.5 * balance / size, size, smallest, apex=balance), size, smallest
 
 
 def chosen(

@@ -41,8 +41,8 @@ through the tangent and the slope of its condition, it leaves less of a value th
 which is a part of the bound (measured: 1e-11 to 1e-9, of bounds of 1e-7): no tighter one is needed."""
 
 ROUNDING = 1e-6
-"""Residual that rounding may leave (measured: 1.3e-7 where a cone at mu = 3 displaces a surface of three times the
-modulus of the depth by a thousand lengths of the law).  What it changes is a part of the bound, too."""
+"""Residual that rounding may leave (measured: 1.3e-7 under a cone at mu = 3, at a contact radius of fifty lengths of
+the law on a solid whose modulus falls to a third).  What it changes is a part of the bound, too."""
 
 NEWTON_TOLERANCE = 1e-9
 """Largest last step and defect, relative to the displacement.  The condensed compliance is then right to as much for
