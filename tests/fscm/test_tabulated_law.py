@@ -7,11 +7,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.interpolate import PPoly
 
 from fscm.laws import LennardJones93, Mie, SurfaceLaw
 from fscm.problem import Problem
 from fscm.solver import solve
-from fscm.tabulated_law import TabulatedLaw
+from fscm.tabulated_law import TabulatedLaw, _checked_shape
 
 LJ = LennardJones93()
 
@@ -216,3 +217,19 @@ def test_what_the_smoothing_matters_is_part_of_the_uncertainty():
 def test_bad_smoothing(smoothing):
     with pytest.raises(ValueError, match=r"smoothing = .*\[0, 0\.1\)"):
         TabulatedLaw(GAP, P, smoothing=smoothing)
+
+
+def _ending(before):
+    """Two parabolas through (0, 1), (1, -1) and (2, 0): the least at 0.9, the largest so much before the end."""
+    steep = 1.0 / (2.0 * before - 1.0)
+    return PPoly(
+        np.array([[2.5, steep], [-4.5, -2.0 * steep * (1.0 - before)], [1.0, -1.0]]), np.array([0.0, 1.0, 2.0])
+    )
+
+
+def test_a_curve_that_ends_without_slope_turns_there_by_rounding_alone():
+    gap, p = np.array([0.0, 1.0, 2.0]), np.array([1.0, -1.0, 0.0])
+    assert _checked_shape(_ending(1e-9), gap, p) == pytest.approx(0.9, abs=1e-12)
+    # The curve falls by 1e-14 before it ends.
+    with pytest.raises(ValueError, match="turns 2 times, the data 1 times"):
+        _checked_shape(_ending(1e-7), gap, p)
