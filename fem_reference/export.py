@@ -138,10 +138,10 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
         half_space = assemble_half_space(spec.grid(), scaled, scaled_poisson(solid.nu, c), spec.order)
         trace = contact.compliance.trace
         pressure = contact.law.traction(contact.gap(y))
-        load = np.zeros(half_space.matrix.shape[0])
+        load = np.zeros(half_space.elements.size)
         load[half_space.surface] = trace.phi.T @ (trace.weight * trace.s * pressure)
         # Lengths scale by c: stiffness by c, load by c^2.
-        u = c * solve_cg(half_space, load).solution
+        u = c * half_space.elements.completed(solve_cg(half_space, load).solution)
         body = half_space.body
         side = np.linspace(SURFACE_OFFSET, 1.0 - SURFACE_OFFSET, SAMPLES)
         X = np.array([np.tile(side, SAMPLES), np.repeat(side, SAMPLES)])

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem_reference._elastic.compliance import Compliance
+from fem_reference._elastic.gauss import unit_gauss
 from fem_reference._typing import Array
 from fem_reference.laws import SurfaceLaw
 from fem_reference.punch import Punch
@@ -82,8 +83,7 @@ class Contact:
 
     def _tail(self, y: Array) -> tuple[Array, Array, Array]:
         """Radii, weights of dr, and gaps beyond the mesh."""
-        x, w = np.polynomial.legendre.leggauss(TAIL_POINTS)
-        x, w = 0.5 * (x + 1.0), 0.5 * w
+        x, w = unit_gauss(TAIL_POINTS)
         R = self.compliance.trace.extent * y[-1]
         r = R / x
         return r, w * R / x**2, self.punch.height(r) - y[-2]

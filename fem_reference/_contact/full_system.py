@@ -1,8 +1,9 @@
-"""Uncondensed contact equations: every displacement of the mesh, with the traction as facet forms.
+"""Contact equations that are not condensed to the surface: the whole mesh, with the traction as facet forms.
 
 On a mesh in units of the size c the equations are K u / factor(c) = F(u, delta, c), with K the stiffness and the load
-vector and its tangent assembled by scikit-fem on the surface facets at the gap H = -delta + f(c s) + u_z.  Linear
-systems are solved by conjugate gradients and GMRES with the elastic preconditioner, whose coarse level is pyamg's.
+vector and its tangent assembled by scikit-fem on the surface facets at the gap H = -delta + f(c s) + u_z.  Functions
+inside an element carry no load: they are eliminated from K, and u has zeros in their rows.  Linear systems are solved
+by conjugate gradients and GMRES with the elastic preconditioner, whose coarse level is pyamg's.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from skfem import BilinearForm, FacetBasis, LinearForm
 from skfem.mapping import MappingIsoparametric
 
 from fem_reference._elastic.assembly import HalfSpace
+from fem_reference._elastic.gauss import unit_gauss
 from fem_reference._linear.linear_solver import relative_residual, solve_cg
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._typing import Array
@@ -80,9 +82,9 @@ class FullSystem:
         mesh = basis.mesh
         straight = mesh.mapping()
         mapping = _RectangleMapping(mesh, straight.elem, straight.bndelem)
-        x, w = np.polynomial.legendre.leggauss(2 * half_space.body.order + 2)
+        x, w = unit_gauss(2 * half_space.body.order + 2)
         top = np.flatnonzero((mesh.p[1][mesh.facets] == 0).all(axis=0))
-        rule = (0.5 * (x + 1.0))[None, :], 0.5 * w
+        rule = x[None, :], w
         self.facets = FacetBasis(mesh, basis.elem, mapping, facets=top, quadrature=rule)
         self.s: Array = np.asarray(self.facets.global_coordinates())[0]
 
@@ -112,13 +114,13 @@ class FullSystem:
 
     def vector(self, pressure: Array) -> Array:
         """Return the load vector of a pressure at the facet Gauss points, shape (2 N,)."""
-        load = np.zeros(self.half_space.matrix.shape[0])
+        load = np.zeros(self.half_space.elements.size)
         load[1::2] = np.asarray(_pressure.assemble(self.facets, pressure=pressure))
         return load
 
     def on_surface(self, w: Array) -> Array:
         """Return the displacement with the values w along the surface and zero elsewhere, shape (2 N,)."""
-        u = np.zeros(self.half_space.matrix.shape[0])
+        u = np.zeros(self.half_space.elements.size)
         u[self.half_space.surface] = w
         return u
 

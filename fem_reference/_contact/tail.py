@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem_reference._contact.contact import Contact
+from fem_reference._elastic.gauss import unit_gauss
 from fem_reference._typing import Array
 
 __all__ = ["TailContact"]
@@ -42,8 +43,7 @@ class TailContact(Contact):
 
     def _tail(self, y: Array) -> tuple[Array, Array, Array]:
         """Radii, weights of dr, and gaps beyond the mesh."""
-        x, w = np.polynomial.legendre.leggauss(POINTS)
-        t, w = 0.5 * (x + 1.0), 0.5 * w
+        t, w = unit_gauss(POINTS)
         R = self.compliance.trace.extent * float(y[-1])
         r = R / t**4
         rise = y[self._last] * t ** (4.0 * (1.0 + self.depth_exponent))

@@ -1,10 +1,10 @@
-"""Events of a path solved without condensation: every displacement of the mesh, by pyamg.
+"""Events of a path solved without condensation to the surface: the displacement of the whole mesh, by pyamg.
 
 The condensed path finds an event.  There the whole system takes its last Newton steps: scikit-fem assembles the
-traction on the surface facets, conjugate gradients preconditioned with pyamg give every displacement under it, and
-what the surface then lacks of the displacement that made the traction is the residual of a Newton step.  Its tangent
-is that of the condensed system, its residual is not: at the end nothing is left of the condensed compliance but the
-number of steps.  The rates along the path are solved in the same way, because a fold is where one of them vanishes.
+traction on the surface facets, conjugate gradients preconditioned with pyamg give the displacement of the mesh under
+it, and what the surface then lacks of the displacement that made the traction is the residual of a Newton step.  Its
+tangent is that of the condensed system, its residual is not: at the end nothing is left of the condensed compliance but
+the number of steps.  The rates along the path are solved in the same way, because a fold is where one of them vanishes.
 All events of a problem are columns of one linear system.
 """
 

@@ -1,31 +1,32 @@
-"""Assembled stiffness of the half-space: interior elements and the exact exterior."""
+"""Stiffness of the half-space: interior elements and the exact exterior."""
 
 from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any, cast
 
 import numpy as np
 from scipy import sparse
 from skfem import Basis
 
+from fem_reference._elastic.condensed_elements import CondensedElements
 from fem_reference._elastic.dof_ordering import both_components, line_unknowns, reversal_signs
-from fem_reference._elastic.elasticity import Body, stiffness
+from fem_reference._elastic.elasticity import Body, condensed_stiffness
 from fem_reference._elastic.exterior import exterior_stiffness
 from fem_reference._elastic.mapping import InteriorChart
 from fem_reference._elastic.mesh import Grid, MeshSpec
-from fem_reference._typing import Index
+from fem_reference._typing import Array, Index
 from fem_reference.modulus import Modulus
 from fem_reference.poisson import PoissonRatio
 
 __all__ = ["HalfSpace", "assemble_half_space", "half_space_of"]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class HalfSpace:
-    """The assembled half-space.
+    """The discretised half-space.
 
     Attributes
     ----------
@@ -35,10 +36,12 @@ class HalfSpace:
         Its grid.
     basis : skfem.Basis
         Scalar space; component c of unknown i is row 2 i + c.
-    matrix : csr_array, shape (2 N, 2 N)
-        Stiffness per radian, with the exterior; rows of `axis` still to be removed.
+    elements : CondensedElements
+        Stiffness of the elements per radian, on their sides.
+    exterior : ndarray, shape (b, b)
+        Stiffness of the exterior on `boundary`.
     free : ndarray of int
-        Rows that are not fixed by u_r = 0 on the axis.
+        Rows of vertex and edge functions that are not fixed by u_r = 0 on the axis.
     surface : ndarray of int
         Rows of u_z along the surface, in surface order.
     boundary : ndarray of int
@@ -48,10 +51,23 @@ class HalfSpace:
     body: Body
     grid: Grid
     basis: Basis
-    matrix: sparse.csr_array
+    elements: CondensedElements
+    exterior: Array
     free: Index
     surface: Index
     boundary: Index
+
+    @property
+    def unknowns(self) -> int:
+        """Free displacements of the mesh, with those inside the elements."""
+        return int(self.free.size + self.elements.inside.size)
+
+    @cached_property
+    def matrix(self) -> sparse.csr_array:
+        """Stiffness with the exterior, shape (2 N, 2 N); rows inside the elements are empty, fixed ones are not."""
+        rows, cols = np.repeat(self.boundary, self.boundary.size), np.tile(self.boundary, self.boundary.size)
+        inside = self.elements.assembled()
+        return (inside + sparse.coo_array((self.exterior.ravel(), (rows, cols)), shape=inside.shape)).tocsr()
 
 
 def assemble_half_space(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, order: int = 4) -> HalfSpace:
@@ -76,7 +92,7 @@ def assemble_half_space(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, 
     first = float(grid.z[1])
     body = Body(mesh, InteriorChart(first, modulus.surface_exponent), modulus, nu, order)
     touching = np.flatnonzero(mesh.p[1][mesh.t].max(axis=0) <= first)
-    matrix, basis = stiffness(body, touching)
+    elements, basis = condensed_stiffness(body, touching)
     side = line_unknowns(basis, 0, grid.extent)
     bottom = line_unknowns(basis, 1, grid.extent, reverse=True)
     nz, nr, edges = grid.z.size - 1, grid.r.size - 1, order - 1
@@ -85,13 +101,9 @@ def assemble_half_space(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, 
     signs[square.size - nr * edges :] = reversal_signs(nr, order)[nr + 1 :]
     weight = np.repeat(signs, 2)
     outer = weight[:, None] * exterior_stiffness(grid, modulus, nu, order) * weight
-    boundary = both_components(square)
-    rows, cols = np.repeat(boundary, boundary.size), np.tile(boundary, boundary.size)
-    matrix = (matrix + sparse.coo_array((outer.ravel(), (rows, cols)), shape=matrix.shape)).tocsr()
-    axis = 2 * line_unknowns(basis, 0, 0.0)
-    free = np.setdiff1d(np.arange(matrix.shape[0]), axis)
+    free = np.setdiff1d(elements.sides, 2 * line_unknowns(basis, 0, 0.0))
     surface = 2 * line_unknowns(basis, 1, 0.0) + 1
-    return HalfSpace(body, grid, basis, matrix, free, surface, boundary)
+    return HalfSpace(body, grid, basis, elements, outer, free, surface, both_components(square))
 
 
 def half_space_of(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec) -> HalfSpace:

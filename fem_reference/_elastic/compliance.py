@@ -144,7 +144,7 @@ class FixedCompliance:
 def _unit_compliance(k: float, nu: float, spec: MeshSpec) -> tuple[Trace, Array, Array, int]:
     grid = spec.grid()
     half_space = half_space_of(PowerLawModulus(1.0, 1.0, k), nu, spec)
-    return trace_of(grid, spec.order), *_inverse(*condensed(half_space)), int(half_space.free.size)
+    return trace_of(grid, spec.order), *_inverse(*condensed(half_space)), half_space.unknowns
 
 
 def _inverse(S: Array, rounding: Array) -> tuple[Array, Array]:
@@ -248,7 +248,7 @@ def _fixed_compliance(modulus: Any, nu: Any, spec: MeshSpec, size: float) -> Fix
     grid = spec.grid()
     half_space = half_space_of(scaled_modulus(modulus, size), scaled_poisson(nu, size), spec)
     matrix, rounding = _inverse(*condensed(half_space))
-    return FixedCompliance(trace_of(grid, spec.order), matrix, size, int(half_space.free.size), rounding)
+    return FixedCompliance(trace_of(grid, spec.order), matrix, size, half_space.unknowns, rounding)
 
 
 def scaled_modulus(modulus: Modulus, size: float) -> Modulus:

@@ -13,20 +13,22 @@ longer.  The tests compare it with scikit-fem bilinear forms.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from scipy import sparse
 from skfem import Basis, ElementQuadP, MeshQuad
 
+from fem_reference._elastic.condensed_elements import CondensedElements, condensed_elements
 from fem_reference._elastic.dof_ordering import both_components
+from fem_reference._elastic.gauss import unit_gauss
 from fem_reference._elastic.mapping import Chart, ChartMapping
 from fem_reference._typing import Array, Index
 from fem_reference.modulus import Modulus
 from fem_reference.poisson import PoissonRatio, check_poisson, poisson_at
 
-__all__ = ["Body", "gauss_product", "stiffness"]
+__all__ = ["Body", "condensed_stiffness", "element_places", "gauss_product", "stiffness"]
 
 
 EXTRA_POINTS = 2
@@ -75,12 +77,6 @@ class Body:
             raise ValueError(f"element order {self.order} is below 2: the hierarchical element starts there")
 
 
-@lru_cache(maxsize=8)
-def _gauss(count: int) -> tuple[Array, Array]:
-    x, w = np.polynomial.legendre.leggauss(count)
-    return 0.5 * (x + 1.0), 0.5 * w
-
-
 def gauss_product(first: int, second: int, power: int = 1) -> tuple[Array, Array]:
     """Gauss rule on the unit square; the second coordinate is y = u^power with Gauss points in u.
 
@@ -97,8 +93,8 @@ def gauss_product(first: int, second: int, power: int = 1) -> tuple[Array, Array
     >>> X.shape, round(float(W @ X[1] ** 4), 12)
     ((2, 6), 0.2)
     """
-    x, wx = _gauss(first)
-    u, wu = _gauss(second)
+    x, wx = unit_gauss(first)
+    u, wu = unit_gauss(second)
     y, wy = u**power, wu * power * u ** (power - 1)
     return np.array([np.tile(x, second), np.repeat(y, first)]), np.outer(wy, wx).ravel()
 
@@ -157,6 +153,60 @@ def stiffness(body: Body, first_layer: Index, depth_axis: int = 1) -> tuple[spar
     ValueError
         If the modulus is not positive, or Poisson's ratio outside its range.
     """
+    bases = _bases(body, first_layer, depth_axis)
+    parts = []
+    for _, local, K in _elements(body, bases):
+        narrow = local.astype(np.int32)
+        rows = np.broadcast_to(narrow[:, :, None], K.shape)
+        cols = np.broadcast_to(narrow[:, None, :], K.shape)
+        parts.append((K.ravel(), rows.ravel(), cols.ravel()))
+    data, rows, cols = (np.concatenate(part) for part in zip(*parts, strict=True))
+    size = 2 * bases[-1].N
+    return sparse.coo_array((data, (rows, cols)), shape=(size, size)).tocsr(), bases[-1]
+
+
+def condensed_stiffness(body: Body, first_layer: Index, depth_axis: int = 1) -> tuple[CondensedElements, Basis]:
+    """Stiffness of the elements of a body without the functions inside them.
+
+    Parameters
+    ----------
+    body, first_layer, depth_axis
+        As for `stiffness`.
+
+    Returns
+    -------
+    elements : CondensedElements
+        In the order of the mesh.
+    basis : skfem.Basis
+        As of `stiffness`.
+
+    Raises
+    ------
+    ValueError
+        As `stiffness`.
+    NotConverged
+        If the stiffness of the functions inside an element is singular.
+    """
+    bases = _bases(body, first_layer, depth_axis)
+    basis = bases[-1]
+    count = 2 * int(basis.interior_dofs.shape[0])
+    return condensed_elements(_elements(body, bases), body.mesh.nelements, count, 2 * basis.N), basis
+
+
+def element_places(mesh: MeshQuad) -> Index:
+    """Column and row of each element of a tensor-product mesh, shape (2, elements).
+
+    Examples
+    --------
+    >>> element_places(MeshQuad.init_tensor(np.array([0.0, 1.0, 3.0]), np.array([0.0, 5.0]))).tolist()
+    [[0, 1], [0, 0]]
+    """
+    corners = mesh.p[:, mesh.t].min(axis=1)
+    return np.stack([np.unique(along, return_inverse=True)[1] for along in corners])
+
+
+def _bases(body: Body, first_layer: Index, depth_axis: int) -> list[Basis]:
+    """The scalar space on the elements of each quadrature rule."""
     element = ElementQuadP(body.order)
     mapping = ChartMapping(body.mesh, body.chart)
     count = body.order + EXTRA_POINTS
@@ -169,18 +219,16 @@ def stiffness(body: Body, first_layer: Index, depth_axis: int = 1) -> tuple[spar
         corners = body.mesh.p[depth_axis, body.mesh.t[:, first_layer[0]]]
         # scikit-fem numbers the corners of a tensor mesh down the columns: its first reference axis is z.
         rules.append((first_layer, (X[::-1] if corners[0] != corners[1] else X, W)))
-    parts = []
-    for elements, rule in rules:
-        basis = Basis(body.mesh, element, mapping, quadrature=rule, elements=elements, disable_doflocs=True)
-        dofs = both_components(np.asarray(basis.element_dofs))
-        for start in range(0, elements.size, CHUNK):
+    return [
+        Basis(body.mesh, element, mapping, quadrature=rule, elements=elements, disable_doflocs=True)
+        for elements, rule in rules
+    ]
+
+
+def _elements(body: Body, bases: Iterable[Basis]) -> Iterator[tuple[Index, Index, Array]]:
+    """Numbers, rows and stiffness of some elements at a time: shapes (e,), (e, 2 n) and (e, 2 n, 2 n)."""
+    for basis in bases:
+        rows = both_components(np.asarray(basis.element_dofs)).T
+        for start in range(0, rows.shape[0], CHUNK):
             chunk = slice(start, start + CHUNK)
-            K = _element_matrices(body, basis, chunk)
-            local = dofs[:, chunk].T
-            rows = np.broadcast_to(local[:, :, None], K.shape)
-            cols = np.broadcast_to(local[:, None, :], K.shape)
-            parts.append((K.ravel(), rows.ravel(), cols.ravel()))
-    data, rows, cols = (np.concatenate(part) for part in zip(*parts, strict=True))
-    size = 2 * basis.N
-    matrix = sparse.coo_array((data, (rows.astype(np.int32), cols.astype(np.int32))), shape=(size, size)).tocsr()
-    return matrix, basis
+            yield np.asarray(basis.tind)[chunk], rows[chunk], _element_matrices(body, basis, chunk)

@@ -13,8 +13,9 @@ from scipy import sparse
 from scipy.sparse.linalg import LinearOperator
 
 from fem_reference._elastic.assembly import HalfSpace
+from fem_reference._elastic.scaling import unit_scaling
 from fem_reference._linear.algebraic_multigrid import pyamg
-from fem_reference._linear.preconditioner import ElasticPreconditioner, unit_scaling
+from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._linear.strips import factorise
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged

@@ -10,6 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from fem_reference._elastic.gauss import unit_gauss
 from fem_reference._elastic.trace import Trace
 from fem_reference._typing import Array
 
@@ -30,8 +31,7 @@ def disc_load(pressure: Callable[[Array], Array]) -> Load:
     """Return the load of a pressure that is a function of q = 1 - r^2 on r < 1, possibly singular at q = 0."""
 
     def load(trace: Trace) -> Array:
-        x, w = np.polynomial.legendre.leggauss(DISC_POINTS)
-        x, w = 0.5 * (x + 1.0), 0.5 * w
+        x, w = unit_gauss(DISC_POINTS)
         nodes = trace.nodes[: trace.edge + 1]
         total = np.zeros(trace.phi.shape[1])
         for left, right in pairwise(nodes):

@@ -110,7 +110,7 @@ def _row(case: SolverCase) -> SolverRow:
     iterative = solve_cg(half_space, load, preconditioner)
     direct = solve_direct(half_space, load)
     return SolverRow(
-        int(half_space.free.size),
+        half_space.unknowns,
         case.k,
         case.nu,
         case.spec.edge_width,

@@ -196,10 +196,10 @@ def test_a_missed_tolerance_is_no_number(soft_path, soft_system, monkeypatch, to
 
 
 def test_an_iteration_that_ends_early_is_no_solution(soft_path, soft_system, monkeypatch):
-    """One that leaves 1.7e-6 is not taken for rounding."""
+    """One that leaves 1.2e-6 is not taken for rounding."""
     monkeypatch.setattr(uncondensed, "solve_cg", partial(solve_cg, iterations=4))
     events = UncondensedEvents(soft_path, lambda: soft_system)
-    with pytest.raises(NotConverged, match=r"conjugate gradients reached a residual of 1\.7e-06 in 4 iterations"):
+    with pytest.raises(NotConverged, match=r"conjugate gradients reached a residual of 1\.2e-06 in 4 iterations"):
         events.value(TABLE["pull_off_force"].functional)
 
 

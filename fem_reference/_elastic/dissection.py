@@ -1,0 +1,144 @@
+"""Elimination of the unknowns of a mesh by nested dissection: dense blocks, merged in pairs.
+
+The mesh is halved again and again, along its longer side.  Of two halves that are merged, the unknowns on the line
+between them belong to no other element: they are eliminated, and what is left is a dense matrix on the outer sides of
+both.  No linear system is solved column by column, and the work is in products of dense matrices.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import linalg
+
+from fem_reference._elastic.condensed_elements import CondensedElements
+from fem_reference._elastic.scaling import unit_scaling
+from fem_reference._typing import Array, Index
+from fem_reference.errors import NotConverged
+
+__all__ = ["condensed_on", "schur_complement"]
+
+LEAF = 8
+"""Elements of the smallest block: with fewer there are more merges (measured: 0.94 s with 1, 0.72 s with 8 and 16)."""
+
+
+def schur_complement(K: Array, kept: int) -> Array:
+    """Eliminate the last unknowns of a dense matrix.
+
+    Parameters
+    ----------
+    K : ndarray, shape (n, n)
+        Symmetric but for rounding, positive definite on those that are eliminated.
+    kept : int
+        How many unknowns to keep, the first ones.
+
+    Returns
+    -------
+    ndarray, shape (kept, kept)
+        Not symmetrised: its two triangles differ by rounding.
+
+    Raises
+    ------
+    NotConverged
+        If the matrix is not positive definite on the others.
+
+    Examples
+    --------
+    >>> schur_complement(np.array([[2.0, -1.0], [-1.0, 1.0]]), kept=1)
+    array([[1.]])
+    """
+    if kept == K.shape[0]:
+        return K
+    try:
+        factor = linalg.cho_factor(K[kept:, kept:], lower=True, check_finite=False)
+    except linalg.LinAlgError as error:
+        raise NotConverged(f"the stiffness is not positive definite ({error}); check modulus, mesh and nu") from error
+    follow = linalg.cho_solve(factor, K[kept:, :kept], check_finite=False)
+    return K[:kept, :kept] - K[:kept, kept:] @ follow
+
+
+def condensed_on(kept: Index, elements: CondensedElements, places: Index, free: Index) -> Array:
+    """Eliminate the unknowns of a mesh but for some.
+
+    Parameters
+    ----------
+    kept : ndarray of int, shape (k,)
+        Rows to keep, of the free ones.
+    elements : CondensedElements
+        The mesh.
+    places : ndarray of int, shape (2, elements)
+        Column and row of each element of a tensor-product mesh.
+    free : ndarray of int
+        Rows that are not fixed.
+
+    Returns
+    -------
+    ndarray, shape (k, k)
+        Schur complement; its two triangles differ by rounding.
+
+    Raises
+    ------
+    NotConverged
+        If the stiffness is not positive definite.
+    """
+    own = np.einsum("eii->ei", elements.stiffness)
+    diagonal = np.asarray(np.bincount(elements.sides.ravel(), own.ravel(), minlength=elements.size), float)
+    scale = np.zeros(elements.size)
+    scale[free] = unit_scaling(diagonal[free])
+    everything = _Dissection(elements, places, free, kept, scale).block(np.arange(places.shape[1]))
+    order = np.searchsorted(everything.rows, kept)
+    return everything.K[np.ix_(order, order)] / scale[kept, None] / scale[kept]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Block:
+    """Stiffness of some elements on the rows that are left; `counts` of these elements have each row."""
+
+    rows: Index
+    counts: Index
+    K: Array
+
+
+class _Dissection:
+    """Blocks of a mesh: which rows they have, and which of them they lose."""
+
+    def __init__(self, elements: CondensedElements, places: Index, free: Index, kept: Index, scale: Array) -> None:
+        self._rows, self._places = elements.sides, places
+        here = scale[elements.sides]
+        self._stiffness = here[:, :, None] * elements.stiffness * here[:, None, :]
+        self._counts = np.bincount(elements.sides.ravel(), minlength=elements.size)
+        self._free = np.zeros(elements.size, bool)
+        self._free[free] = True
+        self._kept = np.zeros(elements.size, bool)
+        self._kept[kept] = True
+
+    def block(self, members: Index) -> _Block:
+        """Condense some elements on the rows that others share, or that are kept."""
+        if members.size <= LEAF:
+            ones = np.ones(self._rows.shape[1], np.intp)
+            return self._merged([_Block(self._rows[i], ones, self._stiffness[i]) for i in members])
+        places = self._places[:, members]
+        spans = np.ptp(places, axis=1)
+        along = places[int(spans[1] > spans[0])]
+        first = along <= (int(along.min()) + int(along.max())) // 2
+        return self._merged([self.block(members[first]), self.block(members[~first])])
+
+    def _merged(self, parts: list[_Block]) -> _Block:
+        rows = np.unique(np.concatenate([part.rows for part in parts]))
+        rows = rows[self._free[rows]]
+        present = [self._free[part.rows] for part in parts]
+        places = [np.searchsorted(rows, part.rows[here]) for part, here in zip(parts, present, strict=True)]
+        counts = np.zeros(rows.size, np.intp)
+        for part, here, place in zip(parts, present, places, strict=True):
+            counts[place] += part.counts[here]
+        stays = (counts < self._counts[rows]) | self._kept[rows]
+        kept = int(stays.sum())
+        # Those that are eliminated come last.
+        order = np.empty(rows.size, np.intp)
+        order[stays], order[~stays] = np.arange(kept), np.arange(kept, rows.size)
+        K = np.zeros((rows.size, rows.size))
+        for part, here, place in zip(parts, present, places, strict=True):
+            local = order[place]
+            K[np.ix_(local, local)] += part.K if here.all() else part.K[np.ix_(here, here)]
+        return _Block(rows[stays], counts[stays], schur_complement(K, kept))

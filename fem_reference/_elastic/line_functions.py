@@ -1,0 +1,84 @@
+"""Functions of scikit-fem's hierarchical elements along a line of a mesh: its surface, or its outer boundary."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fem_reference._elastic.gauss import unit_gauss
+from fem_reference._typing import Array, Index
+
+__all__ = ["line_functions", "line_projection", "line_slopes"]
+
+
+def line_functions(nodes: Array, order: int, s: Array) -> Array:
+    """Functions of scikit-fem's `ElementLinePp` in surface order, at radii `s`.
+
+    Written out, because that class makes its polynomials again in every call, and the path evaluates one radius
+    at a time.
+    """
+    element = np.clip(np.searchsorted(nodes, s, side="right") - 1, 0, nodes.size - 2)
+    x = (s - nodes[element]) / np.diff(nodes)[element]
+    legendre = np.polynomial.legendre.legvander(2.0 * x - 1.0, order)
+    values = np.zeros((s.size, nodes.size + (nodes.size - 1) * (order - 1)))
+    rows = np.arange(s.size)
+    values[rows, element] = 1.0 - x
+    values[rows, element + 1] = x
+    for degree in range(2, order + 1):
+        # The integral of the Legendre polynomial of one degree less, normalised.
+        rise = legendre[:, degree] - legendre[:, degree - 2]
+        values[rows, nodes.size + element * (order - 1) + degree - 2] = rise / np.sqrt(4.0 * degree - 2.0)
+    return values
+
+
+def line_slopes(nodes: Array, order: int, s: Array) -> Array:
+    """Derivatives of `line_functions`."""
+    element = np.clip(np.searchsorted(nodes, s, side="right") - 1, 0, nodes.size - 2)
+    h = np.diff(nodes)[element]
+    legendre = np.polynomial.legendre.legvander(2.0 * (s - nodes[element]) / h - 1.0, order - 1)
+    slopes = np.zeros((s.size, nodes.size + (nodes.size - 1) * (order - 1)))
+    rows = np.arange(s.size)
+    slopes[rows, element] = -1.0 / h
+    slopes[rows, element + 1] = 1.0 / h
+    for degree in range(2, order + 1):
+        column = nodes.size + element * (order - 1) + degree - 2
+        slopes[rows, column] = np.sqrt(4.0 * degree - 2.0) * legendre[:, degree - 1] / h
+    return slopes
+
+
+def line_projection(nodes: Array, kept: Index, order: int) -> Array:
+    """Projection of the functions on a line to those of longer elements: equal at the nodes, nearest in slope between.
+
+    What it loses of a function is orthogonal to polynomials of degree p - 2 on each longer element.
+
+    Parameters
+    ----------
+    nodes : ndarray, shape (n,)
+        Ascending.
+    kept : ndarray of int
+        Indices of the nodes that the longer elements have, the first and the last among them.
+    order : int
+        Degree p of the functions, at least 2.
+
+    Returns
+    -------
+    ndarray
+        Coefficients of the longer elements, in surface order, for each function of the shorter ones.
+
+    Examples
+    --------
+    >>> nodes = np.array([0.0, 1.0, 3.0])
+    >>> square = np.array([0.0, 1.0, 9.0, -1.0 / np.sqrt(1.5), -4.0 / np.sqrt(1.5)])  # of r^2 on two elements
+    >>> (line_projection(nodes, np.array([0, 2]), 2) @ square - np.array([0.0, 9.0, -9.0 / np.sqrt(1.5)])).round(12)
+    array([0., 0., 0.])
+    """
+    x, w = unit_gauss(order + 1)
+    h = np.diff(nodes)[:, None]
+    s = (nodes[:-1, None] + h * x).ravel()
+    weight = (h * w).ravel()
+    longer = nodes[kept]
+    short, long = line_slopes(nodes, order, s), line_slopes(longer, order, s)
+    # The slopes of the functions inside an element of length h are orthogonal, of the norm 2/h.
+    scale = np.concatenate([np.zeros(kept.size), np.repeat(0.5 * np.diff(longer), order - 1)])
+    projection = scale[:, None] * (long.T @ (weight[:, None] * short))
+    projection[np.arange(kept.size), kept] = 1.0
+    return np.asarray(projection)
