@@ -19,10 +19,6 @@ from fem_reference.errors import NotConverged
 __all__ = ["condensed", "surface_stiffness"]
 
 
-SYMMETRY_TOLERANCE = 1e-7
-"""Relative asymmetry of the Schur complement that signals pivoting or a singular matrix (measured: 1e-12)."""
-
-
 def surface_stiffness(half_space: HalfSpace) -> Array:
     """Schur complement S of the half-space on u_z at the surface: S w = load.
 
@@ -68,8 +64,6 @@ def condensed(half_space: HalfSpace) -> tuple[Array, Array]:
     K[np.ix_(local, local)] += half_space.exterior[np.ix_(present, present)]
     scale = unit_scaling(np.diagonal(K))
     S = schur_complement(scale[:, None] * K * scale, surface.size)
-    if not np.abs(S - S.T).max() <= SYMMETRY_TOLERANCE * np.abs(S).max():
-        raise NotConverged("the surface stiffness is not symmetric; the matrix is not positive definite")
     scale = scale[: surface.size]
     lower = np.tril(0.5 * (S - S.T) / scale[:, None] / scale)
     S = 0.5 * (S + S.T) / scale[:, None] / scale

@@ -33,8 +33,8 @@ class CondensedElements:
         Symmetric but for rounding.
     inside : ndarray of int, shape (elements, q)
         Rows of the functions inside.
-    follow : ndarray, shape (elements, q, m)
-        Their displacement, with the opposite sign, for each of the sides.
+    roots, halves : ndarray, shapes (elements, q, q) and (elements, q, m)
+        Their stiffness is L L', with `roots` L, and their coupling to the sides L Y, with `halves` Y.
     size : int
         Rows of all.
     """
@@ -42,7 +42,8 @@ class CondensedElements:
     sides: Index
     stiffness: Array
     inside: Index
-    follow: Array
+    roots: Array
+    halves: Array
     size: int
 
     def assembled(self) -> sparse.csr_array:
@@ -55,7 +56,8 @@ class CondensedElements:
     def completed(self, u: Array) -> Array:
         """Fill in the displacement inside every element, under that of the sides; shape (size,)."""
         whole = u.copy()
-        whole[self.inside] = -np.einsum("eij,ej->ei", self.follow, u[self.sides])
+        pulled = self.halves @ u[self.sides][:, :, None]
+        whole[self.inside] = -np.linalg.solve(np.swapaxes(self.roots, 1, 2), pulled)[:, :, 0]
         return whole
 
 
@@ -96,19 +98,31 @@ def condensed_elements(
                 np.empty((elements, sides), np.intp),
                 np.empty((elements, sides, sides)),
                 np.empty((elements, count), np.intp),
+                np.empty((elements, count, count)),
                 np.empty((elements, count, sides)),
                 size,
             )
         # The stiffness across a thin element is larger by many powers of ten than that along it.
         scale = unit_scaling(np.einsum("eii->ei", K)[:, sides:, None])
         block = scale * K[:, sides:, sides:] * np.swapaxes(scale, 1, 2)
-        try:
-            follow = scale * np.linalg.solve(block, scale * K[:, sides:, :sides])
-        except np.linalg.LinAlgError as error:
-            raise NotConverged(f"an element is singular ({error}); check modulus, mesh and nu") from error
-        found.sides[which], found.inside[which], found.follow[which] = rows[:, :sides], rows[:, sides:], follow
-        # Not symmetrised: what rounding makes of it shows in the surface stiffness.
-        found.stiffness[which] = K[:, :sides, :sides] - K[:, :sides, sides:] @ follow
+        root, half = _halves(block, scale * K[:, sides:, :sides])
+        # The upper triangle has another order of elimination: what the rounding of both makes of the surface shows.
+        _, other = _halves(
+            np.swapaxes(block, 1, 2)[:, ::-1, ::-1], (scale * np.swapaxes(K[:, :sides, sides:], 1, 2))[:, ::-1]
+        )
+        found.sides[which], found.inside[which] = rows[:, :sides], rows[:, sides:]
+        found.roots[which], found.halves[which] = root / scale, half
+        lower, upper = np.swapaxes(half, 1, 2) @ half, np.swapaxes(other, 1, 2) @ other
+        found.stiffness[which] = K[:, :sides, :sides] - np.tril(lower) - np.triu(upper, 1)
     if found is None:
         raise ValueError("there is no element to condense")
     return found
+
+
+def _halves(blocks: Array, couplings: Array) -> tuple[Array, Array]:
+    """L of B = L L' and Y of L Y = C, so that C' B^-1 C is Y' Y: formed with B^-1 C it would lose ten times as much."""
+    try:
+        roots = np.linalg.cholesky(blocks)
+    except np.linalg.LinAlgError as error:
+        raise NotConverged(f"an element is not positive definite ({error}); check modulus, mesh and nu") from error
+    return np.asarray(roots, float), np.asarray(np.linalg.solve(roots, couplings), float)
