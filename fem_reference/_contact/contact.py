@@ -70,15 +70,16 @@ class Contact:
         H = self.gap(y)
         load = trace.weight * trace.s * self.law.traction(H)
         change = trace.weight * trace.s * self.law.slope(H)
-        weighted = trace.phi.T * change
         rise = trace.s * self.punch.slope(c * trace.s)
         factor = self.compliance.factor(c)
         m = self.unknowns
-        J = np.empty((m, m + 2))
-        J[:, :m] = -factor * (X @ (weighted @ trace.phi))
+        # X is symmetric: X M is the transpose of M X, and the columns of J are what a factorisation reads.
+        J = np.empty((m, m + 2), order="F")
+        J[:, :m] = -factor * trace.mass_times(change, X).T
         J[np.arange(m), np.arange(m)] += 1.0
-        J[:, m] = factor * (X @ weighted.sum(axis=1))
-        J[:, m + 1] = -X @ (factor * (weighted @ rise) + self.compliance.factor_slope(c) * (trace.phi.T @ load))
+        vectors = trace.phi.T @ np.stack([change, change * rise, load], axis=1)
+        J[:, m] = factor * (X @ vectors[:, 0])
+        J[:, m + 1] = -X @ (factor * vectors[:, 1] + self.compliance.factor_slope(c) * vectors[:, 2])
         return J
 
     def _tail(self, y: Array) -> tuple[Array, Array, Array]:

@@ -7,11 +7,13 @@ parameter of the path.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
 
 from fem_reference._contact.contact import Contact
+from fem_reference._elastic.trace import Trace
 from fem_reference._typing import Array
 
 __all__ = [
@@ -105,7 +107,7 @@ class EdgeRadius:
     radius: float
 
     def _row(self, contact: Contact, y: Array) -> Array:
-        return contact.compliance.trace.evaluate(np.array([self.radius / float(y[-1])]))[0]
+        return _functions_at(contact.compliance.trace, self.radius / float(y[-1]))
 
     def value(self, contact: Contact, y: Array) -> float:
         """Return H(radius) - H1."""
@@ -139,6 +141,15 @@ class GapRise:
         row = _unit(y.size, contact.compliance.trace.edge) - _unit(y.size, 0)
         row[-1] = float(contact.punch.slope(y[-1]))
         return row
+
+
+# A Newton iteration asks for the same radius at every step, and for its value and its gradient.
+@lru_cache(maxsize=8)
+def _functions_at(trace: Trace, s: float) -> Array:
+    """Function values at one radius, shape (m,); read-only."""
+    values = trace.evaluate(np.array([s]))[0]
+    values.flags.writeable = False
+    return values
 
 
 def _unit(size: int, index: int) -> Array:

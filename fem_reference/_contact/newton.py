@@ -107,7 +107,7 @@ def newton(contact: Contact, y: Array, first: Control, second: Control) -> State
     law = contact.law
     m = contact.unknowns
     y = np.array(y, float)
-    K = np.empty((m + 2, m + 2))
+    K = np.empty((m + 2, m + 2), order="F")
     G = np.empty(m + 2)
     size = math.inf
     for iteration in range(NEWTON_STEPS + 1):
@@ -115,7 +115,7 @@ def newton(contact: Contact, y: Array, first: Control, second: Control) -> State
         G[m:] = first.value(contact, y), second.value(contact, y)
         K[:m] = contact.tangent(y)
         K[m], K[m + 1] = first.gradient(contact, y), second.gradient(contact, y)
-        factors = linalg.lu_factor(K, check_finite=False)
+        factors = linalg.lu_factor(K, overwrite_a=True, check_finite=False)
         size = float(np.abs(G[:m]).max()) / law.length
         limit = NEWTON_TOLERANCE * (1.0 + float(np.abs(y[:m]).max()) / law.length)
         step = linalg.lu_solve(factors, G, check_finite=False)

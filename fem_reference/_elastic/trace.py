@@ -10,7 +10,7 @@ from scipy import linalg
 from fem_reference._elastic.gauss import unit_gauss
 from fem_reference._elastic.line_functions import line_functions, line_slopes
 from fem_reference._elastic.mesh import Grid
-from fem_reference._typing import Array
+from fem_reference._typing import Array, Index
 
 __all__ = ["Trace", "trace_of"]
 
@@ -29,6 +29,10 @@ class Trace:
         Gauss weights of ds.
     phi : ndarray, shape (q, m)
         Function values.
+    functions : ndarray of int, shape (e, order + 1)
+        Those that do not vanish on an element: both vertices, then its edge functions.
+    local : ndarray, shape (e, q/e, order + 1)
+        Their values.
     edge : int
         Index of the vertex at s = 1 (its function is 1 there and all others vanish).
     order : int
@@ -39,6 +43,8 @@ class Trace:
     s: Array
     weight: Array
     phi: Array
+    functions: Index
+    local: Array
     edge: int
     order: int
 
@@ -50,6 +56,17 @@ class Trace:
     def evaluate(self, s: Array) -> Array:
         """Return function values at any radii inside the mesh, shape (len(s), m)."""
         return line_functions(self.nodes, self.order, np.asarray(s, float))
+
+    def mass_times(self, density: Array, X: Array) -> Array:
+        """Return M X, with M_ij the sum of phi_i phi_j times a density at the Gauss points; X of shape (m, m)."""
+        e = self.functions.shape[0]
+        M = np.swapaxes(self.local, 1, 2) @ (density.reshape(e, -1, 1) * self.local)
+        parts = M @ X[self.functions]
+        product = np.zeros_like(X)
+        product[:e] = parts[:, 0]
+        product[1 : e + 1] += parts[:, 1]
+        product[e + 1 :] = parts[:, 2:].reshape(-1, X.shape[1])
+        return product
 
     def projection(self, values: Array) -> Array:
         """Return the coefficients, shape (m,), closest in the mean square to values at the Gauss points."""
@@ -68,4 +85,9 @@ def trace_of(grid: Grid, order: int) -> Trace:
     h = np.diff(nodes)[:, None]
     s = (nodes[:-1, None] + h * x).ravel()
     weight = (h * w).ravel()
-    return Trace(nodes, s, weight, line_functions(nodes, order, s), int(np.argmin(abs(nodes - 1.0))), order)
+    phi = line_functions(nodes, order, s)
+    e = nodes.size - 1
+    first = np.arange(e)[:, None]
+    functions = np.hstack([first, first + 1, e + 1 + first * (order - 1) + np.arange(order - 1)])
+    local = np.take_along_axis(phi.reshape(e, -1, phi.shape[1]), functions[:, None, :], axis=2)
+    return Trace(nodes, s, weight, phi, functions, local, int(np.argmin(abs(nodes - 1.0))), order)
