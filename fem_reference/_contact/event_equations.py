@@ -65,6 +65,12 @@ class EventEquations:
         """Whether a rate vanishes at the event."""
         return self.name in ("pull_off", "jump_in", "jump_out", CUSP)
 
+    @property
+    def controls(self) -> tuple[float, float, float]:
+        """Approach, size, and factor of the compliance at this size."""
+        delta, c = float(self.y[-2]), float(self.y[-1])
+        return delta, c, self.contact.compliance.factor(c)
+
     def copy(self) -> Self:
         """Return equations whose unknowns can be changed without changing these."""
         made = object.__new__(type(self))
@@ -103,10 +109,21 @@ class EventEquations:
         scale = self.contact.law.length + float(np.abs(self.y[:-2]).max())
         return max(left / scale, float(change[:-1].max()) / scale, float(change[-1] / y[-1]))
 
-    def shift(self, w: Array, w_rate: Array | None, events: Mapping[str, EventEquations]) -> None:
-        """Move to where the displacements `w` and `w_rate`, added to those of the last step, would have led."""
+    def shift(
+        self,
+        w: Array,
+        w_rate: Array | None,
+        events: Mapping[str, EventEquations],
+        unshifted: Mapping[str, EventEquations],
+    ) -> None:
+        """Move to where the displacements `w` and `w_rate`, added to those of the last step, would have led.
+
+        The last step has moved the state along the path, but not its rate: what this leaves of the condition of the
+        event is no error.
+        """
         zero = np.zeros_like(self.y)
-        self._correct(zero, None if w_rate is None else zero, w, w_rate, events)
+        excess = unshifted[self.name]._excess(unshifted)
+        self._correct(zero, None if w_rate is None else zero, w, w_rate, events, excess)
 
     def point_of(self, system: FullSystem, iterations: int, residual: float) -> Point:
         """Return the event as a point of the path."""
@@ -126,6 +143,7 @@ class EventEquations:
         w: Array,
         w_rate: Array | None,
         events: Mapping[str, EventEquations],
+        excess: float = 0.0,
     ) -> None:
         """Solve the equations linearised at `y`, less the displacements from both defects, then move the parameter."""
         contact, c = self.contact, float(self.y[-1])
@@ -137,7 +155,7 @@ class EventEquations:
             moved = self._tangent()
             defect_rate = defect_rate - _padded(under) + (moved - K) @ self.rate
             self.rate = self.rate - _solved(moved, defect_rate)
-        move = -self._excess(events) / self._slope
+        move = (excess - self._excess(events)) / self._slope
         if self._change is not None:
             self.contact = replace(contact, compliance=contact.compliance.stiffened(math.exp(move)))
             self.y = self.y + move * self._change

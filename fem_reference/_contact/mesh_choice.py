@@ -55,6 +55,10 @@ MOVES = 2
 """Times that the edge of a mesh follows the event of the path on it; then the event is searched for with a mesh for
 each radius."""
 
+FARTHEST = 10.0
+"""Radius of the event, in radii of the edge of the mesh, from which on a mesh for each radius is tried at once: it was
+at most 8.9 on 64 graded solids whose path one mesh carries, and 11 to 32 where most meshes fail (cones, mu = 3)."""
+
 MOST_CARRIED = 120
 """Largest number of meshes that carry a path: 40 are usual where the contact grows to a hundred times the radius at
 which it begins."""
@@ -113,7 +117,7 @@ class MeshChoice:
         return is_scaling(self.problem.solid.modulus, self.problem.solid.nu, kinks_within(self.problem))
 
     def adapted(
-        self, events: tuple[str, ...], start: tuple[MeshSpec, float] | None = None
+        self, events: tuple[str, ...], start: tuple[MeshSpec, float] | None = None, brief: bool = False
     ) -> tuple[MeshChoice, MeshSpec, float]:
         """Mesh whose edge width (and, if the solid does not scale, size) fits the computed gap.
 
@@ -125,6 +129,8 @@ class MeshChoice:
             Events that are needed.  If the solid does not scale, the mesh is fine at the edge of the first.
         start : tuple, optional
             The mesh and size of a similar problem, to begin with.
+        brief : bool
+            Raise where a path cannot be traced, or its event is far from the edge of the mesh.
 
         Returns
         -------
@@ -159,6 +165,8 @@ class MeshChoice:
             try:
                 path = self.traced(replace(spec, order=degree), size)
             except NotConverged:
+                if brief:
+                    raise
                 if degree < spec.order:
                     degree = spec.order
                     continue
@@ -182,6 +190,11 @@ class MeshChoice:
             elif not any(beyond_pull_off(event) for event in events):
                 # Beyond the pull-off the edge is sharper relative to its radius, but that part is not needed.
                 deepest = min(range(len(points)), key=lambda i: points[i].state.load)
+                farthest = points[deepest].edge_radius if points[deepest].branch.touching else 0.0
+                if brief and farthest > FARTHEST * size:
+                    raise NotConverged(
+                        f"the pull-off is at {farthest / size:.1f} times the radius where the mesh is fine"
+                    )
                 points = points[: deepest + 2]
             widths = [edge_width(point) for point in points if point.branch.touching]
             if scaling:
@@ -329,12 +342,15 @@ def chosen(
 def _routes(
     choice: MeshChoice, events: tuple[str, ...], start: tuple[MeshSpec, float] | None
 ) -> list[Callable[[], tuple[MeshChoice, MeshSpec, float]]]:
-    """Ways to a mesh of one level: one that carries the path; a mesh for each radius if the solid does not scale."""
-    routes: list[Callable[[], tuple[MeshChoice, MeshSpec, float]]] = [partial(choice.adapted, events, start)]
+    """Ways to a mesh of one level: one mesh that carries the path; if the solid does not scale, one for each radius.
+
+    The second is tried as soon as the first meets a difficulty; most meshes that come after it fail, too.
+    """
+    one: Callable[..., tuple[MeshChoice, MeshSpec, float]] = partial(choice.adapted, events, start)
     # A landing is at the displacement of another event, which another mesh resolves.
-    if not choice.scaling and LANDING not in events and events[0] in (*SEARCHED, JUMP_IN):
-        routes.append(partial(choice.carried, events[0]))
-    return routes
+    if choice.scaling or LANDING in events or events[0] not in (*SEARCHED, JUMP_IN):
+        return [one]
+    return [partial(one, brief=True), partial(choice.carried, events[0]), one]
 
 
 # The paths of one problem: three densities and the search for the width, on the meshes of two kinds of events.

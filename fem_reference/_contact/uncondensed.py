@@ -40,10 +40,6 @@ LINEAR_TOLERANCE = 1e-11
 through the tangent and the slope of its condition, it leaves less of a value than the last step of the iteration does,
 which is a part of the bound (measured: 1e-11 to 1e-9, of bounds of 1e-7): no tighter one is needed."""
 
-ROUNDING = 1e-6
-"""Residual that rounding may leave (measured: 1.3e-7 under a cone at mu = 3, at a contact radius of fifty lengths of
-the law on a solid whose modulus falls to a third).  What it changes is a part of the bound, too."""
-
 NEWTON_TOLERANCE = 1e-9
 """Largest last step and defect, relative to the displacement.  The condensed compliance is then right to as much for
 this traction, and the next step would be smaller by that factor."""
@@ -55,6 +51,9 @@ ROUNDING_STEP = 1e-7
 """Largest last step if rounding keeps the steps above the Newton tolerance (measured: 7e-10 under a cone, 1.4e-8 on
 elements of a millionth of the radius, k = 0.69, mu = 7).  What it changes is in the distance from the condensed value,
 a part of the bound."""
+
+SLOWEST = 0.5
+"""Ratio of a step to the one before from which on rounding keeps the steps from falling: they fall by 1e3 or more."""
 
 NEWTON_STEPS = 6
 """Steps before giving up: the start is an equilibrium of the same mesh, and one step is usual."""
@@ -241,12 +240,12 @@ class UncondensedEvents:
                 system.preconditioner,
                 LINEAR_TOLERANCE,
                 start=start,
-                rounding=ROUNDING,
             )
             start, iterations = result.solution, iterations + result.iterations
             under = _columns(result.solution[surface], columns)
-            step = max(equation.step(*under[name], equations) for name, equation in equations.items())
-            if step <= NEWTON_TOLERANCE or not step <= LARGEST_STEP:
+            controls = np.array([equation.controls for equation in equations.values()])
+            before, step = step, max(equation.step(*under[name], equations) for name, equation in equations.items())
+            if step <= NEWTON_TOLERANCE or not step <= LARGEST_STEP or SLOWEST * before <= step <= ROUNDING_STEP:
                 break
         if not step <= ROUNDING_STEP:
             raise NotConverged(
@@ -256,11 +255,10 @@ class UncondensedEvents:
         left = _columns(result.error[surface], columns)
         shifted = {name: equation.copy() for name, equation in equations.items()}
         for name, equation in shifted.items():
-            equation.shift(*left[name], shifted)
-        deltas, sizes = np.array([equation.y[-2:] for equation in equations.values()]).T
-        factors = np.array([e.contact.compliance.factor(float(e.y[-1])) for e in equations.values()])
-        u = factors * result.solution[:, : len(equations)]
-        residuals = system.residuals(u, deltas, sizes, factors)
+            equation.shift(*left[name], shifted, equations)
+        # The displacements that were solved last belong to the controls before the last step.
+        deltas, sizes, factors = controls.T
+        residuals = system.residuals(factors * result.solution[:, : len(equations)], deltas, sizes, factors)
         for (name, equation), residual in zip(equations.items(), map(float, residuals), strict=True):
             displacement = float(np.abs(equation.y[:-2]).max()) / equation.contact.law.length
             limit = RESIDUAL_TOLERANCE * max(1.0, displacement)

@@ -17,6 +17,7 @@ from fem_reference import (
     Solid,
     solve,
 )
+from fem_reference._contact import mesh_choice
 from fem_reference._contact.edge_search import EdgeSearch
 from fem_reference._contact.mesh_choice import FAR_SHARE, MOVES, MeshChoice, chosen
 from fem_reference._elastic.mesh import graded_grid
@@ -78,13 +79,13 @@ def test_far_elements_have_a_share_of_the_density():
 @pytest.mark.parametrize(
     ("solid", "degrees"),
     [
-        (CustomSolid(CoatingModulus(10.0, 1.0, 1.0), 0.3), [4, 6, 6, 6, "pull_off"]),
+        (CustomSolid(CoatingModulus(10.0, 1.0, 1.0), 0.3), [4, "pull_off", 4, 6, 6, 6]),
         (Solid(1.0, 1.0, 0.4, 0.3), [6, 6, 6]),
     ],
 )
 def test_only_a_mesh_that_is_used_again_is_searched_with_the_full_degree(monkeypatch, solid, degrees):
-    """Where elements of a lower degree lose the path, those of the full degree take over, and then a mesh for each
-    radius if the solid does not scale; finer meshes follow."""
+    """Where elements of a lower degree lose the path of a solid that does not scale, a mesh for each radius comes
+    next, then elements of the full degree and finer meshes."""
     tried = []
 
     def traced(choice, spec, size):
@@ -107,7 +108,8 @@ def test_only_a_mesh_that_is_used_again_is_searched_with_the_full_degree(monkeyp
 def test_an_event_that_its_mesh_misses_is_searched_with_a_mesh_for_each_radius(monkeypatch):
     """At the same accuracy, before finer meshes."""
 
-    def ordinary(choice, events, start):
+    def ordinary(choice, events, start, brief):
+        assert brief
         return choice, "a mesh", 1.0
 
     def carried(choice, event):
@@ -122,6 +124,19 @@ def test_an_event_that_its_mesh_misses_is_searched_with_a_mesh_for_each_radius(m
     problem = Problem(CustomSolid(CoatingModulus(10.0, 1.0, 1.0), 0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
     choice, *mesh = chosen(problem, ("pull_off",), "quick", usable)
     assert (choice, mesh) == (MeshChoice(problem, level_for("quick"), "pull_off"), ["its mesh", 2.0])
+
+
+def test_an_event_far_from_the_edge_of_the_mesh_is_left_to_a_mesh_for_each_radius(monkeypatch):
+    """If there is one to come: otherwise the mesh follows the event."""
+    monkeypatch.setattr(mesh_choice, "FARTHEST", 0.5)
+    problem = Problem(
+        CustomSolid(CoatingModulus(10.0, 1.0, 1.0), 0.3), PowerPunch(2.0, 1.0), LennardJones(0.0005, 0.004)
+    )
+    choice = MeshChoice(problem, level_for("quick"))
+    with pytest.raises(NotConverged, match=r"the pull-off is at \d+\.\d times the radius where the mesh is fine"):
+        choice.adapted(("pull_off",), brief=True)
+    _, spec, size = choice.adapted(("pull_off",))
+    assert choice.traced(spec, size).pull_off.edge_radius > 0.5 * size
 
 
 def _rounded_flat(flat_radius):
