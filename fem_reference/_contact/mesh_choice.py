@@ -56,8 +56,9 @@ MOVES = 2
 each radius."""
 
 FARTHEST = 10.0
-"""Radius of the event, in radii of the edge of the mesh, from which on a mesh for each radius is tried at once: it was
-at most 8.9 on 64 graded solids whose path one mesh carries, and 11 to 32 where most meshes fail (cones, mu = 3)."""
+"""Radius of the event, in radii of the edge of the first mesh, from which on a mesh for each radius is tried at once.
+Measured under cones at mu = 3: at most 8.9 on the twelve solids whose path one mesh carries, 11 to 27 on the others, if
+their first mesh carries a path at all."""
 
 MOST_CARRIED = 120
 """Largest number of meshes that carry a path: 40 are usual where the contact grows to a hundred times the radius at

@@ -34,8 +34,8 @@ __all__ = ["Body", "condensed_stiffness", "element_places", "gauss_product", "st
 EXTRA_POINTS = 2
 """Gauss points a direction beyond the order p: r and E(z) are no polynomials of low degree."""
 
-CHUNK = 256
-"""Elements contracted at once: keeps the working set near 100 MB at order 6."""
+CHUNK = 64
+"""Elements contracted at once, 25 MB at order 6: a quarter faster than with 256, which the caches do not hold."""
 
 FIRST_LAYER_POINTS = 14
 """Gauss points through the first layer, in the cube root of y: integrands like y^(k/(1-k)) reach 1e-10."""

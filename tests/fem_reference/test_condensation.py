@@ -7,16 +7,21 @@ import pytest
 
 from fem_reference._elastic import exterior
 from fem_reference._elastic.assembly import assemble_half_space
+from fem_reference._elastic.compliance import _inverse
 from fem_reference._elastic.condensation import surface_stiffness
 from fem_reference._elastic.dissection import LEAF, condensed_on
 from fem_reference._elastic.dof_ordering import both_components
 from fem_reference._elastic.elasticity import element_places, stiffness
 from fem_reference._elastic.line_functions import line_functions, line_projection
 from fem_reference._elastic.mesh import MeshSpec, graded_grid, uniform_grid
+from fem_reference.errors import NotConverged
 from fem_reference.modulus import PowerLawModulus
 
 ROUNDING = 1e-12
 """Rounding of elements of every aspect ratio, relative to the largest force: measured 2e-15."""
+
+ALLOWED = 1e-10
+"""Change of the compliance by rounding that is not taken for a singular matrix."""
 
 BOTTOM = 1e-11
 """Largest change of the compliance by the long element under the contact, at degree 4: measured 1.2e-12."""
@@ -65,6 +70,13 @@ def test_a_projection_to_longer_elements_keeps_their_polynomials():
     # Coefficients of the longer elements' functions on the shorter ones, by collocation.
     within = np.linalg.lstsq(line_functions(nodes, order, s), line_functions(longer, order, s))[0]
     assert np.abs(projection @ within - np.eye(projection.shape[0])).max() <= ROUNDING
+
+
+def test_a_compliance_that_rounding_changes_is_refused():
+    stiffness, change = np.diag([1.0, 2.0]), np.diag([0.0, 1.0])
+    _inverse(stiffness, 0.9 * ALLOWED * change)
+    with pytest.raises(NotConverged, match="nearly singular"):
+        _inverse(stiffness, 5.0 * ALLOWED * change)
 
 
 def test_one_long_element_under_the_contact_is_enough_for_the_exterior(monkeypatch):

@@ -10,6 +10,7 @@ import pytest
 from fem_reference import NotConverged, solve
 from fem_reference._contact import error_parts, mesh_choice, uncondensed
 from fem_reference._contact.contact import Contact
+from fem_reference._contact.event_equations import EventEquations
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.full_system import FullSystem
 from fem_reference._contact.tracing import traced
@@ -200,6 +201,17 @@ def test_an_iteration_that_ends_early_is_no_solution(soft_path, soft_system, mon
     events = UncondensedEvents(soft_path, lambda: soft_system)
     with pytest.raises(NotConverged, match=r"conjugate gradients reached a residual of 3\.4e-08 in 5 iterations"):
         events.value(TABLE["pull_off_force"].functional)
+
+
+def test_a_shift_by_nothing_is_none(soft_path):
+    """Also where the condition of the event is not met exactly, as after a last step along the path."""
+    point = soft_path.samples[len(soft_path.samples) // 2]
+    equations = {"pull_off": EventEquations("pull_off", point)}
+    shifted = {"pull_off": equations["pull_off"].copy()}
+    nothing = np.zeros(point.branch.contact.unknowns)
+    shifted["pull_off"].shift(nothing, nothing, shifted, equations)
+    assert abs(point.load_rate) > 0.0
+    assert np.array_equal(shifted["pull_off"].y, equations["pull_off"].y)
 
 
 def test_another_stiffness_is_not_an_equilibrium_nearby(soft_path):
