@@ -107,7 +107,8 @@ class EventEquations:
         change = np.abs(self.y - y)
         left = float(np.abs(y[:-2] - self.contact.compliance.factor(float(y[-1])) * w).max())
         scale = self.contact.law.length + float(np.abs(self.y[:-2]).max())
-        return max(left / scale, float(change[:-1].max()) / scale, float(change[-1] / y[-1]))
+        # NumPy's maximum, unlike Python's, of NaN is NaN.
+        return float(np.max([left / scale, change[:-1].max() / scale, change[-1] / y[-1]]))
 
     def shift(
         self,

@@ -59,9 +59,9 @@ NEWTON_STEPS = 6
 """Steps before giving up: the start is an equilibrium of the same mesh, and one step is usual."""
 
 RESIDUAL_TOLERANCE = 1e-6
-"""Largest residual of the whole nonlinear system at the end, relative to the traction, where the displacement is up to
-one length of the law; it grows with the displacement.  It is the Newton tolerance times the slope of the traction, some
-hundred tractions in a length of the law."""
+"""Largest residual of the whole nonlinear system before the last step, relative to the traction, where the displacement
+is up to one length of the law; it grows with the displacement.  It is the Newton tolerance times the slope of the
+traction, some hundred tractions in a length of the law."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -244,7 +244,9 @@ class UncondensedEvents:
             start, iterations = result.solution, iterations + result.iterations
             under = _columns(result.solution[surface], columns)
             controls = np.array([equation.controls for equation in equations.values()])
-            before, step = step, max(equation.step(*under[name], equations) for name, equation in equations.items())
+            # In order, because a jump ends where it begins.
+            steps = [equation.step(*under[name], equations) for name, equation in equations.items()]
+            before, step = step, float(np.max(steps))
             if step <= NEWTON_TOLERANCE or not step <= LARGEST_STEP or SLOWEST * before <= step <= ROUNDING_STEP:
                 break
         if not step <= ROUNDING_STEP:

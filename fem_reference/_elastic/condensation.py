@@ -41,12 +41,12 @@ def surface_stiffness(half_space: HalfSpace) -> Array:
 
 
 def condensed(half_space: HalfSpace) -> tuple[Array, Array]:
-    """Surface stiffness, and its rounding as far as the two triangles of the factorisation differ.
+    """Surface stiffness, and its rounding as far as the two triangles of the elimination differ.
 
     Returns
     -------
     stiffness, rounding : ndarray, shape (m, m)
-        Both symmetric; rounding is half the difference of the lower and the upper triangle.
+        Both symmetric; rounding is the difference of the lower and the upper triangle, whose mean the stiffness is.
 
     Raises
     ------
@@ -65,10 +65,10 @@ def condensed(half_space: HalfSpace) -> tuple[Array, Array]:
     scale = unit_scaling(np.diagonal(K))
     S = schur_complement(scale[:, None] * K * scale, surface.size)
     scale = scale[: surface.size]
-    lower = np.tril(0.5 * (S - S.T) / scale[:, None] / scale)
+    lower = np.tril((S - S.T) / scale[:, None] / scale)
     S = 0.5 * (S + S.T) / scale[:, None] / scale
     try:
-        linalg.cholesky(S)
+        linalg.cholesky(S, check_finite=False)
     except linalg.LinAlgError as error:
         raise NotConverged(
             f"the surface stiffness is not positive definite ({error}); check modulus and mesh"

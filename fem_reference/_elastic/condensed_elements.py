@@ -106,7 +106,7 @@ def condensed_elements(
         scale = unit_scaling(np.einsum("eii->ei", K)[:, sides:, None])
         block = scale * K[:, sides:, sides:] * np.swapaxes(scale, 1, 2)
         root, half = _halves(block, scale * K[:, sides:, :sides])
-        # The upper triangle has another order of elimination: what the rounding of both makes of the surface shows.
+        # The upper triangle has another order of elimination, so that its rounding is another.
         _, other = _halves(
             np.swapaxes(block, 1, 2)[:, ::-1, ::-1], (scale * np.swapaxes(K[:, :sides, sides:], 1, 2))[:, ::-1]
         )

@@ -214,6 +214,31 @@ def test_a_shift_by_nothing_is_none(soft_path):
     assert np.array_equal(shifted["pull_off"].y, equations["pull_off"].y)
 
 
+def test_the_end_of_a_jump_moves_with_its_beginning(soft_path):
+    beginning, end = EventEquations("jump_in", soft_path.jump_in), EventEquations("landing", soft_path.landing)
+    equations = {"jump_in": beginning, "landing": end}
+    shifted = {name: equation.copy() for name, equation in equations.items()}
+    some = 1e-6 * np.exp(-np.arange(beginning.y.size - 2.0))
+    shifted["jump_in"].shift(some, np.zeros_like(some), shifted, equations)
+    shifted["landing"].shift(np.zeros(end.y.size - 2), None, shifted, equations)
+    moved = shifted["jump_in"].y[-2] - beginning.y[-2]
+    assert abs(moved) > 1e-8
+    assert shifted["landing"].y[-2] - end.y[-2] == pytest.approx(moved, rel=1e-3)
+
+
+def test_steps_that_rounding_keeps_from_falling_end_the_iteration(soft_path, soft_system, monkeypatch):
+    calls = []
+
+    def counted(*args, **kwargs):
+        calls.append(1)
+        return solve_cg(*args, **kwargs)
+
+    monkeypatch.setattr(uncondensed, "solve_cg", counted)
+    monkeypatch.setattr(uncondensed, "NEWTON_TOLERANCE", 1e-30)
+    UncondensedEvents(soft_path, lambda: soft_system).value(TABLE["pull_off_force"].functional)
+    assert 2 <= len(calls) < uncondensed.NEWTON_STEPS
+
+
 def test_another_stiffness_is_not_an_equilibrium_nearby(soft_path):
     """A mesh of a solid twice as stiff: Newton's method does not come back with a number of the soft one."""
     half_space = assemble_half_space(SPEC.grid(), PowerLawModulus(2.0, 1.0, SOFT.k), NU, SPEC.order)
