@@ -347,7 +347,7 @@ def _routes(
     """Ways to a mesh of one level: one mesh that carries the path; if the solid does not scale, one for each radius.
 
     The second is tried as soon as the first meets a difficulty: of the eight cones at mu = 3 that met one, six had no
-    path on any other mesh, and the seventh took twice as long.
+    path on other meshes either, and the search for those of the other two took as long as all the rest.
     """
     one: Callable[..., tuple[MeshChoice, MeshSpec, float]] = partial(choice.adapted, events, start)
     # A landing is at the displacement of another event, which another mesh resolves.

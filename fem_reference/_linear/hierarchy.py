@@ -48,7 +48,10 @@ def vertex_hierarchy(matrix: Any, candidates: Array, places: Sequence[Index]) ->
 
 @contextmanager
 def _same_numbers() -> Iterator[None]:
-    """Give pyamg the same random vectors every time: it takes them from NumPy's global generator."""
+    """Give pyamg the same random vectors every time: it takes them from NumPy's global generator.
+
+    Another thread that draws from this generator at the same time gets them, too.
+    """
     before = np.random.get_state()  # noqa: NPY002
     np.random.seed(0)  # noqa: NPY002
     try:
