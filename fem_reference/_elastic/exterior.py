@@ -53,7 +53,7 @@ def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, o
     Parameters
     ----------
     grid : Grid
-        Grid of the interior; its boundary nodes are those of the exterior.
+        Grid of the interior; the exterior has the nodes of its boundary, but for those under the contact.
     modulus : Modulus
         Its depth exponent and its value at depth a define the power law of the exterior.  For a modulus
         that is no power law the square must be so large that this does not matter (see `exterior_error`).
