@@ -5,7 +5,12 @@ from ._meshes import ACCURACIES as ACCURACIES
 from ._sensitivity import SENSITIVE as SENSITIVE, ValueSensitivity as ValueSensitivity, sensitivity as sensitivity
 from .analysis import EVENTS as EVENTS, Analysis as Analysis
 from .custom_punch import CustomPunch as CustomPunch
-from .errors import NoSuchEvent as NoSuchEvent, NotConverged as NotConverged, OutsideAtlas as OutsideAtlas
+from .errors import (
+    AccuracyWarning as AccuracyWarning,
+    NoSuchEvent as NoSuchEvent,
+    NotConverged as NotConverged,
+    OutsideAtlas as OutsideAtlas,
+)
 from .experiment import (
     Cycle as Cycle,
     displacement_cycle as displacement_cycle,

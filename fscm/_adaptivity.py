@@ -154,11 +154,14 @@ def edge_mesh(problem: Problem, order: int, scale: float, end_height: float) -> 
 class _Field:
     """Gap and pressure on a mesh at one scale: what decides whether the mesh resolves them."""
 
-    def __init__(self, state: State, mesh: PanelMesh | None = None, gap: Array | None = None) -> None:
-        self.problem, self.scale, self.load = state.disc.problem, state.scale, state.load
+    def __init__(
+        self, state: State, mesh: PanelMesh | None = None, gap: Array | None = None, scale: float | None = None
+    ) -> None:
+        self.problem, self.load = state.disc.problem, state.load
+        self.scale = state.scale if scale is None else scale
         self.mesh = state.disc.mesh if mesh is None else mesh
         self.gap = state.gap if gap is None else gap
-        self.stiffness = state.disc.stiffness_scale(state.scale)
+        self.stiffness = state.disc.stiffness_scale(self.scale)
         self.pressure = state.pressure if gap is None else self.problem.law.traction(gap)
 
 
@@ -200,14 +203,19 @@ def _indicator(field: _Field, jumps_count: bool = True) -> Array:
 
 
 def resolving(
-    state: State, mesh: PanelMesh, tolerance: float, gap_on: Callable[[PanelMesh], Array], rounds: int = _KNOWN_ROUNDS
+    state: State,
+    mesh: PanelMesh,
+    tolerance: float,
+    gap_on: Callable[[PanelMesh], Array],
+    rounds: int = _KNOWN_ROUNDS,
+    scale: float | None = None,
 ) -> PanelMesh:
     """The mesh with panels split until each resolves the pressure of known gaps; nothing is solved.
 
     Parameters
     ----------
     state : State
-        Whose scale and load are taken.
+        Whose load is taken, and whose scale unless there is another one.
     mesh : PanelMesh
     tolerance : float
         Of the indicator, without jumps between panels: known gaps may jump where the mesh they come from is too coarse.
@@ -215,9 +223,12 @@ def resolving(
         Mesh -> gaps at its nodes.
     rounds : int
         How many times panels are split at most: gaps that are not in equilibrium may be unresolvable.
+    scale : float, optional
+        Of the new mesh, when it is another one than that of the state.
     """
     for _ in range(rounds):
-        middles = mesh.middles[_indicator(_Field(state, mesh, gap_on(mesh)), jumps_count=False) > tolerance]
+        field = _Field(state, mesh, gap_on(mesh), scale)
+        middles = mesh.middles[_indicator(field, jumps_count=False) > tolerance]
         ends = np.sort(np.concatenate([mesh.offsets, middles]))
         if not middles.size or np.any(np.diff(ends) <= 0.0):
             break

@@ -8,15 +8,19 @@ the place of the extreme: by (rate of the error of the extremal functional) / (c
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fscm._arc_length import parameter_of, rates_of
 from fscm._continuation import moved
 from fscm._defect import Defect, Errors, finer
 from fscm._equilibrium import Discretisation, Rates, State
 from fscm._events import MISSED_EXTREME
+from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.punch import kinks_of
 from fscm.solution import Parts
@@ -37,6 +41,9 @@ _ERROR_STEP, _CURVATURE_STEP = 1e-3, 1e-4
 # measured worst 7.7 times the bound of eps, over a quarter of a decade, on a smooth coating (test_graded_kernel.py).
 # The pressure and the adjoint, which weigh it, change by about their sizes each.
 _KERNEL_RATE = 10.0
+# Error that the finer mesh leaves of the difference of two states on one panel, in units of that of one of them times
+# the relative change of the pressure: a value of a power law of the gap, and its derivatives, change by a few times it.
+_CHANGE = 10.0
 _FUNCTIONALS = ("load", "displacement", "central_gap")
 
 
@@ -188,15 +195,37 @@ class EventErrors:
         return self.controlled("energy", self.parameter), self.controlled("displacement", self.parameter)
 
 
-def energy_of_jump(energy: Errors, displacement: Errors, landing: State) -> Parts:
+def energy_of_jump(energy: Errors, displacement: Errors, fold: State, landing: State) -> Parts:
     """Bounds on the error of the energy that is lost in a jump from a fold.
+
+    The error of a panel that both meshes have is the same for what both states have in common, and cancels; what
+    the finer mesh leaves of it cancels by as much as the pressures are the same.
 
     Parameters
     ----------
     energy, displacement : Errors
         Of the fold (`EventErrors.at_fold`).
+    fold : State
     landing : State
         At the displacement of the fold, so that the error of that displacement moves its energy by P.
     """
     left = energy.plus(displacement, -landing.load)
-    return bounds(left.beside(EventErrors(landing).controlled("energy", "displacement")))
+    right = EventErrors(landing).controlled("energy", "displacement")
+    of_fold, of_landing, change = _common_panels(fold, landing)
+    first, last = left.mesh[of_fold], right.mesh[of_landing]
+    unseen = _LEFT * np.minimum(1.0, _CHANGE * change) * (abs(first) + abs(last))
+    mesh = np.concatenate([np.delete(left.mesh, of_fold), np.delete(right.mesh, of_landing), first - last, unseen])
+    return bounds(replace(left.beside(right), mesh=mesh))
+
+
+def _common_panels(a: State, b: State) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+    """Panels that the meshes of two states share, as indices in both, and the relative change of the pressure there."""
+    ends = [state.scale * state.disc.mesh.breaks for state in (a, b)]
+    panels = [{(start, stop): i for i, (start, stop) in enumerate(pairwise(radii))} for radii in ends]
+    shared = sorted(panels[0].keys() & panels[1].keys())
+    indices = [np.array([of_state[panel] for panel in shared], np.intp) for of_state in panels]
+    first, last = (
+        state.pressure.reshape(-1, state.disc.mesh.order)[index] for state, index in zip((a, b), indices, strict=True)
+    )
+    change = np.max(abs(first - last), axis=1) / np.maximum(np.max(abs(first), axis=1), np.finfo(float).tiny)
+    return indices[0], indices[1], change

@@ -63,7 +63,7 @@ def follow_edge(state: State, end_height: float, tolerance: float, edge_gap: flo
         return known if state.lift is None else state.disc.height(scale * new.nodes) - state.displacement + known
 
     new = edge_mesh(problem, mesh.order, scale, end_height)
-    new = resolving(replace(state, scale=scale), new, tolerance, gap_on, _HAND_OVER_ROUNDS)
+    new = resolving(state, new, tolerance, gap_on, _HAND_OVER_ROUNDS, scale)
     disc = Discretisation(problem, new)
     if state.lift is not None:
         return State.lifted(disc, scale, known_on(new), state.displacement, True, edge_gap)

@@ -1,11 +1,11 @@
-"""The equilibrium path from far separation through both folds into contact.
+"""The equilibrium path from far separation through all folds into contact.
 
-The path has two stretches or more.  While the punch is apart the scale is fixed and the central gap is the continuation
+The path has two segments or more.  While the punch is apart the scale is fixed and the central gap is the continuation
 parameter.  Once the central gap has passed the gap of largest tension, the mesh is scaled so that this gap sits at
 s = 1: the mesh follows the edge, and log c is the parameter.  On both, steps are taken in arc length in the space of
 the parameter, delta and P, so folds in any of them are passed.  In the moving mesh the solution changes slowly
 however sharp the edge is.  When the gap farther out falls below the gap of largest tension as well, as around a tall
-asperity, another stretch begins, which follows that edge.
+asperity, another segment begins, which follows that edge.
 """
 
 from __future__ import annotations
@@ -15,11 +15,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 
 from fscm._adaptivity import end_radius, fit, initial_mesh, resolved
 from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of
 from fscm._branches import SURPRISE, checked_sense, edge_elsewhere, follow_edge, joined, predicted, turned
+from fscm._contact_initiation import gap_at_first_contact
+from fscm._edge_width import check_edge
 from fscm._equilibrium import Control, Discretisation, Rates, State
 from fscm._meshes import Meshes
 from fscm._newton import STEP_TOLERANCE, newton
@@ -28,7 +29,7 @@ from fscm.errors import NotConverged
 from fscm.problem import Problem
 from fscm.punch import PowerPunch, kinks_of
 
-__all__ = ["EDGE", "Tracking", "equilibrium_path", "moved", "usual_start"]
+__all__ = ["Tracking", "equilibrium_path", "moved", "usual_start"]
 
 _FIRST_STEP = 0.5
 _SMALLEST_STEP = 1e-6
@@ -47,10 +48,6 @@ _BLIND_STEP_OF_ASPERITIES = 0.002
 # the path may then run flat through several shallow folds, over which the tangent hardly turns.  Measured: n = 2,
 # k = 0.6, mu = 3 has three folds within 0.015 of displacement, and steps of 0.5 missed the first two.
 _FLAT_SHARE, _FLAT_STEP = 0.5, 0.2
-# The width of the cohesive edge is (1.03 M)^(-1/(1-k)) for the 9-3 law; decimal logarithm of the least width, relative
-# to a contact radius, that is computed.  Measured: 26 s of CPU at 10^-16 (n = 2, k = 0.98, mu = 1) and 55 s and 3 GB at
-# 10^-21 (k = 0.985; half the memory since); the number of panels grows with the logarithm.
-EDGE, _NARROWEST = 1.03, -22.0
 # Where its parameter turns, the path goes on in another one, until that one makes up less than this share of the
 # tangent.
 _LEAST_SHARE = 0.3
@@ -60,13 +57,6 @@ _GIVEN_SHARE = 0.05
 # of that gap's distance to the singular gap: nearer to it the edge radius is a poor variable (it starts as a
 # root).
 _HAND_OVER = 0.05
-# Above this k a contact begins as a nucleus many decades smaller than the punch, whose own gap is above the gap of
-# largest tension until it has grown: its edge is followed from where it grows.  Below, the nucleus passes within the
-# 80 points above.
-_NUCLEUS = 0.8
-# The nucleus lies within a part of the radius at which the punch is this high, its gap is below the one there by this
-# share of its distance to the singular gap, and its radius grows at this rate of log c per arc length.
-_FLAT_HEIGHT, _SMALL, _DEEP, _GROWING = 0.02, 0.05, 0.2, 0.3
 # Beyond the last kink by this factor of its radius, the edge is followed: a fixed mesh allows steps of its width only.
 # Measured: 800 points in place of over 1800 where the path has to go on to a displacement of 91 (random punch 24).
 _BEYOND_KINKS = 1.2
@@ -125,58 +115,155 @@ def _far_state(problem: Problem, central_gap: float, order: int, tolerance: floa
     return fit(newton(guess, control), control, tolerance)
 
 
-def _nucleus_gap(state: State, rates: Rates) -> float | None:
-    """The gap at the edge of a small growing nucleus of contact, if there is such a nucleus."""
-    problem, mesh = state.disc.problem, state.disc.mesh
-    if state.follows_edge or problem.k <= _NUCLEUS:
-        return None
-    flat = int(np.argmax(problem.punch.height(state.radius) >= _FLAT_HEIGHT)) - 1
-    inner = state.central_gap
-    if flat < 1 or state.gap[flat] - inner < _DEEP * (inner - problem.law.singular_gap):
-        return None
-    # The front is where the gap is steepest in log r: it decays slowly farther out.
-    gap, log_r = state.gap[: flat + 1], np.log(mesh.nodes[: flat + 1])
-    slopes = np.diff(gap) / np.diff(log_r)
-    i = int(np.argmax(slopes))
-    if mesh.nodes[i + 1] > _SMALL * mesh.nodes[flat]:
-        return None
-    front = 0.5 * float(gap[i] + gap[i + 1])
-    # Growth at a fixed share of the depth: the radius of a fixed gap grows as well when the nucleus forms, and shrinks
-    # later.
-    share = (front - inner) / (float(gap[flat]) - inner)
-    change = (1.0 - share) * rates.central_gap + share * rates.gap[flat] - 0.5 * (rates.gap[i] + rates.gap[i + 1])
-    return front if change > _GROWING * slopes[i] else None
-
-
 def _beyond_kinks(state: State, hand_over: float) -> bool:
     """Whether the contact edge is outside all kinks of the punch."""
     touching = state.radius[state.gap < hand_over]
     return bool(touching.size and touching[-1] > _BEYOND_KINKS * max(kinks_of(state.disc.problem.punch)))
 
 
-def _log_width(problem: Problem, log_mu: float) -> float:
-    """Decimal logarithm of the width of the cohesive edge over the contact radius, about (n mu)^(1/n), at log10 mu."""
-    n, k = problem.n, problem.k
-    log_M = math.log10(2.0) + (2.0 * n + k - 1.0) / n * log_mu
-    radius = max(math.log10(n) + log_mu, 0.0) / n
-    return -(math.log10(EDGE) + log_M) / (1.0 - k) - radius
-
-
-def _check_edge(problem: Problem) -> None:
-    """Refuse a cohesive edge that needs too many panels."""
-    log_mu = math.log10(problem.mu)
-    if _log_width(problem, log_mu) < _NARROWEST:
-        largest = scipy.optimize.brentq(lambda x: _log_width(problem, x) - _NARROWEST, -400.0, log_mu)
-        raise NotConverged(
-            f"the contact edge of {problem} is about 10^{_log_width(problem, log_mu):.0f} of its radius wide, below "
-            f"10^{_NARROWEST:.0f}, which needs too much memory: the largest Tabor number at n = {problem.n:g}, "
-            f"k = {problem.k:g} is mu = {10.0**largest:.3g}"
-        )
-
-
 def usual_start(problem: Problem) -> float:
     """A central gap beyond the far branch at jump-out: JKR's C_out mu is at most sqrt(2 pi) mu (Eq. 55)."""
     return 3.0 + 3.0 * problem.largest_mu
+
+
+class _Tracer:
+    """Steps along the path of one problem; the length of the next step is its state."""
+
+    def __init__(
+        self, problem: Problem, tolerance: float, longest_step: float, end_height: float, tracking: Tracking
+    ) -> None:
+        self._problem, self._tolerance, self._end_height, self._tracking = problem, tolerance, end_height, tracking
+        self._arc = ArcLength.of(problem)
+        self._newton = _NEWTON_MARGIN * tolerance if tracking.newton is None else tracking.newton
+        self._longest = min(longest_step, tracking.longest_step)
+        self._step = min(_FIRST_STEP, self._longest)
+        self._turns = 0
+        law = problem.law
+        self._hand_over = law.peak_gap - _HAND_OVER * (law.peak_gap - law.singular_gap)
+        self._kinked, self._power = bool(kinks_of(problem.punch)), isinstance(problem.punch, PowerPunch)
+
+    def points(self, state: State) -> Iterator[Point]:
+        """All points from a first state on."""
+        point = Point(state, self._arc.tangent(state))
+        farthest = _RETURNED + state.central_gap
+        while True:
+            yield point
+            on_edge = self._following_edge(point)
+            if on_edge is not None:
+                point = on_edge
+                continue
+            self._check(point.state, farthest)
+            in_other = self._in_usual_parameter(point)
+            if in_other is not None:
+                point = in_other
+                yield point
+            point = self._next(point)
+
+    def _check(self, state: State, farthest: float) -> None:
+        """Raise NotConverged where the path goes round in circles."""
+        if state.central_gap > farthest:
+            raise NotConverged(
+                f"the path of {self._problem} came back to separation: a sharp turn of it was not resolved"
+            )
+        if self._turns > _MOST_TURNS:
+            raise NotConverged(
+                f"the path of {self._problem} ends at delta = {state.displacement:.6g}, P = {state.load:.6g}: "
+                f"in none of its parameters a step goes on"
+            )
+
+    def _following_edge(self, point: Point) -> Point | None:
+        """The same state on a mesh that follows the outermost edge; None where the mesh does so, or need not."""
+        state, own = point.state, self._tracking.newton
+        if not (self._tracking.follow or (self._kinked and _beyond_kinks(state, self._hand_over))):
+            return None
+        edge_gap = gap_at_first_contact(state, point.rates)
+        if edge_gap is None and not edge_elsewhere(state, self._hand_over):
+            return None
+        guess = follow_edge(state, self._end_height, self._tolerance, edge_gap)
+        control = parameter_control(guess, parameter_of(guess))
+        if edge_gap is not None:  # it grows slowly at first: its gap tells states apart better than its radius
+            control = Control(state.central_gap, gap=1.0)
+        state = newton(guess, control, own or STEP_TOLERANCE)
+        state = fit(state, control, self._tolerance, step_tolerance=own)
+        return joined(self._arc, point, state)
+
+    def _in_usual_parameter(self, point: Point) -> Point | None:
+        """The same state in its usual parameter again, or in another one; None where its parameter does."""
+        state, shares = point.state, self._arc.shares(point)
+        if not state.turned:
+            return None
+        usual = _usual_parameter(state)
+        # With the scale given, no node passes a kink during an iteration.
+        wanted = usual if self._kinked and abs(shares[usual]) > _GIVEN_SHARE else state.parameter
+        if wanted != state.parameter:
+            return turned(self._arc, point, wanted)
+        least = _GIVEN_SHARE if self._kinked else _LEAST_SHARE
+        return turned(self._arc, point) if abs(shares.get(wanted, 0.0)) < least else None
+
+    def _next(self, point: Point) -> Point:
+        """The next point; steps are shortened until one is accepted."""
+        state = point.state
+        if not state.follows_edge and abs(point.rates.displacement) < _FLAT_SHARE * self._arc.displacement_unit(state):
+            self._step = min(self._step, _FLAT_STEP)
+        while True:
+            try:
+                after, iterations = self._attempt(point)
+            except NotConverged as error:
+                self._step *= _RETRY
+                if self._step < _SMALLEST_STEP:
+                    raise NotConverged(
+                        f"the path of {self._problem} ends at delta = {state.displacement:.6g}, "
+                        f"P = {state.load:.6g}: no step of arc length down to {_SMALLEST_STEP} converges "
+                        f"({error}); the path of a smaller Tabor number turns less sharply"
+                    ) from error
+                continue
+            if after is None:
+                self._step *= _SHORTER
+                continue
+            if iterations <= _EASY:
+                self._step = min(_LONGER * self._step, self._longest)
+            elif iterations >= _HARD:
+                self._step *= _SHORTER
+            return after
+
+    def _attempt(self, point: Point) -> tuple[Point | None, int]:
+        """The point after a step, None where the tangent turns too much over it, and the iterations it took."""
+        guess = resolved(predicted(point.state, point.rates, self._step), self._tolerance)
+        control = self._control(point, guess)
+        new = newton(guess, control, self._newton, _MOST_ITERATIONS)
+        fitted = fit(new, control, self._tolerance, True, self._tracking.newton)
+        after = Point(fitted, self._arc.tangent(fitted), point.stretch)
+        turn = self._arc.turn(point, after)
+        shortest = _BLIND_STEP if self._power else _BLIND_STEP_OF_ASPERITIES
+        if (turn if self._power else abs(turn)) < self._tracking.largest_turn and self._step > shortest:
+            return None, new.iterations
+        if self._same_orientation(point, after, turn):
+            self._turns = 0
+            return after, new.iterations
+        # The path goes on, but its parameter turns.
+        self._turns += 1
+        return turned(self._arc, point), new.iterations
+
+    def _control(self, point: Point, guess: State) -> Control:
+        """The condition of a step: its arc length, or its continuation parameter where that is prescribed."""
+        state = point.state
+        if (self._tracking.given or self._kinked) and state.parameter == _usual_parameter(state):
+            share = self._arc.shares(point)[state.parameter]
+            if abs(share) > _GIVEN_SHARE:
+                value = parameter_of(state) + self._step * rate_of(point.rates, state.parameter)
+                return parameter_control(guess, value)
+        return self._arc.control(state, point.rates, self._step)
+
+    def _same_orientation(self, point: Point, after: Point, turn: float) -> bool:
+        """Whether the path goes on as its parameter does.  Raises NotConverged where `after` is on another branch."""
+        if self._power:
+            return turn >= 0.0
+        known = turn >= 0.0 if abs(turn) >= self._tracking.largest_turn else None
+        return checked_sense(point, after, self._step, known, self._tracking.surprise)
+
+
+def _usual_parameter(state: State) -> str:
+    return "log_scale" if state.follows_edge else "gap"
 
 
 def equilibrium_path(
@@ -209,92 +296,15 @@ def equilibrium_path(
     Yields
     ------
     Point
-        At the change of stretch the same state is given twice, before and after.
+        At the change of segment the same state is given twice, before and after.
 
     Raises
     ------
     NotConverged
         When the step becomes too small, or the path turns back.
     """
-    _check_edge(problem)
-    arc, tracking = ArcLength.of(problem), tracking or Tracking()
-    step_tolerance = _NEWTON_MARGIN * tolerance if tracking.newton is None else tracking.newton
-    longest_step = min(longest_step, tracking.longest_step)
+    check_edge(problem)
+    tracer = _Tracer(problem, tolerance, longest_step, end_height, tracking or Tracking())
     gap = usual_start(problem) if start_gap is None else start_gap
     gap += depth(problem, end_radius(problem, end_height))
-    state = _far_state(problem, gap, order, tolerance, end_height)
-    peak, singular = problem.law.peak_gap, problem.law.singular_gap
-    hand_over = peak - _HAND_OVER * (peak - singular)
-    kinked = bool(kinks_of(problem.punch))
-    least_share = _GIVEN_SHARE if kinked else _LEAST_SHARE
-    shortest = _BLIND_STEP if isinstance(problem.punch, PowerPunch) else _BLIND_STEP_OF_ASPERITIES
-    step, turns, farthest = min(_FIRST_STEP, longest_step), 0, _RETURNED + state.central_gap
-    point = Point(state, arc.tangent(state))
-    while True:
-        yield point
-        state = point.state
-        follow = tracking.follow or (kinked and _beyond_kinks(state, hand_over))
-        nucleus = _nucleus_gap(state, point.rates) if follow else None
-        if follow and (nucleus is not None or edge_elsewhere(state, hand_over)):
-            guess = follow_edge(state, end_height, tolerance, nucleus)
-            control = parameter_control(guess, parameter_of(guess))
-            if nucleus is not None:  # it grows slowly at first: its gap tells states apart better than its radius
-                control = Control(state.central_gap, gap=1.0)
-            state = newton(guess, control, tracking.newton or STEP_TOLERANCE)
-            state = fit(state, control, tolerance, step_tolerance=tracking.newton)
-            point = joined(arc, point, state)
-            continue
-        if state.central_gap > farthest:
-            raise NotConverged(f"the path of {problem} came back to separation: a sharp turn of it was not resolved")
-        if turns > _MOST_TURNS:
-            raise NotConverged(
-                f"the path of {problem} ends at delta = {state.displacement:.6g}, P = {state.load:.6g}: "
-                f"in none of its parameters a step goes on"
-            )
-        shares = arc.shares(point)
-        usual = "log_scale" if state.follows_edge else "gap"
-        # With the scale given, no node passes a kink during an iteration.
-        kept = usual if kinked and abs(shares[usual]) > _GIVEN_SHARE else state.parameter
-        if state.turned and (kept != state.parameter or abs(shares.get(kept, 0.0)) < least_share):
-            point = turned(arc, point, kept if kept != state.parameter else None)
-            state = point.state
-            yield point
-        if not state.follows_edge and abs(point.rates.displacement) < _FLAT_SHARE * arc.displacement_unit(state):
-            step = min(step, _FLAT_STEP)
-        while True:
-            guess = resolved(predicted(state, point.rates, step), tolerance)
-            control = arc.control(state, point.rates, step)
-            if (tracking.given or kinked) and state.parameter == usual and abs(shares[usual]) > _GIVEN_SHARE:
-                control = parameter_control(guess, parameter_of(state) + step * rate_of(point.rates, state.parameter))
-            try:
-                new = newton(guess, control, step_tolerance, _MOST_ITERATIONS)
-                used = new.iterations
-                new = fit(new, control, tolerance, True, tracking.newton)
-                after = Point(new, arc.tangent(new), point.stretch)
-                turn, blind = arc.turn(point, after), step <= shortest
-                power = isinstance(problem.punch, PowerPunch)
-                if (turn if power else abs(turn)) < tracking.largest_turn and not blind:
-                    step *= _SHORTER
-                    continue
-                same = turn >= 0.0
-                if not power:
-                    same = checked_sense(
-                        point, after, step, same if abs(turn) >= tracking.largest_turn else None, tracking.surprise
-                    )
-                if not same:  # the path goes on, but its parameter turns
-                    after = turned(arc, point)
-                turns = 0 if same else turns + 1
-                break
-            except NotConverged as error:
-                step *= _RETRY
-                if step < _SMALLEST_STEP:
-                    raise NotConverged(
-                        f"the path of {problem} ends at delta = {state.displacement:.6g}, "
-                        f"P = {state.load:.6g}: no step of arc length down to {_SMALLEST_STEP} converges "
-                        f"({error})"
-                    ) from error
-        if used <= _EASY:
-            step = min(_LONGER * step, longest_step)
-        elif used >= _HARD:
-            step *= _SHORTER
-        point = after
+    yield from tracer.points(_far_state(problem, gap, order, tolerance, end_height))

@@ -37,6 +37,8 @@ STEEP = 10.0
 _HIGHEST = 1e60
 # Largest sum of a row of the difference of two tangents, of which one can stand for the other.
 _NEAR = 0.1
+# Four roundings, which a few operations make, and those of an entry of the response in units of them (see `_defect`).
+_ROUNDOFF, _ENTRY = 2.0**-51, 8.0
 # A tangent from the factors of a state nearby is corrected as long as each correction is smaller than the one before by
 # the first number; it is at rounding when the last correction is below the second, relative to its largest
 # component (of gaps relative to 1 + |H|).
@@ -351,6 +353,16 @@ class Linearisation:
         matrix[N, :N] = d.edge if self.state.follows_edge else 0.0
         matrix[N, N:] = self._anchor_ends
         return matrix
+
+    def rounding(self) -> Array:
+        """Bound of the rounding of the residual, shape (N,)."""
+        s, d = self.state, self.state.disc
+        product = d.stiffness_scale(s.scale) * (d.response(s.scale) @ np.abs(s.pressure))
+        if s.lift is not None:
+            size = np.abs(s.lift)
+        else:
+            size = np.abs(s.gap) + abs(s.displacement) + np.abs(d.height(s.radius)) + np.abs(d.rise(s.radius))
+        return np.asarray(_ROUNDOFF * (size + _ENTRY * product))
 
     def near(self, factor: BorderedFactor) -> bool:
         """Whether factors of another state's tangent are good enough here."""

@@ -49,6 +49,8 @@ class Meshes:
         The mesh ends where the undeformed gap is this large.  The closed tail behind it is wrong by (1/F)^2 relative.
     requested : float
         Relative error above which a value is computed again on the default meshes; infinite for the default and below.
+    asked : float
+        Relative error that was asked for as a number; infinite for a name, which selects meshes.
     """
 
     path: Mesh = _PATH
@@ -57,6 +59,7 @@ class Meshes:
     curve: Mesh = _CURVE
     end_height: float = 1e6
     requested: float = math.inf
+    asked: float = math.inf
 
     @classmethod
     def of(cls, accuracy: Accuracy) -> Meshes:
@@ -71,6 +74,7 @@ class Meshes:
         """
         if isinstance(accuracy, Meshes):
             return accuracy
+        asked = math.inf if isinstance(accuracy, str) else accuracy
         if isinstance(accuracy, str):
             if accuracy not in ACCURACIES:
                 raise ValueError(
@@ -98,6 +102,7 @@ class Meshes:
             value=at_event(_VALUE),
             curve=scaled(_CURVE),
             requested=accuracy if fewer else math.inf,
+            asked=asked,
         )
 
 

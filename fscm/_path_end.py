@@ -1,10 +1,18 @@
 r"""End of the equilibrium path: where no later state can carry tension.
 
-A punch without asperities, such as a power law, has one minimum of the load on its contact branch, and its path ends at
-the first compressive load.  It is one on which r f' does not decrease.  Any other may have asperities.  There the load
-of every state of displacement delta has a lower bound.  Let q be the pressure of a flat punch of radius a that is
-pressed in by one length.  It lifts the surface by 1 below the flat punch and by phi < 1 outside.  With the reciprocity
-of q and p, H > s (the singular gap) and Eq. 4,
+On a homogeneous or power-law solid a punch without asperities, such as a power law, has one minimum of the load on its
+contact branch, and its path ends at the first compressive load.  It is one on which r f' does not decrease.
+
+On any other solid the load may have a minimum for each layer.  In contact on a radius a, with the modulus E_a that the
+solid shows at the wavelength a, the load is P_1 - P_2 with the pressing part P_1 ~ E_a a^2 f'(a) and the adhesive part
+P_2 ~ (w E_a a^3)^(1/2), so that (P_1/P_2)^2 grows like g(a) = E_a a f'(a)^2.  Only where E_a falls faster than that,
+under a stiff layer that bends, tension comes back.  The path ends where g never again falls by more than the square of
+P_1/P_2.  That ratio follows from the load and the tension of the state: JKR's edge carries the share (P_2/P_1)^(1/2) of
+P_2 as tension.
+
+Any other punch may have asperities.  There the load of every state of displacement delta has a lower bound.  Let q be
+the pressure of a flat punch of radius a that is pressed in by one length.  It lifts the surface by 1 below the flat
+punch and by phi < 1 outside.  With the reciprocity of q and p, H > s (the singular gap) and Eq. 4,
 
     P >= C_a (delta + s - <f>) - int_a^oo t(f - delta - W) (1 - phi) 2 r dr       for every a.
 
@@ -26,6 +34,7 @@ import scipy
 from fscm._equilibrium import State
 from fscm._typing import Array
 from fscm.errors import NotConverged
+from fscm.graded.images import Images
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
@@ -43,13 +52,17 @@ _LEVEL = 1e-6
 _RATIO = 1.05
 # Iterations for the deformation by tension; it decreases from one to the next, so that each of them is a bound.
 _ITERATIONS = 60
+# A contact on a radius a feels the modulus at the wave numbers from 1/a over this factor to 1/a times it; points there.
+_WINDOW, _IN_WINDOW = 3.0, 25
+# Change of log D that counts as none; radii up to this multiple of the deepest change, and their number.
+_UNCHANGED, _LAYERS, _LATER = 0.02, 10.0, 200
 # Beyond the last radius, H is less than f by less than this factor to the power of the decay of the law.
 _TAIL_MARGIN = 1.5
 
 
 @dataclass
 class PathEnd:
-    """Condition that ends a path: compressed, beyond all asperities, and at the largest displacement so far.
+    """Condition that ends a path: compressed, beyond all asperities and layers, at the largest displacement so far.
 
     Attributes
     ----------
@@ -69,7 +82,45 @@ class PathEnd:
         self.farthest = max(self.farthest, state.displacement)
         deepest = state.displacement >= max(self.farthest, self.displacement)
         touching = min(state.central_gap, float(np.min(state.gap))) < state.disc.problem.law.peak_gap
-        return (state.follows_edge or touching) and state.load > self.load and deepest
+        return (state.follows_edge or touching) and state.load > self.load and deepest and beyond_layers(state)
+
+
+def beyond_layers(state: State) -> bool:
+    """Whether no layer of the solid brings tension back once the load is compressive."""
+    response, punch = state.disc.problem.response, state.disc.problem.punch
+    if response is None:
+        return True
+    stiffness = _Stiffness(response.kernel.images)
+    touching = state.radius[state.gap < state.disc.problem.law.peak_gap]
+    a = max(float(touching[-1]) if touching.size else 0.0, float(state.radius[0]))
+    later = np.geomspace(a, max(a, stiffness.deepest) * _LAYERS, _LATER)
+    least = float(np.min(stiffness.least(later) * later * punch.slope(later) ** 2))
+    here = float(stiffness.largest(np.array([a]))[0] * a * punch.slope(np.array([a]))[0] ** 2)
+    area = 2.0 * state.scale**2 * state.disc.mesh.weights * state.disc.mesh.nodes
+    tension = -float(area @ np.minimum(state.pressure, 0.0))
+    return (1.0 + max(state.load, 0.0) / tension) ** (4.0 / 3.0) * least >= here
+
+
+class _Stiffness:
+    """Smallest and largest modulus, in units of that of the surface, that a solid shows around a wavelength."""
+
+    def __init__(self, images: Images) -> None:
+        self._log_waves, self._log_D = np.log(images.waves), np.log(images.values)
+        changing = np.flatnonzero(np.abs(self._log_D - self._log_D[0]) > _UNCHANGED)
+        #: Radius beyond which the solid is homogeneous.
+        self.deepest = float(1.0 / images.waves[changing[0]]) if changing.size else 0.0
+
+    def _around(self, a: Array) -> Array:
+        shifts = np.linspace(-math.log(_WINDOW), math.log(_WINDOW), _IN_WINDOW)
+        return np.exp(-np.interp(shifts - np.log(a)[:, None], self._log_waves, self._log_D))
+
+    def least(self, a: Array) -> Array:
+        """Shape of `a`."""
+        return np.asarray(np.min(self._around(a), axis=1))
+
+    def largest(self, a: Array) -> Array:
+        """Shape of `a`."""
+        return np.asarray(np.max(self._around(a), axis=1))
 
 
 def _radii(end: float) -> Array:

@@ -25,6 +25,7 @@ from fscm._meshes import Meshes
 from fscm._typing import Array
 from fscm._whole_path import path_until
 from fscm.errors import NotConverged
+from fscm.laws import LennardJones93, Mie
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
@@ -67,8 +68,6 @@ class _RigidSolid:
     def __init__(self, problem: Problem) -> None:
         n, law = problem.n, problem.law
         self._law, self._compliance = law, problem.compliance
-        if problem.response is not None:
-            self._compliance *= problem.response.softest
         self._heights = np.concatenate([[0.0], np.geomspace(_LOWEST, _HIGHEST, _HEIGHTS)])
         r = (n * self._heights) ** (1.0 / n)
         self._areas, self._lengths = np.diff(r * r), np.diff(r ** (1.0 - problem.k))
@@ -119,10 +118,12 @@ def pull_off_path(problem: Problem, meshes: Meshes) -> list[Point] | None:
     Returns
     -------
     list of Point, or None
-        None where the whole path is needed: for any other punch, a law whose tension does not fall like a power, and
-        where the load found does not exceed that of the rigid solid farther out.
+        None where the whole path is needed: for any other punch, a layered solid or a tabulated law, on which the load
+        may have several minima, and where the load found does not exceed that of the rigid solid farther out.
     """
-    if not isinstance(problem.punch, PowerPunch) or problem.law.decay[1] * problem.n <= 2.0:
+    if not isinstance(problem.punch, PowerPunch) or problem.response is not None:
+        return None
+    if not isinstance(problem.law, LennardJones93 | Mie) or problem.law.decay[1] * problem.n <= 2.0:
         return None
     start = _start(problem)
     if start is None:

@@ -17,9 +17,14 @@ from fscm.problem import Problem
 __all__ = ["Tail", "tail_energy", "tail_errors", "tail_of"]
 
 # Quadrature behind the mesh: pieces on which the radius grows by _FARTHER (less for steep punches), nodes of each.
-_FARTHER, _PIECES, _QUADRATURE = 4.0, 3, 20
+_FARTHER, _PIECES = 4.0, 3
+_GAUSS = np.polynomial.legendre.leggauss(20)
 # A steeper punch overflows at _FARTHER times the radius; its tail is zero to all digits.
 _STEEPEST = 150.0
+# A length in pieces that rounding makes larger by less is the same.
+_SAME = 1e-9
+# Height, to a factor, of the punch where the energy takes it for a power of the radius; a rounded cone is one to 1e-12.
+_FARTHEST = 1e12
 # Height from which on the tail is zero: the tension there is below 1e-60 for m > 1.
 _ZERO = 1e60
 
@@ -98,7 +103,7 @@ def tail_errors(problem: Problem, T: float, displacement: float) -> tuple[Array,
     Returns
     -------
     known : ndarray, shape (3,)
-        Closed form less quadrature.
+        Closed form less quadrature; the energy is by quadrature itself, and compared with a finer one.
     remainder : ndarray, shape (3,)
         Bound on what is unknown behind the radii of the quadrature: the next term of the expansion, and what the shape
         and the law deviate from powers.  That of the energy is the part that differs between states.
@@ -113,56 +118,96 @@ def tail_errors(problem: Problem, T: float, displacement: float) -> tuple[Array,
     if C == 0.0 or _height(problem, T) > _ZERO:
         return np.zeros(3), np.zeros(3)
     g, k = problem.punch.growth, problem.k
-    rule = np.polynomial.legendre.leggauss(_QUADRATURE)
-    ratio = _FARTHER ** min(1.0, 2.0 / g)
-    far = T * ratio**_PIECES
-    log_t = math.log(T) + math.log(ratio) * (np.arange(_PIECES)[:, None] + 0.5 * (1.0 + rule[0])).ravel()
-    t = np.exp(log_t)
-    weights = np.tile(0.5 * math.log(ratio) * rule[1], _PIECES) * t
-    gap = problem.punch.height(t) - displacement
-    pressure = problem.law.traction(gap)
+    far = T * math.exp(_PIECES * _log_ratio(g))
+    t, weights = _quadrature(T, far, g)
+    pressure = problem.law.traction(problem.punch.height(t) - displacement)
     share = 1.0 if problem.response is None else problem.response.far(T)
     near = np.array(
         [
             2.0 * float((weights * t) @ pressure),
             problem.compliance * share * (1.0 - k) * float((weights * t**-k) @ pressure),
-            2.0 * float((weights * t) @ problem.law.energy(gap)),
         ]
     )
     first, rest = tail_of(problem, T, displacement), tail_of(problem, far, displacement)
-    energies = tail_energy(problem, T, displacement), tail_energy(problem, far, displacement)
-    known = np.array([first.load - rest.load, first.displacement - rest.displacement, energies[0] - energies[1]]) - near
+    known = np.array([first.load - rest.load, first.displacement - rest.displacement]) - near
+    of_energy = tail_energy(problem, T, displacement) - _tail_energy(problem, T, displacement, 2)
 
+    relative, _ = _deviations(problem, far, displacement)
+    remainder = np.array([abs(rest.load), abs(rest.displacement)]) * relative
+    farthest = _farthest(problem)
+    relative, e = _deviations(problem, farthest, displacement)
+    work = abs(tail_of(problem, farthest, displacement).load * (displacement + problem.law.singular_gap))
+    return np.append(known, of_energy), np.append(remainder, work * (relative + m * abs(e)))
+
+
+def _deviations(problem: Problem, far: float, displacement: float) -> tuple[float, float]:
+    """Relative error of the closed forms beyond a radius, and the expansion's small number there."""
+    C, m = problem.law.decay
+    g = problem.punch.growth
     F = _height(problem, far)
     e = (-displacement - problem.law.singular_gap) / F
     shape = abs(_height(problem, _FARTHER * far) / (F * _FARTHER**g) - 1.0) if g < _STEEPEST else 0.0
     exact = float(problem.law.traction(np.array([F - displacement]))[0])
-    law = abs(exact / (-C * (F - displacement - problem.law.singular_gap) ** -m) - 1.0)
-    relative = 0.5 * m * (m + 1.0) * e * e + m * shape + law
-    work = abs(rest.load * (displacement + problem.law.singular_gap))
-    remainder = np.array([abs(rest.load) * relative, abs(rest.displacement) * relative, work * (relative + m * abs(e))])
-    return known, remainder
+    closed = -C * (F - displacement - problem.law.singular_gap) ** -m
+    law = abs(exact / closed - 1.0) if closed else 0.0
+    return 0.5 * m * (m + 1.0) * e * e + m * shape + law, e
 
 
 def tail_energy(problem: Problem, T: float, displacement: float) -> float:
-    """int e(H) 2 r dr beyond the radius T, e = -C/(m-1) f^(1-m) (1 - (m-1) e/f).
+    """int e(H) 2 r dr beyond the radius T on the undeformed punch.
 
-    Its finite part when the integral diverges: the constant left out is the same for all states of a problem.
+    Its finite part when the integral diverges: the constant left out is the same for all states of a problem, wherever
+    their meshes end, because the closed form takes the power of the punch at one radius for all of them.
 
     Parameters
     ----------
     problem, T, displacement
         As for `tail_of`.
     """
+    return _tail_energy(problem, T, displacement, 1)
+
+
+def _tail_energy(problem: Problem, T: float, displacement: float, cuts: int) -> float:
+    """The same, with each piece of the quadrature cut into so many."""
     C, m = problem.law.decay
-    F = _height(problem, T)
-    if C == 0.0 or F > _ZERO:
+    if C == 0.0 or _height(problem, T) > _ZERO:
         return 0.0
-    g = problem.punch.growth
+    g, far = problem.punch.growth, _farthest(problem)
+    power = _height(problem, far) / far**g
+    shift = -displacement - problem.law.singular_gap
+
+    def leading(f: Array) -> Array:
+        return -C / (m - 1.0) * f ** (1.0 - m) * (1.0 - (m - 1.0) * shift / f)
+
+    # The law on the shape less the first terms on a power of the radius, from T to where the shape is one.
+    t, weights = _quadrature(T, far, g, cuts)
+    exact = problem.law.energy(problem.punch.height(t) - displacement)
+    deviation = 2.0 * float((weights * t) @ (exact - leading(power * t**g)))
     excess = (m - 1.0) * g - 2.0
-    leading = -math.log(T) if excess == 0.0 else 1.0 / excess
-    shift = (-displacement - problem.law.singular_gap) / F
-    return -2.0 * C / (m - 1.0) * F ** (1.0 - m) * T**2 * (leading - (m - 1.0) * shift / (m * g - 2.0))
+    closed = -math.log(T) if excess == 0.0 else 1.0 / excess
+    F = power * T**g
+    size = -2.0 * C / (m - 1.0) * power ** (1.0 - m) * T**-excess
+    return deviation + size * (closed - (m - 1.0) * shift / F / (m * g - 2.0))
+
+
+def _quadrature(start: float, stop: float, growth: float, cuts: int = 1) -> tuple[Array, Array]:
+    """Radii and weights from one radius to another, also inwards."""
+    x, w = _GAUSS
+    length = math.log(stop / start)
+    pieces = cuts * max(1, math.ceil(abs(length) / _log_ratio(growth) - _SAME))
+    half = 0.5 * length / pieces
+    t = start * np.exp(half * (2.0 * np.arange(pieces)[:, None] + 1.0 + x).ravel())
+    return t, half * np.tile(w, pieces) * t
+
+
+def _log_ratio(growth: float) -> float:
+    """Logarithm of the ratio of the radii at the ends of a piece."""
+    return math.log(_FARTHER) * min(1.0, 2.0 / growth)
+
+
+def _farthest(problem: Problem) -> float:
+    """Radius at which the shape of the punch counts as a power for the energy of all states."""
+    return float(_FARTHEST ** (1.0 / problem.punch.growth))
 
 
 def _height(problem: Problem, T: float) -> float:

@@ -10,7 +10,8 @@ from fscm._adaptivity import end_radius
 from fscm._arc_length import Point
 from fscm._branches import SURPRISE
 from fscm._completeness import completed
-from fscm._continuation import EDGE, Tracking, equilibrium_path
+from fscm._continuation import Tracking, equilibrium_path
+from fscm._edge_width import log_edge_width
 from fscm._equilibrium import State
 from fscm._meshes import Mesh, Meshes
 from fscm._path_end import PathEnd, displacement_of_compression
@@ -30,11 +31,6 @@ _WIDE = -1.5
 _FINER = Mesh(10, 1e-4)
 # Measured: two of a hundred random punches, a ring and waves, need the last one where two branches come close.
 _FIXED, _CAREFUL = Tracking(follow=False), Tracking(False, 0.1 * SURPRISE, 0.2)
-
-
-def _log_edge(problem: Problem) -> float:
-    """Decimal logarithm of the width of the cohesive edge."""
-    return -math.log10(EDGE * problem.compliance) / (1.0 - problem.k)
 
 
 def path_until(
@@ -114,7 +110,7 @@ def path_by_any_mesh(
     """
     complete = partial(completed, tolerance=tolerance) if complete is None else complete
     choices = [Tracking()]
-    if not isinstance(problem.punch, PowerPunch) and _log_edge(problem) > _WIDE:
+    if not isinstance(problem.punch, PowerPunch) and log_edge_width(problem) > _WIDE:
         choices = [_FIXED, Tracking(), _CAREFUL] if kinks_of(problem.punch) else [Tracking(), _FIXED, _CAREFUL]
     errors = []
     for tracking in choices:

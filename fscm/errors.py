@@ -1,8 +1,8 @@
-"""Exceptions raised by the solvers."""
+"""Exceptions and warnings of the solvers."""
 
 from __future__ import annotations
 
-__all__ = ["NoSuchEvent", "NotConverged", "OutsideAtlas"]
+__all__ = ["AccuracyWarning", "NoSuchEvent", "NotConverged", "OutsideAtlas"]
 
 
 class NotConverged(RuntimeError):
@@ -38,4 +38,21 @@ class OutsideAtlas(ValueError):
     >>> atlas(2, 0.4, 20.0, "pull_off_force")
     Traceback (most recent call last):
     fscm.errors.OutsideAtlas: mu = 20 is outside [0.01, 10], the range of the atlas; fscm.solve has a wider one
+    """
+
+
+class AccuracyWarning(UserWarning):
+    """The bound of a value is larger than the accuracy that was asked for; the message says which one was reached.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from fscm import solve
+    >>> from fscm.graded import Exponential, GradedProblem
+    >>> pad = GradedProblem(2, 1.0, Exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3))
+    >>> with warnings.catch_warnings(record=True) as caught:
+    ...     warnings.simplefilter("always")
+    ...     force = solve(pad, "pull_off_force", accuracy=1e-10)
+    >>> [warning.category.__name__ for warning in caught], 1e-10 < force.u_num / force.value < 1e-8
+    (['AccuracyWarning'], True)
     """

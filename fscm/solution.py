@@ -67,6 +67,11 @@ class Parts(Mapping[str, float]):
         """Their sum."""
         return sum(self.values())
 
+    @property
+    def largest(self) -> str:
+        """Name of the largest one."""
+        return max(_CAUSES, key=self.__getitem__)
+
     def plus(self, other: Parts) -> Parts:
         """Bounds of a sum of two values."""
         return Parts(*(a + b for a, b in zip(self.values(), other.values(), strict=True)))

@@ -1,6 +1,6 @@
 r"""The response of a graded solid to a ring of pressure, by its images.
 
-    G(r, t) = t int_0^oo D(xi) J0(xi r) J0(xi t) d(xi) = t [f(0) - sum_j a_j f(d_j)],
+    G(r, t) = t int_0^oo D(xi) J0(xi r) J0(xi t) d(xi) = t [f(0) - Re sum_j a_j f(d_j)],
     f(d) = (2/pi) K(m) / sqrt((r+t)^2 + d^2) = 1 / agm(sqrt((r+t)^2 + d^2), sqrt((r-t)^2 + d^2)),
 
 so that a ring of unit pressure lifts the surface by (2/E*) G, E* = E/(1-nu^2) at the surface (`fscm.graded.images`).
@@ -12,16 +12,18 @@ from __future__ import annotations
 import numpy as np
 import scipy
 
-from fscm._typing import Array
+from fscm._typing import Array, ComplexArray
 from fscm.graded.images import Images, images_of
 from fscm.graded.solids import GradedHalfSpace
 
-__all__ = ["GradedKernel", "image_ring"]
+__all__ = ["GradedKernel", "image_ring", "image_sum"]
 
 # Points of the sum that bounds the error, for each decade of the wave number, and decades beyond the waves of the fit.
 _POINTS, _DECADES = 40, 6
-# Pairs of radii that are evaluated at a time: their products with the images take 2 MB.
+# Pairs of radii that are evaluated at a time: their products with the images take 4 MB.
 _CHUNK = 1000
+# Difference of both means, relative to them, below which the next one is their limit to rounding.
+_EQUAL = 1e-8
 # |J0(x)| <= min(1, sqrt(_BESSEL / x)).
 _BESSEL = 2.0 / np.pi
 
@@ -37,6 +39,28 @@ def image_ring(total: Array, distance: Array, depth: Array) -> Array:
     outer = total * total + depth * depth
     ratio = (distance * distance + depth * depth) / outer
     return _BESSEL * scipy.special.ellipkm1(ratio) / np.sqrt(outer)
+
+
+def _complex_ring(total: Array, distance: Array, depth: ComplexArray) -> ComplexArray:
+    """The same for complex depths."""
+    squared = depth * depth
+    return 1.0 / _mean(np.sqrt(total * total + squared), np.sqrt(distance * distance + squared))
+
+
+def _mean(a: ComplexArray, b: ComplexArray) -> ComplexArray:
+    """Arithmetic-geometric mean of numbers with arguments from 0 to pi/4: so are all means."""
+    while np.any(np.abs(a - b) > _EQUAL * np.abs(a)):
+        a, b = 0.5 * (a + b), np.sqrt(a * b)
+    return 0.5 * (a + b)
+
+
+def image_sum(total: Array, distance: Array, depths: ComplexArray, strengths: ComplexArray) -> Array:
+    """Re sum_j a_j f(d_j), shape of both arguments, which end with an axis of length 1."""
+    real = depths.imag == 0.0
+    return (
+        image_ring(total, distance, depths[real].real) @ strengths[real].real
+        + (_complex_ring(total, distance, depths[~real]) @ strengths[~real]).real
+    )
 
 
 class GradedKernel:
@@ -61,12 +85,12 @@ class GradedKernel:
         self.images: Images = images_of(solid, longest)
 
     def images_at(self, total: Array, distance: Array) -> Array:
-        """Sum of a_j f(d_j), shape of both arguments."""
+        """Re sum_j a_j f(d_j), shape of both arguments."""
         total, distance = np.broadcast_arrays(np.asarray(total, float), np.asarray(distance, float))
         out, A, B = np.empty(total.size), total.ravel(), distance.ravel()
         for i in range(0, len(out), _CHUNK):
             part = slice(i, i + _CHUNK)
-            out[part] = image_ring(A[part, None], B[part, None], self.images.depths) @ self.images.strengths
+            out[part] = image_sum(A[part, None], B[part, None], self.images.depths, self.images.strengths)
         return out.reshape(total.shape)
 
     def response(self, r: Array, t: Array, distance: Array | None = None) -> Array:

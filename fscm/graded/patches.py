@@ -1,7 +1,7 @@
 r"""Table of the images of a ring: polynomials on patches of the logarithms of r + t and abs(r - t).
 
 The sum of the images depends on the solid, on A = r + t and on B = abs(r - t) alone.  In log A and log B it is analytic
-in a strip of half-width pi/2, whatever the depths are, so that a polynomial of fixed degree on each patch of fixed size
+in a strip of half-width pi/4, whatever the depths are, so that a polynomial of fixed degree on each patch of fixed size
 follows it.  The patches are made when they are first needed.
 """
 
@@ -14,25 +14,28 @@ from numpy.polynomial import chebyshev
 
 from fscm._typing import Array
 from fscm.graded.images import Images
-from fscm.graded.kernel import image_ring
+from fscm.graded.kernel import image_ring, image_sum
 
 __all__ = ["ImageTable"]
 
-# Degree and size of a patch: the singularities are at a distance of pi/2, so that they fall like 4.75^-m.
-_DEGREE, _SIZE = 17, math.log(4.0)
+# Degree and size of a patch: the singularities are at a distance of pi/4 or more, so that they fall like 4.7^-m.
+_DEGREE, _SIZE = 15, math.log(2.0)
 # Distances below this share of the length of the solid count as this one.
 _LEAST = 1e-11
 # Patches of shorter distances, down to zero, are one where A is larger by so many patches: the polynomial is in B
-# there, and leaves 5e-12 at most (measured; an offset power law): the shallow images follow B in steps of a decade.
-_SHORT, _APART = -7, 2
+# there.  The shallow images follow B down to the length over which the modulus changes at the surface, so that these
+# distances begin where the polynomial follows them to _ERROR: at the first of these numbers, or by steps lower.
+_SHORT, _APART, _LOWER, _LOWEST = -14, 4, 4, -50
 # Images shallower than this share of B, or deeper than A over this share, are joined: what their expansion in the
 # square of the ratio leaves is the fourth power of it.
 _FAR = 7e-4
-# Error of the table: its own, and rounding and what is left out for each unit of the strengths of the images; measured
-# worst 2e-10 on a sharp layer, whose strengths are 3e5 together.
-_ERROR, _PER_STRENGTH = 1e-11, 2e-15
+# Error of the table: its own, relative to the largest D, at least 1, and rounding and what is left out for each unit
+# of the strengths of the images.  Measured worst 7e-14 over coatings with contrasts of 1e-4 to 1e4.  The coefficients
+# fall by factors of 5, so that the last ones are above what is left out; on the joined patches, whose shallowest images
+# are shallower than the first node, it is up to 120 times the last ones (measured, offset power law with k = 0.4).
+_ERROR, _PER_STRENGTH, _OF_JOINED = 2e-13, 2e-15, 250.0
 # Numbers of the patches in each direction: a pair of them is one integer.
-_MOST = 200
+_MOST = 256
 # Number of those that are joined.
 _JOINED = 0
 # Points whose polynomials are evaluated together: they take 1 MB.
@@ -51,9 +54,7 @@ class ImageTable:
 
     def __init__(self, images: Images, length: float) -> None:
         self._images, self._length = images, length
-        self._short = length * math.exp(_SHORT * _SIZE)
-        #: Bound of the error of the value.
-        self.error = _ERROR + _PER_STRENGTH * float(np.sum(np.abs(images.strengths)))
+        self._worst = 0.0
         self._patches: dict[int, Array] = {}
         self._nodes = chebyshev.chebpts1(_DEGREE + 1)
         self._to_modes = np.linalg.inv(chebyshev.chebvander(self._nodes, _DEGREE))
@@ -63,19 +64,39 @@ class ImageTable:
         # B d/dB on [0, 1], x = 2 B - 1
         products = [chebyshev.chebmul(slope, [1.0, 1.0]) for slope in slopes.T]
         self._linear = np.stack([np.pad(c, (0, _DEGREE + 1 - len(c))) for c in products], axis=1)
+        for self._first_short in range(_SHORT, _LOWEST, -_LOWER):
+            joined = self._coefficients(self._first_short + _APART + _MOST // 2, _JOINED)
+            if _last(joined)[1] < _ERROR * images.largest:
+                break
+
+    @property
+    def error(self) -> float:
+        """Bound of the error of all values so far."""
+        own = _ERROR * self._images.largest + _PER_STRENGTH * float(np.sum(np.abs(self._images.strengths)))
+        return own + self._worst
+
+    @property
+    def _short(self) -> float:
+        return self._length * math.exp(self._first_short * _SIZE)
+
+    def _coefficients(self, i: int, j: int) -> Array:
+        """Coefficients of the values on a patch, shape (degree + 1, degree + 1): in log A, then in log B or B."""
+        half = 0.5 * _SIZE
+        A = self._length * np.exp((i - _MOST // 2 + 0.5) * _SIZE + half * self._nodes)[:, None]
+        if j == _JOINED:
+            B = self._short * (0.5 + 0.5 * self._nodes)[None, :]
+        else:
+            B = self._length * np.exp((j - _MOST // 2 + 0.5) * _SIZE + half * self._nodes)[None, :]
+        c: Array = self._to_modes @ (A * self._sum(A, B)) @ self._to_modes.T
+        return c
 
     def _patch(self, key: int) -> Array:
         """Coefficients of value and derivative, shape (degree + 1, 2, degree + 1): in log A, then in log B."""
         if key not in self._patches:
             i, j = divmod(key, _MOST)
-            half = 0.5 * _SIZE
-            A = self._length * np.exp((i - _MOST // 2 + 0.5) * _SIZE + half * self._nodes)[:, None]
-            if j == _JOINED:
-                B = self._short * (0.5 + 0.5 * self._nodes)[None, :]
-            else:
-                B = self._length * np.exp((j - _MOST // 2 + 0.5) * _SIZE + half * self._nodes)[None, :]
-            values = A * self._sum(A, B)
-            c = self._to_modes @ values @ self._to_modes.T
+            c = self._coefficients(i, j)
+            in_A, in_B = _last(c)
+            self._worst = max(self._worst, in_A, in_B * (_OF_JOINED if j == _JOINED else 1.0))
             rate = self._derivative @ c + c @ (self._linear if j == _JOINED else self._derivative).T
             self._patches[key] = np.ascontiguousarray(np.stack([c, rate], axis=1))
         return self._patches[key]
@@ -83,18 +104,20 @@ class ImageTable:
     def _sum(self, A: Array, B: Array) -> Array:
         """Sum of a_j f(d_j); images that are shallow or deep beside the patch are joined."""
         d, a = self._images.depths, self._images.strengths
-        shallow, deep = d < _FAR * float(np.min(np.minimum(A, B))), d > float(np.max(np.maximum(A, B))) / _FAR
+        size = np.abs(d)
+        shallow = size < _FAR * float(np.min(np.minimum(A, B)))
+        deep = size > float(np.max(np.maximum(A, B))) / _FAR
         near = ~(shallow | deep)
-        total = np.einsum("ijk,k->ij", image_ring(A[..., None], B[..., None], d[near]), a[near])
+        total = image_sum(A[..., None], B[..., None], d[near], a[near])
         if shallow.any():
-            zero, first = np.zeros(()), d[shallow][-1]
+            zero, first = np.zeros(()), size[shallow][-1]
             at_zero = image_ring(A, B, zero)
             slope = (image_ring(A, B, first) - at_zero) / first**2
-            total += a[shallow].sum() * at_zero + (a[shallow] @ d[shallow] ** 2) * slope
+            total += a[shallow].sum().real * at_zero + (a[shallow] @ d[shallow] ** 2).real * slope
         if deep.any():
-            last = d[deep][0]
+            last = size[deep][0]
             slope = (last * image_ring(A, B, last) - 1.0) * last**2
-            total += (a[deep] / d[deep]).sum() + (a[deep] / d[deep] ** 3).sum() * slope
+            total += (a[deep] / d[deep]).sum().real + (a[deep] / d[deep] ** 3).sum().real * slope
         return total
 
     def of(self, A: Array, B: Array) -> tuple[Array, Array]:
@@ -103,7 +126,8 @@ class ImageTable:
         x = np.log(A / self._length) / _SIZE + _MOST // 2
         y = np.log(B / self._length) / _SIZE + _MOST // 2
         i, j = np.floor(x), np.floor(y)
-        short = (j < _SHORT + _MOST // 2) & (i >= _SHORT + _APART + _MOST // 2)
+        first = self._first_short + _MOST // 2
+        short = (j < first) & (i >= first + _APART)
         j[short] = _JOINED
         y[short] = _JOINED + B[short] / self._short
         keys = (i * _MOST + j).astype(np.uint16)
@@ -129,6 +153,12 @@ class ImageTable:
         found = np.empty((2, len(x)))
         found[:, order] = sums
         return found[0], found[1]
+
+
+def _last(coefficients: Array) -> tuple[float, float]:
+    """Largest of the last two coefficients of each polynomial in log A, and of each in B."""
+    size = np.abs(coefficients)
+    return float(np.max(size[-2:])), float(np.max(size[:-2, -2:]))
 
 
 def _polynomials(x: Array, out: Array) -> None:

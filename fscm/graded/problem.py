@@ -49,7 +49,7 @@ class GradedResponse:
     @property
     def softest(self) -> float:
         """Largest compliance at any wave number, in units of that of the surface, at least 1."""
-        return max(1.0, float(np.max(self.kernel.images.values)))
+        return self.kernel.images.largest
 
     def remainder(
         self, mesh: PanelMesh, c: float, known: tuple[PanelMesh, float, Remainder] | None = None

@@ -19,7 +19,7 @@ from fscm.critical import critical_tabor_number
 from fscm.gibson import GibsonSolid
 from fscm.laws import Mie
 from fscm.measured_punch import MeasuredPunch
-from fscm.punch import PowerSum
+from fscm.punch import PowerPunch, PowerSum, RoundedCone
 from fscm.solution import Parts, Solution
 
 # The error of one dominant cause may not exceed its part, nor be below this share of it: so that a part which is only
@@ -290,6 +290,19 @@ def test_the_errors_of_the_tail_against_quadrature(law: Mie) -> None:
     if law.attraction > 2.0:  # the energy converges
         energy = 2.0 * (weights * t) @ law.energy(gap) + tail_energy(problem, 1e10 * T, displacement)
         assert abs(tail_energy(problem, T, displacement) - energy - known[2]) <= remainder[2] + QUADRATURE * abs(energy)
+
+
+@pytest.mark.parametrize("shape", [PowerPunch(1.0), RoundedCone(1.0, 1.5)])
+def test_the_energy_behind_different_ends_has_one_constant(shape: PowerPunch | RoundedCone) -> None:
+    """Finite parts behind two radii differ by the energy between them, also on a shape that is no power."""
+    problem, displacement = Problem(1, 0.3, 1.0, shape), -1.5
+    x, w = gauss_nodes()
+    for T, end in ((1e3, 7e3), (2e6, 2e9), (1e14, 3e3)):
+        t = T * np.exp(0.5 * np.log(end / T) * (1.0 + x))
+        weights = 0.5 * np.log(end / T) * w * t
+        between = 2.0 * (weights * t) @ problem.law.energy(shape.height(t) - displacement)
+        change = tail_energy(problem, T, displacement) - tail_energy(problem, end, displacement)
+        assert change == pytest.approx(between, rel=1e-12)
 
 
 def test_parts_of_a_sum() -> None:

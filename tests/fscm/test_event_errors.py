@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fscm import Analysis, Problem, _bounds, solve
+from fscm import Analysis, Problem, RoundedCone, _bounds, solve
 from fscm._arc_length import rates_of
 from fscm._bounds import EventErrors, bounds, energy_of_jump, root_shift
 from fscm._defect import Errors
@@ -111,11 +111,55 @@ def test_the_energy_of_a_jump_has_the_errors_of_both_ends(monkeypatch):
             return ERRORS
 
     monkeypatch.setattr(_bounds, "EventErrors", OfLanding)
-    landing = SimpleNamespace(load=-0.7)
-    found = energy_of_jump(ERRORS, displacement, landing)
+    fold, landing = _on_panels(2, [0.0, 1.0, 3.0], 0.5), _on_panels(2, [0.0, 2.0, 4.0], 0.5)
+    found = energy_of_jump(ERRORS, displacement, fold, landing)
     assert called == [(landing, "energy", "displacement")]
     # e + 0.7 (10 e) at the fold, and e at the landing: 9 times the size of `ERRORS`.
     assert list(found.values()) == _exactly(bounds(ERRORS, 9.0))
+
+
+def _on_panels(order, ends, pressure):
+    mesh = SimpleNamespace(order=order, breaks=np.array(ends))
+    return SimpleNamespace(
+        load=-0.7, scale=1.0, disc=SimpleNamespace(mesh=mesh), pressure=np.full((len(ends) - 1) * order, pressure)
+    )
+
+
+def test_the_error_of_a_common_panel_cancels_as_far_as_the_pressures_are_the_same(monkeypatch):
+    of_fold, of_landing = np.array([3e-9, 5e-9, 7e-9]), np.array([-2e-9, 6.9e-9])
+    none = np.zeros(6)
+
+    class OfLanding:
+        def __init__(self, state):
+            pass
+
+        def controlled(self, functional, control):
+            return Errors(of_landing, none, none, 0.0)
+
+    monkeypatch.setattr(_bounds, "EventErrors", OfLanding)
+    ends = [0.0, 1.0, 2.0, 8.0], [0.0, 2.0, 8.0]
+    for change, left in ((0.0, 0.0), (0.01, 0.5 * 0.1 * 13.9e-9), (3.0, 0.5 * 13.9e-9)):
+        fold, landing = _on_panels(2, ends[0], 1.0), _on_panels(2, ends[1], 1.0 + change)
+        parts = energy_of_jump(Errors(of_fold, none, none, 0.0), Errors(0.0 * of_fold, none, none, 0.0), fold, landing)
+        # Two panels of the fold and one of the landing are their own; the last one is common.
+        assert parts.mesh == pytest.approx(2.0 * (3e-9 + 5e-9 + 2e-9 + 0.1e-9 + left), rel=1e-12)
+
+
+ROUNDED = [(0.3, 0.8, 1.5), (0.3, 0.83, 1.5), (0.3, 1.5, 1.5), (0.0, 2.0, 5.0)]
+
+
+@pytest.mark.parametrize(("k", "mu", "slope"), ROUNDED)
+def test_the_hysteresis_of_a_rounded_cone_is_bounded_by_its_own_error(k, mu, slope):
+    """The energy of a cone diverges with the end of the mesh, which differs between the ends of a jump."""
+    problem = Problem(1, k, mu, RoundedCone(1.0, slope))
+    solution, fine, nearer = (
+        Analysis(problem, meshes).solution("hysteresis_energy")
+        for meshes in (Meshes.of("default"), Meshes.of("fine"), Meshes(end_height=1e4))
+    )
+    for other in (fine, nearer):
+        assert abs(solution.value - other.value) <= solution.u_num + other.u_num
+    assert solution.u_num < 1e-7 * solution.value
+    assert fine.u_num < 1e-8 * solution.value
 
 
 def test_an_extreme_of_large_curvature_is_not_missed():
@@ -129,6 +173,33 @@ def test_an_extreme_of_large_curvature_is_not_missed():
     assert 0.5 * rate**2 / curvature < 1e-14 * (1.0 + abs(state.load))
     assert MISSED_EXTREME < 1e-14
     assert errors.at_extreme("load", "load").rounding >= MISSED_EXTREME * (1.0 + abs(state.load))
+
+
+NEAR_CRITICAL = [
+    (1.0, 0.22, 2.3e-3),
+    (1.0, 0.206, 4.8e-2),
+    (1.0, 0.644, 1.2e-3),
+    (1.3, 0.66, 1.6e-2),
+    (1.3, 0.316, 8.7e-2),
+    (2.0, 0.599, 4.7e-3),
+    (2.0, 0.275, 0.11),
+    (2.5, 0.553, 1.1e-3),
+    (4.0, 0.124, 2.6e-3),
+    (4.0, 0.389, 6.6e-2),
+    (7.0, 0.318, 1.4e-3),
+    (7.0, 0.588, 0.71),
+]
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize(("n", "k", "above"), NEAR_CRITICAL)
+def test_what_cancels_in_a_hysteresis_is_left_out_of_its_bound_rightly(n, k, above):
+    """Near the critical Tabor number the energy is a small difference: measured at most 0.2 of the bound."""
+    mu = solve(Problem(n, k, 1.0), "critical_tabor_number").value * (1.0 + above)
+    finer = Meshes(path=Mesh(10, 2e-5), value=Mesh(18, 1e-9), end_height=1e8 if n < 1.5 else 1e7)
+    found, fine = (Analysis(Problem(n, k, mu), m).solution("hysteresis_energy") for m in (Meshes(), finer))
+    assert abs(found.value - fine.value) <= found.u_num + fine.u_num
+    assert found.u_num < 1e-10
 
 
 @pytest.mark.heavy

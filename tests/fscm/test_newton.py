@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fscm import Problem
+from fscm import Problem, solve
 from fscm._arc_length import parameter_control, parameter_of
 from fscm._continuation import equilibrium_path
 from fscm._equilibrium import Control, Linearisation, State
@@ -48,3 +48,10 @@ def test_factors_of_one_control_serve_another(control: str) -> None:
     rounding = 1e-13 * (np.abs(system.bordered()[:-1]) @ np.abs(found))
     assert np.all(np.abs(system.times(found) - right[:-1]) <= rounding)
     assert row @ found == pytest.approx(right[-1], rel=1e-9)
+
+
+def test_at_a_large_tabor_number_newton_ends_at_rounding() -> None:
+    """Heights are 5e5 times the range of the forces, so that the last step is above the tolerance: the JKR limit."""
+    solution = solve(Problem(2, 0, 5e5), "pull_off_force")
+    assert solution.parts["rounding"] < solution.u_num < 1e-7
+    assert abs(solution.value - 1.5) <= solution.u_num

@@ -12,6 +12,7 @@ from scipy.optimize import minimize_scalar
 
 from fscm import Analysis, CustomPunch, NoSuchEvent, Problem, displacement_cycle, trace
 from fscm._bounds import EventErrors, energy_of_jump
+from fscm._meshes import Mesh, Meshes
 from fscm.path import EquilibriumPath, _with_events
 from tests.fscm.brute_force import BruteForce, stable_states
 from tests.fscm.random_punches import COUNT, SEED, TABLE, outcome, random_punch
@@ -110,7 +111,7 @@ def test_hysteresis_counts_every_jump_of_a_cycle() -> None:
     with pytest.raises(ValueError, match="unknown jump"):
         analysis.landing("nonsense")
     jumps = [jump for name in ("jump_in", "jump_out") for jump in analysis.jumps(name)]
-    parts = [energy_of_jump(*EventErrors(fold.value).at_fold(), landing.value) for fold, landing in jumps]
+    parts = [energy_of_jump(*EventErrors(fold.value).at_fold(), fold.value, landing.value) for fold, landing in jumps]
     assert analysis.solution("hysteresis_energy").u_num == pytest.approx(sum(part.total for part in parts))
     states, _ = _with_events(analysis.points)
     arrays = [np.array([getattr(state, name) for state in states]) for name in ("central_gap", "displacement", "load")]
@@ -119,6 +120,24 @@ def test_hysteresis_counts_every_jump_of_a_cycle() -> None:
     area = sum(np.trapezoid(part[1], part[0]) for part in (cycle.loading, cycle.unloading))
     # The trapezoidal rule on the coarse path with its folds; the first jumps alone have less than half of it.
     assert analysis.solution("hysteresis_energy").value == pytest.approx(area, rel=0.1)
+
+
+def test_a_small_force_of_a_tall_asperity_in_a_ring_is_bracketed_on_a_finer_path() -> None:
+    """An asperity of a curvature near 900: its force is as small as the resolution of the usual path."""
+    bumps = ((100.0, 8.0, 1.0), (110.0, 0.0, 0.5))
+
+    def height(r: np.ndarray) -> np.ndarray:
+        shapes = (h * (np.exp(-((r - at) ** 2) / w**2) - np.exp(-(at**2) / w**2)) for h, at, w in bumps)
+        return 0.5 * r**2 - sum(shapes)
+
+    def slope(r: np.ndarray) -> np.ndarray:
+        return r + sum(2.0 * h * (r - at) / w**2 * np.exp(-((r - at) ** 2) / w**2) for h, at, w in bumps)
+
+    problem = Problem(2, 0, 1.0, CustomPunch(height, growth=2, derivative=slope))
+    found = Analysis(problem).solution("pull_off_force")
+    finer = Analysis(problem, Meshes(path=Mesh(8, 3e-6))).solution("pull_off_force")
+    assert 0.0 < found.u_num < 1e-9 * found.value
+    assert abs(found.value - finer.value) <= found.u_num + finer.u_num + 1e-12 * found.value
 
 
 @pytest.mark.heavy
