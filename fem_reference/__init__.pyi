@@ -7,7 +7,11 @@ from .depth_profiles import (
     TableModulus as TableModulus,
     TablePoisson as TablePoisson,
 )
-from .errors import NoSuchEvent as NoSuchEvent, NotConverged as NotConverged
+from .errors import (
+    AccuracyWarning as AccuracyWarning,
+    NoSuchEvent as NoSuchEvent,
+    NotConverged as NotConverged,
+)
 from .laws import LennardJones as LennardJones, Mie as Mie, SurfaceLaw as SurfaceLaw
 from .modulus import (
     CustomModulus as CustomModulus,

@@ -1,8 +1,8 @@
-"""Exceptions raised by the solver."""
+"""Exceptions and warnings of the solver."""
 
 from __future__ import annotations
 
-__all__ = ["NoSuchEvent", "NotConverged"]
+__all__ = ["AccuracyWarning", "NoSuchEvent", "NotConverged"]
 
 
 class NotConverged(RuntimeError):
@@ -28,4 +28,18 @@ class NoSuchEvent(LookupError):
     ... except LookupError as error:
     ...     print(error)
     the displacement rises all along the path: this solid is too stiff for jumps
+    """
+
+
+class AccuracyWarning(UserWarning):
+    """The bound of a value is larger than the accuracy that was asked for; the message says which one was reached.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> with warnings.catch_warnings(record=True) as caught:
+    ...     warnings.simplefilter("always")
+    ...     warnings.warn("accuracy = 1e-08 is not reached", AccuracyWarning)
+    >>> [str(warning.message) for warning in caught]
+    ['accuracy = 1e-08 is not reached']
     """

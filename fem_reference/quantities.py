@@ -70,13 +70,20 @@ class Quantity:
         A length near zero is measured by the length of the surface law.
     order : float, optional
         Declared order of convergence; that of the element by default.
+    parts : tuple of str
+        Quantities whose sum it is, each with the contact edge at one radius.
     """
 
     events: tuple[str, ...]
     functional: Callable[[Events], float]
     kind: Literal["force", "length", "energy", "modulus"]
     order: float | None = None
+    parts: tuple[str, ...] = ()
 
+
+LOSSES = ("jump_in_energy", "jump_out_energy")
+"""Energies lost by the two jumps; their sum is the hysteresis energy.  Each needs the contact edge at one radius only,
+so that the mesh of a solid that is no power law can be fine there."""
 
 TABLE = {
     "pull_off_force": Quantity(("pull_off",), lambda e: -e.pull_off.state.load, "force"),
@@ -86,15 +93,13 @@ TABLE = {
     "jump_out_displacement": Quantity(("jump_out",), lambda e: e.jump_out.state.displacement, "length"),
     "jump_out_gap": Quantity(("jump_out",), lambda e: e.jump_out.state.central_gap, "length", GAP_ORDER),
     "zero_load_displacement": Quantity(("zero_load",), lambda e: e.zero_load.state.displacement, "length"),
-    "hysteresis_energy": Quantity(("jump_out", LANDING), lambda e: e.jump_in_loss + e.jump_out_loss, "energy"),
+    "hysteresis_energy": Quantity(
+        ("jump_out", LANDING), lambda e: e.jump_in_loss + e.jump_out_loss, "energy", parts=LOSSES
+    ),
     "jump_in_energy": Quantity((LANDING,), lambda e: e.jump_in_loss, "energy"),
     "jump_out_energy": Quantity(("jump_out",), lambda e: e.jump_out_loss, "energy"),
 }
 """Quantities by name; pull_off_force is the positive number -min P."""
-
-LOSSES = ("jump_in_energy", "jump_out_energy")
-"""Energies lost by the two jumps; their sum is the hysteresis energy.  Each needs the contact edge at one radius only,
-so that the mesh of a solid that is no power law can be fine there."""
 
 QUANTITIES = tuple(name for name in TABLE if name not in LOSSES)
 """Names of the quantities of a problem; `solve` takes those of `LOSSES` too."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+import warnings
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import replace
@@ -11,23 +12,22 @@ from functools import partial
 
 from fem_reference._contact.critical import stiffer_than_critical
 from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
+from fem_reference._contact.events import PathEvents
 from fem_reference._contact.mesh_choice import MeshChoice, chosen
 from fem_reference._contact.mesh_lengths import kinks_within
+from fem_reference._contact.path import edge_is_resolved
+from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.uncondensed import uncondensed_events
 from fem_reference._elastic.compliance import is_scaling
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._threads import one_thread
-from fem_reference.accuracy import Level, coarser_accuracy, relative_error
-from fem_reference.errors import NoSuchEvent, NotConverged
+from fem_reference.accuracy import Level, coarser_accuracy
+from fem_reference.errors import AccuracyWarning, NoSuchEvent, NotConverged
 from fem_reference.problem import Problem
 from fem_reference.quantities import CRITICAL_MODULUS, QUANTITIES, TABLE, Quantity, critical_quantity, quantity_named
 from fem_reference.result import Solution
 
 __all__ = ["solve", "solve_together"]
-
-OWN_MESH = 100.0
-"""Bound, relative to the value and in units of the accuracy, from which on a quantity of several gets a mesh of its
-own: it costs as much as the first."""
 
 
 def solve(problem: Problem, quantity: str, accuracy: float | str = "default") -> Solution:
@@ -42,7 +42,8 @@ def solve(problem: Problem, quantity: str, accuracy: float | str = "default") ->
     accuracy : float or str
         Relative error asked for, in [1e-8, 1), or one of `ACCURACIES`.  It selects the meshes; `u_num` is what they
         give.  Finer ones are taken where a path cannot be traced on these.  A value at an accuracy finer than "default"
-        that misses it is computed at "default" as well, and the one with the smaller `u_num` is returned.
+        that misses it is computed at "default" as well, and the one with the smaller `u_num` is returned.  Where the
+        bound of a value is above a number that was asked for, an `AccuracyWarning` says so.
 
     Returns
     -------
@@ -83,8 +84,8 @@ def solve_together(
         As for `solve`.
     quantities : iterable of str
         Of `QUANTITIES`, `LOSSES` and `CRITICAL_MODULUS`; all of `QUANTITIES` by default.  The mesh suits the first of
-        them that exists: in a solid that is no power law, others whose contact edge is elsewhere have a larger `u_num`,
-        up to `OWN_MESH` times the accuracy; beyond, they get a mesh of their own, as the critical modulus does.
+        them that exists: in a solid that is no power law, others whose contact edge that mesh does not resolve get a
+        mesh of their own, as the critical modulus does.
 
     Returns
     -------
@@ -117,7 +118,21 @@ def solve_together(
             found |= _no_less_certain(problem, given, accuracy)
         if CRITICAL_MODULUS in rows:
             found[CRITICAL_MODULUS] = _critical_modulus(problem, accuracy)
+    if not isinstance(accuracy, str):
+        _say_what_is_missed(found, float(accuracy))
     return {name: found[name] for name in rows}
+
+
+def _say_what_is_missed(solutions: dict[str, Solution | NoSuchEvent], accuracy: float) -> None:
+    """Warn of bounds above a relative error that was asked for; the names of accuracies select meshes only."""
+    for name, solution in solutions.items():
+        if isinstance(solution, Solution) and solution.u_num > accuracy * abs(solution.value):
+            warnings.warn(
+                f"accuracy = {accuracy:g} is not reached for the {name}: its bound is "
+                f"{solution.u_num / abs(solution.value):.1e} of it",
+                AccuracyWarning,
+                stacklevel=3,
+            )
 
 
 def _no_less_certain(
@@ -127,7 +142,7 @@ def _no_less_certain(
 
     On the finer meshes the bound may be larger: it is what three meshes happen to show.
     """
-    found = _solved_together(problem, rows, accuracy)
+    found = _summed(problem, rows, accuracy)
     coarser = coarser_accuracy(accuracy)
     if coarser is None:
         return found
@@ -136,13 +151,39 @@ def _no_less_certain(
     others: dict[str, Solution | NoSuchEvent] = {}
     if uncertain:
         with suppress(NotConverged):
-            others = _solved_together(problem, {name: rows[name] for name in uncertain}, coarser[1])
+            others = _summed(problem, {name: rows[name] for name in uncertain}, coarser[1])
     for name, other in others.items():
         if isinstance(other, Solution):
             seconds = solved[name].seconds + other.seconds
             best = min(solved[name], other, key=lambda solution: solution.u_num)
             found[name] = replace(best, seconds=seconds)
     return found
+
+
+def _summed(problem: Problem, rows: Mapping[str, Quantity], accuracy: float | str) -> dict[str, Solution | NoSuchEvent]:
+    """Compute quantities; where no mesh is fine at every contact edge, those of several edges by their parts."""
+    if _scales(problem):
+        return _solved_together(problem, rows, accuracy)
+    single: dict[str, Quantity] = {}
+    for name, row in rows.items():
+        single |= {part: quantity_named(part) for part in row.parts} or {name: row}
+    solved = _solved_together(problem, single, accuracy)
+    return {name: _sum(solved[part] for part in row.parts or (name,)) for name, row in rows.items()}
+
+
+def _sum(terms: Iterable[Solution | NoSuchEvent]) -> Solution | NoSuchEvent:
+    """Add quantities, or return why one of them does not exist."""
+    first, *others = terms
+    for other in others:
+        if isinstance(first, NoSuchEvent) or isinstance(other, NoSuchEvent):
+            return first if isinstance(first, NoSuchEvent) else other
+        first = first.plus(other)
+    return first
+
+
+def _scales(problem: Problem) -> bool:
+    """Whether one mesh serves every size of the contact."""
+    return is_scaling(problem.solid.modulus, problem.solid.nu, kinks_within(problem))
 
 
 def _critical_modulus(problem: Problem, accuracy: float | str) -> Solution | NoSuchEvent:
@@ -183,59 +224,53 @@ def _solved_together(
             except NotConverged as reason:
                 missed[name] = reason
     solved = {name: solution for name, solution in found.items() if isinstance(solution, Solution)}
-    again = _uncertain(problem, rows, accuracy, solved, missed)
+    own = _unresolved(problem, rows, solved, missed, meshes.path)
     # All events of the whole system are columns of one linear system.
     events = uncondensed_events(choice, replace(spec, density=choice.level.densities[-1]), size)
-
-    def whole(names: Iterable[str]) -> None:
-        named = list(names)
-        events.prepare(rows[name].functional for name in named)
-        seconds = time.perf_counter() - begin
-        for name in named:
-            value = events.value(rows[name].functional)
-            found[name] = replace(solved[name].with_whole_system(value), seconds=seconds)
-
-    whole(name for name in solved if name not in again)
-    others: dict[str, Solution | NoSuchEvent] = {}
-    if again:
-        with suppress(NotConverged):
-            others = _solved_together(problem, again, accuracy)
-    for name, other in others.items():
-        if name in missed or (isinstance(other, Solution) and other.u_num <= solved[name].u_num):
-            found[name] = other
+    here = [name for name in solved if name not in own]
+    events.prepare(rows[name].functional for name in here)
+    seconds = time.perf_counter() - begin
+    for name in here:
+        found[name] = replace(solved[name].with_whole_system(events.value(rows[name].functional)), seconds=seconds)
+    if own:
+        found |= _solved_together(problem, own, accuracy)
     for name, failure in missed.items():
         if name not in found:
             raise failure
-    whole(name for name in solved if found[name] is solved[name])
     return found
 
 
 def _estimated(row: Quantity, choice: MeshChoice, spec: MeshSpec, size: float) -> None:
-    """Solve a quantity on the condensed system of all meshes, which keep the states."""
+    """Solve a quantity on the condensed system of all meshes, which keep the states.
+
+    If the solid does not scale, also on the whole system, which may not resolve the rates at a narrow edge.
+    """
     with suppress(NoSuchEvent):
         _solution(row, events_on_meshes(choice, spec, size), choice.level)
+        if not choice.scaling:
+            finest = replace(spec, density=choice.level.densities[-1])
+            uncondensed_events(choice, finest, size).prepare((row.functional,))
 
 
-def _uncertain(
+def _unresolved(
     problem: Problem,
     rows: Mapping[str, Quantity],
-    accuracy: float | str,
     solved: Mapping[str, Solution],
     missed: Iterable[str],
+    path: PathEvents | ResolvedEvents,
 ) -> dict[str, Quantity]:
-    """Quantities that the mesh of another event leaves uncertain, or has missed.
+    """Quantities whose contact edge is not resolved on the mesh of another event, or which that mesh has missed.
 
-    The mesh of a solid that does not scale is fine at the contact edge of one event only.  The quantities of the jump
-    out of contact come first: before the jump into contact there is no edge, and the mesh of the other jump is fine
-    enough for it.
+    An edge on elements that are longer than it is wide has an error that does not fall from one of three meshes to the
+    next: they do not bound it.  The quantities of the jump out of contact come first: before the jump into contact
+    there is no edge, and the mesh of the other jump is fine enough for it.
     """
-    if is_scaling(problem.solid.modulus, problem.solid.nu, kinks_within(problem)):
+    if _scales(problem):
         return {}
-    limit = OWN_MESH * relative_error(accuracy)
     known = [name for name in rows if name in solved or name in missed]
-    poor = [name for name in known if name in missed or solved[name].u_num > limit * abs(solved[name].value)]
-    others = [name for name in poor if rows[name].events[0] != rows[known[0]].events[0]]
-    return {name: rows[name] for name in sorted(others, key=lambda name: rows[name].events[0] != "jump_out")}
+    others = [name for name in known if rows[name].events[0] != rows[known[0]].events[0]]
+    poor = [name for name in others if name in missed or not edge_is_resolved(path.at(rows[name].events[0]))]
+    return {name: rows[name] for name in sorted(poor, key=lambda name: rows[name].events[0] != "jump_out")}
 
 
 def _solution(row: Quantity, meshes: EventsOnMeshes, level: Level) -> Solution:

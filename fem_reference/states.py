@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fem_reference._contact.events import EVENTS
-from fem_reference._contact.mesh_choice import MeshChoice, chosen
+from fem_reference._contact.mesh_choice import MeshChoice, chosen, whole_path
 from fem_reference._contact.path import Point
 from fem_reference._contact.turning import turning_slowly
 from fem_reference._contact.uncondensed import uncondensed_events
@@ -69,6 +69,8 @@ class RadialField:
 def trace(problem: Problem, accuracy: float | str = "default", largest_turn: float | None = None) -> EquilibriumPath:
     """Trace the equilibrium path from far away until the load is compressive, on the finest mesh.
 
+    The states in contact with a solid that does not scale lie on a mesh for each radius of the contact edge.
+
     Parameters
     ----------
     problem, accuracy
@@ -100,10 +102,8 @@ def trace(problem: Problem, accuracy: float | str = "default", largest_turn: flo
     if largest_turn is not None and not 0.0 < largest_turn <= 180.0:
         raise ValueError(f"largest_turn = {largest_turn} is outside (0, 180]: it is an angle in degrees")
     with one_thread:
-        choice, spec, size = _finest(problem, "zero_load", accuracy)
-        points = choice.traced(spec, size).points
-        if largest_turn is not None:
-            points = turning_slowly(points, largest_turn)
+        path = whole_path(problem, accuracy)
+        points = path.points if largest_turn is None else turning_slowly(path, largest_turn)
         return EquilibriumPath(
             np.array([p.state.displacement for p in points]),
             np.array([p.state.load for p in points]),

@@ -9,10 +9,10 @@ What is assumed: the fourth derivative inside an interval is at most twice the o
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from itertools import groupby, pairwise
+from itertools import pairwise
 
 from fem_reference._contact.hermite import Interval, Sample
-from fem_reference._contact.path import Point, point_at
+from fem_reference._contact.path import Point, branches_of, point_at
 from fem_reference.errors import NotConverged
 
 __all__ = ["complete_branch", "complete_path", "displacement_range", "displacement_sample", "load_sample"]
@@ -27,12 +27,12 @@ ROUNDS = 14
 
 def displacement_sample(point: Point) -> Sample:
     """Displacement and its rate along the path at a point."""
-    return Sample(point.parameter, point.state.displacement, point.state.displacement_rate)
+    return Sample(point.parameter, point.state.displacement, point.sense * point.displacement_rate)
 
 
 def load_sample(point: Point) -> Sample:
     """Load and its rate along the path at a point."""
-    return Sample(point.parameter, point.state.load, point.state.load_rate)
+    return Sample(point.parameter, point.state.load, point.sense * point.load_rate)
 
 
 def _intervals(points: Sequence[Point], sample: Callable[[Point], Sample]) -> list[Interval]:
@@ -52,8 +52,7 @@ def displacement_range(points: Sequence[Point]) -> tuple[float, float]:
     points : sequence of Point
         Neighbours, at least one.
     """
-    branches = [list(group) for _, group in groupby(points, key=lambda point: id(point.branch))]
-    found = [interval.range() for branch in branches for interval in _intervals(branch, displacement_sample)]
+    found = [interval.range() for branch in branches_of(points) for interval in _intervals(branch, displacement_sample)]
     end = points[-1].state.displacement
     return min([end, *(low for low, _ in found)]), max([end, *(high for _, high in found)])
 
@@ -91,14 +90,13 @@ def complete_path(points: Sequence[Point]) -> list[Point]:
     length = points[0].branch.contact.law.length
     scale = max(abs(min(point.state.load for point in points)), 1e-300)
     tests = ((displacement_sample, SMALLEST_CHANGE * length), (load_sample, SMALLEST_CHANGE * scale))
-    branches = [list(group) for _, group in groupby(points, key=lambda point: id(point.branch))]
+    branches = branches_of(points)
     for before, after in pairwise(branches):
         a, b = before[-1], after[0]
         turn = a.load_rate * b.load_rate / scale**2 + a.displacement_rate * b.displacement_rate / length**2
         if turn < 0.0:
             raise NotConverged(
-                f"the path turns back at delta = {a.state.displacement:.6g}, where the contact edge is formed; refine "
-                "the mesh at the edge"
+                f"the path turns back at delta = {a.state.displacement:.6g}, where the contact edge is formed"
             )
     return [point for branch in branches for point in complete_branch(branch, tests)]
 
@@ -107,6 +105,7 @@ def complete_branch(
     points: list[Point],
     tests: Sequence[tuple[Callable[[Point], Sample], float]],
     inserted: Callable[[Point, float], Point] = point_at,
+    renewed: Callable[[list[Point]], list[Point]] = list,
 ) -> list[Point]:
     """Insert samples in one branch.
 
@@ -118,6 +117,8 @@ def complete_branch(
         What must have no pair of turning points between two samples, and the change that is none.
     inserted : callable
         Returns the point at a parameter from the nearest sample.
+    renewed : callable
+        Returns the points with the rates that follow from them.
 
     Raises
     ------
@@ -139,9 +140,9 @@ def complete_branch(
             if i in places:
                 nearest = min(points[i : i + 2], key=lambda end: abs(end.parameter - places[i]))
                 refined.append(inserted(nearest, places[i]))
-        points = refined
+        points = renewed(refined)
     at = points[min(places)].state.displacement
     raise NotConverged(
         f"near delta = {at:.6g} it cannot be decided whether the path has a pair of turning points, although "
-        f"{len(points)} samples were taken; refine the mesh at the edge"
+        f"{len(points)} samples were taken"
     )

@@ -84,7 +84,7 @@ class EventsOnMeshes:
 
     Attributes
     ----------
-    path : PathEvents
+    path : PathEvents or ResolvedEvents
         On the finest mesh.
     coarse, medium, lower_degree : ResolvedEvents
         At the other densities, and at the medium one with a lower degree.
@@ -107,7 +107,7 @@ class EventsOnMeshes:
         Whether one mesh serves every size of the contact.
     """
 
-    path: PathEvents
+    path: PathEvents | ResolvedEvents
     coarse: ResolvedEvents
     medium: ResolvedEvents
     lower_degree: ResolvedEvents
@@ -197,7 +197,7 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
     features = {feature: choice.contact(variant(plain, feature), size) for feature in FEATURES if feature != EXTENT}
     # The finest mesh is the last: it is used next.
     path = choice.traced(fine, size)
-    contact = path.samples[0].branch.contact
+    contact = path.contact
 
     @lru_cache(maxsize=len(FEATURES))
     def full_degree(feature: str) -> ResolvedEvents:

@@ -13,8 +13,9 @@ from itertools import pairwise
 from scipy.optimize import brentq
 
 from fem_reference._contact.completeness import complete_path
+from fem_reference._contact.contact import Contact
 from fem_reference._contact.cusp import cusp_from, slowest
-from fem_reference._contact.path import Point, point_at
+from fem_reference._contact.path import Point, joined, point_at
 from fem_reference.errors import NoSuchEvent, NotConverged
 
 __all__ = [
@@ -23,7 +24,9 @@ __all__ = [
     "JUMP_IN",
     "LANDING",
     "SEPARATED",
+    "Pair",
     "PathEvents",
+    "anchor_of",
     "beyond_pull_off",
     "event_energy",
     "excess_of",
@@ -45,14 +48,13 @@ SEPARATED = "separated"
 JUMP_IN = "jump_in"
 """The first fold on approach."""
 
+STIFF = "the displacement rises all along the path: this solid is too stiff for jumps"
+
 CUSP = "cusp"
 """The point where the two folds merge, at the modulus at which they do; its compliance has that modulus."""
 
 SLOPE_STEP = 1e-4
 """Relative change of the parameter for the slope of a rate: an error of this size slows the secant method only."""
-
-EDGE_STEPS = 12
-"""Lengths of the shortest element within which an event is searched at the edge of a mesh; it was put within two."""
 
 Pair = tuple[Point, Point]
 
@@ -69,16 +71,16 @@ class PathEvents:
     ----------
     samples : sequence of Point
         As `fem_reference._contact.tracing.traced` returns them.
-    event : str, optional
-        The event whose contact edge is at the edge of the mesh.  It is searched there and nowhere else: away from there
-        the path may have events that are due to the mesh (see `fem_reference._contact.edge_search`).
-    whole : bool
-        Whether the samples are those of the whole path; otherwise they serve that event alone.
     """
 
-    def __init__(self, samples: Sequence[Point], event: str = "", whole: bool = True) -> None:
-        self.samples, self._event, self._whole = samples, event, whole
+    def __init__(self, samples: Sequence[Point]) -> None:
+        self.samples = samples
         self._anchors: dict[str, tuple[Point, float]] = {}
+
+    @property
+    def contact(self) -> Contact:
+        """The problem on the mesh of the first sample."""
+        return self.samples[0].branch.contact
 
     @cached_property
     def points(self) -> Sequence[Point]:
@@ -87,14 +89,13 @@ class PathEvents:
         Raises
         ------
         NotConverged
-            If such a pair cannot be excluded, or the samples are a part of the path.
+            If such a pair cannot be excluded.
         """
-        if not self._whole:
-            raise NotConverged(
-                "the path is not known as a whole on this mesh: the contact grows to many times the radius where it is "
-                "fine; ask for the pull-off force, a jump or the zero load"
-            )
         return tuple(complete_path(self.samples))
+
+    def between(self, a: Point, b: Point, parameter: float) -> Point:
+        """Return the state at a parameter from the nearer one of two neighbours."""
+        return point_at(min(a, b, key=lambda point: abs(point.parameter - parameter)), parameter)
 
     def at(self, event: str) -> Point:
         """Return the state at an event.
@@ -119,61 +120,42 @@ class PathEvents:
     def anchor(self, event: str) -> tuple[Point, float]:
         """Return the state at an event, and the slope there of the function that vanishes (see `excess_of`)."""
         if event not in self._anchors:
-            point = self.at(event)
-            if event in (LANDING, SEPARATED):
-                slope = point.state.displacement_rate
-            elif event == "zero_load":
-                slope = point.state.load_rate
-            else:
-                unit = point.parameter if point.branch.touching else point.branch.contact.law.length
-                near = point_at(point, point.parameter + SLOPE_STEP * unit)
-                excess = excess_of(event)
-                slope = (excess(near) - excess(point)) / (near.parameter - point.parameter)
-            self._anchors[event] = point, slope
+            self._anchors[event] = anchor_of(event, self.at(event))
         return self._anchors[event]
+
+    def minima(self, event: str) -> list[Point]:
+        """Return every minimum of the load ("pull_off") or of the displacement ("jump_out") along the path."""
+        excess = excess_of(event)
+        return [self.root(pair, excess) for pair in _sign_changes(self.points, excess, rising=True)]
 
     @cached_property
     def pull_off(self) -> Point:
         """The deepest minimum of the load along the path."""
-        if self._event == "pull_off":
-            return self._at_edge("pull_off")
-        minima = [_root(pair, _load_rate) for pair in _sign_changes(self.points, _load_rate, rising=True)]
+        minima = self.minima("pull_off")
         if not minima:
             raise NoSuchEvent("the load has no minimum along the path")
         return min(minima, key=lambda p: p.state.load)
 
     @cached_property
-    def _folds(self) -> tuple[list[Pair], list[Pair]]:
-        """Brackets of every maximum and every minimum of the displacement, in the order of the path."""
-        maxima = _sign_changes(self.points, _displacement_rate, rising=False)
-        minima = _sign_changes(self.points, _displacement_rate, rising=True)
-        if not maxima or not minima:
-            raise NoSuchEvent("the displacement rises all along the path: this solid is too stiff for jumps")
-        return maxima, minima
-
-    @cached_property
     def jump_in(self) -> Point:
         """The first fold on approach, where displacement control jumps into contact."""
-        if self._event == JUMP_IN:
-            return _root(
-                _sign_changes(complete_path(self.samples), _displacement_rate, rising=False)[0], _displacement_rate
-            )
-        return _root(self._folds[0][0], _displacement_rate)
+        maxima = _sign_changes(self.points, _displacement_rate, rising=False)
+        if not maxima:
+            raise NoSuchEvent(STIFF)
+        return self.root(maxima[0], _displacement_rate)
 
     @cached_property
     def jump_out(self) -> Point:
         """The lowest fold, the last on retreat, where displacement control jumps out of contact."""
-        if self._event == "jump_out":
-            return self._at_edge("jump_out")
-        minima = [_root(pair, _displacement_rate) for pair in self._folds[1]]
+        minima = self.minima("jump_out")
+        if not minima:
+            raise NoSuchEvent(STIFF)
         return min(minima, key=lambda p: p.state.displacement)
 
     @cached_property
     def zero_load(self) -> Point:
         """The point in contact where the load changes from tension to compression."""
-        if self._event == "zero_load":
-            return self._at_edge("zero_load")
-        found = _rise_through(self.points, _load, _load_rate, 0.0, last=True)
+        found = self._rise_through(_load, _load_rate, 0.0, last=True)
         if found is None:
             raise NoSuchEvent("the load does not become compressive on the path")
         return found
@@ -181,8 +163,7 @@ class PathEvents:
     @cached_property
     def landing(self) -> Point:
         """The point in contact where the jump into contact ends."""
-        level = self.jump_in.state.displacement
-        return self._at_edge(LANDING, level) if self._event == LANDING else self._at_displacement(level, last=True)
+        return self._at_displacement(self.jump_in.state.displacement, last=True)
 
     @cached_property
     def separated(self) -> Point:
@@ -215,30 +196,67 @@ class PathEvents:
         """Energy lost by the jump out of contact."""
         return event_energy(self.jump_out) - event_energy(self.separated)
 
-    def _at_edge(self, event: str, level: float = 0.0) -> Point:
-        """Find an event whose contact edge is on the shortest elements of the mesh."""
-        excess = excess_of(event, level)
-        touching = [point for point in self.samples if point.branch.touching]
-        trace, size = touching[0].branch.contact.compliance.trace, touching[0].state.size
-        step = size * float(trace.nodes[trace.edge + 1] - 1.0)
-        point = point_at(min(touching, key=lambda sample: abs(sample.parameter - size)), size)
-        side = 1.0 if excess(point) < 0.0 else -1.0
-        for _ in range(EDGE_STEPS):
-            following = point_at(point, point.parameter + side * step)
-            if side * excess(following) >= 0.0:
-                return _root((point, following) if side > 0.0 else (following, point), excess)
-            point = following
-        raise NotConverged(
-            f"the event {event} is not within {EDGE_STEPS} elements of the edge of the mesh at {size:.6g}; "
-            "take a finer accuracy"
-        )
-
     def _at_displacement(self, delta: float, last: bool) -> Point:
         """Return the first or the last point where the displacement rises through a value."""
-        found = _rise_through(self.points, _displacement, _displacement_rate, delta, last)
+        found = self._rise_through(_displacement, _displacement_rate, delta, last)
         if found is None:
             raise NoSuchEvent(f"the path does not reach the displacement {delta:.6g} on both branches")
         return found
+
+    def _rise_through(
+        self, value: Callable[[Point], float], rate: Callable[[Point], float], level: float, last: bool
+    ) -> Point | None:
+        """Find the first or the last point of a complete path where a value rises through a level.
+
+        Between two neighbours is one turning point at most; where it may reach the level, it is located too.
+        """
+
+        def excess(point: Point) -> float:
+            return value(point) - level
+
+        pairs = _neighbours(self.points)
+        for a, b in reversed(pairs) if last else pairs:
+            before, after = excess(a), excess(b)
+            if before < 0 <= after:
+                return self.root((a, b), excess)
+            if last and before >= 0 and after >= 0 and rate(a) < 0 <= rate(b):
+                lowest = self.root((a, b), rate)
+                if excess(lowest) < 0:
+                    return self.root((lowest, b), excess)
+            if not last and before < 0 and after < 0 and rate(a) > 0 >= rate(b):
+                highest = self.root((a, b), rate)
+                if excess(highest) >= 0:
+                    return self.root((a, highest), excess)
+        return None
+
+    def root(self, pair: Pair, function: Callable[[Point], float]) -> Point:
+        """Find the point between two neighbours where the function vanishes."""
+        known = {pair[0].parameter: pair[0], pair[1].parameter: pair[1]}
+
+        def value(parameter: float) -> float:
+            if parameter not in known:
+                nearest, second = sorted(known.values(), key=lambda p: abs(p.parameter - parameter))[:2]
+                known[parameter] = self.between(nearest, second, parameter)
+            return function(known[parameter])
+
+        scale = max(abs(pair[0].parameter), abs(pair[1].parameter))
+        root = float(
+            brentq(value, pair[0].parameter, pair[1].parameter, xtol=ROOT_TOLERANCE * scale, rtol=4 * ROOT_TOLERANCE)
+        )
+        value(root)
+        return known[root]
+
+
+def anchor_of(event: str, point: Point) -> tuple[Point, float]:
+    """Return the state at an event, and the slope there of the function that vanishes (see `excess_of`)."""
+    if event in (LANDING, SEPARATED):
+        return point, point.state.displacement_rate
+    if event == "zero_load":
+        return point, point.state.load_rate
+    unit = point.parameter if point.branch.touching else point.branch.contact.law.length
+    near = point_at(point, point.parameter + SLOPE_STEP * unit)
+    excess = excess_of(event)
+    return point, (excess(near) - excess(point)) / (near.parameter - point.parameter)
 
 
 def excess_of(event: str, level: float = 0.0) -> Callable[[Point], float]:
@@ -284,56 +302,11 @@ def _displacement_rate(point: Point) -> float:
 
 
 def _neighbours(points: Sequence[Point]) -> list[Pair]:
-    """Neighbours on one branch."""
-    return [(a, b) for a, b in pairwise(points) if a.branch is b.branch]
+    """Neighbours between which the path is smooth."""
+    return [(a, b) for a, b in pairwise(points) if joined(a, b)]
 
 
 def _sign_changes(points: Sequence[Point], sign: Callable[[Point], float], rising: bool) -> list[Pair]:
     """Neighbours between which `sign` changes from negative to positive (or back)."""
     factor = 1.0 if rising else -1.0
     return [(a, b) for a, b in _neighbours(points) if factor * sign(a) < 0 <= factor * sign(b)]
-
-
-def _rise_through(
-    points: Sequence[Point], value: Callable[[Point], float], rate: Callable[[Point], float], level: float, last: bool
-) -> Point | None:
-    """Find the first or the last point of a complete path where a value rises through a level.
-
-    Between two neighbours is one turning point at most; where it may reach the level, it is located too.
-    """
-
-    def excess(point: Point) -> float:
-        return value(point) - level
-
-    pairs = _neighbours(points)
-    for a, b in reversed(pairs) if last else pairs:
-        before, after = excess(a), excess(b)
-        if before < 0 <= after:
-            return _root((a, b), excess)
-        if last and before >= 0 and after >= 0 and rate(a) < 0 <= rate(b):
-            lowest = _root((a, b), rate)
-            if excess(lowest) < 0:
-                return _root((lowest, b), excess)
-        if not last and before < 0 and after < 0 and rate(a) > 0 >= rate(b):
-            highest = _root((a, b), rate)
-            if excess(highest) >= 0:
-                return _root((a, highest), excess)
-    return None
-
-
-def _root(pair: Pair, function: Callable[[Point], float]) -> Point:
-    """Find the point between two neighbours where the function vanishes."""
-    known = {pair[0].parameter: pair[0], pair[1].parameter: pair[1]}
-
-    def value(parameter: float) -> float:
-        if parameter not in known:
-            nearest = min(known.values(), key=lambda p: abs(p.parameter - parameter))
-            known[parameter] = point_at(nearest, parameter)
-        return function(known[parameter])
-
-    scale = max(abs(pair[0].parameter), abs(pair[1].parameter))
-    root = float(
-        brentq(value, pair[0].parameter, pair[1].parameter, xtol=ROOT_TOLERANCE * scale, rtol=4 * ROOT_TOLERANCE)
-    )
-    value(root)
-    return known[root]

@@ -119,6 +119,10 @@ class Interval:
         """Value of the cubic."""
         return float(self._cubic(np.array((parameter - self.first.parameter) / self._length)))
 
+    def rate_at(self, parameter: float) -> float:
+        """Derivative of the cubic."""
+        return float(self._slope(np.array((parameter - self.first.parameter) / self._length))) / self._length
+
     def range(self) -> tuple[float, float]:
         """Smallest and largest value of the cubic."""
         values = [self.first.value, self.second.value, *map(self.value_at, self.turns())]

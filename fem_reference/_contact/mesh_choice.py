@@ -1,25 +1,24 @@
 """Choice of the mesh: three densities an accuracy, and an edge as fine as the computed gap needs.
 
-The first width of the contact edge is the length over which the surface law and the solid balance; the path traced
-on that mesh shows how wide the edge is, and the mesh is made again until it is fine enough.
+A solid that scales has one mesh for every size of the contact (`fem_reference._contact.one_mesh`).  Otherwise the path
+has a mesh for each radius of the contact edge, and so has each event (`fem_reference._contact.followed`).
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import lru_cache, partial
+from functools import lru_cache
 
-from fem_reference._contact.carried_path import carried_path, found_on_carried
 from fem_reference._contact.contact import Contact
-from fem_reference._contact.cusp import slowest_sample
-from fem_reference._contact.edge_search import MESHES, SEARCHED, WIDTH_SHARE, EdgeSearch, state_at
-from fem_reference._contact.events import CUSP, JUMP_IN, LANDING, PathEvents, beyond_pull_off
-from fem_reference._contact.mesh_lengths import balance_length, check_width, kinks_within, mesh_spec
-from fem_reference._contact.path import EDGE_RISE, Point, edge_width, point_at
-from fem_reference._contact.tracing import first_in_contact, traced, traced_to_fold
+from fem_reference._contact.events import CUSP, PathEvents
+from fem_reference._contact.followed import FollowedPath
+from fem_reference._contact.mesh_lengths import balance_length, check_width, kinks_within, mesh_spec, spot_length
+from fem_reference._contact.one_mesh import OneMesh
+from fem_reference._contact.path import EDGE_RISE
+from fem_reference._contact.resolved import ResolvedEvents
+from fem_reference._contact.tracing import traced
 from fem_reference._elastic.compliance import compliance_for, is_scaling
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import Level, finer_levels
@@ -27,45 +26,11 @@ from fem_reference.errors import NotConverged
 from fem_reference.problem import Problem
 from fem_reference.punch import check_without_asperities, radius_at_height
 
-__all__ = ["MeshChoice", "chosen"]
-
-FAR_SHARE = 0.5
-"""Share of the density far beyond the edge, where contact begins on a spot much smaller than the punch and the tension
-falls within an element otherwise: on the meshes of "quick" the path of n = 6.2, k = 0.53, mu = 2.9 stops there with 1,
-and with 0.5 it is that of 0.3 to 1e-6 (measured)."""
-
-SMALL_SPOT = 0.25
-"""Smallest radius of the contact, relative to that where the punch rises by `EDGE_RISE`, below which it is small."""
-
-FAILURES = 3
-"""Meshes in a row on which a path cannot be traced, after which meshes of a finer accuracy are tried: a narrower edge
-does not help then."""
-
-NARROWER = 0.25
-"""Ratio of edge widths from one mesh to the next where the width is not known."""
+__all__ = ["MeshChoice", "chosen", "followed_path", "whole_path"]
 
 LOWEST, HIGHEST = 1e-8, 1e4
 """Heights of a punch, in lengths of the law, between which it may have no asperity: below, it is flat to the law, and
 above, the tension is 1e-12 of its peak."""
-
-SEARCH_DEGREES = 2
-"""Degrees by which the elements of the search are lower where no mesh of it is used again: a third of the time."""
-
-MOVES = 2
-"""Times that the edge of a mesh follows the event of the path on it; then the event is searched for with a mesh for
-each radius."""
-
-FARTHEST = 10.0
-"""Radius of the event, in radii of the edge of the first mesh, from which on a mesh for each radius is tried at once.
-Measured under cones at mu = 3: at most 8.9 on the twelve solids whose path one mesh carries, 11 to 27 on the others, if
-their first mesh carries a path at all."""
-
-MOST_CARRIED = 120
-"""Largest number of meshes that carry a path: 40 are usual where the contact grows to a hundred times the radius at
-which it begins."""
-
-REFINEMENTS = 8
-"""Largest number of meshes tried to find the width of the edge."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,23 +43,30 @@ class MeshChoice:
     level : Level
         Order and densities of the meshes.
     event : str, optional
-        As for `fem_reference._contact.events.PathEvents`.
-    near : Point, optional
-        A state near that event on another mesh, where no mesh carries the whole path.
+        The event at whose contact edge the mesh is fine, if the solid does not scale.
     """
 
     problem: Problem
     level: Level
     event: str = ""
-    near: Point | None = None
 
     def contact(self, spec: MeshSpec, size: float) -> Contact:
         """Discretise the problem on a mesh with its edge at the radius `size`."""
         solid, punch, law = self.problem.solid, self.problem.punch, self.problem.law
         return Contact(punch, law, compliance_for(solid.modulus, solid.nu, spec, size))
 
-    def traced(self, spec: MeshSpec, size: float) -> PathEvents:
-        """The path on that mesh, traced once however many quantities are read from it.
+    def traced(self, spec: MeshSpec, size: float) -> PathEvents | ResolvedEvents:
+        """The path on that mesh or, if the solid does not scale, its events there; kept for all quantities.
+
+        Raises
+        ------
+        NotConverged
+            If it cannot be traced there.
+        """
+        return _resolved(self, spec, size) if self.event else self.path(spec, size)
+
+    def path(self, spec: MeshSpec, size: float) -> PathEvents:
+        """The whole path on that mesh.
 
         Raises
         ------
@@ -106,23 +78,15 @@ class MeshChoice:
             raise NotConverged(path)
         return path
 
-    def spec(
-        self, width: float, size: float, smallest: float, far_share: float = 1.0, apex: float = math.inf
-    ) -> MeshSpec:
-        """Mesh for an edge of that relative width, at the coarsest density."""
-        return mesh_spec(self.problem, self.level, width, size, smallest, far_share, apex)
-
     @property
     def scaling(self) -> bool:
         """Whether the compliance of one size is that of every size, but for a factor."""
         return is_scaling(self.problem.solid.modulus, self.problem.solid.nu, kinks_within(self.problem))
 
     def adapted(
-        self, events: tuple[str, ...], start: tuple[MeshSpec, float] | None = None, brief: bool = False
+        self, events: tuple[str, ...], start: tuple[MeshSpec, float] | None = None
     ) -> tuple[MeshChoice, MeshSpec, float]:
         """Mesh whose edge width (and, if the solid does not scale, size) fits the computed gap.
-
-        The path is traced on one mesh after the other until the edge of the event is known.
 
         Parameters
         ----------
@@ -130,9 +94,6 @@ class MeshChoice:
             Events that are needed.  If the solid does not scale, the mesh is fine at the edge of the first.
         start : tuple, optional
             The mesh and size of a similar problem, to begin with.
-        brief : bool
-            Raise where a path cannot be traced, or an event up to the pull-off is needed, which is far from the edge of
-            the mesh.
 
         Returns
         -------
@@ -150,139 +111,51 @@ class MeshChoice:
         NotConverged
             If the path cannot be traced, or the edge is narrower than the mesh can resolve.
         """
-        scaling = self.scaling
-        punch, law = self.problem.punch, self.problem.law
-        first = smallest = radius_at_height(punch, EDGE_RISE * law.length)
-        # The folds merge before there is a sharp edge: the mesh of a solid that scales is fine at this radius, too.
-        size = first if events == (CUSP,) and not scaling else 2.0 * radius_at_height(punch, law.length)
-        balance = balance_length(self.problem, size)
-        check_width(0.5 * balance / size)
-        spec = self.spec(0.5 * balance / size, size, smallest)
-        if start is not None:
-            spec, size = replace(start[0], density=self.level.densities[0]), start[1]
-        failures, moves, far_share, apex = 0, 0, spec.far_share, math.inf
-        # Width and radius of an edge need fewer digits than an event; a mesh that scales is used again, as it is.
-        degree = spec.order if scaling or events == (CUSP,) else spec.order - SEARCH_DEGREES
-        for _ in range(REFINEMENTS):
-            try:
-                path = self.traced(replace(spec, order=degree), size)
-            except NotConverged:
-                if brief:
-                    raise
-                if degree < spec.order:
-                    degree = spec.order
-                    continue
-                # An under-resolved edge is pinned to the elements; or contact begins on a spot, which is as small as
-                # the solid and the law allow, far from elements that lose the rest of the punch.
-                failures += 1
-                if scaling:
-                    smallest, far_share = min(smallest, balance), FAR_SHARE * far_share
-                else:
-                    apex = balance
-                other = self.spec(NARROWER * spec.edge_width, size, smallest, far_share, apex)
-                if other == spec or failures == FAILURES:
-                    raise
-                spec = other
-                continue
-            failures = 0
-            points = path.samples
-            if events == (CUSP,):
-                # The folds merge before the edge is as sharp as at the pull-off.
-                points = points[: slowest_sample(points) + 2]
-            elif not any(beyond_pull_off(event) for event in events):
-                # Beyond the pull-off the edge is sharper relative to its radius, but that part is not needed.
-                deepest = min(range(len(points)), key=lambda i: points[i].state.load)
-                farthest = points[deepest].edge_radius if points[deepest].branch.touching else 0.0
-                if brief and events[0] != JUMP_IN and farthest > FARTHEST * size:
-                    raise NotConverged(
-                        f"the pull-off is at {farthest / size:.1f} times the radius where the mesh is fine"
-                    )
-                points = points[: deepest + 2]
-            widths = [edge_width(point) for point in points if point.branch.touching]
-            if scaling:
-                # Contact may begin on a spot much smaller than the punch, and the mesh shrinks with it.
-                smallest = min(smallest, *(point.state.size for point in points))
-                if smallest < SMALL_SPOT * first:
-                    far_share = min(far_share, FAR_SHARE)
-            narrowest = min(widths, default=1.0)
-            # The gap falls at the edge of a mesh that is too coarse to tell the width.
-            width = WIDTH_SHARE * narrowest if narrowest > 0.0 else NARROWER * spec.edge_width
-            check_width(width)
-            needed = self.spec(width, size, smallest, far_share, apex)
-            resolved = needed.edge_width >= spec.edge_width and needed.extent <= spec.extent
-            if resolved and far_share >= spec.far_share:
-                if scaling:
-                    return self, spec, size
-                if events == (CUSP,):
-                    return self, spec, size
-                try:
-                    point = path.at(events[0])
-                except NotConverged:
-                    # Elements that are longer than the edge is wide make more turning points than can be told apart.
-                    if events[0] != "pull_off":
-                        raise
-                    point, moves = min(points, key=lambda sample: sample.state.load), MOVES
-                if not point.branch.touching or abs(point.edge_radius / size - 1.0) <= 0.5 * spec.edge_width:
-                    return self, spec, size
-                if moves == MOVES and events[0] in SEARCHED:
-                    level = path.jump_in.state.displacement if events[0] == LANDING else 0.0
-                    lower = spec.order - SEARCH_DEGREES
-                    search = EdgeSearch(self, events[0], path.samples, spec.edge_width, smallest, lower, level, apex)
-                    return replace(self, event=events[0]), *search.found(point.edge_radius)
-                moves += 1
-                size = point.edge_radius
-            spec = self.spec(min(needed.edge_width, spec.edge_width), size, smallest, far_share, apex)
-        raise NotConverged(
-            "the width of the contact edge was not found; the edge is narrower than the mesh can resolve"
-        )
+        if self.scaling or events == (CUSP,):
+            return self, *OneMesh(self, events).found(start)
+        return replace(self, event=events[0]), *followed_path(self).mesh(events[0])
 
-    def carried(self, event: str) -> tuple[MeshChoice, MeshSpec, float]:
-        """Mesh for an event of a solid that does not scale, where no mesh carries the path to it.
-
-        Parameters
-        ----------
-        event : str
-            `JUMP_IN`, or one of `fem_reference._contact.edge_search.SEARCHED` but a landing.
-
-        Returns
-        -------
-        choice, spec, size
-            As `adapted` returns them, of a choice that knows this event alone.
-
-        Raises
-        ------
-        NotConverged
-            If a state on the way is not found, or the path in contact has no such point.
-        """
-        return self._before_contact() if event == JUMP_IN else self._fine_at(event)
-
-    def _before_contact(self) -> tuple[MeshChoice, MeshSpec, float]:
-        """Mesh for a jump into contact, which needs the path up to its fold only."""
-        spec, size, _ = self._first_mesh()
-        choice = replace(self, event=JUMP_IN)
-        choice.traced(spec, size)
-        return choice, spec, size
-
-    def _fine_at(self, event: str) -> tuple[MeshChoice, MeshSpec, float]:
-        """Mesh that is fine at an event in contact, on a path of a mesh for each radius."""
-        points = _carried_path(self)
-        known = {point.edge_radius: point for point in points}
-        search = replace(self._search(points), event=event, known=known, most=MESHES + len(known))
-        spec, radius = found_on_carried(search, points, self.level.order)
-        return replace(self, event=event, near=search.known[radius]), spec, radius
-
-    def _search(self, samples: Sequence[Point]) -> EdgeSearch:
-        """Solver on a mesh for each radius, from states that are known."""
-        spec, size, smallest = self._first_mesh()
-        lower, apex = spec.order - SEARCH_DEGREES, balance_length(self.problem, size)
-        return EdgeSearch(self, "", samples, spec.edge_width, smallest, lower, apex=apex)
-
-    def _first_mesh(self) -> tuple[MeshSpec, float, float]:
-        """Mesh on which a path begins, its size, and the radius that tells its extent."""
+    def spec_at(self, width: float, radius: float) -> MeshSpec:
+        """Mesh of a solid that does not scale, for an edge of that relative width at a radius."""
         law, punch = self.problem.law, self.problem.punch
-        size, smallest = 2.0 * radius_at_height(punch, law.length), radius_at_height(punch, EDGE_RISE * law.length)
-        balance = balance_length(self.problem, size)
-        return self.spec(0.5 * balance / size, size, smallest, apex=balance), size, smallest
+        smallest = min(radius, radius_at_height(punch, EDGE_RISE * law.length))
+        apex = spot_length(self.problem, 2.0 * radius_at_height(punch, law.length))
+        return mesh_spec(self.problem, self.level, width, radius, smallest, apex=apex)
+
+    def first_mesh(self) -> tuple[MeshSpec, float]:
+        """Mesh on which the path of a solid that does not scale begins, and the radius of its edge."""
+        size = 2.0 * radius_at_height(self.problem.punch, self.problem.law.length)
+        width = 0.5 * balance_length(self.problem, size) / size
+        check_width(width)
+        return self.spec_at(width, size), size
+
+
+def whole_path(problem: Problem, accuracy: float | str) -> PathEvents:
+    """Return the whole path, on the finest mesh or, if the solid does not scale, on a mesh for each radius.
+
+    Raises
+    ------
+    ValueError, NotConverged
+        As `chosen`.
+    """
+
+    def path(choice: MeshChoice, spec: MeshSpec, size: float) -> PathEvents:
+        if choice.scaling:
+            return choice.path(replace(spec, density=choice.level.densities[-1]), size)
+        return followed_path(choice).events()
+
+    return path(*chosen(problem, ("zero_load",), accuracy, path))
+
+
+def followed_path(choice: MeshChoice) -> FollowedPath:
+    """Return the path of a solid that does not scale, followed once for all of its events."""
+    return _followed(replace(choice, event=""))
+
+
+# Several problems are solved in turns where a parameter is varied.
+@lru_cache(maxsize=2)
+def _followed(choice: MeshChoice) -> FollowedPath:
+    return FollowedPath(choice, choice.first_mesh())
 
 
 def chosen(
@@ -312,7 +185,7 @@ def chosen(
     -------
     choice : MeshChoice
     spec, size
-        As `MeshChoice.adapted` or `MeshChoice.carried` returns them.
+        As `MeshChoice.adapted` returns them.
 
     Raises
     ------
@@ -333,27 +206,11 @@ def chosen(
             usable(*meshes)
         return meshes
 
-    choices = [MeshChoice(problem, level) for level in finer_levels(accuracy)]
-    *others, last = [route for choice in choices for route in _routes(choice, events, start)]
-    for route in others:
+    *others, last = [MeshChoice(problem, level) for level in finer_levels(accuracy)]
+    for choice in others:
         with suppress(NotConverged):
-            return used(route())
-    return used(last())
-
-
-def _routes(
-    choice: MeshChoice, events: tuple[str, ...], start: tuple[MeshSpec, float] | None
-) -> list[Callable[[], tuple[MeshChoice, MeshSpec, float]]]:
-    """Ways to a mesh of one level: one mesh that carries the path; if the solid does not scale, one for each radius.
-
-    The second is tried as soon as the first meets a difficulty: of the eight cones at mu = 3 that met one, six had no
-    path on other meshes either, and the search for those of the other two took as long as all the rest.
-    """
-    one: Callable[..., tuple[MeshChoice, MeshSpec, float]] = partial(choice.adapted, events, start)
-    # A landing is at the displacement of another event, which another mesh resolves.
-    if choice.scaling or LANDING in events or events[0] not in (*SEARCHED, JUMP_IN):
-        return [one]
-    return [partial(one, brief=True), partial(choice.carried, events[0]), one]
+            return used(choice.adapted(events, start))
+    return used(last.adapted(events, start))
 
 
 # The paths of one problem: three densities and the search for the width, on the meshes of two kinds of events.
@@ -361,21 +218,12 @@ def _routes(
 def _traced(choice: MeshChoice, spec: MeshSpec, size: float) -> PathEvents | str:
     """The path, or why it cannot be traced: the next quantity would try it again."""
     try:
-        contact = choice.contact(spec, size)
-        if choice.event == JUMP_IN:
-            return PathEvents(traced_to_fold(contact), JUMP_IN, whole=False)
-        if choice.near is not None:
-            return PathEvents([state_at(contact, size, [choice.near])], choice.event, whole=False)
-        return PathEvents(tuple(traced(contact)), choice.event)
+        return PathEvents(tuple(traced(choice.contact(spec, size))))
     except NotConverged as reason:
         return str(reason)
 
 
-# Both jumps and the pull-off are on one of them.
-@lru_cache(maxsize=2)
-def _carried_path(choice: MeshChoice) -> tuple[Point, ...]:
-    spec, size, _ = choice._first_mesh()
-    first = first_in_contact(choice.contact(replace(spec, order=spec.order - SEARCH_DEGREES), size))
-    # The solver begins at the edge of the first mesh, where it is fine.
-    samples = [point_at(first, size)]
-    return carried_path(replace(choice._search(samples), most=MOST_CARRIED), first.edge_radius, size)
+@lru_cache(maxsize=12)
+def _resolved(choice: MeshChoice, spec: MeshSpec, size: float) -> ResolvedEvents:
+    """Events of the path of a solid that does not scale, on a mesh that is fine at the edge of one of them."""
+    return ResolvedEvents(followed_path(choice).events(choice.event), choice.contact(spec, size))

@@ -14,15 +14,22 @@ from fem_reference.accuracy import Level
 from fem_reference.errors import NotConverged
 from fem_reference.poisson import poisson_at
 from fem_reference.problem import Problem
-from fem_reference.punch import kinks_of, radius_at_height
+from fem_reference.punch import Punch, kinks_of, radius_at_height
 
-__all__ = ["balance_length", "check_width", "kinks_within", "mesh_spec"]
+__all__ = ["balance_length", "check_width", "kinks_within", "mesh_spec", "spot_length"]
 
 APEX_WIDTH = 0.05
 """Radial length resolved at r = 0, relative to the edge radius: a cone then has its pull-off force to
 3e-10."""
 
-SMALLEST_APEX = 1e-6
+POINTED_APEX_WIDTH = 5e-5
+"""The same under a pointed punch, whose pressure is singular at the tip: with 0.05 the gap there is right to 1e-2, with
+this to 2e-5 (measured on the finest mesh of "quick" under cones at mu = 1.5 ... 3), for a tenth more of the time."""
+
+POINTED = 2.0
+"""Ratio of the curvatures of a punch at `APEX_WIDTH` and at the edge beyond which it is pointed."""
+
+SMALLEST_APEX = 1e-8
 """Smallest radial length resolved at r = 0, relative to the edge radius."""
 
 LAYER_DEPTH = 0.02
@@ -55,6 +62,9 @@ LARGEST_EXTENT = 1e8
 EXTERIOR_ERROR = 5e-8
 """Bound of the relative error of the displacement from the power law that the exterior takes: half of the accuracy
 "default", for all accuracies, because it falls with the square of the extent."""
+
+BALANCE_STEPS = 400
+"""Steps to the length of balance: each leaves (1 + k) / 2 of the logarithm, 1e-8 of it at k = 0.9."""
 
 FINEST_SCALE = 1e-3
 """Depth, relative to the one resolved under the surface, from which on changes of the modulus are searched for."""
@@ -102,8 +112,14 @@ def mesh_spec(
     scales = depth_scales(modulus, FINEST_SCALE * depth * size, extent * size, nu).scaled(size)
     density, order = level.densities[0], level.order
     kinks = tuple(r / size for r in kinks_within(problem))
-    apex_width = min(APEX_WIDTH, max(apex / size, SMALLEST_APEX))
+    apex_width = min(_apex_width(problem.punch, size), max(apex / size, SMALLEST_APEX))
     return MeshSpec(width, depth, extent, density, order, apex_width, scales, far_share, kinks)
+
+
+def _apex_width(punch: Punch, size: float) -> float:
+    """Radial length to resolve at r = 0 under a punch of that shape, relative to the edge radius."""
+    inner, outer = punch.slope(np.array([APEX_WIDTH * size, size]))
+    return POINTED_APEX_WIDTH if inner > POINTED * APEX_WIDTH * outer else APEX_WIDTH
 
 
 def kinks_within(problem: Problem) -> tuple[float, ...]:
@@ -140,10 +156,18 @@ def balance_length(problem: Problem, radius: float) -> float:
     depth = np.array(radius)
     # E(l) length / l = traction, by a fixed point in log l; a root finder moves the last digit, and with it the
     # power of 2 to which `spec` rounds.
-    for _ in range(40):
+    for _ in range(BALANCE_STEPS):
         E = float(solid.modulus(depth) / (1.0 - poisson_at(solid.nu, depth) ** 2))
         depth = np.sqrt(depth * E * law.length**2 / (2.0 * law.work_of_adhesion))
     return float(depth)
+
+
+def spot_length(problem: Problem, radius: float) -> float:
+    """Return the shortest length over which traction and stiffness balance, that of the spot on which contact begins.
+
+    Under a soft layer there are two, of which the longer is that of the solid below it.
+    """
+    return min(balance_length(problem, radius), balance_length(problem, SMALLEST_APEX * radius))
 
 
 def check_width(width: float) -> None:

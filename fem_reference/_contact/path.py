@@ -13,8 +13,9 @@ the edge moves over it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.optimize import brentq
@@ -28,22 +29,33 @@ from fem_reference.errors import NotConverged
 from fem_reference.punch import kinks_of, radius_at_height
 
 __all__ = [
+    "BESIDE",
     "EDGE_RISE",
+    "NARROWER",
+    "WIDTH_SHARE",
     "Branch",
     "Point",
     "approach_branch",
+    "branches_of",
     "contact_branch",
     "continuation",
+    "edge_is_resolved",
     "edge_width",
+    "element_length",
     "equilibrium_points",
     "first_edge_radius",
+    "joined",
     "point_at",
 ]
 
 
 FARTHEST_GAP = 12.0
 """Central gap where a path begins, in lengths of the law: the tension there is 1e-3 of its peak, Newton starts from no
-load."""
+load.  A very soft solid has no equilibrium there that Newton reaches (measured: from a Tabor number of 2e4 on)."""
+
+FARTHER_START, FARTHEST_START = 4.0, 1e6
+"""Ratio of one central gap to the next at which a path is begun, and the largest of them in lengths of the law: a few
+Tabor numbers are enough, and those of 1e5 have edges that no mesh resolves."""
 
 EDGE_RISE = 0.05
 """Gap at the node s = 1 above the central gap before contact, in lengths of the law: small, so that the edge is the
@@ -57,6 +69,12 @@ SIZE_STEP = 0.1
 
 BESIDE = 1e-9
 """Distance from a kink of the punch, relative to its radius, at which a branch ends and the next begins."""
+
+WIDTH_SHARE = 0.18
+"""Resolved edge width relative to the length over which the gap rises by the length of the law at the edge."""
+
+NARROWER = 0.25
+"""Ratio of edge widths from one mesh to the next where the width is not known."""
 
 STEEPER = 4.0
 """Ratio of the steepest slope of the gap to that at peak tension which the meshes of an edge resolve as they are."""
@@ -87,11 +105,19 @@ class Branch:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Point:
-    """A state with the branch and the parameter it belongs to."""
+    """A state with the branch and the parameter it belongs to.
+
+    Attributes
+    ----------
+    rates : tuple of (float, float), optional
+        Changes of P and delta per unit of the parameter, where those of the state are not taken: along a path over
+        several meshes.
+    """
 
     branch: Branch
     parameter: float
     state: State
+    rates: tuple[float, float] | None = None
 
     def predict(self, parameter: float) -> Array:
         """Extrapolate the state along its tangent; the size at most halves or doubles."""
@@ -112,12 +138,12 @@ class Point:
     @property
     def load_rate(self) -> float:
         """Change of P along the path, per unit of the parameter's change."""
-        return self.sense * self.state.load_rate
+        return self.sense * self.state.load_rate if self.rates is None else self.rates[0]
 
     @property
     def displacement_rate(self) -> float:
         """Change of delta along the path, per unit of the parameter's change."""
-        return self.sense * self.state.displacement_rate
+        return self.sense * self.state.displacement_rate if self.rates is None else self.rates[1]
 
 
 def continuation(point: Point, step: float, stop: float) -> Iterator[Point]:
@@ -140,7 +166,7 @@ def continuation(point: Point, step: float, stop: float) -> Iterator[Point]:
             if abs(step) < SMALLEST_STEP * largest:
                 raise NotConverged(
                     f"the path stops at H0 = {point.state.central_gap:.6g}, delta = "
-                    f"{point.state.displacement:.6g}: {error}; refine the mesh at the edge"
+                    f"{point.state.displacement:.6g}: {error}"
                 ) from error
             continue
         step *= 1.6 if new.state.iterations <= 4 else (0.7 if new.state.iterations > 7 else 1.0)
@@ -159,8 +185,6 @@ def point_at(nearest: Point, parameter: float) -> Point:
 def approach_branch(contact: Contact) -> Iterator[Point]:
     """Trace the branch of the central gap from far away to the first contact edge."""
     length = contact.law.length
-    start = FARTHEST_GAP * length
-    y = np.zeros(contact.unknowns + 2)
     fixed: Control
     if isinstance(contact.compliance, FixedCompliance):
         size = contact.compliance.size
@@ -168,11 +192,27 @@ def approach_branch(contact: Contact) -> Iterator[Point]:
     else:
         size = radius_at_height(contact.punch, EDGE_RISE * length)
         fixed = GapRise(EDGE_RISE * length)
-    y[-2:] = -start, size
-    branch = Branch(contact, fixed, CentralGap, touching=False)
-    point = branch.solve(start, y)
+    point = _farthest(Branch(contact, fixed, CentralGap, touching=False), size)
     yield point
     yield from continuation(point, -0.5 * length, contact.law.peak_gap - EDGE_RISE * length)
+
+
+def _farthest(branch: Branch, size: float) -> Point:
+    """The first state of a path: where the solid is hardly displaced."""
+    start = FARTHEST_GAP
+    while True:
+        gap = start * branch.contact.law.length
+        y = np.zeros(branch.contact.unknowns + 2)
+        y[-2:] = -gap, size
+        try:
+            return branch.solve(gap, y)
+        except NotConverged as error:
+            start *= FARTHER_START
+            if start > FARTHEST_START:
+                raise NotConverged(
+                    f"no equilibrium was found at central gaps of up to {FARTHEST_START:g} lengths of the law, where "
+                    "the approach begins: the solid is too soft for the adhesion; take a stiffer one"
+                ) from error
 
 
 def contact_branch(last: Point, largest: float) -> Iterator[Point]:
@@ -235,6 +275,40 @@ def edge_width(point: Point) -> float:
     pairs = near[:-1] & near[1:]
     steepest = float(np.max(np.diff(gap)[pairs] / np.diff(s)[pairs], initial=0.0)) / float(y[-1])
     return length / (radius * (max(slope, steepest / STEEPER) if slope > 0.0 else slope))
+
+
+def element_length(point: Point, radius: float) -> float:
+    """Length of the element inside a radius on the mesh of a state."""
+    size, nodes = point.state.size, point.branch.contact.compliance.trace.nodes
+    outer = min(max(int(np.searchsorted(nodes, radius / size)), 1), nodes.size - 1)
+    return float(size * (nodes[outer] - nodes[outer - 1]))
+
+
+def edge_is_resolved(point: Point, share: float = 1.0) -> bool:
+    """Whether the elements at the contact edge are at most `share` times as long as it asks for, or there is none."""
+    if not point.branch.touching:
+        return True
+    radius = point.edge_radius
+    return element_length(point, radius) <= share * WIDTH_SHARE * edge_width(point) * radius
+
+
+def joined(a: Point, b: Point) -> bool:
+    """Whether the path is smooth between two neighbours: one branch, or meshes for two edges without a kink between."""
+    if a.branch is b.branch:
+        return True
+    low, high = sorted((a.edge_radius, b.edge_radius))
+    return low > 0.0 and not any(low < kink < high for kink in kinks_of(a.branch.contact.punch))
+
+
+def branches_of(points: Sequence[Point]) -> list[list[Point]]:
+    """Parts of a path in each of which neighbours are joined."""
+    branches = [list(points[:1])]
+    for a, b in pairwise(points):
+        if joined(a, b):
+            branches[-1].append(b)
+        else:
+            branches.append([b])
+    return branches
 
 
 def equilibrium_points(contact: Contact) -> Iterator[Point]:

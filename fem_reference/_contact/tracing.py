@@ -6,10 +6,9 @@ from collections.abc import Sequence
 
 from fem_reference._contact.completeness import displacement_range
 from fem_reference._contact.contact import Contact
-from fem_reference._contact.path import Point, approach_branch, continuation, equilibrium_points
-from fem_reference.errors import NotConverged
+from fem_reference._contact.path import Point, continuation, equilibrium_points
 
-__all__ = ["first_in_contact", "traced", "traced_to_fold"]
+__all__ = ["beginning", "traced"]
 
 FARTHER = 2.0
 """Lengths of the law by which a path begins below the displacement of its jump out of contact."""
@@ -41,34 +40,7 @@ def traced(contact: Contact) -> list[Point]:
         # After a jump-in, the contact branch at the displacement of the jump belongs to the hysteresis cycle.
         if touching and settled and point.state.displacement >= _highest_fold(approach, touching):
             break
-    return [*_beginning(approach, touching), *approach, *touching]
-
-
-def traced_to_fold(contact: Contact) -> list[Point]:
-    """Trace the path until the displacement has turned from rising to falling.
-
-    Raises
-    ------
-    NotConverged
-        If the path cannot be followed so far, or has a contact edge before it turns.
-    """
-    points: list[Point] = []
-    for point in approach_branch(contact):
-        points.append(point)
-        if point.displacement_rate <= 0.0:
-            return points
-    raise NotConverged("the path has no fold before the contact edge is formed, and cannot be traced as a whole")
-
-
-def first_in_contact(contact: Contact) -> Point:
-    """Return the first point of the path with a contact edge.
-
-    Raises
-    ------
-    NotConverged
-        If the path cannot be followed so far.
-    """
-    return next(point for point in equilibrium_points(contact) if point.branch.touching)
+    return [*beginning(approach, touching), *approach, *touching]
 
 
 def _highest_fold(approach: Sequence[Point], touching: Sequence[Point]) -> float:
@@ -78,7 +50,7 @@ def _highest_fold(approach: Sequence[Point], touching: Sequence[Point]) -> float
     return max(displacement_range(approach)[1], displacement_range(part)[1])
 
 
-def _beginning(approach: Sequence[Point], touching: Sequence[Point]) -> list[Point]:
+def beginning(approach: Sequence[Point], touching: Sequence[Point]) -> list[Point]:
     """Points before the first, out to the displacement where a jump out of contact ends."""
     first, length = approach[0], approach[0].branch.contact.law.length
     falling = [i for i, point in enumerate(approach) if point.displacement_rate < 0]

@@ -6,7 +6,8 @@ import math
 from collections.abc import Sequence
 from itertools import pairwise
 
-from fem_reference._contact.path import Point, point_at
+from fem_reference._contact.events import PathEvents
+from fem_reference._contact.path import Point, joined
 
 __all__ = ["turning_slowly"]
 
@@ -17,13 +18,12 @@ SHOWN_COMPRESSION, SHOWN_TENSION = 0.5, 0.05
 """The part of the path that is drawn: up to this compression, and from this tension on, relative to the largest one."""
 
 
-def turning_slowly(points: Sequence[Point], degrees: float) -> list[Point]:
+def turning_slowly(path: PathEvents, degrees: float) -> list[Point]:
     """Insert points where the tangent of load over displacement turns by more from one to the next.
 
     Parameters
     ----------
-    points : sequence of Point
-        A path.
+    path : PathEvents
     degrees : float
         Largest angle, in a square picture of the part that carries tension.
 
@@ -32,11 +32,12 @@ def turning_slowly(points: Sequence[Point], degrees: float) -> list[Point]:
     list of Point
         With those inserted, in the order of the path.
     """
+    points = path.points
     units = _ranges(points)
     found = [points[0]]
     for a, b in pairwise(points):
-        if a.branch is b.branch:
-            found += _inside(a, b, math.radians(degrees), units, HALVINGS)
+        if joined(a, b):
+            found += _inside(path, a, b, math.radians(degrees), units, HALVINGS)
         found.append(b)
     return found
 
@@ -49,12 +50,14 @@ def _ranges(points: Sequence[Point]) -> tuple[float, float]:
     return (max(displacements) - min(displacements)) or 1.0, (1.0 + SHOWN_COMPRESSION) * depth
 
 
-def _inside(a: Point, b: Point, angle: float, units: tuple[float, float], halvings: int) -> list[Point]:
+def _inside(
+    path: PathEvents, a: Point, b: Point, angle: float, units: tuple[float, float], halvings: int
+) -> list[Point]:
     """Points between two neighbours of one branch."""
     if halvings == 0 or _turn(a, b, units) <= angle:
         return []
-    middle = point_at(a, 0.5 * (a.parameter + b.parameter))
-    before, after = (_inside(*ends, angle, units, halvings - 1) for ends in ((a, middle), (middle, b)))
+    middle = path.between(a, b, 0.5 * (a.parameter + b.parameter))
+    before, after = (_inside(path, *ends, angle, units, halvings - 1) for ends in ((a, middle), (middle, b)))
     return [*before, middle, *after]
 
 

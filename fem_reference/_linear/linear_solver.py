@@ -139,7 +139,8 @@ def solve_cg(
         # Of a residual far below the tolerance, rounding of the preconditioner may change the sign.
         residual = float(np.sqrt(np.abs(_ratio(_products(r, left), norm))).max())
     seconds = time.perf_counter() - begin
-    largest = max(tolerance, rounding)
+    # An iteration that ended early has left more than rounding.
+    largest = max(tolerance, rounding if count < iterations else min(rounding, ROUNDING))
     if not residual <= largest:
         raise NotConverged(
             f"conjugate gradients reached a residual of {residual:.1e} in {count} iterations, not "

@@ -1,4 +1,4 @@
-"""Certified enclosures of pull-off forces: n = 2, k = 0, the 9-3 law.
+"""Certified enclosures of local minima of the load: n = 2, k = 0, the 9-3 law.
 
 Theorem, with the numbers that `pull_off_enclosure` returns.  For every displacement in [delta* - eta, delta* + eta] the
 contact has exactly one equilibrium in the tube about the approximate state.  Along these equilibria P is a smooth
@@ -8,7 +8,8 @@ ball `force`.
 Proof.  `state_bounds` encloses P and P' at delta*, and P'' on the whole interval.  If abs(P'(delta*)) < m eta, then P'
 changes its sign inside the interval, and P(delta*) - P'(delta*)^2 / (2 m) <= min P <= P(delta*).
 
-What is not proved: that no deeper minimum exists elsewhere on the path.  `fscm` decides this by its complete path.
+What is not proved here: that no deeper minimum exists elsewhere on the path.  `branch` proves it for mu = 1/10; `fscm`
+decides it for the others by its complete path.
 
 `python -m tests.certified.pull_off_enclosure` proves the committed values again and prints them.
 """

@@ -160,7 +160,7 @@ def test_rigid_limit_is_the_bradley_force():
 def test_newton_refuses_a_hopeless_start():
     contact = _contact(E0=1e-6)
     y = np.append(np.zeros(contact.unknowns), [50.0, 1.0])
-    with pytest.raises(NotConverged, match="start closer"):
+    with pytest.raises(NotConverged, match="Newton stopped at a residual"):
         newton(contact, y, Size(1.0), CentralGap(-50.0))
 
 
@@ -190,4 +190,4 @@ def test_the_first_length_balances_traction_and_stiffness():
     # The depth E z0^2 / (2 w).
     assert balance_length(problem, radius=2.0) == pytest.approx(0.5)
     # A power of 2: similar problems share a mesh.
-    assert choice.spec(0.1, size=2.0, smallest=1.0).edge_width == 0.0625
+    assert choice.spec_at(0.1, radius=2.0).edge_width == 0.0625

@@ -1,6 +1,7 @@
 """Meshes of their own for the events that the mesh of another event leaves uncertain."""
 
 from dataclasses import replace
+from functools import partial
 from types import SimpleNamespace
 
 import pytest
@@ -22,13 +23,14 @@ from fem_reference import (
 from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._elastic.mesh import MeshSpec
-from fem_reference.accuracy import ACCURACIES
-from fem_reference.quantities import TABLE
+from fem_reference.quantities import LOSSES, TABLE
 
 FORCE, JUMP_IN, JUMP_OUT = NAMES = ("pull_off_force", "jump_in_displacement", "jump_out_displacement")
 ROWS = {name: TABLE[name] for name in NAMES}
 LAW = LennardJones(1.0, 1.0)
 GRADED = Problem(CustomSolid(ExponentialModulus(3.0, 1.0, 5.0), 0.1), PowerPunch(2.0, 1.0), LAW)
+ZERO_LOAD = 0.42243083
+"""Of a power punch, n = 5, on a solid that softens: by both references, all digits shown."""
 CONE = replace(GRADED, solid=CustomSolid(ExponentialModulus(0.9, 0.3, 5.0), 0.1), punch=PowerPunch(1.0, 1.0))
 
 
@@ -36,23 +38,49 @@ def _solution(u_num):
     return Solution(1.0, u_num, 1, 1, 0.0, 1.0, 6.0, 6.0, (1.0, 0.8, 0.6), (1.0, 1.0, 1.0), {"mesh": u_num})
 
 
-def _uncertain(problem, bounds, missed=()):
-    solved = {name: _solution(u_num) for name, u_num in bounds.items()}
-    return list(solution_module._uncertain(problem, ROWS, "default", solved, missed))
+def _own(problem, points, missed=(), monkeypatch=None):
+    """Quantities that get a mesh of their own, from which events are resolved on that of the first."""
+    resolved = {"pull_off": False, **points}
+    monkeypatch.setattr(solution_module, "edge_is_resolved", lambda event: resolved[event])
+    solved = {name: None for name in NAMES if name not in missed}
+    return list(solution_module._unresolved(problem, ROWS, solved, missed, SimpleNamespace(at=lambda event: event)))
 
 
-def test_a_quantity_that_is_uncertain_or_missed_is_computed_again():
-    assert _uncertain(GRADED, {FORCE: 1e-8, JUMP_IN: 1e-7, JUMP_OUT: 2e-4}) == [JUMP_OUT]
-    assert _uncertain(GRADED, {FORCE: 1e-8, JUMP_IN: 1e-7}, {JUMP_OUT: NotConverged()}) == [JUMP_OUT]
+def test_a_quantity_whose_edge_is_not_resolved_or_that_is_missed_gets_its_own_mesh(monkeypatch):
+    own = partial(_own, GRADED, monkeypatch=monkeypatch)
+    assert own({"jump_in": True, "jump_out": False}) == [JUMP_OUT]
+    assert own({"jump_in": True, "jump_out": True}, {JUMP_OUT: NotConverged()}) == [JUMP_OUT]
     # The mesh of the first event is its own.
-    assert _uncertain(GRADED, {FORCE: 1e-3, JUMP_IN: 1e-7, JUMP_OUT: 1e-7}) == []
+    assert own({"jump_in": True, "jump_out": True}) == []
     # The mesh of the jump out of contact serves the other one, which has no contact edge.
-    assert _uncertain(GRADED, {FORCE: 1e-8, JUMP_IN: 1e-3, JUMP_OUT: 1e-3}) == [JUMP_OUT, JUMP_IN]
+    assert own({"jump_in": False, "jump_out": False}) == [JUMP_OUT, JUMP_IN]
 
 
-def test_one_mesh_serves_every_event_of_a_solid_that_scales():
+def test_one_mesh_serves_every_event_of_a_solid_that_scales(monkeypatch):
     scaling = replace(GRADED, solid=Solid(1.0, 1.0, 0.4, 0.3))
-    assert _uncertain(scaling, {FORCE: 1e-8, JUMP_IN: 1e-3, JUMP_OUT: 1e-3}) == []
+    assert _own(scaling, {"jump_in": False, "jump_out": False}, monkeypatch=monkeypatch) == []
+
+
+def test_the_bound_of_a_second_event_holds():
+    """On the mesh of the pull-off the three values at zero load turn back, 1.4 bounds from the value."""
+    problem = Problem(CustomSolid(ExponentialModulus(2.0, 1.0, 2.0), 0.3), PowerPunch(5.0, 1.0), LAW)
+    zero_load = solve_together(problem, (FORCE, "zero_load_displacement"), "quick")["zero_load_displacement"]
+    assert zero_load.value == pytest.approx(ZERO_LOAD, abs=zero_load.u_num + 1e-8)
+    assert zero_load.u_num < 1e-6
+
+
+def test_a_loss_of_two_edges_is_the_sum_of_both(monkeypatch):
+    """No mesh is fine at both ends of a hysteresis cycle, unless it scales."""
+    requested = []
+
+    def solved(problem, rows, accuracy):
+        requested.append(list(rows))
+        return {name: _solution(1e-8) for name in rows}
+
+    monkeypatch.setattr(solution_module, "_solved_together", solved)
+    loss = solution_module._summed(GRADED, {"hysteresis_energy": TABLE["hysteresis_energy"]}, "default")
+    assert requested == [list(LOSSES)]
+    assert (loss["hysteresis_energy"].value, loss["hysteresis_energy"].u_num) == (2.0, 2e-8)
 
 
 @pytest.mark.parametrize(
@@ -68,8 +96,7 @@ def test_a_feature_takes_the_full_degree_where_the_lower_one_shows_too_large_a_c
 def test_the_jumps_of_a_cone_are_as_certain_together_as_alone():
     """On the mesh of the pull-off the jump out of contact is not found on all densities."""
     together = solve_together(CONE, NAMES, "quick")
-    largest = solution_module.OWN_MESH * ACCURACIES["quick"]
-    assert all(together[name].u_num <= largest * abs(together[name].value) for name in NAMES)
+    assert all(together[name].u_num <= 1e-4 * abs(together[name].value) for name in NAMES)
     alone = solve(CONE, JUMP_OUT, "quick")
     assert abs(alone.value - together[JUMP_OUT].value) <= alone.parts["algebra"] + together[JUMP_OUT].parts["algebra"]
 

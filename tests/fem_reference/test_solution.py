@@ -1,7 +1,7 @@
 """Solutions: reference digits, uncertainty, unit scaling, nu-collapse, other solids and laws, refusals."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -10,6 +10,7 @@ import pytest
 import fem_reference
 import fem_reference.solution as solution_module
 from fem_reference import (
+    AccuracyWarning,
     CustomModulus,
     CustomSolid,
     LennardJones,
@@ -440,10 +441,21 @@ def test_a_finer_accuracy_is_never_less_certain(monkeypatch):
 
     monkeypatch.setattr(solution_module, "_solved_together", computed)
     force = "pull_off_force"
-    found = solve_together(None, (force,), "fine")[force]
+    found = solve_together(PROBLEM, (force,), "fine")[force]
     assert (found.u_num, found.seconds) == (1e-7, 2.0)
     assert calls == [("fine", (force,)), ("default", (force,))]
     # A value that reaches its accuracy, and one that is not finer than "default", are computed once.
-    assert solve_together(None, (force,), 3e-8)[force].u_num == 1e-8
-    assert solve_together(None, (force,), "default")[force].u_num == 1e-7
+    assert solve_together(PROBLEM, (force,), 3e-8)[force].u_num == 1e-8
+    assert solve_together(PROBLEM, (force,), "default")[force].u_num == 1e-7
     assert len(calls) == 4
+
+
+def test_an_accuracy_that_is_not_reached_is_said(monkeypatch):
+    """The name of an accuracy selects meshes and asks for no number."""
+    problem = Problem(Solid(50.0, 1.0, 0.0, 0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    result = solve(problem, "pull_off_force", "quick")
+    wide = replace(result, parts={**result.parts, "mesh": 2e-6 * result.value}, u_num=2e-6 * result.value)
+    monkeypatch.setattr(solution_module, "_no_less_certain", lambda problem, given, accuracy: {"pull_off_force": wide})
+    with pytest.warns(AccuracyWarning, match="accuracy = 1e-06 is not reached for the pull_off_force: .* 2.0e-06"):
+        assert solve(problem, "pull_off_force", 1e-6) == wide
+    assert solve(problem, "pull_off_force", "quick") == wide

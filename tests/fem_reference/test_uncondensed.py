@@ -195,6 +195,15 @@ def test_a_missed_tolerance_is_no_number(soft_path, soft_system, monkeypatch, to
         events.value(TABLE["pull_off_force"].functional)
 
 
+def test_an_equilibrium_that_is_left_after_one_step_is_refused_for_its_residual(soft_system, monkeypatch):
+    """Measured: 2e-5 of the traction.  A tolerance that is a hundred times as large would take it."""
+    path = PathEvents(traced(_soft_contact(0.01 * SPOILED)))
+    monkeypatch.setattr(uncondensed, "NEWTON_TOLERANCE", 1e-4)
+    events = UncondensedEvents(path, lambda: soft_system)
+    with pytest.raises(NotConverged, match="residual"):
+        events.value(TABLE["pull_off_force"].functional)
+
+
 def test_an_iteration_that_ends_early_is_no_solution(soft_path, soft_system, monkeypatch):
     """One that leaves 3.4e-8 is not taken for rounding."""
     monkeypatch.setattr(uncondensed, "solve_cg", partial(solve_cg, iterations=5))

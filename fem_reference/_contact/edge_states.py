@@ -1,0 +1,215 @@
+"""States in contact by the radius of their edge, each on a mesh that resolves its edge.
+
+A solid that does not scale has a compliance for one size.  On one mesh the contact edge crosses elements that are
+longer than it is wide, and the load along the path has minima at the nodes that the problem has not.  Here a state is
+solved on a mesh that is fine at its own edge, or on that of a neighbour if that one resolves it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from typing import Protocol
+
+import numpy as np
+
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.controls import EdgeRadius, Size
+from fem_reference._contact.mesh_lengths import check_width
+from fem_reference._contact.path import (
+    NARROWER,
+    WIDTH_SHARE,
+    Branch,
+    Point,
+    edge_is_resolved,
+    edge_width,
+    element_length,
+    point_at,
+)
+from fem_reference._contact.resolved import projected
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._typing import Array
+from fem_reference.errors import NotConverged
+
+__all__ = ["EdgeStates"]
+
+CLOSE = 0.02
+"""Difference of the logarithms of two radii from which on a state is also looked for by way of one between."""
+
+SHARED = 2.0
+"""Ratio of an element at the edge to the resolved edge width up to which the mesh of a neighbour is taken: on those of
+the search it leaves 1e-5 of a load."""
+
+MOST_STATES = 400
+"""Largest number of states: 40 are usual where the contact grows to a hundred times the radius at which it begins."""
+
+WIDTHS = 8
+"""Largest number of widths of the edge at one radius."""
+
+MOVES = 12
+"""Largest number of moves of a mesh towards an event; two are usual, from an event that is 0.5 % away."""
+
+LARGEST_MOVE = 0.1
+"""Largest change of the radius in one of them, relative to it."""
+
+
+class _Meshes(Protocol):
+    """What makes meshes of a problem: `fem_reference._contact.mesh_choice.MeshChoice`."""
+
+    def spec_at(self, width: float, radius: float) -> MeshSpec: ...
+
+    def contact(self, spec: MeshSpec, size: float) -> Contact: ...
+
+
+@dataclass(slots=True)
+class EdgeStates:
+    """Solver of states in contact by the radius of their edge.
+
+    Attributes
+    ----------
+    meshes : MeshChoice
+        Of a solid that does not scale.
+    start : Point
+        A state with a contact edge on any mesh, to begin with.
+    degree : int
+        Of the elements.
+    density : float
+        Of the elements.
+    share : float
+        Resolved edge width, as `fem_reference._contact.path.WIDTH_SHARE`.
+    known : dict of float to Point
+        States by the radius of their edge.
+    """
+
+    meshes: _Meshes
+    start: Point
+    degree: int
+    density: float
+    share: float = WIDTH_SHARE
+    known: dict[float, Point] = field(default_factory=dict)
+
+    def at(self, radius: float) -> Point:
+        """Return the state with the contact edge at a radius, on any mesh that resolves it.
+
+        Raises
+        ------
+        NotConverged
+            If it is not found, or there are too many states.
+        """
+        if radius not in self.known:
+            if len(self.known) >= MOST_STATES:
+                raise NotConverged(
+                    f"the path in contact needs more than {MOST_STATES} states with edges between "
+                    f"{min(self.known):.4g} and {max(self.known):.4g}"
+                )
+            self.known[radius] = self._on_known_mesh(radius) or self.own(radius)[1]
+        return self.known[radius]
+
+    def own(self, radius: float) -> tuple[MeshSpec, Point]:
+        """Return the mesh that is fine at a radius, and the state with the contact edge there.
+
+        Raises
+        ------
+        NotConverged
+            If the state is not found, or its edge is narrower than a mesh can resolve.
+        """
+        near = self._nearest(radius)
+        width = self.share * edge_width(near) * near.edge_radius / radius
+        for _ in range(WIDTHS):
+            spec = self.meshes.spec_at(width, radius)
+            contact = self.meshes.contact(replace(spec, order=self.degree, density=self.density), radius)
+            point = self._reached(contact, radius)
+            relative = edge_width(point)
+            # The gap falls at the edge of a mesh that is too coarse to tell the width.
+            width = self.share * relative if relative > 0.0 else NARROWER * spec.edge_width
+            check_width(width)
+            if width >= spec.edge_width:
+                return spec, point
+        raise NotConverged(f"the width of the contact edge was not found at the radius {radius:.4g}")
+
+    def located(self, excess: Callable[[Point], float], slope: float) -> tuple[MeshSpec, float]:
+        """Return the mesh that is fine at the contact edge of an event near the start, and the radius of that edge.
+
+        Parameters
+        ----------
+        excess : callable
+            What vanishes at the event.
+        slope : float
+            Its derivative with respect to the radius.
+
+        Raises
+        ------
+        NotConverged
+            As `own`, or if the event is not found.
+        """
+        radius = self.start.edge_radius
+        for _ in range(MOVES):
+            spec, self.start = self.own(radius)
+            move = -excess(self.start) / slope
+            if abs(move) <= 0.5 * WIDTH_SHARE * edge_width(self.start) * radius:
+                return spec, radius
+            radius += float(np.clip(move, -LARGEST_MOVE * radius, LARGEST_MOVE * radius))
+        raise NotConverged(f"the contact edge of an event was not found near the radius {radius:.4g}")
+
+    def _on_known_mesh(self, radius: float) -> Point | None:
+        """The state on the mesh of the nearest one, if its elements there are short enough."""
+        near = self._nearest(radius)
+        wide = SHARED * WIDTH_SHARE * edge_width(near) * near.edge_radius
+        if near is self.start or element_length(near, radius) > wide:
+            return None
+        with suppress(NotConverged):
+            point = near.branch.solve(radius, near.predict(radius))
+            if edge_is_resolved(point, SHARED):
+                return point
+        return None
+
+    def _nearest(self, radius: float) -> Point:
+        """The nearest state known."""
+        if not self.known:
+            return self.start
+        return self.known[min(self.known, key=lambda r: abs(math.log(r / radius)))]
+
+    def _reached(self, contact: Contact, radius: float) -> Point:
+        """State on a mesh whose edge is at that radius, by way of states between if it is not found at once."""
+        while True:
+            near = self._nearest(radius)
+            try:
+                return _state_from(near, contact, radius)
+            except NotConverged:
+                if abs(math.log(near.edge_radius / radius)) <= CLOSE:
+                    raise
+                self.at(math.sqrt(near.edge_radius * radius))
+
+
+def _state_from(near: Point, contact: Contact, radius: float) -> Point:
+    """The state with the contact edge at a radius where a mesh is fine, from one on another mesh."""
+    branch = Branch(contact, Size(radius), lambda r: EdgeRadius(contact.law.peak_gap, r), touching=True)
+    with suppress(NotConverged):
+        return branch.solve(radius, _shifted(near, contact, radius))
+    with suppress(NotConverged):
+        return branch.solve(radius, projected(point_at(near, radius), contact, radius))
+    raise NotConverged(
+        f"no equilibrium was found with the contact edge at {radius:.6g}, from that at {near.edge_radius:.6g}"
+    )
+
+
+def _shifted(point: Point, contact: Contact, radius: float) -> Array:
+    """Start on a mesh whose edge is at a radius: the gap of another state, moved with its edge.
+
+    The edge keeps its shape where it moves.  The displacement that belongs to the gap is no equilibrium, but the first
+    Newton step finds it: it depends linearly on the traction, which changes little.
+    """
+    trace, target, y, size = (
+        point.branch.contact.compliance.trace,
+        contact.compliance.trace,
+        point.state.y,
+        point.state.size,
+    )
+    move, r = radius - point.edge_radius, radius * target.s
+    s = np.clip((r - move) / size, 0.0, trace.extent)
+    gap = -y[-2] + contact.punch.height(size * s) + trace.evaluate(s) @ y[:-2]
+    approach = point.state.displacement + move * point.displacement_rate
+    w = target.projection(gap + approach - contact.punch.height(r))
+    return np.concatenate([w, [approach, radius]])

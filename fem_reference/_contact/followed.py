@@ -1,0 +1,157 @@
+"""Events of a solid that does not scale, and the meshes that are fine at their contact edges."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cached_property
+from typing import Protocol
+
+from fem_reference._contact.carried_events import CarriedEvents
+from fem_reference._contact.carried_path import carried_path
+from fem_reference._contact.completeness import complete_path, displacement_range
+from fem_reference._contact.contact import Contact
+from fem_reference._contact.edge_states import EdgeStates
+from fem_reference._contact.events import JUMP_IN, LANDING, PathEvents, excess_of
+from fem_reference._contact.jkr_tension import last_turn
+from fem_reference._contact.mesh_lengths import WIDEST, check_width, kinks_within, spot_length
+from fem_reference._contact.path import WIDTH_SHARE, Point, equilibrium_points
+from fem_reference._contact.tracing import beginning
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference.accuracy import Level
+from fem_reference.problem import Problem
+
+__all__ = ["FollowedPath"]
+
+SEARCH_DEGREES = 2
+"""Degrees by which the elements of the path are lower than those of its events: a third of the time."""
+
+TIE = 1e-2
+"""Difference of two minima, relative to the load or in lengths of the law, up to which their own meshes decide."""
+
+EVENT_SHARE = 0.07
+"""Resolved edge width of an event, as `fem_reference._contact.path.WIDTH_SHARE`: the edge moves over the elements
+there, and the rates have the error of a load divided by the length of an element."""
+
+SCAN_DENSITY = 0.5
+"""Density of the mesh for the limit of a short range: an element is at most half as long as its distance."""
+
+WIDEST_EDGE = 5.0
+"""Ratio of the width of an edge to the length of balance that it does not exceed where the edge is sharp (measured: 2.2
+at the pull-off on a soft layer with a Tabor number of 160)."""
+
+
+class _Choice(Protocol):
+    """What makes meshes of a problem: `fem_reference._contact.mesh_choice.MeshChoice`."""
+
+    @property
+    def problem(self) -> Problem: ...
+
+    @property
+    def level(self) -> Level: ...
+
+    def spec_at(self, width: float, radius: float) -> MeshSpec: ...
+
+    def contact(self, spec: MeshSpec, size: float) -> Contact: ...
+
+
+class FollowedPath:
+    """The path of a problem, each state in contact on a mesh that resolves its edge.
+
+    Parameters
+    ----------
+    choice : MeshChoice
+        Of a solid that does not scale.
+    first : tuple of MeshSpec and float
+        The mesh on which the path begins.
+    """
+
+    def __init__(self, choice: _Choice, first: tuple[MeshSpec, float]) -> None:
+        self._choice, self._first = choice, first
+        self._degree = choice.level.order - SEARCH_DEGREES
+
+    @cached_property
+    def _approach(self) -> tuple[list[Point], Point]:
+        """The path before contact, and its first state in contact, on the first mesh."""
+        spec, size = self._first
+        points = equilibrium_points(self._choice.contact(replace(spec, order=self._degree), size))
+        approach: list[Point] = []
+        for point in points:
+            if point.branch.touching:
+                *approach, first = complete_path([*approach, point])
+                return approach, first
+            approach.append(point)
+        raise AssertionError("a path that does not reach contact raises NotConverged")
+
+    def events(self, event: str = "") -> PathEvents:
+        """Return the events of the path; for a jump into contact before there is an edge, of that part of it.
+
+        Raises
+        ------
+        NotConverged
+            If the path cannot be followed.
+        """
+        return PathEvents(self._approach[0]) if event == JUMP_IN and self._jumps_before_contact() else self._whole
+
+    def _jumps_before_contact(self) -> bool:
+        return any(point.displacement_rate <= 0.0 for point in self._approach[0])
+
+    @cached_property
+    def _whole(self) -> CarriedEvents:
+        problem, turn = self._choice.problem, self._last_turn()
+        # Edges beyond reach are refused here, and not after minutes.
+        check_width(WIDEST_EDGE * WIDTH_SHARE * spot_length(problem, self._first[1]) / turn)
+        approach, first = self._approach
+        states = EdgeStates(self._choice, first, self._degree, self._choice.level.densities[0])
+        highest = displacement_range(approach)[1]
+        touching = carried_path(states, first.edge_radius, turn, kinks_within(problem), highest)
+        before = complete_path([*beginning(approach, touching), *approach])
+        return CarriedEvents(before, touching, states)
+
+    def _last_turn(self) -> float:
+        """Radius beyond which neither load nor displacement turns back."""
+        size = self._first[1]
+        spec = replace(self._choice.spec_at(WIDEST, size), density=SCAN_DENSITY, order=self._degree)
+        return last_turn(self._choice.contact(spec, size), size)
+
+    def mesh(self, event: str) -> tuple[MeshSpec, float]:
+        """Return the mesh that is fine at the contact edge of an event, and the radius of that edge.
+
+        Raises
+        ------
+        NoSuchEvent
+            If the path has no such point.
+        NotConverged
+            As `events`, or if the edge is narrower than a mesh can resolve.
+        """
+        if event == JUMP_IN and self._jumps_before_contact():
+            return self._first
+        located = [self._located(event, point) for point in self._lowest(event)]
+        mesh, point, slope = min(located, key=lambda mesh_and_point: _height(event, mesh_and_point[1]))
+        self._whole.take(event, point, slope)
+        return mesh
+
+    def _lowest(self, event: str) -> Sequence[Point]:
+        """The state at an event, and others that may be it on their own meshes."""
+        deepest = self._whole.at(event)
+        if event not in ("pull_off", "jump_out"):
+            return [deepest]
+        unit = abs(deepest.state.load) if event == "pull_off" else self._choice.problem.law.length
+        limit = _height(event, deepest) + TIE * unit
+        return [point for point in self._whole.minima(event) if _height(event, point) <= limit]
+
+    def _located(self, event: str, point: Point) -> tuple[tuple[MeshSpec, float], Point, float]:
+        """The mesh for the edge of an event, its state there, and the slope of what vanishes."""
+        slope = self._whole.slope(event, point)
+        if not point.branch.touching:
+            return self._first, point, slope
+        level = self._whole.jump_in.state.displacement if event == LANDING else 0.0
+        # Its own finest mesh decides where the edge is, because the rates on coarser ones are less certain.
+        order, densities = self._choice.level.order, self._choice.level.densities
+        states = EdgeStates(self._choice, point, order, densities[-1], EVENT_SHARE)
+        return states.located(excess_of(event, level), slope), states.start, slope
+
+
+def _height(event: str, point: Point) -> float:
+    """Load or displacement, the lowest of which is the event."""
+    return point.state.load if event == "pull_off" else point.state.displacement

@@ -1,0 +1,181 @@
+"""Mesh that carries a whole path: that of a solid that scales, or of the point where folds merge.
+
+The first width of the contact edge is the length over which the surface law and the solid balance; the path traced
+on that mesh shows how wide the edge is, and the mesh is made again until it is fine enough.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from fem_reference._contact.cusp import slowest_sample
+from fem_reference._contact.events import CUSP, PathEvents, beyond_pull_off
+from fem_reference._contact.mesh_lengths import NARROWEST, balance_length, check_width, mesh_spec
+from fem_reference._contact.path import EDGE_RISE, NARROWER, WIDTH_SHARE, Point, edge_width
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference.accuracy import Level
+from fem_reference.errors import NotConverged
+from fem_reference.problem import Problem
+from fem_reference.punch import radius_at_height
+
+__all__ = ["FAR_SHARE", "OneMesh"]
+
+FAR_SHARE = 0.5
+"""Share of the density far beyond the edge, where contact begins on a spot much smaller than the punch and the tension
+falls within an element otherwise: on the meshes of "quick" the path of n = 6.2, k = 0.53, mu = 2.9 stops there with 1,
+and with 0.5 it is that of 0.3 to 1e-6 (measured)."""
+
+SMALL_SPOT = 0.25
+"""Smallest radius of the contact, relative to that where the punch rises by `EDGE_RISE`, below which it is small."""
+
+FAILURES = 3
+"""Meshes in a row on which a path cannot be traced, after which meshes of a finer accuracy are tried: a narrower edge
+does not help then."""
+
+BLIND = 4
+"""Meshes too coarse to tell the width of the edge, after which the narrowest one is taken to tell it: at k = 0.88 and
+mu = 1.2 under a cone the edge is 1e-5 of its radius wide."""
+
+REFINEMENTS = 10
+"""Largest number of meshes tried to find the width of the edge."""
+
+
+class _Choice(Protocol):
+    """What traces a problem on a mesh: `fem_reference._contact.mesh_choice.MeshChoice`."""
+
+    @property
+    def problem(self) -> Problem: ...
+
+    @property
+    def level(self) -> Level: ...
+
+    @property
+    def scaling(self) -> bool: ...
+
+    def path(self, spec: MeshSpec, size: float) -> PathEvents: ...
+
+
+@dataclass(slots=True)
+class OneMesh:
+    """Search for the coarsest mesh on which the edges of a path are resolved.
+
+    Parameters
+    ----------
+    choice : MeshChoice
+    events : tuple of str
+        Events that are needed: the edge of a part of the path that none of them needs may be sharper.
+    """
+
+    choice: _Choice
+    events: tuple[str, ...]
+    smallest: float = math.inf
+    apex: float = math.inf
+    far_share: float = 1.0
+    failures: int = 0
+    blind: int = 0
+
+    def found(self, start: tuple[MeshSpec, float] | None = None) -> tuple[MeshSpec, float]:
+        """Return the mesh, at the coarsest density of the accuracy, and the radius of its edge.
+
+        Parameters
+        ----------
+        start : tuple, optional
+            The mesh and size of a similar problem, to begin with.
+
+        Raises
+        ------
+        NotConverged
+            If the path cannot be traced, or the edge is narrower than the mesh can resolve.
+        """
+        spec, size = self._first() if start is None else (self._coarsest(start[0]), start[1])
+        for _ in range(REFINEMENTS):
+            try:
+                samples = self.choice.path(spec, size).samples
+            except NotConverged:
+                narrower = self._without_path(spec, size)
+                if narrower == spec or self.failures == FAILURES:
+                    raise
+                spec = narrower
+                continue
+            following = self._following(spec, size, samples)
+            if following is None:
+                return spec, size
+            spec = following
+        raise NotConverged(
+            "the width of the contact edge was not found; the edge is narrower than the mesh can resolve"
+        )
+
+    def _coarsest(self, spec: MeshSpec) -> MeshSpec:
+        return replace(spec, density=self.choice.level.densities[0])
+
+    def _first(self) -> tuple[MeshSpec, float]:
+        """The mesh for the edge where law and solid balance."""
+        punch, law = self.choice.problem.punch, self.choice.problem.law
+        self.smallest = radius_at_height(punch, EDGE_RISE * law.length)
+        # The folds merge before there is a sharp edge: the mesh of a solid that scales is fine at this radius, too.
+        at_spot = self.events == (CUSP,) and not self.choice.scaling
+        size = self.smallest if at_spot else 2.0 * radius_at_height(punch, law.length)
+        width = 0.5 * balance_length(self.choice.problem, size) / size
+        check_width(width)
+        return self._spec(width, size), size
+
+    def _spec(self, width: float, size: float) -> MeshSpec:
+        choice = self.choice
+        return mesh_spec(choice.problem, choice.level, width, size, self.smallest, self.far_share, self.apex)
+
+    def _without_path(self, spec: MeshSpec, size: float) -> MeshSpec:
+        """The mesh to try where a path cannot be traced.
+
+        An under-resolved edge is pinned to the elements; or contact begins on a spot, which is as small as the solid
+        and the law allow, far from elements that lose the rest of the punch.
+        """
+        self.failures += 1
+        self.blind += 1
+        balance = balance_length(self.choice.problem, size)
+        if self.choice.scaling:
+            self.smallest, self.far_share = min(self.smallest, balance), FAR_SHARE * self.far_share
+        else:
+            self.apex = balance
+        return self._spec(NARROWER * spec.edge_width, size)
+
+    def _following(self, spec: MeshSpec, size: float, samples: Sequence[Point]) -> MeshSpec | None:
+        """The mesh to try after a path that was traced on one, or None if that one resolves it."""
+        self.failures = 0
+        points = self._needed(samples)
+        if self.choice.scaling:
+            # Contact may begin on a spot much smaller than the punch, and the mesh shrinks with it.
+            self.smallest = min(self.smallest, *(point.state.size for point in points))
+            law = self.choice.problem.law
+            if self.smallest < SMALL_SPOT * radius_at_height(self.choice.problem.punch, EDGE_RISE * law.length):
+                self.far_share = min(self.far_share, FAR_SHARE)
+        narrowest = min((edge_width(point) for point in points if point.branch.touching), default=1.0)
+        if narrowest <= 0.0:
+            # The gap falls at the edge of a mesh that is too coarse to tell the width.
+            self.blind += 1
+            width = NARROWEST if self.blind >= BLIND else NARROWER * spec.edge_width
+            return self._spec(min(width, spec.edge_width), size)
+        width = WIDTH_SHARE * narrowest
+        check_width(width)
+        needed = self._spec(width, size)
+        if self.blind >= BLIND:
+            # The narrowest mesh has told the width.
+            self.blind = 0
+            return needed if needed != spec else None
+        resolved = needed.edge_width >= spec.edge_width and needed.extent <= spec.extent
+        if resolved and self.far_share >= spec.far_share:
+            return None
+        return self._spec(min(width, spec.edge_width), size)
+
+    def _needed(self, points: Sequence[Point]) -> Sequence[Point]:
+        """The part of a path in which the edge has to be resolved."""
+        if self.events == (CUSP,):
+            # The folds merge before the edge is as sharp as at the pull-off.
+            return points[: slowest_sample(points) + 2]
+        if any(beyond_pull_off(event) for event in self.events):
+            return points
+        # Beyond the pull-off the edge is sharper relative to its radius, but that part is not needed.
+        deepest = min(range(len(points)), key=lambda i: points[i].state.load)
+        return points[: deepest + 2]
