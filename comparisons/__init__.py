@@ -13,7 +13,11 @@ Examples
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any
+
+# Not imported from typing: `python -m comparisons` would look for it in the working folder first.
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import Any
 
 #: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
 LAYERS = (

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import sys
-from pathlib import Path
+
+if __name__ == "__main__" and not sys.flags.safe_path:
+    # `python -m` puts the working folder first, which may hold a model and modules of any name.
+    sys.path[0] = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 from comparisons.console.exit_status import guarded
 from comparisons.console.installation import check_packages
@@ -13,12 +17,14 @@ __all__ = ["main"]
 
 def main() -> int:
     """Run the command line; return the exit status."""
+    # Nor do worker processes, whose interpreters start in the working folder, import from there.
+    os.environ["PYTHONSAFEPATH"] = "1"
     return guarded(_command, _program())
 
 
 def _program() -> str:
     """Return the name by which the user started the program."""
-    return "python -m comparisons" if Path(sys.argv[0]).name == "__main__.py" else "fscm-bench"
+    return "python -m comparisons" if os.path.basename(sys.argv[0]) == "__main__.py" else "fscm-bench"
 
 
 def _command() -> int:

@@ -15,7 +15,7 @@ settings.load_profile("no deadline")
 
 @pytest.hookimpl(wrapper=True)
 def pytest_collection():
-    """Do not search the seven thousand tests for garbage, neither while they are collected nor afterwards."""
+    """Do not search all the tests for garbage, neither while they are collected nor afterwards."""
     gc.disable()
     try:
         return (yield)

@@ -35,8 +35,6 @@ ALLOWED = {
     "comparisons.paper.statements.surfaces": ("fscm",),
     # Judges statements on the functions inside the FSCM and on the two Tabor numbers (Eqs. 18-22 and 30).
     "comparisons.paper.statements.formulas": ("fscm",),
-    # The Tabor number of Jin et al. (Eq. 30) needs the physical problem.
-    "comparisons.paper.values.sampling": ("fscm.physical",),
     # Both jumps of one path, at every Tabor number, in half the time of two computations.
     "comparisons.paper.figures.fig08_jumps": ("fscm",),
     # Measure a solver at every accuracy, the others beside it, and the linear solvers inside the finite elements.

@@ -16,7 +16,9 @@ from pathlib import Path, PurePosixPath
 
 import pytest
 import yaml
+from setuptools import Distribution
 
+from comparisons.build_step import MetadataWithLinks
 from comparisons.console.installation import EXTRAS as MISSING
 from comparisons.runs.code_files import NOT_INSTALLED
 from comparisons.runs.environment import code_digest
@@ -193,9 +195,25 @@ def test_the_wheel_is_small(wheel):
     assert path.stat().st_size < 4e6
 
 
-def test_the_page_on_pypi_has_absolute_links_to_files_that_exist(wheel):
-    (metadata,) = wheel.glob("*.dist-info/METADATA")
-    source, version = PROJECT["urls"]["Source"], PROJECT["version"]
+def test_no_file_has_the_address_of_an_account_that_anybody_may_register():
+    invented = re.compile(r"fscm-bench/fscm-bench\b(?!@)")
+    texts = [
+        name for name in sorted(repository()) if Path(name).suffix in {".md", ".toml", ".cff", ".yml", ".yaml", ".in"}
+    ]
+    assert len(texts) > 30
+    assert [name for name in texts if invented.search((ROOT / name).read_text(encoding="utf-8"))] == []
+
+
+def test_the_page_on_pypi_has_absolute_links_to_files_that_exist(tmp_path, monkeypatch):
+    """Of a release: `pyproject.toml` has the address of the repository then."""
+    source, version = "https://host/owner/name", PROJECT["version"]
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    attributes = {"name": "fscm-bench", "version": version, "long_description": readme, "script_name": "setup.py"}
+    command = MetadataWithLinks(Distribution({**attributes, "project_urls": {"Source": source}}))
+    command.ensure_finalized()
+    command.run()
+    (metadata,) = tmp_path.glob("*.egg-info/PKG-INFO")
     links = re.findall(r"\]\(([^)\s]+)\)", metadata.read_text(encoding="utf-8"))
     ours = [link for link in links if link.startswith(source)]
     assert len(ours) > 10
@@ -233,14 +251,10 @@ def test_the_constraints_have_the_lowest_version_of_every_requirement():
 
 def test_a_release_is_refused_while_something_does_not_agree():
     problems = runpy.run_path(str(ROOT / ".github" / "release_check.py"))["problems"]
-    version, source = PROJECT["version"], PROJECT["urls"]["Source"]
-    assert not any("pyproject.toml" in line or "CITATION" in line for line in problems(f"v{version}", source))
-    assert any(
-        f"the tag is v0.0.9, and the version in pyproject.toml {version}" in line for line in problems("v0.0.9", source)
-    )
-    assert any(
-        "this repository is https://host/other" in line for line in problems(f"v{version}", "https://host/other")
-    )
+    version, address = PROJECT["version"], "https://host/owner/name"
+    assert not any("CITATION" in line or "tag" in line for line in problems(f"v{version}", address))
+    assert any("v0.0.9" in line and version in line for line in problems("v0.0.9", address))
+    assert any("[project.urls]" in line and address in line for line in problems(f"v{version}", address))
 
 
 def test_the_recipe_of_conda_has_the_requirements_and_the_names_of_the_project():
@@ -254,7 +268,7 @@ def test_the_recipe_of_conda_has_the_requirements_and_the_names_of_the_project()
     assert recipe["package"]["name"] == PROJECT["name"]
     about = recipe["about"]
     assert (about["summary"], about["license"]) == (PROJECT["description"], PROJECT["license"])
-    assert about["homepage"] == PROJECT["urls"]["Homepage"]
+    assert about.get("homepage") == PROJECT.get("urls", {}).get("Homepage")
     (setuptools,) = FOR_BUILD
     assert recipe["requirements"]["host"] == ["python 3.11.*", "pip", setuptools.replace(">=", " >=")]
     (entry,) = recipe["build"]["python"]["entry_points"]
@@ -268,7 +282,7 @@ def test_an_image_is_built_from_every_file_of_the_repository_and_without_an_old_
     assert all(any(_is_under(name, one) for one in patterns) for name in ("build/lib/fscm/x.py", ".venv/bin/python"))
 
 
-@pytest.mark.parametrize("name", ["tests.yml", "release.yml"])
+@pytest.mark.parametrize("name", ["tests.yml", "release.yml", "weekly.yml"])
 def test_a_workflow_is_pinned_and_has_few_rights(name):
     text = (ROOT / ".github" / "workflows" / name).read_text(encoding="utf-8")
     workflow = yaml.safe_load(text)
@@ -281,6 +295,18 @@ def test_a_workflow_is_pinned_and_has_few_rights(name):
         for step in job["steps"]:
             done = subprocess.run(["bash", "-n"], input=step.get("run", ""), capture_output=True, text=True)
             assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_the_heavy_tests_run_every_week():
+    workflow = yaml.safe_load((ROOT / ".github" / "workflows" / "weekly.yml").read_text(encoding="utf-8"))
+    # YAML 1.1 reads the key `on` as true.
+    (schedule,) = workflow[True]["schedule"]
+    _minute, _hour, day, month, weekday = schedule["cron"].split()
+    assert (day, month) == ("*", "*")
+    assert weekday.isdigit()
+    (step,) = [one for job in workflow["jobs"].values() for one in job["steps"] if "run" in one]
+    assert (step["run"], step["env"]) == ("bash .ci/run", {"FULL": "1"})
+    assert 'if [ "${FULL:-}" = 1 ]' in (ROOT / ".ci" / "run").read_text(encoding="utf-8")
 
 
 def test_the_versions_of_python_that_are_declared_are_tested():

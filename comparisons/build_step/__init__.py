@@ -49,15 +49,17 @@ class BuildWithBaseline(build_py):
 
 
 class MetadataWithLinks(egg_info):
-    """The command of setuptools that writes the metadata, with the README as it is shown elsewhere: on PyPI."""
+    """The command of setuptools that writes the metadata, with the README as it is shown elsewhere: on PyPI.
+
+    Without an address of the repository ([project.urls], Source) the links stay relative.
+    """
 
     def run(self) -> None:
         """Write the metadata."""
         metadata = self.distribution.metadata
-        # Several commands of one build run this; the second finds nothing to change.
-        metadata.long_description = absolute_links(
-            metadata.long_description or "", metadata.project_urls["Source"], f"v{metadata.version}"
-        )
+        if source := metadata.project_urls.get("Source"):
+            # Several commands of one build run this; the second finds nothing to change.
+            metadata.long_description = absolute_links(metadata.long_description or "", source, f"v{metadata.version}")
         super().run()
 
 

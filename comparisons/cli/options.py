@@ -6,12 +6,12 @@ import argparse
 import sys
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any, NoReturn
-
-from rich.console import Console
+from typing import Any
 
 from comparisons.console.exit_status import FAILED, FAILS, INCONCLUSIVE, OK, WRONG_INPUT, writing_stdout
 from comparisons.console.folding import hanging
+from comparisons.console.printable import printable
+from comparisons.console.safe_console import SafeConsole
 from comparisons.runs.cases import Case
 from comparisons.runs.workers import usable_cores
 
@@ -42,19 +42,16 @@ MODEL_SPEC = "a name (fscm-bench list models), FILE.py:CLASS, ./PROGRAM, or a fo
 _WIDTH = 80
 
 
-class _Output(Console):
+class _Output(SafeConsole):
     def print(self, *objects: Any, **options: Any) -> None:
         # A word that is longer than a line, as a path, goes on in the next one; rich would cut it.
         with writing_stdout():
             super().print(*objects, **{"crop": False, **options})
 
-    def on_broken_pipe(self) -> NoReturn:
-        raise BrokenPipeError
 
-
-def output() -> Console:
+def output() -> SafeConsole:
     """Return the console for results: stdout with the columns of the terminal, or 80 where it is none."""
-    return _Output(width=None if sys.stdout.isatty() else _WIDTH, highlight=False)
+    return _Output(width=None if sys.stdout.isatty() else _WIDTH, highlight=False, markup=False)
 
 
 def for_terminal(lines: Iterable[str]) -> str:
@@ -62,7 +59,7 @@ def for_terminal(lines: Iterable[str]) -> str:
     if sys.stdout.isatty():
         width = output().width
         lines = [part for line in lines for part in hanging(line, width)]
-    return "\n".join(lines) + "\n"
+    return printable("\n".join(lines)) + "\n"
 
 
 def number(text: str) -> float:

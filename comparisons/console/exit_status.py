@@ -20,6 +20,7 @@ from contextlib import contextmanager, suppress
 from typing import TextIO
 
 from comparisons.console.installation import sentence_on_missing_module
+from comparisons.console.printable import printable
 
 __all__ = [
     "FAILED",
@@ -185,10 +186,7 @@ def _terminate(number: int, frame: object) -> None:
 
 def _say(program: str, sentence: str) -> None:
     """Write on stderr, without control characters; if that fails too, only the exit status is left."""
-    safe = "".join(
-        character if character.isprintable() or character == "\n" else ascii(character)[1:-1] for character in sentence
-    )
-    text = f"{program}: {safe}"
+    text = f"{program}: {printable(sentence)}"
     with suppress(OSError):
         if sys.stderr.isatty():
             columns = shutil.get_terminal_size().columns

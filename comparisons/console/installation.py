@@ -44,7 +44,8 @@ def check_packages(root: Path | None = None) -> None:
             raise ValueError(
                 f"the distribution {found[1]} {found[2]} of another project is installed in {root} too, and writes to "
                 f"the same folder {found[1]} as fscm-bench: pip uninstall {found[1]}, then pip install "
-                "--force-reinstall --no-deps fscm-bench; or use a virtual environment for each"
+                "--force-reinstall --no-deps with the clone or the wheel of fscm-bench; or use a virtual environment "
+                "for each"
             )
     for package in _PACKAGES:
         spec = find_spec(package)

@@ -6,10 +6,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
 from contextvars import ContextVar
 from datetime import timedelta
-from math import ceil
-from typing import NoReturn
+from math import ceil, inf
 
-from rich.console import Console
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
@@ -21,15 +19,16 @@ from rich.progress import (
 )
 from rich.text import Text
 
-__all__ = ["counting", "log", "note", "quiet", "waiting"]
+from comparisons.console.safe_console import SafeConsole
 
+__all__ = ["EVIDENCE", "counting", "log", "note", "quiet", "waiting"]
+
+
+#: Share of the computations of one kind that are finished before there is an estimate of the time left, at least one:
+#: the first may take longer than hundreds after it, since a process starts and a solver stores its tables.
+EVIDENCE = 0.05
 
 _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
-
-
-class _Messages(Console):
-    def on_broken_pipe(self) -> NoReturn:
-        raise BrokenPipeError  # rich would end the process with status 1
 
 
 def log(text: str) -> None:
@@ -38,7 +37,7 @@ def log(text: str) -> None:
     A message that cannot be written is lost and stops no computation.
     """
     with suppress(OSError):
-        console = _Messages(stderr=True, highlight=False, markup=False)
+        console = SafeConsole(stderr=True, highlight=False, markup=False)
         console.print(text, soft_wrap=not console.is_terminal)
 
 
@@ -86,10 +85,15 @@ class _TimeLeft(ProgressColumn):
     def render(self, task: Task) -> Text:
         since = task.get_time() - task.fields["counted"]
         left = task.fields["left"]
-        if left is None and task.completed and task.total is not None and task.start_time is not None:
+        if (
+            left is None
+            and task.total
+            and task.completed >= ceil(EVIDENCE * task.total)
+            and task.start_time is not None
+        ):
             elapsed = task.fields["counted"] - task.start_time
             left = elapsed / task.completed * (task.total - task.completed)
-        if left is None:
+        if left is None or left == inf:
             return Text("-:--:--", style="progress.remaining")
         shown = min(self._shown.get(task.id, float("inf")), max(left - since, 0.0))
         self._shown[task.id] = shown
@@ -100,7 +104,8 @@ class _TimeLeft(ProgressColumn):
 def counting(description: str, total: int) -> Iterator[Callable[..., None]]:
     """Show how many of `total` computations are done.
 
-    Call the returned function when one more is done, with the seconds left if they are known.
+    Call the returned function when one more is done, with the seconds left if they are estimated: infinite before there
+    is an estimate.
     """
     with _bar(MofNCompleteColumn(), TimeElapsedColumn(), _TimeLeft()) as bar:
         task = bar.add_task(description, total=total, left=None, counted=bar.get_time())
@@ -113,8 +118,10 @@ def counting(description: str, total: int) -> Iterator[Callable[..., None]]:
 
 @contextmanager
 def _bar(*columns: ProgressColumn) -> Iterator[Progress]:
-    console = Console(stderr=True)
-    bar = Progress(TextColumn("{task.description}"), BarColumn(), *columns, console=console, transient=True)
+    console = SafeConsole(stderr=True)
+    bar = Progress(
+        TextColumn("{task.description}", markup=False), BarColumn(), *columns, console=console, transient=True
+    )
     # Without a terminal (a file, a CI log) a redrawn bar is only noise: it counts, but is not started.
     with bar if console.is_terminal and not _quiet.get() else nullcontext():
         yield bar

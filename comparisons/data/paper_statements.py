@@ -38,8 +38,10 @@ class PaperStatement:
         Repeats the decisive numbers.
     arguments : mapping
         Of the test.
-    stated_n : tuple of float
-        Shape indices for which the paper states it; those of other clauses are beyond the paper.  Empty: all.
+    own : mapping
+        The cases that the paper shows or names: admissible values by parameter (n, k, mu).  Empty: none.
+    general : bool
+        Whether the paper states it beyond its own cases.  If not, the other cases are beyond the paper.
     """
 
     id: str
@@ -50,11 +52,16 @@ class PaperStatement:
     range: str
     command: str
     arguments: Mapping[str, Any] = field(default_factory=dict)
-    stated_n: tuple[float, ...] = ()
+    own: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    general: bool = False
 
-    def beyond(self, n: float) -> bool:
-        """Whether the paper does not state it for this shape index."""
-        return bool(self.stated_n) and n not in self.stated_n
+    def is_own(self, case: Mapping[str, float]) -> bool:
+        """Whether the paper shows or names a case, given by its parameters; a missing one is free."""
+        return bool(self.own) and all(case[name] in values for name, values in self.own.items() if name in case)
+
+    def is_beyond(self, case: Mapping[str, float]) -> bool:
+        """Whether the paper does not state it for a case."""
+        return bool(self.own) and not self.general and not self.is_own(case)
 
     def numbers(self, name: str, default: tuple[float, ...] = ()) -> tuple[float, ...]:
         """Return an argument that is a list of numbers."""
@@ -77,15 +84,16 @@ def read_statements(text: str, source: str = _FILE) -> list[PaperStatement]:
     """
     document = parse(text, source)
     validated(document, "paper_statements", source)
-    found = [
-        PaperStatement(**{**table, "stated_n": tuple(map(float, table.get("stated_n", ())))})
-        for table in document["statement"]
-    ]
-    ids = [statement.id for statement in found]
+    statements = [PaperStatement(**{**table, "own": _own(table)}) for table in document["statement"]]
+    ids = [statement.id for statement in statements]
     for id in ids:
         if ids.count(id) > 1:
             raise ValueError(f"{source}: two statements have the id {id!r}; an id must be unique")
-    return found
+    return statements
+
+
+def _own(table: Mapping[str, Any]) -> dict[str, tuple[float, ...]]:
+    return {name: tuple(map(float, values)) for name, values in table.get("own", {}).items()}
 
 
 def paper_statements() -> list[PaperStatement]:

@@ -11,12 +11,10 @@ from dataclasses import astuple, dataclass
 from decimal import Decimal
 from importlib.resources import files
 
-__all__ = ["REPRODUCED", "TRUNCATED", "PaperValue", "paper_values"]
+__all__ = ["TRUNCATED", "PaperValue", "paper_values"]
 
 #: Verdict on a number that has the printed digits only if its further digits are dropped.
 TRUNCATED = "agrees if truncated"
-#: Verdicts on a number that may have been shortened to the printed one.
-REPRODUCED = ("agrees", TRUNCATED)
 
 # Of a formula written as a decimal here.
 _ROUNDING = 2.0**-52

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import sys
 import tomllib
+from collections.abc import Iterator
 from typing import Any
 
-__all__ = ["is_real", "parse"]
+__all__ = ["LONGEST_WORD", "is_real", "parse"]
+
+#: Most characters of a key or of a text; the longest of our files has 330.  The search for the known name nearest to an
+#: unknown one, and the reading of a unit, take minutes for a megabyte.
+LONGEST_WORD = 10_000
 
 
 def parse(text: str, source: str) -> dict[str, Any]:
@@ -21,7 +26,7 @@ def parse(text: str, source: str) -> dict[str, Any]:
     Raises
     ------
     ValueError
-        If it is not TOML, or nested too deeply for the parser.
+        If it is not TOML, nested too deeply for the parser, or has a key or a text longer than `LONGEST_WORD`.
 
     Examples
     --------
@@ -30,11 +35,28 @@ def parse(text: str, source: str) -> dict[str, Any]:
     ValueError: mine.toml is not TOML: Invalid value (at end of document)
     """
     try:
-        return tomllib.loads(text)
+        tables = tomllib.loads(text)
     except ValueError as error:
         raise ValueError(f"{source} is not TOML: {error}") from None
     except RecursionError:
         raise ValueError(f"{source} is not TOML that can be read: its brackets are nested too deeply") from None
+    if (length := max(map(len, _words(tables)), default=0)) > LONGEST_WORD:
+        raise ValueError(f"{source} has a key or a text of {length} characters; they have at most {LONGEST_WORD}")
+    return tables
+
+
+def _words(tables: dict[str, Any]) -> Iterator[str]:
+    """Yield the keys and the texts of all tables."""
+    pending: list[Any] = [tables]
+    while pending:
+        value = pending.pop()
+        if isinstance(value, dict):
+            yield from value
+            pending.extend(value.values())
+        elif isinstance(value, list):
+            pending.extend(value)
+        elif isinstance(value, str):
+            yield value
 
 
 def is_real(value: object) -> bool:

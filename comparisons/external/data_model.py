@@ -14,6 +14,8 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
+from comparisons.data.contained_paths import path_inside
+from comparisons.data.input_files import LARGEST_TABLE, LARGEST_TEXT, read_bytes
 from comparisons.domain import Domain
 from comparisons.external.manifest import MANIFEST, Key, check_units, covered_cases, read_manifest
 from comparisons.external.text_rules import one_line
@@ -26,7 +28,6 @@ __all__ = ["DataModel", "Submission", "read_submission"]
 
 _COLUMNS = ["quantity", "n", "k", "mu", "value", "u_num"]
 _TEXTS = ("name", "version", "author", "doi", "licence", "domain")
-_LARGEST_MANIFEST, _LARGEST_CSV = 1_000_000, 50_000_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,9 +107,9 @@ def read_submission(folder: Path) -> Submission:
 
 
 def _submission(folder: Path) -> Submission:
-    manifest = read_manifest(_text_of(_bytes(folder, MANIFEST, _LARGEST_MANIFEST), MANIFEST))
+    manifest = read_manifest(_text_of(_bytes(folder, MANIFEST, LARGEST_TEXT), MANIFEST))
     file = manifest["predictions"]
-    content = _bytes(folder, file, _LARGEST_CSV)
+    content = _bytes(folder, file, LARGEST_TABLE)
     digest = hashlib.sha256(content).hexdigest()
     if digest != manifest["sha256"].lower():
         raise ValueError(
@@ -126,18 +127,13 @@ def _submission(folder: Path) -> Submission:
 
 
 def _bytes(folder: Path, name: str, largest: int) -> bytes:
-    path = folder / name
     try:
-        is_inside = path.resolve().parent == folder.resolve()
-    except RuntimeError:  # Python 3.11 and 3.12; a later one finds no file below
-        raise ValueError(f"{name} is a loop of symbolic links") from None
-    if not is_inside:
-        raise ValueError(f"{name} is not in the folder of {MANIFEST}")
+        path = path_inside(folder, name)
+    except ValueError:
+        raise ValueError(f"{name} is not in the folder of {MANIFEST}") from None
     if not path.is_file():
         raise ValueError(f"there is no file {name}")
-    if path.stat().st_size > largest:
-        raise ValueError(f"{name} has more than {largest} bytes")
-    return path.read_bytes()
+    return read_bytes(path, largest)
 
 
 def _lines(content: bytes) -> int:

@@ -27,6 +27,9 @@ __all__ = ["GROUP", "close_models", "installed", "load_again", "load_model", "so
 #: Group of the entry points by which an installed package offers models.
 GROUP = "fscm_bench.models"
 
+#: Endings of tables, which are no programs even where a file system marks every file as executable.
+_TABLES = {".csv", ".tsv", ".dat", ".txt", ".parquet", ".xlsx", ".ods"}
+
 _loaded: dict[tuple[str, float | None], ExternalModel | DataModel] = {}
 
 
@@ -69,6 +72,7 @@ def source_of(spec: str) -> dict[str, Any]:
         if not attribute.isidentifier():
             raise ValueError(f"{one_line(spec, 200)}: the text after the colon must be the name of a class")
         return {"kind": "file", "file": str(path), "attribute": attribute}
+    _refuse_table(spec)
     if program := _program(spec):
         return {"kind": "program", "file": program}
     folder = Path(os.path.expanduser(spec))
@@ -94,6 +98,16 @@ def source_of(spec: str) -> dict[str, Any]:
             f"neither FILE.py:CLASS nor a program (./PROGRAM) nor a folder with a {MANIFEST}"
         )
     return {"kind": "package", "group": GROUP, "name": spec}
+
+
+def _refuse_table(spec: str) -> None:
+    """Refuse a bare table: a value has a quantity, a case and a unit, which the file beside it states."""
+    path = os.path.expanduser(spec)
+    if os.path.splitext(path)[1].lower() in _TABLES and os.path.isfile(path):
+        raise ValueError(
+            f"{one_line(spec, 200)} is a table and no model: put it in a folder with a {MANIFEST}, which states its "
+            "name, its units and its cases, and give the name of the folder (docs/judge_your_model.md, Only data)"
+        )
 
 
 def _program(spec: str) -> str:

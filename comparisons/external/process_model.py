@@ -21,9 +21,6 @@ from fscm.punch import PowerPunch
 
 __all__ = ["ExternalModel", "ExternalModelWithCurve", "connect"]
 
-#: Most facts about the use of the references that are kept; one is enough for a verdict.
-_MOST_FACTS = 5
-
 
 class ExternalModel:
     """A model in a child process.
@@ -40,12 +37,8 @@ class ExternalModel:
         Whether it works in physical units.
     applies_to : Domain or None
         The domain that it declares.
-    uses : tuple of str
-        What was seen so far of its use of the references, e.g. "imports fscm".
-    starts_programs : bool
-        Whether it was seen to start other programs, in which nothing is seen.
     is_program : bool
-        Whether it is itself a program, in which nothing is seen.
+        Whether it is a program, and no class of Python.
     """
 
     def __init__(self, child: Child, loaded: dict[str, Any], poisson_ratio: float | None = None) -> None:
@@ -59,9 +52,6 @@ class ExternalModel:
         self.physical = bool(loaded["physical"])
         self.applies_to = None if loaded.get("applies_to") is None else Domain.of(loaded["applies_to"])
         self.is_program = child.is_program
-        self.uses: tuple[str, ...] = ()
-        self.starts_programs = False
-        self._note(loaded)
 
     def evaluate(self, problem: Problem, quantity: str, *, scales: int = 0) -> Result:
         """Return the quantity, or raise `NotApplicable` or `ComputationFailed`; nothing else."""
@@ -95,17 +85,10 @@ class ExternalModel:
             poisson_ratio=self._poisson_ratio,
             **more,
         )
-        self._note(reply)
         if reply["status"] == "ok":
             return reply
         reason = one_line(str(reply.get("reason", ""))) or "the model gave no reason"
         raise (NotApplicable if reply["status"] == "not-applicable" else ComputationFailed)(reason)
-
-    def _note(self, reply: dict[str, Any]) -> None:
-        seen = reply.get("uses")
-        if isinstance(seen, list):
-            self.uses = tuple(dict.fromkeys((*self.uses, *(one_line(str(fact), 200) for fact in seen))))[:_MOST_FACTS]
-        self.starts_programs = self.starts_programs or reply.get("starts") is True
 
 
 class ExternalModelWithCurve(ExternalModel):

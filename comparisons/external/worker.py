@@ -22,7 +22,6 @@ from comparisons.external.fingerprint import fingerprint
 from comparisons.external.limits import Limits, cpu_seconds_from_now, limit_resources
 from comparisons.external.model_file import load_file
 from comparisons.external.model_methods import check_methods
-from comparisons.external.observation import Observation
 from comparisons.external.physical_model import InUnits, PhysicalModel
 from comparisons.external.program import program_model
 from comparisons.external.reply_checks import column, count, kind, real
@@ -69,7 +68,6 @@ def _end_with_parent(descriptor: int) -> None:
 def _serve(requests: IO[str], out: IO[str]) -> None:
     model: Any = None
     limits = Limits()
-    observation = Observation()
     reply: dict[str, Any]
     for line in requests:
         request = json.loads(line)
@@ -79,16 +77,14 @@ def _serve(requests: IO[str], out: IO[str]) -> None:
                 limits, reply = Limits(**request["limits"]), {"status": "ok"}
                 _confine(request["path"], limits)
             elif request["request"] == "load":
-                model, reply = _load(request["source"], observation)
+                model, reply = _load(request["source"])
             else:
                 cpu_seconds_from_now(limits)
-                with observation.active():
-                    reply = _HANDLERS[request["request"]](model, request)
+                reply = _HANDLERS[request["request"]](model, request)
         except NotApplicable as refusal:
             reply = {"status": "not-applicable", "reason": _words(refusal)}
         except BaseException as error:
             reply = {"status": "failed", "reason": _explain(error, limits, request["request"])}
-        reply |= {"uses": observation.uses, "starts": observation.starts_programs}
         reply["seconds"] = time.perf_counter() - started
         out.write(json.dumps(reply, allow_nan=False) + "\n")
         out.flush()
@@ -100,7 +96,7 @@ def _confine(path: list[str], limits: Limits) -> None:
     sys.path[:] = path
 
 
-def _load(source: dict[str, Any], observation: Observation) -> tuple[Any, dict[str, Any]]:
+def _load(source: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
     modules: tuple[str, ...] = ()
     installed: list[Path] = []
     programs: list[Path] = []
@@ -108,9 +104,8 @@ def _load(source: dict[str, Any], observation: Observation) -> tuple[Any, dict[s
         model = program_model(Path(source["file"]))
         programs = [Path(source["file"])]
     else:
-        with observation.active():
-            made, module, installed = _made(source)
-            model = made() if callable(made) else made
+        made, module, installed = _made(source)
+        model = made() if callable(made) else made
         modules = module, (made if isinstance(made, type) else type(model)).__module__
     if missing := [name for name in _TEXTS if not hasattr(model, name)]:
         raise ComputationFailed(f"the model has no {', '.join(missing)}; it needs {', '.join(_TEXTS)}")

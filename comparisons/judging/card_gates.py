@@ -1,7 +1,8 @@
-"""Gates of the report card of an external model: the same results again, independence, fresh cases.
+"""Gates of the report card of an external model: the same results again, and digits other than the reference's.
 
-They are judged from what the run has recorded of the model (`comparisons.pipeline.report_cards`), and stand in the
-tables of verdicts beside the gates of the run.
+They are judged from what the run has recorded of the model (`comparisons.pipeline.report_cards`) and from the values
+of its gates, and stand in the tables of verdicts beside these.  They are no gates of the user: a run in which they
+alone are judged is an ERROR.
 """
 
 from __future__ import annotations
@@ -11,34 +12,33 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict
 from typing import Any
 
-import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
-from comparisons.judging.decision import Verdict
-from comparisons.judging.fresh_cases import RANDOM
+from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.judge import Judged
 
 __all__ = [
     "CARD",
-    "INDEPENDENT",
+    "DIFFERS",
     "SAME_AGAIN",
-    "WORSE",
     "card_gates",
-    "compare_with_standing",
     "every_verdict",
     "judge_cards",
+    "judge_digits",
+    "overall",
+    "verdict_on_model",
+    "without_card_gates",
 ]
 
 #: How the ids of these gates begin.
 CARD = "CARD-"
-#: Ids of the gates on a second evaluation of a model, and on its independence of the stored references.
-SAME_AGAIN, INDEPENDENT = f"{CARD}SAME-AGAIN", f"{CARD}INDEPENDENT"
+#: Ids of the gates on a second evaluation of a model, and on the digits of its values beside those of the reference.
+SAME_AGAIN, DIFFERS = f"{CARD}SAME-AGAIN", f"{CARD}DIFFERS"
 
-#: The errors in fresh cases may be so many times the errors in the standing cases.  Those of a formula differ little
-#: between two samples of one range: measured at most 0.93 times, md-original in 150 fresh cases.
-WORSE = 10.0
+#: References whose values are numerical solutions, with errors in their last digits that no other computation has.  A
+#: closed form may have every digit of another one, and so may a solution in the algebraic limit k = 1.
+_NUMERICAL = ("fscm", "fem", "atlas")
 
 #: Columns of numbers of a table of verdicts.
 _NUMBERS = (
@@ -51,26 +51,26 @@ _REQUIREMENTS = {
         "The model gives the same number again in a new process with the evaluations in another order.",
         "evaluate is a function of its arguments.  On another machine the bounds of both numbers are tolerated.",
     ),
-    INDEPENDENT: (
-        "The model does not compute its values with the references, and does not read theirs.",
-        "A value that comes from the reference agrees with it whatever the model is.",
+    DIFFERS: (
+        "In most cases of each gate the value of the model is not that of a numerical reference, if only in a digit.",
+        "A number that is computed by the reference or copied from it agrees with it whatever the model is.",
     ),
 }
 
 
-def card_gates(cards: Mapping[str, Any]) -> list[Gate]:
-    """Return the gates that the report cards of a run are judged by.
+def card_gates(judged: pd.DataFrame) -> list[Gate]:
+    """Return the gates of report cards that are in a table of verdicts.
 
     Examples
     --------
-    >>> [gate.id for gate in card_gates({"mine": {"uses": []}})]
-    ['CARD-INDEPENDENT']
+    >>> [gate.id for gate in card_gates(pd.DataFrame({"gate": ["MINE", "CARD-DIFFERS"]}))]
+    ['CARD-DIFFERS']
     """
-    present = [(SAME_AGAIN, "repeated"), (INDEPENDENT, "uses")]
+    present = set(judged["gate"])
     return [
         Gate(
             id=id,
-            requirement=_REQUIREMENTS[id][0],
+            requirement=requirement,
             quantity="pull_off_force",
             candidate=GIVEN,
             reference=GIVEN,
@@ -80,38 +80,49 @@ def card_gates(cards: Mapping[str, Any]) -> list[Gate]:
             upper=0.0,
             max_reference_uncertainty=math.inf,
             basis="derived",
-            grounds=_REQUIREMENTS[id][1],
+            grounds=grounds,
             min_cases=1,
             tier="quick",
         )
-        for id, key in present
-        if any(key in card for card in cards.values())
+        for id, (requirement, grounds) in _REQUIREMENTS.items()
+        if id in present
     ]
 
 
+def without_card_gates(table: pd.DataFrame) -> pd.DataFrame:
+    """Return the rows of verdicts, or of their summary, that are on gates of the user.
+
+    Examples
+    --------
+    >>> without_card_gates(pd.DataFrame({"gate": ["MINE", "CARD-DIFFERS"]}))["gate"].tolist()
+    ['MINE']
+    """
+    return table[~table["gate"].astype(str).str.startswith(CARD)]
+
+
+def overall(verdicts: pd.DataFrame) -> Verdict:
+    """Return the verdict over all gates: ERROR if no gate of the user was evaluated, whatever the report cards are.
+
+    Examples
+    --------
+    >>> passed = pd.DataFrame({"gate": ["MINE", "CARD-DIFFERS"], "verdict": ["PASS", "PASS"]})
+    >>> str(overall(passed)), str(overall(passed[1:]))
+    ('PASS', 'ERROR')
+    """
+    of_user = roll_up(without_card_gates(verdicts)["verdict"])
+    return of_user if of_user is Verdict.ERROR else roll_up(verdicts["verdict"])
+
+
 def judge_cards(cards: Mapping[str, Any]) -> pd.DataFrame:
-    """Return the verdicts on report cards, in the columns of `comparisons.judging.judge.judge`.
+    """Return the verdicts on repeated evaluations, in the columns of `comparisons.judging.judge.judge`.
 
     Parameters
     ----------
     cards : mapping
         Name of a model -> what the record of the run has of it.
-
-    Examples
-    --------
-    >>> table = judge_cards({"mine": {"uses": ["imports fscm"]}})
-    >>> [*table["verdict"].map(str), *table["reason"]]
-    ['INCONCLUSIVE', 'mine is not independent: it imports fscm']
     """
-    judged: list[Judged] = []
-    for name, card in cards.items():
-        if repeated := card.get("repeated"):
-            judged += _repeated(name, repeated)
-        if "uses" in card:
-            uses = " and ".join(card["uses"])
-            verdict = Verdict.INCONCLUSIVE if uses else Verdict.PASS
-            judged.append(_one(INDEPENDENT, name, verdict, f"{name} is not independent: it {uses}" if uses else ""))
-    return pd.DataFrame([asdict(one) for one in judged], columns=list(Judged.__slots__))
+    judged = [row for name, card in cards.items() if "repeated" in card for row in _repeated(name, card["repeated"])]
+    return _table(judged)
 
 
 def _repeated(name: str, repeated: Mapping[str, Any]) -> Iterator[Judged]:
@@ -130,75 +141,58 @@ def _repeated(name: str, repeated: Mapping[str, Any]) -> Iterator[Judged]:
             "status": "ok",
         }
         verdict = Verdict.PASS if same else Verdict.FAIL
-        yield _one(SAME_AGAIN, name, verdict, "" if same else repeated["cause"], **facts)
+        yield verdict_on_model(SAME_AGAIN, name, verdict, "" if same else repeated["cause"], **facts)
 
 
-def compare_with_standing(verdicts: pd.DataFrame, fresh: pd.DataFrame) -> pd.DataFrame:
-    """Return a FAIL for each model and gate that is right in the standing cases and wrong in the fresh ones.
+def judge_digits(verdicts: pd.DataFrame, models: Iterable[str]) -> pd.DataFrame:
+    """Return the verdict on each model whose values are compared with those of a reference.
+
+    INCONCLUSIVE if most values of a gate, standing or fresh, are those of a numerical reference in every digit.
 
     Parameters
     ----------
-    verdicts, fresh : DataFrame
-        Of the standing and of the fresh cases, as of `comparisons.judging.judge.judge`.
+    verdicts : DataFrame
+        Of the gates of the user.
+    models : iterable of str
+        The external models.
+
+    Examples
+    --------
+    >>> case = {"gate": "A", "candidate": "mine", "reference": "fscm", "k": 0.0, "reference_value": 1.5}
+    >>> table = judge_digits(pd.DataFrame([case | {"value": 1.5}]), ["mine"])
+    >>> table["verdict"].map(str).tolist()
+    ['INCONCLUSIVE']
     """
-    found = [
-        _one(str(id), str(candidate), Verdict.FAIL, reason, quantity=str(new["quantity"].iloc[0]))
-        for (id, candidate), new in fresh.groupby(["gate", "candidate"], sort=False)
-        if (reason := _between(_of(verdicts, str(id).removesuffix(RANDOM), candidate), new))
-    ]
-    return pd.DataFrame([asdict(one) for one in found], columns=list(Judged.__slots__))
+    compared = verdicts[verdicts[["value", "reference_value"]].notna().all(axis=1)]
+    compared = compared.assign(same=compared["value"] == compared["reference_value"])
+    return _table(_digits(name, own) for name in models if len(own := compared[compared["candidate"] == name]))
 
 
-def _of(verdicts: pd.DataFrame, id: str, candidate: object) -> pd.DataFrame:
-    return verdicts[(verdicts["gate"] == id) & (verdicts["candidate"] == candidate)]
+def _digits(name: str, own: pd.DataFrame) -> Judged:
+    copied = [(id, rows) for id, rows in own.groupby("gate", sort=False) if 2 * rows["same"].sum() > len(rows)]
+    for id, rows in copied:
+        same = rows[rows["same"]]
+        if (same["reference"].isin(_NUMERICAL) & (same["k"] < 1.0)).any():
+            reason = f"{_same_digits(id, rows)}: computed with it or copied from it, they show nothing of the model"
+            return verdict_on_model(DIFFERS, name, Verdict.INCONCLUSIVE, reason)
+    reason = f"{_same_digits(*copied[0])}, as those of a closed form may be" if copied else ""
+    return verdict_on_model(DIFFERS, name, Verdict.PASS, reason)
 
 
-def _between(standing: pd.DataFrame, fresh: pd.DataFrame) -> str:
-    """Return how a model that is right in the standing cases is wrong in fresh ones; nothing if it is not."""
-    known, new = (table[table["error"].notna()] for table in (standing, fresh))
-    if known.empty or set(known["verdict"]) != {Verdict.PASS}:
-        return ""
-    asked = fresh[fresh["status"].isin(["ok", "not-applicable", "failed", "missing"])]
-    shares = [(table["status"] == "ok").mean() for table in (standing[standing["status"] != "outside"], asked)]
-    if len(asked) and shares[1] < 0.5 * shares[0]:
-        return (
-            f"it has a value in {len(known)} standing cases, and in {len(new)} of the {len(asked)} fresh ones: it "
-            "knows the standing cases only"
-        )
-    if new.empty:
-        return ""
-    wrong = new[new["verdict"] == Verdict.FAIL]
-    between = pd.Series(True, index=new.index)
-    for name in ("n", "k", "mu"):
-        between &= new[name].between(known[name].min(), known[name].max())
-    largest, certain = _errors(known), _errors(new[between])
-    # What is certain of the error of a fresh case, against the most that the error of a standing one can be.
-    much_worse = len(certain) > 0 and _is_much_worse(largest, certain)
-    if wrong.empty and not much_worse:
-        return ""
-    where = "between them" if much_worse or between[wrong.index].any() else "elsewhere in its domain"
-    beyond = f", beyond the limits in {len(wrong)}" if len(wrong) else ""
-    return (
-        f"right at the standing cases and wrong {where}: the error is at most {largest[:, 0].max():.2g} in "
-        f"{len(known)} standing cases and {_errors(new)[:, 0].max():.2g} in {len(new)} fresh ones{beyond}"
-    )
+def _same_digits(id: object, rows: pd.DataFrame) -> str:
+    return f"{rows['same'].sum()} of {len(rows)} values are those of {rows['reference'].iloc[0]} in every digit ({id})"
 
 
-def _errors(table: pd.DataFrame) -> NDArray[np.float64]:
-    """Return the sizes of the errors and their bounds, in two columns."""
-    return np.abs(table[["error", "uncertainty"]].to_numpy(dtype=float))
-
-
-def _is_much_worse(standing: NDArray[np.float64], fresh: NDArray[np.float64]) -> bool:
-    """Whether the largest error that is certain in fresh cases is `WORSE` times what it can be in the standing ones."""
-    return bool((fresh[:, 0] - fresh[:, 1]).max() > WORSE * standing.sum(axis=1).max())
-
-
-def _one(id: str, name: str, verdict: Verdict, reason: str, **facts: Any) -> Judged:
+def verdict_on_model(id: str, name: str, verdict: Verdict, reason: str, **facts: Any) -> Judged:
+    """Return a verdict on a model as a whole, or with the facts of a case."""
     blank: dict[str, Any] = dict.fromkeys(Judged.__slots__)
     limits = {"lower": math.nan, "upper": math.nan, "status": "", "quantity": ""}
     known = {"gate": id, "candidate": name, "reference": name, "verdict": verdict, "reason": reason}
     return Judged(**blank | limits | known | facts)
+
+
+def _table(judged: Iterable[Judged]) -> pd.DataFrame:
+    return pd.DataFrame([asdict(row) for row in judged], columns=list(Judged.__slots__))
 
 
 def every_verdict(tables: Iterable[pd.DataFrame]) -> pd.DataFrame:

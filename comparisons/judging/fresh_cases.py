@@ -1,27 +1,28 @@
 """Fresh cases of a run: drawn at random from the domain of each given model, and judged by the limits of its gates.
 
-A model can know the standing cases by heart; it cannot know these.  Inside the box of the atlas the atlas is the
-reference where its bound is small beside the limits, elsewhere the reference of the gate.
+A model can know the standing cases by heart; it cannot know these.  A gate is INCONCLUSIVE where the domain of the
+model has no room for them beside the standing cases.  Inside the box of the atlas the atlas is the reference where its
+bound is small beside the limits, elsewhere the reference of the gate.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 from zlib import crc32
 
 from comparisons.console.progress import log
 from comparisons.domain import Domain, declared_domain
+from comparisons.judging.fresh_points import REACH, Sample, sample
 from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.selection import cases_of, relevant
 from comparisons.registry import ExternalIdentity, create
 from comparisons.runs.cases import TIERS, Case, Grid
-from comparisons.runs.parameter_sets import latin_hypercube
 from comparisons.runs.tasks import Task, plan
 
-__all__ = ["RANDOM", "FreshCases", "Part", "draw"]
+__all__ = ["RANDOM", "FreshCases", "Part", "Undrawn", "draw"]
 
 #: The end of the id of a gate that is judged in fresh cases, and the tag of their grids.
 RANDOM = "-RANDOM"
@@ -29,10 +30,6 @@ _TAG = "random"
 
 #: The metrics of gates that are judged in fresh cases: those of one value beside one reference.
 _METRICS = ("rel", "abs", "en")
-
-#: Fresh cases are drawn inside these ranges at most.  The full self-consistent model converges in all of them: its edge
-#: becomes too narrow beyond k = 0.8 at mu = 10, and the rest is wider than the box of the atlas.
-_REACH = {"n": (0.8, 10.0), "k": (0.0, 0.8), "mu": (0.005, 10.0)}
 
 _ATLAS, _FSCM = "atlas", "fscm"
 #: The largest bound of the atlas (docs/atlas.md), and how many times wider the limits of a gate are where it is used.
@@ -56,6 +53,23 @@ class Part:
 
 
 @dataclass(frozen=True, slots=True)
+class Undrawn:
+    """A gate with standing cases in a part of the domain of a model that has no room for fresh ones.
+
+    Attributes
+    ----------
+    gate, candidate, quantity : str
+        Id of the standing gate, name of the model, and quantity of the gate.
+    reason : str
+    """
+
+    gate: str
+    candidate: str
+    quantity: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
 class FreshCases:
     """The fresh cases of a run.
 
@@ -66,11 +80,13 @@ class FreshCases:
     seed : int
         From which the same cases follow again.
     parts : tuple of Part
+    undrawn : tuple of Undrawn
     """
 
     count: int
     seed: int
     parts: tuple[Part, ...]
+    undrawn: tuple[Undrawn, ...] = ()
 
     def plan(self, external: Mapping[str, ExternalIdentity]) -> list[Task]:
         """Return the tasks of all parts."""
@@ -87,7 +103,8 @@ class FreshCases:
             }
             for part in self.parts
         ]
-        return {"count": self.count, "seed": self.seed, "parts": parts}
+        undrawn = [asdict(gate) for gate in self.undrawn]
+        return {"count": self.count, "seed": self.seed, "parts": parts, "undrawn": undrawn}
 
     @classmethod
     def of_json(cls, stored: Mapping[str, Any], gates: Iterable[Gate]) -> FreshCases:
@@ -98,7 +115,8 @@ class FreshCases:
             for one in stored["parts"]
             if one["gate"] in known
         )
-        return cls(stored["count"], stored["seed"], parts)
+        undrawn = tuple(Undrawn(**gate) for gate in stored["undrawn"] if gate["gate"] in known)
+        return cls(stored["count"], stored["seed"], parts, undrawn)
 
 
 def draw(
@@ -111,7 +129,7 @@ def draw(
 ) -> FreshCases:
     """Draw fresh cases for every gate of every model that compares one value with one reference.
 
-    A gate of one model whose cases have tags has none.
+    A gate of one model whose cases have tags has none, nor has a gate whose own ranges have no room for them.
 
     Parameters
     ----------
@@ -132,6 +150,7 @@ def draw(
     [('GIVEN-PULL-OFF-FORCE-RANDOM', 'atlas', 3)]
     """
     parts: list[Part] = []
+    undrawn: list[Undrawn] = []
     passed_over = 0
     # Tags select cases that were chosen for a gate of one model, as those near a limit: no others are like them.
     for gate in relevant(
@@ -142,19 +161,34 @@ def draw(
         if gate.metric not in _METRICS or gate.rival or gate.reference_at:
             passed_over += 1
             continue
+        domain = domains.get(gate.candidate)
         standing = cases_of(gate, grids, models)
-        tables = _tables(gate, domains.get(gate.candidate), standing)
-        if not tables:
-            log(f"{gate.id} has no fresh cases: the domain of {gate.candidate} has none that it can be judged in")
+        known = [case for grid in grids if gate.quantity in grid.quantities for case in grid.cases]
+        drawn = sample(gate, domain, standing, known, count, [seed, crc32(f"{gate.id} {gate.candidate}".encode())])
+        if drawn is None:
+            passed_over += 1
             continue
-        cases = _cases(tables, count, [seed, crc32(f"{gate.id} {gate.candidate}".encode())])
+        if drawn.untested:
+            undrawn.append(
+                Undrawn(gate.id, gate.candidate, gate.quantity, _no_room(gate.candidate, drawn, len(standing)))
+            )
+        elif not drawn.cases:
+            log(f"{gate.id} has no fresh cases: the domain of {gate.candidate} has none that it can be judged in")
         by_reference: dict[str, list[Case]] = {}
-        for case in cases:
+        for case in drawn.cases:
             by_reference.setdefault(_reference(gate, case), []).append(case)
         parts += [_part(gate, gate.candidate, name, tuple(sorted(own))) for name, own in sorted(by_reference.items())]
     if passed_over:
-        log(f"{passed_over} gates have no fresh cases: they compare curves, or have a rival or a reference_at")
-    return FreshCases(count, seed, tuple(parts))
+        log(f"{passed_over} gates have no fresh cases: of curves, with a rival or a reference_at, or of single cases")
+    return FreshCases(count, seed, tuple(parts), tuple(undrawn))
+
+
+def _no_room(name: str, drawn: Sample, standing: int) -> str:
+    reach = ", ".join(f"{low:g} <= {parameter} <= {high:g}" for parameter, (low, high) in REACH.items())
+    return (
+        f"{len(drawn.untested)} of {standing} standing cases are in parts of the domain of {name} that have no room "
+        f"for fresh cases beside them: points, ranges hardly wider than a point, or outside {reach}"
+    )
 
 
 def _part(gate: Gate, candidate: str, reference: str, cases: tuple[Case, ...]) -> Part:
@@ -175,41 +209,6 @@ def _part(gate: Gate, candidate: str, reference: str, cases: tuple[Case, ...]) -
     title = f"Fresh cases of {candidate} for {gate.id}"
     grid = Grid(fresh.id, title, TIERS[0], reference, (candidate,), (gate.quantity,), cases, (_TAG,))
     return Part(fresh, grid)
-
-
-def _tables(gate: Gate, domain: Domain | None, standing: Sequence[Case]) -> list[dict[str, tuple[float, float]]]:
-    """Return the ranges of n, k and mu from which cases are drawn."""
-    if domain is not None:
-        tables = [{name: table.ends(name) for name in _REACH} for table in domain.of_quantity(gate.quantity)]
-    elif standing:
-        values = {name: [getattr(case, name) for case in standing] for name in _REACH}
-        tables = [{name: (min(found), max(found)) for name, found in values.items()}]
-    else:
-        tables = []
-    limited = [
-        {name: _common(ends, reach, gate.cases.get(name)) for name, ends, reach in _each(table)} for table in tables
-    ]
-    return [table for table in limited if all(low <= high for low, high in table.values())]
-
-
-def _each(table: Mapping[str, tuple[float, float]]) -> list[tuple[str, tuple[float, float], tuple[float, float]]]:
-    return [(name, table[name], reach) for name, reach in _REACH.items()]
-
-
-def _common(*ranges: Sequence[float] | None) -> tuple[float, float]:
-    known = [ends for ends in ranges if ends is not None]
-    return max(low for low, _ in known), min(high for _, high in known)
-
-
-def _cases(tables: Sequence[Mapping[str, tuple[float, float]]], count: int, seed: list[int]) -> list[Case]:
-    """Return cases that are shared out evenly over the tables of ranges."""
-    cases: list[Case] = []
-    for number, table in enumerate(tables):
-        share = count // len(tables) + (number < count % len(tables))
-        if share:
-            points = latin_hypercube({"count": share, "seed": [*seed, number], **table}, "fresh cases")
-            cases += [Case(*point) for point in points]
-    return list(dict.fromkeys(cases))
 
 
 def _reference(gate: Gate, case: Case) -> str:

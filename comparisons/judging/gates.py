@@ -12,6 +12,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+from comparisons.data.input_files import read_text
 from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, label, validated
 from comparisons.judging.gate_checks import PARAMETERS, check_compared, check_numbers, plain_text
@@ -214,12 +215,7 @@ def gates_text(path: Path | None = None) -> str:
     """
     if path is None:
         return files("comparisons.data").joinpath("gates.toml").read_text(encoding="utf-8")
-    try:
-        return path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise ValueError(f"the gates file {path} cannot be read ({error.strerror})") from None
-    except UnicodeDecodeError:
-        raise ValueError(f"the gates file {path} is not UTF-8 text") from None
+    return read_text(path, "the gates file")
 
 
 def of_tier(gates: Iterable[Gate], tier: str) -> list[Gate]:

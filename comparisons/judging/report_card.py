@@ -8,15 +8,12 @@ from typing import Any
 import pandas as pd
 
 from comparisons.domain import Domain
-from comparisons.judging.card_gates import INDEPENDENT, SAME_AGAIN
+from comparisons.judging.card_gates import DIFFERS, SAME_AGAIN, overall, without_card_gates
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.fresh_cases import RANDOM
 from comparisons.judging.summary import coverage, coverage_text
 
 __all__ = ["card_lines", "given_models", "verdict_sentence"]
-
-#: Lines of a card about the checks of external models.
-_CARD_GATES = (SAME_AGAIN, INDEPENDENT)
 
 
 def card_lines(
@@ -38,15 +35,13 @@ def card_lines(
     lines = [
         ("domain", "it declares none (applies_to), and is evaluated in every case" if domain is None else str(domain))
     ]
-    for gate, rows in own.groupby("gate", sort=False):
-        if gate not in _CARD_GATES:
-            lines.append(
-                (str(gate), f"{roll_up(rows['verdict'])}, a value in {coverage_text(coverage(rows['status']))}")
-            )
-    return [*lines, *(_checks(card) if card else ()), ("verdict", verdict_sentence(name, verdicts))]
+    for gate, rows in without_card_gates(own).groupby("gate", sort=False):
+        covered = coverage_text(coverage(rows["status"]))
+        lines.append((str(gate), f"{roll_up(rows['verdict'])}" + (f", a value in {covered}" if covered else "")))
+    return [*lines, *(_checks(card, own) if card else ()), ("verdict", verdict_sentence(name, verdicts))]
 
 
-def _checks(card: Mapping[str, Any]) -> list[tuple[str, str]]:
+def _checks(card: Mapping[str, Any], own: pd.DataFrame) -> list[tuple[str, str]]:
     lines = []
     if repeated := card.get("repeated"):
         count = len(repeated["cases"])
@@ -56,7 +51,7 @@ def _checks(card: Mapping[str, Any]) -> list[tuple[str, str]]:
         lines.append(
             ("evaluated again", "nothing: data do not change" if card["kind"] == "data" else "it has no value")
         )
-    lines.append(("independence", _independence(card)))
+    lines.append(("digits", _digits(own)))
     findings = card["check_model"]
     wrong = [
         f"{finding['check']}: {finding['text']}" for finding in findings if finding["status"] in ("wrong", "failed")
@@ -66,15 +61,11 @@ def _checks(card: Mapping[str, Any]) -> list[tuple[str, str]]:
     return [*lines, ("check-model", words)]
 
 
-def _independence(card: Mapping[str, Any]) -> str:
-    if card["kind"] == "data":
-        return "not known: data do not show how they were made"
-    if card["kind"] == "program":
-        return "not known: nothing is seen inside a program"
-    if card["uses"]:
-        return f"not independent: it {' and '.join(card['uses'])}"
-    started = ", but it starts other programs, in which nothing is seen" if card["starts_programs"] else ""
-    return f"no use of the references was seen{started}"
+def _digits(own: pd.DataFrame) -> str:
+    judged = own[own["gate"] == DIFFERS]
+    if judged.empty:
+        return "compared with no reference"
+    return str(judged["reason"].iloc[0]) or "not those of the reference"
 
 
 def verdict_sentence(name: str, verdicts: pd.DataFrame) -> str:
@@ -82,25 +73,22 @@ def verdict_sentence(name: str, verdicts: pd.DataFrame) -> str:
 
     Examples
     --------
-    >>> from comparisons.judging.card_gates import judge_cards
-    >>> verdict_sentence("mine", judge_cards({"mine": {"uses": ["imports fscm"]}}))
-    'INCONCLUSIVE: it is not independent of the reference: it imports fscm, so that agreement shows nothing'
+    >>> verdict_sentence("mine", pd.DataFrame({"candidate": ["mine"], "gate": ["CARD-DIFFERS"], "verdict": ["PASS"]}))
+    'no gate was evaluated'
     """
     own = verdicts[verdicts["candidate"] == name]
-    if own.empty:
+    if set(without_card_gates(own)["verdict"]) <= {Verdict.NOT_APPLICABLE}:
         return "no gate was evaluated"
-    verdict = roll_up(own["verdict"])
-    dependent = own[(own["gate"] == INDEPENDENT) & (own["verdict"] != Verdict.PASS)]
-    uses = "" if dependent.empty else dependent["reason"].iloc[0].partition(": ")[2]
-    if verdict is Verdict.INCONCLUSIVE and uses:
-        return f"INCONCLUSIVE: it is not independent of the reference: {uses}, so that agreement shows nothing"
-    also = f"; and it is not independent: {uses}" if uses else ""
-    return f"{verdict}: {_reason(own, verdict)}{also}"
+    verdict = overall(own)
+    copied = list(own.loc[(own["gate"] == DIFFERS) & (own["verdict"] != Verdict.PASS), "reason"])
+    if copied and verdict is Verdict.INCONCLUSIVE:
+        return f"INCONCLUSIVE: {copied[0]}"
+    return "; and ".join([f"{verdict}: {_reason(own, verdict)}", *copied])
 
 
 def _reason(own: pd.DataFrame, verdict: Verdict) -> str:
     if verdict is Verdict.PASS:
-        judged = own[own["error"].notna() & ~own["gate"].isin(_CARD_GATES)]
+        judged = without_card_gates(own[own["error"].notna()])
         return f"it is within the limits in all {len(judged)} judged cases"
     worst = own[own["verdict"] == verdict]
     changed = worst[worst["gate"] == SAME_AGAIN]

@@ -105,14 +105,15 @@ def value_text(value: float | None, u: float | None) -> str:
 
 
 def percent_text(fraction: float, u: float) -> str:
-    """Return a relative error in percent.
+    """Return a relative error in percent; "inf" where that is above the largest number.
 
     Examples
     --------
-    >>> percent_text(0.066931234, 1e-9)
-    '6.69312(5)'
+    >>> percent_text(0.066931234, 1e-9), percent_text(-1e307, 1e-9)
+    ('6.69312(5)', '-inf')
     """
-    return value_text(100 * fraction, max(100 * u, _LEAST_PERCENT))
+    percent = 100 * float(fraction)
+    return str(percent) if math.isinf(percent) else value_text(percent, max(100 * float(u), _LEAST_PERCENT))
 
 
 def error_text(error: float | None, u: float | None) -> str:

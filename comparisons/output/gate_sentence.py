@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 import pandas as pd
 
+from comparisons.judging.card_gates import without_card_gates
 from comparisons.judging.decision import Verdict
 
 __all__ = ["EXPECTED", "counted", "gates_sentence"]
@@ -27,7 +28,7 @@ def counted(count: int, several: str, one: str) -> str:
 
 
 def gates_sentence(gates: pd.DataFrame, bases: Mapping[str, str]) -> str:
-    """Return how many gates pass, fail as declared, and do neither.
+    """Return how many gates of the user pass, fail as declared, and do neither, and what else a report card found.
 
     Parameters
     ----------
@@ -43,7 +44,16 @@ def gates_sentence(gates: pd.DataFrame, bases: Mapping[str, str]) -> str:
     '1 of 3 gates passes, 1 differs from the paper as declared, 1 unexpected: 1 FAIL'
     >>> gates_sentence(gates[:2], {})
     '1 of 2 gates passes, 1 fails as declared, 0 unexpected'
+    >>> gates_sentence(pd.DataFrame({"gate": ["A", "CARD-DIFFERS"], "verdict": ["PASS", "INCONCLUSIVE"]}), {})
+    '1 of 1 gate passes, 0 fail as declared, 0 unexpected; report cards: 1 INCONCLUSIVE'
     """
+    of_user = without_card_gates(gates)
+    checks = Counter(Verdict(verdict) for verdict in gates["verdict"].drop(of_user.index) if verdict != Verdict.PASS)
+    found = ", ".join(f"{checks[verdict]} {verdict}" for verdict in Verdict if checks[verdict])
+    return _of_user(of_user, bases) + (f"; report cards: {found}" if found else "")
+
+
+def _of_user(gates: pd.DataFrame, bases: Mapping[str, str]) -> str:
     verdicts = [Verdict(verdict) for verdict in gates["verdict"]]
     if not verdicts:
         return "No gate was evaluated"

@@ -157,7 +157,15 @@ def _em(text: str) -> float:
     """Return the width of a text; a minus sign and a power of ten are wider than their characters."""
     width = sum(map(_width, text))
     numbers = [match[0] for match in _TOKEN.finditer(text)]
-    return _SAFETY * (width + sum(0.4 * number.startswith("-") + 1.8 * ("e" in number) for number in numbers))
+    return _SAFETY * (
+        width + sum(0.4 * number.startswith("-") + 1.8 * ("e" in number) + _spaces(number) for number in numbers)
+    )
+
+
+def _spaces(number: str) -> float:
+    """Return the width of the spaces of siunitx between groups of three of more than four digits."""
+    groups = [len(digits) for digits in re.findall(r"\d+", number.partition("(")[0].partition("e")[0])]
+    return sum(0.2 * ((size - 1) // 3) for size in groups if size > 4)
 
 
 @lru_cache(maxsize=_MEASURED)

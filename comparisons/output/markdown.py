@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 import pandas as pd
@@ -27,11 +28,18 @@ def markdown(table: pd.DataFrame, title: str) -> str:
     return "\n".join([f"## {_escaped(title)}", "", *lines, ""])
 
 
+#: What a table, HTML or Markdown takes for its own, and the starts of addresses that become links without any mark.
+_OWN = {
+    **{"&": "&amp;", "<": "&lt;", ">": "&gt;", "|": "\\|", "\n": " "},
+    **{character: f"&#{ord(character)};" for character in "\\`*[]!~"},
+    **{"://": "&#58;//", "www.": "www&#46;", "@": "&#64;<!-- -->"},
+}
+_OWN_TEXT = re.compile("|".join(map(re.escape, _OWN)), re.IGNORECASE)
+
+
 def _escaped(text: str) -> str:
-    """Text that neither a table nor HTML takes for its own."""
-    for character, replacement in {"&": "&amp;", "<": "&lt;", ">": "&gt;", "|": "\\|", "\n": " "}.items():
-        text = text.replace(character, replacement)
-    return text
+    """Text that neither a table nor HTML nor Markdown takes for its own."""
+    return _OWN_TEXT.sub(lambda match: _OWN.get(match[0]) or f"{match[0][:-1]}&#46;", text)
 
 
 def to_step_summary(text: str) -> None:

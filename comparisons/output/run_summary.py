@@ -8,6 +8,7 @@ import pandas as pd
 
 from comparisons.console.folding import hanging
 from comparisons.console.shell_text import wrapped_command
+from comparisons.judging.card_gates import without_card_gates
 from comparisons.judging.decision import Verdict
 from comparisons.numerics.number_text import error_text, exact, limits_text, value_text
 from comparisons.output.fitted_table import FittedTable
@@ -174,9 +175,12 @@ def gates_line(gates: pd.DataFrame, verdicts: pd.DataFrame, bases: Mapping[str, 
     >>> gates_line(gates, gates, {"B": "published"}).partition(" (")[2]
     '3 cases: 1 PASS, 1 XFAIL, 1 FAIL)'
     """
-    cases = verdicts["verdict"].map(str).value_counts()
+    judged = without_card_gates(verdicts)
+    if judged.empty:
+        return gates_sentence(gates, bases)
+    cases = judged["verdict"].map(str).value_counts()
     every = ", ".join(f"{cases[str(verdict)]} {verdict}" for verdict in reversed(Verdict) if str(verdict) in cases)
-    return f"{gates_sentence(gates, bases)} ({counted(len(verdicts), 'cases', 'case')}: {every})"
+    return f"{gates_sentence(gates, bases)} ({counted(len(judged), 'cases', 'case')}: {every})"
 
 
 def computations_sentence(counts: Mapping[str, int]) -> str:

@@ -29,6 +29,7 @@ __all__ = [
     "VERDICT_SYMBOLS",
     "ModelStyle",
     "empty_figure",
+    "first_shown",
     "lettered",
     "model_label",
     "model_styles",
@@ -83,21 +84,26 @@ _MODELS = {
     "fem": ("FEM", _DASHED),
     "jkr": (r"JKR-$n$-$k$", _DASHDOT),
     "bradley": (r"Bradley-$n$", _DOTTED),
-    "dmt": ("dmt", _DASHED),
+    "double-hertz-n-k": (r"double-Hertz-$n$-$k$", _DASHDOT),
     "semi-rigid": ("semi-rigid", _SOLID),
     "fscm-stieltjes": ("fscm-stieltjes", _DOTTED),
     "fscm-stieltjes-400": ("fscm-stieltjes-400", _DOTTED),
-    "double-hertz-n-k": (r"double-Hertz-$n$-$k$", _DASHDOT),
+    "dmt": ("dmt", _DOTTED),
     "md-jin": (r"M-D-$n$-$k$, $\sigma_0 = 1$", _DOTTED),
     "dmt-strength": (r"dmt, $\sigma_0 = \sigma_{th}$", _DOTTED),
-    "carpick-ogletree-salmeron": ("Carpick-Ogletree-Salmeron", _DOTTED),
+    "carpick-ogletree-salmeron": ("Carpick-Ogletree-Salmeron", _DASHDOT),
     "pietrement-troyon": ("Pietrement-Troyon", _DOTTED),
     "schwarz": ("Schwarz", _DASHDOT),
     "jump-asymptotes": ("jump asymptotes", _DASHDOT),
+    "atlas": ("atlas", _DASHED),
 }
 
 #: The model whose curve is broad and pale, below the others: where they are right they cover it.
 _BROAD = "fscm"
+
+
+#: Models that a plot of a page shows at first: more lines hide each other.
+_SHOWN_AT_FIRST = 5
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,8 +118,8 @@ class ModelStyle:
         In hexadecimal digits.
     line, dash, array : str
         Its dashes in Matplotlib, Bokeh and SVG.
-    marker, path : str
-        Its marker in Bokeh and SVG.
+    symbol, marker, path : str
+        Its marker in Matplotlib, Bokeh and SVG.
     broad : bool
         Whether its line is broad and pale, below the others.
     """
@@ -123,6 +129,7 @@ class ModelStyle:
     line: str
     dash: str
     array: str
+    symbol: str
     marker: str
     path: str
     broad: bool
@@ -143,18 +150,34 @@ def model_styles(names: Iterable[str]) -> dict[str, ModelStyle]:
     ('#000000', '#0072b2', 'mine')
     """
     present = sorted(set(names))
-    known = {name: place for place, name in enumerate(_MODELS) if name in present}
-    free = (place for place in count() if place not in known.values())
-    styles = {}
-    for name in present:
-        place = known.get(name)
-        if place is None:
-            place = next(free)
-        label, (line, dash, array) = _MODELS.get(name, (name, _DASHES[place % len(_DASHES)]))
-        marker, path = _PAGE_MARKERS[place % len(_PAGE_MARKERS)]
-        colour = COLOURS[place % len(COLOURS)]
-        styles[name] = ModelStyle(label, colour, line, dash, array, marker, path, broad=name == _BROAD)
-    return styles
+    known = {name: index for index, name in enumerate(_MODELS) if name in present}
+    free = (index for index in count() if index not in known.values())
+    indices = {name: known[name] if name in known else next(free) for name in present}
+    styles: dict[str, ModelStyle] = {}
+    # Ours first: the dashes of the others are those that their colour has left.
+    for name in sorted(present, key=lambda name: name not in known):
+        turn, colour = indices[name] // len(COLOURS), COLOURS[indices[name] % len(COLOURS)]
+        taken = {style.dash for style in styles.values() if style.colour == colour}
+        left = [dashes for dashes in _DASHES if dashes[1] not in taken] or _DASHES
+        label, (line, dash, array) = _MODELS.get(name, (name, left[indices[name] % len(left)]))
+        # With every turn of the colours the markers move on by one: a pair of both comes back after 64 models.
+        shape = (indices[name] + turn) % len(MARKERS)
+        markers = MARKERS[shape], *_PAGE_MARKERS[shape]
+        styles[name] = ModelStyle(label, colour, line, dash, array, *markers, broad=name == _BROAD)
+    return {name: styles[name] for name in present}
+
+
+def first_shown(names: Iterable[str]) -> list[str]:
+    """Return the models that a plot of a page shows at first: external ones, then ours in the order of the table.
+
+    Examples
+    --------
+    >>> first_shown(["schwarz", "dmt", "bradley", "jkr", "md-original", "md-improved", "mine"])
+    ['mine', 'md-improved', 'md-original', 'jkr', 'bradley']
+    """
+    order = list(_MODELS)
+    ranked = sorted(names, key=lambda name: order.index(name) if name in order else -1)
+    return ranked[:_SHOWN_AT_FIRST]
 
 
 def model_label(name: str) -> str:

@@ -12,6 +12,7 @@ import pandas as pd
 from filelock import FileLock
 from threadpoolctl import threadpool_limits
 
+from comparisons.judging.card_gates import without_card_gates
 from comparisons.judging.selection import cases_of, relevant
 from comparisons.numerics.number_text import exact
 from comparisons.output.junit import numbers_text
@@ -82,6 +83,8 @@ def found_verdicts(
     with FileLock(folder / _LOCK), threadpool_limits(1):
         judgement = run(tier, gates, list(models), folder, jobs=jobs).judgement
     assert judgement is not None
+    if without_card_gates(judgement.verdicts).empty:
+        raise ValueError(f"{gates}: no gate was evaluated: no candidate of a gate is given")
     repeat = partial(command, specs=judgement.specs)
     rows = [row for _, row in judgement.verdicts.iterrows()]
     return {_key(row, place): (str(row["verdict"]), _text(row, repeat(row))) for place, row in enumerate(rows)}

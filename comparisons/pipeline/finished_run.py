@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
@@ -10,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.data.file_names import COMPARISON_FILES, GATES_TEXT, GRID_TEXT, VERDICT_FILES
+from comparisons.data.input_files import LARGEST_TEXT, read_bytes
 from comparisons.judging.decision import Verdict
 from comparisons.pipeline.inputs import Cases, Gates, RunInputs
 from comparisons.pipeline.judgement import Judgement, judge_and_write
@@ -21,7 +21,7 @@ from comparisons.registry import ExternalIdentity, create
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.computation import Completed
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.record import write_record
+from comparisons.runs.record import read_record, write_record
 from comparisons.runs.rows import Row
 
 __all__ = ["FinishedRun", "described", "kept_texts", "write_run"]
@@ -128,7 +128,7 @@ def kept_texts(folder: RunFolder, cases: Cases, gates: Gates | None) -> dict[Pat
     if cases.tier is None:
         texts[folder.grid_text] = cases.text
     for path, text in texts.items():
-        if path.exists() and not folder.journal.exists() and path.read_bytes() != text.encode():
+        if path.exists() and not folder.journal.exists() and read_bytes(path, LARGEST_TEXT) != text.encode():
             raise ValueError(
                 f"{path} was not written by a run, and a run would replace it; choose another folder with --out"
             )
@@ -138,8 +138,8 @@ def kept_texts(folder: RunFolder, cases: Cases, gates: Gates | None) -> dict[Pat
 def _remove_stale(folder: RunFolder, names: Collection[str]) -> None:
     """Remove files that an earlier run of the folder has written and that this one does not have."""
     try:
-        written = json.loads(folder.record.read_text(encoding="utf-8"))["files"]
-    except (OSError, ValueError, KeyError, TypeError):
+        written = read_record(folder.record)["files"]
+    except ValueError:
         return
     for name in names:
         if name in written:
@@ -162,7 +162,7 @@ def _digests(cases: Cases, gates: Gates | None) -> dict[str, Any]:
     return {"cases_sha256": cases.sha256} | ({} if gates is None else {"gates_sha256": gates.sha256})
 
 
-def _evaluated_again(completed: Completed) -> dict[str, Any]:
+def _evaluated_again(completed: Completed[Row]) -> dict[str, Any]:
     return {"evaluated_again": completed.evaluated_again} if completed.evaluated_again else {}
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
 
+from comparisons.data.input_files import read_text
 from comparisons.domain import Domain, declared_domain
 from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
@@ -156,7 +157,7 @@ def load_cases(cases: str | Path, models: Sequence[str] | None) -> Cases:
             "a file is given as a pathlib.Path"
         )
     source = str(cases) if isinstance(cases, Path) else _TEXT
-    text = _read(cases) if isinstance(cases, Path) else cases
+    text = read_text(cases, "the file of cases") if isinstance(cases, Path) else cases
     return Cases(load_grids(text, tier=TIERS[0], source=source), None, text, source)
 
 
@@ -197,12 +198,3 @@ def _computed(gates: list[Gate], cases: Cases, models: Sequence[str] | None) -> 
         for gate in gates
         if gate.candidate not in models or cases_of(gate, cases.grids, models) or not cases_of(gate, every, models)
     ]
-
-
-def _read(path: Path) -> str:
-    try:
-        return path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise ValueError(f"the file {path} cannot be read ({error.strerror})") from None
-    except UnicodeDecodeError:
-        raise ValueError(f"the file {path} is not UTF-8 text") from None

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 import pandas as pd
@@ -13,9 +14,10 @@ import pandas as pd
 from comparisons.console.progress import log, note
 from comparisons.data.file_names import VERDICT_FILES
 from comparisons.domain import Domain
-from comparisons.judging.card_gates import card_gates, compare_with_standing, every_verdict, judge_cards
-from comparisons.judging.decision import Verdict, roll_up
+from comparisons.judging.card_gates import card_gates, every_verdict, judge_cards, judge_digits, overall
+from comparisons.judging.decision import Verdict
 from comparisons.judging.fresh_cases import FreshCases
+from comparisons.judging.fresh_verdicts import compare_with_standing, judge_undrawn
 from comparisons.judging.judge import judge
 from comparisons.judging.selection import relevant
 from comparisons.judging.summary import COVERAGE, summarise
@@ -65,8 +67,8 @@ class Judgement:
 
     @property
     def verdict(self) -> Verdict:
-        """The verdict over all gates."""
-        return roll_up(self.verdicts["verdict"])
+        """The verdict over all gates; ERROR if no gate of the user was evaluated."""
+        return overall(self.verdicts)
 
     @property
     def counts(self) -> dict[str, str | int]:
@@ -101,9 +103,13 @@ def judge_and_write(
             judge([part.gate], [part.grid], results, curves, None, inputs.domains, every) for part in fresh
         )
         tables += [drawn, compare_with_standing(standing, drawn)]
-    verdicts = every_verdict([*tables, judge_cards(cards)])
+    if inputs.fresh:
+        tables.append(judge_undrawn(inputs.fresh.undrawn))
+    of_gates = every_verdict(tables)
+    of_cards = every_verdict([judge_cards(cards), judge_digits(of_gates, cards)])
+    verdicts = every_verdict([of_gates, of_cards])
     specs = {name: model.spec for name, model in inputs.external.items()}
-    written = [*gates, *{part.gate.id: part.gate for part in fresh}.values(), *card_gates(cards)]
+    written = [*gates, *{part.gate.id: part.gate for part in fresh}.values(), *card_gates(of_cards)]
     markdown = write_verdicts(folder.path, verdicts, written, specs, evaluation_seconds(results, curves))
     return Judgement(folder.path, verdicts, specs, markdown, cards, inputs.domains, inputs.models)
 
@@ -192,5 +198,5 @@ def _warn_of_missing(inputs: RunInputs, results: pd.DataFrame, curves: pd.DataFr
     if missing:
         log(
             f"{len(missing)} results that these gates need are not in {folder}, which has those of its own gates: "
-            f"fscm-bench run with --out {folder} and these gates computes them"
+            f"fscm-bench run with --out {quote(str(folder))} and these gates computes them"
         )

@@ -6,8 +6,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
+from comparisons.data.input_files import read_text
 from comparisons.domain import Domain
 from comparisons.model import ComputationFailed
 from comparisons.pipeline.finished_run import FinishedRun, write_run
@@ -20,7 +22,6 @@ from comparisons.runs.atomic_files import atomic, prepare_folder
 from comparisons.runs.computation import Completed
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.journal import alone_in
-from comparisons.runs.reevaluation import same
 from comparisons.runs.row_journal import RowJournal
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import Task
@@ -58,20 +59,21 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
     inputs = _inputs(first, records[first])
     wanted = {task.key: task for task in inputs.plan()}
     target = RunFolder(prepare_folder(out))
-    if target.grid_text.exists() and target.grid_text.read_text(encoding="utf-8") != inputs.cases.text:
+    if target.grid_text.exists() and read_text(target.grid_text, "the sweep file") != inputs.cases.text:
         raise ValueError(f"{out} has other cases than {first}; choose another folder with --out")
     with alone_in(out):
         journal = RowJournal(out)
         usable = partial(_usable, wanted=wanted)
         for folder in records:
-            take_rows(folder, RowJournal, journal, usable, same, _place)
+            take_rows(folder, RowJournal, journal, usable, _place)
         rows = usable(journal.items)
     with atomic(target.grid_text) as file:
         file.write(inputs.cases.text.encode())
     if missing := len(wanted) - len(rows):
         raise ComputationFailed(
             f"{missing} of {len(wanted)} computations are in none of the folders; merge more of them, or compute what "
-            f"is missing by fscm-bench sweep {target.grid_text} --out {out}{_model_option(records[first])}"
+            f"is missing by fscm-bench sweep {quote(str(target.grid_text))} --out {quote(str(out))}"
+            f"{_model_option(records[first])}"
         )
     completed = Completed(rows, len(rows), journal.parts_of(rows), None)
     arguments = {"jobs": 1, "merged": [str(folder) for folder in records]}
@@ -120,4 +122,4 @@ def _place(row: Row) -> str:
 def _model_option(record: dict[str, Any]) -> str:
     names: Iterable[str] = record["arguments"]["model"] or ()
     specs = record["arguments"]["external"]
-    return "".join(f" --model {specs.get(name, name)}" for name in names)
+    return "".join(f" --model {quote(specs.get(name, name))}" for name in names)

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path, PurePath
 from typing import Any
 
+from comparisons.data.contained_paths import path_inside
 from comparisons.data.file_names import INPUTS
+from comparisons.data.input_files import LARGEST_TABLE, LARGEST_TEXT, read_bytes
 from comparisons.problem_file.variation import Varied, variations
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.folder import RunFolder
+from comparisons.runs.record import read_record
 
 __all__ = ["ProblemInputs", "inputs_of", "stored_inputs", "stored_problems"]
 
@@ -35,8 +37,8 @@ class ProblemInputs:
     def check(self, folder: RunFolder) -> None:
         """Refuse to replace files that are not of a sweep; `ValueError` names the first."""
         for name, content in self.contents.items():
-            path = folder.path / name
-            if path.exists() and not folder.journal.exists() and path.read_bytes() != content:
+            path = path_inside(folder.path, name)
+            if path.exists() and not folder.journal.exists() and read_bytes(path, LARGEST_TABLE) != content:
                 raise ValueError(
                     f"{path} was not written by a sweep, and a sweep would replace it; choose another folder with --out"
                 )
@@ -44,9 +46,9 @@ class ProblemInputs:
     def write(self, folder: RunFolder) -> None:
         """Write the copies, and remove those of an earlier sweep of the folder."""
         for name in _written(folder) - set(self.contents):
-            (folder.path / name).unlink(missing_ok=True)
+            path_inside(folder.path, name).unlink(missing_ok=True)
         for name, content in self.contents.items():
-            path = folder.path / name
+            path = path_inside(folder.path, name)
             path.parent.mkdir(parents=True, exist_ok=True)
             with atomic(path) as file:
                 file.write(content)
@@ -55,7 +57,7 @@ class ProblemInputs:
 def inputs_of(problem: Path, problems: Iterable[Varied]) -> ProblemInputs:
     """Return the copies of a problem file and of every table that its problems name.
 
-    A table has the same place beside the copy as beside the file, if it is in the folder of the file.
+    A table has the same place beside the copy as beside the file.
 
     Examples
     --------
@@ -66,17 +68,15 @@ def inputs_of(problem: Path, problems: Iterable[Varied]) -> ProblemInputs:
     ...     inputs_of(file, []).entry
     {'problem': 'inputs/pad.toml', 'tables': {}}
     """
-    contents = {f"{INPUTS}/{problem.name}": problem.read_bytes()}
+    contents = {f"{INPUTS}/{problem.name}": read_bytes(problem, LARGEST_TEXT)}
     tables: dict[str, str] = {}
     for varied in problems:
         for section in (varied.problem.solid, varied.problem.punch, varied.problem.law):
             name = section.get("file")
             if name is None or name in tables:
                 continue
-            pure = PurePath(name)
-            inside = not pure.is_absolute() and ".." not in pure.parts
-            tables[name] = f"{INPUTS}/{pure.as_posix() if inside else f'tables/{len(tables)}/{pure.name}'}"
-            contents[tables[name]] = (problem.parent / name).read_bytes()
+            tables[name] = f"{INPUTS}/{PurePath(name).as_posix()}"
+            contents[tables[name]] = read_bytes(path_inside(problem.parent, name), LARGEST_TABLE)
     return ProblemInputs({"problem": next(iter(contents)), "tables": tables}, contents)
 
 
@@ -84,16 +84,15 @@ def stored_inputs(folder: Path, record: Mapping[str, Any]) -> ProblemInputs:
     """Return the copies in the folder of a finished sweep; `ValueError` if one is not there."""
     entry = dict(record["inputs"])
     try:
-        return ProblemInputs(entry, {name: (folder / name).read_bytes() for name in _paths(entry)})
+        contents = {name: read_bytes(path_inside(folder, name), LARGEST_TABLE) for name in _paths(entry)}
     except OSError as error:
         raise ValueError(f"{error.filename} cannot be read ({error.strerror}): run the sweep again") from None
+    return ProblemInputs(entry, contents)
 
 
 def stored_problems(folder: Path, record: Mapping[str, Any], vary: Sequence[str]) -> list[Varied]:
     """Return the problems of a finished sweep from the copies in its folder; `ValueError` as `variations`."""
-    entry = record["inputs"]
-    tables = {name: folder / path for name, path in entry["tables"].items()}
-    return variations(folder / entry["problem"], vary, tables)
+    return variations(path_inside(folder, record["inputs"]["problem"]), vary)
 
 
 def _paths(entry: Mapping[str, Any]) -> list[str]:
@@ -102,8 +101,6 @@ def _paths(entry: Mapping[str, Any]) -> list[str]:
 
 def _written(folder: RunFolder) -> set[str]:
     """The copies that an earlier sweep has written."""
-    with suppress(OSError, ValueError, KeyError, TypeError, AttributeError):
-        entry = json.loads(folder.record.read_text(encoding="utf-8"))["inputs"]
-        # A record that somebody changed names no other files.
-        return {name for name in _paths(entry) if name.startswith(f"{INPUTS}/") and ".." not in PurePath(name).parts}
+    with suppress(ValueError, KeyError):
+        return set(_paths(read_record(folder.record)["inputs"]))
     return set()

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 from comparisons.model import ComputationFailed
 from comparisons.pipeline.problem_inputs import stored_inputs, stored_problems
-from comparisons.pipeline.problem_sweep import FinishedProblemSweep, digest_of, write_problem_sweep
+from comparisons.pipeline.problem_sweep import FinishedProblemSweep, write_problem_sweep
 from comparisons.pipeline.record_content import now
 from comparisons.pipeline.shard_folders import checked_records, take_rows
 from comparisons.runs.atomic_files import prepare_folder
+from comparisons.runs.computation import Completed
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.journal import alone_in
-from comparisons.runs.problem_tasks import ProblemRow, ProblemTask, plan_problems, problem_journal
+from comparisons.runs.problem_tasks import ProblemRow, ProblemTask, digest_of, plan_problems, problem_journal
 from comparisons.runs.record import PROBLEM_SWEEP
-from comparisons.runs.reevaluation import same_value
 
 __all__ = ["merge_problem_sweeps"]
 
@@ -55,19 +56,20 @@ def merge_problem_sweeps(folders: Sequence[Path], out: Path) -> FinishedProblemS
     with alone_in(out):
         journal = problem_journal(out)
         for folder in records:
-            take_rows(folder, problem_journal, journal, usable, same_value, _place)
+            take_rows(folder, problem_journal, journal, usable, _place)
         rows = usable(journal.items)
         keys = {row.key for row in rows}
         parts = journal.parts(lambda row: row.key in keys and wanted[row.key].version == row.model_version)
     if missing := len(wanted) - len(rows):
         raise ComputationFailed(
             f"{missing} of {len(wanted)} computations are in none of the folders; merge more of them, or compute what "
-            f"is missing by the command without --shard and with --out {out}"
+            f"is missing by the command without --shard and with --out {quote(str(out))}"
         )
     arguments = {name: value for name, value in expected["arguments"].items() if name != "shard"}
     arguments |= {"jobs": 1, "merged": [str(folder) for folder in records], "out": str(out)}
+    completed = Completed(rows, len(rows), parts, None)
     return write_problem_sweep(
-        target, rows, len(rows), parts, arguments, started, expected["cases_sha256"], expected["models"], inputs
+        target, completed, arguments, started, expected["cases_sha256"], expected["models"], inputs
     )
 
 

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor
 from contextlib import closing
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from hashlib import sha256
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 import pandas as pd
@@ -26,16 +25,25 @@ from comparisons.problem_file.variation import variations
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import identify
 from comparisons.runs.backends import backend_of
-from comparisons.runs.computation import checked_jobs, folder_for
+from comparisons.runs.computation import Completed, checked_jobs, folder_for
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.journal import alone_in
-from comparisons.runs.problem_tasks import ProblemRow, ProblemTask, compute_problems, plan_problems, problem_journal
+from comparisons.runs.problem_tasks import (
+    ProblemRow,
+    ProblemTask,
+    compute_problems,
+    digest_of,
+    plan_problems,
+    problem_journal,
+)
 from comparisons.runs.record import PROBLEM_SWEEP, write_record
+from comparisons.runs.reevaluation import drop_changed
 from comparisons.runs.shards import Shard
 from comparisons.runs.tables import write_table
-from comparisons.runs.workers import LOST, Backend
+from comparisons.runs.time_left import TimeLeft
+from comparisons.runs.workers import LOST, Backend, Processes, processes
 
-__all__ = ["FinishedProblemSweep", "digest_of", "problem_sweep", "write_problem_sweep"]
+__all__ = ["FinishedProblemSweep", "problem_sweep", "write_problem_sweep"]
 
 #: Names under which the columns of the tables are described.
 _DESCRIBED_AS = {"results": "problem_results", "kappa": "problem_kappa"}
@@ -124,11 +132,11 @@ def problem_sweep(
     tasks = plan_problems(problems, specs, quantities)
     whole, total = digest_of(tasks), len(tasks)
     if part is not None:
-        tasks = tasks[part.number - 1 :: part.total]
+        tasks = part.of(tasks)
     start = now()
     target = RunFolder(folder_for(folder, datetime.now(UTC)))
     inputs.check(target)
-    rows, resumed, parts = _completed(tasks, target.path, jobs, retry_failed, workers)
+    completed = _completed(tasks, target.path, jobs, retry_failed, workers)
     others = {"backend": None if backend == "processes" else backend, "scheduler": scheduler, "shard": shard}
     arguments = {
         "problem": str(problem),
@@ -141,20 +149,12 @@ def problem_sweep(
         **{name: value for name, value in others.items() if value is not None},
         "out": str(target.path),
     }
-    return write_problem_sweep(
-        target, rows, resumed, parts, arguments, start, whole, described(set(names), external), inputs
-    )
-
-
-def digest_of(tasks: Sequence[ProblemTask]) -> str:
-    """Return the SHA-256 of the keys of all tasks of a sweep."""
-    return sha256(json.dumps(sorted(task.key for task in tasks)).encode()).hexdigest()
+    return write_problem_sweep(target, completed, arguments, start, whole, described(set(names), external), inputs)
 
 
 def _completed(
     tasks: Sequence[ProblemTask], folder: Path, jobs: int, retry_failed: bool, backend: Backend
-) -> tuple[list[ProblemRow], int, list[dict[str, Any]]]:
-    """Return the rows of the tasks, how many of them were stored, and the parts that computed them."""
+) -> Completed[ProblemRow]:
     wanted = {task.key: task for task in tasks}
 
     def usable(row: ProblemRow) -> bool:
@@ -164,20 +164,26 @@ def _completed(
     def again(row: ProblemRow) -> bool:
         return row.status == "failed" and (retry_failed or bool(wanted[row.key].version) or row.reason == LOST)
 
+    def rows_of(few: list[ProblemTask]) -> Iterator[ProblemRow]:
+        return (row for row, _ in compute_problems(few, jobs, backend if isinstance(backend, Processes) else processes))
+
     with alone_in(folder):
         journal = problem_journal(folder)
         journal.drop(lambda row: usable(row) and again(row))
-        known = {row.key for row in journal.items if usable(row)}
-        missing = [task for task in tasks if task.key not in known]
-        note(f"{len(missing)} computations" + (f", {len(known)} are stored" if known else ""))
         try:
+            external = [(wanted[row.key], row) for row in journal.items if usable(row) and wanted[row.key].version]
+            evaluated_again = drop_changed(external, journal, rows_of) if external else None
+            known = {row.key for row in journal.items if usable(row)}
+            missing = [task for task in tasks if task.key not in known]
+            note(f"{len(missing)} computations" + (f", {len(known)} are stored" if known else ""))
+            left = TimeLeft(missing)
             computing = closing(compute_problems(missing, jobs, backend))
             with counting("computing", len(missing)) as count, computing as computed:
                 for row, environment in computed:
                     journal.add(row, environment)
-                    count()
+                    count(left.after(row))
         except BrokenExecutor as failure:
-            stored = f"{len(journal.items)} finished computations are safe; go on with --out {folder}"
+            stored = f"{len(journal.items)} finished computations are safe; go on with --out {quote(str(folder))}"
             raise ComputationFailed(f"{failure}; {stored}") from None
         # The parameters are those of today's plan: another --vary may name other keys of the same problem.
         rows = [row for row in journal.items if usable(row)]
@@ -186,14 +192,12 @@ def _completed(
     for row in rows:
         row.parameters.clear()
         row.parameters.update(wanted[row.key].parameters)
-    return rows, len(known), parts
+    return Completed(rows, len(known), parts, evaluated_again)
 
 
 def write_problem_sweep(
     target: RunFolder,
-    rows: Sequence[ProblemRow],
-    resumed: int,
-    parts: Sequence[Mapping[str, Any]],
+    completed: Completed[ProblemRow],
     arguments: Mapping[str, Any],
     started: str,
     whole: str,
@@ -205,11 +209,8 @@ def write_problem_sweep(
     Parameters
     ----------
     target : RunFolder
-    rows : sequence of ProblemRow
-    resumed : int
-        How many of them were stored.
-    parts : sequence of mapping
-        That computed them.
+    completed : Completed
+        The rows and their origin.
     arguments : mapping
         For the record.
     started : str
@@ -220,6 +221,7 @@ def write_problem_sweep(
     inputs : ProblemInputs
         The copies.
     """
+    rows = completed.rows
     table = problem_table(rows)
     errors = problem_errors(table)
     inputs.write(target)
@@ -228,16 +230,17 @@ def write_problem_sweep(
     seconds: Counter[str] = Counter()
     for row in rows:
         seconds[row.model] += row.seconds  # type: ignore[assignment]
-    counts = {"all": len(rows), "resumed": resumed, **Counter(row.status for row in rows)}
+    counts = {"all": len(rows), "resumed": completed.resumed, **Counter(row.status for row in rows)}
     content = record_content(
         PROBLEM_SWEEP,
         arguments,
         started=started,
-        parts=parts,
+        parts=completed.parts,
         rows=counts,
         seconds=dict(sorted(seconds.items())),
         verdicts={},
     )
     content |= {"cases_sha256": whole, "models": dict(models), "inputs": inputs.entry}
+    content |= {"evaluated_again": completed.evaluated_again} if completed.evaluated_again else {}
     write_record(content, target.record, [*RUN_FILES, *inputs.contents], _DESCRIBED_AS)
     return FinishedProblemSweep(target.path, table, errors, tuple(row for row in rows if row.status == "failed"))

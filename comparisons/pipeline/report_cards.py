@@ -1,4 +1,4 @@
-"""Report cards of the external models of a run: evaluations again, use of the references, and `check-model`."""
+"""Report cards of the external models of a run: evaluations again, and `check-model`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from comparisons.registry import ExternalIdentity
 from comparisons.runs.cases import Case
 from comparisons.runs.environment import computing_environment
 from comparisons.runs.rows import Row
-from comparisons.runs.tasks import NOT_INDEPENDENT, evaluate
+from comparisons.runs.tasks import evaluate
 
 __all__ = ["AGAIN", "make_cards"]
 
@@ -64,10 +64,6 @@ def _card(identity: ExternalIdentity, rows: Sequence[Row], exact: bool) -> dict[
         if numbers := [row for row in rows if row.value is not None]:
             card["repeated"] = _repeated(identity, model, numbers, exact)
         card["check_model"] = _findings(model)
-        if not model.is_program:
-            seen = (row.reason.removeprefix(NOT_INDEPENDENT).strip().split(" and ") for row in rows if row.reason)
-            card["uses"] = sorted({fact for facts in seen for fact in facts} | set(model.uses))
-            card["starts_programs"] = model.starts_programs
         return card
     finally:
         model.close()

@@ -14,6 +14,7 @@ from comparisons.model import ComputationFailed
 from comparisons.pipeline.inputs import RunInputs
 from comparisons.runs.cases import Case
 from comparisons.runs.computation import Completed, complete
+from comparisons.runs.execution import compute
 from comparisons.runs.reevaluation import evaluate_again
 from comparisons.runs.rows import Key, Row
 from comparisons.runs.shipped_values import SHIPPED_MODELS, ShippedValues, load_shipped
@@ -37,7 +38,7 @@ class Results:
         What the record states of them; empty if there are none.
     """
 
-    completed: Completed
+    completed: Completed[Row]
     shipped: list[Row]
     entry: dict[str, Any]
 
@@ -121,7 +122,7 @@ def _confirmed(used: dict[Task, Row], jobs: int, backend: Backend) -> dict[str, 
     """Compute a few shipped values of each model again; return which, as the record holds it."""
     seed = SystemRandom().randrange(2**32)
     try:
-        found = evaluate_again(used, seed, jobs, backend)
+        found = evaluate_again(used.items(), seed, lambda tasks: compute(tasks, jobs, backend))
     except BrokenExecutor:
         raise ComputationFailed(
             "a worker process ended early, perhaps for lack of memory, while it computed shipped values again"

@@ -7,15 +7,14 @@ from datetime import UTC, datetime
 from pathlib import Path
 from random import SystemRandom
 
-from comparisons.console.progress import log, note
+from comparisons.console.progress import note
 from comparisons.domain import Domain
-from comparisons.external.model_source import source_of
 from comparisons.judging.fresh_cases import FreshCases, draw
 from comparisons.pipeline.finished_run import FinishedRun, kept_texts, write_run
 from comparisons.pipeline.inputs import Cases, Gates, RunInputs, domains_of, load_cases, read_gates
 from comparisons.pipeline.record_content import now
 from comparisons.pipeline.results import results
-from comparisons.registry import ExternalIdentity, identify
+from comparisons.registry import identify
 from comparisons.runs.backends import backend_of
 from comparisons.runs.computation import checked_jobs, folder_for
 from comparisons.runs.folder import RunFolder
@@ -116,7 +115,7 @@ def run(
     if part is not None and rules is not None:
         raise ValueError(f"shard {part} of a run cannot be judged: only cases without gates are computed in shards")
     domains = domains_of(chosen_models or {name for grid in chosen.grids for name in grid.models}, external)
-    fresh = _fresh(random, seed, chosen, rules, chosen_models, domains, external)
+    fresh = _fresh(random, seed, chosen, rules, chosen_models, domains)
     started, start = datetime.now(UTC), now()
     target = RunFolder(folder_for(folder, started))
     kept_texts(target, chosen, rules)
@@ -149,7 +148,6 @@ def _fresh(
     gates: Gates | None,
     models: Sequence[str] | None,
     domains: Mapping[str, Domain],
-    external: Mapping[str, ExternalIdentity],
 ) -> FreshCases | None:
     """Return the fresh cases of a run, or refuse them where nothing could be judged in them."""
     if not 0 <= count <= _MOST_FRESH:
@@ -162,14 +160,10 @@ def _fresh(
         return None
     if gates is None or not models:
         raise ValueError("--random needs --model: fresh cases are drawn from the domain of a given model")
-    # Predictions as data have no value in other cases than their own.
-    able = [name for name in models if name not in external or source_of(external[name].spec)["kind"] != "data"]
-    for name in sorted(set(models) - set(able)):
-        log(f"{name} has no fresh cases: it is data")
     fresh = draw(
-        gates.gates, cases.grids, able, domains, count, SystemRandom().randrange(2**32) if seed is None else seed
+        gates.gates, cases.grids, models, domains, count, SystemRandom().randrange(2**32) if seed is None else seed
     )
-    if not fresh.parts:
-        raise ValueError("--random: no gate of this run can be judged in fresh cases of a given model")
+    if not (fresh.parts or fresh.undrawn):
+        raise ValueError("--random: no gate of this run can be judged in fresh cases of a given model: leave it out")
     note(f"{sum(len(part.grid.cases) for part in fresh.parts)} fresh cases, --seed {fresh.seed}")
     return fresh

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import Any, TypeVar
 
+from comparisons.data.validation import known_name
+from comparisons.registry import MODELS
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.journal import alone_in
 from comparisons.runs.part_journal import PartJournal
 from comparisons.runs.record import PROBLEM_SWEEP, read_record
-from comparisons.runs.reevaluation import Comparable
+from comparisons.runs.reevaluation import ComparedRow, same
 
 __all__ = ["checked_records", "take_rows"]
 
@@ -18,14 +20,7 @@ __all__ = ["checked_records", "take_rows"]
 _SWEEPS = {"sweep": "sweep FILE", PROBLEM_SWEEP: "sweep --problem"}
 
 
-class _Keyed(Comparable, Protocol):
-    """A row with what identifies it."""
-
-    @property
-    def key(self) -> Any: ...
-
-
-_Row = TypeVar("_Row", bound=_Keyed)
+_Row = TypeVar("_Row", bound=ComparedRow)
 
 
 def checked_records(
@@ -70,6 +65,7 @@ def checked_records(
             raise ValueError(f"{files.journal} does not exist: only folders with their journal are merged")
         if folder.resolve() == out.resolve():
             raise ValueError(f"{out} is one of the folders that are merged; choose another folder with --out")
+        _check_models(record, files.record)
         records[folder] = record
         expected, own = common(records[first]), common(record)
         different = [words for words in expected if own[words] != expected[words]]
@@ -78,12 +74,21 @@ def checked_records(
     return records
 
 
+def _check_models(record: Mapping[str, Any], path: Path) -> None:
+    """Refuse a model that is not ours and that the record does not describe: it would be loaded, and its code run."""
+    arguments, described = record["arguments"], record["models"]
+    for name in arguments["external"]:
+        known_name("model", name, described, str(path))
+    for name in arguments["model"] or ():
+        known_name("model", name, {*MODELS, *arguments["external"]}, str(path))
+        known_name("model", name, described, str(path))
+
+
 def take_rows(
     folder: Path,
     source: Callable[[Path], PartJournal[_Row]],
     journal: PartJournal[_Row],
     usable: Callable[[Iterable[_Row]], list[_Row]],
-    same: Callable[[_Row, _Row], bool],
     place: Callable[[_Row], str],
 ) -> None:
     """Add the rows of a folder that a journal does not have, or has as failures only.
@@ -98,8 +103,6 @@ def take_rows(
         To which the rows are added.
     usable : callable
         The rows that belong to the sweep.
-    same : callable
-        Whether two rows of one computation agree.
     place : callable
         What a row is about, in words.
 

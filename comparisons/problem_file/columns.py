@@ -10,8 +10,9 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 
-from comparisons.problem_file.source import read_text, shown
-from comparisons.problem_file.units import NotAValue, unit_factor
+from comparisons.data.input_files import LARGEST_TABLE, read_text
+from comparisons.problem_file.source import shown
+from comparisons.problem_file.units import NotAValue, check_size, unit_factor
 
 __all__ = ["Column", "read_columns"]
 
@@ -68,7 +69,7 @@ def read_columns(path: Path, columns: Mapping[str, Column], fewest: int) -> dict
     ValueError
         One sentence with the file, the line, the value and the remedy.
     """
-    text = read_text(path, "the table")
+    text = read_text(path, "the table", LARGEST_TABLE)
     lines = [(i, line) for i, line in enumerate(text.splitlines(), start=1) if line.strip() and line.strip()[0] != "#"]
     example = ",".join(name for name, column in columns.items() if not column.optional)
     if not lines:
@@ -133,6 +134,11 @@ def _checked(place: str, name: str, column: Column, factor: float, cell: str, be
         raise ValueError(f"{place}: {name} = {shown(cell.strip())} is no number; write one there") from None
     if not math.isfinite(value):
         raise ValueError(f"{place}: {name} = {cell.strip()} is not a finite number; write one or take out the row")
+    if column.unit != "1":
+        try:
+            check_size(value, column.unit)
+        except NotAValue as error:
+            raise ValueError(f"{place}: {name} = {cell.strip()} {error}; check its unit") from None
     if not column.low <= value <= column.high or (column.open and value == column.low):
         raise ValueError(f"{place}: {name} = {cell.strip()} is outside {column.range}; correct the value")
     if column.rising and before and not value > before[-1]:

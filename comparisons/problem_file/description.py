@@ -90,14 +90,22 @@ class ProblemFile:
         return {"file": self.path.name, **sections}
 
     @property
+    def power_law(self) -> Section | None:
+        """The solid as E0 (z/c0)^k, also if it is homogeneous; None if it is another one."""
+        if self.solid.kind == "homogeneous":
+            # c0 has no effect for k = 0.
+            return Section("power-law", {"E0": self.solid["E"], "c0": 1.0, "k": 0.0, "nu": self.solid["nu"]})
+        return self.solid if self.solid.kind == "power-law" else None
+
+    @property
     def has_power_punch(self) -> bool:
         """Whether the punch is r^n / (n Q), so that the units of the paper are defined."""
-        return self.punch.kind in ("sphere", "power-law")
+        return self.punch.kind in ("sphere", "cone", "power-law")
 
     @property
     def is_of_the_paper(self) -> bool:
         """Whether it is the problem of three numbers n, k and mu, which every model takes."""
-        return self.solid.kind == "power-law" and self.has_power_punch and self.law.kind == "lennard-jones-9-3"
+        return self.power_law is not None and self.has_power_punch and self.law.kind == "lennard-jones-9-3"
 
     @property
     def label(self) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
@@ -45,8 +46,7 @@ def dimensionless_problem(problem: ProblemFile) -> tuple[Problem, Mapping[str, f
     """
     work, z0, law = adhesion(problem.law)
     n, Q = shape_parameters(problem.punch, z0)
-    solid = problem.solid
-    if solid.kind == "power-law":
+    if (solid := problem.power_law) is not None:
         physical = PhysicalProblem(solid["E0"], solid["c0"], solid["k"], solid["nu"], Q, n, work, z0)
         return physical.problem(_punch(problem.punch, physical.length_r, z0), law), physical.scales
     # Imported here: the power law does not need it.
@@ -54,7 +54,7 @@ def dimensionless_problem(problem: ProblemFile) -> tuple[Problem, Mapping[str, f
 
     unit = (Q * z0) ** (1.0 / n)
     shape = _punch(problem.punch, unit, z0)
-    found, surface = graded_problem(_solid(solid), Q=Q, n=n, work_of_adhesion=work, z0=z0, punch=shape, law=law)
+    found, surface = graded_problem(_solid(problem.solid), Q=Q, n=n, work_of_adhesion=work, z0=z0, punch=shape, law=law)
     return found, surface.scales
 
 
@@ -91,6 +91,8 @@ def shape_parameters(punch: Section, z0: float) -> tuple[float, float]:
     """
     if punch.kind == "power-law":
         return punch["n"], punch["Q"]
+    if punch.kind == "cone":
+        return 1.0, math.tan(punch["half_angle"])
     if punch.kind == "rounded-cone" and punch["slope"] ** 2 * punch["R"] < z0:
         return 1.0, 1.0 / punch["slope"]
     if punch.kind == "table":
@@ -101,7 +103,7 @@ def shape_parameters(punch: Section, z0: float) -> tuple[float, float]:
 
 def _punch(punch: Section, length: float, z0: float) -> PunchShape | None:
     """The shape with radii in `length` and heights in z0; None for the power law."""
-    if punch.kind in ("sphere", "power-law"):
+    if punch.kind in ("sphere", "cone", "power-law"):
         return None
     if punch.kind == "rounded-cone":
         return RoundedCone(punch["R"] * punch["slope"] / length, punch["slope"] * length / z0)

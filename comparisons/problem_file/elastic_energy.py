@@ -98,7 +98,7 @@ def energy_spectrum(problem: ProblemFile) -> EnergySpectrum:
     """
     posed, units = dimensionless_problem(problem)
     if not isinstance(posed, GradedProblem):
-        raise ValueError(f"{problem.path.name} has a power-law solid, whose surface compliance is known")
+        raise ValueError(f"{problem.path.name} has a {problem.solid.kind} solid, whose surface compliance is known")
     with translated(fscm.NoSuchEvent, fscm.NotConverged):
         # The shares need few digits.
         field = fscm.profile(posed, "pull_off", "quick")

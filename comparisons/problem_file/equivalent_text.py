@@ -6,7 +6,7 @@ from typing import Any
 
 from comparisons.numerics.number_text import percent_text
 from comparisons.problem_file.equivalent_power_law import EquivalentPowerLaw
-from comparisons.problem_file.overview import LIMITS, first_within
+from comparisons.problem_file.overview import LIMITS, simplest_within
 from comparisons.problem_file.units import si_text
 
 __all__ = ["content", "lines"]
@@ -19,6 +19,8 @@ def content(found: EquivalentPowerLaw) -> dict[str, Any]:
         **found.problem.solid.values,
         "free_k": found.free_k,
         "compliance_deviation": found.deviation,
+        "surface_compliance_deviation": found.surface_deviation,
+        "tabor_number": found.tabor_number,
         "lengths": list(found.lengths),
         "pull_off_force": {
             "model": force.model,
@@ -31,12 +33,14 @@ def content(found: EquivalentPowerLaw) -> dict[str, Any]:
             "error_u_num": found.bound,
         },
         "closed_forms": [{"model": row.model, "error": row.error, "u_num": row.bound} for row in found.closed_forms],
-        "closed_form_within": {f"{100 * limit:g} %": first_within(found.closed_forms, limit) for limit in LIMITS},
+        "closed_form_within": {f"{100 * limit:g} %": _recommended(found, limit) for limit in LIMITS},
     }
 
 
 def lines(found: EquivalentPowerLaw) -> list[str]:
-    """Return the equivalent power law as lines of text."""
+    """Return the equivalent power law as lines of text: one line if it does not stand for the solid."""
+    if not found.is_close:
+        return [f"  no equivalent power law: the best one misses the compliance by {100.0 * found.deviation:.0f} %"]
     solid, force = found.problem.solid, found.force
     first, last = (_rounded(length, "m") for length in found.lengths)
     limited = "" if found.free_k == solid["k"] else f" (its nearest admissible value; the fit has {found.free_k:.3g})"
@@ -60,14 +64,16 @@ def _closed_forms(found: EquivalentPowerLaw) -> list[str]:
     if not found.closed_forms:
         return ["    no closed form takes this punch or this law"]
     width = max(len(row.model) for row in found.closed_forms)
-    near = "; ".join(
-        f"within {100 * limit:g} %: {first_within(found.closed_forms, limit) or 'none'}" for limit in LIMITS
-    )
+    near = "; ".join(f"within {100 * limit:g} %: {_recommended(found, limit) or 'none'}" for limit in LIMITS)
     return [
         "    errors of the closed forms with this power law:",
         *(f"      {row.model:{width}}  {percent_text(row.error, row.bound)} %" for row in found.closed_forms),
         f"    {near}",
     ]
+
+
+def _recommended(found: EquivalentPowerLaw, limit: float) -> str | None:
+    return simplest_within(found.closed_forms, limit) if found.is_close else None
 
 
 def _rounded(value: float, unit: str) -> str:

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from comparisons.domain import declared_domain
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
 from comparisons.problem_file.description import ProblemFile
 from comparisons.problem_file.dimensionless import dimensionless_problem
@@ -157,6 +158,9 @@ def _value(problem: ProblemFile, model: Model, quantity: str) -> Result:
 
         return value_of(problem, quantity)
     posed, units = dimensionless_problem(problem)
+    domain = declared_domain(model)
+    if domain is not None and not domain.contains(quantity, {"n": posed.n, "k": posed.k, "mu": posed.mu}):
+        raise NotApplicable(domain.refusal(quantity))
     result = model.evaluate(posed, quantity)
     kind = QUANTITIES[quantity].scale
     if kind == "number":
@@ -170,8 +174,8 @@ def _refuse(problem: ProblemFile, model: Model, quantity: str) -> None:
         return
     if model.name not in ("fscm", "fem"):
         raise NotApplicable(
-            f"{model.name} takes a power-law solid, a sphere or power-law punch and the 9-3 law; this problem has a "
-            f"{problem.solid.kind} solid, a {problem.punch.kind} punch and a {problem.law.kind} law"
+            f"{model.name} takes a power-law or homogeneous solid, a sphere, cone or power-law punch and the 9-3 law; "
+            f"this problem has a {problem.solid.kind} solid, a {problem.punch.kind} punch and a {problem.law.kind} law"
         )
     if quantity == "critical_tabor_number":
         raise NotApplicable("the critical Tabor number is that of a power-law solid and punch with the 9-3 law")

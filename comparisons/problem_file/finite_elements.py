@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from typing import Any
 
@@ -72,6 +73,8 @@ def field_of(problem: ProblemFile, name: str, farthest_gap: float) -> Points:
 
 
 def _solid(solid: Section) -> fem_reference.Solid | fem_reference.CustomSolid:
+    if solid.kind == "homogeneous":
+        return fem_reference.Solid(solid["E"], 1.0, 0.0, solid["nu"])  # c0 has no effect for k = 0
     if solid.kind in ("power-law", "offset-power-law"):
         return fem_reference.Solid(solid["E0"], solid["c0"], solid["k"], solid["nu"], solid.get("z_s", 0.0))
     if solid.kind == "exponential":
@@ -94,6 +97,8 @@ def _solid(solid: Section) -> fem_reference.Solid | fem_reference.CustomSolid:
 def _punch(punch: Section) -> fem_reference.Punch:
     if punch.kind == "sphere":
         return fem_reference.PowerPunch(2.0, punch["R"])
+    if punch.kind == "cone":
+        return fem_reference.PowerPunch(1.0, math.tan(punch["half_angle"]))
     if punch.kind == "power-law":
         return fem_reference.PowerPunch(punch["n"], punch["Q"])
     if punch.kind == "rounded-cone":

@@ -14,12 +14,13 @@ from comparisons.registry import MODELS, create
 __all__ = [
     "LIMITS",
     "REFERENCES",
+    "SIMPLEST_FIRST",
     "ModelError",
     "Overview",
-    "first_within",
     "model_errors",
     "overview_of",
     "recommended",
+    "simplest_within",
 ]
 
 #: Models that solve the equations; every other one is a closed form or another approximation.
@@ -27,6 +28,10 @@ REFERENCES = ("fscm", "fem", "fscm-stieltjes", "fscm-stieltjes-400", "atlas")
 
 #: Errors for which a model is recommended.
 LIMITS = (0.01, 0.05)
+
+#: Order in which a closed form is recommended: limits, asymptote, models of the transition.  Every other one, a fit or
+#: another cohesive stress, comes after them: it may be right in one problem because errors cancel.
+SIMPLEST_FIRST = ("jkr", "dmt", "bradley", "semi-rigid", "md-improved", "md-original", "md-jin", "double-hertz-n-k")
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,20 +93,21 @@ class Overview:
         return "transition between the rigid limit (Bradley, DMT) and that of soft solids (JKR)"
 
 
-def first_within(errors: Sequence[ModelError], limit: float) -> str | None:
-    """Return the closed form of the smallest error if it is within a limit.
+def simplest_within(errors: Sequence[ModelError], limit: float) -> str | None:
+    """Return the simplest closed form whose error is within a limit, in the order of `SIMPLEST_FIRST`.
 
     Examples
     --------
-    >>> errors = (ModelError("md-improved", -0.003, 1e-9), ModelError("jkr", 0.02, 1e-9))
-    >>> first_within(errors, 0.01), first_within(errors, 1e-3)
-    ('md-improved', None)
+    >>> errors = ModelError("schwarz", 1e-4, 0.0), ModelError("md-improved", -3e-3, 0.0), ModelError("jkr", 0.02, 0.0)
+    >>> simplest_within(errors, 0.05), simplest_within(errors, 0.01), simplest_within(errors, 1e-5)
+    ('jkr', 'md-improved', None)
     """
-    return next((found.model for found in errors if found.within(limit)), None)
+    within = [row.model for row in errors if row.within(limit)]
+    return next((name for name in (*SIMPLEST_FIRST, *within) if name in within), None)
 
 
 def recommended(overview: Overview, limit: float) -> str:
-    """Return the closed form of the smallest error if it is within a limit, or else the reference.
+    """Return the simplest closed form whose error is within a limit, or else the reference.
 
     Examples
     --------
@@ -110,7 +116,7 @@ def recommended(overview: Overview, limit: float) -> str:
     >>> recommended(some, 0.01), recommended(some, 1e-3)
     ('md-improved', 'atlas')
     """
-    return first_within(overview.errors, limit) or overview.force.model
+    return simplest_within(overview.errors, limit) or overview.force.model
 
 
 def overview_of(problem: ProblemFile) -> Overview:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from comparisons.numerics.number_text import percent_text
+from comparisons.problem_file.equivalent_power_law import EquivalentPowerLaw
 from comparisons.problem_file.overview import LIMITS, Overview, recommended
 from comparisons.problem_file.units import si_text
 
@@ -32,13 +33,12 @@ def content(overview: Overview) -> dict[str, Any]:
     }
 
 
-def lines(overview: Overview) -> list[str]:
-    """Return the overview as lines of text."""
+def lines(overview: Overview, equivalent: EquivalentPowerLaw | None = None) -> list[str]:
+    """Return the overview as lines of text; for a solid that is no power law with its equivalent, if it has one."""
     problem, force, critical = overview.problem, overview.force, overview.critical_tabor_number
     found = [
         f"{problem.path.name}: {problem.solid.kind} solid, {problem.punch.kind} punch, {problem.law.kind} law",
-        f"  Tabor number {overview.tabor_number:.6g}"
-        + ("" if problem.solid.kind == "power-law" else ", with the modulus of the surface"),
+        f"  {_tabor_number(overview, equivalent)}",
     ]
     if critical is not None:
         words = "jumps, with hysteresis" if overview.tabor_number > critical else "no jumps"
@@ -53,3 +53,16 @@ def lines(overview: Overview) -> list[str]:
         found += [f"    {row.model:{width}}  {percent_text(row.error, row.bound)} %" for row in overview.errors]
     found += [f"  recommended for {100 * limit:g} %: {recommended(overview, limit)}" for limit in LIMITS]
     return found
+
+
+def _tabor_number(overview: Overview, equivalent: EquivalentPowerLaw | None) -> str:
+    """The Tabor number, where the modulus of the surface or a power law stands for the solid."""
+    if overview.problem.power_law is not None:
+        return f"Tabor number {overview.tabor_number:.6g}"
+    if equivalent is None:
+        return "no Tabor number: the moduli that the contact meets are not known"
+    if equivalent.is_surface_close:
+        return f"Tabor number {overview.tabor_number:.6g}, with the modulus of the surface"
+    if equivalent.is_close:
+        return f"Tabor number {equivalent.tabor_number:.4g}, with the equivalent power law"
+    return "no Tabor number: neither its surface nor a power law stands for the solid"

@@ -10,12 +10,13 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
+from comparisons.data.input_files import read_text
 from comparisons.data.toml_text import parse
 from comparisons.problem_file.columns import Column, read_columns
 from comparisons.problem_file.consistency import check_consistency
 from comparisons.problem_file.description import ProblemFile, Section
 from comparisons.problem_file.form import SECTIONS, checked_section
-from comparisons.problem_file.source import Source, read_text, shown
+from comparisons.problem_file.source import Source, shown
 
 __all__ = ["document_of", "load_problem", "problem_of"]
 
@@ -46,7 +47,7 @@ def load_problem(path: str | os.PathLike[str]) -> ProblemFile:
     Parameters
     ----------
     path : str or path
-        A TOML file with the sections solid, punch and law; tables are beside it.
+        A TOML file with the sections solid, punch and law; tables are in its folder.
 
     Returns
     -------
@@ -67,16 +68,12 @@ def load_problem(path: str | os.PathLike[str]) -> ProblemFile:
     return problem_of(*document_of(path))
 
 
-def document_of(
-    path: str | os.PathLike[str], tables: Mapping[str, Path] | None = None
-) -> tuple[dict[str, Any], Source]:
+def document_of(path: str | os.PathLike[str]) -> tuple[dict[str, Any], Source]:
     """Return the sections of a problem file as they are written, and its text.
 
     Parameters
     ----------
     path : str or path
-    tables : mapping of str to Path, optional
-        Copies of tables that it names, where they are not beside it.
 
     Raises
     ------
@@ -84,7 +81,7 @@ def document_of(
         As `load_problem`, if the file cannot be read or is not TOML.
     """
     path = Path(path)
-    source = Source(path, read_text(path, "the problem file"), tables or {})
+    source = Source(path, read_text(path, "the problem file"))
     return _document(source), source
 
 
@@ -138,7 +135,7 @@ def _section(document: Mapping[str, Any], name: str, source: Source) -> Section:
     if kind != "table":
         return Section(kind, values, uncertain=uncertain)
     columns, fewest = _TABLES[name]
-    path = source.table(values["file"])
+    path = source.table(name, values["file"])
     # False for a name that is too long, too.
     if not os.path.isfile(path):
         raise source.refusal(

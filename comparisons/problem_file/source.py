@@ -3,44 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from datetime import date, time
 from pathlib import Path
 
-__all__ = ["Source", "read_text", "shortened", "shown"]
+from comparisons.data.contained_paths import path_inside
+
+__all__ = ["Source", "shortened", "shown"]
 
 #: Longest value that a sentence shows in full.
 _LONGEST = 60
-
-
-def read_text(path: Path, what: str) -> str:
-    """Return the text of a file.
-
-    Raises
-    ------
-    ValueError
-        One sentence, if it cannot be read or is not UTF-8.
-
-    Examples
-    --------
-    >>> read_text(Path("no_such_file.toml"), "the problem file")
-    Traceback (most recent call last):
-    ValueError: no_such_file.toml: the problem file cannot be read (No such file or directory); check the name
-    """
-    if str(path) == "-":
-        raise ValueError(f"-: {what} is not read from the standard input; give the name of a file")
-    try:
-        return path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = error.object.count(b"\n", 0, error.start) + 1
-        raise ValueError(
-            f"{path}, line {line}: the byte 0x{error.object[error.start]:02x} is not UTF-8; save the file as UTF-8"
-        ) from None
-    except (OSError, ValueError) as error:
-        # A name with a NUL is a `ValueError`.
-        reason = getattr(error, "strerror", None) or error
-        raise ValueError(f"{path}: {what} cannot be read ({reason}); check the name") from None
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,11 +28,17 @@ class Source:
 
     path: Path
     text: str
-    tables: Mapping[str, Path] = field(default_factory=dict)
 
-    def table(self, name: str) -> Path:
-        """Return the path of a table that the file names: beside the file, or its copy in `tables`."""
-        return self.tables.get(name, self.path.parent / name)
+    def table(self, section: str, name: str) -> Path:
+        """Return the path of a table that a section names, which is in the folder of the file; otherwise refuse it."""
+        try:
+            return path_inside(self.path.parent, name)
+        except ValueError:
+            raise self.refusal(
+                section,
+                "file",
+                f"file = {shown(name)} is not in the folder of {self.path.name}; put the table beside the problem file",
+            ) from None
 
     def line(self, section: str, key: str | None = None) -> int | None:
         """Line of a key, or else of its section; None where neither is written on a line of its own."""

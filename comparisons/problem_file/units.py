@@ -10,10 +10,10 @@ from typing import Any
 from comparisons.numerics.number_text import short
 from comparisons.problem_file.source import shortened
 
-__all__ = ["NotAValue", "in_si", "prefixed_unit", "si_text", "unit_factor"]
+__all__ = ["NotAValue", "check_size", "in_si", "prefixed_unit", "si_text", "unit_factor"]
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
-_NAME = r"[A-Za-zµμΩÅ]+(?:\s*(?:\^|\*\*)\s*\(?[+-]?\d{1,2}(?:\.\d{1,4})?\)?)?"
+_NAME = r"[A-Za-zµμΩÅ°]+(?:\s*(?:\^|\*\*)\s*\(?[+-]?\d{1,2}(?:\.\d{1,4})?\)?)?"
 #: A product of powers of units, and nothing else: pint would also calculate.
 _UNIT = re.compile(rf"(?:1\s*/\s*)?{_NAME}(?:\s*[*/·]\s*{_NAME}|\s+{_NAME})*")
 _VALUE = re.compile(rf"\s*({_NUMBER})\s*(.*?)\s*")
@@ -21,11 +21,15 @@ _VALUE = re.compile(rf"\s*({_NUMBER})\s*(.*?)\s*")
 #: Prefixes by which text shows a number, and their powers of ten: moduli of 1e9 Pa, energies of contacts of 1e-18 J.
 _PREFIXES = tuple(zip(range(9, -24, -3), ("G", "M", "k", "", "m", "µ", "n", "p", "f", "a", "z"), strict=True))
 
+#: Largest value in SI of a length, a modulus, a pressure or an energy per area, and the inverse of the smallest: none
+#: of a contact is near them (z0 > 1e-11 m, E < 1e13 Pa), and cubes of their products stay in the range of a double.
+LARGEST_SIZE = 1e20
+
 #: Relative error of a few multiplications.
 _ROUNDING = 1e-14
 
 #: Names of dimensions, by their unit in SI.
-_KINDS = {"Pa": "a modulus or pressure", "m": "a length", "J/m^2": "an energy per area"}
+_KINDS = {"Pa": "a modulus or pressure", "m": "a length", "J/m^2": "an energy per area", "rad": "an angle"}
 
 
 class NotAValue(Exception):
@@ -62,7 +66,8 @@ def unit_factor(unit: str, target: str, power: float = 1.0) -> float:
     aim = registry.Unit(target) ** power
     try:
         found = registry.Unit(unit.replace("·", "*"))
-        if found.dimensionality != aim.dimensionality:
+        # An angle has no dimension, nor has a percentage: their root units differ.
+        if registry.get_root_units(found)[1] != registry.get_root_units(aim)[1]:
             kind = _KINDS.get(target, target) if power == 1.0 else f"{target}^({power:g})"
             raise NotAValue(f"has the unit {unit}, which is not that of {kind}")
         factor = float(registry.Quantity(1.0, found).to(aim).magnitude)
@@ -93,8 +98,8 @@ def in_si(value: object, target: str, power: float = 1.0) -> float:
 
     Examples
     --------
-    >>> in_si("2 GPa", "Pa"), in_si(3e-7, "m"), in_si("50 mJ/m^2", "J/m^2")
-    (2000000000.0, 3e-07, 0.05)
+    >>> in_si("2 GPa", "Pa"), in_si(3e-7, "m"), in_si("50 mJ/m^2", "J/m^2"), in_si("200 mrad", "rad")
+    (2000000000.0, 3e-07, 0.05, 0.2)
     """
     if isinstance(value, str):
         match = _VALUE.fullmatch(value)
@@ -104,14 +109,35 @@ def in_si(value: object, target: str, power: float = 1.0) -> float:
             raise NotAValue("has no unit")
         factor = unit_factor(match[2], target, power)
         # Division by 10^9 keeps all digits of 100 nm; the double of 1e-9 is no power of ten.
-        scaled = float(match[1]) * factor if factor >= 1.0 else float(match[1]) / round(1.0 / factor, 6)
+        whole = round(1.0 / factor)
+        divides = abs(whole * factor - 1.0) < _ROUNDING
+        scaled = float(match[1]) / whole if divides else float(match[1]) * factor
     elif isinstance(value, int | float) and not isinstance(value, bool):
         scaled = float(value) if abs(value) < 1e300 else math.inf
     else:
         raise NotAValue("is no number")
     if not math.isfinite(scaled):
         raise NotAValue("is not a finite number")
+    if target and power == 1.0:
+        check_size(scaled, target)
     return scaled
+
+
+def check_size(value: float, unit: str) -> None:
+    """Refuse a value with a unit that is too small or too large to be computed with; zero is left to its range.
+
+    Raises
+    ------
+    NotAValue
+
+    Examples
+    --------
+    >>> check_size(1e300, "Pa")
+    Traceback (most recent call last):
+    comparisons.problem_file.units.NotAValue: has a size outside 1e-20 to 1e+20 Pa
+    """
+    if value and not 1.0 / LARGEST_SIZE <= abs(value) <= LARGEST_SIZE:
+        raise NotAValue(f"has a size outside {1.0 / LARGEST_SIZE:g} to {LARGEST_SIZE:g} {unit}")
 
 
 def si_text(value: float, u_num: float, unit: str) -> str:

@@ -114,7 +114,7 @@ class Varied:
     parameters: Mapping[str, float | str]
 
 
-def variations(path: Path, texts: Sequence[str], tables: Mapping[str, Path] | None = None) -> list[Varied]:
+def variations(path: Path, texts: Sequence[str]) -> list[Varied]:
     """Return the problems of a file for every combination of values, each checked as a file is.
 
     Parameters
@@ -122,8 +122,6 @@ def variations(path: Path, texts: Sequence[str], tables: Mapping[str, Path] | No
     path : Path
     texts : sequence of str
         As of `parse_variation`.
-    tables : mapping of str to Path, optional
-        As of `comparisons.problem_file.reading.document_of`.
 
     Raises
     ------
@@ -137,11 +135,11 @@ def variations(path: Path, texts: Sequence[str], tables: Mapping[str, Path] | No
         raise ValueError(f"--vary {twice[0]} is there twice; give all values of a key in one --vary")
     if (count := prod(len(variation.values) for variation in chosen)) > _MOST:
         raise ValueError(f"--vary: {count} problems are more than {_MOST}; give fewer values")
-    return list(_problems(path, chosen, tables))
+    return list(_problems(path, chosen))
 
 
-def _problems(path: Path, chosen: Sequence[Variation], tables: Mapping[str, Path] | None) -> Iterator[Varied]:
-    document, source = document_of(path, tables)
+def _problems(path: Path, chosen: Sequence[Variation]) -> Iterator[Varied]:
+    document, source = document_of(path)
     problem_of(document, source)
     for values in product(*(variation.values for variation in chosen)):
         changed = deepcopy(document)

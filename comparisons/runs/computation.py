@@ -9,15 +9,15 @@ from contextlib import closing
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
-from random import SystemRandom
-from typing import Any
+from shlex import quote
+from typing import Any, Generic, TypeVar
 
 from comparisons.console.progress import counting, log, note
 from comparisons.model import ComputationFailed
 from comparisons.runs.atomic_files import prepare_folder
-from comparisons.runs.execution import compute_with_environment
+from comparisons.runs.execution import compute, compute_with_environment
 from comparisons.runs.journal import alone_in
-from comparisons.runs.reevaluation import evaluate_again
+from comparisons.runs.reevaluation import drop_changed
 from comparisons.runs.row_journal import RowJournal
 from comparisons.runs.rows import Key, Row
 from comparisons.runs.tasks import Task
@@ -33,6 +33,9 @@ __all__ = [
 ]
 
 
+_Row = TypeVar("_Row")
+
+
 def checked_jobs(jobs: int) -> int:
     """Return the number of processes; `ValueError` if there are none."""
     if jobs < 1:
@@ -46,12 +49,12 @@ def folder_for(out: Path | None, started: datetime) -> Path:
 
 
 @dataclass(frozen=True, slots=True)
-class Completed:
+class Completed(Generic[_Row]):
     """Rows of all tasks of a run, and their origin.
 
     Attributes
     ----------
-    rows : list of Row
+    rows : list
     resumed : int
         How many of them were stored.
     parts : list of dict
@@ -60,7 +63,7 @@ class Completed:
         What was evaluated again before stored rows of external models were used, as the record holds it.
     """
 
-    rows: list[Row]
+    rows: list[_Row]
     resumed: int
     parts: list[dict[str, Any]]
     evaluated_again: dict[str, Any] | None
@@ -73,7 +76,7 @@ def complete(
     retry_failed: bool = False,
     backend: Backend = processes,
     needed: Callable[[list[Row]], Collection[Key]] | None = None,
-) -> Completed:
+) -> Completed[Row]:
     """Compute the tasks that the journal of a folder does not have.
 
     A stored row that failed because its process ended does not count.  A stored row of another version of an external
@@ -123,8 +126,11 @@ def complete(
         journal = RowJournal(folder)
         journal.drop(lambda row: usable(row) and again(row))
         try:
-            external = {wanted[row.key]: row for row in journal.items if usable(row) and row.model in versions}
-            evaluated_again = _checked(external, journal, jobs, backend) if external else None
+            external = [(wanted[row.key], row) for row in journal.items if usable(row) and row.model in versions]
+            local = backend if isinstance(backend, Processes) else processes
+            evaluated_again = (
+                drop_changed(external, journal, lambda tasks: compute(tasks, jobs, local)) if external else None
+            )
             stored = [row for row in journal.items if usable(row)]
             log_failures_used(Counter(row.model for row in stored if row.status == "failed"))
             known = {row.key for row in stored}
@@ -153,19 +159,6 @@ def complete(
         return Completed(rows, resumed, journal.parts_of(rows), evaluated_again)
 
 
-def _checked(stored: dict[Task, Row], journal: RowJournal, jobs: int, backend: Backend) -> dict[str, Any]:
-    """Evaluate a few stored tasks again, and drop the rows of each model whose results have changed."""
-    seed = SystemRandom().randrange(2**32)
-    found = evaluate_again(stored, seed, jobs, backend if isinstance(backend, Processes) else processes)
-    for model, again in found.items():
-        if again.difference:
-            dropped = journal.drop_model(
-                model, next(row.model_version for row in stored.values() if row.model == model)
-            )
-            log(f"{model} has changed ({again.difference}): its stored results ({dropped}) are all computed again")
-    return {"seed": seed, "models": {model: again.as_json() for model, again in found.items()}}
-
-
 def log_failures_used(failures: Mapping[str, int]) -> None:
     """Write in one sentence how many stored failures are used, by the names of the models or functions."""
     if failures:
@@ -176,4 +169,4 @@ def log_failures_used(failures: Mapping[str, int]) -> None:
 
 
 def _safe(journal: RowJournal, folder: Path) -> str:
-    return f"{len(journal.items)} finished computations are safe; go on with --out {folder}"
+    return f"{len(journal.items)} finished computations are safe; go on with --out {quote(str(folder))}"

@@ -17,6 +17,8 @@ from typing import Any, Generic, TypeVar
 from filelock import FileLock, Timeout
 
 from comparisons.console.progress import log
+from comparisons.data.contained_paths import refuse_link
+from comparisons.data.input_files import LARGEST_ROWS, read_bytes
 from comparisons.runs.atomic_files import atomic, writing
 from comparisons.runs.environment import differences
 from comparisons.runs.folder import RunFolder
@@ -72,6 +74,7 @@ class Journal(Generic[_Entry]):
         self.entries: list[_Entry] = []
         self._fingerprint = fingerprint
         self._write = write
+        refuse_link(path)
         if not (path.exists() and self._read(read)):
             path.unlink(missing_ok=True)
             self._append(self._first_line())
@@ -82,7 +85,7 @@ class Journal(Generic[_Entry]):
     def _read(self, read: Callable[[dict[str, Any]], _Entry]) -> bool:
         """Read the entries; return False if the first line was never finished."""
         # A line without its end was being written when the command was stopped: what it holds is computed again.
-        whole, end, torn = self.path.read_bytes().rpartition(b"\n")
+        whole, end, torn = read_bytes(self.path, LARGEST_ROWS).rpartition(b"\n")
         if not end:
             return False
         first, *lines = whole.split(b"\n")
@@ -173,6 +176,7 @@ def alone_in(folder: Path) -> Iterator[None]:
         If the lock file of the folder cannot be opened, as that of another user; one sentence gives the reason.
     """
     path = RunFolder(folder).lock
+    refuse_link(path)
     # Not `blocking=False`, which filelock 3.13 does not know; one attempt is the same.
     lock = FileLock(path, timeout=0)
     try:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import product
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,9 @@ NAMES = ("n", "k", "mu", "nu")
 
 #: Ways in which a grid states its cases.
 FORMS = "lists n, k, mu (and nu); cases = [{n = 2, k = 0, mu = 1}, ...]; or a table [grid.latin_hypercube]"
+
+#: Most combinations of lists, each of which is built before anything is computed: they take a gigabyte.
+_MOST_CASES = 1_000_000
 
 #: Significant digits of a sampled parameter: as many as a message prints, so that a printed case is the exact one.
 _DIGITS = 6
@@ -57,7 +61,10 @@ def parameter_sets(table: Mapping[str, Any], where: str) -> list[Point]:
         return latin_hypercube(table["latin_hypercube"], f"{where}: latin_hypercube")
     if missing := [name for name in NAMES[:3] if name not in lists]:
         raise ValueError(f"{where}: {', '.join(missing)} missing; lists of cases are n, k, mu and perhaps nu")
-    return list(product(*(table[name] for name in NAMES[:3]), table.get("nu", [None])))
+    columns = [*(table[name] for name in NAMES[:3]), table.get("nu", [None])]
+    if (count := prod(map(len, columns))) > _MOST_CASES:
+        raise ValueError(f"{where}: the lists have {count} combinations, more than {_MOST_CASES}; give shorter lists")
+    return list(product(*columns))
 
 
 def latin_hypercube(table: Mapping[str, Any], where: str) -> list[Point]:

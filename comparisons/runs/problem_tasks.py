@@ -9,6 +9,7 @@ from contextlib import closing
 from dataclasses import asdict, dataclass
 from functools import lru_cache
 from hashlib import sha256
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +24,15 @@ from comparisons.runs.folder import RunFolder
 from comparisons.runs.part_journal import PartJournal
 from comparisons.runs.workers import LOST, Backend, each, processes
 
-__all__ = ["ProblemRow", "ProblemTask", "compute_problems", "evaluate_problem_task", "plan_problems", "problem_journal"]
+__all__ = [
+    "ProblemRow",
+    "ProblemTask",
+    "compute_problems",
+    "digest_of",
+    "evaluate_problem_task",
+    "plan_problems",
+    "problem_journal",
+]
 
 
 @dataclass(frozen=True)
@@ -42,6 +51,20 @@ class ProblemTask:
     def key(self) -> tuple[str, str, str]:
         """The key of its row."""
         return self.model, self.quantity, self.digest
+
+    @property
+    def problem_key(self) -> tuple[str, str]:
+        """Model and problem: its quantities are computed together, from one path."""
+        return self.model, self.digest
+
+    @property
+    def label(self) -> str:
+        """The quantity and the varied keys, for a sentence."""
+        return f"{self.quantity} at " + ", ".join(f"{name} = {value}" for name, value in self.parameters.items())
+
+    def as_json(self) -> dict[str, Any]:
+        """Return its form in the record of a sweep."""
+        return {"quantity": self.quantity, "parameters": dict(self.parameters)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +106,7 @@ class ProblemRow:
 def plan_problems(
     problems: Sequence[Varied], models: Mapping[str, tuple[str, str]], quantities: Sequence[str]
 ) -> list[ProblemTask]:
-    """Return every task once.
+    """Return every task once, those of a problem together: every model begins early, and its cost is known.
 
     Parameters
     ----------
@@ -95,11 +118,16 @@ def plan_problems(
     digests = [_digest(varied.problem) for varied in problems]
     tasks = [
         ProblemTask(name, spec, version, quantity, varied.problem, varied.parameters, digest)
-        for name, (spec, version) in models.items()
         for varied, digest in zip(problems, digests, strict=True)
+        for name, (spec, version) in models.items()
         for quantity in quantities
     ]
     return list({task.key: task for task in tasks}.values())
+
+
+def digest_of(tasks: Sequence[ProblemTask]) -> str:
+    """Return the SHA-256 of the keys of all tasks of a sweep."""
+    return sha256(json.dumps(sorted(task.key for task in tasks)).encode()).hexdigest()
 
 
 def _digest(problem: ProblemFile) -> str:
@@ -171,10 +199,6 @@ def _lost(task: ProblemTask) -> _Computed:
     return (_failed(task, version, LOST, 0.0), *_of_this_process())
 
 
-def _same_problem(task: ProblemTask) -> tuple[str, str]:
-    return task.model, task.digest
-
-
 def compute_problems(
     tasks: Sequence[ProblemTask], jobs: int, backend: Backend = processes
 ) -> Generator[tuple[ProblemRow, dict[str, str]]]:
@@ -188,7 +212,9 @@ def compute_problems(
         If the backend cannot work.
     """
     _, here = _of_this_process()
-    with closing(each(_evaluated, tasks, jobs, lost=_lost, alike=_same_problem, backend=backend)) as finished:
+    with closing(
+        each(_evaluated, tasks, jobs, lost=_lost, alike=attrgetter("problem_key"), backend=backend)
+    ) as finished:
         for row, environment, code in finished:
             if changed := differences(here, code):
                 raise ValueError(

@@ -12,13 +12,16 @@ from functools import lru_cache
 from hashlib import sha256
 from importlib.resources import files as package_files
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 from jsonschema import Draft202012Validator
 from jsonschema.exceptions import best_match
 
 from comparisons.console.progress import log
+from comparisons.data.contained_paths import path_inside
 from comparisons.data.file_names import DATA_PACKAGE, RECORD, RUN_FILES
+from comparisons.data.input_files import LARGEST_ROWS, LARGEST_TABLE, read_bytes
 from comparisons.runs.atomic_files import write_json
 from comparisons.runs.data_package import write_data_package
 from comparisons.runs.environment import differences, fingerprint
@@ -34,7 +37,7 @@ __all__ = [
 ]
 
 #: Version of the schema.
-FORMAT = 4
+FORMAT = 5
 
 #: Name of the command in the record of a sweep over a problem file.
 PROBLEM_SWEEP = "problem-sweep"
@@ -95,12 +98,12 @@ def read_record(path: Path) -> dict[str, Any]:
         content; one sentence says which.
     """
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
+        content = json.loads(read_bytes(path, LARGEST_TABLE).decode())
     except OSError as error:
         raise ValueError(
             f"{path} cannot be read ({error.strerror}): {path.parent} is not the folder of a finished run"
         ) from None
-    except ValueError:
+    except (UnicodeDecodeError, json.JSONDecodeError):
         raise ValueError(f"{path} is not JSON text") from None
     except RecursionError:
         raise ValueError(f"{path} is not the record of a run: its brackets are nested too deeply") from None
@@ -113,8 +116,19 @@ def read_record(path: Path) -> dict[str, Any]:
         raise ValueError(f"{path} is not the record of a run: {problem}")
     stated = content.pop("sha256")
     if stated != _own_sum(content):
-        raise ValueError(_changed(path, f"run again with --out {path.parent}"))
+        raise ValueError(_changed(path, f"run again with --out {quote(str(path.parent))}"))
+    _check_paths(content, path)
     return dict(content)
+
+
+def _check_paths(content: Mapping[str, Any], path: Path) -> None:
+    """Refuse a record that names a file outside of its folder: it may come from elsewhere."""
+    inputs = content.get("inputs", {"problem": "", "tables": {}})
+    try:
+        for name in (*content["files"], inputs["problem"], *inputs["tables"].values()):
+            path_inside(path.parent, name)
+    except ValueError as error:
+        raise ValueError(f"{path} is not the record of a run: {error}") from None
 
 
 def is_problem_sweep(folder: Path) -> bool:
@@ -140,10 +154,10 @@ def check_files(record: dict[str, Any], folder: Path, written_again: Collection[
         If a file is not the one that was written; the sentence gives its name and the remedy.
     """
     for name, stated in record["files"].items():
-        path = folder / name
+        path = path_inside(folder, name)
         if name not in written_again and path.is_file() and _sum_of(path) != stated:
             raise ValueError(
-                _changed(path, f"write it again by fscm-bench {record['command_name']} with --out {folder}")
+                _changed(path, f"write it again by fscm-bench {record['command_name']} with --out {quote(str(folder))}")
             )
 
 
@@ -160,7 +174,7 @@ def _changed(path: Path, remedy: str) -> str:
 
 
 def _sum_of(path: Path) -> str:
-    return sha256(path.read_bytes()).hexdigest()
+    return sha256(read_bytes(path, LARGEST_ROWS)).hexdigest()
 
 
 def _own_sum(content: dict[str, Any]) -> str:

@@ -8,95 +8,37 @@ from __future__ import annotations
 
 import random
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Hashable, Iterable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from random import SystemRandom
+from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
-from comparisons.runs.execution import compute
+from comparisons.console.progress import log
+from comparisons.runs.part_journal import PartJournal
 from comparisons.runs.rows import Row
-from comparisons.runs.tasks import Task
-from comparisons.runs.workers import Backend, processes
 
-__all__ = ["AT_MOST", "Comparable", "Reevaluation", "chosen", "evaluate_again", "same", "same_value"]
+__all__ = ["AT_MOST", "ComparedRow", "Reevaluation", "chosen", "drop_changed", "evaluate_again", "same"]
 
 #: Stored tasks of each external model that are evaluated again.
 AT_MOST = 3
 
 
-@dataclass(frozen=True, slots=True)
-class Reevaluation:
-    """Tasks of a model that were evaluated again, and a text about the first that differs (empty if none does)."""
+class ComparedRow(Protocol):
+    """A row of one task, with a value and its bound where there is one."""
 
-    tasks: list[Task]
-    difference: str
+    @property
+    def model(self) -> str:
+        """The name of the model."""
 
-    def as_json(self) -> dict[str, Any]:
-        """Return its form in the record of the run."""
-        tasks = [
-            {"quantity": task.quantity, "n": task.case.n, "k": task.case.k, "mu": task.case.mu, "nu": task.case.nu}
-            for task in self.tasks
-        ]
-        return {"same": not self.difference, "tasks": tasks}
+    @property
+    def model_version(self) -> str:
+        """The version of the model."""
 
-
-def chosen(tasks: Iterable[Task], seed: int) -> list[Task]:
-    """Return at most `AT_MOST` of the tasks of a model, at random, of as many quantities as possible.
-
-    Examples
-    --------
-    >>> from comparisons.runs.cases import Case
-    >>> tasks = [Task("mine", name, Case(2, 0, mu)) for name in ("pull_off_force", "jump_in_gap") for mu in (1, 2, 3)]
-    >>> len(chosen(tasks, 1)), len({task.quantity for task in chosen(tasks, 1)})
-    (3, 2)
-    """
-    generator = random.Random(seed)
-    shuffled = sorted(tasks, key=lambda task: tuple(map(str, task.key)))
-    generator.shuffle(shuffled)
-    met: Counter[str] = Counter()
-    turns: dict[Task, int] = {}
-    for task in shuffled:
-        turns[task] = met[task.quantity]
-        met[task.quantity] += 1
-    # First one task of each quantity, then a second of each, and so on.
-    return sorted(shuffled, key=turns.__getitem__)[:AT_MOST]
-
-
-def evaluate_again(
-    stored: dict[Task, Row], seed: int, jobs: int, backend: Backend = processes
-) -> dict[str, Reevaluation]:
-    """Evaluate a few stored tasks of each model again and compare.
-
-    Parameters
-    ----------
-    stored : dict of Task to Row
-        The stored tasks of external models.
-    seed : int
-        Of the choice.
-    jobs : int
-        Number of processes.
-    backend : Backend
-        Where they are evaluated.
-
-    Returns
-    -------
-    dict of str to Reevaluation
-        By the name of the model.
-    """
-    models = sorted({task.model for task in stored})
-    again = {model: chosen((task for task in stored if task.model == model), seed) for model in models}
-    rows = {row.key: row for row in compute([task for tasks in again.values() for task in tasks], jobs, backend)}
-    return {
-        model: Reevaluation(
-            tasks, next(filter(None, (_difference(stored[task], rows[task.key]) for task in tasks)), "")
-        )
-        for model, tasks in again.items()
-    }
-
-
-class Comparable(Protocol):
-    """A row with a status, and with a value and its bound where there is one."""
+    @property
+    def key(self) -> Hashable:
+        """What identifies the task."""
 
     @property
     def status(self) -> str:
@@ -111,7 +53,129 @@ class Comparable(Protocol):
         """Its bound."""
 
 
-def same_value(stored: Comparable, now: Comparable) -> bool:
+class _ComparedTask(Protocol):
+    """A task whose row may be stored."""
+
+    @property
+    def model(self) -> str: ...
+
+    @property
+    def quantity(self) -> str: ...
+
+    @property
+    def key(self) -> Hashable: ...
+
+    @property
+    def label(self) -> str: ...
+
+    def as_json(self) -> dict[str, Any]: ...
+
+
+_Task = TypeVar("_Task", bound=_ComparedTask)
+_Row = TypeVar("_Row", bound=ComparedRow)
+
+
+@dataclass(frozen=True, slots=True)
+class Reevaluation(Generic[_Task]):
+    """Tasks of a model that were evaluated again, and a text about the first that differs (empty if none does)."""
+
+    tasks: list[_Task]
+    difference: str
+
+    def as_json(self) -> dict[str, Any]:
+        """Return its form in the record of the run."""
+        return {"same": not self.difference, "tasks": [task.as_json() for task in self.tasks]}
+
+
+def chosen(tasks: Iterable[_Task], seed: int) -> list[_Task]:
+    """Return at most `AT_MOST` of the tasks of a model, at random, of as many quantities as possible.
+
+    Examples
+    --------
+    >>> from comparisons.runs.cases import Case
+    >>> from comparisons.runs.tasks import Task
+    >>> tasks = [Task("mine", name, Case(2, 0, mu)) for name in ("pull_off_force", "jump_in_gap") for mu in (1, 2, 3)]
+    >>> len(chosen(tasks, 1)), len({task.quantity for task in chosen(tasks, 1)})
+    (3, 2)
+    """
+    generator = random.Random(seed)
+    shuffled = sorted(tasks, key=lambda task: str(task.key))
+    generator.shuffle(shuffled)
+    met: Counter[str] = Counter()
+    turns: dict[Hashable, int] = {}
+    for task in shuffled:
+        turns[task.key] = met[task.quantity]
+        met[task.quantity] += 1
+    # First one task of each quantity, then a second of each, and so on.
+    return sorted(shuffled, key=lambda task: turns[task.key])[:AT_MOST]
+
+
+def evaluate_again(
+    stored: Iterable[tuple[_Task, _Row]], seed: int, compute: Callable[[list[_Task]], Iterable[_Row]]
+) -> dict[str, Reevaluation[_Task]]:
+    """Evaluate a few stored tasks of each model again and compare.
+
+    Parameters
+    ----------
+    stored : iterable of (task, row)
+        Tasks with their stored rows.
+    seed : int
+        Of the choice.
+    compute : callable
+        Returns the rows of tasks.
+
+    Returns
+    -------
+    dict of str to Reevaluation
+        By the name of the model.
+    """
+    before: dict[Hashable, _Row] = {}
+    of_model: dict[str, list[_Task]] = {}
+    for task, row in stored:
+        before[task.key] = row
+        of_model.setdefault(task.model, []).append(task)
+    again = {model: chosen(of_model[model], seed) for model in sorted(of_model)}
+    now = {row.key: row for row in compute([task for tasks in again.values() for task in tasks])}
+    return {
+        model: Reevaluation(
+            tasks, next(filter(None, (_difference(task, before[task.key], now[task.key]) for task in tasks)), "")
+        )
+        for model, tasks in again.items()
+    }
+
+
+def drop_changed(
+    stored: Iterable[tuple[_Task, _Row]], journal: PartJournal[_Row], compute: Callable[[list[_Task]], Iterable[_Row]]
+) -> dict[str, Any]:
+    """Evaluate a few stored tasks of each external model again; drop the rows of a model whose results have changed.
+
+    Parameters
+    ----------
+    stored : iterable of (task, row)
+        Those of external models that a command would use.
+    journal : PartJournal
+        That has the rows.
+    compute : callable
+        Returns the rows of tasks.
+
+    Returns
+    -------
+    dict
+        What was evaluated again, as the record of a run holds it.
+    """
+    pairs = list(stored)
+    seed = SystemRandom().randrange(2**32)
+    found = evaluate_again(pairs, seed, compute)
+    version = {row.model: row.model_version for _, row in pairs}
+    for model, again in found.items():
+        if again.difference:
+            changed = model, version[model]
+            dropped = journal.drop(lambda row, changed=changed: (row.model, row.model_version) == changed)  # type: ignore[misc]
+            log(f"{model} has changed ({again.difference}): its stored results ({dropped}) are all computed again")
+    return {"seed": seed, "models": {model: again.as_json() for model, again in found.items()}}
+
+
+def _same_value(stored: ComparedRow, now: ComparedRow) -> bool:
     """Whether two rows of one task agree: in their status, and within the sum of both uncertainties."""
     if stored.status != now.status:
         return False
@@ -120,14 +184,19 @@ def same_value(stored: Comparable, now: Comparable) -> bool:
     return abs(stored.value - now.value) <= (stored.u_num or 0.0) + (now.u_num or 0.0)
 
 
-def same(stored: Row, now: Row) -> bool:
-    """Whether two rows of one task agree as in `same_value`.
+def same(stored: ComparedRow, now: ComparedRow) -> bool:
+    """Whether two rows of one task agree: in their status, and within the sum of both uncertainties.
 
     The points of a curve are compared one by one, as fractions of its ranges, as its uncertainty is.
     """
-    if stored.status == now.status and stored.points is not None and now.points is not None:
-        return _same_curve(stored.points, now.points)
-    return same_value(stored, now)
+    before, after = _points(stored), _points(now)
+    if stored.status == now.status and before is not None and after is not None:
+        return _same_curve(before, after)
+    return _same_value(stored, now)
+
+
+def _points(row: ComparedRow) -> tuple[list[float], list[float], float] | None:
+    return row.points if isinstance(row, Row) else None
 
 
 def _same_curve(stored: tuple[list[float], list[float], float], now: tuple[list[float], list[float], float]) -> bool:
@@ -140,14 +209,12 @@ def _same_curve(stored: tuple[list[float], list[float], float], now: tuple[list[
     return bool(np.all(np.hypot(*apart) <= stored[2] + now[2]))
 
 
-def _difference(stored: Row, now: Row) -> str:
-    if same(stored, now):
-        return ""
-    case = f"{stored.quantity} at n = {stored.n:g}, k = {stored.k:g}, mu = {stored.mu:g}"
-    return f"{case} was {_text(stored)} and is {_text(now)}"
+def _difference(task: _ComparedTask, stored: ComparedRow, now: ComparedRow) -> str:
+    return "" if same(stored, now) else f"{task.label} was {_text(stored)} and is {_text(now)}"
 
 
-def _text(row: Row) -> str:
-    if row.points is not None:
-        return f"a curve of {len(row.points[0])} points"
+def _text(row: ComparedRow) -> str:
+    points = _points(row)
+    if points is not None:
+        return f"a curve of {len(points[0])} points"
     return row.status if row.value is None else f"{row.value:.9g}"

@@ -36,10 +36,6 @@ class RowJournal(PartJournal[Row]):
     def __init__(self, folder: Path) -> None:
         super().__init__(RunFolder(folder).journal, fingerprint(), _read, asdict)
 
-    def drop_model(self, name: str, version: str) -> int:
-        """Remove all rows of one version of a model; return how many."""
-        return self.drop(lambda row: (row.model, row.model_version) == (name, version))
-
     def parts_of(self, rows: Iterable[Row]) -> list[dict[str, Any]]:
         """Return the parts that computed rows, in order, as the record of a run holds them."""
         used = {(row.key, row.model_version) for row in rows}

@@ -13,6 +13,7 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from comparisons.data.input_files import LARGEST_ROWS, read_bytes
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.csv_format import csv_text
 from comparisons.runs.data_package import described, quantities
@@ -65,7 +66,7 @@ def read_table(path: Path) -> pd.DataFrame:
         If there is no such file or it is not Parquet; one sentence says which.
     """
     try:
-        return pq.read_table(path).to_pandas()
+        return pq.read_table(pa.BufferReader(read_bytes(path, LARGEST_ROWS))).to_pandas()
     except FileNotFoundError:
         raise ValueError(f"{path} does not exist: {path.parent} is not the folder of a finished run") from None
     except (OSError, pa.ArrowException) as error:

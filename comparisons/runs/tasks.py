@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import groupby
 from traceback import extract_tb
+from typing import Any
 
 from comparisons.domain import declared_domain
 from comparisons.external.identity import contradiction
@@ -21,10 +22,7 @@ from comparisons.runs.cases import Case, Grid
 from comparisons.runs.rows import Row
 from comparisons.runs.workers import LOST
 
-__all__ = ["NOT_INDEPENDENT", "Task", "batches", "case_for", "evaluate", "evaluate_task", "lost_row", "plan"]
-
-#: The reason in the row of a value that depends on a reference begins with it; other values have no reason.
-NOT_INDEPENDENT = "not independent: the model"
+__all__ = ["Task", "batches", "case_for", "evaluate", "evaluate_task", "lost_row", "plan"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +38,21 @@ class Task:
     def key(self) -> tuple[str, str, float, float, float, float | None]:
         """The key of its row."""
         return self.model, self.quantity, self.case.n, self.case.k, self.case.mu, self.case.nu
+
+    @property
+    def problem_key(self) -> tuple[str, Case]:
+        """Model and problem: its quantities are computed together, from one path."""
+        return self.model, self.case
+
+    @property
+    def label(self) -> str:
+        """The quantity and the problem, for a sentence."""
+        return f"{self.quantity} at {self.case.label}"
+
+    def as_json(self) -> dict[str, Any]:
+        """Return its form in the record of a run."""
+        case = self.case
+        return {"quantity": self.quantity, "n": case.n, "k": case.k, "mu": case.mu, "nu": case.nu}
 
 
 def case_for(model: str, case: Case) -> Case:
@@ -205,9 +218,7 @@ def _evaluate_external(first: ExternalIdentity, task: Task) -> Row:
     if (model.name, model.version) != (first.name, first.version):
         reason = contradiction((first.name, first.version), (model.name, model.version))
         return _row(first, task.quantity, task.case, started, status="failed", reason=reason)
-    row = evaluate(model, task.quantity, task.case)
-    uses: tuple[str, ...] = getattr(model, "uses", ())
-    return replace(row, reason=f"{NOT_INDEPENDENT} {' and '.join(uses)}") if uses and row.status == "ok" else row
+    return evaluate(model, task.quantity, task.case)
 
 
 def batches(tasks: Iterable[Task]) -> list[list[Task]]:
@@ -219,4 +230,4 @@ def batches(tasks: Iterable[Task]) -> list[list[Task]]:
     >>> [len(batch) for batch in batches([*of_jkr, Task("dmt", "pull_off_force", Case(2, 0, 1))])]
     [2, 1]
     """
-    return [list(batch) for _, batch in groupby(tasks, key=lambda task: (task.model, task.case))]
+    return [list(batch) for _, batch in groupby(tasks, key=lambda task: task.problem_key)]

@@ -77,7 +77,7 @@ def made_up(folder, tier, model=None):
         "out": str(folder),
     }
     record = {
-        "format": 4,
+        "format": 5,
         "command_name": "run",
         "arguments": arguments,
         "command": ["fscm-bench", "run"],

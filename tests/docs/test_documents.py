@@ -327,3 +327,9 @@ def test_what_a_cut_at_50_costs_a_cone():
     lost = mpmath.quad(lambda r: 16 / 3 * r * (r + 1) ** -3, [50, mpmath.inf])
     assert float(lost) == pytest.approx(0.10, abs=0.005)
     assert float(lost) / 2.880 == pytest.approx(0.036, abs=5e-4)
+
+
+def test_fractions_have_braces():
+    r"""Docutils reads \frac83[ as 83 over a bracket."""
+    unbraced = re.compile(r"\\[td]?frac(?:(?!\{)|\{[^{}]*\}(?!\{))")
+    assert [path.name for path in DOCUMENTS if unbraced.search(path.read_text(encoding="utf-8"))] == []

@@ -4,6 +4,7 @@ import doctest
 import re
 import subprocess
 import sys
+import tomllib
 from functools import cache
 from importlib import import_module, util
 from pathlib import Path
@@ -14,6 +15,7 @@ import pytest
 import comparisons
 import fem_reference
 import fscm
+from comparisons.runs.code_files import NOT_INSTALLED
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
@@ -65,8 +67,10 @@ def test_every_name_of_a_package_is_in_the_reference(package, reference):
 
 
 def public(package):
-    """Public modules, found by importing the packages; without the plugin of pytest, a package of its own."""
+    """Public modules, found by importing the packages; without those that are not installed."""
+    not_installed = tuple(".".join(folder.parts) for folder in NOT_INSTALLED)
     names = [module.name for module in walk_packages(package.__path__, f"{package.__name__}.")]
+    names = [name for name in names if not name.startswith(not_installed)]
     return [name for name in names if not any(part.startswith("_") for part in name.split("."))]
 
 
@@ -94,6 +98,23 @@ def test_every_name_of_the_reference_has_a_text(api, reference):
     others = [name.rpartition(".") for name in re.findall(r"^\.\. auto(?:class|function):: (\S+)$", text, re.M)]
     silent += [f"{place}.{name}" for place, _, name in others if not getattr(import_module(place), name).__doc__]
     assert silent == []
+
+
+def test_the_reference_is_written_with_the_packages_of_the_extra_docs_alone():
+    """Packages that only another extra installs cannot be imported."""
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
+    # Sphinx itself needs these two.
+    installed = {*(requirement.partition(">=")[0] for requirement in extras["docs"]), "jinja2", "markupsafe"}
+    absent = {
+        requirement.partition(">=")[0].lower().replace("-", "_") for extra in extras.values() for requirement in extra
+    }
+    code = (
+        f"import sys; sys.modules.update(dict.fromkeys({sorted(absent - installed)!r})); "
+        f"sys.path.insert(0, {str(DOCS / '_extensions')!r}); import api_pages; print(len(dict(api_pages.pages())))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[-1000:]
+    assert int(done.stdout) > 10
 
 
 def test_the_text_is_of_the_data_and_not_of_others_with_the_same_name(api):

@@ -8,6 +8,7 @@ from pathlib import Path
 import pandas as pd
 
 from comparisons.cli.options import OK
+from comparisons.console.printable import printable
 from comparisons.output.citation import as_bibtex, as_text, methods, works
 from comparisons.runs.environment import version_text
 from comparisons.runs.folder import RunFolder
@@ -45,7 +46,7 @@ def call(args: argparse.Namespace) -> int:
         check_files(record, args.folder)
         paragraph = methods(record, _references(folder.parquet(folder.kappa)))
     found = works("" if record else version_text(), record)
-    print(as_bibtex(found) if args.format == "bibtex" else as_text(found, paragraph), end="")
+    print(printable(as_bibtex(found) if args.format == "bibtex" else as_text(found, paragraph)), end="")
     return OK
 
 

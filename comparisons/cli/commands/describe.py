@@ -60,7 +60,7 @@ def call(args: argparse.Namespace) -> int:
             found["uncertainty"] = uncertain.content
         print(json.dumps(found, allow_nan=False))
     else:
-        text = lines(overview)
+        text = lines(overview, equivalent)
         if equivalent is not None:
             text += equivalent_text.lines(equivalent)
         if changes:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from contextlib import nullcontext
 from pathlib import Path
+from shlex import quote
 
 from comparisons.cli.options import FAILED, FAILS, INCONCLUSIVE, OK, add_quiet, add_verbose, output
 from comparisons.cli.verdict_screen import (
@@ -15,6 +16,7 @@ from comparisons.cli.verdict_screen import (
     verdict_lines,
 )
 from comparisons.console.progress import log, quiet
+from comparisons.judging.card_gates import without_card_gates
 from comparisons.judging.decision import Verdict
 from comparisons.output.markdown import to_step_summary
 from comparisons.pipeline.judgement import Judgement, judge_folder
@@ -53,15 +55,16 @@ def call(args: argparse.Namespace) -> int:
         judgement = judge_folder(args.folder, args.gates)
     show(judgement, verbose=args.verbose, failures_only=args.quiet)
     if not args.quiet and not judgement.verdicts.empty:
-        log(f"next: fscm-bench report {args.folder}")
+        log(f"next: fscm-bench report {quote(str(args.folder))}")
     to_step_summary(judgement.markdown)
     return STATUS[judgement.verdict]
 
 
 def show(judgement: Judgement, *, verbose: bool, failures_only: bool, lines: int = _LINES) -> None:
     """Print the verdicts: a summary of so many lines, all rows, or what does not behave as declared."""
-    if judgement.verdicts.empty:
+    if without_card_gates(judgement.verdicts).empty:
         log("no gate was evaluated")
+    if judgement.verdicts.empty:
         return
     width = output().width
     if failures_only:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from shlex import quote
 
 from comparisons.cli.options import OK
 from comparisons.console.progress import log
@@ -26,5 +27,5 @@ def call(args: argparse.Namespace) -> int:
     written, spec = write_template(args.folder, reserved=MODELS)
     for path in written:
         print(path)
-    log(f"change what the model computes; then: fscm-bench check-model {spec}")
+    log(f"change what the model computes; then: fscm-bench check-model {quote(spec)}")
     return OK

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from contextlib import nullcontext
 from pathlib import Path
+from shlex import quote
 
 import pandas as pd
 
@@ -94,7 +95,7 @@ def call(args: argparse.Namespace) -> int:
         _show(finished, verbose=args.verbose, failures_only=args.quiet, with_paper=args.gates is None)
         note(f"results are in {finished.folder}")
         if judgement is not None and not judgement.verdicts.empty:
-            note(f"next: fscm-bench report {finished.folder}")
+            note(f"next: fscm-bench report {quote(str(finished.folder))}")
     # Last: a disk that is full here loses nothing.
     if judgement is not None:
         to_step_summary(judgement.markdown)

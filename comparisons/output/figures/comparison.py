@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
-from comparisons.output.style import MARKERS, ModelStyle, empty_figure, model_styles, styled
+from comparisons.output.style import ModelStyle, empty_figure, model_styles, styled
 from comparisons.quantities import title_of
 
 if TYPE_CHECKING:
@@ -19,6 +19,9 @@ __all__ = ["draw"]
 #: More panels of one quantity are too small to read: all cases are then points of one panel.
 _MOST_PANELS = 12
 _COLUMNS = 4
+
+#: Room of one entry of the legend in inches: that of the longest label of our models, and of one line.
+_LEGEND_WIDTH, _LEGEND_HEIGHT = 2.3, 0.17
 
 _LABELS = {"mu": r"Tabor number $\mu$", "k": r"gradient exponent $k$", "n": r"shape index $n$"}
 
@@ -48,8 +51,10 @@ def draw(table: pd.DataFrame) -> Figure:
     columns = min(_COLUMNS, max((len(of_group) for of_group in panels.values()), default=1))
     rows = sum(-(-len(of_group) // columns) for of_group in panels.values())
     styles = model_styles(known["model"])
+    width = max(4.8, 2.5 * columns)
+    in_legend = max(1, int(width // _LEGEND_WIDTH))
     with styled():
-        figure = empty_figure(max(4.8, 2.5 * columns), 0.7 + 2.4 * max(rows, 1))
+        figure = empty_figure(width, 0.7 + 2.4 * max(rows, 1) + _LEGEND_HEIGHT * (len(styles) // in_legend))
         every = iter(figure.subplots(max(rows, 1), columns, squeeze=False, sharex=True).ravel().tolist())
         for (quantity, reference), of_group in panels.items():
             for index in range(-(-len(of_group) // columns) * columns):
@@ -58,14 +63,14 @@ def draw(table: pd.DataFrame) -> Figure:
                     axes.set_visible(False)
                     continue
                 values, rows_of_panel = of_group[index]
-                for place, name in enumerate(styles):
-                    _plot(axes, rows_of_panel[rows_of_panel["model"] == name], x, styles[name], place, lines)
+                for name, style in styles.items():
+                    _plot(axes, rows_of_panel[rows_of_panel["model"] == name], x, style, lines)
                 axes.set_title(", ".join(f"${_letter(name)}$ = {v:g}" for name, v in zip(others, values, strict=False)))
                 if index % columns == 0:
                     axes.set_ylabel(f"{title_of(quantity)}\n$\\kappa$ against {reference} (%)")
         _finish(figure, x, known)
-        handles = [_handle(style, place, lines) for place, style in enumerate(styles.values())]
-        figure.legend(handles=handles, loc="outside lower center", ncols=min(4, max(len(handles), 1)))
+        handles = [_handle(style, lines) for style in styles.values()]
+        figure.legend(handles=handles, loc="outside lower center", ncols=in_legend)
     return figure
 
 
@@ -89,19 +94,19 @@ def _finish(figure: Figure, x: str, known: pd.DataFrame) -> None:
         axes.tick_params(labelbottom=True)
 
 
-def _arguments(style: ModelStyle, place: int, lines: bool) -> dict[str, Any]:
+def _arguments(style: ModelStyle, lines: bool) -> dict[str, Any]:
     dashes = style.line if lines else "none"
-    return {"color": style.colour, "ls": dashes, "marker": MARKERS[place % len(MARKERS)], "ms": 3.5}
+    return {"color": style.colour, "ls": dashes, "marker": style.symbol, "ms": 3.5}
 
 
-def _plot(axes: Axes, rows: pd.DataFrame, x: str, style: ModelStyle, place: int, lines: bool) -> None:
+def _plot(axes: Axes, rows: pd.DataFrame, x: str, style: ModelStyle, lines: bool) -> None:
     """Draw one model's errors and, where it can be seen, their uncertainty."""
     rows = rows.sort_values(x)
-    arguments = _arguments(style, place, lines)
+    arguments = _arguments(style, lines)
     axes.errorbar(rows[x], 100 * rows["kappa"], yerr=100 * rows["u_kappa"], elinewidth=0.8, capsize=2, **arguments)
 
 
-def _handle(style: ModelStyle, place: int, lines: bool) -> Line2D:
+def _handle(style: ModelStyle, lines: bool) -> Line2D:
     from matplotlib.lines import Line2D
 
-    return Line2D([], [], label=style.label, **_arguments(style, place, lines))
+    return Line2D([], [], label=style.label, **_arguments(style, lines))

@@ -7,16 +7,48 @@ import pandas as pd
 from comparisons.numerics.number_text import case_text, percent_text
 from comparisons.output.gate_sentence import gates_sentence
 from comparisons.output.report.stored_run import Stored
-from comparisons.quantities import title_of
+from comparisons.quantities import ALL_QUANTITIES, title_of
 
-__all__ = ["headline", "headline_of_errors"]
+__all__ = ["errors_of_models", "gates_of", "headline", "headline_of_errors"]
 
 
 def headline(stored: Stored) -> str:
-    """Return the finding of a folder in one sentence."""
-    if stored.judged:
-        return gates_sentence(stored.summary, _bases(stored))
+    """Return the finding of a folder in one sentence: which model is how wrong, or without errors that on all gates."""
+    if stored.judged and stored.kappa.empty:
+        return gates_of(stored)
     return headline_of_errors(stored.kappa)
+
+
+def gates_of(stored: Stored) -> str:
+    """Return the finding over all gates in one sentence; empty if nothing was judged."""
+    return gates_sentence(stored.summary, _bases(stored)) if stored.judged else ""
+
+
+def errors_of_models(kappa: pd.DataFrame) -> list[tuple[str, str]]:
+    """Return each model with its largest relative error in words, largest first.
+
+    The error is that of the first quantity of the registry in which the model has one: a pull-off force, as a rule.
+
+    Examples
+    --------
+    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "mu": 1.0, "nu": None, "reference": "fscm"}
+    >>> rows = [case | {"model": "dmt", "kappa": 0.01, "u_kappa": 1e-9}]
+    >>> errors_of_models(pd.DataFrame(rows))
+    [('dmt', '1.00000(5) % in the pull-off force at n = 2, k = 0, mu = 1')]
+    """
+    order = list(ALL_QUANTITIES)
+    rows = []
+    for model, of_model in kappa.groupby("model"):
+        first = min(of_model["quantity"], key=lambda name: order.index(name) if name in order else len(order))
+        of_quantity = of_model[of_model["quantity"] == first]
+        worst = of_quantity.iloc[int(of_quantity["kappa"].abs().to_numpy().argmax())]
+        rows.append((abs(float(worst["kappa"])), str(model), _error_text(worst)))
+    return [(model, text) for _, model, text in sorted(rows, key=lambda row: -row[0])]
+
+
+def _error_text(row: pd.Series) -> str:
+    where = case_text({name: row[name] for name in ("n", "k", "mu", "nu")})
+    return f"{percent_text(row['kappa'], row['u_kappa'])} % in the {title_of(row['quantity'])} at {where}"
 
 
 def headline_of_errors(kappa: pd.DataFrame) -> str:
@@ -34,10 +66,8 @@ def headline_of_errors(kappa: pd.DataFrame) -> str:
     worst = kappa.iloc[int(kappa["kappa"].abs().to_numpy().argmax())]
     models = kappa["model"].nunique()
     first = f"Of {models} models {worst['model']} differs most" if models > 1 else f"{worst['model']} differs"
-    where = case_text({name: worst[name] for name in ("n", "k", "mu", "nu")})
-    size = percent_text(worst["kappa"], worst["u_kappa"])
     most = "" if models > 1 else "at most "
-    return f"{first} from {worst['reference']}: by {most}{size} % in the {title_of(worst['quantity'])} at {where}"
+    return f"{first} from {worst['reference']}: by {most}{_error_text(worst)}"
 
 
 def _bases(stored: Stored) -> dict[str, str]:

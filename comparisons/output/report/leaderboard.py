@@ -9,6 +9,7 @@ from typing import Any
 
 import pandas as pd
 
+from comparisons.judging.card_gates import without_card_gates
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.numerics.number_text import percent_text
 from comparisons.output.error_summary import error_summary
@@ -120,7 +121,7 @@ def standing(entry: Entry) -> pd.DataFrame:
 def _verdict(verdicts: pd.DataFrame, model: str, quantity: str) -> str:
     """Return the worst verdict on a model about a quantity; one without a quantity is on the model as a whole."""
     own = verdicts[(verdicts["candidate"] == model) & verdicts["quantity"].isin([quantity, ""])]
-    return "" if own.empty else str(roll_up(own["verdict"]))
+    return "" if without_card_gates(own).empty else str(roll_up(own["verdict"]))
 
 
 def leaderboard_html(entries: Sequence[Entry], mixed: bool = False) -> str:

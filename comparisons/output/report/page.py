@@ -8,11 +8,12 @@ from dataclasses import dataclass
 import pandas as pd
 
 from comparisons.data.paper_statements import verdicts
-from comparisons.judging.decision import Verdict, roll_up
+from comparisons.judging.card_gates import overall, without_card_gates
+from comparisons.judging.decision import Verdict
 from comparisons.output.error_summary import error_summary
 from comparisons.output.report import card_table, number_tables, plots, verdict_tables
 from comparisons.output.report.comparison_tables import SUMMARY_FILE, TABLE_FILE, case_tables, summary_tables
-from comparisons.output.report.headline import headline
+from comparisons.output.report.headline import errors_of_models, gates_of, headline
 from comparisons.output.report.plot import Plot
 from comparisons.output.report.provenance import provenance, verdict_counts
 from comparisons.output.report.statement_table import statements
@@ -32,6 +33,10 @@ class Page:
     ----------
     headline : str
         What was found, in one sentence.
+    errors : list of (str, str)
+        Each model and its largest error, largest first.
+    gates : str
+        The finding over all gates in one sentence; empty where nothing was judged.
     verdict, meaning : str
         Over all gates; no verdict where nothing was judged.
     counts : list of (str, int)
@@ -53,6 +58,8 @@ class Page:
     """
 
     headline: str
+    errors: list[tuple[str, str]]
+    gates: str
     verdict: str
     meaning: str
     counts: list[tuple[str, int]]
@@ -118,9 +125,11 @@ def make_page(stored: Stored) -> Page:
         "convergence": plots.convergence(stored),
     }
     drawn = {name for section in sections.values() for plot in section for name in plot.models}
-    verdict = roll_up(stored.verdicts["verdict"])
+    verdict = overall(stored.verdicts)
     return Page(
         headline=headline(stored),
+        errors=errors_of_models(stored.kappa),
+        gates=gates_of(stored),
         verdict=str(verdict) if stored.judged else "",
         meaning=_MEANINGS[verdict] if stored.judged else _UNJUDGED,
         counts=verdict_counts(stored),
@@ -144,10 +153,10 @@ def _summary(stored: Stored) -> str:
     shipped = stored.record["rows"].get("shipped")
     of_package = f", {shipped} of them shipped with fscm-bench" if shipped else ""
     size = f"The run of the {stored.record['arguments']['tier']} tier has {rows} results{of_package}."
-    if stored.summary.empty:
+    gates, cases = without_card_gates(stored.summary), without_card_gates(stored.verdicts)
+    if gates.empty:
         return f"{size} No gate was evaluated, which is an error and not a pass. Candidates: {candidates}."
-    gates = f"{len(stored.summary)} gates were judged in {len(stored.verdicts)} cases."
-    return f"{size} {gates} Candidates: {candidates}."
+    return f"{size} {len(gates)} gates were judged in {len(cases)} cases. Candidates: {candidates}."
 
 
 def _compared(table: pd.DataFrame) -> list[Table]:

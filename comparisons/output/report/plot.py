@@ -9,6 +9,7 @@ from typing import Any, cast
 import pandas as pd
 
 from comparisons.numerics.number_text import exact
+from comparisons.output.style import first_shown
 
 __all__ = ["Control", "Plot", "Series", "grouped", "key", "options"]
 
@@ -63,6 +64,11 @@ class Plot:
     def models(self) -> list[str]:
         """Names of what can be switched on and off, in the order of the series."""
         return list(dict.fromkeys(series.model for series in self.series))
+
+    @property
+    def first_models(self) -> list[str]:
+        """Those of them that are switched on at first."""
+        return first_shown(self.models)
 
     def data(self) -> dict[str, Any]:
         """Return what the page's script draws, ready for JSON."""

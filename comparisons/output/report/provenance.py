@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any
 
-from comparisons.judging.decision import Verdict, roll_up
+from comparisons.judging.card_gates import overall
+from comparisons.judging.decision import Verdict
 from comparisons.output.report.stored_run import Stored
 
 __all__ = ["provenance", "record_facts", "verdict_counts"]
@@ -21,7 +22,7 @@ def provenance(stored: Stored) -> list[tuple[str, str]]:
     """Return the facts about the origin of the numbers, each with its name."""
     facts = record_facts(stored.record)
     then = stored.record["verdicts"]
-    now = {"all": str(roll_up(stored.verdicts["verdict"])), **dict(verdict_counts(stored))}
+    now = {"all": str(overall(stored.verdicts)), **dict(verdict_counts(stored))}
     if stored.judged and then != now:
         facts.append(("judged again", f"yes; at the end of the run the verdicts were {_pairs(then)}"))
     return facts

@@ -8,7 +8,9 @@ from typing import Any
 
 import pandas as pd
 
+from comparisons.data.contained_paths import path_inside
 from comparisons.data.file_names import KAPPA, RESULTS
+from comparisons.data.input_files import read_text
 from comparisons.output.problem_tables import ERROR_COLUMNS, VALUE_COLUMNS, varied_of
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import check_files, read_record, warn_of_other_code
@@ -54,11 +56,7 @@ def read_problem_sweep(folder: Path) -> StoredProblemSweep:
     warn_of_other_code(record, folder)
     results = _table(folder / f"{RESULTS}.parquet", VALUE_COLUMNS)
     errors = _table(folder / f"{KAPPA}.parquet", ERROR_COLUMNS)
-    path = folder / record["inputs"]["problem"]
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ValueError(f"{path} cannot be read ({error}): run the sweep again") from None
+    text = read_text(path_inside(folder, record["inputs"]["problem"]), "the copy of the problem file")
     return StoredProblemSweep(record, results, errors, text)
 
 

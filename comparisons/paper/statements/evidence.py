@@ -13,11 +13,13 @@ __all__ = [
     "FALSE",
     "HOLDS",
     "IN_PART",
+    "READING",
     "REFERENCES",
     "TRUE",
     "UNDECIDED",
     "Evidence",
     "Number",
+    "by_clause",
     "clauses",
     "decisive",
     "evidence_frame",
@@ -32,6 +34,9 @@ TRUE, FALSE, IN_PART = "true", "false", "true in part"
 
 #: The two references: what fails by one must fail by the other, too.
 REFERENCES = ("fscm", "fem")
+
+#: What a limit is that reads a word without a number ("well", "small"), or that the paper states as a round number.
+READING = "limit"
 
 #: Relation -> sign of value - limit where it holds.
 _SIGNS = {"<": -1.0, ">": 1.0}
@@ -53,13 +58,15 @@ class Evidence:
     Attributes
     ----------
     clause : str
-        Part of the statement, e.g. a shape.
+        Part of the statement, e.g. a case.
     model : str
         Model or formula that the value is of.
     value, limit : Number
         What is compared.
     relation : {"<", ">"}
         The value to the limit, according to the statement.
+    own : bool
+        Whether the clause is a case that the paper shows or names.
     beyond : bool
         Whether the clause is beyond what the paper states.
     comparisons : int
@@ -71,6 +78,7 @@ class Evidence:
     value: Number
     relation: str
     limit: Number
+    own: bool = False
     beyond: bool = False
     comparisons: int = 1
 
@@ -113,15 +121,33 @@ def decisive(comparisons: Iterable[Evidence]) -> Evidence:
     Examples
     --------
     >>> rows = [Evidence("", "", Number(x, 0.0, ""), "<", Number(2.0, 0.0, "")) for x in (1.0, 1.9, 1.5)]
-    >>> found = decisive(rows)
-    >>> found.value.value, found.comparisons
+    >>> row = decisive(rows)
+    >>> row.value.value, row.comparisons
     (1.9, 3)
     """
     rows = list(comparisons)
     if not rows:
         raise ValueError("a clause has no comparison: the cases of its statement are empty")
-    found = min(rows, key=lambda row: (_RANK[row.outcome], row.margin))
-    return replace(found, comparisons=sum(row.comparisons for row in rows))
+    first = min(rows, key=lambda row: (_RANK[row.outcome], row.margin))
+    return replace(first, comparisons=sum(row.comparisons for row in rows))
+
+
+def by_clause(comparisons: Iterable[Evidence]) -> list[Evidence]:
+    """Return the decisive comparison of each clause, model and kind of limit, in the order of the first ones.
+
+    A limit that reads a word is kept beside the others: the verdict may change with it.
+
+    Examples
+    --------
+    >>> limit = Number(2.0, 0.0, READING)
+    >>> rows = [Evidence(clause, "fscm", Number(x, 0.0, ""), "<", limit) for clause, x in zip("aba", (1, 2, 3))]
+    >>> [(row.clause, row.value.value) for row in by_clause(rows)]
+    [('a', 3), ('b', 2)]
+    """
+    groups: dict[tuple[str, str, bool], list[Evidence]] = {}
+    for row in comparisons:
+        groups.setdefault((row.clause, row.model, row.limit.what == READING), []).append(row)
+    return [decisive(rows) for rows in groups.values()]
 
 
 def clauses(evidence: Iterable[Evidence]) -> dict[str, str]:
@@ -137,10 +163,10 @@ def clauses(evidence: Iterable[Evidence]) -> dict[str, str]:
     >>> clauses([by_one]), clauses([by_one, replace(by_one, model="fem")])
     ({'n = 2': 'not decided'}, {'n = 2': 'fails'})
     """
-    by_clause: dict[str, list[Evidence]] = {}
+    rows_of: dict[str, list[Evidence]] = {}
     for row in evidence:
-        by_clause.setdefault(row.clause, []).append(row)
-    return {clause: _outcome(rows) for clause, rows in by_clause.items()}
+        rows_of.setdefault(row.clause, []).append(row)
+    return {clause: _outcome(rows) for clause, rows in rows_of.items()}
 
 
 def _outcome(rows: Sequence[Evidence]) -> str:
@@ -163,14 +189,14 @@ def verdict(outcomes: Iterable[str]) -> str:
     >>> verdict([HOLDS, HOLDS]), verdict([FAILS]), verdict([HOLDS, FAILS]), verdict([HOLDS, UNDECIDED])
     ('true', 'false', 'true in part', 'not decided')
     """
-    found = set(outcomes)
-    if not found:
+    known = set(outcomes)
+    if not known:
         return ""
-    if found == {HOLDS}:
+    if known == {HOLDS}:
         return TRUE
-    if FAILS not in found:
+    if FAILS not in known:
         return UNDECIDED
-    return IN_PART if HOLDS in found else FALSE
+    return IN_PART if HOLDS in known else FALSE
 
 
 def evidence_frame(statement: str, evidence: Iterable[Evidence]) -> pd.DataFrame:
@@ -179,6 +205,7 @@ def evidence_frame(statement: str, evidence: Iterable[Evidence]) -> pd.DataFrame
         {
             "statement": statement,
             "clause": row.clause,
+            "own_case": row.own,
             "beyond_paper": row.beyond,
             "model": row.model,
             "what": row.value.what,
@@ -204,6 +231,7 @@ def evidence_of(table: pd.DataFrame) -> list[Evidence]:
             Number(float(row.value), float(row.u_value), str(row.what)),
             str(row.relation),
             Number(float(row.limit), float(row.u_limit), str(row.limit_what)),
+            bool(row.own_case),
             bool(row.beyond_paper),
             int(row.comparisons),
         )

@@ -7,8 +7,18 @@ from collections.abc import Sequence
 from comparisons.data.paper_statements import PaperStatement
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.figures.fig08_jumps import near_critical
-from comparisons.paper.statements.evidence import REFERENCES, Evidence, Number, decisive
-from comparisons.paper.statements.sources import Case, StatementTest, missing_in, number, shape, tasks_of
+from comparisons.paper.statements.evidence import Evidence, Number
+from comparisons.paper.statements.sources import (
+    Case,
+    StatementTest,
+    family_label,
+    grid,
+    missing_in,
+    number,
+    reading,
+    tasks_of,
+    witnesses,
+)
 
 __all__ = ["TESTS"]
 
@@ -17,38 +27,28 @@ _ENERGY = "hysteresis_energy"
 _NEAR, _LESS_NEAR = 1e-4, 1e-2
 
 
-def _pairs(statement: PaperStatement) -> list[tuple[Case, Case]]:
-    """Two cases of one shape and one Tabor number."""
-    return [
-        ((float(n), float(first), float(mu)), (float(n), float(second), float(mu)))
-        for n, mu, first, second in statement.arguments["pairs"]
-    ]
-
-
 def _alike_tasks(statement: PaperStatement) -> Sequence[CachedCall]:
-    return [
-        call
-        for pair in _pairs(statement)
-        for case in pair
-        for model in REFERENCES
-        for call in tasks_of(model, _ENERGY, case)
-    ]
+    cases = [("fscm", case) for case in grid(statement)] + [("fem", case) for case in witnesses(statement)]
+    return [call for model, case in cases for call in tasks_of(model, _ENERGY, case)]
 
 
 def _alike(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
-    """Both gradient exponents have hysteresis at one Tabor number, or neither."""
+    """Every gradient exponent has hysteresis at one Tabor number, or none has."""
     rows = []
-    for first, second in _pairs(statement):
-        for model in REFERENCES:
-            lacking = [case for case in (first, second) if missing_in(results, model, _ENERGY, case)]
-            if len(lacking) == 1:
-                (other,) = (case for case in (first, second) if case not in lacking)
-                value = number(results, model, _ENERGY, other)
-                limit = Number(0.0, 0.0, f"no jump at k = {lacking[0][1]:g}")
+    for model, cases in (("fscm", grid(statement)), ("fem", witnesses(statement))):
+        of_label: dict[str, list[Case]] = {}
+        for case in cases:
+            of_label.setdefault(family_label(case, "k"), []).append(case)
+        for label, family in of_label.items():
+            lacking = [case for case in family if missing_in(results, model, _ENERGY, case)]
+            having = [case for case in family if case not in lacking]
+            if lacking and having:
+                value = number(results, model, _ENERGY, having[0])
+                limit = Number(0.0, 0.0, f"no jump at k = {', '.join(f'{k:g}' for _, k, _ in lacking)}")
             else:
-                value = Number(0.0, 0.0, f"cases without a jump at mu = {first[2]:g}: {len(lacking)} of 2")
-                limit = Number(1.0, 0.0, "one of two")
-            rows.append(Evidence(shape(first[0]), model, value, "<", limit, statement.beyond(first[0])))
+                what = f"gradient exponents unlike the others, {label}: {len(having)} of {len(family)} have jumps"
+                value, limit = Number(0.0, 0.0, what), Number(1.0, 0.0, "one of them")
+            rows.append(Evidence(label, model, value, "<", limit))
     return rows
 
 
@@ -63,12 +63,12 @@ def _printed(statement: PaperStatement) -> list[tuple[float, Case]]:
 
 def _critical(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
     """Each critical Tabor number rounds to the printed one."""
-    half = Number(0.5 * float(statement.arguments["digit"]), 0.0, "half of the last printed digit")
     rows = []
     for mu, case in _printed(statement):
-        found = number(results, "fscm", "critical_tabor_number", case)
-        value = Number(abs(found.value - mu), found.u, f"difference of the critical Tabor number {found.value:.6f}")
-        rows.append(Evidence(f"n = {case[0]:g}, k = {case[1]:g}", "fscm", value, "<", half))
+        critical = number(results, "fscm", "critical_tabor_number", case)
+        what = f"difference of the critical Tabor number {critical.value:.6f} from {mu:g}"
+        value = Number(abs(critical.value - mu), critical.u, what)
+        rows.append(Evidence(f"n = {case[0]:g}, k = {case[1]:g}", "fscm", value, "<", reading(statement)))
     return rows
 
 
@@ -82,12 +82,11 @@ def _onsets(statement: PaperStatement) -> list[tuple[float, float]]:
 
 def _meeting(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
     """The distance of the two gaps falls like the square root of the excess, to zero."""
-    limit = Number(float(statement.arguments["within"]), 0.0, "limit")
-    rows: dict[float, list[Evidence]] = {}
+    rows = []
     for n, k in _onsets(statement):
-        found = results[CachedCall.of(near_critical, n, k)]
+        onset = results[CachedCall.of(near_critical, n, k)]
         near, less_near = (
-            next(jump for jump in found["jumps"] if abs(jump["mu"] / found["mu"] - 1.0 - excess) < 1e-9)
+            next(jump for jump in onset["jumps"] if abs(jump["mu"] / onset["mu"] - 1.0 - excess) < 1e-9)
             for excess in (_NEAR, _LESS_NEAR)
         )
         distances = [jump["jump_in_gap"] - jump["jump_out_gap"] for jump in (near, less_near)]
@@ -96,8 +95,8 @@ def _meeting(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
         ratio = distances[0] / distances[1] / expected
         what = f"distance of the gaps against the square root of the excess, n = {n:g}, k = {k:g}"
         value = Number(abs(ratio - 1.0), ratio * u * (1.0 / distances[0] + 1.0 / distances[1]), what)
-        rows.setdefault(n, []).append(Evidence(shape(n), "fscm", value, "<", limit))
-    return [decisive(found) for found in rows.values()]
+        rows.append(Evidence(f"n = {n:g}, k = {k:g}", "fscm", value, "<", reading(statement)))
+    return rows
 
 
 #: Tests of statements on critical Tabor numbers and hysteresis, by name.

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import pandas as pd
 
@@ -17,29 +19,55 @@ from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.statements.evidence import (
     FAILS,
     HOLDS,
+    READING,
     UNDECIDED,
     Evidence,
+    by_clause,
     clauses,
     evidence_frame,
     verdict,
 )
+from comparisons.paper.statements.flips import flips_text, read_number
 from comparisons.paper.statements.registry import find_test
 
-__all__ = ["PAPER_STATEMENTS", "judged", "readable"]
+__all__ = ["PAPER_STATEMENTS", "evidence_for", "judged", "readable"]
 
 _TITLE = "Statements of the paper, judged"
 _NOTES = (
     "Statements in words of our own. True: every comparison holds by more than the sum of the bounds; false: none of "
-    "the clauses holds; true in part: some do. A clause that fails by fscm must fail by fem, too. In brackets: a bound "
-    "on the error in units of the last digit, at least 5e-10. A word without a number (well, small) is read as the "
-    "number in the column of the test."
+    "the clauses holds; true in part: some do. A clause is a case wherever a statement is about cases; own cases: "
+    "those that the paper shows or names. A clause that fails by fscm must fail by fem, too. In brackets: a bound on "
+    "the error in units of the last digit, at least 5e-10. A word without a number (well, small) is read as the "
+    "number in the column of the test; flips: the factor by which this number must change for another verdict."
 )
+#: Heads of columns for reading, and the columns for which a terminal and a page have room.
+_HEADS = {
+    "holds_in": "holds in",
+    "own_cases": "own cases",
+    "fails_for": "fails for",
+    "beyond_paper": "beyond the paper",
+}
+_SHORT = ["section", "statement", "verdict", "holds in", "fails for", "beyond the paper", "flips"]
+_ON_PAPER = [name for name in _SHORT if name != "beyond the paper"]
+#: A parameter in the name of a clause.
+_PARAMETER = re.compile(r"\b(n|k|mu) = ([0-9][0-9.e+-]*)")
+
+
+def evidence_for(statement: PaperStatement, results: Results) -> list[Evidence]:
+    """Return the decisive comparisons of every clause, each with whether it is one of the paper's own cases."""
+    rows = []
+    for row in by_clause(find_test(statement).evidence(statement, results)):
+        case = {name: float(value) for name, value in _PARAMETER.findall(row.clause)}
+        rows.append(replace(row, own=statement.is_own(case), beyond=statement.is_beyond(case)))
+    return rows
 
 
 def judged(statement: PaperStatement, evidence: Sequence[Evidence]) -> dict[str, str]:
     """Return the row of a statement from its evidence."""
-    stated = clauses(row for row in evidence if not row.beyond)
-    beyond = clauses(row for row in evidence if row.beyond)
+    stated_rows = [row for row in evidence if not row.beyond]
+    stated = clauses(stated_rows)
+    own = clauses(row for row in stated_rows if row.own)
+    number = read_number(stated_rows)
     return {
         "id": statement.id,
         "section": statement.section,
@@ -47,15 +75,47 @@ def judged(statement: PaperStatement, evidence: Sequence[Evidence]) -> dict[str,
         "test": statement.how,
         "range": statement.range,
         "verdict": verdict(stated.values()),
+        "holds_in": _share_text(stated),
+        "own_cases": _share_text(own),
         "fails_for": _named(stated, FAILS),
-        "beyond_paper": _beyond(beyond),
-        "evidence": _sentences(row for row in evidence if not row.beyond),
+        "beyond_paper": _beyond(clauses(row for row in evidence if row.beyond)),
+        "number": "" if number is None else f"{number:g}",
+        "flips": flips_text(stated_rows),
+        "evidence": _sentences(stated_rows),
         "command": statement.command,
     }
 
 
+def _share_text(outcomes: dict[str, str]) -> str:
+    """Return in how many clauses it holds; empty without a clause."""
+    return f"{list(outcomes.values()).count(HOLDS)} of {len(outcomes)}" if outcomes else ""
+
+
 def _named(outcomes: dict[str, str], outcome: str) -> str:
-    return "; ".join(clause for clause, found in outcomes.items() if found == outcome)
+    """Return the clauses of an outcome, those that differ in one parameter together.
+
+    Examples
+    --------
+    >>> _named({f"n = {n}, mu = {mu}": "fails" for n, mu in ((1, 2), (1, 3), (2, 3), (5, 3))}, "fails")
+    'n = 1, mu = 2, 3; n = 2, 5, mu = 3'
+    """
+    named = [tuple(clause.split(", ")) for clause, of_clause in outcomes.items() if of_clause == outcome]
+    for position in reversed(range(max(map(len, named), default=0))):
+        named = _together(named, position)
+    return "; ".join(map(", ".join, named))
+
+
+def _together(named: Sequence[tuple[str, ...]], position: int) -> list[tuple[str, ...]]:
+    """Join the values at one position of clauses that are equal elsewhere."""
+    groups: dict[tuple[str, ...], list[str]] = {}
+    for parts in named:
+        name, _, value = parts[position].partition(" = ") if position < len(parts) else ("", "", "")
+        key = (*parts[:position], f"{name} = ", *parts[position + 1 :]) if value else parts
+        groups.setdefault(key, []).append(value)
+    return [
+        (*key[:position], key[position] + ", ".join(values), *key[position + 1 :]) if values[0] else key
+        for key, values in groups.items()
+    ]
 
 
 def _beyond(outcomes: dict[str, str]) -> str:
@@ -64,10 +124,10 @@ def _beyond(outcomes: dict[str, str]) -> str:
 
 
 def _sentences(evidence: Iterable[Evidence]) -> str:
-    """Return what decides: the rows of the clause that fails by most, or else the row that holds by least."""
+    """Return what decides: the clause that fails by most, the paper's own cases first, or what holds by least."""
     rows = list(evidence)
     missed = [row for row in rows if row.outcome != HOLDS]
-    least = min(missed or rows, key=lambda row: (row.outcome != FAILS, _share(row)))
+    least = min(missed or rows, key=lambda row: (row.outcome != FAILS, bool(missed) and not row.own, _share(row)))
     return "; ".join(_sentence(row) for row in rows if row.clause == least.clause and (row is least or row in missed))
 
 
@@ -79,7 +139,7 @@ def _share(row: Evidence) -> float:
 def _sentence(row: Evidence) -> str:
     limit = _number(row.limit.value, row.limit.u)
     compared = f"{_number(row.value.value, row.value.u)} {row.relation} {limit} {row.outcome}"
-    against = "" if row.limit.what in ("limit", "") else f" against {row.limit.what}"
+    against = "" if row.limit.what in (READING, "") else f" against {row.limit.what}"
     return f"{row.model}: {row.value.what}{against}: {compared}"
 
 
@@ -88,32 +148,32 @@ def _number(value: float, u: float) -> str:
 
 
 def _tasks() -> Sequence[CachedCall]:
-    return list(dict.fromkeys(call for one in paper_statements() for call in find_test(one).tasks(one)))
+    calls = (call for statement in paper_statements() for call in find_test(statement).tasks(statement))
+    return list(dict.fromkeys(calls))
 
 
 def _tables(results: Results) -> Tables:
-    evidence = [(one, find_test(one).evidence(one, results)) for one in paper_statements()]
-    rows = [judged(one, found) for one, found in evidence]
-    frames = [evidence_frame(one.id, found) for one, found in evidence]
+    evidence = [(statement, evidence_for(statement, results)) for statement in paper_statements()]
+    rows = [judged(statement, comparisons) for statement, comparisons in evidence]
+    frames = [evidence_frame(statement.id, comparisons) for statement, comparisons in evidence]
     return {"": pd.DataFrame(rows), "evidence": pd.concat(frames, ignore_index=True)}
 
 
 def readable(table: pd.DataFrame) -> pd.DataFrame:
     """Return the table for reading: empty columns of a row as nothing."""
     shown = table.fillna("").drop(columns=["id"])
-    return shown.rename(columns={"fails_for": "fails for", "beyond_paper": "beyond the paper"})
+    return shown.rename(columns=_HEADS)
 
 
 def _texts(tables: Tables) -> dict[str, str]:
     shown = readable(tables[""])
-    short = shown[["section", "statement", "verdict", "fails for", "beyond the paper"]]
+    short = shown[_ON_PAPER]
     text = latex(short, f"{_TITLE}. {_NOTES}", "paper-statements")
     return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": text}
 
 
 def _shown(tables: Tables) -> FittedTable:
-    table = readable(tables[""])[["section", "statement", "verdict", "fails for", "beyond the paper"]]
-    return rich_table(table, _TITLE)
+    return rich_table(readable(tables[""])[_SHORT], _TITLE)
 
 
 PAPER_STATEMENTS = PaperFigure(

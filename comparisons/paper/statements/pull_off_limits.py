@@ -1,16 +1,16 @@
-"""Tests of the pull-off force over the gradient exponent and towards its limits."""
+"""Tests of the pull-off force over the gradient exponent."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import pairwise
 
 from comparisons.data.paper_statements import PaperStatement
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.statements.closeness import relative_error
-from comparisons.paper.statements.evidence import Evidence, Number, decisive
-from comparisons.paper.statements.sources import StatementTest, grid, number, shape, tasks_of
+from comparisons.paper.statements.evidence import Evidence
+from comparisons.paper.statements.sources import StatementTest, grid, number, reading, tasks_of
+from comparisons.paper.statements.trends import families
 
 __all__ = ["TESTS"]
 
@@ -25,18 +25,16 @@ def _tasks(statement: PaperStatement) -> Sequence[CachedCall]:
 
 def _sensitivity(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
     """Largest deviation from the homogeneous solid: below the limit for some shapes, above it for the others."""
-    limit = Number(float(statement.arguments["within"]), 0.0, "limit")
     small = statement.numbers("small_for")
     rows = []
     for n in statement.numbers("n"):
-        found = []
+        errors = []
         for case in (case for case in grid(statement) if case[0] == n):
             exact = number(results, "fscm", _FORCE, (n, 0.0, case[2]))
-            error = relative_error("the graded solid", number(results, "fscm", _FORCE, case), "k = 0", exact)
-            found.append(Evidence(shape(n), "fscm", error, "<", limit))
-        largest = max(found, key=lambda row: row.value.value)
+            errors.append(relative_error("the graded solid", number(results, "fscm", _FORCE, case), "k = 0", exact))
+        largest = max(errors, key=lambda error: error.value)
         relation = "<" if n in small else ">"
-        rows.append(replace(largest, relation=relation, comparisons=len(found), beyond=statement.beyond(n)))
+        rows.append(Evidence(f"n = {n:g}", "fscm", largest, relation, reading(statement), comparisons=len(errors)))
     return rows
 
 
@@ -47,19 +45,16 @@ def _jkr_tasks(statement: PaperStatement) -> Sequence[CachedCall]:
 def _earlier_limit(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
     """The relative distance of the force from JKR's falls with k at every Tabor number."""
     rows = []
-    for n in statement.numbers("n"):
-        found = []
-        for mu in statement.numbers("mu"):
-            errors = []
-            for k in statement.numbers("k"):
-                value, jkr = (number(results, model, _FORCE, (n, k, mu)) for model in ("fscm", "jkr"))
-                errors.append(relative_error("fscm", value, "jkr", jkr))
-            found += [Evidence(shape(n), "fscm", later, "<", earlier) for earlier, later in pairwise(errors)]
-        rows.append(replace(decisive(found), beyond=statement.beyond(n)))
+    for label, cases in families(statement, "k").items():
+        errors = []
+        for case in cases:
+            value, jkr = (number(results, model, _FORCE, case) for model in ("fscm", "jkr"))
+            errors.append(relative_error("fscm", value, "jkr", jkr))
+        rows += [Evidence(label, "fscm", later, "<", earlier) for earlier, later in pairwise(errors)]
     return rows
 
 
-#: Tests of statements on limits of the pull-off force, by name.
+#: Tests of statements on the pull-off force over the gradient exponent, by name.
 TESTS = {
     "sensitivity_to_k": StatementTest(_tasks, _sensitivity),
     "jkr_earlier_with_k": StatementTest(_jkr_tasks, _earlier_limit),

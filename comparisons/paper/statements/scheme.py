@@ -9,7 +9,7 @@ from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.models.fem_model import FiniteElements
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.statements.evidence import REFERENCES, Evidence, Number
-from comparisons.paper.statements.sources import Case, StatementTest, case_label, grid, number, shape, tasks_of
+from comparisons.paper.statements.sources import StatementTest, case_label, grid, number, reading, tasks_of, witnesses
 from comparisons.paper.values.scheme_ingredients import SEGMENTS, exact_force, scheme_force
 from comparisons.runs.cases import Case as ProblemCase
 
@@ -33,53 +33,43 @@ def force_at(n: float, k: float, mu: float, nu: float) -> dict[str, float]:
     return {"value": found.value, "u_num": found.u_num}
 
 
-def _cases(statement: PaperStatement) -> list[Case]:
-    return [tuple(map(float, case)) for case in statement.arguments["cases"]]  # type: ignore[misc]
-
-
 def _mesh_tasks(statement: PaperStatement) -> Sequence[CachedCall]:
-    return [CachedCall.of(function, *case) for case in _cases(statement) for function in (scheme_force, exact_force)]
+    return [CachedCall.of(function, *case) for case in grid(statement) for function in (scheme_force, exact_force)]
 
 
 def _segments(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
     """The segments change the force by less than the limit, compared on the same finite domain."""
-    limit = Number(float(statement.arguments["within"]), 0.0, "limit")
     rows = []
-    for case in _cases(statement):
+    for case in grid(statement):
         coarse, full = (results[CachedCall.of(function, *case)] for function in (scheme_force, exact_force))
         same_domain = full["force"] - full["beyond"][0]
         share = abs(coarse["force"] - same_domain) / full["force"]
         u = (coarse["u_num"] + full["u_num"]) / full["force"]
         what = f"change of the pull-off force by N = {SEGMENTS} segments, {case_label(case)}"
-        rows.append(Evidence(shape(case[0]), "fscm-stieltjes", Number(share, u, what), "<", limit))
+        rows.append(Evidence(case_label(case), "fscm-stieltjes", Number(share, u, what), "<", reading(statement)))
     return rows
 
 
 def _domain_tasks(statement: PaperStatement) -> Sequence[CachedCall]:
-    cases = _cases(statement)
+    cases = grid(statement)
     calls = [CachedCall.of(scheme_force, *case) for case in cases]
     models = [call for case in cases for call in tasks_of("fscm", _FORCE, case)]
-    return [*calls, *models, *(call for case in _witnesses(statement) for call in tasks_of("fem", _FORCE, case))]
-
-
-def _witnesses(statement: PaperStatement) -> list[Case]:
-    return [tuple(map(float, case)) for case in statement.arguments.get("witness", ())]  # type: ignore[misc]
+    return [*calls, *models, *(call for case in witnesses(statement) for call in tasks_of("fem", _FORCE, case))]
 
 
 def _domain(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
     """The force of the scheme, which ends at f = 50, against that of each reference."""
-    limit = Number(float(statement.arguments["within"]), 0.0, "limit")
     rows = []
-    for case in _cases(statement):
+    for case in grid(statement):
         scheme = results[CachedCall.of(scheme_force, *case)]
         for model in REFERENCES:
-            if model == "fem" and case not in _witnesses(statement):
+            if model == "fem" and case not in witnesses(statement):
                 continue
             exact = number(results, model, _FORCE, case)
             share = 1.0 - scheme["force"] / exact.value
             u = (scheme["u_num"] + exact.u) / exact.value
             what = f"share of the pull-off force that the scheme with f(r_max) = 50 lacks, {case_label(case)}"
-            rows.append(Evidence(shape(case[0]), model, Number(abs(share), u, what), "<", limit))
+            rows.append(Evidence(case_label(case), model, Number(abs(share), u, what), "<", reading(statement)))
     return rows
 
 
@@ -96,7 +86,7 @@ def _poisson(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
         values = " and ".join(f"{nu:g}" for nu in statement.numbers("nu"))
         what = f"difference of the pull-off forces for nu = {values}, {case_label(case)}"
         value = Number(apart, first["u_num"] + second["u_num"], what)
-        rows.append(Evidence(shape(case[0]), "fem", value, "<", Number(1e-5, 0.0, "limit")))
+        rows.append(Evidence(case_label(case), "fem", value, "<", reading(statement)))
     return rows
 
 

@@ -9,14 +9,28 @@ from comparisons.data.paper_statements import PaperStatement
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.figures.fig08_jumps import QUANTITIES as JUMPS
 from comparisons.paper.figures.fig08_jumps import jumps
-from comparisons.paper.statements.evidence import Evidence, Number
+from comparisons.paper.statements.evidence import READING, Evidence, Number
 from comparisons.paper.tasks import quantity
 from comparisons.quantities import title_of
 
-__all__ = ["Case", "StatementTest", "case_label", "grid", "missing_in", "number", "shape", "tasks_of"]
+__all__ = [
+    "PARAMETERS",
+    "Case",
+    "StatementTest",
+    "case_label",
+    "family_label",
+    "grid",
+    "missing_in",
+    "number",
+    "reading",
+    "tasks_of",
+    "witnesses",
+]
 
 #: Shape index, gradient exponent and Tabor number.
 Case = tuple[float, float, float]
+#: Their names, in this order.
+PARAMETERS = ("n", "k", "mu")
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,19 +42,39 @@ class StatementTest:
 
 
 def grid(statement: PaperStatement) -> list[Case]:
-    """Return every combination of the statement's n, k and mu."""
-    n, k, mu = (statement.numbers(name) for name in ("n", "k", "mu"))
-    return [(a, b, c) for a in n for b in k for c in mu]
+    """Return the statement's ``cases`` and every combination of its n, k and mu."""
+    n, k, mu = (statement.numbers(name) for name in PARAMETERS)
+    return [*_cases(statement, "cases"), *((a, b, c) for a in n for b in k for c in mu)]
 
 
-def shape(n: float) -> str:
-    """Return the name of the clause of a shape."""
-    return f"n = {n:g}"
+def witnesses(statement: PaperStatement) -> list[Case]:
+    """Return the cases that the finite elements compute, too."""
+    return _cases(statement, "witness")
+
+
+def _cases(statement: PaperStatement, name: str) -> list[Case]:
+    return [(float(n), float(k), float(mu)) for n, k, mu in statement.arguments.get(name, ())]
 
 
 def case_label(case: Case) -> str:
     """Return e.g. ``n = 2, k = 0.4, mu = 1``."""
     return "n = {:g}, k = {:g}, mu = {:g}".format(*case)
+
+
+def family_label(case: Case, along: str) -> str:
+    """Return the label of the cases that differ in one parameter.
+
+    Examples
+    --------
+    >>> family_label((2.0, 0.4, 1.0), "mu")
+    'n = 2, k = 0.4'
+    """
+    return ", ".join(f"{name} = {value:g}" for name, value in zip(PARAMETERS, case, strict=True) if name != along)
+
+
+def reading(statement: PaperStatement) -> Number:
+    """Return the number as which a word of the statement is read."""
+    return Number(float(statement.arguments["within"]), 0.0, READING)
 
 
 def _difference(first: Number, second: Number) -> tuple[float, float]:
@@ -93,13 +127,13 @@ def number(results: Results, model: str, name: str, case: Case) -> Number:
         value, u = of(number(results, model, first, case), number(results, model, second, case))
         return Number(value, u, f"{title}, {case_label(case)}")
     (call,) = tasks_of(model, name, case)
-    found = results[call]
+    result = results[call]
     what = f"{title_of(name)}, {case_label(case)}"
     if model == "fscm" and name in JUMPS:
-        return Number(found[name], found[f"u_{name}"], what)
-    if found["status"] != "ok":
-        return Number(float("nan"), float("nan"), f"{what}: {found['reason']}")
-    return Number(found["value"], found["u_num"], what)
+        return Number(result[name], result[f"u_{name}"], what)
+    if result["status"] != "ok":
+        return Number(float("nan"), float("nan"), f"{what}: {result['reason']}")
+    return Number(result["value"], result["u_num"], what)
 
 
 def missing_in(results: Results, model: str, name: str, case: Case) -> bool:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,9 +13,9 @@ from comparisons.data.paper_statements import PaperStatement
 from comparisons.models.solver import translated
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.figures.fig05_07_pull_off_surfaces import surface
-from comparisons.paper.statements.evidence import Evidence, Number, decisive
-from comparisons.paper.statements.sources import Case, StatementTest, case_label, grid, shape
-from comparisons.paper.statements.trends import one_way
+from comparisons.paper.statements.evidence import Evidence, Number
+from comparisons.paper.statements.sources import Case, StatementTest, case_label, grid, reading, witnesses
+from comparisons.paper.statements.trends import families, one_way
 from comparisons.paper.tasks import profile
 from fscm import Analysis, NoSuchEvent, NotConverged
 from fscm.laws import LennardJones93
@@ -26,7 +25,7 @@ from fscm.solution import FLOOR, SAFETY, State
 __all__ = ["TESTS", "band_width", "half_strength_gaps"]
 
 Json = dict[str, Any]
-Comparisons = Callable[[Case, Json], list[Evidence]]
+Comparisons = Callable[[PaperStatement, Case, Json], list[Evidence]]
 
 _LAW = LennardJones93()
 
@@ -99,20 +98,19 @@ def _each_surface(comparisons: Comparisons) -> StatementTest:
     """Return the test that compares numbers of every surface of a grid."""
 
     def evidence(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
-        rows = []
-        for n in statement.numbers("n"):
-            own = [case for case in grid(statement) if case[0] == n]
-            found = [row for case in own for row in comparisons(case, results[CachedCall.of(surface, *case)])]
-            rows.append(replace(decisive(found), beyond=statement.beyond(n)))
-        return rows
+        return [
+            row
+            for case in grid(statement)
+            for row in comparisons(statement, case, results[CachedCall.of(surface, *case)])
+        ]
 
     return StatementTest(_surface_tasks, evidence)
 
 
-def _pile_up(case: Case, found: Json) -> list[Evidence]:
+def _pile_up(statement: PaperStatement, case: Case, values: Json) -> list[Evidence]:
     """The surface is pulled up most at the edge, and less and less outside."""
-    radius, w, u = (np.array(found[name]) for name in ("radius", "deformation", "u_deformation"))
-    edge, top = int(np.argmin(found["pressure"])), int(np.argmin(w))
+    radius, w, u = (np.array(values[name]) for name in ("radius", "deformation", "u_deformation"))
+    edge, top = int(np.argmin(values["pressure"])), int(np.argmin(w))
     spacing = float(np.diff(radius)[max(top - 1, 0) : top + 1].max())
     apart = Number(
         abs(radius[top] - radius[edge]) / radius[edge],
@@ -124,114 +122,82 @@ def _pile_up(case: Case, found: Json) -> list[Evidence]:
     least = int(np.argmin(steps))
     falling = Number(float(steps[least]), float(bounds[least]), f"least step of w outside the edge, {case_label(case)}")
     return [
-        Evidence(shape(case[0]), "fscm", apart, "<", Number(0.1, 0.0, "limit")),
-        Evidence(shape(case[0]), "fscm", falling, ">", Number(0.0, 0.0, "w approaches zero from below")),
+        Evidence(case_label(case), "fscm", apart, "<", reading(statement)),
+        Evidence(case_label(case), "fscm", falling, ">", Number(0.0, 0.0, "w approaches zero from below")),
     ]
 
 
 def _centre(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
-    """The pressure at the centre is compressive and the largest tension is the strength."""
+    """The pressure at the centre is compressive."""
     rows = []
-    for n in statement.numbers("n"):
-        found = []
-        for case in (case for case in grid(statement) if case[0] == n):
-            values = results[CachedCall.of(surface, *case)]
-            found += _compressed(shape(n), "fscm", values["pressure"][0], values["u_pressure"][0], case)
-        rows.append(replace(decisive(found), beyond=statement.beyond(n)))
-    for case in _witnesses(statement):
+    for case in grid(statement):
+        values = results[CachedCall.of(surface, *case)]
+        rows.append(_compressed("fscm", values["pressure"][0], values["u_pressure"][0], case))
+    for case in witnesses(statement):
         values = results[CachedCall.of(profile, "fem", *case)]
         u = values["u_distance"] * float(np.ptp(values["pressure"]))
-        row = decisive(_compressed(shape(case[0]), "fem", values["pressure"][0], u, case))
-        rows.append(replace(row, beyond=statement.beyond(case[0])))
+        rows.append(_compressed("fem", values["pressure"][0], u, case))
     return rows
 
 
-def _compressed(clause: str, model: str, pressure: float, u: float, case: Case) -> list[Evidence]:
+def _compressed(model: str, pressure: float, u: float, case: Case) -> Evidence:
     value = Number(pressure, u, f"pressure at the centre at pull-off, {case_label(case)}")
-    return [Evidence(clause, model, value, ">", Number(0.0, 0.0, "compressive"))]
-
-
-def _witnesses(statement: PaperStatement) -> list[Case]:
-    return [tuple(map(float, case)) for case in statement.arguments.get("witness", ())]  # type: ignore[misc]
+    return Evidence(case_label(case), model, value, ">", Number(0.0, 0.0, "compressive"))
 
 
 def _centre_tasks(statement: PaperStatement) -> Sequence[CachedCall]:
-    return [*_surface_tasks(statement), *(CachedCall.of(profile, "fem", *case) for case in _witnesses(statement))]
+    return [*_surface_tasks(statement), *(CachedCall.of(profile, "fem", *case) for case in witnesses(statement))]
 
 
-def _strength(case: Case, found: Json) -> list[Evidence]:
-    # The largest tension lies between two samples: a parabola through three finds it.
-    pressure, i = np.array(found["pressure"]), int(np.argmin(found["pressure"]))
-    strength = _traction(float(_LAW.peak_gap))
-    apart = Number(
-        abs(float(pressure[i]) - strength),
-        float(found["u_pressure"][i]),
-        f"difference of the largest sampled tension from the strength, {case_label(case)}",
-    )
-    return [Evidence(shape(case[0]), "fscm", apart, "<", Number(1e-3, 0.0, "limit"))]
-
-
-def _mean_gap(case: Case, found: Json) -> Number:
+def _mean_gap(case: Case, values: Json) -> Number:
     """Mean of the gap's size inside the radius of the largest tension."""
-    radius, gap, u = (np.array(found[name]) for name in ("radius", "gap", "u_gap"))
-    edge = float(radius[np.argmin(found["pressure"])])
+    radius, gap, u = (np.array(values[name]) for name in ("radius", "gap", "u_gap"))
+    edge = float(radius[np.argmin(values["pressure"])])
     x = np.linspace(0.0, edge, 2001)
     size = np.abs(CubicSpline(radius, gap)(x))
     linear = np.abs(np.interp(x, radius, gap))
-    mean, rough = (float(np.trapezoid(values, x)) / edge for values in (size, linear))
+    mean, rough = (float(np.trapezoid(sampled, x)) / edge for sampled in (size, linear))
     return Number(
         mean, abs(mean - rough) + float(u[radius <= edge].max()), f"mean gap inside the edge, {case_label(case)}"
     )
 
 
-def _gap_sizes(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
+def _from_mu(statement: PaperStatement, case: Case) -> str:
+    """Below the limit from one Tabor number on, and above it at a smaller one."""
+    return "<" if case[2] >= float(statement.arguments["from_mu"]) else ">"
+
+
+def _gap_size(statement: PaperStatement, case: Case, values: Json) -> list[Evidence]:
     """The mean gap in the contact is below a limit from one Tabor number on, and above it at a small one."""
-    limit, large = Number(float(statement.arguments["within"]), 0.0, "limit"), float(statement.arguments["from_mu"])
-    rows = []
-    for n in statement.numbers("n"):
-        own = [case for case in grid(statement) if case[0] == n]
-        found = [
-            Evidence(
-                shape(n),
-                "fscm",
-                _mean_gap(case, results[CachedCall.of(surface, *case)]),
-                "<" if case[2] >= large else ">",
-                limit,
-            )
-            for case in own
-        ]
-        rows.append(replace(decisive(found), beyond=statement.beyond(n)))
-    return rows
+    mean, relation = _mean_gap(case, values), _from_mu(statement, case)
+    return [Evidence(case_label(case), "fscm", mean, relation, reading(statement))]
 
 
 def _centre_falls(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
     """Deformation and pressure at the centre fall with k."""
     rows = []
-    for n in statement.numbers("n"):
-        found = []
-        for mu in statement.numbers("mu"):
-            for name, title in (("deformation", "size of the deformation"), ("pressure", "pressure")):
-                numbers = []
-                for k in statement.numbers("k"):
-                    values = results[CachedCall.of(surface, n, k, mu)]
-                    what = f"{title} at the centre at pull-off, {case_label((n, k, mu))}"
-                    numbers.append(Number(abs(values[name][0]), values[f"u_{name}"][0], what))
-                found += one_way(shape(n), "fscm", numbers, "<")
-        rows.append(replace(decisive(found), beyond=statement.beyond(n)))
+    for label, cases in families(statement, "k").items():
+        for name, title in (("deformation", "size of the deformation"), ("pressure", "pressure")):
+            numbers = []
+            for case in cases:
+                values = results[CachedCall.of(surface, *case)]
+                what = f"{title} at the centre at pull-off, {case_label(case)}"
+                numbers.append(Number(abs(values[name][0]), values[f"u_{name}"][0], what))
+            rows += one_way(label, "fscm", numbers, "<")
     return rows
 
 
 def _pile_up_heights(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
-    """The pile-up above the centre rises along the cases."""
+    """The pile-up above the centre rises with k."""
     rows = []
-    for n in statement.numbers("n"):
+    for label, cases in families(statement, "k").items():
         numbers = []
-        for case in (case for case in grid(statement) if case[0] == n):
+        for case in cases:
             values = results[CachedCall.of(surface, *case)]
             w, u = np.array(values["deformation"]), np.array(values["u_deformation"])
             what = f"height of the pile-up above the centre at pull-off, {case_label(case)}"
             numbers.append(Number(float(w[0] - w.min()), float(u[0] + u[np.argmin(w)]), what))
-        rows.append(replace(decisive(one_way(shape(n), "fscm", numbers, ">")), beyond=statement.beyond(n)))
+        rows += one_way(label, "fscm", numbers, ">")
     return rows
 
 
@@ -241,14 +207,24 @@ def _width_tasks(statement: PaperStatement) -> Sequence[CachedCall]:
 
 def _widths(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
     """The band of large tension becomes narrower along the cases."""
-    rows = []
-    for n in statement.numbers("n"):
-        numbers = []
-        for case in (case for case in grid(statement) if case[0] == n):
-            found = results[CachedCall.of(band_width, *case)]
-            numbers.append(Number(found["width"], found["u"], _width_title(case)))
-        rows.append(replace(decisive(one_way(shape(n), "fscm", numbers, "<")), beyond=statement.beyond(n)))
-    return rows
+    return [
+        row
+        for label, cases in families(statement, str(statement.arguments["along"])).items()
+        for row in one_way(label, "fscm", [_width_of(case, results) for case in cases], "<")
+    ]
+
+
+def _edges(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
+    """The band of large tension is narrow from one Tabor number on, and wide at a smaller one."""
+    return [
+        Evidence(case_label(case), "fscm", _width_of(case, results), _from_mu(statement, case), reading(statement))
+        for case in grid(statement)
+    ]
+
+
+def _width_of(case: Case, results: Results) -> Number:
+    band = results[CachedCall.of(band_width, *case)]
+    return Number(band["width"], band["u"], _width_title(case))
 
 
 def _width_title(case: Case) -> str:
@@ -258,9 +234,9 @@ def _width_title(case: Case) -> str:
 #: Tests of statements on the surface at pull-off, by name.
 TESTS = {
     "pile_up_at_edge": _each_surface(_pile_up),
-    "largest_tension": _each_surface(_strength),
     "compressed_centre": StatementTest(_centre_tasks, _centre),
-    "contact_gap": StatementTest(_surface_tasks, _gap_sizes),
+    "contact_gap": _each_surface(_gap_size),
+    "contact_edge": StatementTest(_width_tasks, _edges),
     "centre_falls_with_k": StatementTest(_surface_tasks, _centre_falls),
     "pile_up_rises": StatementTest(_surface_tasks, _pile_up_heights),
     "band_narrows": StatementTest(_width_tasks, _widths),

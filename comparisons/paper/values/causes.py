@@ -1,7 +1,7 @@
-"""Causes of the differences between paper values and converged ones: one ingredient changed at a time.
+"""Paper values computed again with one ingredient of the computation changed at a time, and with one scheme for all.
 
 The largest relative errors kappa (Fig. 16(b)) are repeated with what the paper states of its computation (Sec. 2.4)
-and with what it leaves open; the regions of Fig. 11(b) with a gradient exponent that ends below 1.
+and with what it leaves open; the numbers of Fig. 11 with a gradient exponent that ends below 1.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from comparisons.paper.studies.tabor_curve import Extreme, TaborCurve, largest_e
 from comparisons.paper.values import sampling
 from comparisons.paper.values import scheme_ingredients as scheme
 
-__all__ = ["CONVERGED", "Repeated", "cohesive_forces", "frame", "repeated", "tasks"]
+__all__ = ["CONVERGED", "GRID", "Repeated", "cohesive_forces", "frame", "repeated", "tasks"]
 
 #: Name of the converged computation, without any ingredient changed.
 CONVERGED = "converged: mu from 0.01 to 10, tail carried, sigma_0 exact"
@@ -53,8 +53,8 @@ _CONE = 1.0
 _JIN_STRESS = 1.0
 #: Gradient exponents near 1: the last ones of a computation that does not take the limit k = 1.
 _SHORT_OF_GIBSON = (0.9995, sampling.LAST_K)
-#: Both numbers of the grid of Fig. 11 that the paper does not state.
-_GRID = f"k up to {sampling.LAST_K:g}, n in steps of {sampling.N_STEP:g}"
+#: The scheme of Fig. 11, of which the paper states neither number.
+GRID = f"k up to {sampling.LAST_K:g}, n in steps of {sampling.N_STEP:g}"
 _SPARSE = np.array([step * 10.0**power for power in (-2, -1, 0) for step in (1, 2, 5)] + [10.0])
 
 
@@ -122,6 +122,8 @@ class Repeated:
         Where it is, NaN if it has no Tabor number.
     stated : bool
         Whether the ingredient is in the paper, or was fitted here.
+    scheme : bool
+        Whether it is the one scheme with which all numbers of a figure are compared.
     """
 
     paper_value: PaperValue
@@ -130,6 +132,7 @@ class Repeated:
     u: float
     mu: float = math.nan
     stated: bool = True
+    scheme: bool = False
 
     @property
     def verdict(self) -> str:
@@ -142,24 +145,25 @@ def repeated(results: Results) -> list[Repeated]:
     rows = [row for paper_value in paper_values("largest_relative_error") for row in _errors(paper_value, results)]
     ranges = {1.0: CONVERGED_CHI} | {up_to: f"k up to {up_to:g}" for up_to in _SHORT_OF_GIBSON}
     for paper_value in paper_values("largest_chi"):
-        for up_to, ingredient in [*ranges.items(), (sampling.LAST_K, _GRID)]:
+        for up_to, ingredient in [*ranges.items(), (sampling.LAST_K, GRID)]:
             largest = 100.0 * largest_chi(paper_value.n, up_to)[0]
-            rows.append(Repeated(paper_value, ingredient, largest, CHI_ROUNDING, stated=up_to == 1.0))
+            of_figure = ingredient == GRID
+            rows.append(Repeated(paper_value, ingredient, largest, CHI_ROUNDING, stated=up_to == 1.0, scheme=of_figure))
     for paper_value in paper_values("insensitive_region"):
         for up_to, ingredient in ranges.items():
             end = results[CachedCall.of(insensitive_regions, up_to)][paper_value.index]
             rows.append(Repeated(paper_value, ingredient, end, REGION_ROUNDING, stated=up_to == 1.0))
         # The last end is that of `sampling.LAST_K`; ends of even index are where a region begins.
         step = sampling.first_or_last_step(end, first=paper_value.index % 2 == 0)
-        rows.append(Repeated(paper_value, _GRID, step, 0.0, stated=False))
+        rows.append(Repeated(paper_value, GRID, step, 0.0, stated=False, scheme=True))
     return rows
 
 
 def _errors(paper_value: PaperValue, results: Results) -> Iterator[Repeated]:
     """Repeat a largest relative error with every ingredient."""
 
-    def row(ingredient: str, found: Extreme, stated: bool = True) -> Repeated:
-        return Repeated(paper_value, ingredient, 100.0 * found.kappa, 100.0 * found.u, found.mu, stated)
+    def row(ingredient: str, found: Extreme, stated: bool = True, scheme: bool = False) -> Repeated:
+        return Repeated(paper_value, ingredient, 100.0 * found.kappa, 100.0 * found.u, found.mu, stated, scheme)
 
     exact, cut = _exact_curves(paper_value.n, results)
     model = TaborCurve.through(np.array(results[_forces(paper_value, _exact_stress(paper_value))]))
@@ -173,7 +177,7 @@ def _errors(paper_value: PaperValue, results: Results) -> Iterator[Repeated]:
         for height, curve in zip(scheme.HEIGHTS[1:], cut[1:], strict=True):
             yield row(f"f(r_max) = {height:g}, nothing beyond", largest_error(model, curve), stated=False)
     yield row(rounded, largest_error(printed, exact))
-    yield row(f"{nothing_beyond}; {rounded}", largest_error(printed, cut[0]))
+    yield row(f"{nothing_beyond}; {rounded}", largest_error(printed, cut[0]), scheme=True)
 
     # The rest needs one Tabor number only: kappa is stationary there, or it is the end of the range.
     mu = _PLACES[paper_value.model, paper_value.n]
@@ -202,31 +206,6 @@ def _errors(paper_value: PaperValue, results: Results) -> Iterator[Repeated]:
     yield row("mu from 0.02 to 10", largest_error(model, exact, low=0.02), stated=False)
     yield row("mu from 0.01 to 2", largest_error(model, exact, high=2.0), stated=False)
     yield row("mu = 1, 2, 5, 10, ... of 0.01 to 10 only", largest_error(model, exact, sampled=_SPARSE), stated=False)
-    yield from _unstated_tabor_numbers(paper_value, model, printed, exact)
-
-
-def _unstated_tabor_numbers(
-    paper_value: PaperValue, model: TaborCurve, printed: TaborCurve, exact: TaborCurve
-) -> Iterator[Repeated]:
-    """Repeat a largest relative error with the series of Tabor numbers that give the printed digits."""
-
-    def row(ingredient: str, found: Extreme) -> Repeated:
-        return Repeated(paper_value, ingredient, 100.0 * found.kappa, 100.0 * found.u, found.mu, stated=False)
-
-    starts = sampling.rounding_starts(paper_value, model, exact)
-    for start in starts or ():
-        yield row(f"smallest mu = {start:.4f}", largest_error(model, exact, low=start))
-    if starts is not None and paper_value.n == _CONE:
-        jin = sampling.jin_start(paper_value.n, _K)
-        of_jin = f"smallest mu = {jin:.4f} (mu_Jin = 0.01 at nu = {sampling.JIN_NU:g})"
-        yield row(of_jin, largest_error(model, exact, low=jin))
-        yield row(
-            f"sigma_0 = {_printed_stress(paper_value):g} as printed; {of_jin}", largest_error(printed, exact, low=jin)
-        )
-    place = sampling.without_place(paper_value, model, exact)
-    if place is not None:
-        low, high, found = place
-        yield row(f"no mu between {low:.4f} and {high:.4f}", found)
 
 
 def _single(model: TaborCurve, force: float, u: float, mu: float) -> Extreme:
@@ -257,6 +236,7 @@ def frame(rows: Sequence[Repeated]) -> pd.DataFrame:
             "printed": row.paper_value.text,
             "ingredient": row.ingredient,
             "stated_in_paper": row.stated,
+            "scheme": row.scheme,
             "mu": row.mu,
             "computed": row.value,
             "u": row.u,
@@ -265,5 +245,5 @@ def frame(rows: Sequence[Repeated]) -> pd.DataFrame:
         for row in rows
     )
     first = table.groupby(["quantity", "model", "n"], dropna=False)["computed"].transform("first")
-    table.insert(11, "shift", table["computed"] - first)
+    table.insert(12, "shift", table["computed"] - first)
     return table

@@ -1,4 +1,4 @@
-"""Verdicts on the numbers that the paper prints, and the causes of the differences."""
+"""Verdicts on the numbers that the paper prints: on the converged numbers, and on those of one scheme a figure."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pandas as pd
 
-from comparisons.data.paper_values import REPRODUCED, TRUNCATED, PaperValue, paper_values
+from comparisons.data.paper_values import PaperValue, paper_values
 from comparisons.models.closed_form import EPS
 from comparisons.models.cohesive_stress import eta
 from comparisons.models.jkr import JKR
@@ -25,11 +25,7 @@ from comparisons.paper.values.causes import Repeated, frame, repeated, tasks
 from comparisons.runs.cases import Case
 from fscm.laws import LennardJones93
 
-__all__ = ["BY_GRID", "BY_SCHEME", "PAPER_VALUES", "cause", "explained", "judged"]
-
-#: Verdicts on a number whose converged value has other digits, but that follows from what the paper states of its
-#: computation, or from steps and ranges of n, k or mu that it does not state.
-BY_SCHEME, BY_GRID = "agrees with the paper's scheme", "agrees on a grid"
+__all__ = ["PAPER_VALUES", "judged"]
 
 Number = tuple[float, float]
 
@@ -92,72 +88,6 @@ _DIRECT: dict[str, Callable[[PaperValue], Number]] = {
 }
 
 
-def explained(rows: Sequence[Repeated]) -> str:
-    """Return the verdict on a number that has repetitions.
-
-    Parameters
-    ----------
-    rows : sequence of Repeated
-        Of one number, the converged one first.
-    """
-    converged, *others = rows
-    if converged.verdict == "agrees":
-        return converged.verdict
-    for verdict, stated in ((BY_SCHEME, True), (BY_GRID, False)):
-        if any(row.verdict == "agrees" for row in others if row.stated == stated):
-            return verdict
-    return converged.verdict
-
-
-def cause(rows: Sequence[Repeated], companions: Sequence[Repeated] = ()) -> str:
-    """Return which ingredient gives the printed digits, in a sentence; empty if the first row has them.
-
-    Parameters
-    ----------
-    rows : sequence of Repeated
-        Of one number, the converged one first, then simple ingredients before combined ones.
-    companions : sequence of Repeated
-        Of the numbers that the same computation printed: an ingredient that the paper does not state and that takes
-        the printed digits from one of them is no cause.
-    """
-    converged, *others = rows
-    if converged.verdict == "agrees":
-        return ""
-    stated = [row for row in others if row.stated]
-    reproducing = [row for row in stated if row.verdict == "agrees"] or [
-        row for row in stated if row.verdict in REPRODUCED and converged.verdict == "differs"
-    ]
-    if reproducing:
-        sentence = f"reproduced by {_with_value(reproducing[0])}"
-        against = stated[0]
-        # The plainest statement of the paper, the size of the domain, may increase the difference.
-        known = against.verdict in REPRODUCED or against.ingredient in sentence
-        return sentence if known else f"{sentence}; {_alone(against)}"
-    unstated = [row for row in others if row.verdict in (REPRODUCED if converged.verdict == "differs" else ("agrees",))]
-    against_another = {row.ingredient: row for row in companions if not row.stated and row.verdict not in REPRODUCED}
-    elsewhere = " or ".join(_with_value(row) for row in unstated if row.ingredient not in against_another)
-    contradicted = "".join(
-        f"; not {_with_value(row)}, which gives {abs(other.value):.5g} for the printed {other.paper_value.text}"
-        for row in unstated
-        for other in [against_another.get(row.ingredient)]
-        if other is not None
-    )
-    plain = f"; {_alone(stated[0])}" if stated else ""
-    if not elsewhere:
-        nearest = min(others, key=lambda row: abs(abs(row.value) - converged.paper_value.value))
-        return f"not reproduced; nearest is {_with_value(nearest)}{plain}"
-    return f"nothing the paper states gives it; these do: {elsewhere}{contradicted}{plain}"
-
-
-def _with_value(row: Repeated) -> str:
-    truncated = f", {TRUNCATED}" if row.verdict == TRUNCATED else ""
-    return f"{row.ingredient} ({abs(row.value):.5g}{truncated})"
-
-
-def _alone(row: Repeated) -> str:
-    return f"{row.ingredient} alone gives {abs(row.value):.5g}"
-
-
 def _tables(results: Results) -> Tables:
     again = repeated(results)
     rows = [judged(paper_value, results, again) for paper_value in paper_values()]
@@ -167,7 +97,6 @@ def _tables(results: Results) -> Tables:
 def judged(paper_value: PaperValue, results: Results, again: Sequence[Repeated]) -> dict[str, str | float]:
     """Return the row of a paper value; `again` holds the repetitions of the values that have any."""
     rows = [row for row in again if row.paper_value == paper_value]
-    companions = [row for row in again if _same_shape(row.paper_value, paper_value)]
     mu = math.nan
     if rows:
         computed, u, mu = rows[0].value, rows[0].u, rows[0].mu
@@ -189,15 +118,17 @@ def judged(paper_value: PaperValue, results: Results, again: Sequence[Repeated])
         "computed": computed,
         "u": u,
         "at_mu": mu,
-        "verdict": explained(rows) if rows else paper_value.verdict(size, u),
+        "verdict": paper_value.verdict(size, u),
         "difference": size - paper_value.value,
-        "cause": cause(rows, companions) if rows else "",
+        **_of_scheme(rows),
     }
 
 
-def _same_shape(one: PaperValue, other: PaperValue) -> bool:
-    """Whether two numbers are errors of two models at one shape: both came from one FSCM computation."""
-    return one != other and one.quantity == other.quantity and bool(one.model) and (one.n, one.k) == (other.n, other.k)
+def _of_scheme(rows: Sequence[Repeated]) -> dict[str, str | float]:
+    """Return what the scheme of the figure gives, and the verdict on that; empty for a number without a scheme."""
+    for row in (row for row in rows if row.scheme):
+        return {"scheme": row.ingredient, "by_scheme": row.value, "u_scheme": row.u, "scheme_verdict": row.verdict}
+    return {"scheme": "", "by_scheme": math.nan, "u_scheme": math.nan, "scheme_verdict": ""}
 
 
 def readable(table: pd.DataFrame) -> pd.DataFrame:
@@ -209,6 +140,9 @@ def readable(table: pd.DataFrame) -> pd.DataFrame:
 
     def computed(row: pd.Series) -> str:
         return in_unit(value_text(row["computed"], row["u"]), row["unit"])
+
+    def by_scheme(row: pd.Series) -> str:
+        return in_unit(value_text(row["by_scheme"], row["u_scheme"]), row["unit"]) if row["scheme"] else ""
 
     def difference(row: pd.Series) -> str:
         small = abs(row["difference"]) <= LEAST_SHOWN
@@ -226,18 +160,21 @@ def readable(table: pd.DataFrame) -> pd.DataFrame:
             "computed": table.apply(computed, axis=1),
             "verdict": table["verdict"],
             "difference": table.apply(difference, axis=1),
-            "cause": table["cause"],
+            "scheme": table["scheme"],
+            "by scheme": table.apply(by_scheme, axis=1),
+            "verdict by scheme": table["scheme_verdict"],
         }
     )
 
 
 _TITLE = "Numbers printed in the paper, computed again"
 _NOTES = (
-    "In brackets: a bound on the error in units of the last digit, at least 5e-10. Difference: of the sizes. Agrees if "
-    "truncated: the digits agree if further ones are dropped. In the causes f(r_max) is the height of the punch, in "
-    "z0, where the paper's integration ends, and sigma_0 the cohesive stress. Agrees with the paper's scheme: "
-    "the digits follow from what the paper states of its computation. Agrees on a grid: they follow from steps or "
-    "ranges of n, k or mu that the paper does not state."
+    "In brackets: a bound on the error in units of the last digit, at least 5e-10. Difference: of the sizes. The "
+    "verdict is on the converged number, as in a run. Agrees if truncated: the digits agree if further ones are "
+    "dropped. "
+    "Scheme: one for all numbers of a figure, with the number and the verdict that it gives. Of Fig. 16(b) it is the "
+    "paper's own: f(r_max) is the height of the punch, in z0, where its integration ends, and sigma_0 the cohesive "
+    "stress. Of Fig. 11 it is a grid that the paper does not state."
 )
 
 
@@ -254,7 +191,7 @@ def _shown(tables: Tables) -> FittedTable:
 PAPER_VALUES = PaperFigure(
     name="numbers",
     stem="paper_values",
-    title="Numbers that the paper prints, a verdict on each, and the ingredients that change those that differ",
+    title="Numbers that the paper prints, a verdict on each, and what one scheme for each figure gives",
     tasks=_tasks,
     tables=_tables,
     draw=None,

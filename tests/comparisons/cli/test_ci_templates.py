@@ -70,7 +70,7 @@ def refused(schema, *paths, more=()):
 def test_the_files_of_github_and_gitlab_fit_the_published_schemas(tmp_path):
     assert main(["new-model", str(tmp_path / "my-model")]) == 0
     workflows = [*(ROOT / ".github" / "workflows").glob("*.yml"), *tmp_path.rglob("*.yml")]
-    assert len(workflows) == 3
+    assert len(workflows) == 4
     assert refused("github-workflows", *workflows) == ""
     assert refused("github-actions", ACTION) == ""
     assert refused("gitlab-ci", GITLAB, more=["--data-transform", "gitlab-ci"]) == ""
@@ -130,6 +130,8 @@ def shell(script, folder, variables, path=None):
     """Run a script as a CI system does: it ends at the first command that fails."""
     programs = f"{path}:/usr/bin:/bin" if path else f"{Path(sys.executable).parent}:/usr/bin:/bin"
     base = {"PATH": programs, "HOME": str(folder), "OPENBLAS_NUM_THREADS": "1"}
+    # Seeds are below 2^32; identifiers of runs are not.
+    base |= {"GITHUB_RUN_ID": str(2**32 + 17), "CI_PIPELINE_ID": str(2**32 + 18)}
     base |= {name: value for name, value in os.environ.items() if name.startswith("COVERAGE")}
     return subprocess.run(
         ["bash", "--noprofile", "--norc", "-e", "-o", "pipefail", "-c", script],
@@ -158,9 +160,13 @@ def test_the_action_is_whole(action):
     assert named == action["inputs"].keys()
 
 
-def test_every_version_is_pinned(action, job):
-    used = [one["uses"] for one in action["runs"]["steps"] if "uses" in one]
-    assert len(used) == 3
+def test_every_version_is_pinned(action, job, tmp_path):
+    assert main(["new-model", str(tmp_path / "my-model")]) == 0
+    (written,) = tmp_path.rglob("*.yml")
+    author = yaml.safe_load(written.read_text())["jobs"]["judge"]
+    used = [one["uses"] for one in [*action["runs"]["steps"], *author["steps"]] if "uses" in one]
+    assert len(used) == 7
+    assert "latest" not in author["runs-on"]
     assert [name for name in used if not re.fullmatch(r"actions/[a-z-]+@[0-9a-f]{40}", name)] == []
     assert re.fullmatch(r"python:3\.\d+\.\d+-slim-\w+", job["image"])
 
@@ -211,6 +217,33 @@ def test_without_wheels_the_action_installs_its_own_repository(action, tmp_path)
     assert (ACTION.parent / "../../.." / "pyproject.toml").exists()
 
 
+def test_nothing_is_installed_by_its_bare_name(job, tmp_path):
+    """Anybody may register the name in a package index: without an address the job fails before pip runs."""
+    program = stub(tmp_path, "python", 'echo "$@"')
+    script = "\n".join(job["before_script"])
+    done = shell(script, tmp_path, job["variables"], program.parent)
+    assert done.returncode != 0
+    assert done.stdout == ""
+    assert "git+https://" in done.stderr
+    done = shell(script, tmp_path, job["variables"] | {"FSCM_BENCH_PACKAGE": "git+https://a/b/c@v1"}, program.parent)
+    assert done.stdout.splitlines()[0] == "-m pip install git+https://a/b/c@v1"
+    assert main(["new-model", str(tmp_path / "my-model")]) == 0
+    workflow = yaml.safe_load((tmp_path / "my-model" / ".github" / "workflows" / "judge.yml").read_text())
+    (install,) = [one["run"] for one in workflow["jobs"]["judge"]["steps"] if "pip install" in one.get("run", "")]
+    program = stub(tmp_path, "pip", 'echo "$@"')
+    done = shell(install, tmp_path, workflow["env"], program.parent)
+    assert (done.returncode != 0, done.stdout) == (True, "")
+    done = shell(install, tmp_path, {"FSCM_BENCH": "a.whl"}, program.parent)
+    assert done.stdout.splitlines() == ["install a.whl", "install fscm-bench[report] .[test]"]
+
+
+def test_the_keys_of_the_caches_are_admissible(action, job):
+    """GitLab refuses a key with a "/", GitHub one with a comma: an address or a requirement may have them."""
+    assert re.fullmatch(r"[\w-]+", job["cache"]["key"])
+    keys = step(action, "Keep what pip downloads")["with"]
+    assert "inputs.package" not in keys["key"] + keys["restore-keys"]
+
+
 def stub(tmp_path, name, script):
     program = tmp_path / "bin" / name
     program.parent.mkdir(exist_ok=True)
@@ -231,11 +264,22 @@ def test_the_job_ends_with_the_status_of_the_run(action, job, tmp_path, status):
     variables = job["variables"] | {"FSCM_BENCH_MODEL": "a b"}
     assert shell("\n".join(job["script"]), tmp_path, variables, program.parent).returncode == status
     assert (tmp_path / "calls.txt").read_text().splitlines() == [
-        "run --tier quick --model a b --gates my gates.toml --out fscm-bench-results",
+        "run --tier quick --model a b --gates my gates.toml --random 20 --seed 17 --out fscm-bench-results",
         "check-model a",
         "check-model b",
-        "run --tier quick --model a b --out fscm-bench-results",
+        "run --tier quick --model a b --random 20 --seed 18 --out fscm-bench-results",
     ]
+
+
+def test_the_job_has_no_fresh_cases_where_none_are_requested(action, job, tmp_path):
+    program = stub(tmp_path, "fscm-bench", 'echo "$@" >> calls.txt')
+    judge = step(action, "Judge")
+    variables = environment(judge, defaults(action, model="a", random="0"), tmp_path)
+    assert shell(judge["run"], tmp_path, variables, program.parent).returncode == 0
+    variables = job["variables"] | {"FSCM_BENCH_MODEL": "a", "FSCM_BENCH_RANDOM": "0"}
+    assert shell("\n".join(job["script"]), tmp_path, variables, program.parent).returncode == 0
+    assert "--random" not in (tmp_path / "calls.txt").read_text()
+    assert "--seed" not in (tmp_path / "calls.txt").read_text()
 
 
 @pytest.mark.heavy

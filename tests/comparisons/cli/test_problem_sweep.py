@@ -151,17 +151,16 @@ def test_bad_combinations_of_options(capsys, tmp_path):
 
 
 def test_the_folder_has_copies_of_the_problem_file_and_its_tables(tmp_path):
-    problem, tables = tmp_path / "given", tmp_path / "elsewhere"
-    for folder in (problem / "tips", tables):
-        folder.mkdir(parents=True)
+    problem = tmp_path / "given"
+    (problem / "tips").mkdir(parents=True)
     rows = "r [nm],height [nm]\n" + "".join(f"{r},{r * r / 200}\n" for r in range(40))
     text = PAD.read_text().partition("[punch]")
     (problem / "tip.toml").write_text(
         f'{text[0]}[punch]\nkind = "table"\nfile = "tips/a.csv"\n[law]{text[2].partition("[law]")[2]}'
     )
     (problem / "tips" / "a.csv").write_text(rows)
-    (tables / "a.csv").write_text(rows.replace("0,0.0", "0,0.00"))
-    vary = ("--vary", "punch.file=tips/a.csv, ../elsewhere/a.csv")
+    (problem / "a.csv").write_text(rows.replace("1,0.005", "1,0.0051"))
+    vary = ("--vary", "punch.file=tips/a.csv, a.csv")
     for name in ("one", "two"):
         number = {"one": 1, "two": 2}[name]
         options = ("--model", "bradley", "--shard", f"{number}/2", "--quiet")
@@ -169,18 +168,18 @@ def test_the_folder_has_copies_of_the_problem_file_and_its_tables(tmp_path):
     record = read_record(tmp_path / "one" / "run.json")
     assert record["inputs"] == {
         "problem": "inputs/tip.toml",
-        "tables": {"tips/a.csv": "inputs/tips/a.csv", "../elsewhere/a.csv": "inputs/tables/1/a.csv"},
+        "tables": {"tips/a.csv": "inputs/tips/a.csv", "a.csv": "inputs/a.csv"},
     }
-    copies = ["inputs/tip.toml", "inputs/tips/a.csv", "inputs/tables/1/a.csv"]
+    copies = ["inputs/tip.toml", "inputs/tips/a.csv", "inputs/a.csv"]
     assert [name for name in record["files"] if name.startswith("inputs")] == copies
-    given = [problem / "tip.toml", problem / "tips" / "a.csv", tables / "a.csv"]
+    given = [problem / "tip.toml", problem / "tips" / "a.csv", problem / "a.csv"]
     assert [(tmp_path / "one" / name).read_bytes() for name in copies] == [path.read_bytes() for path in given]
     # A merged folder needs the copies alone.
     for path in given:
         path.unlink()
     assert main(["merge", str(tmp_path / "one"), str(tmp_path / "two"), "--out", str(tmp_path / "all"), "--quiet"]) == 0
     assert read_table(tmp_path / "all" / "results.parquet")["status"].tolist() == ["not-applicable"] * 2
-    assert (tmp_path / "all" / "inputs" / "tables" / "1" / "a.csv").exists()
+    assert (tmp_path / "all" / "inputs" / "a.csv").exists()
     # Another sweep of the folder has other copies.
     assert sweep(tmp_path / "one", "--model", "bradley", "--quiet") == 0
     assert [path.name for path in (tmp_path / "one" / "inputs").rglob("*") if path.is_file()] == [PAD.name]

@@ -126,6 +126,10 @@ def test_other_models_may_be_asked(tmp_path):
             "must be the name of a model",
         ),
         (GRID.replace('id = "mine"', "id = 1"), "id = 1 must be a text"),
+        (
+            GRID.replace("mu = [0.5, 2]", f"mu = {list(range(1, 2001))}").replace("[2]", f"{list(range(1, 2001))}"),
+            "grid mine: the lists have 8000000 combinations, more than 1000000",
+        ),
     ],
 )
 def test_what_is_refused(tmp_path, capsys, text, why):

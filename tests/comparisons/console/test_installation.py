@@ -70,6 +70,26 @@ def test_the_program_starts_by_its_own_package(tmp_path):
     assert done.stdout.startswith("usage: fscm-bench")
 
 
+#: Two closed forms beside a third, in two cases.
+FORMS = 'id = "a", title = "A", reference = "bradley", models = ["jkr", "dmt"], quantities = ["pull_off_force"]'
+GRID = f"grid = [{{ {FORMS}, n = [2], k = [0, 0.4], mu = [1] }}]"
+
+
+@pytest.mark.parametrize("package", ["comparisons", "fscm_bench"])
+def test_no_module_of_the_working_folder_is_imported_by_any_process_of_the_program(tmp_path, package):
+    """Of the standard library, of a dependency, and of this program; started by ``python -m``, with two workers."""
+    for name in ("typing", "random", "signal", "socket", "pickle", "pandas", "mpmath", "fem_reference"):
+        (tmp_path / f"{name}.py").write_text(f"open({str(tmp_path / 'imported')!r}, 'a').write({name!r})\n1 / 0")
+    (tmp_path / "grid.toml").write_text(GRID)
+    search = os.pathsep.join([str(ROOT), str(ROOT / "comparisons" / "start_entry")])
+    done = subprocess.run(
+        [sys.executable, "-m", package, "sweep", "grid.toml", "--jobs", "2", "--out", "out"],
+        cwd=tmp_path, env=os.environ | {"PYTHONPATH": search}, capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert not (tmp_path / "imported").exists()
+
+
 def test_a_missing_package_of_an_extra_is_one_sentence(capsys):
     def command():
         raise ModuleNotFoundError("No module named 'bokeh.core'", name="bokeh.core")

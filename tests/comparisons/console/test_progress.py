@@ -1,9 +1,14 @@
 """Time left of a computation: it only falls."""
 
+import math
+
+import pandas as pd
 import pytest
 from rich.progress import Progress
 
-from comparisons.console.progress import _TimeLeft, counting
+from comparisons.cli.options import for_terminal, output
+from comparisons.console.progress import _TimeLeft, counting, log, note
+from comparisons.output.tables import rich_table
 
 
 class Clock:
@@ -49,6 +54,39 @@ def test_without_stated_seconds_it_follows_from_the_steps(clock):
     assert shown(clock, [(2, None), (12, None), (13, None)]) == [18, 18, 18]
     clock.now = 0.0
     assert shown(clock, [(2, None), (3, "between"), (4, None)]) == [18, 17, 16]
+
+
+def test_the_first_of_many_steps_give_no_estimate(clock):
+    column = _TimeLeft()
+    bar = Progress(column, get_time=clock)
+    task = bar.add_task("computing", total=100, left=None, counted=0.0)
+    texts = []
+    for step in range(1, 6):
+        clock.now = 10.0 + step
+        bar.update(task, advance=1, counted=clock.now)
+        texts.append(column.render(bar.tasks[0]).plain)
+    assert texts == ["-:--:--"] * 4 + ["0:04:45"]
+    bar.update(task, advance=1, left=math.inf, counted=clock.now)
+    assert column.render(bar.tasks[0]).plain == "-:--:--"
+
+
+@pytest.mark.parametrize(
+    "write", [log, note, lambda text: output().print(text), lambda text: print(for_terminal([text]))]
+)
+def test_control_characters_do_not_reach_the_terminal(write, capsys):
+    write("fails: \x1b[2J\x1b]0;title\x07 \x9b2K \u202e [red]plain[/] \r gone")
+    shown = "".join(capsys.readouterr())
+    assert "fails" in shown
+    assert "[red]plain[/]" in shown
+    assert [character for character in shown if not character.isprintable() and character != "\n"] == []
+
+
+def test_control_characters_in_a_table_do_not_reach_the_terminal(capsys):
+    output().print(rich_table(pd.DataFrame({"model": ["a\x1b[31m"], "reason": ["b\x9bK c"]}), "title \x1b[1m"))
+    shown = capsys.readouterr().out
+    assert "\\x1b[31m" in shown
+    assert "\x1b" not in shown
+    assert "\x9b" not in shown
 
 
 def test_before_the_first_step_nothing_is_known(clock):

@@ -25,17 +25,30 @@ def test_every_statement_has_a_shipped_verdict():
     assert [row["id"] for row in verdicts()] == [statement.id for statement in paper_statements()]
 
 
-def test_numbers_and_shapes_are_read():
-    (found,) = read_statements(STATEMENT + "stated_n = [2]\narguments = { n = [1, 2] }")
-    assert found.numbers("n") == (1.0, 2.0)
-    assert found.numbers("k") == ()
-    assert [found.beyond(n) for n in found.numbers("n")] == [True, False]
+def test_numbers_and_own_cases_are_read():
+    (statement,) = read_statements(STATEMENT + "own = { n = [2], mu = [1, 3] }\narguments = { n = [1, 2] }")
+    assert statement.numbers("n") == (1.0, 2.0)
+    assert statement.numbers("k") == ()
+    cases = [{"n": 1.0, "mu": 1.0}, {"n": 2.0, "k": 0.6, "mu": 3.0}, {"n": 2.0, "mu": 2.0}, {"n": 2.0, "k": 0.4}]
+    assert [statement.is_own(case) for case in cases] == [False, True, False, True]
+    assert [statement.is_beyond(case) for case in cases] == [True, False, True, False]
+
+
+def test_what_is_stated_in_general_has_no_case_beyond_it():
+    (statement,) = read_statements(STATEMENT + "own = { n = [2] }\ngeneral = true")
+    assert statement.is_own({"n": 2.0})
+    assert not statement.is_own({"n": 1.0})
+    assert not statement.is_beyond({"n": 1.0})
+    (without_cases,) = read_statements(STATEMENT)
+    assert not without_cases.is_own({"n": 2.0})
+    assert not without_cases.is_beyond({"n": 2.0})
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
         (STATEMENT.replace('test = "trend"\n', ""), r"statement a: test missing; a statement has id, "),
+        (STATEMENT + "own = { nu = [0.3] }", r"unknown key 'nu'"),
         (STATEMENT + 'tests = "trend"', r"statement a: unknown key 'tests': did you mean test"),
         (STATEMENT.replace('"a"', '"A b"'), r"statement 1 \(id = 'A b'\): id = 'A b' must be lower-case words"),
         (STATEMENT.replace("fscm-bench list", "rm -r"), r"command = .* must be one or more commands fscm-bench"),

@@ -1,5 +1,7 @@
 """External models whose numbers changed under the same version."""
 
+from pathlib import Path
+
 import pytest
 
 from comparisons.cli.main import main
@@ -57,6 +59,7 @@ min_cases = 4
 tier = "quick"
 """
 TASKS = 8
+PAD = Path(__file__).parents[3] / "docs" / "examples" / "problems" / "graded_pad.toml"
 BODY = "return Result(float(Path({data!r}).read_text()), 0.0)"
 
 
@@ -152,3 +155,54 @@ def test_what_was_hashed_is_in_the_record(write_model):
             "hashed": "its folder, 3 files",
         }
     }
+
+
+@pytest.fixture
+def sweep_problem(write_model, tmp_path, tmp_path_factory, capsys):
+    """Return a function that writes the data the model reads, sweeps over a problem file, and returns its messages."""
+    data = tmp_path_factory.mktemp("elsewhere") / "data.txt"
+    options = ["--vary", "punch.R=1:4:4 um", "--jobs", "1", "--out", str(tmp_path / "out")]
+
+    def go(text):
+        data.write_text(text)
+        close_models()
+        spec = write_model(BODY.format(data=str(data)))
+        capsys.readouterr()
+        models = ["--model", spec, "jkr", "--quantity", "pull_off_force", "pull_off_displacement"]
+        status = main(["sweep", "--problem", str(PAD), *options, *models])
+        return status, capsys.readouterr().err
+
+    return go
+
+
+def test_old_rows_of_a_sweep_over_a_problem_file_do_not_stand(sweep_problem, tmp_path):
+    def dimensionless():
+        table = read_table(tmp_path / "out" / "results.parquet")
+        return table.loc[table["model"] == "stranger", "dimensionless_value"].tolist()
+
+    def again():
+        record = read_record(tmp_path / "out" / "run.json")
+        return record.get("evaluated_again", {"models": {"stranger": None}})["models"]["stranger"]
+
+    assert sweep_problem("2.0")[0] == 0
+    assert again() is None
+    status, messages = sweep_problem("2.0")
+    assert status == 0
+    assert "0 computations" in messages
+    assert again()["same"]
+    assert len(again()["tasks"]) == 3
+    assert {task["quantity"] for task in again()["tasks"]} == {"pull_off_force", "pull_off_displacement"}
+    assert {name for task in again()["tasks"] for name in task["parameters"]} == {"punch.R [m]"}
+    status, messages = sweep_problem("3.0")
+    assert status == 0
+    assert "stranger has changed" in messages
+    # All of this model, and none of the other.
+    assert "8 computations, 8 are stored" in messages
+    assert dimensionless() == pytest.approx([3.0] * 8)
+    assert not again()["same"]
+    # A model that fails now.
+    status, messages = sweep_problem("three")
+    assert status == 4
+    assert "is failed" in messages
+    assert sweep_problem("2.0")[0] == 0
+    assert dimensionless() == pytest.approx([2.0] * 8)

@@ -141,6 +141,11 @@ def test_a_model_of_physical_quantities_does_not_depend_on_units(write_model, fo
         assert findings["is of the right size"].status == "ok"
 
 
+def test_units_are_checked_of_physical_models_alone(write_model, write_data):
+    for spec in (write_model(RIGHT), str(write_data())):
+        assert found(spec)["does not depend on units"].status == "not checked"
+
+
 def test_poissons_ratio_reaches_a_physical_model(write_model, capsys):
     formula = "1.5 * math.pi * R * w * (1 + problem.nu)"
     spec = write_model("return None", more=PHYSICAL.format(formula=formula))

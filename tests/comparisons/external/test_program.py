@@ -168,6 +168,19 @@ def test_a_program_that_describes_no_model_cannot_be_loaded(write_program, descr
         create(write_program(ok(), describe))
 
 
+@pytest.mark.parametrize("mode", [0o644, 0o755])
+def test_a_bare_table_is_told_how_to_be_data(tmp_path, monkeypatch, mode):
+    """With and without a separator in the SPEC, and on a file system that marks every file as executable."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.csv").write_text("quantity,n,k,mu,value,u_num\n")
+    (tmp_path / "mine.csv").chmod(mode)
+    for spec in ("mine.csv", "./mine.csv", str(tmp_path / "mine.csv")):
+        with pytest.raises(ValueError, match=r"model\.toml") as refusal:
+            source_of(spec)
+        assert "executable" not in str(refusal.value)
+        assert spec in str(refusal.value)
+
+
 def test_what_is_no_program_is_wrong_input(write_program, tmp_path):
     with pytest.raises(ValueError, match=r"cannot be started .*whose first line"):
         create(write_program("", text="no program\n"))

@@ -61,7 +61,7 @@ def test_its_gate_is_a_gate(package):
 def test_the_workflow_knows_the_exit_statuses(package):
     text = (package / ".github" / "workflows" / "judge.yml").read_text()
     assert "fscm-bench check-model my-model" in text
-    assert "fscm-bench run --model my-model --gates gates.toml --out results" in text
+    assert "fscm-bench run --model my-model --gates gates.toml $fresh --out results" in text
     assert f'"$status" -eq {INCONCLUSIVE}' in text
     # It has a message of its own and fails the job all the same.
     assert "exit 0" not in text
@@ -85,13 +85,17 @@ def test_the_workflow_ends_with_the_status_of_the_run(package, tmp_path, status)
     end = next(i for i in range(start, len(lines)) if lines[i].strip() == 'exit "$status"')
     program = tmp_path / "bin" / "fscm-bench"
     program.parent.mkdir()
-    program.write_text(f"#!/bin/sh\nexit {status}\n")
+    program.write_text(f'#!/bin/sh\necho "$@"\nexit {status}\n')
     program.chmod(0o755)
     script = "\n".join(line.strip() for line in lines[start : end + 1])
     done = subprocess.run(
-        ["sh", "-e", "-c", script], env={"PATH": f"{program.parent}:/usr/bin:/bin"}, capture_output=True, text=True
+        ["sh", "-e", "-c", script],
+        env={"PATH": f"{program.parent}:/usr/bin:/bin", "GITHUB_RUN_ID": str(2**32 + 17)},
+        capture_output=True,
+        text=True,
     )
     assert done.returncode == status
+    assert "--random 20 --seed 17" in done.stdout
     assert ("::error::inconclusive" in done.stdout) == (status == INCONCLUSIVE)
 
 

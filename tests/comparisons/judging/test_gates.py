@@ -260,7 +260,7 @@ def test_line_ends_in_a_text_become_spaces():
     assert gate.grounds == "A limit, of Eq. 51 for k = 0."
 
 
-@pytest.mark.parametrize("text", ["gate = [1]", "gate = [[]]", "gate = 1", "", "[[gate]", "\ufeff" + GATE])
+@pytest.mark.parametrize("text", ["gate = [1]", "gate = [[]]", "gate = 1", "", "[[gate]"])
 def test_a_file_of_another_shape_is_refused_by_its_name(text, tmp_path, capsys):
     (tmp_path / "mine.toml").write_text(text)
     assert main(["run", "--gates", str(tmp_path / "mine.toml"), "--out", str(tmp_path / "out")]) == 2

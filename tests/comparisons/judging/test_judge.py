@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from comparisons.domain import Domain
 from comparisons.judging.decision import roll_up
 from comparisons.judging.gates import load_gates
 from comparisons.judging.judge import judge
@@ -487,3 +488,19 @@ def test_judging_twice_gives_the_same_and_touches_nothing():
     first, second = (judge(load_gates(GATE), GRIDS, rows) for _ in range(2))
     pd.testing.assert_frame_equal(first, second)
     pd.testing.assert_frame_equal(rows, before)
+
+
+COVERED = GATE.replace("min_cases = 4", "min_cases = 1") + 'not_applicable = "leave-out"\nmin_coverage = 1\n'
+
+
+@pytest.mark.parametrize(("no_event", "refused", "failures"), [(0, 0, 0), (2, 0, 0), (0, 1, 1), (2, 1, 1)])
+def test_a_case_without_an_event_is_covered_and_a_refused_one_is_not(no_event, refused, failures):
+    """There is no event where the reference has no value either."""
+    rows = results(jkr=1.0, fscm=1.0)
+    of_jkr, of_fscm = (rows.index[rows["model"] == model] for model in ("jkr", "fscm"))
+    rows.loc[[*of_jkr[: no_event + refused], *of_fscm[:no_event]], "status"] = "not-applicable"
+    judged = judge(load_gates(COVERED), GRIDS, rows, domains={"jkr": Domain.of({"quantities": ["pull_off_force"]})})
+    assert (judged["status"] == "no-event").sum() == no_event
+    # The gate as a whole, for its coverage.
+    assert judged["n"].isna().sum() == failures
+    assert roll_up(judged["verdict"]) == ("FAIL" if failures else "PASS")

@@ -54,6 +54,12 @@ def test_printed_values(n: float, printed: float) -> None:
     assert round(Bradley().evaluate(Problem(n, 0.0, 1.0), "pull_off_force").value, 3) == printed
 
 
+@pytest.mark.parametrize("n", SHAPES)
+def test_the_gradient_exponent_has_no_influence(n: float) -> None:
+    forces = {Bradley().evaluate(Problem(n, k, 1.0), "pull_off_force").value for k in (0.0, 0.4, 0.6)}
+    assert len(forces) == 1
+
+
 def test_paraboloid_is_two_at_zero_displacement() -> None:
     force = Bradley().evaluate(Problem(2, 0.4, 3.0), "pull_off_force")
     place = Bradley().evaluate(Problem(2, 0.4, 3.0), "pull_off_displacement")

@@ -3,11 +3,13 @@
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from comparisons.output.figures import curves, kappa
+from comparisons.output.figures import comparison, curves, kappa
 from comparisons.output.figures.registry import FIGURES, figures_of
 from comparisons.output.style import FORMATS, save
 from comparisons.quantities import CURVES, Points
+from comparisons.registry import MODELS
 
 
 def errors():
@@ -99,3 +101,17 @@ def test_the_same_data_give_the_same_bytes(tmp_path, suffix):
 def test_an_unknown_format_is_refused(tmp_path):
     with pytest.raises(ValueError, match=r"\.png, \.pdf, \.svg"):
         save(kappa.draw(errors()), tmp_path / "a.gif")
+
+
+def test_the_legend_of_a_comparison_of_many_models_is_inside_the_figure():
+    models = [name for name in MODELS if name != "fscm"]
+    case = {"quantity": "pull_off_force", "reference": "fscm", "n": 2.0, "k": 0.0, "u_kappa": 1e-9}
+    table = pd.DataFrame([case | {"model": name, "mu": mu, "kappa": 0.1} for name in models for mu in (0.1, 1.0)])
+    figure = comparison.draw(table)
+    FigureCanvasAgg(figure).draw()
+    (legend,) = figure.legends
+    box, whole = legend.get_window_extent(), figure.bbox
+    assert whole.x0 <= box.x0 < box.x1 <= whole.x1
+    assert whole.y0 <= box.y0 < box.y1 <= whole.y1
+    drawn = [(line.get_color(), line.get_marker()) for line in legend.get_lines()]
+    assert len(set(drawn)) == len(models)

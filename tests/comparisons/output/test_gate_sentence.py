@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from comparisons.output.gate_sentence import gates_sentence
-from comparisons.output.report.headline import headline
+from comparisons.output.report.headline import gates_of
 from comparisons.output.run_summary import gates_line, paper_sentence
 
 
@@ -48,13 +48,13 @@ def test_terminal_and_report_say_the_same(basis):
     gates = summary("PASS", "XFAIL", "XFAIL", "FAIL")
     required = pd.DataFrame({"id": gates["gate"], "basis": basis})
     terminal = gates_line(gates, gates, dict(zip(required["id"], required["basis"], strict=True)))
-    report = headline(SimpleNamespace(judged=True, summary=gates, gates=required))
+    report = gates_of(SimpleNamespace(judged=True, summary=gates, gates=required))
     assert terminal == f"{report} (4 cases: 1 PASS, 2 XFAIL, 1 FAIL)"
 
 
-def test_a_folder_without_stored_gates_has_a_headline():
+def test_a_folder_without_stored_gates_has_a_sentence():
     stored = SimpleNamespace(judged=True, summary=summary("XFAIL"), gates=None)
-    assert headline(stored) == "0 of 1 gate passes, 1 fails as declared, 0 unexpected"
+    assert gates_of(stored) == "0 of 1 gate passes, 1 fails as declared, 0 unexpected"
 
 
 def test_verbs_on_the_numbers_of_the_paper_agree_with_their_count():

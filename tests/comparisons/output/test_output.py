@@ -3,12 +3,15 @@
 import math
 import re
 from functools import partial
+from html import unescape
 from xml.etree import ElementTree
 
 import pandas as pd
 import pytest
+from markdown_it import MarkdownIt
 
 from comparisons.data.file_names import VERDICT_FILES
+from comparisons.judging.decision import Verdict
 from comparisons.judging.summary import summarise
 from comparisons.numerics.number_text import exact, limits_text, short
 from comparisons.output.junit import evaluation_seconds, junit
@@ -199,6 +202,16 @@ def test_junit_has_the_time_of_each_evaluation():
     assert sum(map(float, suites)) == pytest.approx(0.250001, abs=1e-9)
 
 
+def test_junit_has_an_error_where_no_gate_of_the_user_was_evaluated():
+    card = JUDGED[JUDGED["verdict"] == Verdict.PASS].assign(gate="CARD-DIFFERS")
+    for judged in (card, JUDGED.iloc[:0]):
+        root = ElementTree.fromstring(junit(judged, partial(command, specs={})))
+        assert (root.get("tests"), root.get("errors")) == (str(len(judged) + 1), "1")
+        assert len(root.findall(".//error")) == 1
+    passed = ElementTree.fromstring(junit(JUDGED[JUDGED["verdict"] == Verdict.PASS], partial(command, specs={})))
+    assert passed.get("errors") == "0"
+
+
 def test_the_command_of_a_row():
     assert command(pd.Series(ROW | {"nu": 0.25}), {}) == (
         "fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0.4 --mu 1 --nu 0.25"
@@ -224,3 +237,24 @@ def test_the_files(tmp_path):
     summary = pd.read_parquet(tmp_path / "summary.parquet")
     assert summary.columns.tolist() == summarise(JUDGED).columns.tolist()
     assert summary["verdict"].tolist() == ["ERROR", "FAIL", "INCONCLUSIVE", "XFAIL"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[free coffee](https://example.com)",
+        "![pixel](https://example.com/a.png)",
+        "https://example.com and www.example.com, WWW.example.com",
+        "`code` *emphasis* ~~gone~~ \\",
+        "\\[a](b) \\| c",
+        "<https://example.com> a@example.com",
+    ],
+)
+def test_a_text_is_no_markdown(text):
+    page = markdown(pd.DataFrame({"reason": [text]}), "T")
+    html = MarkdownIt("commonmark").enable(["table", "strikethrough"]).render(page)
+    cell = re.search("<td>(.*)</td>", html)[1]
+    assert unescape(cell.replace("<!-- -->", "")) == text
+    assert "<" not in cell.replace("<!-- -->", "")
+    # What other readers than this one take for an address without any mark.
+    assert not re.search(r"://|www\.|@[a-z]", page, re.IGNORECASE)

@@ -3,17 +3,21 @@
 import itertools
 import json
 import re
+from pathlib import Path
 
 import pytest
 
 from comparisons.cli.main import main
+from comparisons.problem_file.variation import variations
 from comparisons.registry import create
 from comparisons.runs import execution
 from comparisons.runs.cases import load_grids
+from comparisons.runs.problem_tasks import plan_problems
 from comparisons.runs.record import read_record
 from comparisons.runs.shards import Shard
 from comparisons.runs.tasks import plan
 
+PAD = Path(__file__).parents[3] / "docs" / "examples" / "problems" / "graded_pad.toml"
 GRID = """
 [[grid]]
 id = "mine"
@@ -43,7 +47,7 @@ def tables(folder):
     return {name: (folder / name).read_bytes() for name in TABLES}
 
 
-@pytest.mark.parametrize("total", [1, 3, 50])
+@pytest.mark.parametrize("total", [1, 2, 3, 50])
 def test_every_task_is_in_one_shard(toys, total):
     tasks = plan(load_grids(GRID, tier="quick"))
     shards = [Shard(number, total).of(tasks) for number in range(1, total + 1)]
@@ -51,6 +55,30 @@ def test_every_task_is_in_one_shard(toys, total):
     assert max(map(len, shards)) - min(map(len, shards)) <= 2
     # The quantities of one model in one case stay together.
     assert sum(len({(task.model, task.case) for task in shard}) for shard in shards) == 4 * 8
+    for model in {task.model for task in tasks}:
+        counts = [len({task.case for task in shard if task.model == model}) for shard in shards]
+        assert max(counts) - min(counts) <= 1
+    # In every process the same, whatever the order of hashes.
+    assert [Shard(number, total).of(list(tasks)) for number in range(1, total + 1)] == shards
+
+
+def test_the_shards_of_a_problem_sweep_cut_no_path_and_share_the_expensive_model():
+    problems = variations(PAD, ["punch.R=1:5:5 um"])
+    models = {name: (name, "") for name in ("bradley", "fscm", "fem", "jkr")}
+    tasks = plan_problems(problems, models, ("pull_off_force", "jump_in_gap", "jump_out_gap"))
+    shards = [Shard(number, 2).of(tasks) for number in (1, 2)]
+    assert sorted(task.key for shard in shards for task in shard) == sorted(task.key for task in tasks)
+    for shard in shards:
+        for model in models:
+            digests = [task.digest for task in shard if task.model == model]
+            assert len(set(digests)) in (2, 3)
+            assert len(digests) == 3 * len(set(digests))
+    # The fifth problem of the second most expensive model is where the fifth of the most expensive is not.
+    (fem, fscm) = (
+        {len([task for task in shard if task.model == model]): number for number, shard in enumerate(shards)}
+        for model in ("fem", "fscm")
+    )
+    assert fem[9] != fscm[9]
 
 
 def test_merged_shards_are_the_whole_sweep(sweep, tmp_path, capsys):

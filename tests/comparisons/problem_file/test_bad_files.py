@@ -64,12 +64,17 @@ BAD_TEXT = [
     ("not a number", E0, "E0 = nan", ["line 3", "E0 = nan is not a finite number"]),
     ("infinite", E0, "E0 = inf", ["line 3", "E0 = inf is not a finite number"]),
     ("too large", E0, 'E0 = "1e999 GPa"', ["line 3", "is not a finite number"]),
+    ("a length beyond all sizes", R, 'R = "1e200 m"', ["line 11", 'R = "1e200 m"', "1e+20 m"]),
+    ("a layer of no thickness", '"10 nm"', '"1e-200 nm"', ["line 6", 'z_s = "1e-200 nm"', "1e-20 to"]),
     ("huge integer", E0, f"E0 = 1{'0' * 400}", ["line 3", "is not a finite number"]),
     ("exponent with a unit", "k = 0.4", 'k = "0.4"', ["line 5", 'k = "0.4" is a text', "plain number from 0"]),
     ("exponent above 1", "k = 0.4", "k = 1.4", ["line 5", "k = 1.4 must be below 1"]),
     ("incompressible and more", "nu = 0.3", "nu = 0.6", ["line 7", "nu = 0.6 must be at most 0.5"]),
     ("unknown key", "z_s =", "zs =", ["line 6", 'unknown key "zs"', "did you mean z_s?"]),
     ("missing key", 'c0 = "1 um"\n', "", ["line 1", "[solid] c0 is missing", "E0, c0, k, z_s and nu"]),
+    ("right angle", 'kind = "sphere"\nR = "2.5 um"', 'kind = "cone"\nhalf_angle = "90 deg"', ["line 11", "half_angle"]),
+    ("degrees as radians", 'kind = "sphere"\nR = "2.5 um"', 'kind = "cone"\nhalf_angle = 70', ["line 11", "70", "deg"]),
+    ("percent", 'kind = "sphere"\nR = "2.5 um"', 'kind = "cone"\nhalf_angle = "70 percent"', ["line 11", "an angle"]),
     ("unknown kind", '"sphere"', '"sphare"', ["line 10", 'kind = "sphare" is unknown', "did you mean sphere?"]),
     ("no kind", 'kind = "sphere"\n', "", ["line 9", "[punch] has no kind", "write one of sphere"]),
     ("kind of a wrong type", '"sphere"', "3", ["line 10", "kind = 3 is unknown"]),
@@ -81,7 +86,7 @@ BAD_TEXT = [
     ("empty", GOOD, "", ["the section [solid] is missing"]),
     ("punch of another scale", R, 'R = "2.5e6 m"', ["line 11", "6.2e+15 times the range", "check the units"]),
     ("law of another scale", Z0, "z0 = 400.0", ["line 11", "6.3e-09 times the range", "check the units"]),
-    ("modulus of another scale", E0, 'E0 = "2e-30 GPa"', ["Tabor number", "check the values and their units"]),
+    ("modulus of another scale", E0, 'E0 = "2e-25 GPa"', ["Tabor number", "check the values and their units"]),
     ("attraction without end", LAW, LAW.replace("lennard-jones-9-3", "mie") + "m = 9\nn = 1\n", ["n = 1", "above 1"]),
     ("repulsion too weak", LAW, LAW.replace("lennard-jones-9-3", "mie") + "m = 3\nn = 6\n", ["line 13", "repulsion"]),
     (
@@ -134,6 +139,12 @@ BAD_TABLES = [
     ("not a number", SOLID_TABLE, "modulus.csv", "z,E\n0,1\n1,nan\n", ["line 3", "E = nan is not a finite number"]),
     ("word", SOLID_TABLE, "modulus.csv", "z,E\n0,1\n1,soft\n", ["line 3", 'E = "soft" is no number']),
     ("negative", SOLID_TABLE, "modulus.csv", "z,E\n0,1\n1,-2\n", ["line 3", "E = -2 is outside (0, inf)"]),
+    ("huge modulus", SOLID_TABLE, "modulus.csv", "z,E\n0,1\n1,1e300\n", ["line 3", "E = 1e300", "1e+20 Pa"]),
+    ("small modulus", SOLID_TABLE, "modulus.csv", "z,E\n0,1\n1,1e-300\n", ["line 3", "E = 1e-300", "1e-20 to"]),
+    ("huge depth", SOLID_TABLE, "modulus.csv", "z [nm],E\n0,1\n1e300,2\n", ["line 3", "z = 1e300", "1e+20 m"]),
+    ("huge height", PUNCH_TABLE, "profile.csv", "r,height\n0,0\n1e-6,1e300\n", ["line 3", "height = 1e300"]),
+    ("huge radius", PUNCH_TABLE, "profile.csv", "r,height\n0,0\n1e300,1\n", ["line 3", "r = 1e300"]),
+    ("huge traction", LAW_TABLE, "law.csv", "gap,traction\n1e-10,1e300\n", ["line 2", "traction = 1e300"]),
     ("short row", SOLID_TABLE, "modulus.csv", "z,E\n0,1\n1\n", ["line 3", "1 values for 2 columns"]),
     ("unknown column", SOLID_TABLE, "modulus.csv", "z,Emod\n0,1\n", ["line 1", 'unknown column "Emod"', "columns are"]),
     ("missing column", SOLID_TABLE, "modulus.csv", "z\n0\n", ["line 1", "the column E is missing"]),
@@ -200,6 +211,47 @@ def test_a_folder(tmp_path, capsys):
     refused(tmp_path, capsys, "pad.toml: the problem file cannot be read")
 
 
+@pytest.mark.parametrize(
+    "name", ["../theirs.csv", "{folder}/theirs.csv", "link.csv", "tables/../../theirs.csv", "linked/a"]
+)
+def test_a_table_outside_the_folder_is_neither_read_nor_shown(name, tmp_path, capsys):
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    secret = "first line of theirs"
+    for path in (tmp_path / "theirs.csv", tmp_path / "a"):
+        path.write_text(f"{secret}\n1,2\n")
+    (folder / "link.csv").symlink_to(tmp_path / "theirs.csv")
+    (folder / "linked").symlink_to(tmp_path)
+    name = name.format(folder=tmp_path)
+    (folder / "pad.toml").write_text(GOOD.replace(SOLID, SOLID_TABLE.replace("modulus.csv", name)))
+    error = refused(folder, capsys, "line 3", f'file = "{name}"'[:40], "is not in the folder")
+    assert secret not in error
+
+
+def test_a_table_in_a_folder_below_is_read(tmp_path):
+    (tmp_path / "tables").mkdir()
+    (tmp_path / "tables" / "a.csv").write_text("z,E\n0,1e9\n1e-8,2e9\n")
+    (tmp_path / "tables" / "link.csv").symlink_to(tmp_path / "tables" / "a.csv")
+    for name in ("tables/a.csv", "./tables/link.csv"):
+        (tmp_path / "pad.toml").write_text(GOOD.replace(SOLID, SOLID_TABLE.replace("modulus.csv", name)))
+        assert load_problem(tmp_path / "pad.toml").solid.columns["E"] == (1e9, 2e9)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("z_s", "z" * 3_000_000),
+        ("[law]", f"[{'l' * 3_000_000}]"),
+        ('"2 GPa"', f'"2 {"G" * 3_000_000}Pa"'),
+        ('"sphere"', f'"{"s" * 3_000_000}"'),
+    ],
+    ids=["key", "section", "unit", "kind"],
+)
+def test_a_word_of_megabytes(old, new, tmp_path, capsys):
+    (tmp_path / "pad.toml").write_text(GOOD.replace(old, new, 1))
+    assert len(refused(tmp_path, capsys, "pad.toml", "3000")) < 500
+
+
 def test_the_standard_input(capsys):
     assert main(["describe", "-"]) == 2
     assert capsys.readouterr().err == (
@@ -252,6 +304,18 @@ def test_values_are_those_in_si(tmp_path):
 def test_units_of_a_work_of_adhesion(text, tmp_path):
     (tmp_path / "pad.toml").write_text(GOOD.replace("50 mJ/m^2", text))
     assert math.isclose(load_problem(tmp_path / "pad.toml").law["work_of_adhesion"], 0.05, rel_tol=1e-15)
+
+
+@pytest.mark.parametrize("text", ["70 deg", "70°", "70 degree", "1.2217304763960306 rad", "4200 arcmin", "7e1 deg"])
+def test_units_of_an_angle(text, tmp_path):
+    (tmp_path / "pad.toml").write_text(GOOD.replace(PUNCH, f'[punch]\nkind = "cone"\nhalf_angle = "{text}"\n\n'))
+    assert math.isclose(load_problem(tmp_path / "pad.toml").punch["half_angle"], math.radians(70.0), rel_tol=1e-15)
+
+
+def test_a_factor_that_is_no_power_of_ten_keeps_its_digits(tmp_path):
+    """An inch is 0.0254 m: its inverse is no whole number."""
+    (tmp_path / "pad.toml").write_text(GOOD.replace("2.5 um", "1e-4 inch"))
+    assert math.isclose(load_problem(tmp_path / "pad.toml").punch["R"], 2.54e-6, rel_tol=1e-15)
 
 
 def test_columns_have_units(tmp_path):

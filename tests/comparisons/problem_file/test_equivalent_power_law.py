@@ -169,7 +169,7 @@ def test_describe_states_the_equivalent_and_its_error(capsys):
     text = capsys.readouterr().out
     page = (EXAMPLES.parents[1] / "problem_files.md").read_text(encoding="utf-8")
     lines = text.splitlines()
-    first = next(place for place, line in enumerate(lines) if "equivalent power law" in line)
+    first = next(place for place, line in enumerate(lines) if "equivalent power law E0" in line)
     for line in lines[first : first + 7]:
         assert line.partition("(")[0] in page
     assert "equivalent power law E0 (z/c0)^k: E0 = 1.786 GPa, c0 = 8.061 nm, k = 0.4029, nu = 0.3\n" in text
@@ -181,6 +181,6 @@ def test_describe_states_the_equivalent_and_its_error(capsys):
     assert force["error"] == pytest.approx(force["value"] / found["pull_off_force"]["value"] - 1.0, abs=1e-12)
     closed = found["equivalent_power_law"]["closed_forms"]
     assert [f"{one['model']}" for one in closed] == [line.split()[0] for line in lines[first + 5 : -1]]
-    assert found["equivalent_power_law"]["closed_form_within"] == {"1 %": "md-original", "5 %": "md-original"}
-    assert lines[-1] == "    within 1 %: md-original; within 5 %: md-original"
+    assert found["equivalent_power_law"]["closed_form_within"] == {"1 %": "jkr", "5 %": "jkr"}
+    assert lines[-1] == "    within 1 %: jkr; within 5 %: jkr"
     assert {"E0", "c0", "k", "nu", "free_k", "lengths", "compliance_deviation"} < found["equivalent_power_law"].keys()

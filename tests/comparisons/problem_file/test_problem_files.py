@@ -2,8 +2,10 @@
 
 import json
 import math
+from dataclasses import replace
 from itertools import product
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,11 +15,13 @@ import fem_reference
 import fscm
 from comparisons import evaluate_problem, load_problem
 from comparisons.cli.main import main
+from comparisons.model import Result
 from comparisons.problem_file.dimensionless import dimensionless_problem
 from comparisons.problem_file.evaluation import model_for, points_of
 from comparisons.problem_file.finite_elements import body_of
 from comparisons.problem_file.form import _schema, kinds
 from comparisons.problem_file.punch_shapes import RoundedFlat, SmoothedProfile
+from comparisons.quantities import QUANTITIES
 from tests.fem_reference.solved_together import COARSEST, pull_off_on_the_coarsest_mesh
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
@@ -28,6 +32,7 @@ FEW_DIGITS = 1e-6
 SECTIONS = {
     "solid": {
         "power-law": 'E0 = "1 GPa"\nc0 = "100 nm"\nk = 0.3\nnu = 0.3',
+        "homogeneous": 'E = "1 GPa"\nnu = 0.3',
         "offset-power-law": 'E0 = "1 GPa"\nc0 = "100 nm"\nk = 0.3\nz_s = "10 nm"\nnu = 0.3',
         "exponential": 'E_surface = "1 GPa"\nE_depth = "3 GPa"\nlength = "10 nm"\nnu = 0.3',
         "coating": 'E_coating = "1 GPa"\nE_substrate = "3 GPa"\nthickness = "10 nm"\ntransition = "1 nm"\n'
@@ -36,6 +41,7 @@ SECTIONS = {
     },
     "punch": {
         "sphere": 'R = "100 nm"',
+        "cone": 'half_angle = "70 deg"',
         "power-law": 'n = 3\nQ = "1e4 nm^2"',
         "rounded-cone": 'R = "30 nm"\nslope = 0.5',
         "rounded-flat": 'flat_radius = "5 nm"\nR = "100 nm"',
@@ -89,7 +95,7 @@ def test_both_solvers_have_the_same_problem(solid, punch, law, written):
     # Two splines through the same points differ by rounding alone, the two fits of the tail by the same.
     assert np.allclose(tractions, body.law.traction(gap * units["gap"]), rtol=1e-7, atol=1e-9 * units["traction"])
     assert math.isclose(body.law.work_of_adhesion, units["energy_per_area"], rel_tol=1e-9)
-    if solid != "power-law":
+    if solid not in ("power-law", "homogeneous"):
         z = np.geomspace(1e-10, 1e-6, 30)
         ratio = problem.solid.modulus(z / units["radius"]) / body.solid.modulus(z)
         assert np.allclose(ratio, 1.0, rtol=1e-12)
@@ -106,6 +112,65 @@ def test_the_force_of_the_power_law_is_that_of_the_physical_problem(written):
     assert math.isclose(value.dimensionless["value"], expected.value, rel_tol=1e-12)
     jkr = evaluate_problem(found, "jkr", "pull_off_force")
     assert math.isclose(jkr.value, (3 + 0.3) / 2 * math.pi * 1e-7 * 0.05, rel_tol=1e-12)
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+def test_a_value_and_its_bound_are_in_the_same_unit(written, quantity):
+    found = written(solid="power-law", punch="sphere", law="lennard-jones-9-3")
+    model = SimpleNamespace(name="mine", version="1", evaluate=lambda problem, name: Result(6.0, 2.0))
+    scale = QUANTITIES[quantity].scale
+    unit = 1.0 if scale == "number" else dimensionless_problem(found)[1][scale]
+    value = evaluate_problem(found, model, quantity)
+    assert math.isclose(value.value, 6.0 * unit, rel_tol=1e-14)
+    assert math.isclose(value.u_num, 2.0 * unit, rel_tol=1e-14)
+    if scale != "number":
+        assert math.isclose(value.dimensionless["value"], 6.0, rel_tol=1e-14)
+        assert math.isclose(value.dimensionless["u_num"], 2.0, rel_tol=1e-14)
+
+
+def test_a_model_is_not_evaluated_outside_its_domain(written):
+    found = written(solid="power-law", punch="sphere", law="lennard-jones-9-3")
+    for n, status in (([2, 3], "ok"), ([5, 6], "not-applicable")):
+        table = {"quantities": ["pull_off_force"], "n": n}
+        model = SimpleNamespace(
+            name="mine", version="1", applies_to=table, evaluate=lambda problem, name: Result(6.0, 2.0)
+        )
+        assert evaluate_problem(found, model, "pull_off_force").status == status
+
+
+def test_the_bound_of_the_finite_elements_is_that_of_their_solution(written, monkeypatch):
+    found = written(solid="coating", punch="sphere", law="lennard-jones-9-3")
+    family = (3.0, 2.0, 1.0), (2e-9,) * 3, {"mesh": 5e-12}
+    solution = fem_reference.Solution(2e-9, 5e-12, 1, 1, 0.0, 0.1, 6.0, 6.0, *family)
+    monkeypatch.setattr(fem_reference, "solve", lambda problem, quantity: solution)
+    value = evaluate_problem(found, "fem", "pull_off_force")
+    assert (value.value, value.u_num) == (2e-9, 5e-12)
+
+
+@pytest.mark.parametrize("model", ["fscm", "jkr", "md-improved"])
+def test_a_homogeneous_solid_and_a_cone_are_power_laws(written, tmp_path, model):
+    """E and nu are those of k = 0; r/tan(70 deg) is r^n/(n Q) with n = 1 and Q = tan(70 deg)."""
+    found = written(solid="homogeneous", punch="cone", law="lennard-jones-9-3")
+    assert found.punch["half_angle"] == math.radians(70.0)
+    value = evaluate_problem(found, model, "pull_off_force")
+    text = (tmp_path / "mine.toml").read_text()
+    text = text.replace('kind = "homogeneous"\nE =', 'kind = "power-law"\nc0 = "3 um"\nk = 0\nE0 =')
+    text = text.replace(
+        'kind = "cone"\nhalf_angle = "70 deg"', f'kind = "power-law"\nn = 1\nQ = {math.tan(math.radians(70))!r}'
+    )
+    (tmp_path / "mine.toml").write_text(text)
+    same = evaluate_problem(load_problem(tmp_path / "mine.toml"), model, "pull_off_force")
+    assert value.status == same.status == "ok"
+    assert math.isclose(value.value, same.value, rel_tol=1e-12)
+    assert value.dimensionless is not None
+
+
+def test_the_force_of_a_rigid_cone_grows_with_the_square_of_the_tangent(written, tmp_path):
+    """The radius where the gap has a value is z tan(half_angle)."""
+    found = written(solid="homogeneous", punch="cone", law="lennard-jones-9-3")
+    cones = [replace(found, punch=found.punch.changed("half_angle", math.radians(angle))) for angle in (45, 60)]
+    forces = [evaluate_problem(cone, "bradley", "pull_off_force").value for cone in cones]
+    assert math.isclose(forces[1] / forces[0], 3.0, rel_tol=1e-12)
 
 
 def on_the_coarsest_mesh(problem, quantity):

@@ -79,6 +79,11 @@ def test_each_gate_and_case_is_a_test(small_grid, pytester):
     assert "expected_verdicts.py" not in shown
 
 
+def test_gates_on_no_given_model_are_no_pass(small_grid, pytester):
+    result = run(pytester, gate("OTHERS", "twelve-percent", 0.0, 0.2))
+    result.assert_outcomes(failed=1)
+
+
 def test_one_gate_can_be_chosen_and_the_folder_kept(small_grid, pytester):
     result = run(pytester, EVERY, "-k", "PASSES", "--fscm-bench-out=kept")
     result.assert_outcomes(passed=4, deselected=9)

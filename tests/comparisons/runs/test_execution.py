@@ -1,5 +1,6 @@
 """Execution of tasks: the environment of every row, workers of other code, time left."""
 
+import math
 from dataclasses import replace
 
 import pytest
@@ -66,8 +67,25 @@ def test_the_time_left_only_falls_and_ends_at_zero():
     assert seen == sorted(seen, reverse=True)
     assert seen[-1] == 0.0
     assert all(value > 0 for value in seen[:-1])
-    # Before the first row of the dear model is there, its cost is known in advance.
-    assert seen[19] > 5.0
+    # Before the first row of the dear model is there, nothing is known of its cost.
+    assert seen[:20] == [math.inf] * 20
+    assert math.isfinite(seen[20])
+
+
+def test_the_first_of_many_tasks_give_no_estimate():
+    """A closed form that ends at once while the first task of a solver is at work: the start of a run."""
+    tasks = [Task(model, "pull_off_force", Case(2, 0, mu)) for mu in range(1, 101) for model in ("jkr", "fscm")]
+    row = evaluate_task(tasks[0])
+    time = [2.0]
+    left = TimeLeft(tasks, clock=lambda: time[0])
+    estimates = []
+    for task in tasks[:-2]:
+        time[0] += 0.1 if task.model == "fscm" else 1e-4
+        estimates.append(left.after(replace(row, model=task.model, seconds=0.1 if task.model == "fscm" else 1e-5)))
+    # A twentieth of the rows of both models.
+    assert estimates[:9] == [math.inf] * 9
+    assert 9.0 < estimates[9] < 11.0
+    assert max(estimates[9:]) == estimates[9]
 
 
 def test_a_row_does_not_depend_on_what_its_process_computed_before():

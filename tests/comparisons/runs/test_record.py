@@ -8,7 +8,7 @@ from comparisons.runs.environment import computing_environment, environment
 from comparisons.runs.record import read_record, write_record
 
 GOOD = {
-    "format": 4,
+    "format": 5,
     "command_name": "run",
     "arguments": {
         "tier": "quick",
@@ -26,6 +26,7 @@ GOOD = {
     "rows": {"all": 2, "resumed": 0, "ok": 2},
     "cases_sha256": "0" * 64,
     "gates_sha256": "f" * 64,
+    "models": {"fscm": {"version": "1", "citation": "none", "domain": "all"}},
     "verdicts": {"all": "PASS", "PASS": 2},
     "parts": [{"started": "2026-01-01T00:00:00+00:00", "seconds": 9.0, "computations": 2, **computing_environment()}],
 }

@@ -35,11 +35,10 @@ const Plots = (() => {
     const one = { plot, figure, drawn, hovers, zero, layers: {}, dark: Theme.dark() };
     made[plot.id] = one;
 
-    figure.querySelectorAll("select, .models input").forEach((control) => control.addEventListener("change", () => {
-      choose(one);
-    }));
+    figure.querySelectorAll("select").forEach((control) => control.addEventListener("change", () => choose(one, true)));
+    figure.querySelectorAll(".models input").forEach((control) => control.addEventListener("change", () => choose(one)));
     figure.querySelectorAll("[data-zoom]").forEach((button) => button.addEventListener("click", () => move(one, button.dataset.zoom)));
-    choose(one);
+    choose(one, true);
     Theme.follow((dark) => paint(one, dark));
     return Bokeh.Plotting.show(drawn, canvas);
   }
@@ -110,16 +109,22 @@ const Plots = (() => {
     return (one.layers[group] = layers);
   }
 
-  function choose(one) {
+  // Models at first shown of a choice that has none of those switched on.
+  const SHOWN_AT_FIRST = 5;
+
+  function choose(one, other = false) {
     const group = Array.from(one.figure.querySelectorAll("select"), (select) => select.value).join("|");
-    const on = new Set(Array.from(one.figure.querySelectorAll(".models input:checked"), (input) => input.value));
     const chosen = layersOf(one, group);
+    const boxes = Array.from(one.figure.querySelectorAll(".models input"));
+    const present = boxes.filter((input) => chosen.some(({ series }) => series.model === input.value));
+    if (other && !present.some((input) => input.checked)) for (const input of present.slice(0, SHOWN_AT_FIRST)) input.checked = true;
+    const on = new Set(boxes.filter((input) => input.checked).map((input) => input.value));
     for (const layer of Object.values(one.layers).flat()) {
       const visible = layer.series.group === group && on.has(layer.series.model);
       for (const renderer of layer.renderers) renderer.visible = visible;
     }
     const here = new Set(chosen.map(({ series }) => series.model));
-    for (const input of one.figure.querySelectorAll(".models input")) input.closest("label").hidden = !here.has(input.value);
+    for (const input of boxes) input.closest("label").hidden = !here.has(input.value);
     one.figure.querySelector(".empty").hidden = here.size > 0;
     const words = Array.from(one.figure.querySelectorAll(".choices label"), (label) =>
       `${label.firstChild.textContent.trim()}: ${label.querySelector("select").selectedOptions[0]?.textContent ?? ""}`);

@@ -136,7 +136,7 @@ def write_run(folder: Path) -> Path:
     write_record(
         environment()
         | {
-            "format": 4,
+            "format": 5,
             "command_name": "run",
             "arguments": {
                 "tier": "quick",

@@ -89,6 +89,8 @@ def test_values_are_read_off_after_every_choice(opened, whole):
 def test_every_model_of_a_standing_run_is_read_off(browser, standing, every):
     """Of the light test, every third and the last."""
     show(browser, standing, *DESKTOP)
+    others = "#plot-kappa .models input:not(:checked)"
+    browser.execute_script("document.querySelectorAll(arguments[0]).forEach((box) => box.click())", others)
     points = browser.execute_script(POINTS, "plot-kappa", choices(browser, "plot-kappa")[0])
     assert len(points) >= 8
     for label, hover, right, down in points[::-every]:

@@ -107,7 +107,7 @@ def record(**other):
 
 def entry(record, kappa=(), results=None, planned=None):
     columns = ["quantity", "model", "n", "k", "mu", "nu", "reference", "kappa", "u_kappa"]
-    empty = pd.DataFrame(columns=["candidate", "quantity", "verdict"])
+    empty = pd.DataFrame(columns=["gate", "candidate", "quantity", "verdict"])
     stored = Stored(record, results, empty, pd.DataFrame(list(kappa), columns=columns), empty, empty, empty, None)
     return Entry("name", stored, planned)
 
@@ -146,10 +146,11 @@ def test_a_verdict_on_the_whole_model_counts_for_every_quantity():
     case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "mu": 1.0, "nu": math.nan, "status": "ok"}
     results = pd.DataFrame([case | {"model": "a", "model_version": "1"}])
     kappa = [("pull_off_force", "a", 2.0, 0.0, 1.0, math.nan, "exact", 0.0, 0.0)]
-    rows = [("a", "pull_off_force", "PASS"), ("a", "jump_in_gap", "ERROR"), ("b", "pull_off_force", "FAIL")]
-    for more, expected in (([], "PASS"), ([("a", "", "INCONCLUSIVE")], "INCONCLUSIVE")):
+    rows = [("A", "a", "jump_in_gap", "ERROR"), ("A", "b", "pull_off_force", "FAIL")]
+    own, on_whole = ("A", "a", "pull_off_force", "PASS"), ("CARD-DIFFERS", "a", "", "INCONCLUSIVE")
+    for more, expected in (([own], "PASS"), ([own, on_whole], "INCONCLUSIVE"), ([on_whole], "")):
         one = entry(record(), kappa, results)
-        verdicts = pd.DataFrame([*rows, *more], columns=["candidate", "quantity", "verdict"])
+        verdicts = pd.DataFrame([*rows, *more], columns=["gate", "candidate", "quantity", "verdict"])
         (row,) = standing(replace(one, stored=replace(one.stored, verdicts=verdicts))).to_dict("records")
         assert row["verdict"] == expected
 

@@ -14,10 +14,12 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.output.latex import latex
 from comparisons.output.report.page import make_page
+from comparisons.output.report.render import environment, render
 from comparisons.output.report.stored_run import read_folder
 from comparisons.output.report.table import Cell, Column, Row, Table, table_tex, without_empty
-from comparisons.output.style import model_styles
+from comparisons.output.style import first_shown, model_styles
 from comparisons.output.verdicts import worst_cases
+from comparisons.registry import MODELS
 from comparisons.runs.csv_format import csv_text
 
 
@@ -40,8 +42,20 @@ def texts(table, label):
     return [cell.text for cell in column(table, label)]
 
 
-def test_the_headline_is_the_roll_up_of_the_stored_verdicts(page):
-    assert page.headline == "0 of 3 gates pass, 0 fail as declared, 3 unexpected: 1 ERROR, 1 FAIL, 1 INCONCLUSIVE"
+def test_the_first_lines_are_the_errors_of_the_models_and_then_the_gates(page, stored):
+    rendered = render(page)
+    largest = stored.kappa["kappa"].abs().groupby(stored.kappa["model"]).max().sort_values(ascending=False)
+    assert len(largest) == 2
+    assert [model for model, _ in page.errors] == largest.index.tolist()
+    for (_, text), kappa in zip(page.errors, largest, strict=True):
+        assert abs(float(text.partition("(")[0])) == pytest.approx(100 * kappa, rel=1e-2)
+    assert page.headline.endswith(page.errors[0][1])
+    first, then = rendered.index(page.errors[-1][1]), rendered.index(page.gates)
+    assert first < then < rendered.index('id="gates"')
+
+
+def test_the_sentence_on_the_gates_is_the_roll_up_of_the_stored_verdicts(page):
+    assert page.gates == "0 of 3 gates pass, 0 fail as declared, 3 unexpected: 1 ERROR, 1 FAIL, 1 INCONCLUSIVE"
     assert page.verdict == "ERROR"
     assert page.counts == [("ERROR", 1), ("FAIL", 2), ("INCONCLUSIVE", 1), ("PASS", 3), ("NOT-APPLICABLE", 1)]
     assert "3 gates were judged in 8 cases" in page.summary
@@ -201,6 +215,26 @@ def test_our_models_have_one_style_on_every_page_and_no_two_share_one():
     alone, together = model_styles(["jkr"]), model_styles(["jkr", "fscm", "fem", "mine", "theirs", "dmt"])
     assert alone["jkr"] == together["jkr"]
     assert len({(style.colour, style.marker) for style in together.values()}) == len(together)
+
+
+def test_all_models_and_external_ones_differ_by_colour_and_marker_and_as_lines_by_colour_and_dashes():
+    styles = model_styles([*MODELS, *(f"mine-{number}" for number in range(12))])
+    assert len({(style.colour, style.marker) for style in styles.values()}) == len(styles)
+    assert len({(style.colour, style.path) for style in styles.values()}) == len(styles)
+    assert len({(style.colour, style.dash) for style in styles.values()}) == len(styles)
+
+
+def test_a_plot_shows_five_models_at_first_and_those_of_the_user_among_them(page):
+    (kappa,) = page.plots["kappa"]
+    assert kappa.first_models == kappa.models
+    assert len(first_shown(MODELS)) == 5
+    assert first_shown([*MODELS, "mine"])[0] == "mine"
+    models = sorted({"mine", *MODELS} - {"fscm"})
+    plot = replace(kappa, series=[replace(kappa.series[0], model=name) for name in models])
+    styles = model_styles(models)
+    html = str(environment().get_template("macros.html").module.plot_html(plot, styles))
+    checked = re.findall(r'checkbox" checked value="([^"]+)"', html)
+    assert sorted(checked) == sorted(first_shown(models))
 
 
 def test_a_run_without_verdicts_errors_or_curves_has_a_page(run_folder, tmp_path, hostile):

@@ -137,7 +137,7 @@ def test_each_row_stands_for_lines_of_its_file(laid_out):
 def test_what_has_no_value_has_its_reason(laid_out):
     rows = laid_out.tables["lacking"].rows
     assert [row.cells[0].text for row in rows] == ["bradley"] * 6
-    assert all("does not define jump_out_displacement" in row.cells[-1].text for row in rows)
+    assert all("it has no jump_out_displacement" in row.cells[-1].text for row in rows)
 
 
 def test_the_same_folder_gives_the_same_page_and_a_changed_one_none(swept, tmp_path, capsys):

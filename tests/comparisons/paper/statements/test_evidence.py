@@ -11,10 +11,12 @@ from comparisons.paper.statements.evidence import (
     FALSE,
     HOLDS,
     IN_PART,
+    READING,
     TRUE,
     UNDECIDED,
     Evidence,
     Number,
+    by_clause,
     clauses,
     decisive,
     evidence_frame,
@@ -58,6 +60,19 @@ def test_the_largest_failure_decides_a_clause_before_what_is_not_decided():
         decisive([])
 
 
+def test_every_clause_model_and_kind_of_limit_keeps_its_decisive_comparison():
+    rows = [comparison(value, clause=clause) for clause in ("n = 1", "n = 2") for value in (-2.0, -1.0)]
+    rows.append(comparison(-3.0, clause="n = 2", model="fem"))
+    rows.append(replace(comparison(-4.0, clause="n = 2"), limit=Number(0.0, 0.0, READING)))
+    kept = by_clause([replace(row, limit=replace(row.limit, what="other")) for row in rows[:-1]] + rows[-1:])
+    assert [(row.clause, row.model, row.value.value, row.comparisons) for row in kept] == [
+        ("n = 1", "fscm", -1.0, 2),
+        ("n = 2", "fscm", -1.0, 2),
+        ("n = 2", "fem", -3.0, 1),
+        ("n = 2", "fscm", -4.0, 1),
+    ]
+
+
 @pytest.mark.parametrize(
     ("values", "outcome"),
     [
@@ -90,5 +105,5 @@ def test_a_verdict_follows_from_the_clauses(outcomes):
 
 
 def test_evidence_survives_its_table():
-    rows = [comparison(1.0 / 3.0, 0.1, 1e-17), replace(comparison(2.0), beyond=True, comparisons=7)]
+    rows = [comparison(1.0 / 3.0, 0.1, 1e-17), replace(comparison(2.0), own=True, beyond=True, comparisons=7)]
     assert evidence_of(evidence_frame("a", rows)) == rows

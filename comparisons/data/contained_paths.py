@@ -1,0 +1,57 @@
+"""Paths that a file names: only those below a folder are used, since the file may come from elsewhere."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path, PurePath
+
+__all__ = ["path_inside", "refuse_link"]
+
+
+def path_inside(folder: Path, name: str) -> Path:
+    """Return the path of a file that another file names.
+
+    Parameters
+    ----------
+    folder : Path
+        That the file must be in, at any depth.
+    name : str
+        As it is written, relative to the folder.
+
+    Raises
+    ------
+    ValueError
+        One sentence, if the name is absolute or has a part "..", or a symbolic link on its way leads out of the folder.
+
+    Examples
+    --------
+    >>> path_inside(Path("results"), "inputs/pad.toml").as_posix()
+    'results/inputs/pad.toml'
+    >>> path_inside(Path("results"), "../pad.toml")
+    Traceback (most recent call last):
+    ValueError: the path '../pad.toml' leads out of the folder results
+    """
+    path = folder / name
+    if _leads_out(folder, PurePath(name)):
+        raise ValueError(f"the path {name!r} leads out of the folder {folder}")
+    return path
+
+
+def _leads_out(folder: Path, name: PurePath) -> bool:
+    if name.is_absolute() or ".." in name.parts or "\0" in str(name):
+        return True
+    # Not Path.resolve(), which raises RuntimeError at a loop of links in Python 3.11 and 3.12.
+    root = os.path.realpath(folder)
+    return os.path.commonpath([root, os.path.realpath(folder / name)]) != root
+
+
+def refuse_link(path: Path) -> None:
+    """Refuse a symbolic link in place of a file that is written in place: its target would be changed.
+
+    Raises
+    ------
+    ValueError
+        One sentence, if the path is a link.
+    """
+    if path.is_symlink():
+        raise ValueError(f"{path} is a symbolic link, whose target would be changed; remove it, or give another folder")

@@ -1,0 +1,102 @@
+"""Reader of the files that a user names or that come from elsewhere: regular files of limited size."""
+
+from __future__ import annotations
+
+import errno
+import os
+import stat
+from pathlib import Path
+
+__all__ = ["LARGEST_ROWS", "LARGEST_TABLE", "LARGEST_TEXT", "read_bytes", "read_text"]
+
+#: Most bytes of a text in TOML: ninety times the standing gates, and read in seconds.
+LARGEST_TEXT = 4_000_000
+
+#: Most bytes of a table in CSV, and of the record of a run: a million rows of fifty bytes.
+LARGEST_TABLE = 50_000_000
+
+#: Most bytes of the rows that this program has stored, a journal or a Parquet file: six million rows of 600 bytes.
+LARGEST_ROWS = 4_000_000_000
+
+_KINDS = {stat.S_IFIFO: "a pipe", stat.S_IFCHR: "a device", stat.S_IFBLK: "a device", stat.S_IFSOCK: "a socket"}
+
+
+def read_bytes(path: Path, largest: int) -> bytes:
+    """Return the content of a regular file.
+
+    Parameters
+    ----------
+    path : Path
+    largest : int
+        Most bytes that are read.
+
+    Raises
+    ------
+    OSError
+        If it cannot be opened or read.
+    ValueError
+        One sentence, if it is no regular file or too large.
+
+    Examples
+    --------
+    >>> read_bytes(Path("/dev/zero"), LARGEST_TEXT)
+    Traceback (most recent call last):
+    ValueError: /dev/zero is a device, which may have no end; give a regular file
+    """
+    try:
+        # O_NONBLOCK: a pipe without a writer would wait for one.
+        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
+    except ValueError as error:  # a name with a NUL
+        raise OSError(errno.EINVAL, str(error), str(path)) from None
+    try:
+        status = os.fstat(descriptor)
+        if stat.S_ISDIR(status.st_mode):
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+        if not stat.S_ISREG(status.st_mode):
+            kind = _KINDS.get(stat.S_IFMT(status.st_mode), "no file")
+            raise ValueError(f"{path} is {kind}, which may have no end; give a regular file")
+        if status.st_size > largest:
+            raise ValueError(f"{path} has {status.st_size} bytes, more than {largest}; give a smaller file")
+        with os.fdopen(descriptor, "rb", closefd=False) as file:
+            content = file.read(status.st_size + 1)
+    finally:
+        os.close(descriptor)
+    if len(content) > status.st_size:
+        raise ValueError(f"{path} has more bytes than the system states; give a file that is not being written")
+    return content
+
+
+def read_text(path: Path, what: str, largest: int = LARGEST_TEXT) -> str:
+    r"""Return the text of a file in UTF-8, with ``\n`` at the end of each line and without a byte order mark.
+
+    Parameters
+    ----------
+    path : Path
+    what : str
+        What the file is, for the sentence that refuses it.
+    largest : int
+        As of `read_bytes`.
+
+    Raises
+    ------
+    ValueError
+        One sentence, if it cannot be read, is no regular file, is too large or is not UTF-8.
+
+    Examples
+    --------
+    >>> read_text(Path("no_such_file.toml"), "the problem file")
+    Traceback (most recent call last):
+    ValueError: no_such_file.toml: the problem file cannot be read (No such file or directory); check the name
+    """
+    if str(path) == "-":
+        raise ValueError(f"-: {what} is not read from the standard input; give the name of a file")
+    try:
+        text = read_bytes(path, largest).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        raise ValueError(
+            f"{path}, line {line}: the byte 0x{error.object[error.start]:02x} is not UTF-8; save the file as UTF-8"
+        ) from None
+    except OSError as error:
+        raise ValueError(f"{path}: {what} cannot be read ({error.strerror}); check the name") from None
+    return text.replace("\r\n", "\n").replace("\r", "\n")

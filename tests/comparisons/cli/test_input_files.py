@@ -1,0 +1,119 @@
+"""Input files that are no regular files, or too large: one sentence for every command that reads one."""
+
+import os
+import threading
+from contextlib import suppress
+
+import pytest
+
+from comparisons.cli.main import main
+from comparisons.data.contained_paths import path_inside
+from comparisons.data.input_files import LARGEST_TEXT, read_bytes, read_text
+
+GRID = """
+[[grid]]
+id = "mine"
+title = "Mine"
+reference = "bradley"
+models = ["jkr"]
+quantities = ["pull_off_force"]
+n = [2]
+k = [0]
+mu = [1]
+"""
+
+#: Commands that read a file of the user, which takes the place of FILE.
+COMMANDS = [
+    ("describe", "FILE"),
+    ("solve", "--model", "jkr", "--quantity", "pull_off_force", "--problem", "FILE"),
+    ("curve", "--model", "jkr", "--problem", "FILE"),
+    ("sweep", "FILE", "--out", "out", "--jobs", "1"),
+    ("sweep", "--problem", "FILE", "--vary", "punch.R=1 um", "--out", "out", "--jobs", "1"),
+    ("run", "--gates", "FILE", "--out", "out", "--jobs", "1"),
+    ("compare", "jkr", "--grid", "FILE", "--out", "out", "--jobs", "1"),
+    ("judge", "swept", "--gates", "FILE"),
+]
+
+
+@pytest.fixture(scope="module")
+def swept(tmp_path_factory):
+    """The folder of a finished sweep."""
+    folder = tmp_path_factory.mktemp("swept")
+    (folder / "grid.toml").write_text(GRID)
+    assert main(["sweep", str(folder / "grid.toml"), "--out", str(folder / "out"), "--jobs", "1", "--quiet"]) == 0
+    return folder / "out"
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=[" ".join(command[:3]) for command in COMMANDS])
+@pytest.mark.parametrize("kind", ["device", "large", "folder"])
+def test_every_command_refuses_it_in_one_sentence(command, kind, swept, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    file = tmp_path / "input.toml"
+    if kind == "device":
+        file.symlink_to("/dev/null")
+    elif kind == "folder":
+        file.mkdir()
+    else:
+        with file.open("wb") as large:
+            large.truncate(LARGEST_TEXT + 7)
+    named = {"FILE": str(file), "swept": str(swept)}
+    assert main([named.get(word, word) for word in command]) == 2
+    error = capsys.readouterr().err
+    assert str(file) in error
+    assert {"device": "device", "large": str(LARGEST_TEXT + 7), "folder": "directory"}[kind] in error
+    assert error.count("\n") == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_pipe_is_not_waited_for(tmp_path):
+    """Its writer has a text ready: a reader that waits would return it."""
+    pipe = tmp_path / "pipe.toml"
+    os.mkfifo(pipe)
+
+    def write():
+        with suppress(BrokenPipeError):
+            pipe.write_text(GRID)
+
+    writer = threading.Thread(target=write)
+    writer.start()
+    try:
+        with pytest.raises(ValueError, match="pipe"):
+            read_text(pipe, "the sweep file")
+    finally:
+        # The writer may still wait for a reader.
+        while writer.is_alive():
+            os.close(os.open(pipe, os.O_RDONLY | os.O_NONBLOCK))
+            writer.join(0.01)
+
+
+def test_a_file_of_the_largest_size_is_read(tmp_path):
+    (tmp_path / "a").write_bytes(b"12345")
+    assert read_bytes(tmp_path / "a", 5) == b"12345"
+    with pytest.raises(ValueError, match="5 bytes, more than 4"):
+        read_bytes(tmp_path / "a", 4)
+
+
+@pytest.mark.parametrize("name", ["../a", "/etc/hostname", "b/../../a", "out", "loop", "b/up/a", "a\0b", ".."])
+def test_a_path_that_leads_out(name, tmp_path):
+    folder = tmp_path / "folder"
+    (folder / "b").mkdir(parents=True)
+    (folder / "out").symlink_to(tmp_path / "a")
+    (folder / "b" / "up").symlink_to("../..")
+    (folder / "loop").symlink_to("../loop")
+    with pytest.raises(ValueError, match="leads out of the folder"):
+        path_inside(folder, name)
+
+
+def test_a_path_in_the_folder(tmp_path):
+    (tmp_path / "folder" / "b").mkdir(parents=True)
+    (tmp_path / "link").symlink_to("folder")
+    (tmp_path / "folder" / "c").symlink_to("b/d")
+    for name in ("a", "b/d", "./b//d", "c"):
+        assert path_inside(tmp_path / "link", name) == tmp_path / "link" / name
+
+
+@pytest.mark.parametrize("mark", ["", "\ufeff"])
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_marks_and_ends_of_lines_of_other_systems(mark, end, tmp_path):
+    (tmp_path / "a").write_bytes(f"{mark}one{end}two µm{end}".encode())
+    assert read_text(tmp_path / "a", "the file") == "one\ntwo µm\n"

@@ -1,0 +1,190 @@
+"""Folders of runs that come from elsewhere: no file outside of --out is written, none outside of the folder is read."""
+
+import json
+import os
+import shlex
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from comparisons.cli.main import main
+from comparisons.runs.record import _own_sum
+from comparisons.runs.row_journal import RowJournal
+
+PAD = Path(__file__).parents[3] / "docs" / "examples" / "problems" / "graded_pad.toml"
+
+
+@pytest.fixture
+def shard(tmp_path):
+    """The folder of a sweep over a problem file, in a folder with another file."""
+    folder = tmp_path / "theirs" / "shard"
+    (tmp_path / "theirs").mkdir()
+    (tmp_path / "theirs" / "evil.sh").write_text("rm -r everything\n")
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "precious.txt").write_text("precious")
+    (tmp_path / "mine" / "precious.txt").chmod(0o600)
+    options = ("--vary", "punch.R=1, 2 um", "--model", "jkr", "--jobs", "1", "--quiet")
+    assert main(["sweep", "--problem", str(PAD), *options, "--out", str(folder)]) == 0
+    return folder
+
+
+def forge(folder, change):
+    """Change the record of a folder as somebody does who knows its checksum."""
+    record = json.loads((folder / "run.json").read_text())
+    del record["sha256"]
+    change(record)
+    record["sha256"] = _own_sum(record)
+    (folder / "run.json").write_text(json.dumps(record))
+
+
+def contents(folder):
+    """Content and mode of every file below a folder."""
+    return {path: (path.read_bytes(), path.stat().st_mode) for path in folder.rglob("*") if path.is_file()}
+
+
+def refused(folder, capsys):
+    """Merge and report refuse the folder, and change nothing beside it."""
+    mine = folder.parents[1] / "mine"
+    before, theirs = contents(mine), contents(folder.parent)
+    for command in (["merge", str(folder), "--out", str(mine / "out")], ["report", str(folder)]):
+        assert main(command) == 2
+        error = capsys.readouterr().err
+        assert error.count("\n") == 1
+        assert "Traceback" not in error
+    assert {path: content for path, content in contents(mine).items() if mine / "out" not in path.parents} == before
+    assert set(contents(folder.parent)) == set(theirs)
+    return error
+
+
+NAMES = ["../evil.sh", "../precious.txt", "inputs/../../evil.sh", "inputs/..", "journal.jsonl", "run.json", ""]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_table_of_the_record(name, shard, capsys):
+    (shard.parent / "precious.txt").write_text("theirs")
+    forge(shard, lambda record: record["inputs"]["tables"].update({"a.csv": name}))
+    refused(shard, capsys)
+
+
+def test_an_absolute_path_of_the_record(shard, tmp_path, capsys):
+    precious = str(tmp_path / "mine" / "precious.txt")
+    forge(shard, lambda record: record["inputs"]["tables"].update({"a.csv": precious}))
+    refused(shard, capsys)
+
+
+@pytest.mark.parametrize("name", ["../evil.sh", "{folder}/mine/precious.txt", "inputs/../../evil.sh"])
+@pytest.mark.parametrize("place", ["problem", "files"])
+def test_other_paths_of_the_record(place, name, shard, tmp_path, capsys):
+    name = name.format(folder=tmp_path)
+
+    def change(record):
+        if place == "problem":
+            record["inputs"]["problem"] = name
+        else:
+            record["files"][name] = "0" * 64
+
+    forge(shard, change)
+    refused(shard, capsys)
+
+
+def test_a_copy_that_is_a_link_out_of_the_folder(shard, tmp_path, capsys):
+    (shard / "inputs" / "a.csv").symlink_to(tmp_path / "mine" / "precious.txt")
+    forge(shard, lambda record: record["inputs"]["tables"].update({"a.csv": "inputs/a.csv"}))
+    refused(shard, capsys)
+
+
+def test_copies_are_not_written_through_a_link(shard, tmp_path, capsys):
+    out = tmp_path / "mine" / "out"
+    out.mkdir()
+    (tmp_path / "mine" / "elsewhere").mkdir()
+    (out / "inputs").symlink_to(tmp_path / "mine" / "elsewhere")
+    assert main(["merge", str(shard), "--out", str(out)]) == 2
+    assert list((tmp_path / "mine" / "elsewhere").iterdir()) == []
+
+
+@pytest.mark.parametrize("name", [".lock", "journal.jsonl"])
+def test_a_file_that_is_written_in_place_is_no_link(name, shard, tmp_path, capsys):
+    precious = tmp_path / "mine" / "precious.txt"
+    (shard / name).unlink(missing_ok=True)
+    (shard / name).symlink_to(precious)
+    assert main(["merge", str(shard), "--out", str(tmp_path / "mine" / "out")]) == 2
+    assert str(shard / name) in capsys.readouterr().err
+    assert precious.read_text() == "precious"
+
+
+@pytest.mark.parametrize("name", ["run.json", "journal.jsonl", "results.parquet"])
+def test_a_pipe_in_a_folder_is_not_waited_for(name, shard, tmp_path, capsys):
+    (shard / name).unlink()
+    (shard / name).symlink_to("/dev/null")
+    command = (
+        ["report", str(shard)] if name == "results.parquet" else ["merge", str(shard), "--out", str(tmp_path / "o")]
+    )
+    assert main(command) == 2
+    assert name in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["my run", "$(touch x)", "it's; x"])
+def test_the_commands_in_messages_are_quoted(name, small_grid, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["run", "--jobs", "1", "--out", name]) == 0
+    assert main(["judge", name]) == 0
+    commands = [line.partition("next: ")[2] for line in capsys.readouterr().err.splitlines() if "next: " in line]
+    assert [shlex.split(command) for command in commands] == [["fscm-bench", "report", name]] * 2
+    assert os.listdir(tmp_path) == [name]
+
+
+def test_texts_of_a_record_have_no_control_characters_on_the_terminal(shard, capsys):
+    def change(record):
+        record["models"]["jkr"]["citation"] = "J. \x1b[2J\x1b]0;title\x07"
+
+    forge(shard, change)
+    assert main(["cite", str(shard)]) == 0
+    shown = capsys.readouterr().out
+    assert "\x1b" not in shown
+    assert "\x07" not in shown
+
+
+GRID = (
+    'grid = [{ id = "mine", title = "Mine", reference = "bradley", models = ["jkr"], quantities = ["pull_off_force"], '
+    "n = [2], k = [0], mu = [1] }]"
+)
+
+#: A model that loads: a merge that runs it succeeds.
+EVIL = """
+class Model:
+    name, version, citation, domain = "evil", "1", "A. Author", "all"
+
+    def evaluate(self, problem, quantity):
+        return 1.0
+"""
+
+
+def test_code_that_a_record_names_as_a_model_is_not_run(tmp_path, capsys):
+    shard = tmp_path / "shard"
+    (tmp_path / "evil.py").write_text(EVIL)
+    (tmp_path / "grid.toml").write_text(GRID)
+    options = ("--model", "jkr", "--jobs", "1", "--quiet")
+    assert main(["sweep", str(tmp_path / "grid.toml"), *options, "--out", str(shard)]) == 0
+    spec = f"{tmp_path / 'evil.py'}:Model"
+    journal = RowJournal(shard)
+    (row,) = (row for row in journal.items if row.model == "jkr")
+    journal.add(replace(row, model=spec))
+    forge(shard, lambda record: record["arguments"].update(model=[spec]))
+    assert main(["merge", str(shard), "--out", str(tmp_path / "out")]) == 2
+    assert "unknown model" in capsys.readouterr().err
+
+
+def test_a_record_without_the_version_of_a_model(tmp_path, capsys):
+    (tmp_path / "grid.toml").write_text(GRID)
+    options = ("--model", "jkr", "--jobs", "1", "--quiet")
+    assert main(["sweep", str(tmp_path / "grid.toml"), *options, "--out", str(tmp_path / "shard")]) == 0
+    forge(tmp_path / "shard", lambda record: record["arguments"].update(external={"mine": "mine.py:Mine"}))
+    assert main(["merge", str(tmp_path / "shard"), "--out", str(tmp_path / "out")]) == 2
+    assert "mine" in capsys.readouterr().err
+
+
+def test_a_problem_sweep_without_the_version_of_a_model(shard, tmp_path, capsys):
+    forge(shard, lambda record: record["models"].pop("jkr"))
+    assert main(["merge", str(shard), "--out", str(tmp_path / "mine" / "out")]) == 2
+    assert "jkr" in capsys.readouterr().err
