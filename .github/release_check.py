@@ -24,8 +24,10 @@ def problems(tag: str, address: str) -> list[str]:
         found.append(f"CITATION.cff has not the version {version}")
     if not any(heading.split()[0] == version for heading in headings):
         found.append(f"CHANGELOG.md has no section {version}")
-    if project["urls"]["Source"] != address:
-        found.append(f"the address in pyproject.toml is {project['urls']['Source']}, and this repository is {address}")
+    source = project.get("urls", {}).get("Source")
+    if source != address:
+        stated = f"the address in pyproject.toml is {source}" if source else "pyproject.toml has no [project.urls]"
+        found.append(f'{stated}, and this repository is {address}: write [project.urls] with Source = "{address}"')
     return found
 
 

@@ -19,6 +19,8 @@ from typing import TYPE_CHECKING, Any, get_origin
 
 from api_texts import PACKAGES, ROOT, TEXTS, texts_of
 
+from comparisons.runs.code_files import NOT_INSTALLED
+
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
 
@@ -41,13 +43,19 @@ def exported(package: str) -> list[str]:
 def modules(package: str) -> list[str]:
     """Public modules of a package: no part of their name begins with an underscore, and they state their names.
 
+    The folders that are not installed are left out: they need pytest or setuptools, which the site does not.
+
     Examples
     --------
     >>> "fscm.experiment" in modules("fscm"), "fscm._kernel" in modules("fscm")
     (True, False)
+    >>> "comparisons.build_step" in modules("comparisons")
+    False
     """
     found = []
     for path in sorted((ROOT / package).rglob("*.py")):
+        if any(path.is_relative_to(ROOT / folder) for folder in NOT_INSTALLED):
+            continue
         name = _module_of(path)
         if not any(part.startswith("_") for part in name.split(".")) and public_names(path):
             found.append(name)
