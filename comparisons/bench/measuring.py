@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import threading
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
@@ -16,7 +17,7 @@ from typing import TypeVar
 from comparisons.bench.part import Measurement, Part, Settings
 from comparisons.runs.workers import start_worker
 
-__all__ = ["cpu_seconds", "made", "memory", "reset_peak"]
+__all__ = ["cpu_seconds", "handled_later", "made", "memory", "reset_peak"]
 
 Output = TypeVar("Output")
 
@@ -49,14 +50,14 @@ def made(part: Part, settings: Settings) -> Measurement:
     context = get_context("forkserver")
     context.set_forkserver_preload(_PRELOADED)
     resource_tracker.ensure_running()  # which changes the mask of signals
-    with _one_thread_at_start(), _later(signal.SIGINT):
+    with _one_thread_at_start(), handled_later(signal.SIGINT), _blocked(signal.SIGINT):
         # Processes inherit the mask: Ctrl-C reaches them and is left to this process, which ends them.
         ensure_running()
     others = active_children()
     pool = ProcessPoolExecutor(1, context, initializer=start_worker)
     try:
         # A process whose start is interrupted would end with a traceback.
-        with _later(signal.SIGINT, signal.SIGTERM):
+        with handled_later(signal.SIGINT, signal.SIGTERM):
             future = pool.submit(_made, part.name, part.measure, settings)
         return future.result()
     except BrokenExecutor:
@@ -94,13 +95,45 @@ def _one_thread_at_start() -> Iterator[None]:
 
 
 @contextmanager
-def _later(*signals: signal.Signals) -> Iterator[None]:
-    """Deliver signals at the end of the block."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, signals)
+def _blocked(number: signal.Signals) -> Iterator[None]:
+    """Block a signal in this thread, and in the processes that are started in the block."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [number])
     try:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
+def handled_later(*numbers: signal.Signals) -> Iterator[None]:
+    """Handle signals at the end of the block.
+
+    To block them in this thread is not enough: the system may deliver them to another one, such as those of the
+    linear algebra, and Python calls the handler in the main thread all the same.
+
+    Examples
+    --------
+    >>> try:
+    ...     with handled_later(signal.SIGINT):
+    ...         signal.raise_signal(signal.SIGINT)
+    ...         print("finished")
+    ... except KeyboardInterrupt:
+    ...     print("interrupted")
+    finished
+    interrupted
+    """
+    if threading.current_thread() is not threading.main_thread():  # where no handler is called
+        yield
+        return
+    received: list[int] = []
+    before = {number: signal.signal(number, lambda number, frame: received.append(number)) for number in numbers}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        for number in received:
+            signal.raise_signal(number)
 
 
 def cpu_seconds(compute: Callable[[int], Output], repeats: int = _REPEATS) -> tuple[Output, float]:
