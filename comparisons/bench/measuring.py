@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-import threading
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
@@ -15,9 +14,10 @@ from pathlib import Path
 from typing import TypeVar
 
 from comparisons.bench.part import Measurement, Part, Settings
+from comparisons.runs.interrupts import blocked, handled_later
 from comparisons.runs.workers import start_worker
 
-__all__ = ["cpu_seconds", "handled_later", "made", "memory", "reset_peak"]
+__all__ = ["cpu_seconds", "made", "memory", "reset_peak"]
 
 Output = TypeVar("Output")
 
@@ -50,7 +50,7 @@ def made(part: Part, settings: Settings) -> Measurement:
     context = get_context("forkserver")
     context.set_forkserver_preload(_PRELOADED)
     resource_tracker.ensure_running()  # which changes the mask of signals
-    with _one_thread_at_start(), handled_later(signal.SIGINT), _blocked(signal.SIGINT):
+    with _one_thread_at_start(), handled_later(signal.SIGINT), blocked(signal.SIGINT):
         # Processes inherit the mask: Ctrl-C reaches them and is left to this process, which ends them.
         ensure_running()
     others = active_children()
@@ -92,48 +92,6 @@ def _one_thread_at_start() -> Iterator[None]:
                 del os.environ[name]
             else:
                 os.environ[name] = value
-
-
-@contextmanager
-def _blocked(number: signal.Signals) -> Iterator[None]:
-    """Block a signal in this thread, and in the processes that are started in the block."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, [number])
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-@contextmanager
-def handled_later(*numbers: signal.Signals) -> Iterator[None]:
-    """Handle signals at the end of the block.
-
-    To block them in this thread is not enough: the system may deliver them to another one, such as those of the
-    linear algebra, and Python calls the handler in the main thread all the same.
-
-    Examples
-    --------
-    >>> try:
-    ...     with handled_later(signal.SIGINT):
-    ...         signal.raise_signal(signal.SIGINT)
-    ...         print("finished")
-    ... except KeyboardInterrupt:
-    ...     print("interrupted")
-    finished
-    interrupted
-    """
-    if threading.current_thread() is not threading.main_thread():  # where no handler is called
-        yield
-        return
-    received: list[int] = []
-    before = {number: signal.signal(number, lambda number, frame: received.append(number)) for number in numbers}
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
-        for number in received:
-            signal.raise_signal(number)
 
 
 def cpu_seconds(compute: Callable[[int], Output], repeats: int = _REPEATS) -> tuple[Output, float]:

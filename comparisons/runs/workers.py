@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 from threadpoolctl import threadpool_limits
 
 from comparisons.console.progress import log
+from comparisons.runs.interrupts import blocked, handled_later, unblock
 from comparisons.runs.waiting import Waiting
 
 __all__ = [
@@ -125,11 +126,11 @@ def _outputs(
     def begin(slot: int) -> None:
         item = waiting.take(slot)
         try:
-            future = pools[slot].submit(function, item)
+            future = _submitted(pools[slot], function, item)
         except BrokenExecutor:  # the process ended between two items
             waiting.forget(slot)
             pools[slot] = _pool()
-            future = pools[slot].submit(function, item)
+            future = _submitted(pools[slot], function, item)
         running[future] = slot, item
 
     deaths = 0
@@ -228,7 +229,18 @@ def one_thread() -> None:
 
 def _pool() -> ProcessPoolExecutor:
     # "spawn": a fresh interpreter, the same on every platform, and safe beside the threads of a progress bar.
-    return ProcessPoolExecutor(1, get_context("spawn"), initializer=start_worker)
+    return ProcessPoolExecutor(1, get_context("spawn"), initializer=_start_interruptible_worker)
+
+
+def _submitted(pool: ProcessPoolExecutor, function: Callable[[Item], Output], item: Item) -> Future[Output]:
+    # This may start the process.  Ctrl-C while it imports would be a traceback: the process receives it afterwards.
+    with handled_later(signal.SIGINT, signal.SIGTERM), blocked(signal.SIGINT):
+        return pool.submit(function, item)
+
+
+def _start_interruptible_worker() -> None:
+    start_worker()
+    unblock(signal.SIGINT)
 
 
 def start_worker() -> None:

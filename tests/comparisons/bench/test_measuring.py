@@ -5,14 +5,13 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from comparisons.bench.measuring import ENDED, cpu_seconds, handled_later, made, memory, reset_peak
+from comparisons.bench.measuring import ENDED, cpu_seconds, made, memory, reset_peak
 from comparisons.bench.part import Part
 
 needs_proc = pytest.mark.skipif(not Path("/proc/self/status").is_file(), reason="the system has no /proc")
@@ -64,23 +63,6 @@ def test_the_peak_is_that_since_it_was_reset():
     reset_peak()
     if Path("/proc/self/clear_refs").exists() and os.access("/proc/self/clear_refs", os.W_OK):
         assert memory("VmHWM") < before + 40.0
-
-
-def test_a_signal_that_another_thread_receives_waits_for_the_end_of_the_block():
-    end = threading.Event()
-    other = threading.Thread(target=end.wait)
-    other.start()
-    finished = False
-    try:
-        with pytest.raises(KeyboardInterrupt), handled_later(signal.SIGINT):
-            signal.pthread_kill(other.ident, signal.SIGINT)
-            time.sleep(0.1)
-            finished = True
-    finally:
-        end.set()
-        other.join()
-    assert finished
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
 @pytest.mark.parametrize(
