@@ -17,6 +17,7 @@ import pandas as pd
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.judge import Judged
+from comparisons.runs.rows import PARAMETERS
 
 __all__ = [
     "CARD",
@@ -129,7 +130,7 @@ def _repeated(name: str, repeated: Mapping[str, Any]) -> Iterator[Judged]:
     for case in repeated["cases"]:
         first, again, allowed = case["first"], case["again"], case["allowed"]
         same = again is not None and abs(again - first) <= allowed
-        facts = {key: case[key] for key in ("quantity", "n", "k", "mu", "nu")} | {
+        facts = {key: case[key] for key in ("quantity", *PARAMETERS)} | {
             "value": again,
             "u_num": 0.0,
             "reference_value": first,
@@ -186,7 +187,7 @@ def _same_digits(id: object, rows: pd.DataFrame) -> str:
 def verdict_on_model(id: str, name: str, verdict: Verdict, reason: str, **facts: Any) -> Judged:
     """Return a verdict on a model as a whole, or with the facts of a case."""
     blank: dict[str, Any] = dict.fromkeys(Judged.__slots__)
-    limits = {"lower": math.nan, "upper": math.nan, "status": "", "quantity": ""}
+    limits = {"lower": math.nan, "upper": math.nan, "status": "", "quantity": "", "problem": ""}
     known = {"gate": id, "candidate": name, "reference": name, "verdict": verdict, "reason": reason}
     return Judged(**blank | limits | known | facts)
 

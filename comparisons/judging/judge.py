@@ -30,7 +30,7 @@ _REMEDY = 'name the cases it applies to in the gate, e.g. cases = { k = [0, 0] }
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """One gate in one case; n, k and mu are None where the gate as a whole could not be judged.
+    """One gate in one case; n, k, mu and problem have nothing where the gate as a whole could not be judged.
 
     `error`, `uncertainty`, `lower` and `upper` are in the unit of the gate's metric.  `status` is that of the
     candidate's result; "outside" where the case is not in the domain that the candidate declares, "no-event" where
@@ -45,6 +45,7 @@ class Judged:
     k: float | None
     mu: float | None
     nu: float | None
+    problem: str
     value: float | None
     u_num: float | None
     reference_value: float | None
@@ -169,11 +170,12 @@ def _refusal(gate: Gate, judged: Sequence[Judged]) -> str:
 
 def _judge_case(gate: Gate, case: Case, results: StoredResults, scale: float, domain: Domain | None) -> Judged:
     own, key = case_for(gate.candidate, case), key_of(gate.candidate, gate, case)
-    inside = domain is None or domain.contains(gate.quantity, own.parameters)
+    inside = domain is None or own.file is not None or domain.contains(gate.quantity, own.parameters)
     status = results.status(key) if inside else OUTSIDE
     if domain is not None and domain.is_list and status == "not-applicable":
         status = OUTSIDE
     one = replace(_whole(gate, ""), n=case.n, k=case.k, mu=case.mu, nu=own.nu, status=status)
+    one = replace(one, problem=case.label_of_file)
     try:
         if domain is not None and not inside:
             raise UnusableResult(Verdict.NOT_APPLICABLE, domain.refusal(gate.quantity))
@@ -246,6 +248,7 @@ def _whole(gate: Gate, reason: str) -> Judged:
         k=None,
         mu=None,
         nu=None,
+        problem="",
         value=None,
         u_num=None,
         reference_value=None,

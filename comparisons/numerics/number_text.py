@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from decimal import ROUND_CEILING, ROUND_HALF_EVEN, Decimal
+from typing import Any
 
 __all__ = ["LEAST_SHOWN", "case_text", "error_text", "exact", "limits_text", "percent_text", "short", "value_text"]
 
@@ -134,14 +135,16 @@ def error_text(error: float | None, u: float | None) -> str:
     return f"{short(error / scale, max(u / scale, _LEAST_MANTISSA))}e{power}"
 
 
-def case_text(case: Mapping[str, float | None]) -> str:
-    """Return the parameters of a case that have a value; nothing where none has.
+def case_text(case: Mapping[str, Any]) -> str:
+    """Return the label of the problem of a case, or its parameters that have a value; nothing where none has.
 
     Examples
     --------
     >>> case_text({"n": 2.0, "k": 0.4, "mu": 1.0, "nu": None})
     'n = 2, k = 0.4, mu = 1'
     """
-    return ", ".join(
-        f"{name} = {number:g}" for name, number in case.items() if number is not None and not math.isnan(number)
+    return str(case.get("problem") or "") or ", ".join(
+        f"{name} = {number:g}"
+        for name, number in case.items()
+        if name != "problem" and number is not None and not math.isnan(number)
     )

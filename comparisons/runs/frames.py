@@ -9,7 +9,7 @@ from typing import Any
 import pandas as pd
 import pyarrow as pa
 
-from comparisons.runs.rows import Row
+from comparisons.runs.rows import CASE, Row, with_problem
 
 __all__ = ["COLUMNS", "CURVE_COLUMNS", "curve_frame", "frame", "rows_of"]
 
@@ -24,6 +24,7 @@ _EVALUATION = [
     ("k", _REAL),
     ("mu", _REAL),
     ("nu", _REAL),
+    ("problem", _TEXT),
 ]
 
 #: Column types of the stored table, in order.
@@ -58,7 +59,7 @@ CURVE_COLUMNS = pa.schema(
     ]
 )
 
-_ORDER = ["quantity", "model", "n", "k", "mu", "nu"]
+_ORDER = ["quantity", "model", *CASE]
 
 
 def frame(rows: Iterable[Row]) -> pd.DataFrame:
@@ -87,6 +88,7 @@ def rows_of(results: pd.DataFrame, curves: pd.DataFrame) -> list[Row]:
     >>> rows_of(frame([row]), curve_frame([])) == [row]
     True
     """
+    results, curves = (with_problem(table) for table in (results, curves))
     rows = [Row(**_typed(record, COLUMNS)) for record in results[COLUMNS.names].to_dict("records")]
     whole = [name for name in CURVE_COLUMNS.names if name not in ("point", "x", "y", "u_distance")]
     for _, points in curves.groupby(_ORDER, sort=False, dropna=False):

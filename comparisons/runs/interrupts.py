@@ -45,14 +45,14 @@ def handled_later(*numbers: signal.Signals) -> Iterator[None]:
         yield
         return
     received: list[int] = []
-    before = {number: signal.signal(number, lambda number, frame: received.append(number)) for number in numbers}
+    before = {number: signal.signal(number, lambda signum, frame: received.append(signum)) for number in numbers}
     try:
         yield
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
-        for number in received:
-            signal.raise_signal(number)
+        for signum in received:
+            signal.raise_signal(signum)
 
 
 def unblock(number: signal.Signals) -> None:

@@ -10,7 +10,6 @@ import pandas as pd
 from comparisons.output.report.plots import curve_group, kappa_group
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.report.table import (
-    CASE,
     CASE_COLUMNS,
     Cell,
     Column,
@@ -24,6 +23,7 @@ from comparisons.output.report.table import (
     without_empty,
 )
 from comparisons.quantities import title_of
+from comparisons.runs.rows import CASE
 
 __all__ = ["convergence", "curve_points", "kappa", "largest", "models", "results"]
 

@@ -24,7 +24,7 @@ def kappa_group(row: pd.Series) -> str:
 
 def kappa(stored: Stored) -> Plot:
     """Relative errors over the Tabor number, one picture for each n and k."""
-    table = stored.kappa.sort_values(["model", "mu"], kind="stable")
+    table = stored.kappa[stored.kappa["mu"].notna()].sort_values(["model", "mu"], kind="stable")
     # An absurd value overflows in percent; it is in the tables, but there is no place for it in a picture.
     finite = table[np.isfinite(100 * table["kappa"]) & np.isfinite(100 * table["u_kappa"])]
     series = []

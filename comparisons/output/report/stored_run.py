@@ -18,12 +18,13 @@ from comparisons.output.verdicts import GATE_COLUMNS
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
 from comparisons.runs.record import PROBLEM_SWEEP, check_files, read_record, warn_of_other_code
+from comparisons.runs.rows import CASE
 from comparisons.runs.tables import read_table
 
 __all__ = ["Stored", "read_folder"]
 
 _KAPPA = (
-    *("quantity", "model", "n", "k", "mu", "nu", "value", "u_num"),
+    *("quantity", "model", *CASE, "value", "u_num"),
     *("reference", "reference_value", "u_reference", "kappa", "u_kappa"),
 )
 _LARGEST = ("quantity", "model", "n", "k", "cases", "mu", "at_end", "kappa", "u_kappa", "paper_percent", "verdict")
@@ -52,6 +53,7 @@ _JUDGED: dict[str, Sequence[str]] = {
 _WORDS = {
     "model",
     "model_version",
+    "problem",
     "quantity",
     "unit",
     "status",
