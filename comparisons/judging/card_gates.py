@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict
 from typing import Any
 
 import pandas as pd
 
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import GIVEN, Gate
-from comparisons.judging.judge import Judged
+from comparisons.judging.judge import Judged, verdict_table
 from comparisons.runs.rows import PARAMETERS
 
 __all__ = [
@@ -193,7 +192,7 @@ def verdict_on_model(id: str, name: str, verdict: Verdict, reason: str, **facts:
 
 
 def _table(judged: Iterable[Judged]) -> pd.DataFrame:
-    return pd.DataFrame([asdict(row) for row in judged], columns=list(Judged.__slots__))
+    return verdict_table(judged)
 
 
 def every_verdict(tables: Iterable[pd.DataFrame]) -> pd.DataFrame:
@@ -201,4 +200,6 @@ def every_verdict(tables: Iterable[pd.DataFrame]) -> pd.DataFrame:
     every = list(tables)
     filled = [table.astype(object) for table in every if len(table)] or every[:1]
     joined = pd.concat(filled, ignore_index=True)
+    if "problem" in joined:
+        joined["problem"] = joined["problem"].fillna("")
     return joined.assign(**{name: pd.to_numeric(joined[name]).astype(float) for name in _NUMBERS})

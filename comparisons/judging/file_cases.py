@@ -68,7 +68,7 @@ def _checked(name: str, value: Any, where: str) -> Any:
         near = get_close_matches(name, [*known, *PARAMETERS, "tags"], n=1)
         every = f"known are {', '.join((*PARAMETERS, 'tags'))}, and keys of a problem file as solid.kind"
         hint = f"did you mean {near[0]}?" if near else every
-        raise ValueError(f"{where}: cases: unknown key {shown(name)}: {hint}")
+        raise ValueError(f"{where}: cases: unknown key {name!r}: {hint}")
     section, _, key = name.partition(".")
     if key == "kind":
         if not isinstance(value, str) or value not in kinds(section):

@@ -18,11 +18,12 @@ from comparisons.judging.metrics import CaseError, case_error, reference_range
 from comparisons.judging.selection import cases_of, key_of, names_in, relevant
 from comparisons.judging.stored_results import StoredResults, UnusableResult, stored_curves, stored_numbers
 from comparisons.numerics.number_text import exact
+from comparisons.runs.case_columns import without_empty_problem
 from comparisons.runs.cases import Case, Grid
 from comparisons.runs.rows import Key
 from comparisons.runs.tasks import Task, case_for
 
-__all__ = ["NO_EVENT", "OUTSIDE", "Judged", "judge"]
+__all__ = ["NO_EVENT", "OUTSIDE", "Judged", "judge", "verdict_table"]
 
 #: What to change in a gate with a case to which a model does not apply.
 _REMEDY = 'name the cases it applies to in the gate, e.g. cases = { k = [0, 0] }, or state not_applicable = "leave-out"'
@@ -45,7 +46,6 @@ class Judged:
     k: float | None
     mu: float | None
     nu: float | None
-    problem: str
     value: float | None
     u_num: float | None
     reference_value: float | None
@@ -57,6 +57,7 @@ class Judged:
     verdict: Verdict
     reason: str
     status: str = ""
+    problem: str = ""
 
 
 #: The status of a case that is not in the domain of the candidate.
@@ -115,7 +116,12 @@ def judge(
             (domains or {}).get(gate.candidate),
         )
     ]
-    return pd.DataFrame([asdict(one) for one in judged], columns=list(Judged.__slots__))
+    return verdict_table(judged)
+
+
+def verdict_table(judged: Iterable[Judged]) -> pd.DataFrame:
+    """Return verdicts as a table with the fields of `Judged`; `problem` where a case is of a file."""
+    return without_empty_problem(pd.DataFrame([asdict(one) for one in judged], columns=list(Judged.__slots__)))
 
 
 def _planned(gates: Collection[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> set[Key]:
@@ -248,7 +254,6 @@ def _whole(gate: Gate, reason: str) -> Judged:
         k=None,
         mu=None,
         nu=None,
-        problem="",
         value=None,
         u_num=None,
         reference_value=None,

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from comparisons.judging.decision import Verdict, roll_up
-from comparisons.runs.rows import with_problem
+from comparisons.runs.case_columns import with_problem
 
 __all__ = ["COVERAGE", "coverage", "coverage_text", "summarise", "worst_first"]
 

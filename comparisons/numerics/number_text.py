@@ -15,6 +15,9 @@ _MOST_DIGITS = 20
 #: Smaller uncertainties of a value are shown as this one: sixteen digits are hard to read.
 LEAST_SHOWN = 5e-10
 
+#: Values below it have a power of ten: newtons and metres of a problem file.
+_SMALL_VALUE = 1e-5
+
 #: A relative error in percent is shown to this digit, or to the digit that its uncertainty leaves it.
 _LEAST_PERCENT = 5e-5
 
@@ -92,15 +95,21 @@ def short(value: float, uncertainty: float | None) -> str:
 
 
 def value_text(value: float | None, u: float | None) -> str:
-    """Return a value for a table; an uncertainty below 5e-10 is shown as that, a missing value as nothing.
+    """Return a value for a table; a missing value is nothing.
+
+    An uncertainty below 5e-10 is shown as that; of a value with a power of ten, below 5e-10 of that power.
 
     Examples
     --------
-    >>> value_text(1.7884817, 2.6e-6), value_text(2.0, 0.0), value_text(None, None)
-    ('1.788482(3)', '2.0000000000(5)', '')
+    >>> value_text(1.7884817, 2.6e-6), value_text(2.0, 0.0), value_text(1.3194643e-7, 2e-12), value_text(None, None)
+    ('1.788482(3)', '2.0000000000(5)', '1.31946(2)e-7', '')
     """
     if value is None or math.isnan(value):
         return ""
+    if 0.0 < abs(value) < _SMALL_VALUE and not float(u or 0.0) > abs(value):
+        power = max(math.floor(math.log10(abs(value))), _LEAST_POWER)
+        scale = 10.0**power
+        return f"{short(value / scale, max(float(u or 0.0) / scale, LEAST_SHOWN))}e{power}"
     # NaN, from a table, is a missing uncertainty; max keeps it where it is its first argument.
     return short(value, max(float(u or 0.0), LEAST_SHOWN))
 

@@ -12,8 +12,9 @@ from comparisons.judging.summary import coverage_text
 from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.numerics.number_text import exact, value_text
 from comparisons.output.fitted_table import FittedTable
+from comparisons.runs.case_columns import keys_in, with_problem, without_empty_problem
 from comparisons.runs.cases import Grid
-from comparisons.runs.rows import CASE, PARAMETERS, keys_in, with_problem
+from comparisons.runs.rows import CASE, PARAMETERS
 from comparisons.runs.tasks import Task, case_for
 
 __all__ = [
@@ -95,7 +96,7 @@ def comparison_table(results: pd.DataFrame, grids: Iterable[Grid], models: Seque
         table["u_kappa"] = relative_uncertainty(
             table["value"], table["u_num"], table["reference_value"], table["u_reference"]
         )
-    return table[list(COLUMNS)]
+    return without_empty_problem(table[list(COLUMNS)])
 
 
 def error_cell(row: pd.Series) -> str:

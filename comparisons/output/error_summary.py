@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from comparisons.runs.rows import CASE, PARAMETERS, with_problem
+from comparisons.runs.case_columns import with_problem, without_empty_problem
+from comparisons.runs.rows import CASE, PARAMETERS
 
 __all__ = ["SUMMARY_COLUMNS", "error_summary"]
 
@@ -53,7 +54,7 @@ def error_summary(table: pd.DataFrame) -> pd.DataFrame:
         counted = {"asked": len(group), "answered": int(statuses.get("ok", 0)), **counts}
         known = group[group["kappa"].notna()]
         rows.append(dict(zip(SUMMARY_COLUMNS, key, strict=False)) | counted | {"cases": len(known)} | _errors(known))
-    return pd.DataFrame(rows, columns=list(SUMMARY_COLUMNS))
+    return without_empty_problem(pd.DataFrame(rows, columns=list(SUMMARY_COLUMNS)))
 
 
 def _errors(known: pd.DataFrame) -> dict[str, Any]:

@@ -17,7 +17,8 @@ from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.numerics.number_text import percent_text, value_text
 from comparisons.output.fitted_table import FittedTable
 from comparisons.quantities import QUANTITIES
-from comparisons.runs.rows import CASE, with_problem
+from comparisons.runs.case_columns import with_problem, without_empty_problem
+from comparisons.runs.rows import CASE
 
 __all__ = [
     "agreement",
@@ -47,7 +48,7 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        Columns quantity, model, n, k, mu, nu, problem, value, u_num, reference (its name), reference_value,
+        Columns quantity, model, n, k, mu, nu, perhaps problem, value, u_num, reference (its name), reference_value,
         u_reference, kappa, u_kappa (`comparisons.numerics.kappa`), sorted.
 
     Examples
@@ -71,20 +72,8 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
         table["value"], table["u_num"], table["reference_value"], table["u_reference"]
     )
     table = table.sort_values(["quantity", "model", *CASE], ignore_index=True)
-    return table[
-        [
-            "quantity",
-            "model",
-            *_CASE[1:],
-            "value",
-            "u_num",
-            "reference",
-            "reference_value",
-            "u_reference",
-            "kappa",
-            "u_kappa",
-        ]
-    ]
+    values = ["value", "u_num", "reference", "reference_value", "u_reference", "kappa", "u_kappa"]
+    return without_empty_problem(table[["quantity", "model", *CASE, *values]])
 
 
 def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
@@ -100,7 +89,7 @@ def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        Columns quantity, model, n, k, mu, nu, problem, value, u_num, reference, reference_value, u_reference,
+        Columns quantity, model, n, k, mu, nu, perhaps problem, value, u_num, reference, reference_value, u_reference,
         difference, claimed, en.  `difference` and `claimed`, the bound U of `comparisons.numerics.bounds`, are relative
         for forces and energies, otherwise in the unit of the quantity.  en = difference / claimed is within -1 and 1
         where both bounds hold.

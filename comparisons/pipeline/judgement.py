@@ -26,10 +26,11 @@ from comparisons.output.verdicts import write_verdicts
 from comparisons.pipeline.inputs import RunInputs, names_of_inputs, read_gates, stored_cases
 from comparisons.registry import ExternalIdentity
 from comparisons.runs.atomic_files import atomic
+from comparisons.runs.case_columns import keys_in
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import PROBLEM_SWEEP, check_files, read_record, warn_of_other_code, write_record
-from comparisons.runs.rows import CASE, Key, keys_in
+from comparisons.runs.rows import PARAMETERS, Key
 from comparisons.runs.tables import read_table
 from comparisons.runs.tasks import plan
 
@@ -186,7 +187,7 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
 
 def _warn_of_missing(inputs: RunInputs, results: pd.DataFrame, curves: pd.DataFrame, folder: Path) -> None:
     """Write in one sentence how many results the gates need that the run, which had other gates, did not compute."""
-    if not all({"model", "quantity", *CASE, "status"} <= set(table.columns) for table in (results, curves)):
+    if not all({"model", "quantity", *PARAMETERS, "status"} <= set(table.columns) for table in (results, curves)):
         return  # The judge refuses them.
     statuses: dict[Key, str] = {
         key: status for table in (results, curves) for key, status in zip(keys_in(table), table["status"], strict=True)

@@ -13,10 +13,11 @@ from comparisons.output.style import save
 from comparisons.output.tables import agreement, largest, relative_error
 from comparisons.pipeline.inputs import Cases
 from comparisons.quantities import CURVES as CURVE_QUANTITIES
+from comparisons.runs.case_columns import keys_in
 from comparisons.runs.cases import VERIFICATION
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.frames import curve_frame, frame
-from comparisons.runs.rows import Row, keys_in
+from comparisons.runs.rows import Row
 from comparisons.runs.tables import write_curves, write_results, write_table
 from comparisons.runs.tasks import plan
 

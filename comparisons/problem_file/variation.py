@@ -154,9 +154,13 @@ def variations(path: Path, texts: Sequence[str]) -> list[Varied]:
     twice = [name for name in names if names.count(name) > 1]
     if twice:
         raise ValueError(f"--vary {twice[0]} is there twice; give all values of a key in one --vary")
+    try:
+        problems = [problem for _, problem in problems_of(path, chosen)]
+    except ValueError as error:
+        raise ValueError(f"--vary {error}" if chosen else str(error)) from None
     return [
         Varied(problem, {_column(problem, each): getattr(problem, each.section)[each.key] for each in chosen})
-        for _, problem in problems_of(path, chosen)
+        for problem in problems
     ]
 
 

@@ -16,6 +16,7 @@ __all__ = ["FORMS", "NAMES", "Point", "latin_hypercube", "parameter_sets"]
 #: n, k, mu and nu, the last None if it is not prescribed.
 Point = tuple[float, float, float, float | None]
 
+#: Parameters of a case; nu is optional.
 NAMES = PARAMETERS
 
 #: Ways in which a grid states its cases.

@@ -18,7 +18,6 @@ from comparisons.runs.atomic_files import atomic
 from comparisons.runs.csv_format import csv_text
 from comparisons.runs.data_package import described, quantities
 from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
-from comparisons.runs.rows import with_problem, without_empty_problem
 
 __all__ = ["read_table", "write_curves", "write_results", "write_table"]
 
@@ -48,9 +47,8 @@ def write_table(
     The Parquet file has unit and description of each column in the metadata of its field, and the units of the
     quantities, as JSON, in the metadata of the table.  A column `problem` is left out where no case is of a file.
     """
-    table = without_empty_problem(table)
-    if schema is not None:
-        schema = pa.schema([field for field in schema if field.name in table])
+    if schema is not None and "problem" not in table:
+        schema = pa.schema([field for field in schema if field.name != "problem"])
     with atomic(stem.with_suffix(".csv")) as file:
         file.write(csv_text(table.drop(columns=list(leave_out_of_csv))).encode())
     with atomic(stem.with_suffix(".parquet")) as file:
@@ -62,7 +60,7 @@ def write_table(
 
 
 def read_table(path: Path) -> pd.DataFrame:
-    """Read a stored table; one of cases has the column `problem`, empty where no case is of a file.
+    """Read a stored table.
 
     Raises
     ------
@@ -70,9 +68,8 @@ def read_table(path: Path) -> pd.DataFrame:
         If there is no such file or it is not Parquet; one sentence says which.
     """
     try:
-        table = pq.read_table(pa.BufferReader(read_bytes(path, LARGEST_ROWS))).to_pandas()
+        return pq.read_table(pa.BufferReader(read_bytes(path, LARGEST_ROWS))).to_pandas()
     except FileNotFoundError:
         raise ValueError(f"{path} does not exist: {path.parent} is not the folder of a finished run") from None
     except (OSError, pa.ArrowException) as error:
         raise ValueError(f"{path} cannot be read as Parquet ({str(error).splitlines()[0]})") from None
-    return with_problem(table) if "mu" in table else table

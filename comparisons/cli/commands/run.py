@@ -150,7 +150,7 @@ def _print_every_row(finished: FinishedRun) -> None:
     for (quantity, reference), group in tables.kappa.groupby(["quantity", "reference"]):
         title = f"{quantity} of {reference} with its u_num, and kappa of each model in percent"
         console.print(_titled(by_case(group), title))
-    of_case = ["n", "k", "mu", *(["problem"] if tables.results["problem"].any() else [])]
+    of_case = ["n", "k", "mu", *(["problem"] if "problem" in tables.results else [])]
     failed = tables.results.loc[tables.results["status"] == "failed", ["model", "quantity", *of_case, "reason"]]
     if len(failed):
         console.print(rich_table(failed, "failed computations"))

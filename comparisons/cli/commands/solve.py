@@ -76,9 +76,8 @@ def _csv(row: Row) -> str:
     # Imported here: the other formats do not need the libraries of tables.
     from comparisons.runs.csv_format import csv_text
     from comparisons.runs.frames import frame
-    from comparisons.runs.rows import without_empty_problem
 
-    return csv_text(without_empty_problem(frame([row])))
+    return csv_text(frame([row]))
 
 
 def _text(row: Row) -> str:

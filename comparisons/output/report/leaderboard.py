@@ -26,8 +26,9 @@ from comparisons.output.report.table import (
     without_empty,
 )
 from comparisons.quantities import title_of
+from comparisons.runs.case_columns import keys_in, with_problem
 from comparisons.runs.csv_format import csv_text
-from comparisons.runs.rows import CASE, Key, keys_in
+from comparisons.runs.rows import CASE, Key
 
 __all__ = ["Entry", "case_sets", "leaderboard_html", "standing"]
 
@@ -94,9 +95,9 @@ def case_sets(entries: Sequence[Entry], mixed: bool) -> list[str]:
 def standing(entry: Entry) -> pd.DataFrame:
     """Return the summary of errors of a run (`comparisons.output.error_summary`) with version and verdict."""
     stored = entry.stored
-    kappa = stored.kappa[[*_KEY, "reference", "kappa", "u_kappa"]]
+    kappa = with_problem(stored.kappa)[[*_KEY, "reference", "kappa", "u_kappa"]]
     keys = keys_in(stored.results)
-    results = stored.results
+    results = with_problem(stored.results)
     if entry.planned is None:
         of_quantity = dict(kappa.groupby("quantity")["reference"].agg("first"))
         results = results.assign(stated=[of_quantity.get(key[1], "") for key in keys])

@@ -136,6 +136,7 @@ def _has(folder: Path, record: dict[str, Any], name: str) -> bool:
 
 def _table(path: Path, columns: Sequence[str], words: set[str] = _WORDS) -> pd.DataFrame:
     table = read_table(path)
+    columns = [name for name in columns if name != "problem" or name in table]
     lost = [name for name in columns if name not in table]
     if lost:
         raise ValueError(f"{path} has no column {', '.join(lost)}: it is not what this version of fscm-bench writes")
@@ -147,4 +148,4 @@ def _table(path: Path, columns: Sequence[str], words: set[str] = _WORDS) -> pd.D
             table[name] = pd.to_numeric(table[name]).astype(float)
         except (TypeError, ValueError):
             raise ValueError(f"{path} has something in its column {name} that is no number") from None
-    return table[list(columns)]
+    return table[columns]
