@@ -178,7 +178,7 @@ def _judge_case(gate: Gate, case: Case, results: StoredResults, scale: float, do
     own, key = case_for(gate.candidate, case), key_of(gate.candidate, gate, case)
     inside = domain is None or own.file is not None or domain.contains(gate.quantity, own.parameters)
     status = results.status(key) if inside else OUTSIDE
-    if domain is not None and domain.is_list and status == "not-applicable":
+    if domain is not None and (domain.is_list or own.file is not None) and status == "not-applicable":
         status = OUTSIDE
     one = replace(_whole(gate, ""), n=case.n, k=case.k, mu=case.mu, nu=own.nu, status=status)
     one = replace(one, problem=case.label_of_file)

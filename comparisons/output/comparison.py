@@ -120,8 +120,8 @@ def percent(kappa: float, u_kappa: float) -> str:
 
 
 def reference_cell(value: float, u: float) -> str:
-    """Return the value of a reference to seven decimals at most; nothing where it has none."""
-    return value_text(value, max(u, _LEAST_REFERENCE))
+    """Return the value of a reference to seven decimals, or digits, at most; nothing where it has none."""
+    return value_text(value, max(u, _LEAST_REFERENCE * min(abs(value), 1.0)))
 
 
 def place_text(row: pd.Series) -> str:

@@ -161,10 +161,12 @@ def by_case(kappa: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
     >>> shown["reference"].tolist(), shown["md-improved"].round(3).tolist()
     (['1.8000000000(10)', '1.7500000000(10)'], [-0.556, -1.143])
     """
-    wide = kappa.pivot(index=["n", "k", "mu", "reference_value", "u_reference"], columns="model", values="kappa")
+    case = ["n", "k", "mu", *(["problem"] if "problem" in kappa else [])]
+    wide = kappa.pivot(index=[*case, "reference_value", "u_reference"], columns="model", values="kappa")
     shown = (100 * wide).reset_index().rename_axis(columns=None)
     values = [value_text(*pair) for pair in zip(shown["reference_value"], shown["u_reference"], strict=True)]
-    shown.insert(3, "reference", values)
+    shown.insert(len(case), "reference", values)
+    shown = shown.drop(columns=[name for name in ("n", "k", "mu") if shown[name].isna().all()])
     return shown.drop(columns=["reference_value", "u_reference"]), dict.fromkeys(wide.columns, "+.3f")
 
 

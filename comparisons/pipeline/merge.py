@@ -12,6 +12,7 @@ from typing import Any
 from comparisons.data.input_files import read_text
 from comparisons.domain import Domain
 from comparisons.model import ComputationFailed
+from comparisons.numerics.number_text import case_text
 from comparisons.pipeline.finished_run import FinishedRun, write_run
 from comparisons.pipeline.inputs import RunInputs, stored_cases
 from comparisons.pipeline.record_content import now
@@ -117,7 +118,8 @@ def _usable(rows: Iterable[Row], wanted: Mapping[Any, Task]) -> list[Row]:
 
 
 def _place(row: Row) -> str:
-    return f"{row.quantity} of {row.model} at n = {row.n:g}, k = {row.k:g}, mu = {row.mu:g}"
+    case = {"n": row.n, "k": row.k, "mu": row.mu, "problem": row.problem}
+    return f"{row.quantity} of {row.model} at {case_text(case)}"
 
 
 def _model_option(record: dict[str, Any]) -> str:

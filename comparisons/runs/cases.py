@@ -94,7 +94,7 @@ class Case:
     nu : float, optional
         Poisson's ratio in [0, 0.5), for models that solve the physical problem; None leaves it to them.
     file : FileProblem, optional
-        The problem of a file; n, k and mu are those of its dimensionless form, NaN where that has none.
+        The problem of a file, in place of n, k and mu, which are then NaN.
 
     Raises
     ------
@@ -134,9 +134,7 @@ class Case:
         ValueError
             If it is outside of what the full self-consistent model admits.
         """
-        posed, _ = dimensionless_problem(file.content)
-        if file.content.is_of_the_paper:
-            return cls(posed.n, posed.k, posed.mu, None, file)
+        dimensionless_problem(file.content)
         return cls(math.nan, math.nan, math.nan, None, file)
 
     @classmethod

@@ -18,7 +18,7 @@ from comparisons.model import ComputationFailed
 from comparisons.output.fitted_table import FittedTable
 from comparisons.output.markdown import to_step_summary
 from comparisons.output.run_summary import computations_sentence, largest_table, paper_sentence
-from comparisons.output.sweep_summary import failure_lines
+from comparisons.output.sweep_summary import failure_lines, largest_errors
 from comparisons.output.tables import beside_paper_values, by_case, largest_by_gradient, rich_table, statuses
 from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.run import run
@@ -137,11 +137,21 @@ def _show(finished: FinishedRun, *, verbose: bool, failures_only: bool, with_pap
         table = largest_table(maxima, width, room - taken)
         if table is not None:
             output().print(table)
+        of_files = _largest_of_files(finished)
+        if of_files is not None:
+            output().print(of_files)
         print_lines(below)
     if judgement is not None:
         show(judgement, verbose=verbose, failures_only=failures_only, lines=lines)
     for line in failures:
         log(line)
+
+
+def _largest_of_files(finished: FinishedRun) -> FittedTable | None:
+    """Return the largest errors in the cases of problem files; None if there are none."""
+    kappa = finished.tables.kappa
+    of_files = kappa[kappa["problem"] != ""] if "problem" in kappa else kappa.head(0)
+    return None if of_files.empty else largest_errors(of_files)
 
 
 def _print_every_row(finished: FinishedRun) -> None:
@@ -155,7 +165,8 @@ def _print_every_row(finished: FinishedRun) -> None:
     if len(failed):
         console.print(rich_table(failed, "failed computations"))
     console.print(rich_table(statuses(tables.results), "computations"))
-    console.print(_titled(largest_by_gradient(tables.largest), "largest abs(kappa) in percent"))
+    if len(tables.largest):
+        console.print(_titled(largest_by_gradient(tables.largest), "largest abs(kappa) in percent"))
     stated = beside_paper_values(tables.largest)
     if not stated[0].empty:
         title = "largest abs(kappa) in percent beside that of the paper (at_end: at an end of the range of mu)"
