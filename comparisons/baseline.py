@@ -41,6 +41,7 @@ from comparisons.runs.csv_format import csv_text, read_csv
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.frames import rows_of
 from comparisons.runs.record import check_files, read_record
+from comparisons.runs.rows import PARAMETERS
 from comparisons.runs.shipped_values import write_shipped
 from comparisons.runs.tables import read_table
 
@@ -60,7 +61,7 @@ BASELINE = BASELINE_FOLDER
 #: Folder of the values of the references that are shipped with the package, in a clone of the repository.
 SHIPPED = Path("comparisons", "data", "shipped")
 
-_KEY = ["model", "quantity", "n", "k", "mu", "nu"]
+_KEY = ["model", "quantity", *PARAMETERS]
 # Without the columns that depend on the machine or on the work done (seconds, iterations, residual).
 _TABLES = {
     "quick.csv": (f"{RESULTS}.parquet", [*_KEY, "value", "u_num", "status", "reason"]),

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict
 from typing import Any
 
 import pandas as pd
 
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import GIVEN, Gate
-from comparisons.judging.judge import Judged
+from comparisons.judging.judge import Judged, verdict_table
+from comparisons.runs.rows import PARAMETERS
 
 __all__ = [
     "CARD",
@@ -129,7 +129,7 @@ def _repeated(name: str, repeated: Mapping[str, Any]) -> Iterator[Judged]:
     for case in repeated["cases"]:
         first, again, allowed = case["first"], case["again"], case["allowed"]
         same = again is not None and abs(again - first) <= allowed
-        facts = {key: case[key] for key in ("quantity", "n", "k", "mu", "nu")} | {
+        facts = {key: case[key] for key in ("quantity", *PARAMETERS)} | {
             "value": again,
             "u_num": 0.0,
             "reference_value": first,
@@ -186,13 +186,13 @@ def _same_digits(id: object, rows: pd.DataFrame) -> str:
 def verdict_on_model(id: str, name: str, verdict: Verdict, reason: str, **facts: Any) -> Judged:
     """Return a verdict on a model as a whole, or with the facts of a case."""
     blank: dict[str, Any] = dict.fromkeys(Judged.__slots__)
-    limits = {"lower": math.nan, "upper": math.nan, "status": "", "quantity": ""}
+    limits = {"lower": math.nan, "upper": math.nan, "status": "", "quantity": "", "problem": ""}
     known = {"gate": id, "candidate": name, "reference": name, "verdict": verdict, "reason": reason}
     return Judged(**blank | limits | known | facts)
 
 
 def _table(judged: Iterable[Judged]) -> pd.DataFrame:
-    return pd.DataFrame([asdict(row) for row in judged], columns=list(Judged.__slots__))
+    return verdict_table(judged)
 
 
 def every_verdict(tables: Iterable[pd.DataFrame]) -> pd.DataFrame:
@@ -200,4 +200,6 @@ def every_verdict(tables: Iterable[pd.DataFrame]) -> pd.DataFrame:
     every = list(tables)
     filled = [table.astype(object) for table in every if len(table)] or every[:1]
     joined = pd.concat(filled, ignore_index=True)
+    if "problem" in joined:
+        joined["problem"] = joined["problem"].fillna("")
     return joined.assign(**{name: pd.to_numeric(joined[name]).astype(float) for name in _NUMBERS})

@@ -19,7 +19,7 @@ from comparisons.judging.fresh_points import REACH, Sample, sample
 from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.selection import cases_of, relevant
 from comparisons.registry import ExternalIdentity, create
-from comparisons.runs.cases import TIERS, Case, Grid
+from comparisons.runs.cases import TIERS, Case, Grid, order_of
 from comparisons.runs.tasks import Task, plan
 
 __all__ = ["RANDOM", "FreshCases", "Part", "Undrawn", "draw"]
@@ -162,8 +162,8 @@ def draw(
             passed_over += 1
             continue
         domain = domains.get(gate.candidate)
-        standing = cases_of(gate, grids, models)
-        known = [case for grid in grids if gate.quantity in grid.quantities for case in grid.cases]
+        standing = [case for case in cases_of(gate, grids, models) if case.file is None]
+        known = [case for grid in grids if gate.quantity in grid.quantities for case in grid.cases if case.file is None]
         drawn = sample(gate, domain, standing, known, count, [seed, crc32(f"{gate.id} {gate.candidate}".encode())])
         if drawn is None:
             passed_over += 1
@@ -177,7 +177,10 @@ def draw(
         by_reference: dict[str, list[Case]] = {}
         for case in drawn.cases:
             by_reference.setdefault(_reference(gate, case), []).append(case)
-        parts += [_part(gate, gate.candidate, name, tuple(sorted(own))) for name, own in sorted(by_reference.items())]
+        parts += [
+            _part(gate, gate.candidate, name, tuple(sorted(own, key=order_of)))
+            for name, own in sorted(by_reference.items())
+        ]
     if passed_over:
         log(f"{passed_over} gates have no fresh cases: of curves, with a rival or a reference_at, or of single cases")
     return FreshCases(count, seed, tuple(parts), tuple(undrawn))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import asdict
 
 import numpy as np
 import pandas as pd
@@ -12,7 +11,7 @@ from numpy.typing import NDArray
 from comparisons.judging.card_gates import verdict_on_model
 from comparisons.judging.decision import Verdict
 from comparisons.judging.fresh_cases import RANDOM, Undrawn
-from comparisons.judging.judge import Judged
+from comparisons.judging.judge import verdict_table
 
 __all__ = ["WORSE", "compare_with_standing", "judge_undrawn"]
 
@@ -36,7 +35,7 @@ def judge_undrawn(undrawn: Iterable[Undrawn]) -> pd.DataFrame:
         )
         for gate in undrawn
     ]
-    return pd.DataFrame([asdict(row) for row in judged], columns=list(Judged.__slots__))
+    return verdict_table(judged)
 
 
 def compare_with_standing(verdicts: pd.DataFrame, fresh: pd.DataFrame) -> pd.DataFrame:
@@ -52,7 +51,7 @@ def compare_with_standing(verdicts: pd.DataFrame, fresh: pd.DataFrame) -> pd.Dat
         for (id, candidate), new in fresh.groupby(["gate", "candidate"], sort=False)
         if (reason := _between(_of(verdicts, str(id).removesuffix(RANDOM), candidate), new))
     ]
-    return pd.DataFrame([asdict(one) for one in found], columns=list(Judged.__slots__))
+    return verdict_table(found)
 
 
 def _of(verdicts: pd.DataFrame, id: str, candidate: object) -> pd.DataFrame:

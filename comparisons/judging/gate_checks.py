@@ -5,19 +5,16 @@ from __future__ import annotations
 import math
 import re
 import unicodedata
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from comparisons.numerics.number_text import exact
 from comparisons.runs.cases import Case
+from comparisons.runs.rows import PARAMETERS
 
 if TYPE_CHECKING:
     from comparisons.judging.gates import Gate
 
-__all__ = ["LARGEST_MARGIN", "PARAMETERS", "check_compared", "check_numbers", "plain_text"]
-
-#: Parameters of a case, which the cases of a gate can select.
-PARAMETERS = ("n", "k", "mu", "nu")
+__all__ = ["LARGEST_MARGIN", "check_compared", "check_numbers", "plain_text"]
 
 #: Unicode categories of characters that a terminal or a browser acts on and does not show: control and format
 #: characters (among them those that reverse the direction of writing), and separators of lines and paragraphs.
@@ -98,13 +95,13 @@ def check_numbers(gate: Gate, where: str) -> None:
         )
     _check_measured_range(gate, where)
     for name, limits in gate.cases.items():
-        if name != "tags" and not limits[0] <= limits[1]:
+        if name in PARAMETERS and not limits[0] <= limits[1]:
             raise ValueError(f"{where}: cases.{name} = {limits!r} must be [low, high], two numbers with low <= high")
     for name, value in gate.reference_at.items():
         if not math.isfinite(value):
             raise ValueError(f"{where}: reference_at.{name} = {value!r} must be a finite number")
     try:
-        replace(Case(2.0, 0.0, 1.0), **gate.reference_at)
+        Case(2.0, 0.0, 1.0).at(gate.reference_at)
     except ValueError as refusal:
         raise ValueError(f"{where}: reference_at: {refusal}") from None
 

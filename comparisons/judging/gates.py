@@ -7,7 +7,7 @@ checked by the schema ``comparisons/data/gates.schema.json``, the rest by `compa
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -15,10 +15,12 @@ from typing import Any
 from comparisons.data.input_files import read_text
 from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, label, validated
-from comparisons.judging.gate_checks import PARAMETERS, check_compared, check_numbers, plain_text
+from comparisons.judging.file_cases import in_si_units, matches
+from comparisons.judging.gate_checks import check_compared, check_numbers, plain_text
 from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.registry import MODELS
 from comparisons.runs.cases import TIERS, Case, Grid
+from comparisons.runs.rows import PARAMETERS
 
 __all__ = ["GIVEN", "METRICS", "Gate", "gates_text", "load_gates", "of_tier"]
 
@@ -50,8 +52,8 @@ class Gate:
     candidate, reference : str
         Names of models; the candidate `GIVEN` stands for every model named in a run.
     cases : dict
-        Ranges [low, high] of n, k, mu and nu, ends included, and tags of grids; what is not named is not
-        restricted.
+        Ranges [low, high] of n, k, mu and nu, ends included, tags of grids, and keys of a problem file as
+        "solid.thickness", each with a range in SI or a word; what is not named is not restricted.
     metric : str
         One of `METRICS`.
     lower, upper : float
@@ -123,7 +125,12 @@ class Gate:
         tags = self.cases.get("tags")
         if tags is not None and not {grid.id, *grid.tags} & set(tags):
             return False
-        return all(self._within(name, getattr(case, name)) for name in PARAMETERS if name in self.cases)
+        if case.file is not None and self.reference_at:
+            return False
+        if not all(self._within(name, getattr(case, name)) for name in PARAMETERS if name in self.cases):
+            return False
+        of_file = [name for name in self.cases if "." in name]
+        return not of_file or (case.file is not None and matches(self.cases, of_file, case.file.content))
 
     def _within(self, name: str, value: float | None) -> bool:
         low, high = self.cases[name]
@@ -131,7 +138,7 @@ class Gate:
 
     def reference_case(self, case: Case) -> Case:
         """Return the case in which the reference is taken."""
-        return replace(case, **self.reference_at) if self.reference_at else case
+        return case.at(self.reference_at)
 
 
 #: Entries that are sentences.
@@ -193,6 +200,7 @@ def _gate(table: dict[str, Any], where: str, models: set[str], shared: Mapping[s
     if "measured_range" in table:
         low, high = table["measured_range"]
         table["measured_range"] = (float(low), float(high))
+    table["cases"] = in_si_units(table["cases"], where)
     gate = Gate(**table | {key: plain_text(key, table[key], where) for key in _TEXTS if key in table})
     check_compared(gate, where)
     for key in ("candidate", "reference", "rival"):

@@ -18,11 +18,12 @@ from comparisons.judging.metrics import CaseError, case_error, reference_range
 from comparisons.judging.selection import cases_of, key_of, names_in, relevant
 from comparisons.judging.stored_results import StoredResults, UnusableResult, stored_curves, stored_numbers
 from comparisons.numerics.number_text import exact
+from comparisons.runs.case_columns import without_empty_problem
 from comparisons.runs.cases import Case, Grid
 from comparisons.runs.rows import Key
 from comparisons.runs.tasks import Task, case_for
 
-__all__ = ["NO_EVENT", "OUTSIDE", "Judged", "judge"]
+__all__ = ["NO_EVENT", "OUTSIDE", "Judged", "judge", "verdict_table"]
 
 #: What to change in a gate with a case to which a model does not apply.
 _REMEDY = 'name the cases it applies to in the gate, e.g. cases = { k = [0, 0] }, or state not_applicable = "leave-out"'
@@ -30,7 +31,7 @@ _REMEDY = 'name the cases it applies to in the gate, e.g. cases = { k = [0, 0] }
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """One gate in one case; n, k and mu are None where the gate as a whole could not be judged.
+    """One gate in one case; n, k, mu and problem have nothing where the gate as a whole could not be judged.
 
     `error`, `uncertainty`, `lower` and `upper` are in the unit of the gate's metric.  `status` is that of the
     candidate's result; "outside" where the case is not in the domain that the candidate declares, "no-event" where
@@ -56,6 +57,7 @@ class Judged:
     verdict: Verdict
     reason: str
     status: str = ""
+    problem: str = ""
 
 
 #: The status of a case that is not in the domain of the candidate.
@@ -114,7 +116,12 @@ def judge(
             (domains or {}).get(gate.candidate),
         )
     ]
-    return pd.DataFrame([asdict(one) for one in judged], columns=list(Judged.__slots__))
+    return verdict_table(judged)
+
+
+def verdict_table(judged: Iterable[Judged]) -> pd.DataFrame:
+    """Return verdicts as a table with the fields of `Judged`; `problem` where a case is of a file."""
+    return without_empty_problem(pd.DataFrame([asdict(one) for one in judged], columns=list(Judged.__slots__)))
 
 
 def _planned(gates: Collection[Gate], grids: Sequence[Grid], models: Sequence[str] | None) -> set[Key]:
@@ -169,11 +176,12 @@ def _refusal(gate: Gate, judged: Sequence[Judged]) -> str:
 
 def _judge_case(gate: Gate, case: Case, results: StoredResults, scale: float, domain: Domain | None) -> Judged:
     own, key = case_for(gate.candidate, case), key_of(gate.candidate, gate, case)
-    inside = domain is None or domain.contains(gate.quantity, own.parameters)
+    inside = domain is None or own.file is not None or domain.contains(gate.quantity, own.parameters)
     status = results.status(key) if inside else OUTSIDE
-    if domain is not None and domain.is_list and status == "not-applicable":
+    if domain is not None and (domain.is_list or own.file is not None) and status == "not-applicable":
         status = OUTSIDE
     one = replace(_whole(gate, ""), n=case.n, k=case.k, mu=case.mu, nu=own.nu, status=status)
+    one = replace(one, problem=case.label_of_file)
     try:
         if domain is not None and not inside:
             raise UnusableResult(Verdict.NOT_APPLICABLE, domain.refusal(gate.quantity))

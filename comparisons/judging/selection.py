@@ -8,9 +8,9 @@ from dataclasses import replace
 from comparisons.console.progress import log
 from comparisons.domain import Domain
 from comparisons.judging.gates import GIVEN, Gate, load_gates, of_tier
-from comparisons.runs.cases import Case, Grid
+from comparisons.runs.cases import Case, Grid, order_of
 from comparisons.runs.rows import Key
-from comparisons.runs.tasks import case_for, plan
+from comparisons.runs.tasks import Task, case_for, plan
 
 __all__ = ["cases_of", "key_of", "load_user_gates", "names_in", "needed_keys", "relevant", "skipped_gates"]
 
@@ -47,13 +47,13 @@ def cases_of(gate: Gate, grids: Sequence[Grid], models: Collection[str] | None) 
         for case in grid.cases
         if gate.selects(grid, case)
     }
-    return sorted(chosen, key=lambda case: (case.n, case.k, case.mu, -1.0 if case.nu is None else case.nu))
+    return sorted(chosen, key=order_of)
 
 
 def key_of(model: str, gate: Gate, case: Case) -> Key:
     """Return the key of the result of a model that a gate uses in a case."""
     own = case_for(model, case)
-    return model, gate.quantity, own.n, own.k, own.mu, own.nu
+    return Task(model, gate.quantity, own).key
 
 
 def names_in(gates: Iterable[Gate]) -> set[tuple[str, str]]:
@@ -105,7 +105,7 @@ def needed_keys(
     ({'dmt'}, 192)
     >>> second = needed_keys(load_gates(gates_text()), grids("quick"), ["dmt"], {sorted(first)[0]: "ok"})
     >>> second - first
-    {('fscm', 'pull_off_force', 1.0, 0.0, 0.01, None)}
+    {('fscm', 'pull_off_force', 1.0, 0.0, 0.01, None, '')}
     """
     needed: set[Key] = set()
     named: set[str] = set()

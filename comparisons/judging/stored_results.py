@@ -11,12 +11,13 @@ import numpy as np
 import pandas as pd
 
 from comparisons.judging.decision import Verdict
-from comparisons.runs.rows import Key
+from comparisons.runs.case_columns import with_problem
+from comparisons.runs.rows import CASE, PARAMETERS, Key, none_if_nan
 
 __all__ = ["StoredResults", "UnusableResult", "stored_curves", "stored_numbers"]
 
 _NAMES = ("model", "quantity")
-_KEY = {*_NAMES, "n", "k", "mu", "nu"}
+_KEY = {*_NAMES, *CASE}
 
 
 class UnusableResult(Exception):
@@ -48,6 +49,7 @@ class StoredResults:
 
     def __init__(self, table: pd.DataFrame | None, needed: set[str], names: Collection[tuple[str, str]]) -> None:
         table = pd.DataFrame(columns=sorted(needed)) if table is None else table
+        table = with_problem(table)
         self.missing_columns = sorted(needed - set(table.columns))
         self.rows: dict[Key, list[dict[str, Any]]] = defaultdict(list)
         if self.missing_columns or not names:
@@ -56,8 +58,8 @@ class StoredResults:
         columns = [table[name].iloc[places].tolist() for name in sorted(needed)]
         for values in zip(*columns, strict=True):
             row = dict(zip(sorted(needed), values, strict=True))
-            nu = None if row["nu"] is None or pd.isna(row["nu"]) else float(row["nu"])
-            self.rows[row["model"], row["quantity"], row["n"], row["k"], row["mu"], nu].append(row)
+            numbers = (none_if_nan(row[name]) for name in PARAMETERS)
+            self.rows[row["model"], row["quantity"], *numbers, row["problem"]].append(row)
 
     def status(self, key: Key) -> str:
         """Return the status of a result, "missing" without a row."""

@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 
 from comparisons.judging.decision import Verdict, roll_up
+from comparisons.runs.case_columns import with_problem
 
 __all__ = ["COVERAGE", "coverage", "coverage_text", "summarise", "worst_first"]
 
@@ -61,7 +62,7 @@ def summarise(judged: pd.DataFrame) -> pd.DataFrame:
         places.setdefault(names, []).append(place)
     verdicts = [Verdict(verdict) for verdict in judged["verdict"]]
     margins, statuses = _margin(judged).to_numpy(), judged["status"].to_numpy()
-    is_case = judged["mu"].notna().to_numpy()
+    is_case = (judged["mu"].notna() | (with_problem(judged)["problem"] != "")).to_numpy()
     summary: list[dict[str, Any]] = []
     worst_places = []
     for group in places.values():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from decimal import ROUND_CEILING, ROUND_HALF_EVEN, Decimal
+from typing import Any
 
 __all__ = ["LEAST_SHOWN", "case_text", "error_text", "exact", "limits_text", "percent_text", "short", "value_text"]
 
@@ -13,6 +14,9 @@ _MOST_DIGITS = 20
 
 #: Smaller uncertainties of a value are shown as this one: sixteen digits are hard to read.
 LEAST_SHOWN = 5e-10
+
+#: Values below it have a power of ten: newtons and metres of a problem file.
+_SMALL_VALUE = 1e-5
 
 #: A relative error in percent is shown to this digit, or to the digit that its uncertainty leaves it.
 _LEAST_PERCENT = 5e-5
@@ -91,15 +95,21 @@ def short(value: float, uncertainty: float | None) -> str:
 
 
 def value_text(value: float | None, u: float | None) -> str:
-    """Return a value for a table; an uncertainty below 5e-10 is shown as that, a missing value as nothing.
+    """Return a value for a table; a missing value is nothing.
+
+    An uncertainty below 5e-10 is shown as that; of a value with a power of ten, below 5e-10 of that power.
 
     Examples
     --------
-    >>> value_text(1.7884817, 2.6e-6), value_text(2.0, 0.0), value_text(None, None)
-    ('1.788482(3)', '2.0000000000(5)', '')
+    >>> value_text(1.7884817, 2.6e-6), value_text(2.0, 0.0), value_text(1.3194643e-7, 2e-12), value_text(None, None)
+    ('1.788482(3)', '2.0000000000(5)', '1.31946(2)e-7', '')
     """
     if value is None or math.isnan(value):
         return ""
+    if 0.0 < abs(value) < _SMALL_VALUE and not float(u or 0.0) > abs(value):
+        power = max(math.floor(math.log10(abs(value))), _LEAST_POWER)
+        scale = 10.0**power
+        return f"{short(value / scale, max(float(u or 0.0) / scale, LEAST_SHOWN))}e{power}"
     # NaN, from a table, is a missing uncertainty; max keeps it where it is its first argument.
     return short(value, max(float(u or 0.0), LEAST_SHOWN))
 
@@ -134,14 +144,16 @@ def error_text(error: float | None, u: float | None) -> str:
     return f"{short(error / scale, max(u / scale, _LEAST_MANTISSA))}e{power}"
 
 
-def case_text(case: Mapping[str, float | None]) -> str:
-    """Return the parameters of a case that have a value; nothing where none has.
+def case_text(case: Mapping[str, Any]) -> str:
+    """Return the label of the problem of a case, or its parameters that have a value; nothing where none has.
 
     Examples
     --------
     >>> case_text({"n": 2.0, "k": 0.4, "mu": 1.0, "nu": None})
     'n = 2, k = 0.4, mu = 1'
     """
-    return ", ".join(
-        f"{name} = {number:g}" for name, number in case.items() if number is not None and not math.isnan(number)
+    return str(case.get("problem") or "") or ", ".join(
+        f"{name} = {number:g}"
+        for name, number in case.items()
+        if name != "problem" and number is not None and not math.isnan(number)
     )

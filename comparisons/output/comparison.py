@@ -12,8 +12,10 @@ from comparisons.judging.summary import coverage_text
 from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.numerics.number_text import exact, value_text
 from comparisons.output.fitted_table import FittedTable
+from comparisons.runs.case_columns import keys_in, with_problem, without_empty_problem
 from comparisons.runs.cases import Grid
-from comparisons.runs.tasks import case_for
+from comparisons.runs.rows import CASE, PARAMETERS
+from comparisons.runs.tasks import Task, case_for
 
 __all__ = [
     "COLUMNS",
@@ -28,7 +30,7 @@ __all__ = [
 
 #: Columns of `comparison_table`.
 COLUMNS = (
-    *("quantity", "n", "k", "mu", "nu", "model", "status", "value", "u_num"),
+    *("quantity", *CASE, "model", "status", "value", "u_num"),
     *("reference", "reference_value", "u_reference", "kappa", "u_kappa", "reason"),
 )
 
@@ -45,7 +47,6 @@ _LEAST_REFERENCE, _LEAST_PERCENT = 5e-7, 5e-3
 #: Spaces between columns.
 _GAP = 2
 
-_CASE = ["n", "k", "mu", "nu"]
 _WORDS = {"not-applicable": "n/a", "failed": "failed"}
 
 
@@ -66,23 +67,18 @@ def comparison_table(results: pd.DataFrame, grids: Iterable[Grid], models: Seque
         `COLUMNS`.  `value` is NaN unless `status` is "ok"; `kappa` is NaN too where the reference has no value, and
         `reason` states why.
     """
-    stored = {
-        (*row[:5], None if pd.isna(row[5]) else row[5]): row[6:]
-        for row in results[["model", "quantity", *_CASE, "status", "value", "u_num", "reason"]].itertuples(
-            index=False, name=None
-        )
-    }
+    columns = results[["status", "value", "u_num", "reason"]].itertuples(index=False, name=None)
+    stored = dict(zip(keys_in(results), columns, strict=True))
 
     def found(model: str, quantity: str, case: Any) -> tuple[str, float, float, str]:
-        own = case_for(model, case)
-        return stored[model, quantity, own.n, own.k, own.mu, own.nu]
+        return stored[Task(model, quantity, case_for(model, case)).key]
 
     rows: dict[tuple[Any, ...], list[Any]] = {}
     for grid in grids:
         for quantity in grid.quantities:
             for case in grid.cases:
                 status, reference, u_reference, why = found(grid.reference, quantity, case)
-                parameters = [case.n, case.k, case.mu, np.nan if case.nu is None else case.nu]
+                parameters = [case.n, case.k, case.mu, np.nan if case.nu is None else case.nu, case.label_of_file]
                 for model in models or grid.models:
                     if model == grid.reference:
                         continue
@@ -94,13 +90,13 @@ def comparison_table(results: pd.DataFrame, grids: Iterable[Grid], models: Seque
                     rows[key] += [grid.reference, reference, u_reference, reason]
     names = [name for name in COLUMNS if not name.endswith("kappa")]
     table = pd.DataFrame(rows.values(), columns=names)
-    table = table.astype(dict.fromkeys((*_CASE, "value", "u_num", "reference_value", "u_reference"), float))
+    table = table.astype(dict.fromkeys((*PARAMETERS, "value", "u_num", "reference_value", "u_reference"), float))
     with np.errstate(divide="ignore", invalid="ignore"):
         table["kappa"] = relative_difference(table["value"], table["reference_value"])
         table["u_kappa"] = relative_uncertainty(
             table["value"], table["u_num"], table["reference_value"], table["u_reference"]
         )
-    return table[list(COLUMNS)]
+    return without_empty_problem(table[list(COLUMNS)])
 
 
 def error_cell(row: pd.Series) -> str:
@@ -124,8 +120,8 @@ def percent(kappa: float, u_kappa: float) -> str:
 
 
 def reference_cell(value: float, u: float) -> str:
-    """Return the value of a reference to seven decimals at most; nothing where it has none."""
-    return value_text(value, max(u, _LEAST_REFERENCE))
+    """Return the value of a reference to seven decimals, or digits, at most; nothing where it has none."""
+    return value_text(value, max(u, _LEAST_REFERENCE * min(abs(value), 1.0)))
 
 
 def place_text(row: pd.Series) -> str:
@@ -136,7 +132,7 @@ def place_text(row: pd.Series) -> str:
     >>> place_text(pd.Series({"n": 2.0, "k": 0.4, "mu": 1.0, "nu": np.nan}))
     'n=2 k=0.4 mu=1'
     """
-    return " ".join(f"{name}={exact(row[name])}" for name in _CASE if pd.notna(row[name]))
+    return row.get("problem") or " ".join(f"{name}={exact(row[name])}" for name in PARAMETERS if pd.notna(row[name]))
 
 
 def wide(table: pd.DataFrame) -> Iterator[tuple[str, str, pd.DataFrame]]:
@@ -147,13 +143,14 @@ def wide(table: pd.DataFrame) -> Iterator[tuple[str, str, pd.DataFrame]]:
     table : DataFrame
         As of `comparison_table`.
     """
-    for (quantity, reference), group in table.groupby(["quantity", "reference"], sort=False):
+    for (quantity, reference), group in with_problem(table).groupby(["quantity", "reference"], sort=False):
         models = list(dict.fromkeys(group["model"]))
-        cases = [name for name in _CASE if group[name].notna().any()]
+        cases = [name for name in CASE if (group[name].notna() & (group[name] != "")).any()]
         rows = []
-        for case, of_case in group.groupby(_CASE, sort=False, dropna=False):
+        for case, of_case in group.groupby([*CASE], sort=False, dropna=False):
             first = of_case.iloc[0]
-            texts = {name: "" if pd.isna(x) else exact(x) for name, x in zip(_CASE, case, strict=True) if name in cases}
+            texts_of_case = {name: "" if pd.isna(x) else exact(x) for name, x in zip(PARAMETERS, case, strict=False)}
+            texts = {name: text for name, text in (texts_of_case | {"problem": case[-1]}).items() if name in cases}
             cells = {row["model"]: error_cell(row) for _, row in of_case.iterrows()}
             shown = reference_cell(first["reference_value"], first["u_reference"]) or "none"
             rows.append([*texts.values(), shown, *(cells.get(model, "") for model in models)])

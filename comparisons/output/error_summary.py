@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
+
+from comparisons.runs.case_columns import with_problem, without_empty_problem
+from comparisons.runs.rows import CASE, PARAMETERS
 
 __all__ = ["SUMMARY_COLUMNS", "error_summary"]
 
 #: Columns of `error_summary`.
 SUMMARY_COLUMNS = (
     *("quantity", "model", "reference", "asked", "answered", "not_applicable", "failed", "cases"),
-    *("largest", "u_largest", "n", "k", "mu", "nu", "rms", "u"),
+    *("largest", "u_largest", *CASE, "rms", "u"),
 )
-_CASE = ("n", "k", "mu", "nu")
 
 
 def error_summary(table: pd.DataFrame) -> pd.DataFrame:
@@ -43,23 +47,24 @@ def error_summary(table: pd.DataFrame) -> pd.DataFrame:
     [[3.0, 2.0, 1.0, 0.04, 2.0, 0.035355]]
     """
     rows = []
+    table = with_problem(table)
     for key, group in table.groupby(["quantity", "model", "reference"], sort=False):
         statuses = group["status"].value_counts()
         counts = {name: int(statuses.get(name.replace("_", "-"), 0)) for name in ("not_applicable", "failed")}
         counted = {"asked": len(group), "answered": int(statuses.get("ok", 0)), **counts}
         known = group[group["kappa"].notna()]
         rows.append(dict(zip(SUMMARY_COLUMNS, key, strict=False)) | counted | {"cases": len(known)} | _errors(known))
-    return pd.DataFrame(rows, columns=list(SUMMARY_COLUMNS))
+    return without_empty_problem(pd.DataFrame(rows, columns=list(SUMMARY_COLUMNS)))
 
 
-def _errors(known: pd.DataFrame) -> dict[str, float]:
+def _errors(known: pd.DataFrame) -> dict[str, Any]:
     if known.empty:
-        return dict.fromkeys(("largest", "u_largest", *_CASE, "rms", "u"), np.nan)
+        return dict.fromkeys(("largest", "u_largest", *PARAMETERS, "rms", "u"), np.nan) | {"problem": ""}
     worst = known.iloc[int(known["kappa"].abs().to_numpy().argmax())]
     return {
         "largest": worst["kappa"],
         "u_largest": worst["u_kappa"],
-        **{name: worst[name] for name in _CASE},
+        **{name: worst[name] for name in CASE},
         "rms": float(np.sqrt(np.mean(known["kappa"].to_numpy(float) ** 2))),
         "u": known["u_kappa"].max(),
     }

@@ -13,7 +13,8 @@ from comparisons.judging.card_gates import overall
 from comparisons.judging.decision import Verdict
 from comparisons.judging.summary import coverage
 from comparisons.numerics.number_text import limits_text
-from comparisons.runs.rows import Key
+from comparisons.runs.case_columns import keys_in
+from comparisons.runs.rows import PARAMETERS, Key
 
 __all__ = ["evaluation_seconds", "junit", "numbers_text"]
 
@@ -38,14 +39,13 @@ def evaluation_seconds(*tables: pd.DataFrame) -> dict[Key, float]:
     --------
     >>> case = {"model": ["jkr"], "quantity": ["pull_off_force"], "n": [2.0], "k": [0.0], "mu": [1.0], "nu": [None]}
     >>> evaluation_seconds(pd.DataFrame(case | {"seconds": [0.5]}))
-    {('jkr', 'pull_off_force', 2.0, 0.0, 1.0, None): 0.5}
+    {('jkr', 'pull_off_force', 2.0, 0.0, 1.0, None, ''): 0.5}
     """
-    columns = ["model", "quantity", "n", "k", "mu", "nu", "seconds"]
     return {
-        (*row[:5], None if pd.isna(row[5]) else row[5]): float(row[6])
+        key: float(seconds)
         for table in tables
-        if set(columns) <= set(table.columns)
-        for row in table[columns].itertuples(index=False, name=None)
+        if {"model", "quantity", *PARAMETERS, "seconds"} <= set(table.columns)
+        for key, seconds in zip(keys_in(table), table["seconds"], strict=True)
     }
 
 
@@ -96,8 +96,8 @@ def _coverage(suite: ElementTree.Element, group: pd.DataFrame) -> None:
 
 def _seconds(row: pd.Series, seconds: Mapping[Key, float]) -> float:
     """Return the time of the evaluation of a verdict's candidate; 0 where nothing was evaluated."""
-    nu = None if pd.isna(row["nu"]) else row["nu"]
-    found = seconds.get((row["candidate"], row["quantity"], row["n"], row["k"], row["mu"], nu), 0.0)
+    (key,) = keys_in(row.to_frame().T.assign(model=row["candidate"]))
+    found = seconds.get(key, 0.0)
     return found if math.isfinite(found) else 0.0
 
 
@@ -113,7 +113,8 @@ def numbers_text(row: pd.Series) -> str:
 
 
 def _case(suite: ElementTree.Element, row: pd.Series, command: Callable[[pd.Series], str], seconds: float) -> None:
-    parameters = [f"{name}={row[name]:g}" for name in ("n", "k", "mu", "nu") if pd.notna(row[name])]
+    parameters = [f"{name}={row[name]:g}" for name in PARAMETERS if pd.notna(row[name])]
+    parameters += [row["problem"]] if row.get("problem") else []
     case = ElementTree.SubElement(
         suite,
         "testcase",

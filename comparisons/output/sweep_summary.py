@@ -6,12 +6,12 @@ from collections.abc import Iterator, Sequence
 
 import pandas as pd
 
-from comparisons.numerics.number_text import percent_text
+from comparisons.numerics.number_text import case_text, percent_text
 from comparisons.output.fitted_table import FittedTable
 from comparisons.output.tables import rich_table
 from comparisons.runs.rows import Row
 
-__all__ = ["failure_lines", "summary_tables"]
+__all__ = ["failure_lines", "largest_errors", "summary_tables"]
 
 #: Rows of the table of models and of the table of errors; with titles, columns, rules and the headings of four
 #: quantities 27 lines.
@@ -38,8 +38,13 @@ def summary_tables(results: pd.DataFrame, curves: pd.DataFrame, kappa: pd.DataFr
     counted = _computations(results, curves)
     tables = [_first(counted, _MODELS, "computations", optional=("seconds", "not-applicable"))]
     if len(kappa):
-        tables.append(_first(_largest(kappa), _ERRORS, "largest abs(kappa) in percent", group="quantity"))
+        tables.append(largest_errors(kappa))
     return tables
+
+
+def largest_errors(kappa: pd.DataFrame) -> FittedTable:
+    """Return the largest relative error of each model and quantity, in percent, and its case."""
+    return _first(_largest(kappa), _ERRORS, "largest abs(kappa) in percent", group="quantity")
 
 
 def failure_lines(failures: Sequence[Row]) -> Iterator[str]:
@@ -51,7 +56,8 @@ def failure_lines(failures: Sequence[Row]) -> Iterator[str]:
     []
     """
     for row in failures[:_FAILURES]:
-        yield f"{row.model}: {row.quantity} at n = {row.n:g}, k = {row.k:g}, mu = {row.mu:g}: {row.reason}"
+        place = case_text({"n": row.n, "k": row.k, "mu": row.mu, "problem": row.problem})
+        yield f"{row.model}: {row.quantity} at {place}: {row.reason}"
     if len(failures) > _FAILURES:
         yield f"{len(failures) - _FAILURES} more computations failed; the tables have their reasons"
 
@@ -73,7 +79,9 @@ def _computations(results: pd.DataFrame, curves: pd.DataFrame) -> pd.DataFrame:
 def _largest(kappa: pd.DataFrame) -> pd.DataFrame:
     worst = kappa.loc[kappa["kappa"].abs().groupby([kappa["quantity"], kappa["model"]]).idxmax()]
     texts = [percent_text(*pair) for pair in zip(worst["kappa"], worst["u_kappa"], strict=True)]
-    return worst[["quantity", "model", "n", "k", "mu"]].assign(largest=texts)
+    found = worst[["quantity", "model", *(name for name in ("n", "k", "mu") if worst[name].notna().any())]]
+    shown = found.assign(largest=texts)
+    return shown.assign(problem=worst["problem"]) if "problem" in worst else shown
 
 
 def _first(table: pd.DataFrame, rows: int, title: str, group: str = "", optional: Sequence[str] = ()) -> FittedTable:

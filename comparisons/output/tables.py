@@ -17,6 +17,8 @@ from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.numerics.number_text import percent_text, value_text
 from comparisons.output.fitted_table import FittedTable
 from comparisons.quantities import QUANTITIES
+from comparisons.runs.case_columns import with_problem, without_empty_problem
+from comparisons.runs.rows import CASE
 
 __all__ = [
     "agreement",
@@ -29,7 +31,7 @@ __all__ = [
     "statuses",
 ]
 
-_CASE = ["quantity", "n", "k", "mu", "nu"]
+_CASE = ["quantity", *CASE]
 _SERIES = ["quantity", "model", "n", "k"]
 
 
@@ -46,7 +48,7 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        Columns quantity, model, n, k, mu, nu, value, u_num, reference (its name), reference_value,
+        Columns quantity, model, n, k, mu, nu, perhaps problem, value, u_num, reference (its name), reference_value,
         u_reference, kappa, u_kappa (`comparisons.numerics.kappa`), sorted.
 
     Examples
@@ -57,6 +59,7 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
     >>> relative_error(rows, "b")[["model", "kappa", "u_kappa"]].round(3).values.tolist()
     [['a', 0.1, 0.011]]
     """
+    rows = with_problem(rows)
     usable = rows.loc[rows["status"] == "ok", [*_CASE, "model", "value", "u_num"]]
     is_reference = usable["model"] == reference
     values = (
@@ -68,21 +71,9 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
     table["u_kappa"] = relative_uncertainty(
         table["value"], table["u_num"], table["reference_value"], table["u_reference"]
     )
-    table = table.sort_values(["quantity", "model", "n", "k", "mu", "nu"], ignore_index=True)
-    return table[
-        [
-            "quantity",
-            "model",
-            *_CASE[1:],
-            "value",
-            "u_num",
-            "reference",
-            "reference_value",
-            "u_reference",
-            "kappa",
-            "u_kappa",
-        ]
-    ]
+    table = table.sort_values(["quantity", "model", *CASE], ignore_index=True)
+    values = ["value", "u_num", "reference", "reference_value", "u_reference", "kappa", "u_kappa"]
+    return without_empty_problem(table[["quantity", "model", *CASE, *values]])
 
 
 def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
@@ -98,7 +89,7 @@ def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        Columns quantity, model, n, k, mu, nu, value, u_num, reference, reference_value, u_reference,
+        Columns quantity, model, n, k, mu, nu, perhaps problem, value, u_num, reference, reference_value, u_reference,
         difference, claimed, en.  `difference` and `claimed`, the bound U of `comparisons.numerics.bounds`, are relative
         for forces and energies, otherwise in the unit of the quantity.  en = difference / claimed is within -1 and 1
         where both bounds hold.
@@ -111,6 +102,7 @@ def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
     >>> agreement(rows, "a", "b")[["difference", "claimed", "en"]].round(9).values.tolist()
     [[0.001, 0.002, 0.5]]
     """
+    rows = with_problem(rows)
     # Poisson's ratio makes no difference to one of the two, which then has none.
     of_reference = rows[rows["model"] == reference].drop(columns="nu")
     cases = rows.loc[rows["model"] == model, [*_CASE]].merge(of_reference, on=[name for name in _CASE if name != "nu"])
@@ -169,10 +161,12 @@ def by_case(kappa: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
     >>> shown["reference"].tolist(), shown["md-improved"].round(3).tolist()
     (['1.8000000000(10)', '1.7500000000(10)'], [-0.556, -1.143])
     """
-    wide = kappa.pivot(index=["n", "k", "mu", "reference_value", "u_reference"], columns="model", values="kappa")
+    case = ["n", "k", "mu", *(["problem"] if "problem" in kappa else [])]
+    wide = kappa.pivot(index=[*case, "reference_value", "u_reference"], columns="model", values="kappa")
     shown = (100 * wide).reset_index().rename_axis(columns=None)
     values = [value_text(*pair) for pair in zip(shown["reference_value"], shown["u_reference"], strict=True)]
-    shown.insert(3, "reference", values)
+    shown.insert(len(case), "reference", values)
+    shown = shown.drop(columns=[name for name in ("n", "k", "mu") if shown[name].isna().all()])
     return shown.drop(columns=["reference_value", "u_reference"]), dict.fromkeys(wide.columns, "+.3f")
 
 

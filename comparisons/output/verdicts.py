@@ -18,8 +18,10 @@ from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
 from comparisons.quantities import CURVES
 from comparisons.runs.atomic_files import atomic
+from comparisons.runs.case_columns import with_problem
+from comparisons.runs.cases import split_label
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.rows import Key
+from comparisons.runs.rows import PARAMETERS, Key
 from comparisons.runs.tables import write_table
 
 __all__ = [
@@ -50,7 +52,9 @@ def command(row: pd.Series, specs: Mapping[str, str]) -> str:
     >>> command(pd.Series({"candidate": "jkr", "quantity": "pull_off_force", **case}), {})
     'fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0 --mu 5'
     """
-    case = " ".join(f"--{name} {exact(row[name])}" for name in ("n", "k", "mu", "nu") if pd.notna(row[name]))
+    if row.get("problem"):
+        return _command_of_file(row, specs)
+    case = " ".join(f"--{name} {exact(row[name])}" for name in PARAMETERS if pd.notna(row[name]))
     if not case and not str(row.get("gate", "")).startswith(CARD):
         return "fscm-bench list gates"
     model = shlex.quote(specs.get(row["candidate"], row["candidate"]))
@@ -58,6 +62,18 @@ def command(row: pd.Series, specs: Mapping[str, str]) -> str:
         return f"fscm-bench check-model {model}"
     verb = "curve" if row["quantity"] in CURVES else "solve"
     return f"fscm-bench {verb} --model {model} --quantity {row['quantity']} {case}"
+
+
+def _command_of_file(row: pd.Series, specs: Mapping[str, str]) -> str:
+    file, *varied = split_label(row["problem"])
+    model = shlex.quote(specs.get(row["candidate"], row["candidate"]))
+    vary = "".join(f" --vary {shlex.quote(one)}" for one in varied)
+    quoted = shlex.quote(file)
+    if row["quantity"] in CURVES:
+        return f"fscm-bench curve --model {model} --quantity {row['quantity']} --problem {quoted}"
+    if not varied:
+        return f"fscm-bench solve --model {model} --quantity {row['quantity']} --problem {quoted}"
+    return f"fscm-bench sweep --problem {quoted}{vary} --model {model} --quantity {row['quantity']}"
 
 
 def matrix(gates: pd.DataFrame, specs: Mapping[str, str]) -> pd.DataFrame:
@@ -95,6 +111,7 @@ def worst_cases(gates: pd.DataFrame) -> pd.DataFrame:
             "verdict": gates["verdict"].map(str),
             "gate": gates["gate"],
             **{name: ["" if pd.isna(row[name]) else exact(row[name]) for row in rows] for name in ("n", "k", "mu")},
+            **({"problem": gates["problem"]} if with_problem(gates)["problem"].any() else {}),
             "candidate": gates["candidate"],
             "candidate's value": [value_text(row["value"], row["u_num"]) for row in rows],
             "reference": gates["reference"],

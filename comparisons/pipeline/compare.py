@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from comparisons.data.file_names import RUN_FILES
 from comparisons.output.comparison import comparison_table
 from comparisons.output.error_summary import error_summary
 from comparisons.output.figures import comparison as figure_of_comparison
 from comparisons.output.style import save
-from comparisons.pipeline.inputs import Cases, load_cases
+from comparisons.pipeline.inputs import Cases, load_cases, names_of_inputs, stored_cases
 from comparisons.pipeline.run import run
 from comparisons.quantities import CURVES
 from comparisons.runs.folder import RunFolder
@@ -134,14 +135,14 @@ def compare(
     files = RunFolder(finished.folder)
     # The names of the models, which a SPEC alone does not state.
     record = read_record(files.record)
-    cases = load_cases(files.grid_text, None)
+    cases = stored_cases(files, None, None)
     table = comparison_table(finished.tables.results, cases.grids, record["arguments"]["model"])
     found = Comparison(table, error_summary(table), finished.folder, finished.failures)
     write_table(table, files.comparison)
     figure = found.figure()
     for path in files.figure(files.comparison.name):
         save(figure, path)
-    write_record(record, files.record)
+    write_record(record, files.record, [*RUN_FILES, *names_of_inputs(cases)])
     return found
 
 

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from comparisons.data.file_names import COMPARISON_FILES, GATES_TEXT, GRID_TEXT, VERDICT_FILES
-from comparisons.data.input_files import LARGEST_TEXT, read_bytes
+from comparisons.data.contained_paths import path_inside
+from comparisons.data.file_names import COMPARISON_FILES, GATES_TEXT, GRID_TEXT, RUN_FILES, VERDICT_FILES
+from comparisons.data.input_files import LARGEST_TABLE, read_bytes
 from comparisons.judging.decision import Verdict
-from comparisons.pipeline.inputs import Cases, Gates, RunInputs
+from comparisons.pipeline.inputs import Cases, Gates, RunInputs, names_of_inputs
 from comparisons.pipeline.judgement import Judgement, judge_and_write
 from comparisons.pipeline.record_content import record_content
 from comparisons.pipeline.report_cards import make_cards
@@ -79,9 +80,10 @@ def write_run(
     write_tables(tables, target)
     if chosen.tier is not None:
         write_pictures(tables, target)
-    for path, text in texts.items():
+    for path, kept in texts.items():
+        path.parent.mkdir(parents=True, exist_ok=True)
         with atomic(path) as file:
-            file.write(text.encode())
+            file.write(kept)
     specs = {name: model.spec for name, model in external.items()}
     judgement: Judgement | None = None
     cards: dict[str, Any] = {}
@@ -117,18 +119,19 @@ def write_run(
     content |= {"cards": cards} if cards else {}
     content |= {"fresh": inputs.fresh.as_json()} if inputs.fresh else {}
     content |= {"coverage": judgement.coverage} if judgement else {}
-    write_record(content, target.record)
+    write_record(content, target.record, [*RUN_FILES, *names_of_inputs(chosen)])
     failures = tuple(row for row in rows if row.status == "failed")
     return FinishedRun(target.path, tables, counts, failures, judgement)
 
 
-def kept_texts(folder: RunFolder, cases: Cases, gates: Gates | None) -> dict[Path, str]:
-    """Return what the run keeps of its gates and grids; refuse to replace files that are not of a run."""
-    texts = {} if gates is None else {folder.gates_text: gates.text}
+def kept_texts(folder: RunFolder, cases: Cases, gates: Gates | None) -> dict[Path, bytes]:
+    """Return what the run keeps of its inputs; refuse to replace files that are not of a run."""
+    texts = {} if gates is None else {folder.gates_text: gates.text.encode()}
     if cases.tier is None:
-        texts[folder.grid_text] = cases.text
-    for path, text in texts.items():
-        if path.exists() and not folder.journal.exists() and read_bytes(path, LARGEST_TEXT) != text.encode():
+        texts[folder.grid_text] = cases.text.encode()
+        texts |= {path_inside(folder.inputs, name): content for name, content in cases.files.items()}
+    for path, content in texts.items():
+        if path.exists() and not folder.journal.exists() and read_bytes(path, LARGEST_TABLE) != content:
             raise ValueError(
                 f"{path} was not written by a run, and a run would replace it; choose another folder with --out"
             )

@@ -5,19 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from hashlib import sha256
-from pathlib import Path
+from pathlib import Path, PurePath
 
-from comparisons.data.input_files import read_text
+from comparisons.data.contained_paths import path_inside
+from comparisons.data.file_names import INPUTS
+from comparisons.data.input_files import LARGEST_TABLE, LARGEST_TEXT, read_bytes, read_text
 from comparisons.domain import Domain, declared_domain
 from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
 from comparisons.judging.selection import cases_of, load_user_gates, needed_keys
 from comparisons.registry import ExternalIdentity, create
 from comparisons.runs.cases import TIERS, Grid, cases_text, grids, grids_for, load_grids
+from comparisons.runs.folder import RunFolder
 from comparisons.runs.rows import Key
 from comparisons.runs.tasks import Task, plan
 
-__all__ = ["Cases", "Gates", "RunInputs", "domains_of", "load_cases", "read_gates"]
+__all__ = ["Cases", "Gates", "RunInputs", "domains_of", "load_cases", "names_of_inputs", "read_gates", "stored_cases"]
 
 #: The name of a text that is in no file, for messages and for the record.
 _TEXT = "a text"
@@ -36,17 +39,23 @@ class Cases:
         The TOML text that declares them.
     source : str or None
         The file of the text; None for the standing cases.
+    files : mapping of str to bytes
+        The problem files of the grids and their tables, by their path beside the text.
     """
 
     grids: list[Grid]
     tier: str | None
     text: str
     source: str | None
+    files: Mapping[str, bytes] = field(default_factory=dict)
 
     @property
     def sha256(self) -> str:
-        """The checksum of the text."""
-        return sha256(self.text.encode()).hexdigest()
+        """The checksum of the text, and of the problem files."""
+        digest = sha256(self.text.encode())
+        for name, content in sorted(self.files.items()):
+            digest.update(f"{name} {len(content)} ".encode() + content)
+        return digest.hexdigest()
 
     @property
     def tier_of_gates(self) -> str:
@@ -129,7 +138,7 @@ def domains_of(models: Iterable[str], external: Mapping[str, ExternalIdentity]) 
     return {name: domain for name, domain in declared.items() if domain is not None}
 
 
-def load_cases(cases: str | Path, models: Sequence[str] | None) -> Cases:
+def load_cases(cases: str | Path, models: Sequence[str] | None, folder: Path | None = None) -> Cases:
     """Return the grids of a run.
 
     Parameters
@@ -138,6 +147,8 @@ def load_cases(cases: str | Path, models: Sequence[str] | None) -> Cases:
         A tier of the standing cases, the path of a file of grids, or the text of such a file.
     models : sequence of str or None
         Models in place of those each grid names; the standing cases are then without those of verification.
+    folder : Path, optional
+        Where the problem files of the grids are; by default beside the file.
 
     Raises
     ------
@@ -158,7 +169,41 @@ def load_cases(cases: str | Path, models: Sequence[str] | None) -> Cases:
         )
     source = str(cases) if isinstance(cases, Path) else _TEXT
     text = read_text(cases, "the file of cases") if isinstance(cases, Path) else cases
-    return Cases(load_grids(text, tier=TIERS[0], source=source), None, text, source)
+    if folder is None and isinstance(cases, Path):
+        folder = cases.parent
+    found = load_grids(text, tier=TIERS[0], source=source, folder=folder)
+    return Cases(found, None, text, source, _files(found, folder) if folder else {})
+
+
+def stored_cases(folder: RunFolder, tier: str | None, models: Sequence[str] | None) -> Cases:
+    """Return the cases of a folder of results: a tier, or the copy of its grids and problem files.
+
+    Raises
+    ------
+    ValueError
+        As `load_cases`.
+    """
+    return load_cases(tier or folder.grid_text, models, folder.inputs)
+
+
+def names_of_inputs(cases: Cases) -> list[str]:
+    """Return the paths of the copies of the problem files and their tables in the folder of a run."""
+    return [f"{INPUTS}/{name}" for name in cases.files]
+
+
+def _files(grids: Iterable[Grid], folder: Path) -> dict[str, bytes]:
+    """Return the problem files of grids, and the tables that they name."""
+    contents: dict[str, bytes] = {}
+    for grid in grids:
+        if not grid.problem:
+            continue
+        contents[PurePath(grid.problem).as_posix()] = read_bytes(path_inside(folder, grid.problem), LARGEST_TEXT)
+        for case in grid.cases:
+            assert case.file is not None
+            for name in case.file.content.tables:
+                place = PurePath(grid.problem).parent / name
+                contents[place.as_posix()] = read_bytes(path_inside(folder, str(place)), LARGEST_TABLE)
+    return contents
 
 
 def read_gates(

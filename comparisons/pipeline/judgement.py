@@ -12,7 +12,7 @@ from typing import Any
 import pandas as pd
 
 from comparisons.console.progress import log, note
-from comparisons.data.file_names import VERDICT_FILES
+from comparisons.data.file_names import RUN_FILES, VERDICT_FILES
 from comparisons.domain import Domain
 from comparisons.judging.card_gates import card_gates, every_verdict, judge_cards, judge_digits, overall
 from comparisons.judging.decision import Verdict
@@ -23,13 +23,14 @@ from comparisons.judging.selection import relevant
 from comparisons.judging.summary import COVERAGE, summarise
 from comparisons.output.junit import evaluation_seconds
 from comparisons.output.verdicts import write_verdicts
-from comparisons.pipeline.inputs import RunInputs, load_cases, read_gates
+from comparisons.pipeline.inputs import RunInputs, names_of_inputs, read_gates, stored_cases
 from comparisons.registry import ExternalIdentity
 from comparisons.runs.atomic_files import atomic
+from comparisons.runs.case_columns import keys_in
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import PROBLEM_SWEEP, check_files, read_record, warn_of_other_code, write_record
-from comparisons.runs.rows import Key
+from comparisons.runs.rows import PARAMETERS, Key
 from comparisons.runs.tables import read_table
 from comparisons.runs.tasks import plan
 
@@ -143,7 +144,7 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
     check_files(record, folder, written_again=VERDICT_FILES)
     other_code = warn_of_other_code(record, folder)
     models, specs = arguments["model"], arguments["external"]
-    cases = load_cases(arguments["tier"] or stored.grid_text, models)
+    cases = stored_cases(stored, arguments["tier"], models)
     source = gates or (stored.gates_text if stored.gates_text.exists() else None)
     # A run with the standing gates keeps a copy of them, most of which are about models that it does not compute.
     standing = gates is None and arguments["gates"] is None
@@ -180,19 +181,16 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
         record["judged_by_other_code"] = fingerprint()
     if not own:
         record["judged_again"] = {"gates": label, "gates_sha256": chosen.sha256}
-    write_record(record, stored.record)
+    write_record(record, stored.record, [*RUN_FILES, *names_of_inputs(cases)])
     return judgement
 
 
 def _warn_of_missing(inputs: RunInputs, results: pd.DataFrame, curves: pd.DataFrame, folder: Path) -> None:
     """Write in one sentence how many results the gates need that the run, which had other gates, did not compute."""
-    key = ["model", "quantity", "n", "k", "mu", "nu"]
-    if not all({*key, "status"} <= set(table.columns) for table in (results, curves)):
+    if not all({"model", "quantity", *PARAMETERS, "status"} <= set(table.columns) for table in (results, curves)):
         return  # The judge refuses them.
     statuses: dict[Key, str] = {
-        (*row[:5], None if pd.isna(row[5]) else row[5]): row[6]
-        for table in (results, curves)
-        for row in table[[*key, "status"]].itertuples(index=False, name=None)
+        key: status for table in (results, curves) for key, status in zip(keys_in(table), table["status"], strict=True)
     }
     missing = inputs.needed(statuses) - statuses.keys()
     if missing:

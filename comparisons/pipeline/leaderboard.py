@@ -8,7 +8,7 @@ from pathlib import Path
 from comparisons.console.progress import log
 from comparisons.output.report.leaderboard import Entry, leaderboard_html
 from comparisons.output.report.stored_run import Stored, read_folder
-from comparisons.pipeline.inputs import load_cases
+from comparisons.pipeline.inputs import stored_cases
 from comparisons.runs.cases import VERIFICATION
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.rows import Key
@@ -47,7 +47,7 @@ def _entry(folder: Path) -> Entry:
 def _planned(folder: Path, stored: Stored) -> dict[Key, str] | None:
     """Return the keys of the results that the tables of errors are about, with their references."""
     arguments = stored.record["arguments"]
-    cases = load_cases(arguments["tier"] or RunFolder(folder).grid_text, arguments["model"])
+    cases = stored_cases(RunFolder(folder), arguments["tier"], arguments["model"])
     if cases.sha256 != stored.record["cases_sha256"]:
         log(f"the standing cases have changed since {folder} was computed: its coverage counts every stored result")
         return None

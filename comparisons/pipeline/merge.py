@@ -12,8 +12,9 @@ from typing import Any
 from comparisons.data.input_files import read_text
 from comparisons.domain import Domain
 from comparisons.model import ComputationFailed
+from comparisons.numerics.number_text import case_text
 from comparisons.pipeline.finished_run import FinishedRun, write_run
-from comparisons.pipeline.inputs import RunInputs, load_cases
+from comparisons.pipeline.inputs import RunInputs, stored_cases
 from comparisons.pipeline.record_content import now
 from comparisons.pipeline.results import Results
 from comparisons.pipeline.shard_folders import checked_records, take_rows
@@ -92,7 +93,7 @@ def _common(record: Mapping[str, Any]) -> dict[str, Any]:
 def _inputs(folder: Path, record: dict[str, Any]) -> RunInputs:
     """Return what a sweep computes, as its record has it: external models are not loaded."""
     models, specs = record["arguments"]["model"], record["arguments"]["external"]
-    cases = load_cases(RunFolder(folder).grid_text, models)
+    cases = stored_cases(RunFolder(folder), None, models)
     if cases.sha256 != record["cases_sha256"]:
         raise ValueError(f"{RunFolder(folder).grid_text} was changed after it was written: run the sweep again")
     cases = replace(cases, source=record["arguments"]["grid"])
@@ -111,12 +112,14 @@ def _usable(rows: Iterable[Row], wanted: Mapping[Any, Task]) -> list[Row]:
         row
         for row in rows
         if row.key in wanted
+        and row.digest == wanted[row.key].digest
         and ((external := wanted[row.key].external) is None or external.version == row.model_version)
     ]
 
 
 def _place(row: Row) -> str:
-    return f"{row.quantity} of {row.model} at n = {row.n:g}, k = {row.k:g}, mu = {row.mu:g}"
+    case = {"n": row.n, "k": row.k, "mu": row.mu, "problem": row.problem}
+    return f"{row.quantity} of {row.model} at {case_text(case)}"
 
 
 def _model_option(record: dict[str, Any]) -> str:

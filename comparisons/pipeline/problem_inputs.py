@@ -71,9 +71,8 @@ def inputs_of(problem: Path, problems: Iterable[Varied]) -> ProblemInputs:
     contents = {f"{INPUTS}/{problem.name}": read_bytes(problem, LARGEST_TEXT)}
     tables: dict[str, str] = {}
     for varied in problems:
-        for section in (varied.problem.solid, varied.problem.punch, varied.problem.law):
-            name = section.get("file")
-            if name is None or name in tables:
+        for name in varied.problem.tables:
+            if name in tables:
                 continue
             tables[name] = f"{INPUTS}/{PurePath(name).as_posix()}"
             contents[tables[name]] = read_bytes(path_inside(problem.parent, name), LARGEST_TABLE)

@@ -47,7 +47,7 @@ def make_cards(
     exact = all(part.get(name) == value for part in parts for name, value in here.items())
     cards = {}
     for name, identity in external.items():
-        own = [row for row in rows if row.model == name and row.status == "ok"]
+        own = [row for row in rows if row.model == name and row.status == "ok" and not row.problem]
         note(f"checking {name}: some results are evaluated again in a new process, and check-model is called")
         with waiting(f"checking {name}"):
             cards[name] = _card(identity, own, exact)
@@ -79,7 +79,7 @@ def _repeated(identity: ExternalIdentity, model: AnyExternalModel, rows: Sequenc
     chosen = _chosen(rows, seed)
     cases = []
     for row in reversed(chosen):
-        again = evaluate(model, row.quantity, Case(row.n, row.k, row.mu, row.nu))
+        again = evaluate(model, row.quantity, Case.of_row(row))
         allowed = 0.0 if exact else (row.u_num or 0.0) + (again.u_num or 0.0)
         cases.append(
             {

@@ -145,7 +145,7 @@ def _entry(known: ShippedValues, used: dict[Task, Row], evaluated_again: dict[st
     """Return what the record states of the shipped rows: which they are, and where they were computed."""
     cases: dict[tuple[str, str], list[str]] = {}
     for row in used.values():
-        cases.setdefault((row.model, row.quantity), []).append(Case(row.n, row.k, row.mu, row.nu).label)
+        cases.setdefault((row.model, row.quantity), []).append(Case.of_row(row).label)
     rows = [
         {"model": model, "quantity": quantity, "cases": sorted(labels)}
         for (model, quantity), labels in sorted(cases.items())

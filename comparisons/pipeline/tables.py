@@ -13,6 +13,7 @@ from comparisons.output.style import save
 from comparisons.output.tables import agreement, largest, relative_error
 from comparisons.pipeline.inputs import Cases
 from comparisons.quantities import CURVES as CURVE_QUANTITIES
+from comparisons.runs.case_columns import keys_in
 from comparisons.runs.cases import VERIFICATION
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.frames import curve_frame, frame
@@ -71,10 +72,7 @@ def _kappa(results: pd.DataFrame, cases: Cases, models: list[str] | None) -> pd.
     tables = []
     for reference in sorted({grid.reference for grid in chosen}):
         keys = {task.key for task in plan((grid for grid in chosen if grid.reference == reference), models)}
-        of_grids = [
-            (*row[:5], None if pd.isna(row[5]) else row[5]) in keys
-            for row in results[["model", "quantity", "n", "k", "mu", "nu"]].itertuples(index=False)
-        ]
+        of_grids = [key in keys for key in keys_in(results)]
         # An empty list would select no columns.
         tables.append(relative_error(results[pd.Series(of_grids, index=results.index, dtype=bool)], reference))
     return pd.concat(tables, ignore_index=True)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -106,6 +108,18 @@ class ProblemFile:
     def is_of_the_paper(self) -> bool:
         """Whether it is the problem of three numbers n, k and mu, which every model takes."""
         return self.power_law is not None and self.has_power_punch and self.law.kind == "lennard-jones-9-3"
+
+    @property
+    def tables(self) -> list[str]:
+        """The names of the files of its tables."""
+        return [section["file"] for section in (self.solid, self.punch, self.law) if "file" in section.values]
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the content; the name of the file does not matter."""
+        sections = (self.solid, self.punch, self.law)
+        content = [[section.kind, dict(section.values), dict(section.columns)] for section in sections]
+        return sha256(json.dumps(content, sort_keys=True, default=str).encode()).hexdigest()
 
     @property
     def label(self) -> str:

@@ -16,7 +16,7 @@ from comparisons.quantities import CURVES, QUANTITIES, Points
 from comparisons.quantities.points import FARTHEST_GAP
 from comparisons.registry import create
 
-__all__ = ["SI_UNITS", "PhysicalValue", "evaluate_problem", "model_for", "points_of", "units_of"]
+__all__ = ["SI_UNITS", "PhysicalValue", "evaluate_problem", "model_for", "points_of", "units_of", "value_in_si"]
 
 #: Unit in SI of each kind of quantity.
 SI_UNITS = {
@@ -120,7 +120,7 @@ def evaluate_problem(problem: ProblemFile, model: str | Model, quantity: str) ->
     kind = QUANTITIES[quantity].scale
     result, status, reason, units = None, "ok", "", None
     try:
-        result = _value(problem, model, quantity)
+        result = value_in_si(problem, model, quantity)
         units = dimensionless_problem(problem)[1] if problem.has_power_punch else None
     except NotApplicable as refusal:
         status, reason = "not-applicable", str(refusal)
@@ -149,8 +149,14 @@ def evaluate_problem(problem: ProblemFile, model: str | Model, quantity: str) ->
     )
 
 
-def _value(problem: ProblemFile, model: Model, quantity: str) -> Result:
-    """A quantity in SI."""
+def value_in_si(problem: ProblemFile, model: Model, quantity: str) -> Result:
+    """Return a quantity in SI.
+
+    Raises
+    ------
+    NotApplicable, ComputationFailed
+        As the model.
+    """
     _refuse(problem, model, quantity)
     if model.name == "fem" and quantity != "critical_tabor_number":
         # Imported here: the other models do not need the finite elements.

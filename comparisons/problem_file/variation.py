@@ -17,7 +17,7 @@ from comparisons.problem_file.form import SECTIONS, unit_of
 from comparisons.problem_file.reading import document_of, problem_of
 from comparisons.problem_file.source import shown
 
-__all__ = ["Variation", "Varied", "parse_variation", "variations"]
+__all__ = ["Variation", "Varied", "parse_variation", "problems_of", "variations"]
 
 #: Most problems of one variation, and most values of a range.
 _MOST = 100_000
@@ -52,6 +52,23 @@ class Variation:
     values: tuple[float | str, ...]
     text: str
 
+    @classmethod
+    def of_values(cls, name: str, values: Sequence[float | str]) -> Variation:
+        """Return the variation of a key, as "solid.thickness", to values as in a problem file.
+
+        Raises
+        ------
+        ValueError
+            One sentence.
+        """
+        section, dot, key = name.partition(".")
+        if not (dot and key):
+            raise ValueError(f'vary has the key {shown(name)}; write SECTION.KEY, as "solid.thickness"')
+        _check_key(section, key, f"vary {shown(name)}")
+        if len(set(map(str, values))) < len(values):
+            raise ValueError(f"vary {shown(name)} has one value twice; give each value once")
+        return cls(section, key, tuple(values), name)
+
     @property
     def name(self) -> str:
         """Section and key."""
@@ -80,10 +97,7 @@ def parse_variation(text: str) -> Variation:
     section, dot, key = (part.strip() for part in name.partition("."))
     if not (equals and dot and key and listed.strip()):
         raise ValueError(f"--vary {shown(text)} names no key with values; {_FORM}")
-    if section not in SECTIONS:
-        raise ValueError(f"--vary {shown(text)}: unknown section {shown(section)}; it is one of {', '.join(SECTIONS)}")
-    if key == "kind":
-        raise ValueError(f"--vary {shown(text)}: a kind is not varied, since its keys differ; write one file for each")
+    _check_key(section, key, f"--vary {shown(text)}")
     if match := _RANGE.fullmatch(listed):
         count = int(match[3])
         if not 2 <= count <= _MOST:
@@ -98,6 +112,13 @@ def parse_variation(text: str) -> Variation:
     if "" in values or len(set(values)) < len(values):
         raise ValueError(f"--vary {shown(text)} has an empty value or one value twice; give each value once")
     return Variation(section, key, tuple(values), text)
+
+
+def _check_key(section: str, key: str, where: str) -> None:
+    if section not in SECTIONS:
+        raise ValueError(f"{where}: unknown section {shown(section)}; it is one of {', '.join(SECTIONS)}")
+    if key == "kind":
+        raise ValueError(f"{where}: a kind is not varied, since its keys differ; write one file for each")
 
 
 def _value(part: str, unit: str) -> float | str:
@@ -133,24 +154,37 @@ def variations(path: Path, texts: Sequence[str]) -> list[Varied]:
     twice = [name for name in names if names.count(name) > 1]
     if twice:
         raise ValueError(f"--vary {twice[0]} is there twice; give all values of a key in one --vary")
+    try:
+        problems = [problem for _, problem in problems_of(path, chosen)]
+    except ValueError as error:
+        raise ValueError(f"--vary {error}" if chosen else str(error)) from None
+    return [
+        Varied(problem, {_column(problem, each): getattr(problem, each.section)[each.key] for each in chosen})
+        for problem in problems
+    ]
+
+
+def problems_of(path: Path, chosen: Sequence[Variation]) -> Iterator[tuple[list[str], ProblemFile]]:
+    """Yield the problem of a file for every combination of values, with the values as texts ``SECTION.KEY=VALUE``.
+
+    Raises
+    ------
+    ValueError
+        One sentence, if the file or one of the problems is not admissible, or there are too many.
+    """
     if (count := prod(len(variation.values) for variation in chosen)) > _MOST:
-        raise ValueError(f"--vary: {count} problems are more than {_MOST}; give fewer values")
-    return list(_problems(path, chosen))
-
-
-def _problems(path: Path, chosen: Sequence[Variation]) -> Iterator[Varied]:
+        raise ValueError(f"the values have {count} combinations, more than {_MOST}; give fewer values")
     document, source = document_of(path)
     problem_of(document, source)
     for values in product(*(variation.values for variation in chosen)):
         changed = deepcopy(document)
         for variation, value in zip(chosen, values, strict=True):
             changed[variation.section][variation.key] = value
+        texts = [f"{each.name}={value}" for each, value in zip(chosen, values, strict=True)]
         try:
-            problem = problem_of(changed, source)
+            yield texts, problem_of(changed, source)
         except ValueError as error:
-            written = ", ".join(f"{each.name}={value}" for each, value in zip(chosen, values, strict=True))
-            raise ValueError(f"--vary {written}: {error}") from None
-        yield Varied(problem, {_column(problem, each): getattr(problem, each.section)[each.key] for each in chosen})
+            raise ValueError(f"{', '.join(texts)}: {error}" if texts else str(error)) from None
 
 
 def _column(problem: ProblemFile, variation: Variation) -> str:

@@ -1,26 +1,46 @@
 """Cases of a run, read from a TOML file.
 
-A case is one dimensionless problem.  A grid is a set of cases (a product of lists of n, k, mu and nu, a list of cases
-or a Latin hypercube), with an id, a tier, and the quantities and models that are computed.
+A case is one problem: dimensionless, or that of a problem file.  A grid is a set of cases (a product of lists of n, k,
+mu and nu, a list of cases, a Latin hypercube, or a problem file with values of some of its keys), with an id, a tier,
+and the quantities and models that are computed.
 The form of the file is checked by ``comparisons/data/cases.schema.json``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
+from comparisons.data.contained_paths import path_inside
 from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, label, validated
+from comparisons.problem_file.description import ProblemFile
+from comparisons.problem_file.dimensionless import dimensionless_problem
+from comparisons.problem_file.variation import Variation, problems_of
 from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS
-from comparisons.runs.parameter_sets import NAMES, parameter_sets
+from comparisons.runs.parameter_sets import FORMS, NAMES, parameter_sets
+from comparisons.runs.rows import Row
 from fscm.problem import Problem
 
-__all__ = ["TIERS", "VERIFICATION", "Case", "Grid", "cases_text", "grids", "grids_for", "load_grids"]
+__all__ = [
+    "TIERS",
+    "VERIFICATION",
+    "Case",
+    "FileProblem",
+    "Grid",
+    "cases_text",
+    "grids",
+    "grids_for",
+    "load_grids",
+    "order_of",
+    "split_label",
+]
 
 #: A tier holds its own grids and those of every tier before it.
 TIERS = ("quick", "full")
@@ -30,9 +50,42 @@ TIERS = ("quick", "full")
 VERIFICATION = "verification"
 
 
-@dataclass(frozen=True, slots=True, order=True)
+#: Between the name of a file and the values of its keys.
+_BETWEEN = "; "
+
+
+@dataclass(frozen=True, slots=True)
+class FileProblem:
+    """The problem of a file, in SI.
+
+    Attributes
+    ----------
+    label : str
+        The name of the file, and the values of the keys that are varied.
+    digest : str
+        SHA-256 of the content.
+    content : ProblemFile
+    """
+
+    label: str
+    digest: str
+    content: ProblemFile = field(compare=False, repr=False)
+
+
+def split_label(label: str) -> list[str]:
+    """Return the name of the file of a label, and the values of its keys.
+
+    Examples
+    --------
+    >>> split_label("pad.toml; solid.thickness=12 nm")
+    ['pad.toml', 'solid.thickness=12 nm']
+    """
+    return label.split(_BETWEEN)
+
+
+@dataclass(frozen=True, slots=True)
 class Case:
-    """One dimensionless problem with the default punch and surface law.
+    """One problem: dimensionless with the default punch and surface law, or that of a file.
 
     Parameters
     ----------
@@ -40,6 +93,8 @@ class Case:
         Shape index, gradient exponent and Tabor number (see `fscm.problem.Problem`).
     nu : float, optional
         Poisson's ratio in [0, 0.5), for models that solve the physical problem; None leaves it to them.
+    file : FileProblem, optional
+        The problem of a file, in place of n, k and mu, which are then NaN.
 
     Raises
     ------
@@ -56,8 +111,11 @@ class Case:
     k: float
     mu: float
     nu: float | None = None
+    file: FileProblem | None = None
 
     def __post_init__(self) -> None:
+        if self.file is not None:
+            return
         for name in ("n", "k", "mu"):
             object.__setattr__(self, name, float(getattr(self, name)))
         if self.nu is not None and not 0 <= self.nu < 0.5:
@@ -67,20 +125,68 @@ class Case:
             )
         self.problem()
 
+    @classmethod
+    def of_file(cls, file: FileProblem) -> Case:
+        """Return the case of the problem of a file.
+
+        Raises
+        ------
+        ValueError
+            If it is outside of what the full self-consistent model admits.
+        """
+        dimensionless_problem(file.content)
+        return cls(math.nan, math.nan, math.nan, None, file)
+
+    @classmethod
+    def of_row(cls, row: Row) -> Case:
+        """Return the dimensionless case of a row; `ValueError` for one of a file."""
+        if row.n is None or row.k is None or row.mu is None:
+            raise ValueError(f"the row of {row.problem} has no n, k and mu")
+        return cls(row.n, row.k, row.mu, row.nu)
+
+    def at(self, parameters: Mapping[str, float]) -> Case:
+        """Return the case with other values of some parameters.
+
+        Examples
+        --------
+        >>> Case(2, 0.4, 1.0).at({"k": 1.0}).label
+        'n = 2, k = 1, mu = 1'
+        """
+        values: dict[str, Any] = {**self.parameters, **parameters}
+        return Case(**values) if parameters else self
+
+    @property
+    def label_of_file(self) -> str:
+        """The label of the problem of a file; empty for another case."""
+        return "" if self.file is None else self.file.label
+
     def problem(self) -> Problem:
-        """Return the problem as the models take it."""
+        """Return the dimensionless problem as the models take it."""
         return Problem(n=self.n, k=self.k, mu=self.mu)
 
     @property
     def parameters(self) -> dict[str, float]:
         """The parameters by name, without Poisson's ratio if it is None."""
         parameters = {"n": self.n, "k": self.k, "mu": self.mu}
+        parameters = {name: value for name, value in parameters.items() if not math.isnan(value)}
         return parameters if self.nu is None else {**parameters, "nu": self.nu}
 
     @property
     def label(self) -> str:
         """The parameters in one line for people."""
-        return ", ".join(f"{name} = {value:g}" for name, value in self.parameters.items())
+        return self.label_of_file or ", ".join(f"{name} = {value:g}" for name, value in self.parameters.items())
+
+
+def order_of(case: Case) -> tuple[float, ...] | tuple[float | str, ...]:
+    """Return what cases are sorted by: n, k, mu and nu, those of files after the others.
+
+    Examples
+    --------
+    >>> [case.mu for case in sorted([Case(2, 0, 3), Case(2, 0, 1)], key=order_of)]
+    [1.0, 3.0]
+    """
+    numbers = (case.n, case.k, case.mu, -1.0 if case.nu is None else case.nu)
+    return (*(math.inf if math.isnan(number) else number for number in numbers), case.label_of_file)
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,6 +211,8 @@ class Grid:
         Sorted, without duplicates.
     tags : tuple of str
         Names that gates select several grids by.
+    problem : str
+        The problem file of the cases, empty if they have none.
 
     Examples
     --------
@@ -121,9 +229,10 @@ class Grid:
     quantities: tuple[str, ...]
     cases: tuple[Case, ...]
     tags: tuple[str, ...] = ()
+    problem: str = ""
 
 
-def _grid(table: dict[str, Any], where: str, tier: str | None) -> Grid:
+def _grid(table: dict[str, Any], where: str, tier: str | None, folder: Path | None) -> Grid:
     if tier is None and "tier" not in table:
         raise ValueError(f"{where}: tier missing; it is one of {', '.join(TIERS)}")
     if tier is not None and "tier" in table:
@@ -139,13 +248,16 @@ def _grid(table: dict[str, Any], where: str, tier: str | None) -> Grid:
         reference=table["reference"],
         models=tuple(table["models"]),
         quantities=tuple(table["quantities"]),
-        cases=tuple(sorted(_cases(table, where), key=lambda case: (case.n, case.k, case.mu, case.nu or 0.0))),
+        cases=tuple(sorted(_cases(table, where, folder), key=order_of)),
         tags=tuple(table.get("tags", ())),
+        problem=table.get("problem", ""),
     )
 
 
-def _cases(table: dict[str, Any], where: str) -> set[Case]:
+def _cases(table: dict[str, Any], where: str, folder: Path | None) -> set[Case]:
     """Return the cases of a grid, each once; refuse one that is not admissible, and so the ends of a range."""
+    if "problem" in table:
+        return _cases_of_file(table, where, folder)
     points = parameter_sets(table, where)
     ends = table.get("latin_hypercube", {})
     try:
@@ -156,7 +268,31 @@ def _cases(table: dict[str, Any], where: str) -> set[Case]:
         raise ValueError(f"{where}: {refusal}") from None
 
 
-def load_grids(text: str, tier: str | None = None, source: str = "the case file") -> list[Grid]:
+def _cases_of_file(table: dict[str, Any], where: str, folder: Path | None) -> set[Case]:
+    """Return the cases of a problem file, which is in a folder, for every combination of values of its keys."""
+    others = [name for name in (*NAMES, "cases", "latin_hypercube") if name in table]
+    if others:
+        raise ValueError(f"{where}: it has problem and {', '.join(others)} together; state the cases once: {FORMS}")
+    name = table["problem"]
+    if folder is None:
+        raise ValueError(
+            f"{where}: problem = {name!r} is the name of a file beside that of the cases; give the cases as a file, "
+            "not as a text"
+        )
+    try:
+        chosen = [Variation.of_values(key, values) for key, values in table.get("vary", {}).items()]
+        found = problems_of(path_inside(folder, name), chosen)
+        return {
+            Case.of_file(FileProblem(_BETWEEN.join([name, *texts]), problem.digest, problem))
+            for texts, problem in found
+        }
+    except ValueError as refusal:
+        raise ValueError(f"{where}: {refusal}") from None
+
+
+def load_grids(
+    text: str, tier: str | None = None, source: str = "the case file", folder: Path | None = None
+) -> list[Grid]:
     """Read grids from TOML text.
 
     Parameters
@@ -167,6 +303,8 @@ def load_grids(text: str, tier: str | None = None, source: str = "the case file"
         The tier of all of them, which then state none.
     source : str
         What the text is of, for the sentence that refuses it.
+    folder : Path, optional
+        That the problem files are in; without it no grid may name one.
 
     Raises
     ------
@@ -193,7 +331,7 @@ def load_grids(text: str, tier: str | None = None, source: str = "the case file"
     tables = parse(text, source)
     validated(tables, "cases", source)
     read = [
-        _grid(table, f"{source}: {label('grid', table, number)}", tier)
+        _grid(table, f"{source}: {label('grid', table, number)}", tier, folder)
         for number, table in enumerate(tables["grid"], start=1)
     ]
     ids = [grid.id for grid in read]

@@ -110,7 +110,9 @@ def complete(
     versions = {task.model: task.external.version for task in tasks if task.external}
 
     def usable(row: Row) -> bool:
-        return row.key in wanted and versions.get(row.model, row.model_version) == row.model_version
+        task = wanted.get(row.key)
+        same_problem = task is not None and row.digest == task.digest
+        return same_problem and versions.get(row.model, row.model_version) == row.model_version
 
     def again(row: Row) -> bool:
         return row.status == "failed" and (retry_failed or row.model in versions or row.reason == LOST)

@@ -10,9 +10,9 @@ from typing import Any
 
 import pandas as pd
 
-__all__ = ["csv_text", "plain_text", "read_csv"]
+from comparisons.runs.rows import PARAMETERS
 
-_PARAMETERS = ("n", "k", "mu", "nu")
+__all__ = ["csv_text", "plain_text", "read_csv"]
 
 #: Start of a text that a spreadsheet evaluates, or that `csv_text` has marked already: both get an apostrophe, so that
 #: `plain_text` can take away one.
@@ -34,7 +34,7 @@ def csv_text(table: pd.DataFrame) -> str:
     table = _without_formulas(table)
     short = {
         name: table[name].map(lambda x: "" if pd.isna(x) else repr(float(x)).removesuffix(".0"))
-        for name in _PARAMETERS
+        for name in PARAMETERS
         if name in table
     }
     return table.assign(**short).to_csv(index=False, float_format="%.17g", lineterminator="\n")
@@ -71,7 +71,7 @@ def read_csv(path: Path, texts: Collection[str]) -> pd.DataFrame:
 
 def _without_formulas(table: pd.DataFrame) -> pd.DataFrame:
     changed = {}
-    for name in table.columns.difference(_PARAMETERS, sort=False):
+    for name in table.columns.difference(PARAMETERS, sort=False):
         if not pd.api.types.is_numeric_dtype(table[name]):
             cells = [_cell(value) for value in table[name]]
             # A column without formulas keeps its type, on which the digits of its numbers depend.

@@ -39,9 +39,10 @@ def _single(batch: list[Task]) -> list[list[Task]]:
     return [[task] for task in batch]
 
 
-def _solid_of(batch: list[Task]) -> tuple[str, float]:
-    """Model and exponent: the fast solver stores tables for each exponent."""
-    return batch[0].model, batch[0].case.k
+def _solid_of(batch: list[Task]) -> tuple[str, float | str]:
+    """Model and exponent, or problem of a file: the fast solver stores tables for each exponent."""
+    case = batch[0].case
+    return batch[0].model, case.label_of_file or case.k
 
 
 def compute_with_environment(

@@ -9,7 +9,8 @@ from typing import Any
 import pandas as pd
 import pyarrow as pa
 
-from comparisons.runs.rows import Row
+from comparisons.runs.case_columns import with_problem, without_empty_problem
+from comparisons.runs.rows import CASE, Row
 
 __all__ = ["COLUMNS", "CURVE_COLUMNS", "curve_frame", "frame", "rows_of"]
 
@@ -24,6 +25,7 @@ _EVALUATION = [
     ("k", _REAL),
     ("mu", _REAL),
     ("nu", _REAL),
+    ("problem", _TEXT),
 ]
 
 #: Column types of the stored table, in order.
@@ -58,24 +60,24 @@ CURVE_COLUMNS = pa.schema(
     ]
 )
 
-_ORDER = ["quantity", "model", "n", "k", "mu", "nu"]
+_ORDER = ["quantity", "model", *CASE]
 
 
 def frame(rows: Iterable[Row]) -> pd.DataFrame:
-    """Return the rows as a sorted pandas table with the columns of `COLUMNS`."""
+    """Return the rows as a sorted pandas table with the columns of `COLUMNS`; `problem` where a case is of a file."""
     table = pa.Table.from_pylist([asdict(row) for row in rows], schema=COLUMNS)
-    return table.to_pandas().sort_values(_ORDER, ignore_index=True)
+    return without_empty_problem(table.to_pandas().sort_values(_ORDER, ignore_index=True))
 
 
 def curve_frame(rows: Iterable[Row]) -> pd.DataFrame:
-    """Return the curves as a sorted pandas table with the columns of `CURVE_COLUMNS`."""
+    """Return the curves as a sorted table with the columns of `CURVE_COLUMNS`; `problem` where a case is of a file."""
     records = []
     for row in rows:
         whole = asdict(replace(row, points=None)) | {"u_distance": row.points[2] if row.points else None}
         points = zip(*row.points[:2], strict=True) if row.points else [(None, None)]
         records += [whole | {"point": number, "x": x, "y": y} for number, (x, y) in enumerate(points)]
     table = pa.Table.from_pylist(records, schema=CURVE_COLUMNS)
-    return table.to_pandas().sort_values([*_ORDER, "point"], ignore_index=True)
+    return without_empty_problem(table.to_pandas().sort_values([*_ORDER, "point"], ignore_index=True))
 
 
 def rows_of(results: pd.DataFrame, curves: pd.DataFrame) -> list[Row]:
@@ -87,6 +89,7 @@ def rows_of(results: pd.DataFrame, curves: pd.DataFrame) -> list[Row]:
     >>> rows_of(frame([row]), curve_frame([])) == [row]
     True
     """
+    results, curves = (with_problem(table) for table in (results, curves))
     rows = [Row(**_typed(record, COLUMNS)) for record in results[COLUMNS.names].to_dict("records")]
     whole = [name for name in CURVE_COLUMNS.names if name not in ("point", "x", "y", "u_distance")]
     for _, points in curves.groupby(_ORDER, sort=False, dropna=False):

@@ -9,16 +9,21 @@ from typing import Any
 
 import numpy as np
 
+from comparisons.runs.rows import PARAMETERS
+
 __all__ = ["FORMS", "NAMES", "Point", "latin_hypercube", "parameter_sets"]
 
 #: n, k, mu and nu, the last None if it is not prescribed.
 Point = tuple[float, float, float, float | None]
 
 #: Parameters of a case; nu is optional.
-NAMES = ("n", "k", "mu", "nu")
+NAMES = PARAMETERS
 
 #: Ways in which a grid states its cases.
-FORMS = "lists n, k, mu (and nu); cases = [{n = 2, k = 0, mu = 1}, ...]; or a table [grid.latin_hypercube]"
+FORMS = (
+    "lists n, k, mu (and nu); cases = [{n = 2, k = 0, mu = 1}, ...]; a table [grid.latin_hypercube]; "
+    'or problem = "FILE" (and vary)'
+)
 
 #: Most combinations of lists, each of which is built before anything is computed: they take a gigabyte.
 _MOST_CASES = 1_000_000

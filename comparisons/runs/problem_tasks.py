@@ -115,7 +115,7 @@ def plan_problems(
         Name -> SPEC and version (empty for a model of fscm-bench).
     quantities : sequence of str
     """
-    digests = [_digest(varied.problem) for varied in problems]
+    digests = [varied.problem.digest for varied in problems]
     tasks = [
         ProblemTask(name, spec, version, quantity, varied.problem, varied.parameters, digest)
         for varied, digest in zip(problems, digests, strict=True)
@@ -128,13 +128,6 @@ def plan_problems(
 def digest_of(tasks: Sequence[ProblemTask]) -> str:
     """Return the SHA-256 of the keys of all tasks of a sweep."""
     return sha256(json.dumps(sorted(task.key for task in tasks)).encode()).hexdigest()
-
-
-def _digest(problem: ProblemFile) -> str:
-    """SHA-256 of the content; the name of the file does not matter."""
-    sections = (problem.solid, problem.punch, problem.law)
-    content = [[section.kind, dict(section.values), dict(section.columns)] for section in sections]
-    return sha256(json.dumps(content, sort_keys=True, default=str).encode()).hexdigest()
 
 
 def evaluate_problem_task(task: ProblemTask) -> ProblemRow:

@@ -2,12 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
-__all__ = ["Key", "Row"]
+__all__ = ["CASE", "PARAMETERS", "Key", "Row", "none_if_nan"]
 
-#: What identifies an evaluation: model, quantity, n, k, mu and nu.
-Key = tuple[str, str, float, float, float, float | None]
+#: Dimensionless parameters of a case; nu is optional.
+PARAMETERS = ("n", "k", "mu", "nu")
+
+#: Columns that identify a case: its parameters, and the label of the problem of a file (empty for another case).
+CASE = (*PARAMETERS, "problem")
+
+#: What identifies an evaluation: model, quantity, and the columns of `CASE`.
+Key = tuple[str, str, float | None, float | None, float | None, float | None, str]
+
+
+def none_if_nan(number: float | None) -> float | None:
+    """Return a number, None for NaN: two keys with NaN would not be equal."""
+    return None if number is None or math.isnan(number) else float(number)
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,8 +30,8 @@ class Row:
     ----------
     model, model_version, quantity : str
         Names, as in `comparisons.registry` and `comparisons.quantities`.
-    n, k, mu : float
-        The problem.
+    n, k, mu : float or None
+        The problem; None for one of a file that has no such form.
     nu : float or None
         Poisson's ratio, if one was prescribed.
     value, u_num : float or None
@@ -34,14 +46,16 @@ class Row:
         Of the discrete problem; None when there is no value.
     seconds : float
         Wall-clock time: what the model states, or else the duration of the call.
+    problem, digest : str
+        Label and SHA-256 of the problem of a file (`comparisons.runs.cases.FileProblem`), else empty.
     """
 
     model: str
     model_version: str
     quantity: str
-    n: float
-    k: float
-    mu: float
+    n: float | None
+    k: float | None
+    mu: float | None
     nu: float | None
     value: float | None
     u_num: float | None
@@ -54,8 +68,10 @@ class Row:
     seconds: float
     observed_order: float | None = None
     points: tuple[list[float], list[float], float] | None = None
+    problem: str = ""
+    digest: str = ""
 
     @property
     def key(self) -> Key:
         """What identifies the evaluation; a run makes each once."""
-        return self.model, self.quantity, self.n, self.k, self.mu, self.nu
+        return self.model, self.quantity, self.n, self.k, self.mu, self.nu, self.problem

@@ -45,8 +45,10 @@ def write_table(
     `described_as` is the name of the table in `comparisons.data.columns`, if that is another than the file's.
 
     The Parquet file has unit and description of each column in the metadata of its field, and the units of the
-    quantities, as JSON, in the metadata of the table.
+    quantities, as JSON, in the metadata of the table.  A column `problem` is left out where no case is of a file.
     """
+    if schema is not None and "problem" not in table:
+        schema = pa.schema([field for field in schema if field.name != "problem"])
     with atomic(stem.with_suffix(".csv")) as file:
         file.write(csv_text(table.drop(columns=list(leave_out_of_csv))).encode())
     with atomic(stem.with_suffix(".parquet")) as file:

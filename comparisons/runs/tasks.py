@@ -6,6 +6,7 @@ its own rows and nothing else.
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -16,10 +17,11 @@ from typing import Any
 from comparisons.domain import declared_domain
 from comparisons.external.identity import contradiction
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
-from comparisons.quantities import ALL_QUANTITIES, Points
+from comparisons.problem_file.evaluation import SI_UNITS, model_for, points_of, units_of, value_in_si
+from comparisons.quantities import ALL_QUANTITIES, CURVES, QUANTITIES, Points
 from comparisons.registry import ExternalIdentity, create, depends_on_poisson_ratio
 from comparisons.runs.cases import Case, Grid
-from comparisons.runs.rows import Row
+from comparisons.runs.rows import Key, Row, none_if_nan
 from comparisons.runs.workers import LOST
 
 __all__ = ["Task", "batches", "case_for", "evaluate", "evaluate_task", "lost_row", "plan"]
@@ -35,9 +37,16 @@ class Task:
     external: ExternalIdentity | None = None
 
     @property
-    def key(self) -> tuple[str, str, float, float, float, float | None]:
+    def key(self) -> Key:
         """The key of its row."""
-        return self.model, self.quantity, self.case.n, self.case.k, self.case.mu, self.case.nu
+        case = self.case
+        n, k, mu = (none_if_nan(number) for number in (case.n, case.k, case.mu))
+        return self.model, self.quantity, n, k, mu, case.nu, case.label_of_file
+
+    @property
+    def digest(self) -> str:
+        """Of the problem of a file; empty for another case."""
+        return "" if self.case.file is None else self.case.file.digest
 
     @property
     def problem_key(self) -> tuple[str, Case]:
@@ -52,6 +61,8 @@ class Task:
     def as_json(self) -> dict[str, Any]:
         """Return its form in the record of a run."""
         case = self.case
+        if case.file is not None:
+            return {"quantity": self.quantity, "problem": case.label_of_file}
         return {"quantity": self.quantity, "n": case.n, "k": case.k, "mu": case.mu, "nu": case.nu}
 
 
@@ -95,10 +106,12 @@ def plan(
     return sorted(tasks, key=_costliest_first)
 
 
-def _costliest_first(task: Task) -> tuple[float, float, float, float, str, str]:
+def _costliest_first(task: Task) -> tuple[float, float, float, float, str, str, str]:
     # Complete, so that every process plans the same order.
     case = task.case
-    return -case.mu, case.n, case.k, -1.0 if case.nu is None else case.nu, task.model, task.quantity
+    if case.file is not None:
+        return (-math.inf, 0.0, 0.0, 0.0, case.label_of_file, task.model, task.quantity)
+    return -case.mu, case.n, case.k, -1.0 if case.nu is None else case.nu, "", task.model, task.quantity
 
 
 def evaluate(model: Model, quantity: str, case: Case) -> Row:
@@ -138,7 +151,20 @@ def evaluate(model: Model, quantity: str, case: Case) -> Row:
 
 
 def _evaluate(model: Model, quantity: str, case: Case) -> Result | Points:
-    return ALL_QUANTITIES[quantity].evaluate(model, case.problem())
+    if case.file is None:
+        return ALL_QUANTITIES[quantity].evaluate(model, case.problem())
+    return (points_of if quantity in CURVES else value_in_si)(case.file.content, model, quantity)
+
+
+def _created(spec: str, case: Case) -> Model:
+    """Return the model of a SPEC for a case: some need Poisson's ratio."""
+    return create(spec, case.nu) if case.file is None else model_for(case.file.content, spec)
+
+
+def _unit(quantity: str, case: Case) -> str:
+    if case.file is None:
+        return ALL_QUANTITIES[quantity].unit
+    return "; ".join(units_of(quantity)) if quantity in CURVES else SI_UNITS[QUANTITIES[quantity].scale]
 
 
 def _row(
@@ -157,13 +183,13 @@ def _row(
         model=model.name,
         model_version=model.version,
         quantity=quantity,
-        n=case.n,
-        k=case.k,
-        mu=case.mu,
+        n=none_if_nan(case.n),
+        k=none_if_nan(case.k),
+        mu=none_if_nan(case.mu),
         nu=case.nu,
         value=number.value if number else None,
         u_num=number.u_num if number else None,
-        unit=ALL_QUANTITIES[quantity].unit,
+        unit=_unit(quantity, case),
         status=status,
         reason=reason,
         size=number.size if number else None,
@@ -172,6 +198,8 @@ def _row(
         seconds=(number and number.seconds) or time.perf_counter() - started,
         observed_order=number.observed_order if number else None,
         points=(points.x, points.y, points.u_distance) if points else None,
+        problem=case.label_of_file,
+        digest="" if case.file is None else case.file.digest,
     )
 
 
@@ -186,9 +214,10 @@ def evaluate_task(task: Task) -> Row:
     2.0
     """
     started = time.perf_counter()
-    model = task.external or create(task.model, task.case.nu)
+    model = task.external or _created(task.model, task.case)
     domain = declared_domain(model)
-    if domain is not None and not domain.contains(task.quantity, task.case.parameters):
+    # A problem of a file is compared with the domain in its dimensionless form, where it has one.
+    if domain is not None and task.case.file is None and not domain.contains(task.quantity, task.case.parameters):
         reason = domain.refusal(task.quantity)
         return _row(model, task.quantity, task.case, started, status="not-applicable", reason=reason)
     try:
@@ -207,14 +236,14 @@ def lost_row(task: Task) -> Row:
     >>> lost_row(Task("jkr", "pull_off_force", Case(2, 0, 1))).status
     'failed'
     """
-    model = task.external or create(task.model, task.case.nu)
+    model = task.external or _created(task.model, task.case)
     return _row(model, task.quantity, task.case, time.perf_counter(), status="failed", reason=LOST)
 
 
 def _evaluate_external(first: ExternalIdentity, task: Task) -> Row:
     """Evaluate an external model; the row has failed if the model is not what it was at the start of the run."""
     started = time.perf_counter()
-    model = create(first.spec, task.case.nu)
+    model = _created(first.spec, task.case)
     if (model.name, model.version) != (first.name, first.version):
         reason = contradiction((first.name, first.version), (model.name, model.version))
         return _row(first, task.quantity, task.case, started, status="failed", reason=reason)

@@ -1,4 +1,4 @@
-"""``fscm-bench run``: the standing cases, computed and judged, with verdicts, tables and figures."""
+"""``fscm-bench run``: the standing cases, or those of a file, computed and judged."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from comparisons.model import ComputationFailed
 from comparisons.output.fitted_table import FittedTable
 from comparisons.output.markdown import to_step_summary
 from comparisons.output.run_summary import computations_sentence, largest_table, paper_sentence
-from comparisons.output.sweep_summary import failure_lines
+from comparisons.output.sweep_summary import failure_lines, largest_errors
 from comparisons.output.tables import beside_paper_values, by_case, largest_by_gradient, rich_table, statuses
 from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.run import run
@@ -30,6 +30,7 @@ __all__ = ["EXAMPLES", "add", "call"]
 EXAMPLES = (
     "fscm-bench run",
     "fscm-bench run --model my_model.py:MyModel --out results/mine",
+    "fscm-bench run --cases pads.toml --gates pad_gates.toml --out results/pads",
 )
 
 #: Lines of the whole output without --verbose, at 80 columns or more; of these for the messages on stderr.
@@ -41,7 +42,13 @@ _LEAST_TABLE = 6
 
 def add(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("--tier", choices=TIERS, default=TIERS[0], help="how much to compute (default: %(default)s)")
+    parser.add_argument("--tier", choices=TIERS, help=f"how much to compute (default: {TIERS[0]})")
+    parser.add_argument(
+        "--cases",
+        metavar="FILE",
+        type=Path,
+        help="in place of the standing cases: [[grid]] tables as of a sweep, judged by --gates",
+    )
     parser.add_argument(
         "--model",
         metavar="SPEC",
@@ -72,11 +79,17 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 def call(args: argparse.Namespace) -> int:
     """Run and print; return the exit status."""
+    if args.cases is not None and args.gates is None:
+        raise ValueError("--cases FILE needs --gates FILE; fscm-bench sweep FILE computes cases without gates")
+    if args.cases is not None and args.tier is not None:
+        raise ValueError(
+            f"--tier {args.tier} is of the standing cases, and --cases FILE states others; give one of them"
+        )
     to_step_summary("")
     with quiet() if args.quiet else nullcontext():
         try:
             finished = run(
-                args.tier,
+                args.cases or args.tier or TIERS[0],
                 args.gates,
                 args.model,
                 args.out,
@@ -124,11 +137,21 @@ def _show(finished: FinishedRun, *, verbose: bool, failures_only: bool, with_pap
         table = largest_table(maxima, width, room - taken)
         if table is not None:
             output().print(table)
+        of_files = _largest_of_files(finished)
+        if of_files is not None:
+            output().print(of_files)
         print_lines(below)
     if judgement is not None:
         show(judgement, verbose=verbose, failures_only=failures_only, lines=lines)
     for line in failures:
         log(line)
+
+
+def _largest_of_files(finished: FinishedRun) -> FittedTable | None:
+    """Return the largest errors in the cases of problem files; None if there are none."""
+    kappa = finished.tables.kappa
+    of_files = kappa[kappa["problem"] != ""] if "problem" in kappa else kappa.head(0)
+    return None if of_files.empty else largest_errors(of_files)
 
 
 def _print_every_row(finished: FinishedRun) -> None:
@@ -137,11 +160,13 @@ def _print_every_row(finished: FinishedRun) -> None:
     for (quantity, reference), group in tables.kappa.groupby(["quantity", "reference"]):
         title = f"{quantity} of {reference} with its u_num, and kappa of each model in percent"
         console.print(_titled(by_case(group), title))
-    failed = tables.results.loc[tables.results["status"] == "failed", ["model", "quantity", "n", "k", "mu", "reason"]]
+    of_case = ["n", "k", "mu", *(["problem"] if "problem" in tables.results else [])]
+    failed = tables.results.loc[tables.results["status"] == "failed", ["model", "quantity", *of_case, "reason"]]
     if len(failed):
         console.print(rich_table(failed, "failed computations"))
     console.print(rich_table(statuses(tables.results), "computations"))
-    console.print(_titled(largest_by_gradient(tables.largest), "largest abs(kappa) in percent"))
+    if len(tables.largest):
+        console.print(_titled(largest_by_gradient(tables.largest), "largest abs(kappa) in percent"))
     stated = beside_paper_values(tables.largest)
     if not stated[0].empty:
         title = "largest abs(kappa) in percent beside that of the paper (at_end: at an end of the range of mu)"

@@ -10,6 +10,7 @@ from comparisons.console.progress import waiting
 from comparisons.numerics.number_text import case_text, short
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
+from comparisons.runs.cases import Case
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
@@ -52,8 +53,7 @@ def call(args: argparse.Namespace) -> int:
 
 
 def _case(row: Row) -> dict[str, float]:
-    parameters = {"n": row.n, "k": row.k, "mu": row.mu}
-    return parameters if row.nu is None else {**parameters, "nu": row.nu}
+    return Case.of_row(row).parameters
 
 
 def _json(row: Row) -> str:
@@ -88,7 +88,7 @@ def _text(row: Row) -> str:
     else:
         unit = "" if quantity.unit == "1" else f" {quantity.unit}"
         lines.append(f"  {quantity.symbol} = {short(row.value, row.u_num)}{unit}  ({row.seconds:.2g} s)")
-    if (row.n, row.k) == (2.0, 0.0):
+    if (row.n, row.k) == (2.0, 0.0) and row.mu is not None:
         # Imported here: the other formats and problems do not need it.
         from comparisons.models.maugis_parameter import maugis_parameter
 

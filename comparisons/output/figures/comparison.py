@@ -8,6 +8,7 @@ import pandas as pd
 
 from comparisons.output.style import ModelStyle, empty_figure, model_styles, styled
 from comparisons.quantities import title_of
+from comparisons.runs.rows import CASE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,6 +26,9 @@ _LEGEND_WIDTH, _LEGEND_HEIGHT = 2.3, 0.17
 
 _LABELS = {"mu": r"Tabor number $\mu$", "k": r"gradient exponent $k$", "n": r"shape index $n$"}
 
+#: Column and label where problems of files are among the cases.
+_CASE, _CASE_LABEL = "case", "case, in the order of the table"
+
 
 def draw(table: pd.DataFrame) -> Figure:
     """Draw kappa in percent: a row of panels for each quantity and reference, a panel for each pair of the others.
@@ -37,15 +41,19 @@ def draw(table: pd.DataFrame) -> Figure:
     Returns
     -------
     Figure
-        Over mu, k or n, whichever has most values (the first of those with equally many).
+        Over mu, k or n, whichever has most values (the first of those with equally many); over the number of the case
+        if one is the problem of a file.
     """
     known = table[table["kappa"].notna()]
-    x = max(_LABELS, key=lambda name: known[name].nunique())
+    of_files = "problem" in known
+    if of_files:
+        known = known.assign(**{_CASE: 1 + known.groupby([*CASE], sort=False, dropna=False).ngroup()})
+    x = _CASE if of_files else max(_LABELS, key=lambda name: known[name].nunique())
     others = [name for name in ("n", "k", "mu") if name != x]
     groups = list(known.groupby(["quantity", "reference"], sort=False))
     panels = {key: list(group.groupby(others)) for key, group in groups}
     # A panel of points for cases that are no product of lists.
-    lines = all(len(of_group) <= _MOST_PANELS for of_group in panels.values())
+    lines = not of_files and all(len(of_group) <= _MOST_PANELS for of_group in panels.values())
     if not lines:
         panels = {key: [((), group)] for key, group in groups}
     columns = min(_COLUMNS, max((len(of_group) for of_group in panels.values()), default=1))
@@ -88,9 +96,11 @@ def _finish(figure: Figure, x: str, known: pd.DataFrame) -> None:
         axes.axhline(0, color="0.4", lw=0.8)
         if x == "mu" and known["mu"].nunique() > 1:
             axes.set_xscale("log")
+        if x == _CASE:
+            axes.locator_params(axis="x", integer=True)
         last[place.colspan.start] = axes
     for axes in last.values():
-        axes.set_xlabel(_LABELS[x])
+        axes.set_xlabel(_LABELS.get(x, _CASE_LABEL))
         axes.tick_params(labelbottom=True)
 
 

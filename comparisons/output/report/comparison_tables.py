@@ -9,13 +9,13 @@ import pandas as pd
 from comparisons.judging.summary import coverage_text
 from comparisons.output.comparison import place_text, wide
 from comparisons.output.report.table import Cell, Column, Row, Table, kappa_cell, value
+from comparisons.runs.case_columns import with_problem
+from comparisons.runs.rows import CASE
 
 __all__ = ["SUMMARY_FILE", "TABLE_FILE", "case_tables", "summary_tables"]
 
 #: Stored tables behind those here: the summary of the errors, and one row for each case and model.
 SUMMARY_FILE, TABLE_FILE = "error_summary.csv", "comparison.csv"
-
-_CASE = ["n", "k", "mu", "nu"]
 
 
 def summary_tables(summary: pd.DataFrame) -> Iterator[Table]:
@@ -66,13 +66,13 @@ def case_tables(table: pd.DataFrame, most: int | None = None) -> Iterator[Table]
     most : int, optional
         Rows that are shown; the caption then states how many there are.
     """
-    numbered = table.assign(line=range(len(table)))
+    numbered = with_problem(table).assign(line=range(len(table)))
     for quantity, reference, texts in wide(table):
         of_table = numbered[(numbered["quantity"] == quantity) & (numbered["reference"] == reference)]
         models = list(texts.columns[list(texts.columns).index(reference) + 1 :])
         rows: list[Row] = []
         lines: list[tuple[int, ...]] = []
-        cases = of_table.groupby(_CASE, sort=False, dropna=False)
+        cases = of_table.groupby([*CASE], sort=False, dropna=False)
         for (_, group), shown in zip(cases, texts.itertuples(index=False), strict=True):
             if len(rows) == most:
                 break

@@ -8,6 +8,7 @@ from comparisons.numerics.number_text import case_text, percent_text
 from comparisons.output.gate_sentence import gates_sentence
 from comparisons.output.report.stored_run import Stored
 from comparisons.quantities import ALL_QUANTITIES, title_of
+from comparisons.runs.rows import CASE
 
 __all__ = ["errors_of_models", "gates_of", "headline", "headline_of_errors"]
 
@@ -47,7 +48,7 @@ def errors_of_models(kappa: pd.DataFrame) -> list[tuple[str, str]]:
 
 
 def _error_text(row: pd.Series) -> str:
-    where = case_text({name: row[name] for name in ("n", "k", "mu", "nu")})
+    where = case_text({name: row.get(name) for name in CASE})
     return f"{percent_text(row['kappa'], row['u_kappa'])} % in the {title_of(row['quantity'])} at {where}"
 
 

@@ -26,12 +26,13 @@ from comparisons.output.report.table import (
     without_empty,
 )
 from comparisons.quantities import title_of
+from comparisons.runs.case_columns import keys_in, with_problem
 from comparisons.runs.csv_format import csv_text
-from comparisons.runs.rows import Key
+from comparisons.runs.rows import CASE, Key
 
 __all__ = ["Entry", "case_sets", "leaderboard_html", "standing"]
 
-_KEY = ["model", "quantity", "n", "k", "mu", "nu"]
+_KEY = ["model", "quantity", *CASE]
 
 #: Facts that two runs must share for their errors and verdicts to be comparable, in words for a message.
 _FACTS = ("cases", "tier", "gates", "chosen by gates")
@@ -94,12 +95,9 @@ def case_sets(entries: Sequence[Entry], mixed: bool) -> list[str]:
 def standing(entry: Entry) -> pd.DataFrame:
     """Return the summary of errors of a run (`comparisons.output.error_summary`) with version and verdict."""
     stored = entry.stored
-    kappa = stored.kappa[[*_KEY, "reference", "kappa", "u_kappa"]]
-    keys = [
-        (*key[:5], None if pd.isna(key[5]) else key[5])
-        for key in stored.results[_KEY].itertuples(index=False, name=None)
-    ]
-    results = stored.results
+    kappa = with_problem(stored.kappa)[[*_KEY, "reference", "kappa", "u_kappa"]]
+    keys = keys_in(stored.results)
+    results = with_problem(stored.results)
     if entry.planned is None:
         of_quantity = dict(kappa.groupby("quantity")["reference"].agg("first"))
         results = results.assign(stated=[of_quantity.get(key[1], "") for key in keys])

@@ -10,7 +10,6 @@ import pandas as pd
 from comparisons.output.report.plots import curve_group, kappa_group
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.report.table import (
-    CASE,
     CASE_COLUMNS,
     Cell,
     Column,
@@ -24,6 +23,8 @@ from comparisons.output.report.table import (
     without_empty,
 )
 from comparisons.quantities import title_of
+from comparisons.runs.case_columns import with_problem
+from comparisons.runs.rows import CASE
 
 __all__ = ["convergence", "curve_points", "kappa", "largest", "models", "results"]
 
@@ -231,4 +232,4 @@ def models(stored: Stored, specs: Mapping[str, str]) -> Table:
 
 def _whole_curves(curves: pd.DataFrame) -> pd.DataFrame:
     key = ["model", "model_version", "quantity", *CASE]
-    return curves.drop_duplicates(key)[["model", "model_version", "status"]]
+    return with_problem(curves).drop_duplicates(key)[["model", "model_version", "status"]]

@@ -120,7 +120,7 @@ def make_page(stored: Stored) -> Page:
     ]
     tables = {table.id: table for table in made}
     sections = {
-        "kappa": [plots.kappa(stored)] if len(stored.kappa) else [],
+        "kappa": [plots.kappa(stored)] if stored.kappa["mu"].notna().any() else [],
         "curves": curves,
         "convergence": plots.convergence(stored),
     }
@@ -152,7 +152,8 @@ def _summary(stored: Stored) -> str:
     candidates = ", ".join(models if models is not None else sorted(set(stored.summary["candidate"]))) or "none"
     shipped = stored.record["rows"].get("shipped")
     of_package = f", {shipped} of them shipped with fscm-bench" if shipped else ""
-    size = f"The run of the {stored.record['arguments']['tier']} tier has {rows} results{of_package}."
+    tier = stored.record["arguments"]["tier"]
+    size = f"The run{f' of the {tier} tier' if tier else ''} has {rows} results{of_package}."
     gates, cases = without_card_gates(stored.summary), without_card_gates(stored.verdicts)
     if gates.empty:
         return f"{size} No gate was evaluated, which is an error and not a pass. Candidates: {candidates}."

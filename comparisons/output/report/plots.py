@@ -24,7 +24,7 @@ def kappa_group(row: pd.Series) -> str:
 
 def kappa(stored: Stored) -> Plot:
     """Relative errors over the Tabor number, one picture for each n and k."""
-    table = stored.kappa.sort_values(["model", "mu"], kind="stable")
+    table = stored.kappa[stored.kappa["mu"].notna()].sort_values(["model", "mu"], kind="stable")
     # An absurd value overflows in percent; it is in the tables, but there is no place for it in a picture.
     finite = table[np.isfinite(100 * table["kappa"]) & np.isfinite(100 * table["u_kappa"])]
     series = []
@@ -77,7 +77,7 @@ def curve_group(row: pd.Series) -> str:
 
 def curves(stored: Stored) -> list[Plot]:
     """One plot a kind of curve that is stored."""
-    usable = stored.curves[stored.curves["status"] == "ok"].sort_values("point", kind="stable")
+    usable = stored.curves[(stored.curves["status"] == "ok") & stored.curves["mu"].notna()].sort_values("point", kind="stable")
     plots = []
     for row in CURVES.values():
         chosen = usable[usable["quantity"] == row.name]

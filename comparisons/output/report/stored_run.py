@@ -18,12 +18,13 @@ from comparisons.output.verdicts import GATE_COLUMNS
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
 from comparisons.runs.record import PROBLEM_SWEEP, check_files, read_record, warn_of_other_code
+from comparisons.runs.rows import CASE
 from comparisons.runs.tables import read_table
 
 __all__ = ["Stored", "read_folder"]
 
 _KAPPA = (
-    *("quantity", "model", "n", "k", "mu", "nu", "value", "u_num"),
+    *("quantity", "model", *CASE, "value", "u_num"),
     *("reference", "reference_value", "u_reference", "kappa", "u_kappa"),
 )
 _LARGEST = ("quantity", "model", "n", "k", "cases", "mu", "at_end", "kappa", "u_kappa", "paper_percent", "verdict")
@@ -52,6 +53,7 @@ _JUDGED: dict[str, Sequence[str]] = {
 _WORDS = {
     "model",
     "model_version",
+    "problem",
     "quantity",
     "unit",
     "status",
@@ -134,6 +136,7 @@ def _has(folder: Path, record: dict[str, Any], name: str) -> bool:
 
 def _table(path: Path, columns: Sequence[str], words: set[str] = _WORDS) -> pd.DataFrame:
     table = read_table(path)
+    columns = [name for name in columns if name != "problem" or name in table]
     lost = [name for name in columns if name not in table]
     if lost:
         raise ValueError(f"{path} has no column {', '.join(lost)}: it is not what this version of fscm-bench writes")
@@ -145,4 +148,4 @@ def _table(path: Path, columns: Sequence[str], words: set[str] = _WORDS) -> pd.D
             table[name] = pd.to_numeric(table[name]).astype(float)
         except (TypeError, ValueError):
             raise ValueError(f"{path} has something in its column {name} that is no number") from None
-    return table[list(columns)]
+    return table[columns]

@@ -12,9 +12,9 @@ import pandas as pd
 from comparisons.numerics.number_text import exact, percent_text, value_text
 from comparisons.output.latex import LatexParts, latex_parts
 from comparisons.runs.csv_format import csv_text
+from comparisons.runs.rows import PARAMETERS
 
 __all__ = [
-    "CASE",
     "CASE_COLUMNS",
     "Cell",
     "Column",
@@ -127,15 +127,13 @@ def without_empty(table: Table) -> Table:
     )
 
 
-#: The parameters of a case.
-CASE = ("n", "k", "mu", "nu")
 #: Columns of the parameters of a case.
-CASE_COLUMNS = tuple(Column(label, "number") for label in ("n", "k", "μ", "ν"))
+CASE_COLUMNS = (*(Column(label, "number") for label in ("n", "k", "μ", "ν")), Column("problem"))
 
 
 def case_cells(row: pd.Series) -> tuple[Cell, ...]:
     """The parameters of the case of a stored row, in the order of `CASE_COLUMNS`."""
-    return tuple(parameter(row[name]) for name in CASE)
+    return (*(parameter(row[name]) for name in PARAMETERS), Cell(str(row.get("problem") or "")))
 
 
 def parameter(number: float) -> Cell:

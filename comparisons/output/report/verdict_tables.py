@@ -14,7 +14,6 @@ from comparisons.judging.summary import coverage_text, worst_first
 from comparisons.numerics.number_text import case_text, error_text, exact, limits_text
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.report.table import (
-    CASE,
     CASE_COLUMNS,
     Cell,
     Column,
@@ -27,6 +26,7 @@ from comparisons.output.report.table import (
 )
 from comparisons.output.verdicts import command
 from comparisons.quantities import title_of
+from comparisons.runs.rows import CASE
 
 __all__ = ["all_verdicts", "matrix", "offenders"]
 
@@ -44,7 +44,7 @@ _NUMBERS = (
 
 
 def _case_label(row: pd.Series) -> str:
-    return case_text({name: row[name] for name in CASE}) or "the gate as a whole"
+    return case_text({name: row.get(name) for name in CASE}) or "the gate as a whole"
 
 
 def _error(row: pd.Series) -> Cell:

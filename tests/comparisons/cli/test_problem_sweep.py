@@ -239,7 +239,7 @@ def test_every_column_is_described_in_si(tmp_path):
 def test_different_results_of_one_computation_are_refused(tmp_path, monkeypatch, capsys):
     assert sweep(tmp_path / "one", "--model", "jkr", "--quiet") == 0
     with monkeypatch.context() as patch:
-        patch.setattr("comparisons.problem_file.evaluation._value", larger(evaluation._value))
+        patch.setattr("comparisons.problem_file.evaluation.value_in_si", larger(evaluation.value_in_si))
         assert sweep(tmp_path / "two", "--model", "jkr", "--quiet") == 0
     capsys.readouterr()
     assert main(["merge", *(str(tmp_path / name) for name in ("one", "two")), "--out", str(tmp_path / "all")]) == 2
@@ -261,7 +261,7 @@ def larger(value):
 def test_a_failure_gives_way_to_a_value(tmp_path, monkeypatch):
     assert sweep(tmp_path / "good", "--model", "jkr", "--quiet") == 0
     with monkeypatch.context() as patch:
-        patch.setattr("comparisons.problem_file.evaluation._value", fails)
+        patch.setattr("comparisons.problem_file.evaluation.value_in_si", fails)
         assert sweep(tmp_path / "bad", "--model", "jkr", "--quiet") == 4
     for order in (["bad", "good"], ["good", "bad"]):
         out = tmp_path / "-".join(order)

@@ -409,7 +409,7 @@ def test_the_bound_of_a_curve_is_the_largest_of_its_points_and_each_has_one(firs
     u = np.where(t < 0.5, first, last)
     table = pd.DataFrame(case | {"x": t, "y": t, "u_distance": u, "status": "ok", "reason": ""})
     stored = stored_curves(table, {("jkr", "force_curve")})
-    key = ("jkr", "force_curve", 2.0, 0.0, 1.0, None)
+    key = ("jkr", "force_curve", 2.0, 0.0, 1.0, None, "")
     if expected is not None:
         assert stored.points(key)[2] == expected
     else:

@@ -17,7 +17,7 @@ def test_a_signal_that_another_thread_receives_waits_for_the_end_of_the_block():
     other.start()
     finished = False
     try:
-        with pytest.raises(KeyboardInterrupt), handled_later(signal.SIGINT):
+        with pytest.raises(KeyboardInterrupt), handled_later(signal.SIGINT):  # noqa: PT012 - the end of the block counts
             signal.pthread_kill(other.ident, signal.SIGINT)
             time.sleep(0.1)
             finished = True

@@ -134,7 +134,7 @@ def test_cases_of_the_verification_and_fresh_ones_do_not_count():
     case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "nu": math.nan, "status": "ok", "model_version": "1"}
     results = pd.DataFrame([case | {"model": model, "mu": mu} for model in ("a", "exact") for mu in (0.1, 0.2, 7.0)])
     kappa = [("pull_off_force", "a", 2.0, 0.0, mu, math.nan, "exact", x, 1e-9) for mu, x in ((0.1, -0.3), (0.2, 0.4))]
-    planned = {("a", "pull_off_force", 2.0, 0.0, mu, None): "exact" for mu in (0.1, 0.2)}
+    planned = {("a", "pull_off_force", 2.0, 0.0, mu, None, ""): "exact" for mu in (0.1, 0.2)}
     for known, asked in ((planned, 2), (None, 3)):
         (row,) = standing(entry(record(), kappa, results, known)).to_dict("records")
         assert (row["asked"], row["answered"], row["cases"], row["mu"], row["largest"]) == (asked, asked, 2, 0.2, 0.4)
@@ -188,7 +188,7 @@ def test_many_rows_are_laid_out_by_the_script():
     models = [f"model-{number}" for number in range(260)]
     case = {"n": 2.0, "k": 0.0, "mu": 1.0, "nu": math.nan, "status": "not-applicable", "model_version": "1"}
     results = pd.DataFrame([case | {"quantity": "pull_off_force", "model": model} for model in models])
-    planned = {(model, "pull_off_force", 2.0, 0.0, 1.0, None): "exact" for model in models}
+    planned = {(model, "pull_off_force", 2.0, 0.0, 1.0, None, ""): "exact" for model in models}
     of_run = record(finished="2026-01-01T00:00:00+00:00", package={"version": "1", "commit": None})
     data = json.loads(
         re.search(r'id="data">(.*?)</script>', leaderboard_html([entry(of_run, [], results, planned)]))[1]

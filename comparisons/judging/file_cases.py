@@ -1,0 +1,88 @@
+"""Cases of problem files that a gate selects by keys of the file, as "solid.thickness"."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from difflib import get_close_matches
+from typing import Any
+
+from comparisons.problem_file.description import ProblemFile
+from comparisons.problem_file.form import SECTIONS, kinds, unit_of
+from comparisons.problem_file.source import shown
+from comparisons.problem_file.units import NotAValue, in_si
+from comparisons.runs.rows import PARAMETERS
+
+__all__ = ["in_si_units", "matches"]
+
+
+def in_si_units(cases: Mapping[str, Any], where: str) -> dict[str, Any]:
+    """Return the cases of a gate with the values of keys of a problem file in SI.
+
+    Raises
+    ------
+    ValueError
+        One sentence, which begins with `where`, if a key is unknown or a value has another dimension.
+
+    Examples
+    --------
+    >>> in_si_units({"solid.kind": "coating", "solid.thickness": ["10 nm", "50 nm"], "n": [2, 2]}, "gate A")
+    {'solid.kind': 'coating', 'solid.thickness': [1e-08, 5e-08], 'n': [2, 2]}
+    """
+    plain = (*PARAMETERS, "tags")
+    return {name: value if name in plain else _checked(name, value, where) for name, value in cases.items()}
+
+
+def matches(cases: Mapping[str, Any], names: Iterable[str], problem: ProblemFile) -> bool:
+    """Whether a problem has the words of some keys, and values inside their ranges; not if it has no such key."""
+    return all(_matches(cases[name], _value(problem, name)) for name in names)
+
+
+def _matches(wanted: Any, value: Any) -> bool:
+    if isinstance(wanted, str):
+        return bool(value == wanted)
+    low, high = wanted
+    return isinstance(value, float | int) and low <= value <= high
+
+
+def _value(problem: ProblemFile, name: str) -> Any:
+    section_name, _, key = name.partition(".")
+    section = getattr(problem, section_name)
+    return section.kind if key == "kind" else section.get(key)
+
+
+def _known() -> dict[str, set[str | None]]:
+    """Keys of the problem files, with their units in the kinds that have them."""
+    found: dict[str, set[str | None]] = {}
+    for section in SECTIONS:
+        for kind, form in kinds(section).items():
+            for key in form["properties"]:
+                units = found.setdefault(f"{section}.{key}", set())
+                if key != "kind":
+                    units.add(unit_of(section, kind, key))
+    return found
+
+
+def _checked(name: str, value: Any, where: str) -> Any:
+    known = _known()
+    if name not in known:
+        near = get_close_matches(name, [*known, *PARAMETERS, "tags"], n=1)
+        every = f"known are {', '.join((*PARAMETERS, 'tags'))}, and keys of a problem file as solid.kind"
+        hint = f"did you mean {near[0]}?" if near else every
+        raise ValueError(f"{where}: cases: unknown key {name!r}: {hint}")
+    section, _, key = name.partition(".")
+    if key == "kind":
+        if not isinstance(value, str) or value not in kinds(section):
+            raise ValueError(f"{where}: cases.{name} = {shown(value)} must be one of {', '.join(kinds(section))}")
+        return value
+    if isinstance(value, str):
+        return value
+    unit = next(iter(known[name])) or ""
+    try:
+        low, high = (in_si(end, unit) for end in value)
+    except NotAValue as error:
+        raise ValueError(
+            f"{where}: cases.{name} has a value that {error}; write [low, high], two values with a unit"
+        ) from None
+    if not low <= high:
+        raise ValueError(f"{where}: cases.{name} = {shown(value)} must be [low, high], two values with low <= high")
+    return [low, high]
