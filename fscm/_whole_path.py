@@ -15,6 +15,7 @@ from fscm._edge_width import log_edge_width
 from fscm._equilibrium import State
 from fscm._meshes import Mesh, Meshes
 from fscm._path_end import PathEnd, displacement_of_compression
+from fscm._surface_rings import RingsForm, ring_limit
 from fscm.errors import NotConverged
 from fscm.problem import Problem
 from fscm.punch import PowerPunch, kinks_of
@@ -117,6 +118,8 @@ def path_by_any_mesh(
         try:
             known = ended(), end, most, longest_step, start_gap, end_height, tracking
             return complete(path_until(problem, order, tolerance, *known))
+        except RingsForm:
+            raise
         except NotConverged as error:
             errors.append(error)
     raise errors[0]
@@ -133,10 +136,18 @@ def bracketing_path(problem: Problem, meshes: Meshes) -> list[Point]:
     name, height = "a compressive load", meshes.end_height
     try:
         return path_by_any_mesh(problem, *meshes.path, end, name, end_height=height, complete=complete)
+    except RingsForm:
+        raise
     except NotConverged:
         if meshes.path.tolerance <= _FINER.tolerance:
             raise
+    try:
         return path_by_any_mesh(problem, *_FINER, end, name, end_height=height, complete=complete)
+    except NotConverged as error:
+        rings = ring_limit(problem)
+        if rings is None:
+            raise
+        raise rings.refusal(problem) from error
 
 
 def path_end(problem: Problem, end_height: float) -> PathEnd:
