@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from fscm import Problem, solve
+from fscm import Problem, equilibria, solve
 from fscm._surface_rings import RingsForm, ring_limit
 from fscm.errors import NotConverged
 from fscm.graded import Coating, GradedProblem, graded_problem
@@ -63,10 +63,17 @@ def test_no_rings(problem):
     assert ring_limit(problem) is None
 
 
-def test_rings_are_refused_and_the_limit_is_named():
+@pytest.mark.parametrize(
+    "compute",
+    [
+        pytest.param(lambda problem: solve(problem, "pull_off_force"), id="force"),
+        pytest.param(lambda problem: equilibria(problem, "load", -1.0), id="states"),
+    ],
+)
+def test_rings_are_refused_and_the_limit_is_named(compute):
     problem = rubber(100.0)
     with pytest.raises(NotConverged) as refused:
-        solve(problem, "pull_off_force")
+        compute(problem)
     assert isinstance(refused.value, RingsForm)
     assert f"mu = {ring_limit(problem).mu:.4g}" in str(refused.value)
 
