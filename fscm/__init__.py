@@ -20,7 +20,7 @@ LAYERS = (
     ("_tail",),
     ("_bordered_factor", "_equilibrium", "_defect", "solution"),
     ("_newton", "_arc_length", "_path_end", "_adaptivity", "_branches"),
-    ("_edge_width", "_contact_initiation", "_continuation"),
+    ("_edge_width", "_contact_initiation", "_surface_rings", "_continuation"),
     ("_events", "_bounds", "_completeness", "_whole_path", "_pull_off_path", "_curve_density", "folds", "stability"),
     ("path", "critical", "quantities", "analysis"),
     ("gibson", "stieltjes", "interpolation"),

@@ -25,6 +25,7 @@ from fscm._equilibrium import Control, Discretisation, Rates, State
 from fscm._meshes import Meshes
 from fscm._newton import STEP_TOLERANCE, newton
 from fscm._path_end import depth
+from fscm._surface_rings import check_rings, ring_limit
 from fscm.errors import NotConverged
 from fscm.problem import Problem
 from fscm.punch import PowerPunch, kinks_of
@@ -133,7 +134,7 @@ class _Tracer:
         self, problem: Problem, tolerance: float, longest_step: float, end_height: float, tracking: Tracking
     ) -> None:
         self._problem, self._tolerance, self._end_height, self._tracking = problem, tolerance, end_height, tracking
-        self._arc = ArcLength.of(problem)
+        self._arc, self._rings = ArcLength.of(problem), ring_limit(problem)
         self._newton = _NEWTON_MARGIN * tolerance if tracking.newton is None else tracking.newton
         self._longest = min(longest_step, tracking.longest_step)
         self._step = min(_FIRST_STEP, self._longest)
@@ -160,7 +161,9 @@ class _Tracer:
             point = self._next(point)
 
     def _check(self, state: State, farthest: float) -> None:
-        """Raise NotConverged where the path goes round in circles."""
+        """Raise NotConverged where the path goes round in circles, or the surface comes into contact in rings."""
+        if self._rings is not None:
+            check_rings(state, self._rings)
         if state.central_gap > farthest:
             raise NotConverged(
                 f"the path of {self._problem} came back to separation: a sharp turn of it was not resolved"

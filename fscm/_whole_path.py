@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 
 from fscm._adaptivity import end_radius
@@ -15,6 +15,7 @@ from fscm._edge_width import log_edge_width
 from fscm._equilibrium import State
 from fscm._meshes import Mesh, Meshes
 from fscm._path_end import PathEnd, displacement_of_compression
+from fscm._surface_rings import RingsForm, ring_limit
 from fscm.errors import NotConverged
 from fscm.problem import Problem
 from fscm.punch import PowerPunch, kinks_of
@@ -79,8 +80,7 @@ def path_until(
 
 def path_by_any_mesh(
     problem: Problem,
-    order: int,
-    tolerance: float,
+    meshes: Sequence[Mesh],
     ended: Callable[[], Callable[[State], bool]],
     end: str,
     most: int = MAX_POINTS,
@@ -96,8 +96,10 @@ def path_by_any_mesh(
 
     Parameters
     ----------
-    problem, order, tolerance, end, most, longest_step, start_gap, end_height
+    problem, end, most, longest_step, start_gap, end_height
         As for `path_until`.
+    meshes : sequence of Mesh
+        Tried one after the other.
     ended : callable
         () -> the condition of the end of a new path.
     complete : callable, optional
@@ -105,20 +107,28 @@ def path_by_any_mesh(
 
     Raises
     ------
+    RingsForm
+        When the surface comes into contact in rings, or may do so and no mesh reaches the end.
     NotConverged
-        With the reason of the first choice.
+        With the reason of the first choice on the last mesh.
     """
-    complete = partial(completed, tolerance=tolerance) if complete is None else complete
     choices = [Tracking()]
     if not isinstance(problem.punch, PowerPunch) and log_edge_width(problem) > _WIDE:
         choices = [_FIXED, Tracking(), _CAREFUL] if kinks_of(problem.punch) else [Tracking(), _FIXED, _CAREFUL]
-    errors = []
-    for tracking in choices:
-        try:
+    for order, tolerance in meshes:
+        whole = partial(completed, tolerance=tolerance) if complete is None else complete
+        errors = []
+        for tracking in choices:
             known = ended(), end, most, longest_step, start_gap, end_height, tracking
-            return complete(path_until(problem, order, tolerance, *known))
-        except NotConverged as error:
-            errors.append(error)
+            try:
+                return whole(path_until(problem, order, tolerance, *known))
+            except RingsForm:
+                raise
+            except NotConverged as error:
+                errors.append(error)
+    rings = ring_limit(problem)
+    if rings is not None:
+        raise rings.refusal(problem) from errors[0]
     raise errors[0]
 
 
@@ -131,12 +141,8 @@ def bracketing_path(problem: Problem, meshes: Meshes) -> list[Point]:
     end = partial(path_end, problem, meshes.end_height)
     complete = list if isinstance(problem.punch, PowerPunch) else None
     name, height = "a compressive load", meshes.end_height
-    try:
-        return path_by_any_mesh(problem, *meshes.path, end, name, end_height=height, complete=complete)
-    except NotConverged:
-        if meshes.path.tolerance <= _FINER.tolerance:
-            raise
-        return path_by_any_mesh(problem, *_FINER, end, name, end_height=height, complete=complete)
+    tried = [mesh for mesh in (meshes.path, _FINER) if mesh is meshes.path or mesh.tolerance < meshes.path.tolerance]
+    return path_by_any_mesh(problem, tried, end, name, end_height=height, complete=complete)
 
 
 def path_end(problem: Problem, end_height: float) -> PathEnd:

@@ -16,6 +16,7 @@ from fscm._defect import Errors
 from fscm._events import Bracket, Condition
 from fscm._meshes import Accuracy, Mesh, Meshes
 from fscm._pull_off_path import pull_off_path
+from fscm._surface_rings import RingsForm
 from fscm._threads import one_thread
 from fscm._whole_path import bracketing_path
 from fscm.errors import AccuracyWarning, NoSuchEvent, NotConverged
@@ -305,6 +306,8 @@ class Analysis:
         start = time.perf_counter()
         try:
             found = row.compute(self)
+        except RingsForm:
+            raise
         except NotConverged:
             if self.meshes.path.tolerance <= _FINER_PATH.tolerance:
                 raise

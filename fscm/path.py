@@ -141,7 +141,7 @@ def trace(
         return ended
 
     points = path_by_any_mesh(
-        problem, *meshes.curve, ending, "its end", _MAX_POINTS, longest_step, start, meshes.end_height
+        problem, [meshes.curve], ending, "its end", _MAX_POINTS, longest_step, start, meshes.end_height
     )
     states, folds = _with_events(turning_slowly(points, largest_turn))
     if max_load is not None and max_load <= 0.0:

@@ -165,7 +165,7 @@ def equilibria(problem: Problem, control: str, value: float, accuracy: Accuracy 
 
     start_gap = 10.0 + 5.0 * problem.mu + (0.0 if control == "load" else 2.0 * abs(value))
     end = f"the {control} {value:g}"
-    points = path_by_any_mesh(problem, *meshes.path, ending, end, start_gap=start_gap, end_height=meshes.end_height)
+    points = path_by_any_mesh(problem, [meshes.path], ending, end, start_gap=start_gap, end_height=meshes.end_height)
     fold = _FOLDS[control]
     found: list[EquilibriumState] = []
     for a, b in pairwise(points):
