@@ -14,11 +14,10 @@ from fem_reference._contact.critical import stiffer_than_critical
 from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.mesh_choice import MeshChoice, chosen
-from fem_reference._contact.mesh_lengths import kinks_within
+from fem_reference._contact.mesh_lengths import scales
 from fem_reference._contact.path import edge_is_resolved
 from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.uncondensed import uncondensed_events
-from fem_reference._elastic.compliance import is_scaling
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._threads import one_thread
 from fem_reference.accuracy import Level, coarser_accuracy
@@ -162,7 +161,7 @@ def _no_less_certain(
 
 def _summed(problem: Problem, rows: Mapping[str, Quantity], accuracy: float | str) -> dict[str, Solution | NoSuchEvent]:
     """Compute quantities; where no mesh is fine at every contact edge, those of several edges by their parts."""
-    if _scales(problem):
+    if scales(problem):
         return _solved_together(problem, rows, accuracy)
     single: dict[str, Quantity] = {}
     for name, row in rows.items():
@@ -179,11 +178,6 @@ def _sum(terms: Iterable[Solution | NoSuchEvent]) -> Solution | NoSuchEvent:
             return first if isinstance(first, NoSuchEvent) else other
         first = first.plus(other)
     return first
-
-
-def _scales(problem: Problem) -> bool:
-    """Whether one mesh serves every size of the contact."""
-    return is_scaling(problem.solid.modulus, problem.solid.nu, kinks_within(problem))
 
 
 def _critical_modulus(problem: Problem, accuracy: float | str) -> Solution | NoSuchEvent:
@@ -265,7 +259,7 @@ def _unresolved(
     next: they do not bound it.  The quantities of the jump out of contact come first: before the jump into contact
     there is no edge, and the mesh of the other jump is fine enough for it.
     """
-    if _scales(problem):
+    if scales(problem):
         return {}
     known = [name for name in rows if name in solved or name in missed]
     others = [name for name in known if rows[name].events[0] != rows[known[0]].events[0]]

@@ -48,11 +48,18 @@ MOST_STATES = 400
 WIDTHS = 8
 """Largest number of widths of the edge at one radius."""
 
+POLISHES = 3
+"""Newton steps for the root of a polynomial of degree 3 that is nearly straight."""
+
 MOVES = 12
 """Largest number of moves of a mesh towards an event; two are usual, from an event that is 0.5 % away."""
 
 LARGEST_MOVE = 0.1
 """Largest change of the radius in one of them, relative to it."""
+
+EXTREMUM_STEP = 0.02
+"""Change of the logarithm of the radius between states whose values tell an extremum: the polynomial of degree 4 has it
+to 3e-7 for a load of the limit of a short range (by its fifth derivative), which changes the load by 2e-13."""
 
 
 class _Meshes(Protocol):
@@ -152,6 +159,41 @@ class EdgeStates:
                 return spec, radius
             radius += float(np.clip(move, -LARGEST_MOVE * radius, LARGEST_MOVE * radius))
         raise NotConverged(f"the contact edge of an event was not found near the radius {radius:.4g}")
+
+    def extremum(self, value: Callable[[Point], float]) -> tuple[float, float]:
+        """Return the radius at which a value is stationary near the start, and its second derivative there.
+
+        The states have similar meshes, whose errors change as smoothly with the radius as the value does.
+
+        Parameters
+        ----------
+        value : callable
+            Of a state.
+
+        Raises
+        ------
+        NotConverged
+            As `own`, or if the extremum is not found.
+        """
+        radius = self.start.edge_radius
+        steps = EXTREMUM_STEP * np.arange(-2, 3)
+        for _ in range(MOVES):
+            spec, self.start = self.own(radius)
+            values = [value(self._on_similar_mesh(spec, radius * math.exp(x))) for x in steps]
+            polynomial = np.polynomial.Polynomial.fit(steps, values, steps.size - 1)
+            rate, bend = polynomial.deriv(), polynomial.deriv(2)
+            x = -float(rate(0.0) / bend(0.0))
+            if abs(x) <= EXTREMUM_STEP:
+                for _ in range(POLISHES):
+                    x -= float(rate(x) / bend(x))
+                return radius * math.exp(x), float(bend(x)) / radius**2
+            radius *= math.exp(float(np.clip(x, -LARGEST_MOVE, LARGEST_MOVE)))
+        raise NotConverged(f"the contact edge of an extremum was not found near the radius {radius:.4g}")
+
+    def _on_similar_mesh(self, spec: MeshSpec, radius: float) -> Point:
+        """The state with the contact edge at a radius, on a mesh as fine at its edge as another one."""
+        similar = replace(self.meshes.spec_at(spec.edge_width, radius), order=self.degree, density=self.density)
+        return self._reached(self.meshes.contact(similar, radius), radius)
 
     def _on_known_mesh(self, radius: float) -> Point | None:
         """The state on the mesh of the nearest one, if its elements there are short enough."""

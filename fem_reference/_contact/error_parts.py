@@ -3,7 +3,9 @@
 The path on the finest mesh finds an event, and only the event is solved again on the others.  No part is taken from
 another method, and none is a factor times another.
 
-* mesh: three densities, and a lower degree at the medium one (`fem_reference._contact.uncertainty`).
+* mesh: three densities, and a lower degree at the medium one (`fem_reference._contact.uncertainty`).  Where that leaves
+  more than `UNCERTAIN` of a solid that does not scale, the lower degree is taken on the finest mesh as well, and tells
+  the error there.
 * first layer, interior and exterior, apex: one feature of the coarsest mesh is made coarser, and what that changes is
   the part.  These features are `density` times a length too (the extent is the same at all densities), and so the
   error on the finest mesh is smaller.  For the first layer and the apex the elements have a lower degree, whose error
@@ -31,7 +33,7 @@ from fem_reference._contact.events import PathEvents
 from fem_reference._contact.mesh_choice import MeshChoice
 from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.tail import TailContact
-from fem_reference._contact.uncertainty import Convergence, three_meshes
+from fem_reference._contact.uncertainty import Convergence, three_meshes, two_degrees
 from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import EXTENT, FEATURES, variant
@@ -48,8 +50,9 @@ full degree, and the difference that a feature makes is larger (measured: 2.4 to
 random problems, n = 1 ... 5.7, k = 0 ... 0.65, mu = 0.06 ... 2)."""
 
 UNCERTAIN = 1e-6
-"""Difference that a feature makes with the lower degree, relative to the quantity, beyond which it is found with the
-full degree where the solid does not scale: ten times the accuracy "default".  Two layers taken together may be as thick
+"""Error of the densities, relative to the quantity, beyond which the lower degree is taken on the finest mesh; and the
+difference that a feature makes with the lower degree, beyond which it is found with the full degree.  Both are where
+the solid does not scale, and ten times the accuracy "default".  Two layers taken together may be as thick
 as the length in which the modulus changes, and the lower degree then shows its own error there (measured: 2e-6 with
 degree 4 and 2e-7 with 6, where a modulus grows tenfold within 0.4 contact radii)."""
 
@@ -92,6 +95,8 @@ class EventsOnMeshes:
         On the coarsest mesh with the lowest degree.
     features : mapping of str to ResolvedEvents
         On that mesh with one feature made coarser.
+    finest_lower_degree : callable
+        Returns the events on the finest mesh with a lower degree.
     full_degree : callable
         Returns the same for the name of a feature on the coarsest mesh with the full degree: for the extent, and for
         what the lower degree cannot resolve.
@@ -112,6 +117,7 @@ class EventsOnMeshes:
     medium: ResolvedEvents
     lower_degree: ResolvedEvents
     base: ResolvedEvents
+    finest_lower_degree: Callable[[], ResolvedEvents]
     features: Mapping[str, ResolvedEvents]
     full_degree: Callable[[str], ResolvedEvents]
     placements: tuple[ResolvedEvents, ...]
@@ -134,12 +140,17 @@ class EventsOnMeshes:
         fine = functional(self.path)
         values = functional(self.coarse), functional(self.medium), fine
         algebra = abs(functional(self.rounding) - fine) + ROUNDING * abs(fine)
-        try:
-            lower_degree = functional(self.lower_degree)
-        except NotConverged:
-            # The coarse mesh replaces it, and is farther away than the medium one.
-            lower_degree = values[0]
+        # The coarse mesh replaces it, and is farther away than the medium one.
+        lower_degree, resolved = values[0], False
+        with suppress(NotConverged):
+            lower_degree, resolved = functional(self.lower_degree), not self.scaling
         convergence = three_meshes(values, self.ratio, declared, lower_degree, algebra, self.refined)
+        if resolved and convergence.error > UNCERTAIN * abs(fine):
+            with suppress(NotConverged):
+                lowest = functional(self.finest_lower_degree())
+                densities = three_meshes(values, self.ratio, declared, None, algebra)
+                degrees = two_degrees((lower_degree, lowest), values[1:])
+                convergence = replace(densities, error=max(densities.error, degrees))
         feature = {name: self._change(functional, name, values) for name in self.features}
         extent = abs(functional(self.full_degree(EXTENT)) - values[0])
         placement = max((abs(functional(events) - fine) for events in self.placements), default=0.0)
@@ -199,6 +210,10 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
     path = choice.traced(fine, size)
     contact = path.contact
 
+    @lru_cache(maxsize=1)
+    def finest_lower_degree() -> ResolvedEvents:
+        return ResolvedEvents(path, choice.contact(replace(fine, order=spec.order - 1).moved(other / size), other))
+
     @lru_cache(maxsize=len(FEATURES))
     def full_degree(feature: str) -> ResolvedEvents:
         return ResolvedEvents(path, choice.contact(variant(spec, feature), size))
@@ -209,6 +224,7 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
         ResolvedEvents(path, middle_contact),
         ResolvedEvents(path, lower_degree),
         ResolvedEvents(path, base),
+        finest_lower_degree,
         {feature: ResolvedEvents(path, other_contact) for feature, other_contact in features.items()},
         full_degree,
         tuple(ResolvedEvents(path, contact, placement) for placement in placements),

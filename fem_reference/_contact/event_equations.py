@@ -58,12 +58,13 @@ class EventEquations:
         self.contact = point.branch.contact
         rates = displacement_rates(point) if name == CUSP else None
         self._change = None if rates is None else rates.change
-        self._slope = self._excess_slope() if rates is None else rates.modulus
+        # A point that is held keeps its parameter.
+        self._slope = (math.inf if point.held else self._excess_slope()) if rates is None else rates.modulus
 
     @property
     def is_fold(self) -> bool:
         """Whether a rate vanishes at the event."""
-        return self.name in ("pull_off", "jump_in", "jump_out", CUSP)
+        return not self.point.held and self.name in ("pull_off", "jump_in", "jump_out", CUSP)
 
     @property
     def controls(self) -> tuple[float, float, float]:

@@ -141,6 +141,14 @@ class FullSystem:
         loads = [factor * self.vector(self.law.traction(self.gap(w, delta, c))) for w, delta, c, factor in columns]
         return relative_residual(self.half_space, np.stack(loads, axis=1), u, self.preconditioner)
 
+    def steepness(self, u: Array, delta: float, c: float) -> float:
+        """Size of the slope of the traction relative to the traction, per length, in the norm of `residuals`."""
+        H = self.gap(u, delta, c)
+        loads = np.stack([self.vector(np.abs(self.law.slope(H))), self.vector(self.law.traction(H))], axis=1)
+        slope, traction = (self.preconditioner.scale[:, None] * loads[self.half_space.free]).T
+        left = self.preconditioner(np.stack([slope, traction], axis=1)).T
+        return math.sqrt(abs(float(slope @ left[0])) / abs(float(traction @ left[1])))
+
     def under_pressure(self, pressure: Array, factor: float) -> Array:
         """Return the displacement under a pressure at the facet Gauss points, to start Newton from."""
         return factor * solve_cg(self.half_space, self.vector(pressure), self.preconditioner).solution

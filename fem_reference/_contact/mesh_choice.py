@@ -14,12 +14,12 @@ from functools import lru_cache
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.events import CUSP, PathEvents
 from fem_reference._contact.followed import FollowedPath
-from fem_reference._contact.mesh_lengths import balance_length, check_width, kinks_within, mesh_spec, spot_length
+from fem_reference._contact.mesh_lengths import balance_length, check_width, mesh_spec, scales, spot_length
 from fem_reference._contact.one_mesh import OneMesh
 from fem_reference._contact.path import EDGE_RISE
 from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.tracing import traced
-from fem_reference._elastic.compliance import compliance_for, is_scaling
+from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import Level, finer_levels
 from fem_reference.errors import NotConverged
@@ -53,7 +53,7 @@ class MeshChoice:
     def contact(self, spec: MeshSpec, size: float) -> Contact:
         """Discretise the problem on a mesh with its edge at the radius `size`."""
         solid, punch, law = self.problem.solid, self.problem.punch, self.problem.law
-        return Contact(punch, law, compliance_for(solid.modulus, solid.nu, spec, size))
+        return Contact(punch, law, compliance_for(solid.modulus, solid.nu, spec, size, self.scaling))
 
     def traced(self, spec: MeshSpec, size: float) -> PathEvents | ResolvedEvents:
         """The path on that mesh or, if the solid does not scale, its events there; kept for all quantities.
@@ -80,8 +80,8 @@ class MeshChoice:
 
     @property
     def scaling(self) -> bool:
-        """Whether the compliance of one size is that of every size, but for a factor."""
-        return is_scaling(self.problem.solid.modulus, self.problem.solid.nu, kinks_within(self.problem))
+        """Whether one mesh carries the path: the compliance of one size is that of every size, but for a factor."""
+        return scales(self.problem)
 
     def adapted(
         self, events: tuple[str, ...], start: tuple[MeshSpec, float] | None = None

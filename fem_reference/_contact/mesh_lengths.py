@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
-from fem_reference._elastic.compliance import scaled_modulus, scaled_poisson
+from fem_reference._elastic.compliance import is_scaling, scaled_modulus, scaled_poisson
 from fem_reference._elastic.depth_scales import depth_scales
 from fem_reference._elastic.exterior import exterior_error
 from fem_reference._elastic.mesh import MeshSpec
@@ -16,7 +17,19 @@ from fem_reference.poisson import poisson_at
 from fem_reference.problem import Problem
 from fem_reference.punch import Punch, kinks_of, radius_at_height
 
-__all__ = ["balance_length", "check_width", "kinks_within", "mesh_spec", "spot_length"]
+__all__ = [
+    "EDGE_PER_BALANCE",
+    "NARROWEST",
+    "NARROWEST_OF_ONE_MESH",
+    "UNRESOLVED",
+    "WIDEST",
+    "balance_length",
+    "check_width",
+    "kinks_within",
+    "mesh_spec",
+    "scales",
+    "spot_length",
+]
 
 APEX_WIDTH = 0.05
 """Radial length resolved at r = 0, relative to the edge radius: a cone then has its pull-off force to
@@ -36,13 +49,23 @@ LAYER_DEPTH = 0.02
 """Depth resolved under the surface relative to the edge width, times min(1, 5 k): the first layer's error is
 linear in its thickness for 0 < k < 0.2, where z^(1-k) and z are hard to tell apart."""
 
-NARROWEST, WIDEST = 1e-6, 0.25
+NARROWEST, WIDEST = 1e-8, 0.25
 """Relative width of an edge: the smallest that is meshed (it costs an element for each factor of two), and the
 largest, which resolves a surface without one."""
 
+NARROWEST_OF_ONE_MESH = 1e-6
+"""The smallest of a mesh that carries a whole path: it extends far beyond the spot on which contact begins."""
+
 UNRESOLVED = 0.02
-"""Share of the narrowest edge below which an edge is refused: on elements that are longer the edge has several
-equilibria.  The value is chosen; edges of a hundredth of it are found at k above 0.85 and mu above 5."""
+"""Share of the narrowest edge of one mesh below which an edge is refused there: on elements that are longer the edge
+has several equilibria.  The value is chosen; edges of a hundredth of it are found at k above 0.85 and mu above 5."""
+
+EDGE_PER_BALANCE, WIDTH_SHARE = 2.2, 0.18
+"""Ratio of the width of an edge to its length of balance (measured at the pull-off at mu = 160 and 1000, k = 0), and
+share of it that is resolved."""
+
+RADIUS_STEP = 1.1
+"""Ratio of the radii at which the energies of a contact are compared."""
 
 FAR_HEIGHT = 1e4
 """Height of the punch, in lengths of the law, at the end of the mesh, for a tension that falls as H^-3 or faster (a
@@ -162,6 +185,33 @@ def balance_length(problem: Problem, radius: float) -> float:
     return float(depth)
 
 
+@lru_cache(maxsize=16)
+def scales(problem: Problem) -> bool:
+    """Whether one mesh carries the path: the solid scales, and the edge is not too narrow for the mesh of a spot.
+
+    The radius of the contact under adhesion is that at which the elastic energy E f^2 a, of a punch of height f pressed
+    in, is the energy of adhesion w a^2.
+
+    Examples
+    --------
+    >>> from fem_reference import LennardJones, PowerPunch, Solid
+    >>> sphere, law = PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
+    >>> [scales(Problem(Solid(E0, 1.0, 0.0, 0.3), sphere, law)) for E0 in (1.0, 1e-5)]  # mu is 1 and 2000
+    [True, False]
+    """
+    solid, punch, law = problem.solid, problem.punch, problem.law
+    if not is_scaling(solid.modulus, solid.nu, kinks_within(problem)):
+        return False
+    radius = radius_at_height(punch, law.length)
+    for _ in range(BALANCE_STEPS):
+        height, E = float(punch.height(np.array(radius))), float(solid.modulus(np.array(radius)))
+        if height**2 * E > law.work_of_adhesion * radius:
+            break
+        radius *= RADIUS_STEP
+    width = WIDTH_SHARE * EDGE_PER_BALANCE * balance_length(problem, radius) / radius
+    return width >= NARROWEST_OF_ONE_MESH
+
+
 def spot_length(problem: Problem, radius: float) -> float:
     """Return the shortest length over which traction and stiffness balance, that of the spot on which contact begins.
 
@@ -170,8 +220,8 @@ def spot_length(problem: Problem, radius: float) -> float:
     return min(balance_length(problem, radius), balance_length(problem, SMALLEST_APEX * radius))
 
 
-def check_width(width: float) -> None:
-    """Refuse an edge, of that width relative to its radius, that is far narrower than every mesh.
+def check_width(width: float, smallest: float = NARROWEST) -> None:
+    """Refuse an edge, of that width relative to its radius, that is narrower than the smallest of a mesh.
 
     Raises
     ------
@@ -181,8 +231,9 @@ def check_width(width: float) -> None:
     --------
     >>> check_width(1e-3)
     """
-    if width < UNRESOLVED * NARROWEST:
+    if width < smallest:
         raise NotConverged(
             f"the contact edge needs elements of {width:.1e} of its radius, and the smallest that are meshed have "
-            f"{NARROWEST:g}: the solid is too soft at its surface; take a smaller k, or a stiffer solid"
+            f"{smallest:g}: the adhesion is too strong for the solid at its surface; take a stiffer surface, a smaller "
+            "work of adhesion, or a longer range of the law"
         )

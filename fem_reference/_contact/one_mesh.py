@@ -13,7 +13,13 @@ from typing import Protocol
 
 from fem_reference._contact.cusp import slowest_sample
 from fem_reference._contact.events import CUSP, PathEvents, beyond_pull_off
-from fem_reference._contact.mesh_lengths import NARROWEST, balance_length, check_width, mesh_spec
+from fem_reference._contact.mesh_lengths import (
+    NARROWEST_OF_ONE_MESH,
+    UNRESOLVED,
+    balance_length,
+    check_width,
+    mesh_spec,
+)
 from fem_reference._contact.path import EDGE_RISE, NARROWER, WIDTH_SHARE, Point, edge_width
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import Level
@@ -119,11 +125,12 @@ class OneMesh:
         at_spot = self.events == (CUSP,) and not self.choice.scaling
         size = self.smallest if at_spot else 2.0 * radius_at_height(punch, law.length)
         width = 0.5 * balance_length(self.choice.problem, size) / size
-        check_width(width)
+        check_width(width, UNRESOLVED * NARROWEST_OF_ONE_MESH)
         return self._spec(width, size), size
 
     def _spec(self, width: float, size: float) -> MeshSpec:
         choice = self.choice
+        width = max(width, NARROWEST_OF_ONE_MESH)
         return mesh_spec(choice.problem, choice.level, width, size, self.smallest, self.far_share, self.apex)
 
     def _without_path(self, spec: MeshSpec, size: float) -> MeshSpec:
@@ -155,10 +162,10 @@ class OneMesh:
         if narrowest <= 0.0:
             # The gap falls at the edge of a mesh that is too coarse to tell the width.
             self.blind += 1
-            width = NARROWEST if self.blind >= BLIND else NARROWER * spec.edge_width
+            width = NARROWEST_OF_ONE_MESH if self.blind >= BLIND else NARROWER * spec.edge_width
             return self._spec(min(width, spec.edge_width), size)
         width = WIDTH_SHARE * narrowest
-        check_width(width)
+        check_width(width, UNRESOLVED * NARROWEST_OF_ONE_MESH)
         needed = self._spec(width, size)
         if self.blind >= BLIND:
             # The narrowest mesh has told the width.

@@ -112,12 +112,16 @@ class Point:
     rates : tuple of (float, float), optional
         Changes of P and delta per unit of the parameter, where those of the state are not taken: along a path over
         several meshes.
+    held : bool
+        Whether the point is an extremum by the values of its neighbours on similar meshes.  Its own rate, of a narrow
+        edge that moves over elements, does not tell, and the parameter is kept.
     """
 
     branch: Branch
     parameter: float
     state: State
     rates: tuple[float, float] | None = None
+    held: bool = False
 
     def predict(self, parameter: float) -> Array:
         """Extrapolate the state along its tangent; the size at most halves or doubles."""
@@ -251,7 +255,9 @@ def first_edge_radius(point: Point) -> float:
     trace, peak = contact.compliance.trace, contact.law.peak_gap
     above = np.flatnonzero(contact.gap(y) > peak)
     if above.size == 0 or above[0] == 0:
-        raise NotConverged("contact begins on a spot smaller than the mesh resolves; take a smaller mesh size")
+        raise NotConverged(
+            "contact begins on a spot smaller than the mesh resolves: take a stiffer surface or less adhesion"
+        )
 
     def excess(s: float) -> float:
         w = float(trace.evaluate(np.array([s]))[0] @ y[:-2])

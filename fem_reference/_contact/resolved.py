@@ -86,7 +86,8 @@ class ResolvedEvents:
 
     def anchor(self, event: str) -> tuple[Point, float]:
         """Return the state at an event, and the slope there of the function that vanishes (see `excess_of`)."""
-        return anchor_of(event, self.at(event))
+        point = self.at(event)
+        return (point, self._path.anchor(event)[1]) if point.held else anchor_of(event, point)
 
     @property
     def pull_off(self) -> Point:
@@ -137,6 +138,8 @@ class ResolvedEvents:
             slope *= original.parameter / parameter
         unit = abs(parameter) if branch.touching else self.contact.law.length
         point = branch.solve(parameter, y)
+        if original.held:
+            return replace(point, held=True)
         value, before = excess(point), math.inf
         nearest, moved = (math.inf, point), 0.0
         for _ in range(SECANT_STEPS):

@@ -225,7 +225,9 @@ def is_scaling(modulus: Modulus, nu: float | PoissonRatio, kinks: tuple[float, .
     return isinstance(modulus, PowerLawModulus) and not isinstance(nu, PoissonRatio) and not kinks
 
 
-def compliance_for(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec, size: float) -> Compliance:
+def compliance_for(
+    modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec, size: float, scaling: bool = True
+) -> Compliance:
     """Return the surface compliance of a solid on a mesh whose edge is at the radius `size`.
 
     Parameters
@@ -238,6 +240,8 @@ def compliance_for(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec, s
         Mesh in units of `size`.
     size : float
         Edge radius; immaterial if the problem scales (`is_scaling`): one compliance then serves every size.
+    scaling : bool
+        Whether that is made use of.
 
     Returns
     -------
@@ -248,7 +252,7 @@ def compliance_for(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec, s
     NotConverged
         If the stiffness of the mesh is not positive definite.
     """
-    if is_scaling(modulus, nu, spec.kinks):
+    if scaling and is_scaling(modulus, nu, spec.kinks):
         law = cast(PowerLawModulus, modulus)
         trace, matrix, rounding, unknowns = _unit_compliance(law.k, cast(float, nu), spec)
         return ScalingCompliance(trace, matrix, law, unknowns, rounding)

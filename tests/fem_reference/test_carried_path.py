@@ -17,6 +17,7 @@ from fem_reference import (
     NotConverged,
     PowerPunch,
     Problem,
+    Solid,
     solve,
     trace,
 )
@@ -124,6 +125,29 @@ def test_the_rates_follow_from_the_states():
     assert [point.load_rate for point in points] == pytest.approx(exact, rel=1e-10, abs=1e-10)
 
 
+def test_an_extremum_follows_from_the_values_of_its_neighbours(monkeypatch):
+    """Rates on one mesh put that of a narrow edge beside it: none is used.  The polynomial has its minimum at 2."""
+    states = EdgeStates(None, _States(0.0).at(math.exp(1.7)), 4, 1.4)
+    monkeypatch.setattr(EdgeStates, "own", lambda states, radius: (None, _States(0.0).at(radius)))
+    monkeypatch.setattr(EdgeStates, "_on_similar_mesh", lambda states, spec, radius: _States(0.0).at(radius))
+    radius, bend = states.extremum(lambda point: point.state.load)
+    assert math.log(radius) == pytest.approx(2.0, abs=1e-9)
+    assert bend == pytest.approx(0.5 / radius**2, rel=1e-6)
+
+
+SHORT_RANGE = (1000.0, 1.50000328331)
+"""Tabor number, and pull-off force in pi R w at k = 0 by the integral equation; all digits shown."""
+
+
+@pytest.mark.heavy
+def test_a_large_tabor_number_has_a_mesh_for_each_radius():
+    """The minimum by rates on one mesh was 1.9e-6 above it; one mesh for the whole path was too coarse."""
+    mu, force = SHORT_RANGE
+    found = solve(Problem(Solid(0.91 * mu**-1.5, 1.0, 0.0, 0.3), PowerPunch(2.0, 1.0), LAW), "pull_off_force")
+    assert found.u_num <= 1e-6 * found.value
+    assert found.value / math.pi == pytest.approx(force, abs=found.u_num / math.pi)
+
+
 def test_both_sides_of_a_kink_are_on_the_path():
     radii = [point.edge_radius for point in _carried(0.0, kinks=(2.0,))]
     assert sum(abs(radius / 2.0 - 1.0) < 1e-8 for radius in radii) == 2
@@ -168,6 +192,20 @@ def test_a_stiff_coating_has_two_minima_of_the_load():
     assert [-point.state.load for point in touching] == pytest.approx(LAYERED_JKR, rel=0.03)
     assert events.pull_off is not touching[0]
     assert events.points[-1].state.load > 0.0
+
+
+STIFF_COATINGS = ((1000.0, 100.0, 663.18121e3), (10000.0, 30.0, None))
+"""Modulus and thickness, and pull-off force by the integral equation (relative bound 2e-8)."""
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize(("E_coating", "thickness", "force"), STIFF_COATINGS)
+def test_the_force_on_a_stiff_coating_is_certain_to_a_millionth(E_coating, thickness, force):
+    """The difference of the degrees on the medium mesh alone gave 1.8e-6 and 2.5e-6 of the force."""
+    found = solve(stiff_coating(E_coating, thickness), "pull_off_force")
+    assert found.u_num <= 1e-6 * found.value
+    if force is not None:
+        assert found.value == pytest.approx(force, abs=found.u_num)
 
 
 def test_contact_on_a_soft_coating_begins_where_it_jumps_in():
