@@ -38,6 +38,10 @@ __all__ = ["EdgeStates"]
 CLOSE = 0.02
 """Difference of the logarithms of two radii from which on a state is also looked for by way of one between."""
 
+MOST_STEPS = 15
+"""Newton steps after which a state is not taken for the neighbour of the one it was sought from: the iteration has
+wandered, and where it ends depends on rounding (measured: 3 to 6 steps to a neighbour; 24 to a state that had none)."""
+
 SHARED = 2.0
 """Ratio of an element at the edge to the resolved edge width up to which the mesh of a neighbour is taken: on those of
 the search it leaves 1e-5 of a load."""
@@ -228,13 +232,18 @@ class EdgeStates:
 def _state_from(near: Point, contact: Contact, radius: float) -> Point:
     """The state with the contact edge at a radius where a mesh is fine, from one on another mesh."""
     branch = Branch(contact, Size(radius), lambda r: EdgeRadius(contact.law.peak_gap, r), touching=True)
-    with suppress(NotConverged):
-        return branch.solve(radius, _shifted(near, contact, radius))
-    with suppress(NotConverged):
-        return branch.solve(radius, projected(point_at(near, radius), contact, radius))
+    for start in (_shifted, _projected):
+        with suppress(NotConverged):
+            found = branch.solve(radius, start(near, contact, radius))
+            if found.state.iterations <= MOST_STEPS:
+                return found
     raise NotConverged(
         f"no equilibrium was found with the contact edge at {radius:.6g}, from that at {near.edge_radius:.6g}"
     )
+
+
+def _projected(point: Point, contact: Contact, radius: float) -> Array:
+    return projected(point_at(point, radius), contact, radius)
 
 
 def _shifted(point: Point, contact: Contact, radius: float) -> Array:
