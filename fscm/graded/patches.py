@@ -33,8 +33,8 @@ _FAR = 7e-4
 # of the strengths of the images.  Measured worst 7e-14 over coatings with contrasts of 1e-4 to 1e4.  The coefficients
 # fall by factors of 5, so that the last ones are above what is left out.
 _ERROR, _PER_STRENGTH = 2e-13, 2e-15
-# On the joined patches the shallowest images are shallower than the first node, and the coefficients do not show it: the
-# polynomial is compared with the sum at so many distances, from this share of the longest one on.  The largest
+# On the joined patches the shallowest images are shallower than the first node, and the coefficients do not show it:
+# the polynomial is compared with the sum at so many distances, from this share of the longest one on.  The largest
 # difference counts so many times: measured at most 1.05 times it between them (offset power laws, k = 0.4 and 0.8).
 _COMPARED, _FROM, _OF_COMPARED = 25, 1e-8, 2.0
 # Numbers of the patches in each direction: a pair of them is one integer.

@@ -77,7 +77,9 @@ def curve_group(row: pd.Series) -> str:
 
 def curves(stored: Stored) -> list[Plot]:
     """One plot a kind of curve that is stored."""
-    usable = stored.curves[(stored.curves["status"] == "ok") & stored.curves["mu"].notna()].sort_values("point", kind="stable")
+    usable = stored.curves[(stored.curves["status"] == "ok") & stored.curves["mu"].notna()].sort_values(
+        "point", kind="stable"
+    )
     plots = []
     for row in CURVES.values():
         chosen = usable[usable["quantity"] == row.name]
