@@ -12,7 +12,7 @@ import pytest
 
 import fem_reference
 import fscm
-from fscm.graded import Coating, graded_problem
+from fscm import Coating
 from tests.layered_jkr import Stack, minima_with_error
 
 # Tabor number with the modulus of the surface from which on JKR is near, and how near: measured worst 0.0042 (51).
@@ -50,18 +50,16 @@ class CoatedSphere:
     def by_fscm(self) -> tuple[float, float, float]:
         """Force and bound in N, and the Tabor number with the modulus of the surface."""
         solid = Coating(self.coating[0], self.substrate[0], self.thickness, 0.0, self.coating[1], self.substrate[1])
-        problem, _ = graded_problem(solid, Q=self.R, n=2, work_of_adhesion=self.work, z0=self.z0)
+        problem = fscm.Problem(solid, fscm.PowerPunch(2, self.R), fscm.LennardJones(self.work, self.z0))
         force = fscm.solve(problem, "pull_off_force")
-        return force.value * self.unit, force.u_num * self.unit, problem.mu
+        return force.value, force.u_num, problem.mu
 
     def by_fem(self) -> tuple[float, float]:
         """Force and bound in N."""
-        modulus = fem_reference.CoatingModulus(self.coating[0], self.substrate[0], self.thickness, 0.0)
-        nu = fem_reference.CoatingPoisson(self.coating[1], self.substrate[1], self.thickness, 0.0)
+        moduli, ratios = zip(self.coating, self.substrate, strict=True)
+        solid = fem_reference.Coating(*moduli, self.thickness, 0.0, *ratios)
         punch, law = fem_reference.PowerPunch(2, self.R), fem_reference.LennardJones(self.work, self.z0)
-        force = fem_reference.solve(
-            fem_reference.Problem(fem_reference.CustomSolid(modulus, nu), punch, law), "pull_off_force"
-        )
+        force = fem_reference.solve(fem_reference.Problem(solid, punch, law), "pull_off_force")
         return force.value, force.u_num
 
     def by_jkr(self) -> float:

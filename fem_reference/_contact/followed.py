@@ -136,7 +136,7 @@ class FollowedPath:
         deepest = self._whole.at(event)
         if event not in ("pull_off", "jump_out"):
             return [deepest]
-        unit = abs(deepest.state.load) if event == "pull_off" else self._choice.problem.law.length
+        unit = abs(deepest.state.load) if event == "pull_off" else self._choice.problem.law.z0
         limit = _height(event, deepest) + TIE * unit
         return [point for point in self._whole.minima(event) if _height(event, point) <= limit]
 
