@@ -338,10 +338,13 @@ def dimensionless_law(law: SurfaceLaw) -> SurfaceLaw:
     >>> dimensionless_law(LennardJones(work_of_adhesion=0.05, z0=3e-10))
     LennardJones(work_of_adhesion=1.0, z0=1.0)
     """
-    if hasattr(law, "dimensionless"):
-        scaled: SurfaceLaw = law.dimensionless
+    if law.work_of_adhesion == law.z0 == 1.0:
+        return law
+    # A subclass may override anything: that of its base would be another law.
+    if "dimensionless" in vars(type(law)):
+        scaled: SurfaceLaw = law.dimensionless  # type: ignore[attr-defined]
         return scaled
-    return law if law.work_of_adhesion == law.z0 == 1.0 else ScaledLaw(law)
+    return ScaledLaw(law)
 
 
 def _check_scales(law: LennardJones | Mie) -> None:

@@ -212,7 +212,7 @@ class Problem:
                 "the Tabor number of Eq. 29 is a power 1 / (2n + k - 1)"
             )
         mu = number_from_log("Tabor number", log_tabor_number(power_law, n, Q, w, z0))
-        shape = PowerPunch(n) if isinstance(punch, PowerPunch) else scaled_punch(punch, units["radius"], z0)
+        shape = PowerPunch(n) if type(punch) is PowerPunch else scaled_punch(punch, units["radius"], z0)
         core = Problem(n, k, mu, shape, dimensionless_law(law), graded)
         self._set(n, k, core.mu, punch, law, None, solid, core, units)
 

@@ -290,6 +290,20 @@ def test_a_law_of_ones_own_is_scaled():
     assert forces[0].value == pytest.approx(forces[1].value, abs=forces[0].u_num + forces[1].u_num)
 
 
+class Weaker(LennardJones):
+    """A law that overrides another one."""
+
+    def traction(self, H):
+        return 0.5 * super().traction(H)
+
+
+def test_a_subclass_stays_another_law():
+    law = Weaker(0.05, Z0)
+    core = Problem(Homogeneous(70e9, 0.2), PowerPunch(2.0, RADIUS), law).dimensionless
+    assert float(core.law.traction(np.array(1.0))) == pytest.approx(0.5 * float(LennardJones().traction(np.array(1.0))))
+    assert core.law != LennardJones()
+
+
 def test_a_dimensionless_problem_takes_dimensionless_parts():
     with pytest.raises(ValueError, match="range 3e-10"):
         Problem(2, 0, 1.0, law=LennardJones(0.05, 3e-10))
