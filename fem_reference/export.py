@@ -115,7 +115,7 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
 
     Parameters
     ----------
-    solid : Solid or CustomSolid
+    solid : Solid
         The material.
     spec : MeshSpec
         The mesh the point was computed on.
@@ -135,7 +135,7 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
         contact, y = point.branch.contact, point.state.y
         c = float(y[-1])
         scaled = scaled_modulus(solid.modulus, c)
-        half_space = assemble_half_space(spec.grid(), scaled, scaled_poisson(solid.nu, c), spec.order)
+        half_space = assemble_half_space(spec.grid(), scaled, scaled_poisson(solid.poisson, c), spec.order)
         trace = contact.compliance.trace
         pressure = contact.law.traction(contact.gap(y))
         load = np.zeros(half_space.elements.size)

@@ -30,7 +30,7 @@ class SurfaceLaw(Protocol):
         ...
 
     @property
-    def length(self) -> float:
+    def z0(self) -> float:
         """Range of the law: gaps are resolved and steps are chosen relative to it."""
         ...
 
@@ -88,11 +88,6 @@ class LennardJones:
     def __post_init__(self) -> None:
         check_positive("work of adhesion", self.work_of_adhesion)
         check_positive("range z0", self.z0)
-
-    @property
-    def length(self) -> float:
-        """The range z0."""
-        return self.z0
 
     @property
     def peak_gap(self) -> float:
@@ -171,11 +166,6 @@ class Mie:
                 f"exponent m = {self.m} of the repulsion is outside (n = {self.n:g}, infinity): the faces would pass "
                 "through each other"
             )
-
-    @property
-    def length(self) -> float:
-        """The range z0."""
-        return self.z0
 
     @property
     def peak_gap(self) -> float:

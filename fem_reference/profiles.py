@@ -51,7 +51,7 @@ class RoundedCone:
     """
 
     rounding: float
-    cone_slope: float
+    cone_slope: float = 1.0
 
     def __post_init__(self) -> None:
         for name in ("rounding", "cone_slope"):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
@@ -77,12 +77,14 @@ class PowerPunch:
 
 @dataclass(frozen=True, slots=True)
 class CustomPunch:
-    """Any shape given by two callables, f(r) and df/dr.
+    """Any shape, given as a function of the radius.
 
     Parameters
     ----------
     function : callable
         f(r) of an array of radii, with f(0) = 0.
+    growth : float
+        Exponent g > 0 of f ~ r^g at infinity; `Problem` compares it with the function.
     derivative : callable, optional
         df/dr.  By default it is that of differences of f, to 1e-11 of f/r where f is smooth over a tenth of r.
     kinks : tuple of float
@@ -90,16 +92,19 @@ class CustomPunch:
 
     Examples
     --------
-    >>> sphere_like = CustomPunch(lambda r: np.sqrt(1.0 + r**2) - 1.0, lambda r: r / np.sqrt(1.0 + r**2))
+    >>> sphere_like = CustomPunch(lambda r: np.sqrt(1.0 + r**2) - 1.0, 1.0, lambda r: r / np.sqrt(1.0 + r**2))
     >>> float(sphere_like.slope(np.array(0.0)))
     0.0
     """
 
     function: Callable[[Array], Array]
+    growth: float
     derivative: Callable[[Array], Array] | None = None
-    kinks: tuple[float, ...] = ()
+    kinks: Sequence[float] = ()
 
     def __post_init__(self) -> None:
+        check_positive("growth", self.growth)
+        object.__setattr__(self, "kinks", tuple(self.kinks))
         apex = float(self.function(np.array(0.0)))
         if apex != 0:
             raise ValueError(f"the punch has f(0) = {apex}; heights are measured from the apex, f(0) = 0")

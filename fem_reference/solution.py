@@ -59,9 +59,9 @@ def solve(problem: Problem, quantity: str, accuracy: float | str = "default") ->
 
     Examples
     --------
-    >>> from fem_reference import LennardJones, PowerPunch, Problem, Solid, solve
+    >>> from fem_reference import LennardJones, PowerPunch, Problem, PowerLaw, solve
     >>> sphere, law = PowerPunch(n=2.0, Q=1.0), LennardJones(work_of_adhesion=1.0, z0=1.0)
-    >>> stiff = Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3)
+    >>> stiff = PowerLaw(E0=50.0, c0=1.0, k=0.0, nu=0.3)
     >>> solution = solve(Problem(stiff, sphere, law), "pull_off_force", accuracy=1e-6)
     >>> round(solution.value, 3), solution.u_num < 1e-5  # Bradley's 2 pi for a rigid solid
     (6.226, True)
@@ -99,8 +99,8 @@ def solve_together(
 
     Examples
     --------
-    >>> from fem_reference import LennardJones, PowerPunch, Problem, Solid
-    >>> stiff = Problem(Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    >>> from fem_reference import LennardJones, PowerPunch, Problem, PowerLaw
+    >>> stiff = Problem(PowerLaw(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
     >>> found = solve_together(stiff, ("pull_off_force", "jump_in_gap"), accuracy="quick")
     >>> round(found["pull_off_force"].value, 3)  # Bradley's 2 pi for a rigid solid
     6.226

@@ -93,8 +93,8 @@ def trace(problem: Problem, accuracy: float | str = "default", largest_turn: flo
 
     Examples
     --------
-    >>> from fem_reference import LennardJones, PowerPunch, Problem, Solid
-    >>> stiff = Problem(Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    >>> from fem_reference import LennardJones, PowerPunch, Problem, PowerLaw
+    >>> stiff = Problem(PowerLaw(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
     >>> path = trace(stiff, "quick")
     >>> bool(path.load[0] < 0 < path.load[-1]), round(float(path.load.min()), 2)
     (True, -6.22)
@@ -140,8 +140,8 @@ def event_state(problem: Problem, event: str = "pull_off", accuracy: float | str
 
     Examples
     --------
-    >>> from fem_reference import LennardJones, PowerPunch, Problem, Solid
-    >>> stiff = Problem(Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    >>> from fem_reference import LennardJones, PowerPunch, Problem, PowerLaw
+    >>> stiff = Problem(PowerLaw(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
     >>> spec, point = event_state(stiff, "pull_off", "quick")
     >>> round(point.state.load, 3), spec.order
     (-6.226, 6)
@@ -182,8 +182,8 @@ def profile(
 
     Examples
     --------
-    >>> from fem_reference import LennardJones, PowerPunch, Problem, Solid
-    >>> stiff = Problem(Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    >>> from fem_reference import LennardJones, PowerPunch, Problem, PowerLaw
+    >>> stiff = Problem(PowerLaw(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
     >>> surface = profile(stiff, "pull_off", "quick", radii=np.array([0.0, 3.0]))
     >>> bool(abs(surface.gap[1] - surface.gap[0] - 9 / 2) < 0.05)  # the sphere rises 9/2, the solid deforms little
     True

@@ -70,7 +70,7 @@ class TabulatedLaw:
         Rising, from any origin; from the repulsion far into the attraction.
     tractions : sequence of float, shape (N,)
         Compression positive: the first is positive, the last negative, or zero for a law of finite range.
-    length : float
+    z0 : float
         Range of the law, a length: gaps are resolved and steps are chosen relative to it.
     tail_exponent : float, optional
         Exponent m > 1 of the attraction far away, where it is known; C and t are fitted then.  By default the origin t
@@ -86,14 +86,14 @@ class TabulatedLaw:
     Examples
     --------
     >>> gap = np.geomspace(0.75, 20.0, 100)
-    >>> law = TabulatedLaw(gap, 5.0 * (gap**-9 - gap**-3), length=1.0, tail_exponent=3.0)
+    >>> law = TabulatedLaw(gap, 5.0 * (gap**-9 - gap**-3), z0=1.0, tail_exponent=3.0)
     >>> round(law.work_of_adhesion, 4), round(law.peak_gap, 4)  # exact: 5 * 3/8, 3^(1/6) - 1
     (1.875, 0.2009)
     """
 
     gaps: Sequence[float]
     tractions: Sequence[float]
-    length: float
+    z0: float
     tail_exponent: float | None = None
     work: float | None = None
     _spline: PPoly = field(init=False, compare=False)
@@ -105,7 +105,7 @@ class TabulatedLaw:
 
     def __post_init__(self) -> None:
         for name, value, low in (
-            ("length", self.length, 0.0),
+            ("z0", self.z0, 0.0),
             ("tail_exponent", self.tail_exponent, 1.0),
             ("work", self.work, 0.0),
         ):
@@ -114,14 +114,14 @@ class TabulatedLaw:
         columns = _columns(self.gaps, self.tractions)
         # Gaps in lengths of the law and tractions of size 1: the equations of the spline are then well scaled.
         stress = float(np.max(np.abs(columns[1])))
-        x, p = columns[0] / self.length, columns[1] / stress
+        x, p = columns[0] / self.z0, columns[1] / stress
         free = make_interp_spline(x, p, k=5)
         wall = _wall_of(x[0], p[0], float(free(x[0], 1)), float(free(x[0], 2)))
         tail = _tail_of(x, p, wall.origin, self.tail_exponent)
         spline = _joined_spline(x, p, wall, tail)
         zero, peak = _shape(spline, x, p)
         beyond = 0.0 if tail is None else float(tail.integral(x[-1:], np.array([math.inf]))[0])
-        work = -(float(spline.integrate(zero, x[-1])) + beyond) * stress * self.length
+        work = -(float(spline.integrate(zero, x[-1])) + beyond) * stress * self.z0
         if not work > 0.0:
             raise ValueError(
                 f"the work of adhesion of the points is {work:g}, outside (0, infinity): they do not adhere"
@@ -150,23 +150,23 @@ class TabulatedLaw:
     @property
     def peak_gap(self) -> float:
         """Gap of the largest tension."""
-        return self._peak * self.length
+        return self._peak * self.z0
 
     @property
     def singular_gap(self) -> float:
         """Gap at which the wall diverges."""
-        return self._wall.origin * self.length
+        return self._wall.origin * self.z0
 
     @property
     def decay(self) -> tuple[float, float]:
         """(C, m) of the attraction C H^-m at large gaps; (0, inf) for a law of finite range."""
         if self._tail is None:
             return 0.0, math.inf
-        return -self._tail.factor * self._stress * self.length**self._tail.exponent, self._tail.exponent
+        return -self._tail.factor * self._stress * self.z0**self._tail.exponent, self._tail.exponent
 
     def _parts(self, H: Array) -> tuple[Array, Array, Array, Index]:
         """Gaps of wall, spline and tail, in lengths of the law and moved to the nearest end, and which of the three."""
-        h = np.asarray(H, float) / self.length
+        h = np.asarray(H, float) / self.z0
         first, last = self._spline.x[0], self._spline.x[-1]
         where = np.where(h < first, 0, np.where(h > last, 2, 1))
         return np.minimum(h, first), np.clip(h, first, last), np.maximum(h, last), where
@@ -181,7 +181,7 @@ class TabulatedLaw:
         """dp/dH, shape of `H`."""
         near, inside, far, where = self._parts(H)
         tail = np.zeros_like(far) if self._tail is None else self._tail.slope(far)
-        return self._stress / self.length * np.choose(where, [self._wall.slope(near), self._spline(inside, 1), tail])
+        return self._stress / self.z0 * np.choose(where, [self._wall.slope(near), self._spline(inside, 1), tail])
 
     def energy(self, H: Array) -> Array:
         """Integral of p from H to infinity, the energy per area of the faces at gap H."""
@@ -189,7 +189,7 @@ class TabulatedLaw:
         first, last = self._spline.x[0], self._spline.x[-1]
         tail = np.zeros_like(far) if self._tail is None else self._tail.integral(far, np.array(math.inf))
         middle = self._primitive(last) - self._primitive(inside)
-        return np.asarray(self._stress * self.length * (tail + middle + self._wall.integral(near, first)))
+        return np.asarray(self._stress * self.z0 * (tail + middle + self._wall.integral(near, first)))
 
 
 def _columns(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[Array, Array]:

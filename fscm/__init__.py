@@ -14,9 +14,11 @@ import lazy_loader
 LAYERS = (
     ("errors", "_typing", "_threads", "_validation", "_response_factor", "_smoothed_table"),
     ("laws", "tabulated_law", "punch", "custom_punch", "measured_punch"),
-    ("problem", "physical"),
+    ("solids", "layers", "tabulated_modulus", "custom_solid"),
+    ("_units",),
     ("_meshes", "_kernel", "_azimuthal_kernel", "_panels", "_response_store", "_deformation"),
     ("graded",),
+    ("problem",),
     ("_tail",),
     ("_bordered_factor", "_equilibrium", "_defect", "solution"),
     ("_newton", "_arc_length", "_path_end", "_adaptivity", "_branches"),

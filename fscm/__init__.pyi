@@ -5,6 +5,7 @@ from ._meshes import ACCURACIES as ACCURACIES
 from ._sensitivity import SENSITIVE as SENSITIVE, ValueSensitivity as ValueSensitivity, sensitivity as sensitivity
 from .analysis import EVENTS as EVENTS, Analysis as Analysis
 from .custom_punch import CustomPunch as CustomPunch
+from .custom_solid import CustomSolid as CustomSolid
 from .errors import (
     AccuracyWarning as AccuracyWarning,
     NoSuchEvent as NoSuchEvent,
@@ -17,13 +18,21 @@ from .experiment import (
     load_controlled_retreat as load_controlled_retreat,
 )
 from .interpolation.atlas import ATLAS_QUANTITIES as ATLAS_QUANTITIES, AtlasValue as AtlasValue, atlas as atlas
-from .laws import LennardJones93 as LennardJones93, Mie as Mie, SurfaceLaw as SurfaceLaw
+from .laws import LennardJones as LennardJones, Mie as Mie, SurfaceLaw as SurfaceLaw
+from .layers import Layers as Layers
 from .measured_punch import MeasuredPunch as MeasuredPunch
 from .path import EquilibriumPath as EquilibriumPath, trace as trace
-from .physical import PhysicalProblem as PhysicalProblem
 from .problem import Problem as Problem
 from .punch import PowerPunch as PowerPunch, PowerSum as PowerSum, PunchShape as PunchShape, RoundedCone as RoundedCone
 from .solution import Solution as Solution
+from .solids import (
+    Coating as Coating,
+    Exponential as Exponential,
+    GradedHalfSpace as GradedHalfSpace,
+    Homogeneous as Homogeneous,
+    OffsetPowerLaw as OffsetPowerLaw,
+    PowerLaw as PowerLaw,
+)
 from .solver import QUANTITIES as QUANTITIES, solve as solve, solve_together as solve_together
 from .stability import Stability as Stability
 from .states import (
@@ -33,5 +42,6 @@ from .states import (
     profile as profile,
 )
 from .tabulated_law import TabulatedLaw as TabulatedLaw
+from .tabulated_modulus import TabulatedModulus as TabulatedModulus
 
 LAYERS: tuple[tuple[str, ...], ...]

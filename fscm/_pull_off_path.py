@@ -25,7 +25,7 @@ from fscm._meshes import Meshes
 from fscm._typing import Array
 from fscm._whole_path import path_until
 from fscm.errors import NotConverged
-from fscm.laws import LennardJones93, Mie
+from fscm.laws import LennardJones, Mie
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
@@ -123,7 +123,7 @@ def pull_off_path(problem: Problem, meshes: Meshes) -> list[Point] | None:
     """
     if not isinstance(problem.punch, PowerPunch) or problem.response is not None:
         return None
-    if not isinstance(problem.law, LennardJones93 | Mie) or problem.law.decay[1] * problem.n <= 2.0:
+    if not isinstance(problem.law, LennardJones | Mie) or problem.law.decay[1] * problem.n <= 2.0:
         return None
     start = _start(problem)
     if start is None:

@@ -59,7 +59,7 @@ class ValueSensitivity:
     Attributes
     ----------
     solution : Solution
-        The value.
+        The value, in the units of the problem.
     """
 
     solution: Solution
@@ -71,13 +71,15 @@ class ValueSensitivity:
                 f"the quantity {quantity} is none of those with a sensitivity, {', '.join(SENSITIVE)}: "
                 "they are values at one event"
             )
-        self.problem, self._quantity = problem, quantity
-        meshes = Meshes.of(accuracy)
-        if problem.k == 1.0:
-            self.solution = GibsonSolid(problem).solution(quantity)
+        self.problem, self._quantity, self._kind = problem, quantity, row.kind
+        core, unit = problem.dimensionless, problem.units[row.kind]
+        if core.k == 1.0:
+            self._core = GibsonSolid(core).solution(quantity)
+            self.solution = self._core.times(unit)
             return
-        analysis = Analysis(problem, meshes)
-        self.solution = analysis.solution(quantity)
+        analysis = Analysis(core, Meshes.of(accuracy))
+        self._core = analysis.solution(quantity)
+        self.solution = self._core.times(unit)
         state, extremal = analysis.event(row.event).value, EXTREMAL[row.event]
         self._sign = row.sign
         self._rule: Adjoint | AtExtreme
@@ -95,7 +97,7 @@ class ValueSensitivity:
         Parameters
         ----------
         problem : Problem
-            With the same units of its radii and heights.
+            With its own units, if it is a physical one; the value itself may then be proportional to one of them.
 
         Examples
         --------
@@ -103,31 +105,36 @@ class ValueSensitivity:
         >>> round(found.change(Problem(n=2, k=0.4, mu=1.01)) / 0.01, 3)
         -0.1
         """
+        unit = problem.units[self._kind]
+        change = self._dimensionless_change(problem.dimensionless)
+        return self._core.value * (unit - self.problem.units[self._kind]) + change * unit
+
+    def _dimensionless_change(self, problem: Problem) -> float:
         if (problem.k == 1.0) != (self.problem.k == 1.0):
             raise ValueError("a solid of k < 1 and that of k = 1 are no neighbours: their equations differ")
         if problem.k == 1.0:
             # Its equations are local: a value is solved to rounding in no time.
-            return GibsonSolid(problem).solution(self._quantity).value - self.solution.value
+            return GibsonSolid(problem).solution(self._quantity).value - self._core.value
         return self._sign * self._rule.change(problem)
 
     def _new_solid(self, problem: Problem) -> bool:
         """Whether a problem needs another kernel that costs time."""
-        return getattr(problem, "solid", None) != getattr(self.problem, "solid", None)
+        return problem.dimensionless.graded != self.problem.dimensionless.graded
 
     def derivative(
         self,
-        vary: Callable[[float], tuple[Problem, float]],
+        vary: Callable[[float], Problem],
         at: float,
         unit: float,
         low: float = -math.inf,
         high: float = math.inf,
     ) -> float:
-        """Derivative of the value, in the user's unit, by a parameter.
+        """Derivative of the value by a parameter.
 
         Parameters
         ----------
         vary : callable
-            Parameter -> the problem, and the unit of the value.
+            Parameter -> the problem.
         at : float
             The parameter of the present problem.
         unit : float
@@ -139,33 +146,33 @@ class ValueSensitivity:
         --------
         Of the pull-off force P = pi R dgamma P_c(mu) by the radius of a sphere:
 
-        >>> from fscm import PhysicalProblem
+        >>> from fscm import Homogeneous, LennardJones, PowerPunch
         >>> def sphere(R):
-        ...     found = PhysicalProblem(70e9, 1.0, 0, 0.2, Q=R, n=2, work_of_adhesion=0.05, z0=3e-10)
-        ...     return found.problem(), found.scales["load"]
-        >>> posed, newtons = sphere(1e-6)
-        >>> found = sensitivity(posed, "pull_off_force")
+        ...     law = LennardJones(work_of_adhesion=0.05, z0=3e-10)
+        ...     return Problem(Homogeneous(E=70e9, nu=0.2), PowerPunch(n=2, Q=R), law)
+        >>> found = sensitivity(sphere(1e-6), "pull_off_force")
         >>> slope = found.derivative(sphere, 1e-6, 1e-6)
-        >>> round(slope * 1e-6 / (found.solution.value * newtons), 4)     # d ln P / d ln R
+        >>> round(slope * 1e-6 / found.solution.value, 4)     # d ln P / d ln R
         0.9772
         """
         step = _STEP * unit
-        few = self._new_solid(vary(at + step if at + step < high else at - step)[0])
+        few = self._new_solid(vary(at + step if at + step < high else at - step))
         places: tuple[float, ...] = _FEW if few else _MANY
         if not low < at + places[0] * step or not at + places[-1] * step < high:
             places = _FEW_ONE_SIDED if few else _MANY_ONE_SIDED
             if not at + places[-1] * step < high:
                 places = tuple(-place for place in places)
         weights = difference_rule(places)
-        total = weights[-1] * self.solution.value * vary(at)[1]
+        total = weights[-1] * self._core.value * vary(at).units[self._kind]
         for place, weight in zip(places, weights[:-1], strict=True):
-            problem, scale = vary(at + place * step)
-            total += weight * (self.solution.value + self.change(problem)) * scale
+            problem = vary(at + place * step)
+            change = self._dimensionless_change(problem.dimensionless)
+            total += weight * (self._core.value + change) * problem.units[self._kind]
         return float(total / step)
 
     @property
     def gradient(self) -> dict[str, float]:
-        """Derivatives by the numbers of the problem: "mu", of a power law "k", and of a power-law punch "n".
+        """Derivatives of the dimensionless value: by "mu", of a power law by "k", of a power-law punch by "n".
 
         Examples
         --------
@@ -173,13 +180,13 @@ class ValueSensitivity:
         >>> {name: round(slope, 4) for name, slope in found.gradient.items()}
         {'mu': -0.0996, 'k': 0.3184, 'n': -0.8187}
         """
-        p = self.problem
-        found = {"mu": self.derivative(lambda mu: (replace(p, mu=mu), 1.0), p.mu, p.mu)}
+        p = self.problem.dimensionless
+        found = {"mu": self.derivative(lambda mu: replace(p, mu=mu), p.mu, p.mu)}
         if p.response is None and p.k < 1.0:
-            found["k"] = self.derivative(lambda k: (replace(p, k=k), 1.0), p.k, 1.0, low=0.0, high=1.0)
+            found["k"] = self.derivative(lambda k: replace(p, k=k), p.k, 1.0, low=0.0, high=1.0)
         if isinstance(p.punch, PowerPunch):
             found["n"] = self.derivative(
-                lambda n: (replace(p, n=n, punch=PowerPunch(n)), 1.0), p.n, p.n, low=0.5 * (1.0 - p.k), high=300.0
+                lambda n: replace(p, n=n, punch=PowerPunch(n)), p.n, p.n, low=0.5 * (1.0 - p.k), high=300.0
             )
         return found
 

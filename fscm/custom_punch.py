@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,6 +43,18 @@ _TIP_RADIUS = 1e-7
 
 
 @dataclass(frozen=True, slots=True)
+class _InUnits:
+    """A function of the radius in a unit of radii and one of its values."""
+
+    function: Callable[[Array], Array]
+    radius: float
+    unit: float
+
+    def __call__(self, r: Array) -> Array:
+        return np.asarray(self.function(r * self.radius), float) / self.unit
+
+
+@dataclass(frozen=True, slots=True)
 class CustomPunch:
     """Any axisymmetric punch f(r), given as a function of an array of radii.
 
@@ -53,12 +65,14 @@ class CustomPunch:
     Parameters
     ----------
     function : callable
-        f(r) for an array r >= 0 (units of (Q z0)^(1/n)), array of the same shape in z0, f(0) = 0.
+        f(r) for an array r >= 0, array of the same shape, f(0) = 0; lengths in any unit.
     growth : float
         Exponent g > 0 of f ~ r^g at infinity.
     derivative : callable, optional
         df/dr.  Without it, Ridders' extrapolation of central differences is used, with an
         error of about 1e-11 of f(r) / r for a smooth f.
+    kinks : sequence of float, optional
+        Radii > 0 at which the slope jumps; the meshes have breaks there.
 
     Raises
     ------
@@ -75,16 +89,25 @@ class CustomPunch:
     function: Callable[[Array], Array]
     growth: float
     derivative: Callable[[Array], Array] | None = None
+    kinks: Sequence[float] = ()
 
     def __post_init__(self) -> None:
         growth = real_number("growth", self.growth, low=0.0, high=math.inf, reason="the punch must grow at infinity")
         object.__setattr__(self, "growth", growth)
+        kinks = (real_number("kink", r, low=0.0, high=math.inf, reason="it is a radius") for r in self.kinks)
+        object.__setattr__(self, "kinks", tuple(sorted(kinks)))
         tip = float(self.height(np.zeros(1))[0])
         if not abs(tip) <= _TIP_TOLERANCE:
             raise ValueError(f"f(0) = {tip:g} is not 0: heights are measured from the tip, subtract f(0)")
         self._check_growth()
         if self.derivative is not None:
             self._check_derivative()
+
+    def scaled(self, radius: float, height: float) -> CustomPunch:
+        """The shape in a unit of radii and one of heights, tried again in these units."""
+        derivative = None if self.derivative is None else _InUnits(self.derivative, radius, height / radius)
+        kinks = [r / radius for r in self.kinks]
+        return CustomPunch(_InUnits(self.function, radius, height), self.growth, derivative, kinks)
 
     def height(self, r: Array) -> Array:
         """f(r), shape of `r`; ValueError when the function does not return finite numbers of that shape."""

@@ -47,9 +47,8 @@ class AccuracyWarning(UserWarning):
     Examples
     --------
     >>> import warnings
-    >>> from fscm import solve
-    >>> from fscm.graded import Exponential, GradedProblem
-    >>> pad = GradedProblem(2, 1.0, Exponential(E_surface=1.0, E_depth=400.0, length=1.0, nu=0.3))
+    >>> from fscm import Exponential, Problem, solve
+    >>> pad = Problem(2, 0.0, 1.0, graded=Exponential(E_surface=1.0, E_depth=400.0, length=1.0, nu=0.3))
     >>> with warnings.catch_warnings(record=True) as caught:
     ...     warnings.simplefilter("always")
     ...     force = solve(pad, "pull_off_force", accuracy=1e-10)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -22,7 +22,7 @@ _FOLDS = {"load": events.load_fold, "displacement": events.displacement_fold}
 
 @dataclass(frozen=True)
 class Fold:
-    """One turning point of the path; dimensionless.
+    """One turning point of the path, in the units of the problem.
 
     Attributes
     ----------
@@ -47,6 +47,16 @@ class Fold:
     displacement: float
     load: float
     edge_radius: float
+
+    def in_units(self, units: Mapping[str, float]) -> Fold:
+        """The fold of a dimensionless problem in the units of a physical one."""
+        return replace(
+            self,
+            central_gap=self.central_gap * units["gap"],
+            displacement=self.displacement * units["displacement"],
+            load=self.load * units["load"],
+            edge_radius=self.edge_radius * units["radius"],
+        )
 
 
 def fold_at(state: State, quantity: str, maximum: bool) -> Fold:

@@ -27,9 +27,9 @@ class MeasuredPunch:
     Parameters
     ----------
     radii : sequence of float, shape (N,), N >= 2
-        Radii in (Q z0)^(1/n), increasing from 0.
+        Radii, increasing from 0.
     heights : sequence of float, shape (N,)
-        Heights in z0; the first is 0, the last is positive.
+        Heights; the first is 0, the last is positive.
     growth : float
         Exponent g > 0 of the continuation f = f_N (r / r_N)^g beyond the last point; 2, a paraboloid, by default.
 
@@ -71,6 +71,16 @@ class MeasuredPunch:
         values = (tuple(r.tolist()), tuple(f.tolist()), growth, tuple(r[1:][bent].tolist()))
         for name, value in zip(("radii", "heights", "growth", "kinks"), values, strict=True):
             object.__setattr__(self, name, value)
+
+    def unit_of_radii(self, z0: float) -> tuple[float, float]:
+        """n and Q of the power beyond the last point."""
+        return self.growth, self.radii[-1] ** self.growth / (self.growth * self.heights[-1])
+
+    def scaled(self, radius: float, height: float) -> MeasuredPunch:
+        """The shape in a unit of radii and one of heights."""
+        return MeasuredPunch(
+            tuple(r / radius for r in self.radii), tuple(f / height for f in self.heights), self.growth
+        )
 
     def height(self, r: Array) -> Array:
         """f(r)."""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import TypeAlias
 
@@ -39,14 +39,14 @@ _LARGEST_TURN = 5.0
 
 @dataclass(frozen=True)
 class EquilibriumPath:
-    """The equilibrium path from far separation into contact; all arrays have shape (m,), dimensionless.
+    """The equilibrium path from far separation into contact; all arrays have shape (m,).
 
-    Folds of load and displacement and the zero of the load are among the points.
+    In the units of the problem.  Folds of load and displacement and the zero of the load are among the points.
 
     Attributes
     ----------
     central_gap, displacement, load, energy : ndarray
-        H_0, delta, P, and elastic plus surface energy (unit pi Q^(2/n) dgamma z0^(2/n)).
+        H_0, delta, P, and elastic plus surface energy.
     edge_radius : ndarray
         Radius where the tension is largest; nan while the central gap is above the gap of largest tension.
     u_displacement, u_load : float
@@ -78,6 +78,20 @@ class EquilibriumPath:
     stable_under_displacement: Mask = field(default_factory=lambda: np.empty(0, np.bool_))
     stable_under_load: Mask = field(default_factory=lambda: np.empty(0, np.bool_))
 
+    def in_units(self, units: Mapping[str, float]) -> EquilibriumPath:
+        """The path of a dimensionless problem in the units of a physical one."""
+        return replace(
+            self,
+            central_gap=self.central_gap * units["gap"],
+            displacement=self.displacement * units["displacement"],
+            load=self.load * units["load"],
+            energy=self.energy * units["energy"],
+            edge_radius=self.edge_radius * units["radius"],
+            u_displacement=self.u_displacement * units["displacement"],
+            u_load=self.u_load * units["load"],
+            folds=tuple(fold.in_units(units) for fold in self.folds),
+        )
+
 
 @one_thread()
 def trace(
@@ -102,7 +116,7 @@ def trace(
         The path ends in contact at this load, after the deepest pull-off; by default where the compression equals
         the largest tension.  A punch that is no power law is followed until no later state can carry tension.
     start_gap : float, optional
-        Central gap at the far end; by default 10 + 5 mu.
+        Central gap at the far end; by default (10 + 5 mu) z0.
     longest_step : float
         Bound on the step from point to point; 0.05 gives three times the points of the default, for
         interpolation.
@@ -124,6 +138,9 @@ def trace(
     True
     """
     meshes = Meshes.of(accuracy)
+    units, problem = problem.units, problem.dimensionless
+    max_load = None if max_load is None else max_load / units["load"]
+    start_gap = None if start_gap is None else start_gap / units["gap"]
     largest_turn = real_number(
         "largest_turn", largest_turn, low=0.0, high=180.0, closed_high=True, reason="it is an angle"
     )
@@ -158,7 +175,7 @@ def trace(
         u_load,
         tuple(fold_at(*fold) for fold in folds),
         *_stable(points[0], states, folds),
-    )
+    ).in_units(units)
 
 
 def _largest_errors(states: list[State]) -> tuple[float, float]:

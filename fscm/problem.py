@@ -1,18 +1,24 @@
-"""Dimensionless problem: punch, graded half-space and surface law (Eqs. 24-31).
+"""A punch in contact with a half-space: in physical units, or dimensionless (Eqs. 24-31).
 
-Lengths normal to the surface are in z0, radii in (Q z0)^(1/n), tractions in dgamma / z0.  Tension is
+Dimensionless, lengths normal to the surface are in z0, radii in (Q z0)^(1/n), tractions in dgamma / z0.  Tension is
 negative.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, overload
 
+import numpy as np
+
+from fscm._response_factor import response_factor_per_rest
+from fscm._units import DIMENSIONLESS, log_tabor_number, modulus_for, number_from_log, units_of
 from fscm._validation import real_number
-from fscm.laws import LennardJones93, SurfaceLaw
-from fscm.punch import PowerPunch, PunchShape
+from fscm.laws import LennardJones, SurfaceLaw, dimensionless_law
+from fscm.punch import PowerPunch, PunchShape, scaled_punch, unit_of_radii
+from fscm.solids import GradedHalfSpace, PowerLaw, ScaledSolid, Solid
 
 __all__ = ["Problem"]
 
@@ -29,12 +35,21 @@ _LEAST_M, _LARGEST_M = 1e-30, 1e15
 
 @dataclass(frozen=True, slots=True, init=False)
 class Problem:
-    """Adhesive contact of a rigid punch with a power-law graded half-space, dimensionless.
+    """Adhesive contact of a rigid punch with a half-space, in physical units or dimensionless.
 
-    Immutable, hashable, and picklable when its punch and law are.
+    ``Problem(solid, punch, law)`` is in any consistent units, as those of SI, and so are its results.
+    ``Problem(n, k, mu)`` is dimensionless: a power-law graded half-space.  A physical problem has n, k and mu, too, and
+    its `dimensionless` one.  Immutable, hashable, and picklable when its parts are.
 
     Parameters
     ----------
+    solid : Solid
+        `PowerLaw`, `Homogeneous`, `OffsetPowerLaw`, `Exponential`, `Coating`, `Layers`, `TabulatedModulus`,
+        `CustomSolid`, or a `GradedHalfSpace` of one's own.
+    punch : PunchShape
+        Shape of the punch; of a dimensionless problem the power law r^n / n by default.
+    law : SurfaceLaw
+        Surface law; of a dimensionless problem Lennard-Jones 9-3 by default.
     n : float
         Shape index of the punch, 0 < n <= 300; it also enters the definition of `mu` (Eq. 29), which needs
         2n + k > 1.
@@ -42,10 +57,15 @@ class Problem:
         Gradient exponent of E = E0 (z/c0)^k, 0 <= k <= 1 (k = 1, the Gibson solid, is `fscm.gibson`).
     mu : float
         Generalised Tabor number (Eq. 29), > 0 and such that 1e-30 <= M <= 1e15 (see `compliance`).
-    punch : PunchShape, optional
-        Punch shape; the power law r^n / n by default.
-    law : SurfaceLaw, optional
-        Surface law; Lennard-Jones 9-3 by default.
+    graded : GradedHalfSpace, optional
+        A solid that is no power law, with depths in (Q z0)^(1/n).  Then k = 0, and mu is that of the surface, of
+        E(0) / (1 - nu(0)^2).
+
+    Attributes
+    ----------
+    n, k, mu, punch, law, solid, graded
+        As above.  Of a physical problem punch and law are physical, n and Q are those of the unit of the radii (of a
+        power law its own), and `graded` is None; of a dimensionless one `solid` is None.
 
     Raises
     ------
@@ -56,6 +76,14 @@ class Problem:
     --------
     >>> Problem(n=2, k=0.4, mu=1.0).compliance
     2.0
+
+    A silica-like sphere of 1 micrometre in SI: Tabor's parameter (Eq. 1), and Bradley's limit 2 pi R dgamma.
+
+    >>> from fscm import Homogeneous, LennardJones, PowerPunch
+    >>> law = LennardJones(work_of_adhesion=0.05, z0=0.3e-9)
+    >>> sphere = Problem(Homogeneous(E=70e9, nu=0.2), PowerPunch(n=2, Q=1e-6), law)
+    >>> round(sphere.mu, 6), round(2.0 * sphere.units["load"] / 0.05e-6, 9)
+    (0.259204, 6.283185307)
     """
 
     n: float
@@ -63,10 +91,51 @@ class Problem:
     mu: float
     punch: PunchShape
     law: SurfaceLaw
+    graded: GradedHalfSpace | None
+    solid: Solid | None
+    _dimensionless: Problem | None = field(init=False, repr=False, compare=False)
+    _units: Mapping[str, float] = field(init=False, repr=False, compare=False)
 
+    @overload
+    def __init__(self, solid: Solid, punch: PunchShape, law: SurfaceLaw) -> None: ...
+    @overload
     def __init__(
-        self, n: float, k: float, mu: float, punch: PunchShape | None = None, law: SurfaceLaw | None = None
+        self,
+        n: float,
+        k: float,
+        mu: float,
+        punch: PunchShape | None = None,
+        law: SurfaceLaw | None = None,
+        graded: GradedHalfSpace | None = None,
+        solid: None = None,
+    ) -> None: ...
+    def __init__(  # type: ignore[misc]  # the positions of the two have other names
+        self,
+        n: Any = None,
+        k: Any = None,
+        mu: Any = None,
+        punch: Any = None,
+        law: Any = None,
+        graded: Any = None,
+        solid: Any = None,
     ) -> None:
+        # The three positions of a physical problem are solid, punch and law.
+        if hasattr(n, "modulus"):
+            solid, n = n, None
+            punch, k = (k, None) if punch is None else (punch, k)
+            law, mu = (mu, None) if law is None else (law, mu)
+        if solid is None:
+            self._pose(n, k, mu, punch, law, graded)
+        elif n is k is mu is graded is None:
+            self._pose_physical(solid, punch, law)
+        else:
+            raise ValueError(
+                "a problem has a solid, a punch and a law, or else n, k and mu: a physical problem is changed by "
+                "making another one of its parts"
+            )
+
+    def _pose(self, n: Any, k: Any, mu: Any, punch: Any, law: Any, graded: Any) -> None:
+        """Check and set what a dimensionless problem has."""
         inf = math.inf
         n = real_number("shape index n", n, low=0.0, high=inf, reason="f = r^n / n must grow with r")
         k = real_number(
@@ -95,41 +164,176 @@ class Problem:
                 f"Tabor number mu = {mu:g} gives M = 2 mu^((2n+k-1)/n) = 10^{log_M / math.log(10.0):.0f}, outside "
                 f"[{_LEAST_M:g}, {_LARGEST_M:g}]: the solid is rigid, or its cohesive edge a point, to all digits"
             )
+        if graded is not None:
+            if not isinstance(graded, GradedHalfSpace):
+                raise ValueError(
+                    f"graded = {graded!r} is no graded solid: it needs modulus(z), poisson(z), length, interfaces"
+                )
+            if k != 0.0:
+                raise ValueError(f"gradient exponent k = {k} is outside [0, 0]: the modulus at the surface is finite")
         punch = PowerPunch(n) if punch is None else punch
-        law = LennardJones93() if law is None else law
-        if not isinstance(punch, PunchShape):
-            raise ValueError(f"punch = {punch!r} is not a punch shape: it needs growth, height(r) and slope(r)")
-        if not isinstance(law, SurfaceLaw):
+        law = LennardJones() if law is None else law
+        _check_parts(punch, law)
+        if isinstance(punch, PowerPunch) and punch != PowerPunch(n):
             raise ValueError(
-                f"law = {law!r} is not a surface law: it needs traction, slope, curvature and energy "
-                "of the gap and singular_gap, peak_gap and decay"
+                f"punch = {punch!r} does not fit n = {n:g}: a dimensionless power-law punch is r^n / n, with "
+                "the n in the scale (Q z0)^(1/n) of its radii"
             )
-        if isinstance(punch, PowerPunch) and punch.n != n:
+        if law.z0 != 1.0:
             raise ValueError(
-                f"punch = {punch!r} does not fit n = {n:g}: a power-law punch has one shape index, "
-                "the one in the scale (Q z0)^(1/n) of its radii"
+                f"law = {law!r} has the range {law.z0:g} and not 1: the lengths of a dimensionless problem are in z0; "
+                "a physical one is Problem(solid, punch, law)"
             )
-        C, m = law.decay
-        if C != 0.0 and not m * punch.growth > _LOAD_INTEGRAL:
+        law = dimensionless_law(law)
+        _check_load_integral(punch, law)
+        self._set(n, k, mu, punch, law, graded, None, None, DIMENSIONLESS)
+
+    def _pose_physical(self, solid: Any, punch: Any, law: Any) -> None:
+        """Set a physical problem, and its dimensionless one, which is checked."""
+        _check_parts(punch, law)
+        w, z0 = law.work_of_adhesion, law.z0
+        n, Q = unit_of_radii(punch, z0)
+        units = units_of(n, Q, w, z0)
+        graded = None
+        power_law: PowerLaw | None = getattr(solid, "power_law", None)
+        if power_law is None:
+            if not isinstance(solid, GradedHalfSpace):
+                raise ValueError(
+                    f"solid = {solid!r} is no solid: one of your own needs modulus(z), poisson(z), length, interfaces"
+                )
+            # Everything is measured as on the homogeneous solid with the constants of the surface.
+            surface = np.zeros(1)
+            power_law = PowerLaw(float(solid.modulus(surface)[0]), 1.0, 0.0, float(solid.poisson(surface)[0]))
+            graded = ScaledSolid(solid, units["radius"])
+        k = power_law.k
+        if 2.0 * n + k <= 1.0:
             raise ValueError(
-                f"growth f ~ r^{punch.growth:g} of the punch is outside ({_LOAD_INTEGRAL / m:g}, inf): "
-                f"with p ~ H^-{m:g} far away, the load integral of p r dr diverges at infinity"
+                f"n = {n:g} is outside ({(1.0 - k) / 2.0:g}, inf) for k = {k:g}: "
+                "the Tabor number of Eq. 29 is a power 1 / (2n + k - 1)"
             )
+        mu = number_from_log("Tabor number", log_tabor_number(power_law, n, Q, w, z0))
+        shape = PowerPunch(n) if type(punch) is PowerPunch else scaled_punch(punch, units["radius"], z0)
+        core = Problem(n, k, mu, shape, dimensionless_law(law), graded)
+        self._set(n, k, core.mu, punch, law, None, solid, core, units)
+
+    def _set(self, *values: Any) -> None:
         # The generated __setattr__ of a frozen class refuses; writing through object is its own idiom.
-        for name, value in (("n", n), ("k", k), ("mu", mu), ("punch", punch), ("law", law)):
+        names = ("n", "k", "mu", "punch", "law", "graded", "solid", "_dimensionless", "_units")
+        for name, value in zip(names, values, strict=True):
             object.__setattr__(self, name, value)
+
+    def __repr__(self) -> str:
+        names = ("n", "k", "mu", "punch", "law") if self.solid is None else ("solid", "punch", "law")
+        if self.graded is not None:
+            names = (*names, "graded")
+        return f"Problem({', '.join(f'{name}={getattr(self, name)!r}' for name in names)})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Made again from its parts: units are no plain data."""
+        if self.solid is not None:
+            return Problem, (self.solid, self.punch, self.law)
+        return Problem, (self.n, self.k, self.mu, self.punch, self.law, self.graded)
+
+    @property
+    def dimensionless(self) -> Problem:
+        """The dimensionless problem; itself if it is one."""
+        return self if self._dimensionless is None else self._dimensionless
+
+    @property
+    def units(self) -> Mapping[str, float]:
+        """Unit of each kind of quantity: what a dimensionless value is multiplied by; ones if dimensionless.
+
+        displacement, gap: z0; radius: (Q z0)^(1/n); traction: dgamma / z0; load: pi Q^(2/n) dgamma z0^(2/n-1)
+        (Eq. 31); energy: load * displacement; stiffness: load / displacement; energy_per_area: dgamma; number: 1.
+        """
+        return self._units
+
+    def in_units(self, *, c0: float, nu: float, Q: float, work_of_adhesion: float, z0: float) -> Problem:
+        """The physical problem of given scales whose modulus E0 gives the Tabor number of this one.
+
+        Parameters
+        ----------
+        c0, nu : float
+            Of the `PowerLaw`.
+        Q : float
+            Of the `PowerPunch`.
+        work_of_adhesion, z0 : float
+            Of the law, Lennard-Jones 9-3.
+
+        Raises
+        ------
+        ValueError
+            When a scale is outside its range, or this problem has another solid, punch or law.
+
+        Examples
+        --------
+        >>> physical = Problem(2, 0.4, 1.5).in_units(c0=1e-6, nu=0.3, Q=1e-6, work_of_adhesion=0.05, z0=3e-10)
+        >>> round(physical.mu, 12), round(physical.solid.E0 / 1e9, 6)
+        (1.5, 25.113266)
+        """
+        core = self.dimensionless
+        if core != Problem(core.n, core.k, core.mu):
+            raise ValueError(
+                f"{self!r} has another solid, punch or law than the three numbers n, k and mu: scale these"
+            )
+        punch, law = PowerPunch(self.n, Q), LennardJones(work_of_adhesion, z0)
+        scales = {"c0": c0, "Q": punch.Q, "work_of_adhesion": law.work_of_adhesion, "z0": law.z0}
+        E0 = modulus_for(self.mu, n=self.n, k=self.k, nu=nu, **scales)
+        return Problem(PowerLaw(E0, c0, self.k, nu), punch, law)
+
+    @property
+    def tabor_number_jin(self) -> float:
+        """mu_Jin of Eq. 30: the Tabor number of Jin et al. (2021), without the factor b / (1 - k).
+
+        It needs Poisson's ratio: AttributeError for a problem that is not of a power law in physical units.
+        """
+        nu = self.solid.power_law.nu  # type: ignore[union-attr]
+        return self.mu * response_factor_per_rest(self.k, nu) ** (-self.n / (2.0 * self.n + self.k - 1.0))
 
     @property
     def response(self) -> Any:
-        """What distinguishes the solid from a power law (`fscm.graded.GradedProblem`): None."""
-        return None
+        """`fscm.graded.GradedResponse`, what distinguishes the solid from a power law; None for a power law."""
+        if self.graded is None:
+            return None
+        # Imported here: a power law does not need it.
+        from fscm.graded import response_of
+
+        return response_of(self.graded)
 
     @property
     def largest_mu(self) -> float:
         """The Tabor number of the softest part of the solid: that of a power law is the only one."""
-        return self.mu
+        response = self.response
+        return self.mu if response is None else self.mu * response.softest ** (self.n / (2.0 * self.n - 1.0))
 
     @property
     def compliance(self) -> float:
-        """M = 2 mu^((2n+k-1)/n), the factor of the surface deformation in Eq. 28."""
+        """M = 2 mu^((2n+k-1)/n), the factor of the surface deformation in Eq. 28, of a dimensionless problem.
+
+        Raises
+        ------
+        ValueError
+            For a physical problem: the equations are dimensionless.
+        """
+        if self._dimensionless is not None:
+            raise ValueError(f"{self!r} is in physical units; the equations take problem.dimensionless")
         return 2.0 * self.mu ** ((2.0 * self.n + self.k - 1.0) / self.n)
+
+
+def _check_parts(punch: Any, law: Any) -> None:
+    if not isinstance(punch, PunchShape):
+        raise ValueError(f"punch = {punch!r} is not a punch shape: it needs growth, height(r) and slope(r)")
+    if not isinstance(law, SurfaceLaw):
+        raise ValueError(
+            f"law = {law!r} is not a surface law: it needs traction, slope, curvature and energy "
+            "of the gap and work_of_adhesion, z0, singular_gap, peak_gap and decay"
+        )
+
+
+def _check_load_integral(punch: PunchShape, law: SurfaceLaw) -> None:
+    C, m = law.decay
+    if C != 0.0 and not m * punch.growth > _LOAD_INTEGRAL:
+        raise ValueError(
+            f"growth f ~ r^{punch.growth:g} of the punch is outside ({_LOAD_INTEGRAL / m:g}, inf): "
+            f"with p ~ H^-{m:g} far away, the load integral of p r dr diverges at infinity"
+        )

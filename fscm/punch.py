@@ -1,4 +1,4 @@
-"""Punch shapes f(r), dimensionless: heights in z0, radii in the transverse length (Q z0)^(1/n).
+"""Punch shapes f(r), in any consistent units; dimensionless with heights in z0 and radii in (Q z0)^(1/n).
 
 A profile is smooth enough to be differentiated, vanishes at r = 0 and grows like a power of r at infinity:
 the solver closes its infinite domain with that power.
@@ -16,7 +16,20 @@ import numpy as np
 from fscm._typing import Array
 from fscm._validation import real_number
 
-__all__ = ["PowerPunch", "PowerSum", "PunchShape", "RoundedCone", "kinks_of"]
+__all__ = [
+    "PowerPunch",
+    "PowerSum",
+    "PunchShape",
+    "RoundedCone",
+    "ScaledPunch",
+    "kinks_of",
+    "scaled_punch",
+    "unit_of_radii",
+]
+
+# Least radius at which the unit of the radii of a shape of one's own is looked for, and how often the interval is
+# halved: the choice of the unit changes no result.
+_NEAREST, _HALVINGS = 1e-30, 20
 
 
 @runtime_checkable
@@ -56,29 +69,38 @@ def kinks_of(punch: PunchShape) -> tuple[float, ...]:
 
 @dataclass(frozen=True, slots=True)
 class PowerPunch:
-    """f(r) = r^n / n (Eq. 26); n = 1 is a cone, n = 2 a paraboloid, n -> infinity a flat punch.
+    """f(r) = r^n / (n Q) (Eq. 24); n = 1 is a cone, n = 2 a paraboloid, n -> infinity a flat punch.
 
     Parameters
     ----------
     n : float
         Shape index, > 0.
+    Q : float
+        Shape parameter, a length^(n-1) > 0: the radius of a paraboloid; 1 in a dimensionless problem.
 
     Raises
     ------
     ValueError
-        When `n` is not a positive finite number.
+        When a parameter is not a positive finite number.
 
     Examples
     --------
-    >>> PowerPunch(2.0).height(np.array([0.0, 2.0]))
-    array([0., 2.])
+    >>> PowerPunch(n=2.0, Q=4.0).height(np.array([0.0, 2.0]))
+    array([0. , 0.5])
     """
 
     n: float
+    Q: float = 1.0
 
     def __post_init__(self) -> None:
         n = real_number("shape index n", self.n, low=0.0, high=math.inf, reason="f = r^n / n must grow with r")
+        Q = real_number("shape parameter Q", self.Q, low=0.0, high=math.inf, reason="it is a positive quantity")
         object.__setattr__(self, "n", n)
+        object.__setattr__(self, "Q", Q)
+
+    def unit_of_radii(self, z0: float) -> tuple[float, float]:
+        """Shape index and shape parameter."""
+        return self.n, self.Q
 
     @property
     def growth(self) -> float:
@@ -86,14 +108,14 @@ class PowerPunch:
         return self.n
 
     def height(self, r: Array) -> Array:
-        """f(r) = r^n / n, infinite where no double holds it."""
+        """f(r), infinite where no double holds it."""
         with np.errstate(over="ignore"):
-            return np.asarray(r, float) ** self.n / self.n
+            return np.asarray(r, float) ** self.n / (self.n * self.Q)
 
     def slope(self, r: Array) -> Array:
-        """df/dr = r^(n-1), infinite at r = 0 for n < 1 and where no double holds it."""
+        """df/dr = r^(n-1) / Q, infinite at r = 0 for n < 1 and where no double holds it."""
         with np.errstate(divide="ignore", over="ignore"):
-            return np.asarray(r, float) ** (self.n - 1.0)
+            return np.asarray(r, float) ** (self.n - 1.0) / self.Q
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,6 +148,16 @@ class RoundedCone:
         for name in ("rounding", "cone_slope"):
             value = real_number(name, getattr(self, name), low=0.0, high=math.inf, reason=reason)
             object.__setattr__(self, name, value)
+
+    def unit_of_radii(self, z0: float) -> tuple[float, float]:
+        """n and Q of the paraboloid of the tip, or of the cone where the tip is rounded over less than z0."""
+        if self.cone_slope * self.rounding < z0:
+            return 1.0, 1.0 / self.cone_slope
+        return 2.0, self.rounding / self.cone_slope
+
+    def scaled(self, radius: float, height: float) -> RoundedCone:
+        """The shape in a unit of radii and one of heights."""
+        return RoundedCone(self.rounding / radius, self.cone_slope * radius / height)
 
     @property
     def growth(self) -> float:
@@ -196,6 +228,11 @@ class PowerSum:
         object.__setattr__(self, "coefficients", c)
         object.__setattr__(self, "exponents", e)
 
+    def scaled(self, radius: float, height: float) -> PowerSum:
+        """The shape in a unit of radii and one of heights."""
+        factors = (radius**e / height for e in self.exponents)
+        return PowerSum([c * factor for c, factor in zip(self.coefficients, factors, strict=True)], self.exponents)
+
     @property
     def growth(self) -> float:
         """The largest exponent."""
@@ -218,3 +255,88 @@ class PowerSum:
         terms = zip(self.coefficients, self.exponents, strict=True)
         with np.errstate(divide="ignore"):
             return sum((c * e * r ** (e - 1.0) for c, e in terms), np.zeros_like(r))
+
+
+@dataclass(frozen=True, slots=True)
+class ScaledPunch:
+    """A shape of one's own in another unit of radii and one of heights.
+
+    Parameters
+    ----------
+    punch : PunchShape
+    radius, height_unit : float
+        The new units in the old ones, > 0.
+
+    Examples
+    --------
+    >>> ScaledPunch(PowerPunch(2.0), radius=2.0, height_unit=0.5).height(np.array([1.0]))
+    array([4.])
+    """
+
+    punch: PunchShape
+    radius: float
+    height_unit: float
+
+    @property
+    def growth(self) -> float:
+        """That of the shape."""
+        return self.punch.growth
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """Those of the shape."""
+        return tuple(r / self.radius for r in kinks_of(self.punch))
+
+    def height(self, r: Array) -> Array:
+        """f(r)."""
+        return self.punch.height(np.asarray(r, float) * self.radius) / self.height_unit
+
+    def slope(self, r: Array) -> Array:
+        """df/dr."""
+        return self.punch.slope(np.asarray(r, float) * self.radius) * (self.radius / self.height_unit)
+
+
+def scaled_punch(punch: PunchShape, radius: float, height: float) -> PunchShape:
+    """The shape in a unit of radii and one of heights: by its method `scaled` if it has one."""
+    if hasattr(punch, "scaled"):
+        shape: PunchShape = punch.scaled(radius, height)
+        return shape
+    return ScaledPunch(punch, radius, height)
+
+
+def unit_of_radii(punch: PunchShape, z0: float) -> tuple[float, float]:
+    """n and Q of the power law r^n / (n Q) whose (Q z0)^(1/n) is the unit of the radii.
+
+    Any choice gives the same physical results.  A shape states its own by a method `unit_of_radii`; else n is the
+    growth, and the unit is the radius at which the shape is z0 / n high, as on a power law.
+
+    Raises
+    ------
+    ValueError
+        When the shape never has this height.
+
+    Examples
+    --------
+    >>> unit_of_radii(PowerPunch(n=2.0, Q=1e-6), 3e-10)
+    (2.0, 1e-06)
+    """
+    if hasattr(punch, "unit_of_radii"):
+        n, Q = punch.unit_of_radii(z0)
+        return float(n), float(Q)
+    n, r = float(punch.growth), 1.0
+
+    def is_above(r: float) -> bool:
+        return float(punch.height(np.array([r]))[0]) > z0 / n
+
+    with np.errstate(over="ignore"):
+        while is_above(r) and r > _NEAREST:
+            r *= 0.5
+        while not is_above(r):
+            r *= 2.0
+            if r > 1.0 / _NEAREST:
+                raise ValueError(f"the punch never reaches the height {z0 / n:g}: it must rise without bound")
+        low, high = 0.5 * r, r
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            low, high = (low, middle) if is_above(middle) else (middle, high)
+    return n, high**n / z0

@@ -44,7 +44,7 @@ class Quantity:
     Attributes
     ----------
     kind : str
-        "force", "displacement", "gap", "energy" or "number": its unit.
+        "load", "displacement", "gap", "energy" or "number": its unit, see `Problem.units`.
     needs : tuple of str
         Events of the path that have to exist.
     compute : callable
@@ -105,7 +105,7 @@ def _hysteresis_energy(analysis: Analysis) -> Solution:
 
 
 TABLE: dict[str, Quantity] = {
-    "pull_off_force": AtEvent.of("force", "pull_off", "load", -1.0),
+    "pull_off_force": AtEvent.of("load", "pull_off", "load", -1.0),
     "pull_off_displacement": AtEvent.of("displacement", "pull_off", "displacement"),
     "jump_in_displacement": AtEvent.of("displacement", "jump_in", "displacement"),
     "jump_in_gap": AtEvent.of("gap", "jump_in", "central_gap"),

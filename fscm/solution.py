@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 from fscm._equilibrium import State
@@ -35,7 +35,7 @@ class Parts(Mapping[str, float]):
     law : float
         What the data of a smoothed law leave open (see `TabulatedLaw`).
     kernel : float
-        Response of a graded solid to a ring (see `fscm.graded`); zero for a power law, whose response is exact.
+        Response of a graded solid to a ring; zero for a power law, whose response is exact.
 
     Examples
     --------
@@ -72,6 +72,10 @@ class Parts(Mapping[str, float]):
         """Name of the largest one."""
         return max(_CAUSES, key=self.__getitem__)
 
+    def times(self, factor: float) -> Parts:
+        """Bounds of a value that is multiplied by a positive number."""
+        return Parts(*(factor * part for part in self.values()))
+
     def plus(self, other: Parts) -> Parts:
         """Bounds of a sum of two values."""
         return Parts(*(a + b for a, b in zip(self.values(), other.values(), strict=True)))
@@ -87,7 +91,7 @@ class Solution:
     Attributes
     ----------
     value : float
-        Dimensionless, in the scales of `fscm.problem`.
+        In the units of the problem.
     parts : Parts
         Bounds on its error by cause, in the same unit.
     size : int
@@ -119,6 +123,16 @@ class Solution:
     def u_num(self) -> float:
         """Bound on the error of the value: the sum of the parts."""
         return self.parts.total
+
+    def times(self, unit: float) -> Solution:
+        """The solution multiplied by the unit of a dimensionless value.
+
+        Examples
+        --------
+        >>> Solution(2.0, Parts(mesh=1e-12), size=9, iterations=3, residual=0.0, seconds=0.1).times(0.5).value
+        1.0
+        """
+        return replace(self, value=self.value * unit, parts=self.parts.times(unit))
 
 
 @dataclass(frozen=True, eq=False)

@@ -38,8 +38,8 @@ def solve(problem: Problem, quantity: str, accuracy: Accuracy = "default") -> So
     Returns
     -------
     Solution
-        Dimensionless; loads in pi Q^(2/n) dgamma z0^(2/n-1), displacements and gaps in z0, energies in
-        pi Q^(2/n) dgamma z0^(2/n).
+        In the units of a physical problem.  Of a dimensionless one loads are in pi Q^(2/n) dgamma z0^(2/n-1),
+        displacements and gaps in z0, energies in pi Q^(2/n) dgamma z0^(2/n).
 
     Raises
     ------
@@ -55,9 +55,16 @@ def solve(problem: Problem, quantity: str, accuracy: Accuracy = "default") -> So
     1.67066478
     >>> round(solve(Problem(n=2, k=0, mu=1.0), "pull_off_force", accuracy=1e-5).value, 5)
     1.67066
+
+    Newtons, from a physical problem in SI:
+
+    >>> from fscm import LennardJones, PowerLaw, PowerPunch
+    >>> pad, law = PowerLaw(E0=2e9, c0=1e-6, k=0.4, nu=0.3), LennardJones(work_of_adhesion=0.05, z0=0.5e-9)
+    >>> round(solve(Problem(pad, PowerPunch(n=2, Q=100e-9), law), "pull_off_force").value * 1e9, 6)
+    27.066203
     """
-    quantity_named(quantity)
-    return _model(problem, accuracy).solution(quantity)
+    unit = problem.units[quantity_named(quantity).kind]
+    return _model(problem.dimensionless, accuracy).solution(quantity).times(unit)
 
 
 @one_thread()
@@ -90,14 +97,12 @@ def solve_together(
     >>> round(found["pull_off_force"].value, 8), type(found["jump_in_gap"]).__name__
     (1.78748293, 'NoSuchEvent')
     """
-    names = list(quantities)
-    for name in names:
-        quantity_named(name)
-    model = _model(problem, accuracy)
+    units = {name: problem.units[quantity_named(name).kind] for name in quantities}
+    model = _model(problem.dimensionless, accuracy)
     found: dict[str, Solution | NoSuchEvent] = {}
-    for name in names:
+    for name, unit in units.items():
         try:
-            found[name] = model.solution(name)
+            found[name] = model.solution(name).times(unit)
         except NoSuchEvent as missing:
             found[name] = missing
     return found

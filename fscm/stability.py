@@ -52,7 +52,7 @@ class Stability:
         For m = 0, ..., 4 the smallest second variation of the energy under prescribed displacement, as a part of its
         stiffening terms: at most 1, 0 at a fold of the displacement, negative when the state is unstable.
     stiffness : float
-        dP/d(delta) along the path, dimensionless.
+        dP/d(delta) along the path, in the units of the problem.
 
     Examples
     --------

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 
@@ -28,6 +28,7 @@ _FUNCTIONALS: dict[str, Callable[[State], float]] = {
     "displacement": lambda state: state.displacement,
     "load": lambda state: state.load,
 }
+_KINDS = {"central_gap": "gap", "displacement": "displacement", "load": "load"}
 # Zero where the control is extreme along the path.
 _FOLDS: dict[str, events.Condition] = {
     "central_gap": lambda state, rates: rates.central_gap,
@@ -42,7 +43,7 @@ _SPACING = 1e-4
 
 @dataclass(frozen=True)
 class RadialField:
-    """Gap, pressure and deformation over the radius at one state; arrays of shape (m,), dimensionless.
+    """Gap, pressure and deformation over the radius at one state; arrays of shape (m,), in the units of the problem.
 
     Examples
     --------
@@ -62,16 +63,27 @@ class RadialField:
     displacement: float
     load: float
 
+    def in_units(self, units: Mapping[str, float]) -> RadialField:
+        """The surface of a dimensionless problem in the units of a physical one."""
+        return RadialField(
+            self.radius * units["radius"],
+            self.gap * units["gap"],
+            self.pressure * units["traction"],
+            self.deformation * units["displacement"],
+            self.displacement * units["displacement"],
+            self.load * units["load"],
+        )
+
 
 @dataclass(frozen=True)
 class EquilibriumState:
-    """One equilibrium state, dimensionless.
+    """One equilibrium state, in the units of the problem.
 
     Attributes
     ----------
     central_gap, displacement, load : float
     u_num : float
-        Bound on the error of each of the three numbers.
+        Bound on the error of each of the three numbers, dimensionless: in z0, and in the unit of loads.
     profile : RadialField
     parts : mapping
         Bounds on the error of each of the three, by name and cause: ``parts["load"]["mesh"]``.  That of the control
@@ -95,12 +107,14 @@ class EquilibriumState:
     profile: RadialField
     parts: Mapping[str, Parts]
     _state: State = field(repr=False, compare=False)
+    _units: Mapping[str, float] = field(repr=False, compare=False)
 
     @cached_property
     @one_thread()
     def stability(self) -> Stability:
         """Stability against cos(m theta), m = 0, ..., 4, computed when it is asked for."""
-        return stability_of(self._state)
+        found = stability_of(self._state)
+        return replace(found, stiffness=found.stiffness * self._units["stiffness"])
 
     @property
     def stable_under_displacement(self) -> bool:
@@ -124,7 +138,7 @@ def equilibria(problem: Problem, control: str, value: float, accuracy: Accuracy 
     control : str
         "central_gap" (one state), "displacement" or "load" (up to three, more near the nucleus of contact).
     value : float
-        In z0 for gap and displacement, pi Q^(2/n) dgamma z0^(2/n-1) for the load.
+        In the units of the problem.
     accuracy : float or str
         Relative error that is requested, or its name (see `solve`).
 
@@ -150,6 +164,8 @@ def equilibria(problem: Problem, control: str, value: float, accuracy: Accuracy 
         raise ValueError(f"value = {value} of the {control} is not finite")
     if control == "central_gap" and value <= problem.law.singular_gap:
         raise ValueError(f"central gap = {value} is not above {problem.law.singular_gap}, where the law is singular")
+    units, problem = problem.units, problem.dimensionless
+    value = value / units[_KINDS[control]]
     functional = _FUNCTIONALS[control]
 
     def condition(state: State, rates: object) -> float:
@@ -174,7 +190,7 @@ def equilibria(problem: Problem, control: str, value: float, accuracy: Accuracy 
         near = _near_extreme(a, b, condition, fold, meshes)
         if near is None:
             near = [events.locate(*bracket, condition) for bracket in events.crossings([a, b], condition, fold)]
-        found += [_solved(coarse, control, value, condition, meshes) for coarse in near]
+        found += [_solved(coarse, control, value, condition, meshes, units) for coarse in near]
     return found
 
 
@@ -206,18 +222,20 @@ def _near_extreme(
     return [events.moved(extreme, rates, x + side * along * distance) for side in (-1.0, 1.0)]
 
 
-def _solved(coarse: State, control: str, value: float, condition: events.Condition, meshes: Meshes) -> EquilibriumState:
+def _solved(
+    coarse: State, control: str, value: float, condition: events.Condition, meshes: Meshes, units: Mapping[str, float]
+) -> EquilibriumState:
     state = events.sharpen(coarse, condition, *meshes.value)
     errors = EventErrors(state)
     parts = {name: errors.prescribed(name, control, value) for name in _FUNCTIONALS}
+    values = {name: float(of_state(state)) * units[_KINDS[name]] for name, of_state in _FUNCTIONALS.items()}
     return EquilibriumState(
-        float(state.central_gap),
-        float(state.displacement),
-        float(state.load),
-        max(each.total for each in parts.values()),
-        radial_field(state),
-        parts,
-        state,
+        **values,
+        u_num=max(each.total for each in parts.values()),
+        profile=radial_field(state).in_units(units),
+        parts={name: each.times(units[_KINDS[name]]) for name, each in parts.items()},
+        _state=state,
+        _units=units,
     )
 
 
@@ -248,4 +266,4 @@ def profile(problem: Problem, event: str = "pull_off", accuracy: Accuracy = "def
     >>> bool(abs(at_pull_off.pressure.min() + 1.0264) < 1e-3)      # the theoretical strength, at the edge
     True
     """
-    return radial_field(Analysis(problem, accuracy).event(event).value)
+    return radial_field(Analysis(problem.dimensionless, accuracy).event(event).value).in_units(problem.units)

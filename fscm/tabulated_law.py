@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -33,24 +33,26 @@ _ROUNDOFF = 2.0**-52
 
 @dataclass(frozen=True, slots=True, repr=False)
 class TabulatedLaw:
-    """Surface law through data points, normalised to energy -1 at the equilibrium gap H = 0.
+    """Surface law through data points, whose gap without traction becomes H = 0.
 
-    The origin of the data's gaps is free, and so is the unit of the tractions: both are normalised away, and
-    `equilibrium_gap` and `work_of_adhesion` hold their values.  The gaps have to be in units of z0, whose
-    choice is the user's: it fixes the Tabor number.  Immutable, hashable, picklable.
+    Immutable, hashable, picklable.
 
     Parameters
     ----------
     gaps : sequence of float, shape (N,), N >= 10
-        Gaps in z0 from any origin, increasing; from the repulsive wall far into the tail.
+        Gaps from any origin, increasing; from the repulsive wall far into the tail.
     tractions : sequence of float, shape (N,)
-        Tractions in any unit, compression positive.  First > 0, one change of sign, a largest tension before
+        Tractions, compression positive.  First > 0, one change of sign, a largest tension before
         the last point; last < 0, or = 0 for a law of finite range.
+    z0 : float
+        Range of the law in the unit of the gaps, > 0.  It is the user's choice and fixes the Tabor number, but no
+        result in physical units; 1 in a dimensionless problem.
     tail_exponent : float, optional
         Exponent m > 1 of the tail p ~ -C H^-m when it is known (3 for van der Waals forces between
         half-spaces). C and the origin t are then fitted to the end of the data.  Otherwise t is the gap at
         which the wall diverges, and C and m are fitted.
-
+    work : float, optional
+        Work of adhesion: the tractions are multiplied so that they have it.  By default they are taken as they are.
     smoothing : float, optional
         Relative standard error of the tractions, below 0.1.  Above 0 the law is a smooth curve that leaves the points
         by about this error, and not the one through all of them: for noisy data, or fewer than about 40 points.  What
@@ -71,7 +73,9 @@ class TabulatedLaw:
 
     gaps: Sequence[float]
     tractions: Sequence[float]
+    z0: float = 1.0
     tail_exponent: float | None = None
+    work: float | None = None
     smoothing: float = 0.0
     equilibrium_gap: float = field(init=False, compare=False)
     work_of_adhesion: float = field(init=False, compare=False)
@@ -83,13 +87,19 @@ class TabulatedLaw:
 
     def __post_init__(self) -> None:
         gap, p = _checked_points(self.gaps, self.tractions)
+        columns = gap, p
+        positive = "it is a positive quantity"
+        z0 = real_number("z0", self.z0, low=0.0, high=math.inf, reason=positive)
+        work = self.work
+        if work is not None:
+            work = real_number("work", work, low=0.0, high=math.inf, reason=positive)
+        gap = gap / z0
         m = self.tail_exponent
         if m is not None:
             reason = "with m <= 1 the work of adhesion is infinite"
             m = real_number("tail_exponent", m, low=1.0, high=math.inf, reason=reason)
         reason = "it is the relative error of the tractions"
         error = real_number("smoothing", self.smoothing, low=0.0, high=0.1, reason=reason, closed_low=True)
-        columns = gap, p
         if error > 0.0:
             gap, p = smoothed_table(gap, p, error)
         free = _quintic(gap, p)
@@ -108,10 +118,12 @@ class TabulatedLaw:
         values = {
             "gaps": tuple(columns[0].tolist()),
             "tractions": tuple(columns[1].tolist()),
+            "z0": z0,
             "tail_exponent": m,
+            "work": work,
             "smoothing": error,
-            "equilibrium_gap": equilibrium,
-            "work_of_adhesion": adhesion,
+            "equilibrium_gap": equilibrium * z0,
+            "work_of_adhesion": adhesion * z0 if work is None else work,
             "_spline": normalised,
             "_integral": normalised.antiderivative(),
             "_peak": peak - equilibrium,
@@ -142,48 +154,60 @@ class TabulatedLaw:
             rows += [(slice(0, None, 2), 1.0), (slice(1, None, 2), 1.0)]
         largest = 0.1 - 1e-9
         return tuple(
-            TabulatedLaw(self.gaps[row], self.tractions[row], self.tail_exponent, min(factor * self.smoothing, largest))
+            replace(
+                self,
+                gaps=self.gaps[row],
+                tractions=self.tractions[row],
+                smoothing=min(factor * self.smoothing, largest),
+            )
             for row, factor in rows
         )
 
     @property
+    def dimensionless(self) -> TabulatedLaw:
+        """The law with the work of adhesion 1 and the range 1."""
+        return replace(self, gaps=tuple((np.array(self.gaps) / self.z0).tolist()), z0=1.0, work=1.0)
+
+    @property
     def singular_gap(self) -> float:
         """Gap s at which the fitted wall diverges."""
-        return self._wall[2]
+        return self._wall[2] * self.z0
 
     @property
     def peak_gap(self) -> float:
         """Gap of the largest tension."""
-        return self._peak
+        return self._peak * self.z0
 
     @property
     def decay(self) -> tuple[float, float]:
         """(C, m) of the tail: p H^m -> -C; (0, inf) for a law of finite range."""
-        return self._tail[:2]
+        C, m = self._tail[:2]
+        return (C * (self.work_of_adhesion * self.z0 ** (m - 1.0)), m) if C else (C, m)
 
     def traction(self, H: Array) -> Array:
         """p(H)."""
-        return self._joined(H, 0)
+        return self._joined(H, 0) * (self.work_of_adhesion / self.z0)
 
     def slope(self, H: Array) -> Array:
         """dp/dH."""
-        return self._joined(H, 1)
+        return self._joined(H, 1) * (self.work_of_adhesion / self.z0**2)
 
     def curvature(self, H: Array) -> Array:
         """d2p/dH2."""
-        return self._joined(H, 2)
+        return self._joined(H, 2) * (self.work_of_adhesion / self.z0**3)
 
     def energy(self, H: Array) -> Array:
         """Integral of p from H to infinity, exact for the spline, the wall and the tail."""
-        H = np.asarray(H, float)
+        H = np.asarray(H, float) / self.z0
         first, last = self._spline.x[0], self._spline.x[-1]
         inside = np.clip(H, first, last)
         beyond = -_tail_derivative(np.maximum(H, last), self._tail, -1)
         below = _wall_derivative(first, self._wall, -1) - _wall_derivative(np.minimum(H, first), self._wall, -1)
-        return np.asarray(self._integral(last) - self._integral(inside) + beyond + below)
+        return np.asarray((self._integral(last) - self._integral(inside) + beyond + below) * self.work_of_adhesion)
 
     def _joined(self, H: Array, order: int) -> Array:
-        H = np.asarray(H, float)
+        """Derivative of the dimensionless traction."""
+        H = np.asarray(H, float) / self.z0
         first, last = self._spline.x[0], self._spline.x[-1]
         inside = self._spline(np.clip(H, first, last), order)
         below = _wall_derivative(np.minimum(H, first), self._wall, order)

@@ -18,9 +18,7 @@ ALLOWED = {
     "fscm": (),
     "fem_reference": (),
     # The data of a problem, which every module of comparisons uses.
-    "comparisons": ("fscm.problem", "fscm.punch", "fscm.laws"),
-    # An external model may work in physical units.
-    "comparisons.external": ("fscm.physical", "fscm.problem", "fscm.punch", "fscm.laws"),
+    "comparisons": ("fscm.problem", "fscm.punch", "fscm.laws", "fscm.solids"),
     # Shows what is inside the finite elements: fields, checks, solver table.
     "comparisons.cli.commands.fem": ("fem_reference", "fscm.problem", "fscm.punch", "fscm.laws"),
     # Shows the functions inside the FSCM.
@@ -45,8 +43,8 @@ ALLOWED = {
     "comparisons.problem_file.finite_elements": ("fem_reference",),
     # The pressure at the pull-off force and the surface compliance of a solid, which are no quantities of a model.
     "comparisons.problem_file.elastic_energy": ("fscm",),
-    # The factor of Poisson's ratio in the surface compliance of a power law.
-    "comparisons.problem_file.equivalent_power_law": ("fscm.physical",),
+    # Checks the parts of a file before the whole.
+    "comparisons.problem_file.consistency": ("fscm",),
     # Derivatives of a value, which are no quantity of a model.
     "comparisons.problem_file.propagation": ("fscm",),
     # Solves the same graded solids by both.
@@ -61,7 +59,6 @@ ALLOWED = {
     "comparisons.models.gibson_limit": ("fscm",),
     "comparisons.models.stieltjes_model": ("fscm",),
     "comparisons.models.fem_model": (
-        "fscm.physical",
         "fscm.problem",
         "fscm.punch",
         "fscm.laws",

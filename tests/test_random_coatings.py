@@ -12,7 +12,7 @@ import pytest
 
 import fem_reference
 import fscm
-from fscm.graded import Coating, GradedSolid, TabulatedModulus, graded_problem
+from fscm import Coating
 from tests.layered_jkr import Stack, minima_with_error
 
 # Tabor number with the modulus of the surface from which on JKR is near, and how near: measured worst 0.0042 (51).
@@ -50,18 +50,16 @@ class CoatedSphere:
     def by_fscm(self) -> tuple[float, float, float]:
         """Force and bound in N, and the Tabor number with the modulus of the surface."""
         solid = Coating(self.coating[0], self.substrate[0], self.thickness, 0.0, self.coating[1], self.substrate[1])
-        problem, _ = graded_problem(solid, Q=self.R, n=2, work_of_adhesion=self.work, z0=self.z0)
+        problem = fscm.Problem(solid, fscm.PowerPunch(2, self.R), fscm.LennardJones(self.work, self.z0))
         force = fscm.solve(problem, "pull_off_force")
-        return force.value * self.unit, force.u_num * self.unit, problem.mu
+        return force.value, force.u_num, problem.mu
 
     def by_fem(self) -> tuple[float, float]:
         """Force and bound in N."""
-        modulus = fem_reference.CoatingModulus(self.coating[0], self.substrate[0], self.thickness, 0.0)
-        nu = fem_reference.CoatingPoisson(self.coating[1], self.substrate[1], self.thickness, 0.0)
+        moduli, ratios = zip(self.coating, self.substrate, strict=True)
+        solid = fem_reference.Coating(*moduli, self.thickness, 0.0, *ratios)
         punch, law = fem_reference.PowerPunch(2, self.R), fem_reference.LennardJones(self.work, self.z0)
-        force = fem_reference.solve(
-            fem_reference.Problem(fem_reference.CustomSolid(modulus, nu), punch, law), "pull_off_force"
-        )
+        force = fem_reference.solve(fem_reference.Problem(solid, punch, law), "pull_off_force")
         return force.value, force.u_num
 
     def by_jkr(self) -> float:
@@ -104,51 +102,42 @@ NOT_FOLLOWED = 31
 LARGEST_BOUND = 1e-6
 
 
-def by_both(number: int) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Pull-off force and bound in pi R w by the integral equation and by the finite elements.
+def by_both(number: int) -> list[tuple[float, float]]:
+    """Pull-off force and bound in N by the integral equation and by the finite elements.
 
     Moduli differ by factors from 1e-4 to 1e4, the first thickness is 1e-3 to 10 contact radii of the substrate.
     """
     rng = np.random.default_rng(5000 + number)
     kind = KINDS[number % len(KINDS)]
-    R, z0 = 10 ** rng.uniform(-7, -4.5), 10 ** rng.uniform(-9.6, -8.5)
+    R, z0 = (float(x) for x in (10 ** rng.uniform(-7, -4.5), 10 ** rng.uniform(-9.6, -8.5)))
     E, contrast = 10 ** rng.uniform(5, 10), 10 ** rng.uniform(-4, 4)
     nu_coating, nu, *others = rng.uniform(0.1, 0.49, 4)
     softest = min(E, E * contrast) / (1.0 - (nu_coating if contrast < 1.0 else nu) ** 2)
     work = math.sqrt((10 ** rng.uniform(-1, math.log10(LARGEST_TABOR))) ** 3 * z0**3 * softest**2 / R)
     contact_radius = (9.0 * math.pi * work * R**2 * (1.0 - nu**2) / (8.0 * E)) ** (1.0 / 3.0)
-    thickness = contact_radius * 10 ** rng.uniform(-3, 1)
-    if kind in ("sharp", "smooth"):
-        transition = 0.0 if kind == "sharp" else 0.3 * thickness
-        solid = Coating(E * contrast, E, thickness, transition, nu_coating, nu)
-        modulus = fem_reference.CoatingModulus(E * contrast, E, thickness, transition)
-        body = fem_reference.CustomSolid(modulus, fem_reference.CoatingPoisson(nu_coating, nu, thickness, transition))
-    elif kind == "table":
+    thickness = float(contact_radius * 10 ** rng.uniform(-3, 1))
+    shares = rng.uniform(-0.2, 0.2, 10) if kind == "table" else None
+    inner = E * 10 ** rng.uniform(-4, 4, 2) if kind == "three layers" else None
+    below = thickness * 10 ** rng.uniform(-0.5, 0.5, 2) if kind == "three layers" else None
+
+    def solid(solver):
+        if kind in ("sharp", "smooth"):
+            transition = 0.0 if kind == "sharp" else 0.3 * thickness
+            return solver.Coating(E * contrast, E, thickness, transition, nu_coating, nu)
+        if kind == "three layers":
+            return solver.Layers([E * contrast, *inner, E], [nu_coating, *others, nu], [thickness, *below])
         depths = np.concatenate([[0.0], thickness * np.geomspace(0.1, 10.0, 9)])
         share = 1.0 / (1.0 + np.exp(-2.0 * np.log((depths + 1e-30) / thickness)))
         moduli = np.exp(np.log(E * contrast) * (1.0 - share) + np.log(E) * share)
         moduli[0], moduli[-1] = E * contrast, E
-        moduli *= np.exp(rng.uniform(-0.2, 0.2, moduli.size))
-        solid = TabulatedModulus(depths, moduli, nu)
-        body = fem_reference.CustomSolid(fem_reference.TableModulus(depths, moduli), nu)
-    else:
-        inner = E * 10 ** rng.uniform(-4, 4, 2)
-        depths = np.cumsum([thickness, *thickness * 10 ** rng.uniform(-0.5, 0.5, 2)])
-        moduli, ratios = np.array([E * contrast, *inner, E]), np.array([nu_coating, *others, nu])
+        return solver.TabulatedModulus(depths, moduli * np.exp(shares), nu)
 
-        def at(values):
-            return lambda z: values[np.searchsorted(depths, z, side="right")]
-
-        solid = GradedSolid(at(moduli), at(ratios), length=float(depths[0]), interfaces=depths)
-        interfaces = tuple(fem_reference.Interface(float(depth)) for depth in depths)
-        custom = fem_reference.CustomModulus(at(moduli), 0.0, 0.0, float(depths[0]), interfaces)
-        body = fem_reference.CustomSolid(custom, fem_reference.CustomPoisson(at(ratios), interfaces))
-    posed, _ = graded_problem(solid, Q=R, n=2, work_of_adhesion=work, z0=z0)
-    force = fscm.solve(posed, "pull_off_force")
-    punch, law = fem_reference.PowerPunch(2, R), fem_reference.LennardJones(work, z0)
-    other = fem_reference.solve(fem_reference.Problem(body, punch, law), "pull_off_force")
-    unit = math.pi * R * work
-    return (force.value, force.u_num), (other.value / unit, other.u_num / unit)
+    forces = []
+    for solver in (fscm, fem_reference):
+        problem = solver.Problem(solid(solver), solver.PowerPunch(2, R), solver.LennardJones(work, z0))
+        force = solver.solve(problem, "pull_off_force")
+        forces.append((force.value, force.u_num))
+    return forces
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,6 @@ import fscm
 from comparisons.bench import adhesion_package
 from comparisons.bench.measuring import cpu_seconds
 from comparisons.bench.part import Numbers, Settings
-from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
 from fscm.stieltjes import StieltjesScheme, find_event
 
@@ -79,13 +78,14 @@ def _elements(settings: Settings) -> Numbers:
     accuracy = settings["accuracy"]
 
     def solve(repetition: int) -> tuple[Any, float]:
-        physical = PhysicalProblem.from_problem(_problem(settings, repetition), **_SCALES)
+        physical = _problem(settings, repetition).in_units(**_SCALES)
+        solid: Any = physical.solid
         body = fem_reference.Problem(
-            fem_reference.Solid(E0=physical.E0, c0=physical.c0, k=physical.k, nu=physical.nu),
-            fem_reference.PowerPunch(n=physical.n, Q=physical.Q),
-            fem_reference.LennardJones(work_of_adhesion=physical.work_of_adhesion, z0=physical.z0),
+            fem_reference.PowerLaw(E0=solid.E0, c0=solid.c0, k=solid.k, nu=solid.nu),
+            fem_reference.PowerPunch(n=physical.n, Q=_SCALES["Q"]),
+            fem_reference.LennardJones(work_of_adhesion=_SCALES["work_of_adhesion"], z0=_SCALES["z0"]),
         )
-        return fem_reference.solve(body, "pull_off_force", accuracy), physical.scales["load"]
+        return fem_reference.solve(body, "pull_off_force", accuracy), physical.units["load"]
 
     (solution, unit), seconds = cpu_seconds(solve)
     return {

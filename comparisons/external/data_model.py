@@ -20,7 +20,7 @@ from comparisons.domain import Domain
 from comparisons.external.manifest import MANIFEST, Key, check_units, covered_cases, read_manifest
 from comparisons.external.text_rules import one_line
 from comparisons.model import NotApplicable, Result
-from fscm.laws import LennardJones93
+from fscm.laws import LennardJones
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
@@ -80,7 +80,7 @@ class DataModel:
     def evaluate(self, problem: Problem, quantity: str, *, scales: int = 0) -> Result:
         """Return the prediction, or raise `NotApplicable` for a case that the submission does not cover."""
         key = (quantity, problem.n, problem.k, problem.mu)
-        default = problem.punch == PowerPunch(problem.n) and type(problem.law) is LennardJones93
+        default = problem.punch == PowerPunch(problem.n) and problem.law == LennardJones()
         if not default or key not in self.submission.rows:
             raise NotApplicable("the submission does not cover this case")
         value, u_num = self.submission.rows[key]

@@ -8,14 +8,41 @@ problem; `check-model` tries several.
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from typing import Protocol, runtime_checkable
 
 from comparisons.model import Result
 from comparisons.quantities import QUANTITIES
-from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
 
-__all__ = ["SCALES", "InUnits", "PhysicalModel"]
+__all__ = ["SCALES", "InUnits", "PhysicalCase", "PhysicalModel"]
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class PhysicalCase:
+    """The parameters of a power-law solid, a power-law punch and the 9-3 law, in consistent units.
+
+    Attributes
+    ----------
+    E0, c0, k, nu : float
+        Of the modulus E0 (z/c0)^k, and Poisson's ratio.
+    Q, n : float
+        Of the punch r^n / (n Q).
+    work_of_adhesion, z0 : float
+        Of the law.
+    scales : mapping of str to float
+        Units of dimensionless quantities, as of `fscm.Problem.units`.
+    """
+
+    E0: float
+    c0: float
+    k: float
+    nu: float
+    Q: float
+    n: float
+    work_of_adhesion: float
+    z0: float
+    scales: Mapping[str, float]
 
 
 @runtime_checkable
@@ -27,7 +54,7 @@ class PhysicalModel(Protocol):
     citation: str
     domain: str
 
-    def evaluate_physical(self, problem: PhysicalProblem, quantity: str) -> Result:
+    def evaluate_physical(self, problem: PhysicalCase, quantity: str) -> Result:
         """Return the quantity in units of `problem`: a load in traction * length^2, a gap in length."""
         ...
 
@@ -71,12 +98,14 @@ class InUnits:
             return result
         return dataclasses.replace(
             result,
-            value=physical.to_dimensionless(kind, result.value),
-            u_num=physical.to_dimensionless(kind, result.u_num),
+            value=result.value / physical.scales[kind],
+            u_num=result.u_num / physical.scales[kind],
         )
 
-    def _physical(self, problem: Problem) -> PhysicalProblem:
+    def _physical(self, problem: Problem) -> PhysicalCase:
         # Q is a length^(n-1): the same length for every shape index.
         scales = self._scales | {"Q": self._scales["Q"] ** (problem.n - 1.0)}
         nu = 0.5 if problem.k == 1.0 else self._poisson_ratio
-        return PhysicalProblem.from_problem(problem, nu=nu, **scales)
+        physical = problem.in_units(nu=nu, **scales)
+        E0 = physical.solid.E0  # type: ignore[union-attr]
+        return PhysicalCase(E0=E0, k=problem.k, nu=nu, n=problem.n, scales=physical.units, **scales)

@@ -15,7 +15,7 @@ from comparisons.external.limits import LARGEST_COUNT, Limits
 from comparisons.external.text_rules import model_name, one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from comparisons.quantities import QUANTITIES
-from fscm.laws import LennardJones93
+from fscm.laws import LennardJones
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
@@ -75,7 +75,7 @@ class ExternalModel:
         self._child.close()
 
     def _request(self, request: str, problem: Problem, **more: Any) -> dict[str, Any]:
-        if problem.punch != PowerPunch(problem.n) or type(problem.law) is not LennardJones93:
+        if problem.punch != PowerPunch(problem.n) or problem.law != LennardJones():
             raise NotApplicable("external models are evaluated for the power-law punch and the 9-3 law alone")
         reply = self._child.request(
             request,

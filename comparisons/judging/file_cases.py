@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from typing import Any
 
 from comparisons.problem_file.description import ProblemFile
-from comparisons.problem_file.form import SECTIONS, kinds, unit_of
+from comparisons.problem_file.kinds import SECTIONS, kinds
 from comparisons.problem_file.source import shown
 from comparisons.problem_file.units import NotAValue, in_si
 from comparisons.runs.rows import PARAMETERS
@@ -45,26 +46,31 @@ def _matches(wanted: Any, value: Any) -> bool:
 
 
 def _value(problem: ProblemFile, name: str) -> Any:
+    """The value of a key; ``thickness.2`` is the second entry of a list."""
     section_name, _, key = name.partition(".")
     section = getattr(problem, section_name)
-    return section.kind if key == "kind" else section.get(key)
+    if key == "kind":
+        return section.kind
+    key, _, number = key.partition(".")
+    value = section.get(key)
+    if number and isinstance(value, tuple) and 1 <= int(number) <= len(value):
+        return value[int(number) - 1]
+    return None if number else value
 
 
-def _known() -> dict[str, set[str | None]]:
-    """Keys of the problem files, with their units in the kinds that have them."""
-    found: dict[str, set[str | None]] = {}
+def _known() -> dict[str, str | None]:
+    """Keys of the problem files, with their units."""
+    found: dict[str, str | None] = {f"{section}.kind": None for section in SECTIONS}
     for section in SECTIONS:
-        for kind, form in kinds(section).items():
-            for key in form["properties"]:
-                units = found.setdefault(f"{section}.{key}", set())
-                if key != "kind":
-                    units.add(unit_of(section, kind, key))
+        for kind in kinds(section).values():
+            found |= {f"{section}.{key.name}": key.dimension.unit for key in kind.keys}
     return found
 
 
 def _checked(name: str, value: Any, where: str) -> Any:
     known = _known()
-    if name not in known:
+    plain = re.sub(r"\.[1-9]\d{0,2}$", "", name)
+    if plain not in known:
         near = get_close_matches(name, [*known, *PARAMETERS, "tags"], n=1)
         every = f"known are {', '.join((*PARAMETERS, 'tags'))}, and keys of a problem file as solid.kind"
         hint = f"did you mean {near[0]}?" if near else every
@@ -76,7 +82,7 @@ def _checked(name: str, value: Any, where: str) -> Any:
         return value
     if isinstance(value, str):
         return value
-    unit = next(iter(known[name])) or ""
+    unit = known[plain] or ""
     try:
         low, high = (in_si(end, unit) for end in value)
     except NotAValue as error:

@@ -8,7 +8,7 @@ import fscm
 from comparisons.model import Curve, NotApplicable, Result
 from fscm.interpolation.coordinates import BOX
 from fscm.interpolation.storage import data_digest
-from fscm.laws import LennardJones93
+from fscm.laws import LennardJones
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
@@ -44,7 +44,7 @@ class Atlas:
         """Return the quantity, or raise as in `comparisons.model.Model`."""
         if quantity not in fscm.ATLAS_QUANTITIES:
             raise NotApplicable(f"the atlas does not contain {quantity}")
-        if not isinstance(problem.punch, PowerPunch) or not isinstance(problem.law, LennardJones93):
+        if problem.punch != PowerPunch(problem.n) or problem.law != LennardJones():
             raise NotApplicable("the atlas is for the power-law punch and the Lennard-Jones 9-3 law")
         try:
             value, bound = fscm.atlas(problem.n, problem.k, problem.mu, quantity)

@@ -12,7 +12,7 @@ from typing import ClassVar, NamedTuple
 
 from comparisons.model import Curve, NotApplicable, Result
 from comparisons.quantities import QUANTITIES
-from fscm.laws import LennardJones93
+from fscm.laws import LennardJones
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
@@ -119,5 +119,5 @@ class ClosedForm(ABC):
         """Raise `NotApplicable` unless the punch is the power law of `problem.n` and the law is 9-3."""
         if problem.punch != PowerPunch(float(problem.n)):
             raise NotApplicable(f"{self.name} is derived for the profile r^n / n of Eq. 26 and for no other")
-        if type(problem.law) is not LennardJones93:
+        if problem.law != LennardJones():
             raise NotApplicable(f"{self.name} is derived for the 9-3 law of Eq. 27 and for no other")

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import fem_reference
 from comparisons.model import Curve, NotApplicable, RadialField, Result
@@ -18,8 +18,7 @@ from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.numerics.grid_convergence import three_grids
 from comparisons.quantities import QUANTITIES
 from comparisons.quantities.points import near
-from fscm.laws import LennardJones93
-from fscm.physical import PhysicalProblem
+from fscm.laws import LennardJones
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
@@ -73,16 +72,21 @@ class FiniteElements:
         physical, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             solution = fem_reference.solve(body, quantity)
-        return result_of(_audited(solution), unit=physical.scales[QUANTITIES[quantity].scale])
+        return result_of(_audited(solution), unit=physical.units[QUANTITIES[quantity].scale])
 
     def _critical_tabor_number(self, problem: Problem) -> Result:
         """Return the Tabor number of the modulus at which jumps begin; that of the problem is not used."""
         physical, body = self._physical(replace(problem, mu=1.0))
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             solution = _audited(fem_reference.solve(body, fem_reference.CRITICAL_MODULUS))
-        value = replace(physical, E0=solution.value).tabor_number
+
+        def tabor_number(E0: float) -> float:
+            solid: Any = physical.solid
+            return Problem(replace(solid, E0=E0), physical.punch, physical.law).mu
+
+        value = tabor_number(solution.value)
         # Eq. 29 is steeper at the lower end of the bound of the modulus.
-        highest = replace(physical, E0=solution.value - solution.u_num).tabor_number
+        highest = tabor_number(solution.value - solution.u_num)
         return result_of(replace(solution, value=value, u_num=highest - value))
 
     def curve(self, problem: Problem) -> Curve:
@@ -91,11 +95,11 @@ class FiniteElements:
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             coarse, path = (fem_reference.trace(body, level) for level in _LEVELS)
         return Curve(
-            displacement=physical.to_dimensionless("displacement", path.displacement),
-            load=physical.to_dimensionless("load", path.load),
+            displacement=path.displacement / physical.units["displacement"],
+            load=path.load / physical.units["load"],
             columns={
-                "central_gap": physical.to_dimensionless("gap", path.central_gap),
-                "edge_radius": physical.to_dimensionless("radius", path.edge_radius),
+                "central_gap": path.central_gap / physical.units["gap"],
+                "edge_radius": path.edge_radius / physical.units["radius"],
             },
             u_distance=mesh_difference(coarse.displacement, coarse.load, path.displacement, path.load),
         )
@@ -116,9 +120,9 @@ class FiniteElements:
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             spec, point = fem_reference.event_state(body, event)
             raw = export.contact_field(body.solid, spec, point)
-        scales = physical.scales
-        field = raw.in_units_of(scales["displacement"], scales["traction"])
-        return field, point.edge_radius / scales["displacement"]
+        units = physical.units
+        field = raw.in_units_of(units["displacement"], units["traction"])
+        return field, point.edge_radius / units["displacement"]
 
     @staticmethod
     def shape_parameter(n: float) -> float:
@@ -141,9 +145,9 @@ class FiniteElements:
             found = [fem_reference.profile(body, accuracy=level) for level in _LEVELS]
         (radius, pressure, gap), fine = (
             (
-                physical.to_dimensionless("radius", profile.radius),
-                physical.to_dimensionless("traction", profile.pressure),
-                physical.to_dimensionless("gap", profile.gap),
+                profile.radius / physical.units["radius"],
+                profile.pressure / physical.units["traction"],
+                profile.gap / physical.units["gap"],
             )
             for profile in found
         )
@@ -154,7 +158,7 @@ class FiniteElements:
             mesh_difference(*near(gap, radius, gap), *near(fine_gap, fine_radius, fine_gap)),
         )
 
-    def _physical(self, problem: Problem) -> tuple[PhysicalProblem, fem_reference.Problem]:
+    def _physical(self, problem: Problem) -> tuple[Problem, fem_reference.Problem]:
         if problem.n < 1.0:
             raise NotApplicable(f"the finite elements need n >= 1, not n = {problem.n:g}: a cusp has no finite slope")
         if problem.k > LARGEST_K:
@@ -162,17 +166,17 @@ class FiniteElements:
                 f"the finite elements need k <= {LARGEST_K:g}, not k = {problem.k:g}: towards the Gibson solid the "
                 "contact has an edge too narrow for their mesh"
             )
-        if problem.punch != PowerPunch(problem.n) or not isinstance(problem.law, LennardJones93):
+        if problem.punch != PowerPunch(problem.n) or problem.law != LennardJones():
             raise NotApplicable("this adapter to the finite elements is for the power-law punch and the 9-3 law alone")
-        physical = PhysicalProblem.from_problem(problem, nu=self._poisson_ratio, **_SCALES)
-        return (
-            physical,
-            fem_reference.Problem(
-                fem_reference.Solid(E0=physical.E0, c0=physical.c0, k=physical.k, nu=physical.nu),
-                fem_reference.PowerPunch(n=physical.n, Q=physical.Q),
-                fem_reference.LennardJones(work_of_adhesion=physical.work_of_adhesion, z0=physical.z0),
-            ),
+        nu = self._poisson_ratio
+        physical = problem.in_units(nu=nu, **_SCALES)
+        solid: Any = physical.solid
+        body = fem_reference.Problem(
+            fem_reference.PowerLaw(E0=solid.E0, c0=solid.c0, k=solid.k, nu=nu),
+            fem_reference.PowerPunch(n=problem.n, Q=_SCALES["Q"]),
+            fem_reference.LennardJones(work_of_adhesion=_SCALES["work_of_adhesion"], z0=_SCALES["z0"]),
         )
+        return physical, body
 
 
 def _audited(solution: fem_reference.Solution) -> fem_reference.Solution:

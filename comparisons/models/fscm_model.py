@@ -44,14 +44,14 @@ class FullSelfConsistent:
         if quantity not in fscm.QUANTITIES:
             raise NotApplicable(f"the FSCM does not compute {quantity}")
         with translated(fscm.NoSuchEvent, fscm.NotConverged):
-            return result_of(fscm.solve(problem, quantity))
+            return result_of(fscm.solve(problem.dimensionless, quantity))
 
     def curve(self, problem: Problem) -> Curve:
         """Return the whole equilibrium path, from far away into contact."""
         with translated(fscm.NoSuchEvent, fscm.NotConverged):
             if problem.k == 1.0:
                 return gibson_curve(problem)
-            path = fscm.trace(problem, longest_step=_STEP)
+            path = fscm.trace(problem.dimensionless, longest_step=_STEP)
         columns = {
             "central_gap": path.central_gap,
             "edge_radius": path.edge_radius,

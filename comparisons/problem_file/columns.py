@@ -33,6 +33,8 @@ class Column:
         Whether the least value is not admissible itself.
     rising : bool
         Whether each value is above the one before it.
+    twice : str
+        What to do with a value that is equal to the one before it, of a rising column.
     optional : bool
         Whether the file may do without the column.
     """
@@ -43,6 +45,7 @@ class Column:
     open: bool = False
     rising: bool = False
     optional: bool = False
+    twice: str = ""
 
     @property
     def range(self) -> str:
@@ -141,6 +144,8 @@ def _checked(place: str, name: str, column: Column, factor: float, cell: str, be
             raise ValueError(f"{place}: {name} = {cell.strip()} {error}; check its unit") from None
     if not column.low <= value <= column.high or (column.open and value == column.low):
         raise ValueError(f"{place}: {name} = {cell.strip()} is outside {column.range}; correct the value")
+    if column.twice and before and value == before[-1]:
+        raise ValueError(f"{place}: {name} = {cell.strip()} stands in the row before it, too; {column.twice}")
     if column.rising and before and not value > before[-1]:
         raise ValueError(
             f"{place}: {name} = {cell.strip()} is not above the value of the row before it; sort the rows by {name}"

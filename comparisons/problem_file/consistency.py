@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import fscm
 from comparisons.problem_file.description import ProblemFile
-from comparisons.problem_file.dimensionless import adhesion, dimensionless_problem, shape_parameters
+from comparisons.problem_file.dimensionless import dimensionless_problem
+from comparisons.problem_file.kinds import kind_of
 from comparisons.problem_file.source import Source
+from fscm.punch import unit_of_radii
 
 __all__ = ["check_consistency"]
 
@@ -22,10 +25,13 @@ def check_consistency(problem: ProblemFile, source: Source) -> None:
         One sentence with file, line, value and remedy.
     """
     try:
-        z0 = adhesion(problem.law)[1]
+        z0 = kind_of("law", problem.law.kind).build(fscm, problem.law).z0
     except ValueError as error:
         raise source.refusal("law", None, f"{error}; correct the values") from None
-    n, Q = shape_parameters(problem.punch, z0)
+    try:
+        n, Q = unit_of_radii(kind_of("punch", problem.punch.kind).build(fscm, problem.punch), z0)
+    except ValueError as error:
+        raise ValueError(f"{source.path}: {error}; check the values and their units") from None
     # Q of a cone is a slope: it has no scale.
     radius = Q ** (1.0 / (n - 1.0)) if n > 1.0 else z0
     low, high = _RATIOS

@@ -9,6 +9,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
+from comparisons.problem_file.kinds import SECTIONS, kind_of
 from comparisons.problem_file.uncertain import Uncertainty
 
 __all__ = ["ProblemFile", "Section"]
@@ -21,8 +22,8 @@ class Section:
     Attributes
     ----------
     kind : str
-    values : mapping of str to float or str
-        Numbers in SI, and the name of the file of a table.
+    values : mapping of str to float, tuple of float or str
+        Numbers in SI, lists of them, and the name of the file of a table.
     columns : mapping of str to tuple of float
         The columns of that file, in SI.
     uncertain : mapping of str to Uncertainty
@@ -88,26 +89,24 @@ class ProblemFile:
     @property
     def parameters(self) -> dict[str, Any]:
         """The content for output: the name of the file and the three sections."""
-        sections = {name: getattr(self, name).parameters for name in ("solid", "punch", "law")}
+        sections = {name: getattr(self, name).parameters for name in SECTIONS}
         return {"file": self.path.name, **sections}
 
     @property
     def power_law(self) -> Section | None:
         """The solid as E0 (z/c0)^k, also if it is homogeneous; None if it is another one."""
-        if self.solid.kind == "homogeneous":
-            # c0 has no effect for k = 0.
-            return Section("power-law", {"E0": self.solid["E"], "c0": 1.0, "k": 0.0, "nu": self.solid["nu"]})
-        return self.solid if self.solid.kind == "power-law" else None
+        values_of = kind_of("solid", self.solid.kind).power_law
+        return None if values_of is None else Section("power-law", values_of(self.solid))
 
     @property
     def has_power_punch(self) -> bool:
         """Whether the punch is r^n / (n Q), so that the units of the paper are defined."""
-        return self.punch.kind in ("sphere", "cone", "power-law")
+        return kind_of("punch", self.punch.kind).is_of_the_paper
 
     @property
     def is_of_the_paper(self) -> bool:
         """Whether it is the problem of three numbers n, k and mu, which every model takes."""
-        return self.power_law is not None and self.has_power_punch and self.law.kind == "lennard-jones-9-3"
+        return all(kind_of(name, getattr(self, name).kind).is_of_the_paper for name in SECTIONS)
 
     @property
     def tables(self) -> list[str]:

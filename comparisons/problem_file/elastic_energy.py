@@ -22,7 +22,6 @@ import fscm
 from comparisons.models.solver import translated
 from comparisons.problem_file.description import ProblemFile
 from comparisons.problem_file.dimensionless import dimensionless_problem
-from fscm.graded import GradedProblem
 from fscm.graded.compliance import compliance
 
 __all__ = ["EnergySpectrum", "energy_spectrum"]
@@ -97,7 +96,7 @@ def energy_spectrum(problem: ProblemFile) -> EnergySpectrum:
     True
     """
     posed, units = dimensionless_problem(problem)
-    if not isinstance(posed, GradedProblem):
+    if posed.graded is None:
         raise ValueError(f"{problem.path.name} has a {problem.solid.kind} solid, whose surface compliance is known")
     with translated(fscm.NoSuchEvent, fscm.NotConverged):
         # The shares need few digits.
@@ -106,7 +105,7 @@ def energy_spectrum(problem: ProblemFile) -> EnergySpectrum:
         radius /= float(np.sum(np.abs(_moments(field.radius, field.pressure, 1))))
         count = round(np.log10(_HIGHEST / _LOWEST)) * _POINTS + 1
         xi = np.geomspace(_LOWEST, _HIGHEST, count) / radius
-        values = compliance(posed.solid, xi)
+        values = compliance(posed.graded, xi)
     density = values * xi * _transform(field.radius, field.pressure, xi) ** 2
     scale = np.pi * units["traction"] ** 2 * units["radius"] ** 3
     energy = float(np.sum(density)) * np.log(xi[1] / xi[0]) * scale

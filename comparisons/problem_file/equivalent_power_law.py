@@ -19,7 +19,7 @@ from comparisons.problem_file.dimensionless import dimensionless_problem
 from comparisons.problem_file.elastic_energy import EnergySpectrum, energy_spectrum
 from comparisons.problem_file.evaluation import PhysicalValue, evaluate_problem
 from comparisons.problem_file.overview import ModelError, model_errors
-from fscm.physical import PhysicalProblem
+from fscm.solids import PowerLaw
 
 __all__ = [
     "LARGEST_DEVIATION",
@@ -176,11 +176,11 @@ def power_law_of(problem: ProblemFile, k: float, compliance: float, spectrum: En
     the fit.
     """
     posed, _ = dimensionless_problem(problem)
-    nu = float(posed.solid.poisson(np.zeros(1))[0])  # type: ignore[attr-defined]
+    nu = float(posed.graded.poisson(np.zeros(1))[0])  # type: ignore[union-attr]
     middle = math.exp(-float(spectrum.shares @ np.log(spectrum.wave_numbers)))
     c0 = problem.solid.get("c0", middle)
     # xi C = 2 b (1 - nu^2)/E0 (xi c0/2)^k Gamma((1-k)/2)/Gamma((1+k)/2)
-    b = PhysicalProblem(E0=1.0, c0=1.0, k=k, nu=nu, Q=1.0, n=2.0, work_of_adhesion=1.0, z0=1.0).response_factor
+    b = PowerLaw(E0=1.0, c0=1.0, k=k, nu=nu).response_factor
     gamma = math.gamma((1.0 - k) / 2.0) / math.gamma((1.0 + k) / 2.0)
     E0 = 2.0 * b * (1.0 - nu**2) * (c0 / (2.0 * middle)) ** k * gamma / compliance
     solid = Section("power-law", {"E0": E0, "c0": c0, "k": k, "nu": nu})
@@ -188,8 +188,8 @@ def power_law_of(problem: ProblemFile, k: float, compliance: float, spectrum: En
 
 
 def _surface_deviation(problem: ProblemFile, spectrum: EnergySpectrum) -> float:
-    solid = dimensionless_problem(problem)[0].solid  # type: ignore[attr-defined]
-    E, nu = (float(of_depth(np.zeros(1))[0]) for of_depth in (solid.modulus, solid.poisson))
+    solid = dimensionless_problem(problem)[0].graded
+    E, nu = (float(of_depth(np.zeros(1))[0]) for of_depth in (solid.modulus, solid.poisson))  # type: ignore[union-attr]
     surface = 2.0 * (1.0 - nu**2) / E
     return float(np.sqrt(spectrum.shares @ np.log(spectrum.compliances / surface) ** 2))
 

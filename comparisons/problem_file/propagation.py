@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.problem_file.description import ProblemFile
-from comparisons.problem_file.dimensionless import dimensionless_problem
+from comparisons.problem_file.dimensionless import physical_problem
 from comparisons.problem_file.evaluation import SI_UNITS
 from comparisons.problem_file.form import SECTIONS, limits_of
 from comparisons.problem_file.uncertain import Uncertainty
@@ -166,36 +166,27 @@ def _with(problem: ProblemFile, section: str, key: str, value: float) -> Problem
     return replace(problem, **{section: getattr(problem, section).changed(key, value)})
 
 
-def _posed(problem: ProblemFile, kind: str) -> tuple[Problem, float]:
-    """The dimensionless problem and the unit of a kind of quantity in SI."""
-    posed, units = dimensionless_problem(problem)
-    return posed, units[kind]
-
-
-def _varied(problem: ProblemFile, section: str, key: str, kind: str) -> Callable[[float], tuple[Problem, float]]:
-    return lambda value: _posed(_with(problem, section, key, value), kind)
+def _varied(problem: ProblemFile, section: str, key: str) -> Callable[[float], Problem]:
+    return lambda value: physical_problem(_with(problem, section, key, value))
 
 
 def _contributions(
     problem: ProblemFile, quantity: str, uncertain: list[tuple[str, str, Uncertainty]]
 ) -> tuple[float, float, tuple[Contribution, ...]]:
     """Value and bound of the quantity, and the contributions of uncertain values."""
-    # A quantity that is unknown has no kind.
-    kind = QUANTITIES[quantity].scale if quantity in QUANTITIES else "load"
-    posed, unit = _posed(problem, kind)
-    solved: ValueSensitivity = sensitivity(posed, quantity)
-    value, found = solved.solution.value * unit, []
+    solved: ValueSensitivity = sensitivity(physical_problem(problem), quantity)
+    value, found = solved.solution.value, []
     for section, key, uncertainty in uncertain:
         part = getattr(problem, section)
         at = part[key]
         slope = solved.derivative(
-            _varied(problem, section, key, kind),
+            _varied(problem, section, key),
             at,
             max(abs(at), uncertainty.size),
             *limits_of(section, part.kind, key),
         )
         found.append(Contribution(section, key, at, uncertainty, slope, slope * at / value if value else None))
-    return value, solved.solution.u_num * unit, tuple(found)
+    return value, solved.solution.u_num, tuple(found)
 
 
 def _range(problem: ProblemFile, quantity: str, value: float, intervals: list[Contribution]) -> Range:

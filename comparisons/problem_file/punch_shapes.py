@@ -1,6 +1,7 @@
 """Punch shapes that neither solver has: a flat end with a rounded edge, and a smooth curve through a measured profile.
 
-Both solvers take any shape with `height`, `slope` and `kinks`; the one of the FSCM has `growth` as well.
+Both solvers take any shape with `height`, `slope` and `kinks`; the one of the FSCM has `growth`, `unit_of_radii` and
+`scaled` as well.
 """
 
 from __future__ import annotations
@@ -39,6 +40,14 @@ class RoundedFlat:
     def growth(self) -> float:
         """A paraboloid at infinity."""
         return 2.0
+
+    def unit_of_radii(self, z0: float) -> tuple[float, float]:
+        """n and Q of the paraboloid of the edge, see `fscm.punch.unit_of_radii`."""
+        return 2.0, self.R
+
+    def scaled(self, radius: float, height: float) -> RoundedFlat:
+        """The shape in a unit of radii and one of heights."""
+        return RoundedFlat(self.flat_radius / radius, self.R * height / radius**2)
 
     @property
     def kinks(self) -> tuple[float, ...]:
@@ -96,6 +105,16 @@ class SmoothedProfile:
             raise ValueError(f"the smooth profile ends at the height {last:g}, which is not above its apex")
         object.__setattr__(self, "_curve", curve)
         object.__setattr__(self, "_last", last)
+
+    def unit_of_radii(self, z0: float) -> tuple[float, float]:
+        """n and Q of the power beyond the last point, see `fscm.punch.unit_of_radii`."""
+        height = self.heights[-1] - self.heights[0]
+        return self.growth, self.radii[-1] ** self.growth / (self.growth * height)
+
+    def scaled(self, radius: float, height: float) -> SmoothedProfile:
+        """The shape in a unit of radii and one of heights."""
+        radii, heights = tuple(r / radius for r in self.radii), tuple(f / height for f in self.heights)
+        return SmoothedProfile(radii, heights, self.smoothing / height, self.growth)
 
     @property
     def kinks(self) -> tuple[float, ...]:

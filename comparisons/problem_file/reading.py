@@ -12,27 +12,14 @@ from typing import Any
 
 from comparisons.data.input_files import read_text
 from comparisons.data.toml_text import parse
-from comparisons.problem_file.columns import Column, read_columns
+from comparisons.problem_file.columns import read_columns
 from comparisons.problem_file.consistency import check_consistency
 from comparisons.problem_file.description import ProblemFile, Section
 from comparisons.problem_file.form import SECTIONS, checked_section
+from comparisons.problem_file.kinds import kind_of
 from comparisons.problem_file.source import Source, shown
 
 __all__ = ["document_of", "load_problem", "problem_of"]
-
-#: Columns of the tables, and the smallest number of rows.
-_TABLES: dict[str, tuple[dict[str, Column], int]] = {
-    "solid": (
-        {
-            "z": Column("m", low=0.0, rising=True),
-            "E": Column("Pa", low=0.0, open=True),
-            "nu": Column("1", low=0.0, high=0.5, optional=True),
-        },
-        2,
-    ),
-    "punch": ({"r": Column("m", low=0.0, rising=True), "height": Column("m")}, 2),
-    "law": ({"gap": Column("m", rising=True), "traction": Column("Pa")}, 10),
-}
 
 #: Rows that a smoothed profile needs: a cubic spline has four coefficients.
 _FEWEST_SMOOTHED = 8
@@ -132,9 +119,10 @@ def _document(source: Source) -> dict[str, Any]:
 def _section(document: Mapping[str, Any], name: str, source: Source) -> Section:
     values, uncertain = checked_section(document, name, source)
     kind = values.pop("kind")
-    if kind != "table":
+    row = kind_of(name, kind)
+    if not row.columns:
         return Section(kind, values, uncertain=uncertain)
-    columns, fewest = _TABLES[name]
+    columns, fewest = row.columns, row.fewest_rows
     path = source.table(name, values["file"])
     # False for a name that is too long, too.
     if not os.path.isfile(path):

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from itertools import product
 from math import prod
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -37,6 +38,7 @@ class Variation:
     Attributes
     ----------
     section, key : str
+        The key of one entry of a list has the number of the entry, from 1, behind a dot.
     values : tuple of float or str
     text : str
         As it was written.
@@ -159,7 +161,7 @@ def variations(path: Path, texts: Sequence[str]) -> list[Varied]:
     except ValueError as error:
         raise ValueError(f"--vary {error}" if chosen else str(error)) from None
     return [
-        Varied(problem, {_column(problem, each): getattr(problem, each.section)[each.key] for each in chosen})
+        Varied(problem, {_column(problem, each): _varied_value(problem, each) for each in chosen})
         for problem in problems
     ]
 
@@ -179,7 +181,7 @@ def problems_of(path: Path, chosen: Sequence[Variation]) -> Iterator[tuple[list[
     for values in product(*(variation.values for variation in chosen)):
         changed = deepcopy(document)
         for variation, value in zip(chosen, values, strict=True):
-            changed[variation.section][variation.key] = value
+            _change(changed[variation.section], variation, value)
         texts = [f"{each.name}={value}" for each, value in zip(chosen, values, strict=True)]
         try:
             yield texts, problem_of(changed, source)
@@ -187,6 +189,31 @@ def problems_of(path: Path, chosen: Sequence[Variation]) -> Iterator[tuple[list[
             raise ValueError(f"{', '.join(texts)}: {error}" if texts else str(error)) from None
 
 
+def _change(section: dict[str, Any], variation: Variation, value: float | str) -> None:
+    """Write a value into a section as it is written in a file; ``key.2`` is the second entry of a list."""
+    name, dot, number = variation.key.partition(".")
+    if not dot:
+        section[name] = value
+        return
+    entries = section.get(name)
+    if not isinstance(entries, list):
+        raise ValueError(f"{shown(variation.name)}: {name} is no list of this file; leave out .{number}")
+    if not number.isdecimal() or not 1 <= int(number) <= len(entries):
+        raise ValueError(
+            f"{shown(variation.name)}: {name} has the entries {name}.1 to {name}.{len(entries)} in this file; "
+            "name one of these"
+        )
+    entries[int(number) - 1] = value
+
+
+def _varied_value(problem: ProblemFile, variation: Variation) -> float | str:
+    name, dot, number = variation.key.partition(".")
+    value: Any = getattr(problem, variation.section)[name]
+    entry: float | str = value[int(number) - 1] if dot else value
+    return entry
+
+
 def _column(problem: ProblemFile, variation: Variation) -> str:
-    unit = unit_of(variation.section, getattr(problem, variation.section).kind, variation.key)
+    name = variation.key.partition(".")[0]
+    unit = unit_of(variation.section, getattr(problem, variation.section).kind, name)
     return f"{variation.name} [{unit}]" if unit else variation.name

@@ -40,7 +40,7 @@ class _Scale:
     admits: Callable[[float], bool]
 
 
-#: The scales of `fscm.physical.PhysicalProblem.scales`, and plain numbers.
+#: The scales of `fscm.Problem.units`.
 _SCALES = {
     "load": _Scale("pi Q^(2/n) dgamma z0^(2/n-1)", "positive, though the load is a tension", lambda value: value > 0.0),
     "energy": _Scale("pi Q^(2/n) dgamma z0^(2/n)", "never negative", lambda value: value >= 0.0),

@@ -37,6 +37,11 @@ force = -curve(np.linspace(*curve.domain, 200)).min() * 1e-9
 print(f"pull-off force {force * 1e9:.2f} nN, drawn over {drawn * 1e9:.2f} nm")
 
 
+def sphere(E, work, z0):
+    """The contact of a modulus, a work of adhesion and a range of the forces."""
+    return fscm.Problem(fscm.Homogeneous(E, NU), fscm.PowerPunch(2, RADIUS), fscm.LennardJones(work, z0))
+
+
 def solid(force, drawn, z0):
     """Tabor number, work of adhesion and modulus that give both numbers, by the atlas."""
 
@@ -47,8 +52,8 @@ def solid(force, drawn, z0):
 
     mu = brentq(lambda mu: stretch(mu) - drawn / z0, 1.0, 10.0)
     work = force / (np.pi * RADIUS * fscm.atlas(2, 0, mu, "pull_off_force").value)
-    unit = fscm.PhysicalProblem(E0=1, c0=1, k=0, nu=NU, n=2, Q=RADIUS, work_of_adhesion=work, z0=z0)
-    return mu, work, (unit.tabor_number / mu) ** 1.5  # mu falls with E0^(2/3)
+    unit = sphere(1.0, work, z0)
+    return mu, work, (unit.mu / mu) ** 1.5  # mu falls with E^(2/3)
 
 
 mu, work, E0 = solid(force, drawn, Z0)
@@ -65,10 +70,10 @@ for z0 in (0.3e-9, 0.5e-9):
 print(f"JKR from the force alone: {force / (1.5 * np.pi * RADIUS) * 1e3:.1f} mJ/m^2")
 
 # 4. The whole record beside the model: one path of the fitted problem, as a machine records it.
-fitted = fscm.PhysicalProblem(E0=E0, c0=1, k=0, nu=NU, n=2, Q=RADIUS, work_of_adhesion=work, z0=Z0)
-problem = fitted.problem()
+fitted = sphere(E0, work, Z0)
+problem = fitted.dimensionless
 cycle = fscm.displacement_cycle(fscm.trace(problem, "quick", max_load=1.0, longest_step=0.1))
-nm, nN = fitted.scales["displacement"] * 1e9, fitted.scales["load"] * 1e9
+nm, nN = fitted.units["displacement"] * 1e9, fitted.units["load"] * 1e9
 origin = zero - fscm.atlas(2, 0, mu, "zero_load_displacement").value * nm
 held = retreat[retreat["displacement_nm"] > retreat["displacement_nm"][parted] + 0.2]  # the curve is steep at the jump
 computed = np.interp(held["displacement_nm"] - origin, (cycle.unloading[0] * nm)[::-1], (cycle.unloading[1] * nN)[::-1])

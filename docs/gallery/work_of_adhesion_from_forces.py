@@ -18,8 +18,9 @@ measured = np.array([6.25, 15.6, 30.9, 60.3, 151.9]) * 1e-9  # N: made with 0.05
 
 def force(work, radius):
     """Pull-off force of a sphere of 70 GPa, in newtons."""
-    sphere = fscm.PhysicalProblem(E0=70e9, c0=1, k=0, nu=0.2, Q=radius, n=2, work_of_adhesion=work, z0=0.3e-9)
-    return fscm.atlas(2, 0, sphere.tabor_number, "pull_off_force").value * sphere.scales["load"]
+    law = fscm.LennardJones(work_of_adhesion=work, z0=0.3e-9)
+    sphere = fscm.Problem(fscm.Homogeneous(E=70e9, nu=0.2), fscm.PowerPunch(n=2, Q=radius), law)
+    return fscm.atlas(2, 0, sphere.mu, "pull_off_force").value * sphere.units["load"]
 
 
 fitted = [brentq(lambda w, r=r, f=f: force(w, r) - f, 0.02, 0.2) for r, f in zip(radii, measured, strict=True)]

@@ -68,7 +68,7 @@ def carried_path(
         points.append(states.at(radius))
         if radius >= FARTHER * last_turn and len(points) >= RATE_POINTS and _settled(points, highest):
             break
-    length = points[0].branch.contact.law.length
+    length = points[0].branch.contact.law.z0
     tension = abs(min(point.state.load for point in points))
     tests = ((log_displacement_sample, LARGEST_CHANGE * length), (log_load_sample, LARGEST_CHANGE * tension))
     return [

@@ -87,7 +87,7 @@ def complete_path(points: Sequence[Point]) -> list[Point]:
     NotConverged
         If that needs more than `ROUNDS` passes, or if the path turns back where the branches meet.
     """
-    length = points[0].branch.contact.law.length
+    length = points[0].branch.contact.law.z0
     scale = max(abs(min(point.state.load for point in points)), 1e-300)
     tests = ((displacement_sample, SMALLEST_CHANGE * length), (load_sample, SMALLEST_CHANGE * scale))
     branches = branches_of(points)

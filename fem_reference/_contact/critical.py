@@ -24,7 +24,7 @@ from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.errors import NoSuchEvent, NotConverged
 from fem_reference.problem import Problem
 from fem_reference.punch import radius_at_height
-from fem_reference.solid import Solid
+from fem_reference.solids import OffsetPowerLaw, PowerLaw
 
 __all__ = ["NearCritical", "stiffer_than_critical"]
 
@@ -100,9 +100,9 @@ def stiffer_than_critical(problem: Problem, accuracy: float | str) -> NearCritic
         If a path cannot be traced, or the cusp is not found.
     """
     solid = problem.solid
-    if not isinstance(solid, Solid):
+    if not isinstance(solid, PowerLaw | OffsetPowerLaw):
         raise ValueError(
-            f"solid = {solid!r} has no reference modulus E0, which the critical modulus is a value of; take a Solid"
+            f"solid = {solid!r} has no reference modulus E0, which the critical modulus is a value of; take a PowerLaw"
         )
     E0 = _estimate(problem, solid)
     estimate = replace(problem, solid=replace(solid, E0=E0))
@@ -117,12 +117,12 @@ def stiffer_than_critical(problem: Problem, accuracy: float | str) -> NearCritic
     return NearCritical(replace(problem, solid=replace(solid, E0=E0)), E0, (spec, size))
 
 
-def _estimate(problem: Problem, solid: Solid) -> float:
+def _estimate(problem: Problem, solid: PowerLaw | OffsetPowerLaw) -> float:
     """Estimate the critical modulus: there the tension of the law moves the solid by `SHARE` lengths of the law."""
     law = problem.law
-    radius = radius_at_height(problem.punch, law.length)
+    radius = radius_at_height(problem.punch, law.z0)
     relative = float(replace(solid, E0=1.0).modulus(np.array(radius))) / (1.0 - solid.nu**2)
-    return law.work_of_adhesion * radius / (SHARE * law.length**2 * relative)
+    return law.work_of_adhesion * radius / (SHARE * law.z0**2 * relative)
 
 
 def _bracket(trial: Callable[[float], _Trial]) -> tuple[_Trial, _Trial]:

@@ -77,7 +77,7 @@ def displacement_rates(point: Point) -> DisplacementRates:
 
     def twice(direction: Array, parameter_rate: float) -> float:
         """Return adjoint . (derivative of the tangent in a direction) . rate."""
-        h = TANGENT_STEP * contact.law.length / float(np.abs(direction).max())
+        h = TANGENT_STEP * contact.law.z0 / float(np.abs(direction).max())
         after = _tangent(point.branch, y + h * direction, t + h * parameter_rate)
         before = _tangent(point.branch, y - h * direction, t - h * parameter_rate)
         return float(adjoint @ ((after - before) @ rate)) / (2.0 * h)
@@ -88,7 +88,7 @@ def displacement_rates(point: Point) -> DisplacementRates:
 
 def slowest_sample(points: Sequence[Point]) -> int:
     """Return the index of the sample where the displacement is slowest relative to the load."""
-    length = points[0].branch.contact.law.length
+    length = points[0].branch.contact.law.z0
     scale = max(abs(min(point.state.load for point in points)), 1e-300)
 
     def relative(i: int) -> float:
@@ -116,7 +116,7 @@ def slowest(points: Sequence[Point]) -> Point:
     NotConverged
         If the path cannot be followed in the central gap there.
     """
-    length = points[0].branch.contact.law.length
+    length = points[0].branch.contact.law.z0
     i = slowest_sample(points)
     point = _by_central_gap(points[max(i - NEARBY, 0)])
     last = min(points[min(i + NEARBY, len(points) - 1)].state.central_gap, point.parameter)
@@ -145,7 +145,7 @@ def cusp_from(point: Point) -> Point:
     NotConverged
         If Newton's method does not find it.
     """
-    point, unit = _by_central_gap(point), point.branch.contact.law.length
+    point, unit = _by_central_gap(point), point.branch.contact.law.z0
     for _ in range(STEPS):
         here = displacement_rates(point)
         h = NEIGHBOUR * unit

@@ -107,7 +107,7 @@ class EventEquations:
         self._correct(defect, defect_rate, w, w_rate, events)
         change = np.abs(self.y - y)
         left = float(np.abs(y[:-2] - self.contact.compliance.factor(float(y[-1])) * w).max())
-        scale = self.contact.law.length + float(np.abs(self.y[:-2]).max())
+        scale = self.contact.law.z0 + float(np.abs(self.y[:-2]).max())
         # NumPy's maximum, unlike Python's, of NaN is NaN.
         return float(np.max([left / scale, change[:-1].max() / scale, change[-1] / y[-1]]))
 

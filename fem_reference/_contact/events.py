@@ -253,7 +253,7 @@ def anchor_of(event: str, point: Point) -> tuple[Point, float]:
         return point, point.state.displacement_rate
     if event == "zero_load":
         return point, point.state.load_rate
-    unit = point.parameter if point.branch.touching else point.branch.contact.law.length
+    unit = point.parameter if point.branch.touching else point.branch.contact.law.z0
     near = point_at(point, point.parameter + SLOPE_STEP * unit)
     excess = excess_of(event)
     return point, (excess(near) - excess(point)) / (near.parameter - point.parameter)

@@ -106,7 +106,7 @@ class FollowedPath:
     def _whole(self) -> CarriedEvents:
         problem, turn = self._choice.problem, self._last_turn()
         # Edges beyond reach are refused here, and not after minutes.
-        scaling = is_scaling(problem.solid.modulus, problem.solid.nu, kinks_within(problem))
+        scaling = is_scaling(problem.solid.modulus, problem.solid.poisson, kinks_within(problem))
         ratio = EDGE_PER_BALANCE / FARTHER if scaling else WIDEST_EDGE
         check_width(ratio * WIDTH_SHARE * spot_length(problem, self._first[1]) / turn)
         approach, first = self._approach
@@ -144,7 +144,7 @@ class FollowedPath:
         deepest = self._whole.at(event)
         if event not in ("pull_off", "jump_out"):
             return [deepest]
-        unit = abs(deepest.state.load) if event == "pull_off" else self._choice.problem.law.length
+        unit = abs(deepest.state.load) if event == "pull_off" else self._choice.problem.law.z0
         limit = _height(event, deepest) + TIE * unit
         return [point for point in self._whole.minima(event) if _height(event, point) <= limit]
 

@@ -53,7 +53,7 @@ class MeshChoice:
     def contact(self, spec: MeshSpec, size: float) -> Contact:
         """Discretise the problem on a mesh with its edge at the radius `size`."""
         solid, punch, law = self.problem.solid, self.problem.punch, self.problem.law
-        return Contact(punch, law, compliance_for(solid.modulus, solid.nu, spec, size, self.scaling))
+        return Contact(punch, law, compliance_for(solid.modulus, solid.poisson, spec, size, self.scaling))
 
     def traced(self, spec: MeshSpec, size: float) -> PathEvents | ResolvedEvents:
         """The path on that mesh or, if the solid does not scale, its events there; kept for all quantities.
@@ -118,13 +118,13 @@ class MeshChoice:
     def spec_at(self, width: float, radius: float) -> MeshSpec:
         """Mesh of a solid that does not scale, for an edge of that relative width at a radius."""
         law, punch = self.problem.law, self.problem.punch
-        smallest = min(radius, radius_at_height(punch, EDGE_RISE * law.length))
-        apex = spot_length(self.problem, 2.0 * radius_at_height(punch, law.length))
+        smallest = min(radius, radius_at_height(punch, EDGE_RISE * law.z0))
+        apex = spot_length(self.problem, 2.0 * radius_at_height(punch, law.z0))
         return mesh_spec(self.problem, self.level, width, radius, smallest, apex=apex)
 
     def first_mesh(self) -> tuple[MeshSpec, float]:
         """Mesh on which the path of a solid that does not scale begins, and the radius of its edge."""
-        size = 2.0 * radius_at_height(self.problem.punch, self.problem.law.length)
+        size = 2.0 * radius_at_height(self.problem.punch, self.problem.law.z0)
         width = 0.5 * balance_length(self.problem, size) / size
         check_width(width)
         return self.spec_at(width, size), size
@@ -198,7 +198,7 @@ def chosen(
     """
     if not isinstance(problem, Problem):
         raise ValueError(f"problem = {problem!r} is not a Problem; make one of a solid, a punch and a surface law")
-    length = problem.law.length
+    length = problem.law.z0
     check_without_asperities(problem.punch, LOWEST * length, HIGHEST * length)
 
     def used(meshes: tuple[MeshChoice, MeshSpec, float]) -> tuple[MeshChoice, MeshSpec, float]:

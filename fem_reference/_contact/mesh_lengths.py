@@ -119,7 +119,7 @@ def mesh_spec(
     apex : float
         Radius of the spot on which contact begins, if it is so small that the apex has to be finer for it.
     """
-    modulus, nu, law = problem.solid.modulus, problem.solid.nu, problem.law
+    modulus, nu, law = problem.solid.modulus, problem.solid.poisson, problem.law
     k = modulus.surface_exponent
     width = 2.0 ** math.floor(math.log2(min(max(width, NARROWEST), WIDEST)))
     depth = LAYER_DEPTH * width * min(1.0, 5.0 * k) if k > 0 else 0.3 * width
@@ -127,7 +127,7 @@ def mesh_spec(
         depth = min(depth, 0.2 * modulus.surface_depth / size)
     C, m = law.decay
     height = FAR_HEIGHT ** max(1.0, 3.0 / m) if C != 0.0 else FAR_HEIGHT
-    far = radius_at_height(problem.punch, height * law.length)
+    far = radius_at_height(problem.punch, height * law.z0)
     extent = 2.0 ** math.ceil(math.log2(min(max(far / smallest, 50.0), LARGEST_EXTENT)))
     scaled = scaled_modulus(modulus, size), scaled_poisson(nu, size)
     while exterior_error(scaled[0], extent, scaled[1]) > EXTERIOR_ERROR and extent < LARGEST_EXTENT:
@@ -155,15 +155,15 @@ def kinks_within(problem: Problem) -> tuple[float, ...]:
 
     Examples
     --------
-    >>> from fem_reference import LennardJones, MeasuredPunch, Solid
+    >>> from fem_reference import LennardJones, MeasuredPunch, PowerLaw
     >>> profile = MeasuredPunch(radii=(0.0, 1.0, 100.0), heights=(0.0, 1.0, 2e4))
-    >>> kinks_within(Problem(Solid(E0=1.0, c0=1.0, k=0.0, nu=0.3), profile, LennardJones(1.0, 1.0)))
+    >>> kinks_within(Problem(PowerLaw(E0=1.0, c0=1.0, k=0.0, nu=0.3), profile, LennardJones(1.0, 1.0)))
     (1.0,)
     """
     kinks = kinks_of(problem.punch)
     if not kinks:
         return ()
-    reach = radius_at_height(problem.punch, KINK_HEIGHT * problem.law.length)
+    reach = radius_at_height(problem.punch, KINK_HEIGHT * problem.law.z0)
     found = tuple(r for r in kinks if r < reach)
     if len(found) > MOST_KINKS:
         raise NotConverged(
@@ -180,8 +180,8 @@ def balance_length(problem: Problem, radius: float) -> float:
     # E(l) length / l = traction, by a fixed point in log l; a root finder moves the last digit, and with it the
     # power of 2 to which `spec` rounds.
     for _ in range(BALANCE_STEPS):
-        E = float(solid.modulus(depth) / (1.0 - poisson_at(solid.nu, depth) ** 2))
-        depth = np.sqrt(depth * E * law.length**2 / (2.0 * law.work_of_adhesion))
+        E = float(solid.modulus(depth) / (1.0 - poisson_at(solid.poisson, depth) ** 2))
+        depth = np.sqrt(depth * E * law.z0**2 / (2.0 * law.work_of_adhesion))
     return float(depth)
 
 
@@ -200,9 +200,9 @@ def scales(problem: Problem) -> bool:
     [True, False]
     """
     solid, punch, law = problem.solid, problem.punch, problem.law
-    if not is_scaling(solid.modulus, solid.nu, kinks_within(problem)):
+    if not is_scaling(solid.modulus, solid.poisson, kinks_within(problem)):
         return False
-    radius = radius_at_height(punch, law.length)
+    radius = radius_at_height(punch, law.z0)
     for _ in range(BALANCE_STEPS):
         height, E = float(punch.height(np.array(radius))), float(solid.modulus(np.array(radius)))
         if height**2 * E > law.work_of_adhesion * radius:

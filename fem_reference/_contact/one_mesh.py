@@ -120,10 +120,10 @@ class OneMesh:
     def _first(self) -> tuple[MeshSpec, float]:
         """The mesh for the edge where law and solid balance."""
         punch, law = self.choice.problem.punch, self.choice.problem.law
-        self.smallest = radius_at_height(punch, EDGE_RISE * law.length)
+        self.smallest = radius_at_height(punch, EDGE_RISE * law.z0)
         # The folds merge before there is a sharp edge: the mesh of a solid that scales is fine at this radius, too.
         at_spot = self.events == (CUSP,) and not self.choice.scaling
-        size = self.smallest if at_spot else 2.0 * radius_at_height(punch, law.length)
+        size = self.smallest if at_spot else 2.0 * radius_at_height(punch, law.z0)
         width = 0.5 * balance_length(self.choice.problem, size) / size
         check_width(width, UNRESOLVED * NARROWEST_OF_ONE_MESH)
         return self._spec(width, size), size
@@ -156,7 +156,7 @@ class OneMesh:
             # Contact may begin on a spot much smaller than the punch, and the mesh shrinks with it.
             self.smallest = min(self.smallest, *(point.state.size for point in points))
             law = self.choice.problem.law
-            if self.smallest < SMALL_SPOT * radius_at_height(self.choice.problem.punch, EDGE_RISE * law.length):
+            if self.smallest < SMALL_SPOT * radius_at_height(self.choice.problem.punch, EDGE_RISE * law.z0):
                 self.far_share = min(self.far_share, FAR_SHARE)
         narrowest = min((edge_width(point) for point in points if point.branch.touching), default=1.0)
         if narrowest <= 0.0:

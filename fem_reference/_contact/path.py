@@ -100,7 +100,7 @@ class Branch:
         """Largest sensible step of the parameter."""
         if self.touching:
             return SIZE_STEP * parameter
-        return GAP_STEP * (self.contact.law.length + max(parameter, 0.0))
+        return GAP_STEP * (self.contact.law.z0 + max(parameter, 0.0))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -188,7 +188,7 @@ def point_at(nearest: Point, parameter: float) -> Point:
 
 def approach_branch(contact: Contact) -> Iterator[Point]:
     """Trace the branch of the central gap from far away to the first contact edge."""
-    length = contact.law.length
+    length = contact.law.z0
     fixed: Control
     if isinstance(contact.compliance, FixedCompliance):
         size = contact.compliance.size
@@ -205,7 +205,7 @@ def _farthest(branch: Branch, size: float) -> Point:
     """The first state of a path: where the solid is hardly displaced."""
     start = FARTHEST_GAP
     while True:
-        gap = start * branch.contact.law.length
+        gap = start * branch.contact.law.z0
         y = np.zeros(branch.contact.unknowns + 2)
         y[-2:] = -gap, size
         try:
@@ -274,7 +274,7 @@ def edge_width(point: Point) -> float:
     at the edge, because the mesh is too coarse, the width is negative.
     """
     contact, y = point.branch.contact, point.state.y
-    radius, length, peak = point.edge_radius, contact.law.length, contact.law.peak_gap
+    radius, length, peak = point.edge_radius, contact.law.z0, contact.law.peak_gap
     slope = -EdgeRadius(peak, radius).parameter_rate(contact, y)
     s, gap = contact.compliance.trace.s, contact.gap(y)
     near = (gap > peak) & (gap < peak + length) & (y[-1] * s < 2.0 * radius)
@@ -323,4 +323,4 @@ def equilibrium_points(contact: Contact) -> Iterator[Point]:
     for point in approach_branch(contact):
         yield point
     if point is not None:
-        yield from contact_branch(point, 1e3 * radius_at_height(contact.punch, contact.law.length))
+        yield from contact_branch(point, 1e3 * radius_at_height(contact.punch, contact.law.z0))

@@ -136,7 +136,7 @@ class ResolvedEvents:
         branch, parameter, y = _moved(original, self.contact, self._placement)
         if original.parameter != 0.0 and branch.touching:
             slope *= original.parameter / parameter
-        unit = abs(parameter) if branch.touching else self.contact.law.length
+        unit = abs(parameter) if branch.touching else self.contact.law.z0
         point = branch.solve(parameter, y)
         if original.held:
             return replace(point, held=True)
@@ -171,7 +171,7 @@ class ResolvedEvents:
 def _largest_shift(point: Point) -> float:
     """Largest step of the parameter: it stays on the elements that resolve the edge."""
     if not point.branch.touching:
-        return LARGEST_SHIFT * point.branch.contact.law.length
+        return LARGEST_SHIFT * point.branch.contact.law.z0
     if _moves_over_elements(point):
         return min(LARGEST_SHIFT, WIDTH_SHARE * abs(edge_width(point))) * point.parameter
     return LARGEST_SHIFT * abs(point.parameter)

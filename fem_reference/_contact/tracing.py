@@ -52,7 +52,7 @@ def _highest_fold(approach: Sequence[Point], touching: Sequence[Point]) -> float
 
 def beginning(approach: Sequence[Point], touching: Sequence[Point]) -> list[Point]:
     """Points before the first, out to the displacement where a jump out of contact ends."""
-    first, length = approach[0], approach[0].branch.contact.law.length
+    first, length = approach[0], approach[0].branch.contact.law.z0
     falling = [i for i, point in enumerate(approach) if point.displacement_rate < 0]
     parts = (approach[falling[0] :] if falling else approach[-1:], touching)
     lowest = min(displacement_range(part)[0] for part in parts if part)

@@ -32,7 +32,7 @@ from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
 from fem_reference.modulus import PowerLawModulus
-from fem_reference.solid import CustomSolid, Solid
+from fem_reference.solids import Solid
 
 __all__ = ["PointsAtEvents", "UncondensedEvents", "UncondensedValue", "uncondensed_events"]
 
@@ -272,11 +272,11 @@ class UncondensedEvents:
         solved = factors * result.solution[:, : len(equations)]
         residuals = system.residuals(solved, deltas, sizes, factors)
         for (name, equation), residual, u in zip(equations.items(), map(float, residuals), solved.T, strict=True):
-            displacement = float(np.abs(equation.y[:-2]).max()) / equation.contact.law.length
+            displacement = float(np.abs(equation.y[:-2]).max()) / equation.contact.law.z0
             limit = RESIDUAL_TOLERANCE * max(1.0, displacement) * max(1.0, step / NEWTON_TOLERANCE)
             if not residual <= limit:
                 # A soft solid bears a pressure that is small for the law, whose slope is then large for it.
-                steepness = equation.contact.law.length * system.steepness(u, *equation.y[-2:])
+                steepness = equation.contact.law.z0 * system.steepness(u, *equation.y[-2:])
                 limit *= max(1.0, steepness / STEEPNESS)
             if not residual <= limit:
                 raise NotConverged(
@@ -328,11 +328,11 @@ def _preconditioned(modulus: Any, nu: Any, spec: MeshSpec) -> tuple[HalfSpace, E
     return half_space, ElasticPreconditioner(half_space)
 
 
-def _unit(solid: Solid | CustomSolid, size: float, scaling: bool) -> tuple[Any, Any]:
+def _unit(solid: Solid, size: float, scaling: bool) -> tuple[Any, Any]:
     """Modulus and Poisson ratio of the mesh, in units of the size; `factor` of the compliance is the rest."""
     if scaling:
-        return PowerLawModulus(1.0, 1.0, solid.modulus.depth_exponent), solid.nu
-    return scaled_modulus(solid.modulus, size), scaled_poisson(solid.nu, size)
+        return PowerLawModulus(1.0, 1.0, solid.modulus.depth_exponent), solid.poisson
+    return scaled_modulus(solid.modulus, size), scaled_poisson(solid.poisson, size)
 
 
 def _energy(point: Point) -> float:

@@ -141,7 +141,7 @@ class FullContact(FullSystem):
             damping = self._damping(u, delta, c, change, float(step[-1]))
             u[free] -= damping * change
             delta -= damping * float(step[-1])
-            if np.abs(step[:-1] * scale).max() <= NEWTON_TOLERANCE * (self.law.length + np.abs(u).max()):
+            if np.abs(step[:-1] * scale).max() <= NEWTON_TOLERANCE * (self.law.z0 + np.abs(u).max()):
                 # Exact sensitivity: d/dc of K u / factor - F = 0 and of the control.
                 k = self.modulus.k
                 right = (1.0 - k) / c * stiff * (A @ (u[free] / scale)) + F_c

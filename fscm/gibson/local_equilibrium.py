@@ -41,8 +41,8 @@ class Front:
 
     Examples
     --------
-    >>> from fscm.laws import LennardJones93
-    >>> point = LocalEquilibrium(LennardJones93(), 8.0)
+    >>> from fscm.laws import LennardJones
+    >>> point = LocalEquilibrium(LennardJones(), 8.0)
     >>> front = point.front
     >>> abs(point.energy(front.near) - point.energy(front.far)) < 1e-12  # Maxwell's rule
     True
@@ -69,8 +69,8 @@ class LocalEquilibrium:
 
     Examples
     --------
-    >>> from fscm.laws import LennardJones93
-    >>> point = LocalEquilibrium(LennardJones93(), 8.0)
+    >>> from fscm.laws import LennardJones
+    >>> point = LocalEquilibrium(LennardJones(), 8.0)
     >>> near, far = point.near(3.0), point.far(3.0)      # two gaps at one level
     >>> near < far, abs(point.level(near) - point.level(far)) < 1e-13
     (True, True)

@@ -9,7 +9,7 @@ from numpy.polynomial import chebyshev
 
 from fscm._typing import Array
 from fscm.errors import NotConverged
-from fscm.graded.solids import GradedHalfSpace
+from fscm.solids import GradedHalfSpace
 
 __all__ = ["resolved_depths"]
 
@@ -32,7 +32,7 @@ def resolved_depths(solid: GradedHalfSpace, deepest: float) -> Array:
 
     Examples
     --------
-    >>> from fscm.graded import Coating
+    >>> from fscm import Coating
     >>> sharp = Coating(E_coating=1.0, E_substrate=9.0, thickness=3.0, transition=0.0, nu_coating=0.3)
     >>> 3.0 in resolved_depths(sharp, 10.0)
     True
@@ -51,8 +51,8 @@ def resolved_depths(solid: GradedHalfSpace, deepest: float) -> Array:
         a, b = a[bad], b[bad]
         if np.any(b - a < _SHORTEST * b):
             raise NotConverged(
-                f"the modulus or Poisson's ratio jumps near the depth {b[np.argmin(b - a)]:.6g}, which is no interface "
-                "of the solid: name it there"
+                f"the modulus or Poisson's ratio jumps near the depth {b[np.argmin(b - a)]:.6g} (in the unit of the "
+                "solid), and is not resolved there: a step is an interface of sharp layers (Layers, the kind layers)"
             )
         middle = 0.5 * (a + b)
         ends = np.union1d(ends, middle)

@@ -22,7 +22,7 @@ import numpy as np
 from fscm._panels import gauss_rule
 from fscm._typing import Array
 from fscm.graded._layers import resolved_depths
-from fscm.graded.solids import GradedHalfSpace
+from fscm.solids import GradedHalfSpace
 
 __all__ = ["START", "compliance"]
 
@@ -131,7 +131,7 @@ def compliance(solid: GradedHalfSpace, xi: Array, refinement: int = 1) -> Array:
 
     Examples
     --------
-    >>> from fscm.graded import Exponential
+    >>> from fscm import Exponential
     >>> solid = Exponential(E_surface=1.0, E_depth=2.0, length=1.0, nu=0.0)
     >>> compliance(solid, np.array([1e-6, 1e6])).round(5)
     array([1., 2.])

@@ -22,7 +22,7 @@ import numpy as np
 
 from fscm._typing import Array, ComplexArray
 from fscm.graded.compliance import compliance
-from fscm.graded.solids import GradedHalfSpace, contact_modulus
+from fscm.solids import GradedHalfSpace, contact_modulus
 
 __all__ = ["Images", "images_of"]
 
@@ -128,7 +128,7 @@ def images_of(solid: GradedHalfSpace, longest: float | None = None) -> Images:
 
     Examples
     --------
-    >>> from fscm.graded import Exponential
+    >>> from fscm import Exponential
     >>> images = images_of(Exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3))
     >>> images.relative < 1e-9, images.at(np.array([1e-9, 1e9])).round(8)
     (True, array([0.25, 1.  ]))

@@ -14,7 +14,7 @@ import scipy
 
 from fscm._typing import Array, ComplexArray
 from fscm.graded.images import Images, images_of
-from fscm.graded.solids import GradedHalfSpace
+from fscm.solids import GradedHalfSpace
 
 __all__ = ["GradedKernel", "image_ring", "image_sum"]
 
@@ -74,7 +74,7 @@ class GradedKernel:
 
     Examples
     --------
-    >>> from fscm.graded import Exponential
+    >>> from fscm import Exponential
     >>> kernel = GradedKernel(Exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3))
     >>> kernel.response(np.array([0.0, 0.0]), np.array([1e-6, 1e6])).round(3)
     array([1.  , 0.25])
@@ -104,7 +104,7 @@ class GradedKernel:
 
         Examples
         --------
-        >>> from fscm.graded import Exponential
+        >>> from fscm import Exponential
         >>> kernel = GradedKernel(Exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3))
         >>> bool(kernel.error(np.array([1.0]), np.array([2.0]))[0] < 1e-9)
         True

@@ -71,7 +71,7 @@ def stieltjes_solution(problem: Problem, quantity: str, segments: int = 2500, **
 def _beyond(scheme: StieltjesScheme, state: StieltjesState, row: AtEvent) -> float:
     """Bound on the effect of the traction beyond the last segment."""
     load, displacement = (_tail(scheme, state, x) for x in (2.0, 1.0 - scheme.problem.k))
-    if row.kind == "force":
+    if row.kind == "load":
         return load
     if row.event == "zero_load":
         rates = scheme.rates(state)

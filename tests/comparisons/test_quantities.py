@@ -10,7 +10,6 @@ import comparisons
 from comparisons.model import NotApplicable
 from comparisons.quantities import ALL_QUANTITIES, CURVES, QUANTITIES, Kind, title_of
 from comparisons.registry import create
-from fscm.physical import PhysicalProblem
 from fscm.problem import Problem
 
 PROBLEM = Problem(n=2, k=0, mu=0.3)
@@ -25,8 +24,8 @@ def test_numbers_and_curves_are_the_rows_of_one_registry():
 
 
 def test_the_scales_are_those_of_a_physical_problem():
-    scales = PhysicalProblem.from_problem(PROBLEM, c0=1.0, nu=0.3, Q=1.0, work_of_adhesion=1.0, z0=1.0).scales
-    assert {row.scale for row in QUANTITIES.values()} <= {*scales, "number"}
+    scales = PROBLEM.in_units(c0=1.0, nu=0.3, Q=1.0, work_of_adhesion=1.0, z0=1.0).units
+    assert {row.scale for row in QUANTITIES.values()} <= set(scales)
 
 
 def test_a_number_is_that_of_the_model():

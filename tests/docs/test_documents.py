@@ -90,7 +90,7 @@ MODEL_CHOICE = "model_choice.py"
 
 #: The pad in the units of the finite elements, and its pull-off force (N) with its bound, which a heavy test computes.
 PAD = fem_reference.Problem(
-    fem_reference.Solid(E0=2e9, c0=1e-6, k=0.4, nu=0.3),
+    fem_reference.PowerLaw(E0=2e9, c0=1e-6, k=0.4, nu=0.3),
     fem_reference.PowerPunch(n=2, Q=100e-9),
     fem_reference.LennardJones(work_of_adhesion=0.05, z0=0.5e-9),
 )
@@ -137,9 +137,9 @@ def test_the_example_of_the_pad_prints_the_quoted_numbers(tmp_path, monkeypatch)
 
 
 def test_the_stored_force_of_the_pad_is_that_of_the_integral_equation():
-    pad = fscm.PhysicalProblem(E0=2e9, c0=1e-6, k=0.4, nu=0.3, n=2, Q=100e-9, work_of_adhesion=0.05, z0=0.5e-9)
-    found, newton = fscm.solve(pad.problem(), "pull_off_force"), pad.scales["load"]
-    assert abs(PAD_FORCE.value - found.value * newton) <= PAD_FORCE.u_num + found.u_num * newton
+    solid, law = fscm.PowerLaw(E0=2e9, c0=1e-6, k=0.4, nu=0.3), fscm.LennardJones(work_of_adhesion=0.05, z0=0.5e-9)
+    found = fscm.solve(fscm.Problem(solid, fscm.PowerPunch(n=2, Q=100e-9), law), "pull_off_force")
+    assert abs(PAD_FORCE.value - found.value) <= PAD_FORCE.u_num + found.u_num
     assert PAD_FORCE.u_num <= 1e-6 * PAD_FORCE.value
 
 
@@ -260,12 +260,13 @@ def test_the_tabor_number_is_that_of_the_code():
     formula = re.search(r"^    mu = (.*)$", text, flags=re.MULTILINE)[1].replace("^", "**")
     scales = {"E0": 3e6, "c0": 2e-5, "nu": 0.3, "z0": 4e-10}
     for n, k, Q in ((2, 0, 1e-6), (2, 0.4, 1e-6), (1, 0.2, 0.5), (5, 0.6, 1e-24)):
-        problem = fscm.PhysicalProblem(**scales, n=n, k=k, Q=Q, work_of_adhesion=0.05)
+        solid, law = fscm.PowerLaw(scales["E0"], scales["c0"], k, scales["nu"]), fscm.LennardJones(0.05, scales["z0"])
+        problem = fscm.Problem(solid, fscm.PowerPunch(n, Q), law)
         names = {"n": n, "k": k, "Q": Q, "c0": scales["c0"], "z0": scales["z0"], "dgamma": 0.05}
-        mu = eval(formula, names | {"b": problem.response_factor, "Es": problem.contact_modulus})
-        assert mu == pytest.approx(problem.tabor_number, rel=1e-12)
+        mu = eval(formula, names | {"b": solid.response_factor, "Es": solid.contact_modulus})
+        assert mu == pytest.approx(problem.mu, rel=1e-12)
         if (n, k) == (2, 0):
-            ordinary = (Q * 0.05**2 / (problem.contact_modulus**2 * scales["z0"] ** 3)) ** (1 / 3)
+            ordinary = (Q * 0.05**2 / (solid.contact_modulus**2 * scales["z0"] ** 3)) ** (1 / 3)
             assert mu == pytest.approx(ordinary, rel=1e-12)
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fem_reference import LennardJones, NotConverged, PowerPunch, Problem, Solid, Solution, solve_together
+from fem_reference import LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, Solution, solve_together
 from fem_reference._contact.error_parts import events_on_meshes
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.resolved import ResolvedEvents
@@ -56,7 +56,7 @@ def problems(count: int = COUNT) -> list[Parameters]:
 def problem_of(n: float, k: float, mu: float, nu: float) -> Problem:
     """Problem of Tabor's number mu whose lengths, forces and energies are those of Q = c0 = w = z0 = 1."""
     E_star = surface_constant(k, nu) / (1 - k) / mu ** ((2 * n + k - 1) / n)
-    return Problem(Solid(E_star * (1 - nu**2), 1.0, k, nu), PowerPunch(n, 1.0), LennardJones(1.0, 1.0))
+    return Problem(PowerLaw(E_star * (1 - nu**2), 1.0, k, nu), PowerPunch(n, 1.0), LennardJones(1.0, 1.0))
 
 
 def rows(number: int, accuracy: str = "quick") -> list[dict[str, object]]:

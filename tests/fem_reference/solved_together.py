@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from fem_reference import LennardJones, PowerPunch, Problem, Solid, Solution, solve_together
+from fem_reference import LennardJones, PowerLaw, PowerPunch, Problem, Solution, solve_together
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.newton import State
 from fem_reference.quantities import TABLE
@@ -18,7 +18,7 @@ solid with Poisson's ratio of layers), and 3e-6 of a force."""
 def problem_with(k: float, mu: float, n: float = 2.0, nu: float = 0.3) -> Problem:
     """Return the problem of a Tabor number with Q = c0 = z0 = w = 1 (Eq. 29 of the paper)."""
     E_star = surface_constant(k, nu) / (1 - k) / mu ** ((2 * n + k - 1) / n)
-    return Problem(Solid(E_star * (1 - nu**2), 1.0, k, nu), PowerPunch(n, 1.0), LennardJones(1.0, 1.0))
+    return Problem(PowerLaw(E_star * (1 - nu**2), 1.0, k, nu), PowerPunch(n, 1.0), LennardJones(1.0, 1.0))
 
 
 PROBLEM = problem_with(0.3, 1.2)

@@ -8,19 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fem_reference import (
-    CoatingModulus,
-    CoatingPoisson,
-    CustomSolid,
-    ExponentialModulus,
-    LennardJones,
-    NotConverged,
-    PowerPunch,
-    Problem,
-    Solid,
-    solve,
-    trace,
-)
+from fem_reference import LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve, trace
 from fem_reference._contact import carried_path as carried_path_module
 from fem_reference._contact import edge_states
 from fem_reference._contact.carried_path import carried_path, with_rates
@@ -29,22 +17,26 @@ from fem_reference._contact.jkr_tension import jkr_curve
 from fem_reference._contact.mesh_choice import MeshChoice, followed_path
 from fem_reference._contact.path import equilibrium_points
 from fem_reference.accuracy import level_for
+from fem_reference.coating import CoatingModulus
+from fem_reference.depth_profiles import ExponentialModulus
+from fem_reference.poisson import CoatingPoisson
+from tests.fem_reference.profile_solid import ProfileSolid
 
 LAW = LennardJones(1.0, 1.0)
-CONE = Problem(CustomSolid(ExponentialModulus(0.9, 0.3, 5.0), 0.1), PowerPunch(1.0, 1.0), LAW)
-HOMOGENEOUS = Problem(CustomSolid(CoatingModulus(1.0, 1.0, 1.0), 0.0), PowerPunch(2.0, 1.0), LAW)
+CONE = Problem(ProfileSolid(ExponentialModulus(0.9, 0.3, 5.0), 0.1), PowerPunch(1.0, 1.0), LAW)
+HOMOGENEOUS = Problem(ProfileSolid(CoatingModulus(1.0, 1.0, 1.0), 0.0), PowerPunch(2.0, 1.0), LAW)
 
 
 def stiff_coating(E_coating, thickness, range_of_law=0.4):
     """A sphere of 5 um, 50 mJ/m^2, on a coating in MPa and nm on 1.5 MPa; forces in pN."""
     interface = (thickness, 0.0)
-    solid = CustomSolid(CoatingModulus(E_coating, 1.5, *interface), CoatingPoisson(0.4, 0.49, *interface))
+    solid = ProfileSolid(CoatingModulus(E_coating, 1.5, *interface), CoatingPoisson(0.4, 0.49, *interface))
     return Problem(solid, PowerPunch(2.0, 5000.0), LennardJones(50.0, range_of_law))
 
 
 def soft_coating(E_coating):
     """The same under 10.6 mJ/m^2 on 1.56 nm of a soft coating on 850 MPa: the Tabor number of 1 MPa is 160."""
-    solid = CustomSolid(CoatingModulus(E_coating, 850.0, 1.56, 0.0), 0.3)
+    solid = ProfileSolid(CoatingModulus(E_coating, 850.0, 1.56, 0.0), 0.3)
     return Problem(solid, PowerPunch(2.0, 3400.0), LennardJones(10.6, 0.404))
 
 
@@ -85,7 +77,7 @@ class _States:
     def at(self, radius):
         x = math.log(radius)
         state = SimpleNamespace(load=LOAD(x) + self.height * _bump(x), displacement=x)
-        contact = SimpleNamespace(law=SimpleNamespace(length=1.0), punch=PowerPunch(2.0, 1.0))
+        contact = SimpleNamespace(law=SimpleNamespace(z0=1.0), punch=PowerPunch(2.0, 1.0))
         return _Point(radius, state, SimpleNamespace(contact=contact, touching=True))
 
 
@@ -143,7 +135,7 @@ SHORT_RANGE = (1000.0, 1.50000328331)
 def test_a_large_tabor_number_has_a_mesh_for_each_radius():
     """The minimum by rates on one mesh was 1.9e-6 above it; one mesh for the whole path was too coarse."""
     mu, force = SHORT_RANGE
-    found = solve(Problem(Solid(0.91 * mu**-1.5, 1.0, 0.0, 0.3), PowerPunch(2.0, 1.0), LAW), "pull_off_force")
+    found = solve(Problem(PowerLaw(0.91 * mu**-1.5, 1.0, 0.0, 0.3), PowerPunch(2.0, 1.0), LAW), "pull_off_force")
     assert found.u_num <= 1e-6 * found.value
     assert found.value / math.pi == pytest.approx(force, abs=found.u_num / math.pi)
 
@@ -216,7 +208,7 @@ def test_contact_on_a_soft_coating_begins_where_it_jumps_in():
 
 def test_a_path_on_a_very_soft_solid_begins_farther_away():
     """At a Tabor number of 2e4 there is no equilibrium with the central gap that suits stiffer solids."""
-    solid = CustomSolid(CoatingModulus(1e-3, 1e-3, 1.0), 0.3)
+    solid = ProfileSolid(CoatingModulus(1e-3, 1e-3, 1.0), 0.3)
     choice = MeshChoice(Problem(solid, PowerPunch(2.0, 3400.0), LennardJones(10.6, 0.404)), level_for("quick"))
     first = next(equilibrium_points(choice.contact(*choice.first_mesh())))
     assert first.state.central_gap > 12.0 * 0.404

@@ -7,18 +7,7 @@ import numpy as np
 import pytest
 from scipy import special
 
-from fem_reference import (
-    CoatingModulus,
-    CustomModulus,
-    CustomSolid,
-    Interface,
-    LennardJones,
-    PowerPunch,
-    Problem,
-    TableModulus,
-    solve,
-    solve_together,
-)
+from fem_reference import Interface, LennardJones, PowerPunch, Problem, solve, solve_together
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.mesh_lengths import EXTERIOR_ERROR, mesh_spec
 from fem_reference._elastic.compliance import compliance_for
@@ -26,8 +15,11 @@ from fem_reference._elastic.depth_scales import FIRST_END, DepthScales, depth_sc
 from fem_reference._elastic.exterior import exterior_error
 from fem_reference._elastic.mesh import graded_grid
 from fem_reference.accuracy import level_for
-from fem_reference.modulus import OffsetPowerLawModulus
+from fem_reference.coating import CoatingModulus
+from fem_reference.depth_profiles import TableModulus
+from fem_reference.modulus import CustomModulus, OffsetPowerLawModulus
 from tests.fem_reference.hankel_reference import pull_off, transform
+from tests.fem_reference.profile_solid import ProfileSolid
 from tests.fem_reference.solved_together import COARSEST, pull_off_on_the_coarsest_mesh
 from tests.reference_values import REFERENCE_VALUES
 
@@ -57,7 +49,7 @@ ELASTIC_ERROR = 1e-8
 
 
 def _problem(modulus, n=2.0):
-    return Problem(CustomSolid(modulus, NU), PowerPunch(n, 1.0), LAW)
+    return Problem(ProfileSolid(modulus, NU), PowerPunch(n, 1.0), LAW)
 
 
 def _power(n):
@@ -223,7 +215,7 @@ def test_error_of_the_exterior():
     ],
 )
 def test_moduli_with_the_exponents_that_they_declare(modulus):
-    assert CustomSolid(modulus, NU).modulus is modulus
+    assert ProfileSolid(modulus, NU).modulus is modulus
 
 
 @pytest.mark.parametrize(
@@ -242,7 +234,7 @@ def test_moduli_with_the_exponents_that_they_declare(modulus):
 )
 def test_impossible_moduli_are_refused(make, message):
     with pytest.raises(ValueError, match=message):
-        CustomSolid(make(), NU)
+        ProfileSolid(make(), NU)
 
 
 def test_noise_is_refused():

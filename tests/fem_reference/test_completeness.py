@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from fem_reference import LennardJones, NotConverged, PowerPunch, Problem, Solid, solve_together, trace
+from fem_reference import LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve_together, trace
 from fem_reference._contact import completeness, path
 from fem_reference._contact.completeness import complete_path, displacement_range
 from fem_reference._contact.events import PathEvents
@@ -24,7 +24,7 @@ class AnalyticBranch:
 
     def __init__(self, displacement, load, touching=True):
         self.displacement, self.load, self.touching = Polynomial(displacement), Polynomial(load), touching
-        self.contact = SimpleNamespace(law=SimpleNamespace(length=1.0))
+        self.contact = SimpleNamespace(law=SimpleNamespace(z0=1.0))
 
     def largest_step(self, parameter):
         return math.inf
@@ -49,7 +49,7 @@ class AnalyticBranch:
 def _problem(n, k, mu):
     nu = 0.3
     modulus = surface_constant(k, nu) / (1 - k) / mu ** ((2 * n + k - 1) / n)
-    return Problem(Solid(modulus * (1 - nu**2), 1.0, k, nu), PowerPunch(n, 1.0), LennardJones(1.0, 1.0))
+    return Problem(PowerLaw(modulus * (1 - nu**2), 1.0, k, nu), PowerPunch(n, 1.0), LennardJones(1.0, 1.0))
 
 
 @pytest.mark.parametrize("shift", [0.0, 0.013, 0.4])

@@ -20,7 +20,7 @@ from fem_reference.modulus import PowerLawModulus
 from fem_reference.problem import Problem
 from fem_reference.punch import CustomPunch, PowerPunch, radius_at_height
 from fem_reference.quantities import quantity_named
-from fem_reference.solid import Solid
+from fem_reference.solids import PowerLaw
 
 SPEC = MeshSpec(0.125, 2.5e-3, 256.0, 0.9, 6, 0.05)
 
@@ -165,12 +165,12 @@ def test_newton_refuses_a_hopeless_start():
 
 
 def test_punch_shapes():
-    sphere = CustomPunch(lambda r: np.sqrt(1 + r**2) - 1, lambda r: r / np.sqrt(1 + r**2))
+    sphere = CustomPunch(lambda r: np.sqrt(1 + r**2) - 1, 1.0, lambda r: r / np.sqrt(1 + r**2))
     assert radius_at_height(sphere, np.sqrt(2.0) - 1) == pytest.approx(1.0)
     with pytest.raises(ValueError, match="f\\(0\\)"):
-        CustomPunch(lambda r: r + 1.0, lambda r: 1.0 + 0 * r)
+        CustomPunch(lambda r: r + 1.0, 1.0, lambda r: 1.0 + 0 * r)
     with pytest.raises(ValueError, match="never reaches"):
-        radius_at_height(CustomPunch(np.tanh, lambda r: 1 / np.cosh(r) ** 2), 2.0)
+        radius_at_height(CustomPunch(np.tanh, 1.0, lambda r: 1 / np.cosh(r) ** 2), 2.0)
     with pytest.raises(ValueError, match="shape index"):
         PowerPunch(0.5, 1.0)
 
@@ -184,7 +184,7 @@ def test_a_distant_rigid_punch_has_the_load_of_bradley():
 
 
 def test_the_first_length_balances_traction_and_stiffness():
-    solid = Solid(E0=1.0, c0=1.0, k=0.0, nu=0.0)
+    solid = PowerLaw(E0=1.0, c0=1.0, k=0.0, nu=0.0)
     problem = Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
     choice = MeshChoice(problem, level_for("quick"))
     # The depth E z0^2 / (2 w).

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 import fem_reference
-from fem_reference import CustomModulus, CustomSolid, LennardJones, NoSuchEvent, PowerPunch, Problem, Solid, solve
+from fem_reference import LennardJones, NoSuchEvent, OffsetPowerLaw, PowerLaw, PowerPunch, Problem, solve
 from fem_reference._contact import critical
 from fem_reference._contact.critical import stiffer_than_critical
 from fem_reference._contact.cusp import cusp_from, displacement_rates, slowest
@@ -18,10 +18,12 @@ from fem_reference._contact.path import point_at
 from fem_reference._contact.tracing import traced
 from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference.accuracy import level_for
+from fem_reference.modulus import CustomModulus
+from tests.fem_reference.profile_solid import ProfileSolid
 
 LAW = LennardJones(work_of_adhesion=1.0, z0=1.0)
-FLAT = Problem(Solid(E0=1.0, c0=1.0, k=0.0, nu=0.0), PowerPunch(n=5.0, Q=1.0), LAW)
-GRADED = Problem(Solid(E0=1.0, c0=1.0, k=0.4, nu=0.3), PowerPunch(n=5.0, Q=1.0), LAW)
+FLAT = Problem(PowerLaw(E0=1.0, c0=1.0, k=0.0, nu=0.0), PowerPunch(n=5.0, Q=1.0), LAW)
+GRADED = Problem(PowerLaw(E0=1.0, c0=1.0, k=0.4, nu=0.3), PowerPunch(n=5.0, Q=1.0), LAW)
 
 #: Critical Tabor number at n = 5 and k = 0 from the integral equation, to 1e-12.
 TABOR = 0.6499664115
@@ -91,7 +93,7 @@ def test_the_modulus_of_the_problem_is_not_used():
 def test_it_is_in_the_units_of_the_input():
     """In other units of length and traction the modulus is multiplied by the latter."""
     length, traction = 1e-9, 1e9
-    solid = Solid(E0=1.0, c0=length, k=0.4, nu=0.3)
+    solid = PowerLaw(E0=1.0, c0=length, k=0.4, nu=0.3)
     punch = PowerPunch(n=5.0, Q=length**4)
     scaled = Problem(solid, punch, LennardJones(work_of_adhesion=traction * length, z0=length))
     found, modulus = (near(problem)[0] for problem in (scaled, GRADED))
@@ -115,14 +117,14 @@ def test_a_path_with_folds_is_not_taken_for_one_without():
 def test_a_solid_whose_compliance_does_not_scale():
     """With a large offset of its surface the solid is homogeneous but for a / z_s = 1e-6."""
     offset = 1e6
-    solid = Solid(E0=1.0, c0=1.0, k=0.4, nu=0.0, z_s=offset)
+    solid = OffsetPowerLaw(E0=1.0, c0=1.0, k=0.4, nu=0.0, z_s=offset)
     modulus, contact = near(replace(FLAT, solid=solid))
     assert isinstance(contact.compliance, FixedCompliance)
     assert modulus / critical.MARGIN * offset**0.4 == pytest.approx(MODULUS, rel=2e-5)
 
 
 def test_a_solid_without_a_reference_modulus_is_refused():
-    solid = CustomSolid(CustomModulus(lambda z: 1.0 + 0.0 * z, 0.0, 0.0, 1.0), nu=0.3)
+    solid = ProfileSolid(CustomModulus(lambda z: 1.0 + 0.0 * z, 0.0, 0.0, 1.0), 0.3)
     with pytest.raises(ValueError, match=r"has no reference modulus E0.*take a Solid$"):
         solve(replace(FLAT, solid=solid), "critical_modulus")
 

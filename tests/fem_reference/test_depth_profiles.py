@@ -5,25 +5,18 @@ import math
 import numpy as np
 import pytest
 
-from fem_reference import (
-    CoatingModulus,
-    CoatingPoisson,
-    CustomPoisson,
-    CustomSolid,
-    ExponentialModulus,
-    Interface,
-    Modulus,
-    PowerLawModulus,
-    Solid,
-    TableModulus,
-    TablePoisson,
-)
+from fem_reference import Interface, PowerLaw
 from fem_reference._elastic.compliance import is_scaling, scaled_poisson
 from fem_reference._elastic.depth_scales import DepthScales, depth_scales
 from fem_reference._elastic.elasticity import Body, stiffness
 from fem_reference._elastic.exterior import exterior_error
 from fem_reference._elastic.mapping import InteriorChart
 from fem_reference._elastic.mesh import uniform_grid
+from fem_reference.coating import CoatingModulus
+from fem_reference.depth_profiles import ExponentialModulus, TableModulus, TablePoisson
+from fem_reference.modulus import Modulus, PowerLawModulus
+from fem_reference.poisson import CoatingPoisson, CustomPoisson
+from tests.fem_reference.profile_solid import ProfileSolid
 
 STEPS = TableModulus((0.0, 1.0, 1.5, 4.0), (1.0, 1.1, 3.0, 3.0))
 
@@ -39,7 +32,7 @@ STEPS = TableModulus((0.0, 1.0, 1.5, 4.0), (1.0, 1.1, 3.0, 3.0))
 )
 def test_moduli_have_the_exponents_that_they_declare(modulus):
     assert isinstance(modulus, Modulus)
-    assert CustomSolid(modulus, 0.3).modulus is modulus
+    assert ProfileSolid(modulus, 0.3).modulus is modulus
     assert hash(modulus) == hash(modulus)
 
 
@@ -128,10 +121,10 @@ def test_stiffness_of_two_layers_is_that_of_both():
         (lambda: CoatingPoisson(-0.1, 0.3, 1.0), r"nu = -0.1 is outside"),
         (lambda: CoatingPoisson(0.1, 0.3, 0.0), "depth of an interface = 0.0"),
         (lambda: CoatingModulus(1.0, 2.0, 1.0, -1.0), "transition = -1.0"),
-        (lambda: Solid(1.0, 1.0, 0.0, CoatingPoisson(0.1, 0.3, 1.0)), "take CustomSolid"),
-        (lambda: Solid(1.0, 1.0, 0.0, 0.5), r"nu = 0.5 is outside \[0, 0.5\)"),
-        (lambda: CustomSolid(STEPS, CustomPoisson(lambda z: 0.3 + z)), "at the depth"),
-        (lambda: CustomSolid(STEPS, CustomPoisson(lambda z: 0.3)), "must have that of z"),
+        (lambda: PowerLaw(1.0, 1.0, 0.0, CoatingPoisson(0.1, 0.3, 1.0)), "take CustomSolid"),
+        (lambda: PowerLaw(1.0, 1.0, 0.0, 0.5), r"nu = 0.5 is outside \[0, 0.5\)"),
+        (lambda: ProfileSolid(STEPS, CustomPoisson(lambda z: 0.3 + z)), "at the depth"),
+        (lambda: ProfileSolid(STEPS, CustomPoisson(lambda z: 0.3)), "must have that of z"),
     ],
 )
 def test_impossible_solids_are_refused(make, message):

@@ -10,16 +10,7 @@ import numpy as np
 import pytest
 
 import fem_reference
-from fem_reference import (
-    CustomModulus,
-    CustomSolid,
-    LennardJones,
-    NotConverged,
-    PowerPunch,
-    Problem,
-    Solution,
-    solve,
-)
+from fem_reference import LennardJones, NotConverged, PowerPunch, Problem, Solution, solve
 from fem_reference._contact import error_parts
 from fem_reference._contact.error_parts import PARTS, events_on_meshes
 from fem_reference._contact.mesh_choice import chosen
@@ -28,7 +19,9 @@ from fem_reference._contact.tail import TailContact
 from fem_reference._elastic.compliance import ScalingCompliance
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._elastic.variants import FEATURES, variant
+from fem_reference.modulus import CustomModulus
 from fem_reference.quantities import GAP_ORDER, LOSSES, TABLE
+from tests.fem_reference.profile_solid import ProfileSolid
 from tests.fem_reference.solved_together import PROBLEM, problem_with, solved
 
 
@@ -138,7 +131,7 @@ def test_mesh_part_falls_with_the_accuracy():
 @pytest.mark.heavy
 def test_a_coated_solid_on_a_larger_interior_stays_within_its_part():
     """E = 1 + 10 exp(-z/2): how far the mesh reaches decides the displacement, and only a longer mesh shows it."""
-    solid = CustomSolid(CustomModulus(_coated, 0.0, 0.0, surface_depth=2.0), 0.3)
+    solid = ProfileSolid(CustomModulus(_coated, 0.0, 0.0, surface_depth=2.0), 0.3)
     problem = Problem(solid, PowerPunch(5.0, 1.0), LennardJones(1.0, 1.0))
     solution = solve(problem, "pull_off_displacement", "quick")
     choice, spec, size = chosen(problem, ("pull_off",), "quick")

@@ -18,7 +18,7 @@ def _points(law, count=120, last=20.0):
     return gap, law.traction(gap - RANGE)
 
 
-TABLE = TabulatedLaw(*_points(LJ), length=RANGE, tail_exponent=3.0)
+TABLE = TabulatedLaw(*_points(LJ), z0=RANGE, tail_exponent=3.0)
 LAWS = [LJ, Mie(WORK, RANGE, 12.0, 6.0), Mie(WORK, RANGE, 3.3, 3.0), TABLE]
 
 
@@ -65,21 +65,21 @@ def test_points_of_the_nine_three_law_give_it_back():
 
 def test_a_stated_work_and_another_unit():
     gap, p = _points(LJ)
-    twice = TabulatedLaw(gap, p, length=RANGE, tail_exponent=3.0, work=2.0 * WORK)
+    twice = TabulatedLaw(gap, p, z0=RANGE, tail_exponent=3.0, work=2.0 * WORK)
     assert twice.work_of_adhesion == pytest.approx(2.0 * WORK, rel=1e-13)
     H = RANGE * np.array([-0.2, 0.3, 5.0, 50.0])
     ratio = 2.0 * WORK / TABLE.work_of_adhesion
     assert twice.traction(H) == pytest.approx(ratio * TABLE.traction(H), rel=1e-12)
-    in_nm = TabulatedLaw(gap * 1e9, p * 1e-9, length=RANGE * 1e9, tail_exponent=3.0)
+    in_nm = TabulatedLaw(gap * 1e9, p * 1e-9, z0=RANGE * 1e9, tail_exponent=3.0)
     assert in_nm.traction(H * 1e9) == pytest.approx(1e-9 * TABLE.traction(H), rel=1e-9)
     assert in_nm.energy(H * 1e9) == pytest.approx(TABLE.energy(H), rel=1e-12)
 
 
 def test_the_tail_is_fitted_or_absent():
-    fitted = TabulatedLaw(*_points(Mie(WORK, RANGE, 12.0, 6.0)), length=RANGE)
+    fitted = TabulatedLaw(*_points(Mie(WORK, RANGE, 12.0, 6.0)), z0=RANGE)
     assert fitted.decay[1] == pytest.approx(6.0, rel=2e-2)
     gap, p = _points(LJ, 60, last=6.0)
-    ends = TabulatedLaw(gap, p * (1.0 - (gap / gap[-1]) ** 4) ** 3, length=RANGE)
+    ends = TabulatedLaw(gap, p * (1.0 - (gap / gap[-1]) ** 4) ** 3, z0=RANGE)
     assert ends.decay == (0.0, math.inf)
     assert ends.traction(np.array([gap[-1], 1.0])) == pytest.approx([0.0, 0.0], abs=1e-9)
     assert float(ends.energy(np.array(1.0))) == 0.0
@@ -87,7 +87,7 @@ def test_the_tail_is_fitted_or_absent():
 
 def test_laws_are_data():
     gap, p = _points(LJ)
-    again = TabulatedLaw(list(gap), list(p), length=RANGE, tail_exponent=3.0)
+    again = TabulatedLaw(list(gap), list(p), z0=RANGE, tail_exponent=3.0)
     assert again == TABLE
     assert hash(again) == hash(TABLE)
     assert repr(again).startswith("TabulatedLaw(120 points")
@@ -110,7 +110,7 @@ def _changed(values, row, value):
         (lambda: Mie(WORK, RANGE, 3.0, 3.0), r"exponent m = 3.0 of the repulsion is outside \(n = 3, infinity\)"),
         (lambda: Mie(WORK, RANGE, 9.0, 1.0), "exponent n = 1.0 of the attraction"),
         (lambda: Mie(0.0, RANGE, 9.0, 3.0), "work of adhesion = 0.0"),
-        (lambda: TabulatedLaw(GAP, TRACTION, length=0.0), "length = 0.0 is outside"),
+        (lambda: TabulatedLaw(GAP, TRACTION, z0=0.0), "z0 = 0.0 is outside"),
         (lambda: TabulatedLaw(GAP, TRACTION, 1.0, tail_exponent=1.0), "tail_exponent = 1.0 is outside"),
         (lambda: TabulatedLaw(GAP, TRACTION, 1.0, work=-1.0), "work = -1.0 is outside"),
         (lambda: TabulatedLaw(GAP[:9], TRACTION[:9], 1.0), "10 gaps or more"),

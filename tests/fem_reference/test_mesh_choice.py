@@ -6,14 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fem_reference import (
-    CustomPunch,
-    LennardJones,
-    NotConverged,
-    Problem,
-    Solid,
-    solve,
-)
+from fem_reference import CustomPunch, LennardJones, NotConverged, PowerLaw, Problem, solve
 from fem_reference._contact.mesh_choice import MeshChoice, chosen
 from fem_reference._contact.one_mesh import FAR_SHARE
 from fem_reference._elastic.mesh import graded_grid
@@ -94,8 +87,8 @@ def _rounded_flat(flat_radius):
     def outside(r):
         return np.maximum(r - flat_radius, 0.0)
 
-    punch = CustomPunch(lambda r: outside(r) ** 2 / 2.0, outside, kinks=(flat_radius,))
-    return MeshChoice(Problem(Solid(1.0, 1.0, 0.3, 0.3), punch, LennardJones(0.0005, 0.004)), level_for("quick"))
+    punch = CustomPunch(lambda r: outside(r) ** 2 / 2.0, 2.0, outside, kinks=(flat_radius,))
+    return MeshChoice(Problem(PowerLaw(1.0, 1.0, 0.3, 0.3), punch, LennardJones(0.0005, 0.004)), level_for("quick"))
 
 
 @pytest.mark.heavy

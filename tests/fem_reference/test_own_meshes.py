@@ -7,31 +7,21 @@ from types import SimpleNamespace
 import pytest
 
 import fem_reference.solution as solution_module
-from fem_reference import (
-    CustomSolid,
-    ExponentialModulus,
-    LennardJones,
-    NotConverged,
-    PowerPunch,
-    Problem,
-    Solid,
-    Solution,
-    TableModulus,
-    solve,
-    solve_together,
-)
+from fem_reference import LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, Solution, solve, solve_together
 from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._elastic.mesh import MeshSpec
+from fem_reference.depth_profiles import ExponentialModulus, TableModulus
 from fem_reference.quantities import LOSSES, TABLE
+from tests.fem_reference.profile_solid import ProfileSolid
 
 FORCE, JUMP_IN, JUMP_OUT = NAMES = ("pull_off_force", "jump_in_displacement", "jump_out_displacement")
 ROWS = {name: TABLE[name] for name in NAMES}
 LAW = LennardJones(1.0, 1.0)
-GRADED = Problem(CustomSolid(ExponentialModulus(3.0, 1.0, 5.0), 0.1), PowerPunch(2.0, 1.0), LAW)
+GRADED = Problem(ProfileSolid(ExponentialModulus(3.0, 1.0, 5.0), 0.1), PowerPunch(2.0, 1.0), LAW)
 ZERO_LOAD = 0.42243083
 """Of a power punch, n = 5, on a solid that softens: by both references, all digits shown."""
-CONE = replace(GRADED, solid=CustomSolid(ExponentialModulus(0.9, 0.3, 5.0), 0.1), punch=PowerPunch(1.0, 1.0))
+CONE = replace(GRADED, solid=ProfileSolid(ExponentialModulus(0.9, 0.3, 5.0), 0.1), punch=PowerPunch(1.0, 1.0))
 
 
 def _solution(u_num):
@@ -57,13 +47,13 @@ def test_a_quantity_whose_edge_is_not_resolved_or_that_is_missed_gets_its_own_me
 
 
 def test_one_mesh_serves_every_event_of_a_solid_that_scales(monkeypatch):
-    scaling = replace(GRADED, solid=Solid(1.0, 1.0, 0.4, 0.3))
+    scaling = replace(GRADED, solid=PowerLaw(1.0, 1.0, 0.4, 0.3))
     assert _own(scaling, {"jump_in": False, "jump_out": False}, monkeypatch=monkeypatch) == []
 
 
 def test_the_bound_of_a_second_event_holds():
     """On the mesh of the pull-off the three values at zero load turn back, 1.4 bounds from the value."""
-    problem = Problem(CustomSolid(ExponentialModulus(2.0, 1.0, 2.0), 0.3), PowerPunch(5.0, 1.0), LAW)
+    problem = Problem(ProfileSolid(ExponentialModulus(2.0, 1.0, 2.0), 0.3), PowerPunch(5.0, 1.0), LAW)
     zero_load = solve_together(problem, (FORCE, "zero_load_displacement"), "quick")["zero_load_displacement"]
     assert zero_load.value == pytest.approx(ZERO_LOAD, abs=zero_load.u_num + 1e-8)
     assert zero_load.u_num < 1e-6
@@ -103,7 +93,7 @@ def test_the_jumps_of_a_cone_are_as_certain_together_as_alone():
 
 def test_a_mesh_with_an_interval_of_one_element_is_not_a_refined_one():
     """Rows of a table that are close to each other: the meshes differ in the other intervals only."""
-    table = CustomSolid(TableModulus((0.0, 1.0, 1.2, 1.5, 9.0), (1.0, 2.0, 2.1, 2.5, 3.0)), 0.3)
+    table = ProfileSolid(TableModulus((0.0, 1.0, 1.2, 1.5, 9.0), (1.0, 2.0, 2.1, 2.5, 3.0)), 0.3)
     for problem, refined in ((replace(GRADED, solid=table), False), (GRADED, True)):
         choice, spec, _ = chosen(problem, ("pull_off",), "quick")
         densities = choice.level.densities

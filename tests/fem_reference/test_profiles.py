@@ -10,12 +10,12 @@ from fem_reference import (
     LennardJones,
     MeasuredPunch,
     NotConverged,
+    PowerLaw,
     PowerPunch,
     PowerSum,
     Problem,
     Punch,
     RoundedCone,
-    Solid,
 )
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.mesh_lengths import kinks_within
@@ -33,7 +33,7 @@ R = np.array([0.0, 0.3, 1.1, 4.0])
         PowerSum((0.5, 0.1), (2.0, 4.0)),
         PowerSum((1.0, -0.1, 0.5), (1.0, 1.5, 3.0)),
         MeasuredPunch((0.0, 1.0, 2.0), (0.0, 0.25, 2.0), growth=3.0),
-        CustomPunch(lambda r: np.sqrt(1.0 + r**2) - 1.0),
+        CustomPunch(lambda r: np.sqrt(1.0 + r**2) - 1.0, growth=1.0),
     ],
 )
 def test_slopes_are_those_of_the_heights(punch):
@@ -87,7 +87,7 @@ def test_derivatives_of_the_surface_functions():
 
 
 def _problem(punch):
-    return Problem(Solid(1.0, 1.0, 0.0, 0.3), punch, LennardJones(1.0, 1.0))
+    return Problem(PowerLaw(1.0, 1.0, 0.0, 0.3), punch, LennardJones(1.0, 1.0))
 
 
 def test_only_kinks_in_reach_are_lines():
@@ -119,8 +119,8 @@ def test_too_many_kinks_are_refused():
         (lambda: MeasuredPunch((0.0, 1.0, 1.0), (0.0, 1.0, 2.0)), "radius 1 in row 2"),
         (lambda: MeasuredPunch((0.0, 1.0), (0.0, -1.0)), "last height -1"),
         (lambda: MeasuredPunch((0.0, 1.0), (0.0, 1.0), growth=0.0), "growth = 0.0"),
-        (lambda: CustomPunch(lambda r: r + 1.0), "heights are measured from the apex"),
-        (lambda: CustomPunch(lambda r: r, kinks=(0.0,)), "not all radii"),
+        (lambda: CustomPunch(lambda r: r + 1.0, 1.0), "heights are measured from the apex"),
+        (lambda: CustomPunch(lambda r: r, 1.0, kinks=(0.0,)), "not all radii"),
     ],
 )
 def test_impossible_shapes_are_refused(make, message):

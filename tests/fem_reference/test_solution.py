@@ -11,14 +11,13 @@ import fem_reference
 import fem_reference.solution as solution_module
 from fem_reference import (
     AccuracyWarning,
-    CustomModulus,
-    CustomSolid,
     LennardJones,
     NoSuchEvent,
     NotConverged,
+    OffsetPowerLaw,
+    PowerLaw,
     PowerPunch,
     Problem,
-    Solid,
     Solution,
     event_state,
     profile,
@@ -30,7 +29,9 @@ from fem_reference._contact.error_parts import PARTS
 from fem_reference._contact.mesh_choice import MeshChoice, chosen
 from fem_reference._contact.uncertainty import three_meshes
 from fem_reference.accuracy import ACCURACIES, level_for
+from fem_reference.modulus import CustomModulus
 from fem_reference.verification.reference_solutions import surface_constant
+from tests.fem_reference.profile_solid import ProfileSolid
 from tests.fem_reference.solved_together import COARSEST, PROBLEM, pull_off_on_the_coarsest_mesh, solved
 from tests.reference_values import OTHER_LAWS, REFERENCE_VALUES
 
@@ -45,7 +46,7 @@ class MieLaw:
     repulsion: float
     attraction: float
     work_of_adhesion: float = 1.0
-    length: float = 1.0
+    z0: float = 1.0
     singular_gap: float = -1.0
 
     @property
@@ -94,7 +95,7 @@ DEFAULT_ERROR = 1e-7
 def _solid(k, mu, nu, n=2.0):
     """Solid of a ratio mu of deformation to range, for Q = c0 = z0 = w = 1 (Eq. 29 of the paper)."""
     E_star = surface_constant(k, nu) / (1 - k) / mu ** ((2 * n + k - 1) / n)
-    return Solid(E_star * (1 - nu**2), 1.0, k, nu)
+    return PowerLaw(E_star * (1 - nu**2), 1.0, k, nu)
 
 
 def _problem(k, mu, nu=0.25, n=2.0):
@@ -197,7 +198,7 @@ def test_poisson_ratio_collapses():
 
 def _in_small_units(length, force):
     """The body of the ratio 1 at k = 0.4, in other units."""
-    solid = Solid(_solid(0.4, 1.0, 0.25).E0 * force / length**2, length, 0.4, 0.25)
+    solid = PowerLaw(_solid(0.4, 1.0, 0.25).E0 * force / length**2, length, 0.4, 0.25)
     return Problem(solid, PowerPunch(2.0, length), LennardJones(force / length, length))
 
 
@@ -233,7 +234,7 @@ def test_events_lie_on_the_traced_path():
 @pytest.mark.heavy
 def test_a_path_has_more_points_where_its_curve_turns():
     """Points are only added, and between two of one branch the chords of the picture turn by the angle at most."""
-    stiff = Problem(Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    stiff = Problem(PowerLaw(E0=50.0, c0=1.0, k=0.0, nu=0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
     plain, path = trace(stiff, "quick"), trace(stiff, "quick", largest_turn=5.0)
     assert set(plain.displacement) < set(path.displacement)
     depth = -path.load.min()
@@ -270,7 +271,7 @@ def test_surface_offset_tends_to_the_power_law():
     exact = solve(Problem(base, punch, law), "pull_off_force", "quick").value
     change = []
     for z_s in (0.04, 0.01):
-        solid = Solid(base.E0, 1.0, 0.4, 0.25, z_s=z_s)
+        solid = OffsetPowerLaw(base.E0, 1.0, 0.4, z_s, 0.25)
         change.append(abs(solve(Problem(solid, punch, law), "pull_off_force", "quick").value / exact - 1))
     # The stiffer skin changes the compliance by a share of z_s^(1-k); 4^0.6 = 2.3.
     assert 1.9 < change[0] / change[1] < 3.2
@@ -278,7 +279,7 @@ def test_surface_offset_tends_to_the_power_law():
 
 def _disguised():
     """A power law as a function of the depth."""
-    solid = CustomSolid(CustomModulus(_solid(0.4, 1.0, 0.25).modulus, 0.4, 0.4, surface_depth=1e9), 0.25)
+    solid = ProfileSolid(CustomModulus(_solid(0.4, 1.0, 0.25).modulus, 0.4, 0.4, surface_depth=1e9), 0.25)
     return Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
 
 
@@ -320,7 +321,7 @@ def test_another_surface_law(exponents, reference):
 @pytest.mark.heavy
 def test_a_quantity_that_does_not_exist_does_not_hide_the_others():
     """Also where it is the first, in a solid whose mesh is placed at its contact edge."""
-    solid = CustomSolid(CustomModulus(lambda z: 50.0 + 0.0 * z, 0.0, 0.0, surface_depth=1.0), 0.3)
+    solid = ProfileSolid(CustomModulus(lambda z: 50.0 + 0.0 * z, 0.0, 0.0, surface_depth=1.0), 0.3)
     problem = Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
     found = solve_together(problem, ("jump_in_gap", "pull_off_force"), "quick")
     assert list(found) == ["jump_in_gap", "pull_off_force"]
@@ -365,10 +366,10 @@ def test_stiff_solid_has_no_jump():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Solid(1.0, 1.0, 0.4, 0.5), "cannot keep the volume"),
-        (lambda: Solid(1.0, 1.0, 1.0, 0.3), "unbounded"),
-        (lambda: Solid(-1.0, 1.0, 0.4, 0.3), "reference modulus"),
-        (lambda: Solid(1.0, 1.0, 0.4, 0.3, z_s=-1.0), "negative"),
+        (lambda: PowerLaw(1.0, 1.0, 0.4, 0.5), "cannot keep the volume"),
+        (lambda: PowerLaw(1.0, 1.0, 1.0, 0.3), "unbounded"),
+        (lambda: PowerLaw(-1.0, 1.0, 0.4, 0.3), "reference modulus"),
+        (lambda: OffsetPowerLaw(1.0, 1.0, 0.4, -1.0, 0.3), "surface offset"),
         (lambda: LennardJones(0.0, 1.0), "work of adhesion"),
         (lambda: _pull_off(0.0, 1.0, quantity="adhesion"), "choose one of"),
         (lambda: _pull_off(0.0, 1.0, accuracy="best"), "choose one of"),
@@ -380,11 +381,11 @@ def test_stiff_solid_has_no_jump():
         (lambda: event_state(_problem(0.0, 1.0), "landing"), "choose one of pull_off, jump_in"),
         (lambda: solve_together(_problem(0.4, 1.0), ()), "at least one"),
         (lambda: trace(_solid(0.4, 1.0, 0.3)), "not a Problem"),
-        (lambda: Problem(Solid(1.0, 1.0, 0.4, 0.3), UnhashablePunch(), LennardJones(1.0, 1.0)), "not hashable"),
-        (lambda: Problem(1.0, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)), "not a Solid"),
-        (lambda: Problem(Solid(1.0, 1.0, 0.4, 0.3), 2.0, LennardJones(1.0, 1.0)), "not a punch shape"),
-        (lambda: Problem(Solid(1.0, 1.0, 0.4, 0.3), PowerPunch(2.0, 1.0), np.exp), "not a surface law"),
-        (lambda: Problem(Solid(1.0, 1.0, 0.4, 0.3), PowerPunch(1.0, 1.0), MieLaw(4, 2)), "load integral"),
+        (lambda: Problem(PowerLaw(1.0, 1.0, 0.4, 0.3), UnhashablePunch(), LennardJones(1.0, 1.0)), "not hashable"),
+        (lambda: Problem(1.0, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)), "not a solid"),
+        (lambda: Problem(PowerLaw(1.0, 1.0, 0.4, 0.3), 2.0, LennardJones(1.0, 1.0)), "not a punch shape"),
+        (lambda: Problem(PowerLaw(1.0, 1.0, 0.4, 0.3), PowerPunch(2.0, 1.0), np.exp), "not a surface law"),
+        (lambda: Problem(PowerLaw(1.0, 1.0, 0.4, 0.3), PowerPunch(1.0, 1.0), MieLaw(4, 2)), "load integral"),
     ],
 )
 def test_impossible_input_is_refused(make, message):
@@ -415,9 +416,13 @@ def test_three_meshes_does_not_trust_a_coincidence():
 def test_a_punch_with_an_asperity_is_refused() -> None:
     """Behind its first compressive load the path goes on to a tension 38 times as large (`fscm`, softer solid)."""
     punch = fem_reference.CustomPunch(
-        lambda r: -8.0 * np.expm1(-(r**2)) + r**2 / 50.0, lambda r: 16.0 * r * np.exp(-(r**2)) + r / 25.0
+        lambda r: -8.0 * np.expm1(-(r**2)) + r**2 / 50.0,
+        2.0,
+        lambda r: 16.0 * r * np.exp(-(r**2)) + r / 25.0,
     )
-    problem = fem_reference.Problem(fem_reference.Solid(10.0, 1.0, 0.0, 0.0), punch, fem_reference.LennardJones(1, 1))
+    problem = fem_reference.Problem(
+        fem_reference.PowerLaw(10.0, 1.0, 0.0, 0.0), punch, fem_reference.LennardJones(1, 1)
+    )
     for compute in (
         lambda: fem_reference.solve(problem, "pull_off_force", "quick"),
         lambda: fem_reference.trace(problem),
@@ -452,7 +457,7 @@ def test_a_finer_accuracy_is_never_less_certain(monkeypatch):
 
 def test_an_accuracy_that_is_not_reached_is_said(monkeypatch):
     """The name of an accuracy selects meshes and asks for no number."""
-    problem = Problem(Solid(50.0, 1.0, 0.0, 0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    problem = Problem(PowerLaw(50.0, 1.0, 0.0, 0.3), PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
     result = solve(problem, "pull_off_force", "quick")
     wide = replace(result, parts={**result.parts, "mesh": 2e-6 * result.value}, u_num=2e-6 * result.value)
     monkeypatch.setattr(solution_module, "_no_less_certain", lambda problem, given, accuracy: {"pull_off_force": wide})

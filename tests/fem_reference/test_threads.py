@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from fem_reference import CustomPunch, LennardJones, NotConverged, Problem, Solid, profile, solve, trace
+from fem_reference import CustomPunch, LennardJones, NotConverged, PowerLaw, Problem, profile, solve, trace
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference._threads import one_thread
 from fem_reference.verification.solver_study import SolverCase, solver_table
 
-SOLID, LAW = Solid(E0=50.0, c0=1.0, k=0.0, nu=0.3), LennardJones(1.0, 1.0)
+SOLID, LAW = PowerLaw(E0=50.0, c0=1.0, k=0.0, nu=0.3), LennardJones(1.0, 1.0)
 
 
 def blas_threads():
@@ -41,7 +41,7 @@ def test_a_computation_has_one_thread(compute):
         seen.update(blas_threads())
         return r**2 / 2
 
-    problem = Problem(SOLID, CustomPunch(height, lambda r: r), LAW)
+    problem = Problem(SOLID, CustomPunch(height, 2.0, lambda r: r), LAW)
     seen.clear()
     assert blas_threads() == {2}
     compute(problem)
@@ -75,7 +75,7 @@ def test_an_exception_restores_the_threads(compute):
         return r**2 / 2
 
     with pytest.raises(NotConverged, match="inside the computation"):
-        compute(Problem(SOLID, CustomPunch(height, lambda r: r), LAW))
+        compute(Problem(SOLID, CustomPunch(height, 2.0, lambda r: r), LAW))
     assert blas_threads() == {2}
 
 

@@ -25,7 +25,7 @@ from fem_reference.modulus import PowerLawModulus
 from fem_reference.problem import Problem
 from fem_reference.punch import PowerPunch
 from fem_reference.quantities import TABLE
-from fem_reference.solid import Solid
+from fem_reference.solids import PowerLaw
 from fem_reference.states import event_state
 from fem_reference.verification.reference_solutions import surface_constant
 from fem_reference.verification.uncondensed import FullContact
@@ -76,7 +76,7 @@ def test_equilibrium_and_pull_off_agree_with_the_condensed_path(n, k):
 def test_the_pull_off_of_the_default_mesh_without_condensation():
     """Tabor number 1 at k = 0.4: 5e4 unknowns, every Newton step by pyamg (measured 1e-13 apart)."""
     nu, k = 0.3, 0.4
-    solid = Solid(surface_constant(k, nu) / (1 - k) * (1 - nu**2), 1.0, k, nu)
+    solid = PowerLaw(surface_constant(k, nu) / (1 - k) * (1 - nu**2), 1.0, k, nu)
     punch, law = PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
     spec, point = event_state(Problem(solid, punch, law), "pull_off")
     contact = point.branch.contact
@@ -148,7 +148,7 @@ def no_kept_events(no_kept_whole_system):
 @pytest.fixture(scope="module")
 def solved():
     """A problem and its solution, and what was kept of its condensed system."""
-    problem = _problem(Solid(3.0, 1.3, 0.4, NU))
+    problem = _problem(PowerLaw(3.0, 1.3, 0.4, NU))
     return problem, solve(problem, "pull_off_force", "quick")
 
 

@@ -20,7 +20,7 @@ import numpy as np
 import scipy
 from numpy.polynomial import chebyshev
 
-from fscm.graded import Coating, Exponential, OffsetPowerLaw, TabulatedModulus
+from fscm import Coating, Exponential, OffsetPowerLaw, TabulatedModulus
 
 FILE = Path(__file__).with_suffix(".json")
 SOLIDS = {

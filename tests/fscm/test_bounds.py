@@ -43,8 +43,8 @@ def _finer(problem: Problem, end_height: float = 1e7) -> Analysis:
     "problem",
     [
         pytest.param(Problem(0.75, 0, 0.3), marks=pytest.mark.heavy),
-        Problem(2, 0, 1.0, law=Mie(3, 1.5)),
-        Problem(2, 0.5, 1.0, law=Mie(3, 1.5)),
+        Problem(2, 0, 1.0, law=Mie(m=3, n=1.5)),
+        Problem(2, 0.5, 1.0, law=Mie(m=3, n=1.5)),
     ],
 )
 def test_the_displacement_at_pull_off_does_not_depend_on_the_end_of_the_mesh(problem: Problem) -> None:
@@ -57,7 +57,7 @@ def test_the_displacement_at_pull_off_does_not_depend_on_the_end_of_the_mesh(pro
 
 def test_the_derivatives_of_the_tail() -> None:
     """Against central differences in the radius and in the displacement."""
-    problem = Problem(1.1, 0.3, 0.8, law=Mie(3, 2))
+    problem = Problem(1.1, 0.3, 0.8, law=Mie(m=3, n=2))
     T, d, h = 40.0, -1.5, 1e-5
     tail = tail_of(problem, T, d)
     right, left = (tail_of(problem, T * (1 + x), d) for x in (h, -h))
@@ -73,7 +73,7 @@ def test_the_derivatives_of_the_tail() -> None:
 
 def test_a_shape_that_is_not_yet_a_power_at_the_end_of_the_mesh_is_in_the_bound() -> None:
     """r^2 - r at f = 1e6 is off its power by 1e-3; the force moved by 2e-7 with the end, u_num was 1e-12."""
-    problem = Problem(2, 0.3, 0.3, punch=PowerSum([-1, 1], [1, 2]), law=Mie(3, 1.5))
+    problem = Problem(2, 0.3, 0.3, punch=PowerSum([-1, 1], [1, 2]), law=Mie(m=3, n=1.5))
     solution = Analysis(problem).solution("pull_off_force")
     error = abs(solution.value - _finer(problem, 1e10).solution("pull_off_force").value)
     assert 1e-8 < error <= solution.u_num < 1e-5
@@ -270,7 +270,7 @@ def gauss_nodes() -> tuple[np.ndarray, np.ndarray]:
     return np.polynomial.legendre.leggauss(2000)
 
 
-@pytest.mark.parametrize("law", [Mie(9, 3), Mie(3, 1.5), Mie(3, 2)])
+@pytest.mark.parametrize("law", [Mie(m=9, n=3), Mie(m=3, n=1.5), Mie(m=3, n=2)])
 def test_the_errors_of_the_tail_against_quadrature(law: Mie) -> None:
     """Load and energy behind a near end against Gauss quadrature over ten decades."""
     problem, T, displacement = Problem(2, 0.3, 1.0, law=law), 30.0, -1.5
@@ -287,7 +287,7 @@ def test_the_errors_of_the_tail_against_quadrature(law: Mie) -> None:
     assert abs(tail.load - load - known[0]) <= remainder[0] + QUADRATURE * abs(load)
     assert abs(tail.displacement - w_part - known[1]) <= remainder[1] + QUADRATURE * abs(w_part)
     assert remainder[0] < 0.01 * abs(known[0])
-    if law.attraction > 2.0:  # the energy converges
+    if law.n > 2.0:  # the energy converges
         energy = 2.0 * (weights * t) @ law.energy(gap) + tail_energy(problem, 1e10 * T, displacement)
         assert abs(tail_energy(problem, T, displacement) - energy - known[2]) <= remainder[2] + QUADRATURE * abs(energy)
 

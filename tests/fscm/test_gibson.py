@@ -11,12 +11,12 @@ from scipy.optimize import brentq
 from fscm.analysis import Analysis
 from fscm.errors import NoSuchEvent
 from fscm.gibson import GibsonSolid
-from fscm.laws import LennardJones93, Mie
+from fscm.laws import LennardJones, Mie
 from fscm.problem import Problem
 from fscm.punch import RoundedCone
 from fscm.tabulated_law import TabulatedLaw
 
-LAW = LennardJones93()
+LAW = LennardJones()
 # 2 mu^2 p'_max = 1 with p'_max = 8 q^4 - 24 q^10 at q^6 = 2/15.
 CRITICAL = math.sqrt(0.5 / (4.8 * (2 / 15) ** (2 / 3)))
 JUMPS = ["jump_in_displacement", "jump_in_gap", "jump_out_displacement", "hysteresis_energy"]
@@ -191,7 +191,7 @@ def test_the_solver_for_graded_solids_tends_to_it(n, quantity):
 
 
 def test_other_laws():
-    mie = solid(2, 1.0, Mie(12, 6))
+    mie = solid(2, 1.0, Mie(m=12, n=6))
     assert mie.solution("pull_off_force").value == pytest.approx(2.0, rel=1e-13)
     gap = np.geomspace(0.7, 20.0, 100)
     table = solid(2, 1.0, TabulatedLaw(gap, LAW.traction(gap - 1.0), tail_exponent=3))

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 import scipy
 
+from fscm import Coating, CustomSolid, Exponential, OffsetPowerLaw, TabulatedModulus
 from fscm._response_factor import response_factor
 from fscm.errors import NotConverged
-from fscm.graded import Coating, Exponential, GradedSolid, OffsetPowerLaw, TabulatedModulus
 from fscm.graded.compliance import compliance
 
 XI = np.geomspace(1e-4, 1e4, 25)
@@ -60,7 +60,7 @@ def test_sharp_layers_agree_with_matrix_exponentials():
     rng = np.random.default_rng(4)
     ends = np.append(0.0, np.sort(rng.uniform(0.0, 3.0, 6)))
     moduli = rng.uniform(0.2, 5.0, 7)
-    solid = GradedSolid(lambda z: moduli[np.searchsorted(ends[1:], z, side="right")], 0.3, 1.0, ends[1:])
+    solid = CustomSolid(lambda z: moduli[np.searchsorted(ends[1:], z, side="right")], 0.3, 1.0, ends[1:])
     for xi in (0.05, 0.5, 2.0, 8.0):
         assert compliance(solid, np.array([xi]))[0] == pytest.approx(transfer(xi, ends, moduli, 0.3), rel=1e-11)
 
@@ -144,7 +144,7 @@ def test_one_exponential_agrees_with_40_digits():
 
 def test_tabulated_modulus_is_its_interpolant():
     solid = TabulatedModulus([0.0, 1.0, 2.0, 5.0], [1.0, 3.0, 4.0, 10.0], 0.3)
-    same = GradedSolid(solid.modulus, 0.3, 1.0, [1.0, 2.0, 5.0])
+    same = CustomSolid(solid.modulus, 0.3, 1.0, [1.0, 2.0, 5.0])
     assert np.array_equal(compliance(solid, XI), compliance(same, XI))
 
 
@@ -154,7 +154,7 @@ def test_half_the_steps_change_nothing():
 
 
 def test_a_jump_that_is_no_interface_is_refused():
-    solid = GradedSolid(lambda z: np.where(z < 1.0, 1.0, 2.0), 0.3, 1.0)
+    solid = CustomSolid(lambda z: np.where(z < 1.0, 1.0, 2.0), 0.3, 1.0)
     with pytest.raises(NotConverged, match="jumps near the depth 1"):
         compliance(solid, np.array([1.0]))
 
@@ -170,8 +170,8 @@ def test_a_jump_that_is_no_interface_is_refused():
         (lambda: TabulatedModulus([0.0], [1.0], 0.3), "no table"),
         (lambda: TabulatedModulus([0.0, 2.0, 1.0], [1.0, 1.0, 1.0], 0.3), r"depths\[2\] = 1 is not above"),
         (lambda: TabulatedModulus([0.0, 1.0], [1.0, float("nan")], 0.3), r"moduli\[1\] = nan is outside"),
-        (lambda: GradedSolid(lambda z: z, 0.3, 1.0), "modulus = 0 at the depth 0 is outside"),
-        (lambda: GradedSolid(lambda z: 1.0, 0.3, 1.0), "function of an array"),
+        (lambda: CustomSolid(lambda z: z, 0.3, 1.0), "modulus = 0 at the depth 0 is outside"),
+        (lambda: CustomSolid(lambda z: 1.0, 0.3, 1.0), "function of an array"),
     ],
 )
 def test_bad_input_is_one_sentence(make, message):

@@ -8,9 +8,10 @@ import mpmath
 import numpy as np
 import pytest
 
-from fscm.graded import Coating, GradedKernel
+from fscm import Coating
+from fscm.graded import GradedKernel
 from fscm.graded.compliance import compliance
-from fscm.graded.solids import contact_modulus
+from fscm.solids import contact_modulus
 from tests.fscm import graded_digits
 
 THICKNESS, COATING, SUBSTRATE = 1, (mpmath.mpf(1), mpmath.mpf("0.3")), (mpmath.mpf(10), mpmath.mpf("0.45"))

@@ -8,14 +8,14 @@ import pytest
 import scipy
 from numpy.polynomial import chebyshev
 
-from fscm import ring_response
+from fscm import Coating, CustomSolid, Exponential, OffsetPowerLaw, TabulatedModulus, ring_response
 from fscm._bounds import _KERNEL_RATE
 from fscm._panels import gauss_rule
 from fscm._response_factor import response_factor
-from fscm.graded import Coating, Exponential, GradedKernel, GradedSolid, OffsetPowerLaw, TabulatedModulus
+from fscm.graded import GradedKernel
 from fscm.graded.compliance import compliance
 from fscm.graded.patches import ImageTable
-from fscm.graded.solids import contact_modulus
+from fscm.solids import contact_modulus
 
 SOLIDS = {
     "offset": OffsetPowerLaw(1.0, 1.0, 0.4, 1.0, 0.3),
@@ -27,7 +27,7 @@ SOLIDS = {
     "tanh coating": Coating(10.0, 1.0, 1.0, 0.1, 0.3, 0.45),
     "sharp layer": Coating(1.0, 10.0, 1.0, 0.0, 0.3),
     "table": TabulatedModulus([0.0, 1.0, 2.0, 5.0], [1.0, 3.0, 4.0, 10.0], 0.3),
-    "waves": GradedSolid(lambda z: 2.0 + np.sin(3.0 * z) * np.exp(-z), 0.3, 1.0),
+    "waves": CustomSolid(lambda z: 2.0 + np.sin(3.0 * z) * np.exp(-z), 0.3, 1.0),
 }
 #: Of the other kinds of solid there are values of 25 digits (test_graded_digits.py).
 LIGHT = ("sharp layer",)

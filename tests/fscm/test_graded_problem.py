@@ -5,7 +5,20 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fscm import NotConverged, PowerSum, Problem, TabulatedLaw, solve, solve_together
+from fscm import (
+    Coating,
+    Exponential,
+    LennardJones,
+    NotConverged,
+    OffsetPowerLaw,
+    PowerPunch,
+    PowerSum,
+    Problem,
+    TabulatedLaw,
+    TabulatedModulus,
+    solve,
+    solve_together,
+)
 from fscm._arc_length import parameter_of, rates_of
 from fscm._continuation import moved
 from fscm._meshes import Meshes
@@ -13,9 +26,8 @@ from fscm._panels import PanelMesh
 from fscm._pull_off_path import pull_off_path
 from fscm._whole_path import bracketing_path
 from fscm.analysis import Analysis
-from fscm.graded import Coating, Exponential, GradedProblem, OffsetPowerLaw, TabulatedModulus, graded_problem
+from fscm.graded import response_of
 from fscm.graded.panels import remainder
-from fscm.graded.problem import response_of
 from fscm.stability import margins
 
 SOFT_BELOW = Coating(5.0, 1.0, 0.7, 0.1, 0.3)
@@ -32,7 +44,7 @@ SOFT_BELOW = Coating(5.0, 1.0, 0.7, 0.1, 0.3)
 def test_a_homogeneous_solid_has_the_numbers_of_the_power_law(quantities):
     found, exact = (
         solve_together(problem, quantities)
-        for problem in (GradedProblem(2, 1.0, Exponential(1.0, 1.0, 1.0, 0.3)), Problem(2, 0, 1.0))
+        for problem in (Problem(2, 0.0, 1.0, graded=Exponential(1.0, 1.0, 1.0, 0.3)), Problem(2, 0, 1.0))
     )
     for name, value in found.items():
         assert abs(value.value - exact[name].value) <= value.u_num + exact[name].u_num + 1e-13
@@ -47,13 +59,13 @@ def test_a_homogeneous_solid_has_the_numbers_of_the_power_law(quantities):
     ],
 )
 def test_a_thin_or_thick_coating_has_the_numbers_of_one_modulus(thickness, mu):
-    found = solve(GradedProblem(2, 1.0, Coating(1.0, 4.0, thickness, 0.0, 0.3)), "pull_off_force")
+    found = solve(Problem(2, 0.0, 1.0, graded=Coating(1.0, 4.0, thickness, 0.0, 0.3)), "pull_off_force")
     # 2e-9: the coating changes the response at radii of its thickness, or of its inverse.
     assert found.value == pytest.approx(solve(Problem(2, 0, mu), "pull_off_force").value, rel=2e-9)
 
 
 def test_rates_along_the_path_are_exact():
-    state = Analysis(GradedProblem(2, 1.0, SOFT_BELOW)).event("pull_off").value
+    state = Analysis(Problem(2, 0.0, 1.0, graded=SOFT_BELOW)).event("pull_off").value
     rates, step = rates_of(state), 1e-3
     assert state.parameter == "log_scale"
     after, before = (moved(state, rates, parameter_of(state) + sign * step, 1e-12) for sign in (1.0, -1.0))
@@ -82,7 +94,7 @@ FINITE_ELEMENTS = [
 
 @pytest.mark.parametrize(("solid", "values"), FINITE_ELEMENTS)
 def test_events_agree_with_the_finite_elements(solid, values):
-    problem, _ = graded_problem(solid, Q=1.0, n=2, work_of_adhesion=1.0, z0=1.0)
+    problem = Problem(solid, PowerPunch(2.0, Q=1.0), LennardJones(work_of_adhesion=1.0, z0=1.0)).dimensionless
     found = solve_together(problem, values)
     for name, (value, bound) in values.items():
         assert found[name].value == pytest.approx(value, abs=bound + found[name].u_num)
@@ -107,7 +119,7 @@ SHAPES = [(2, 0.3, 1), (2, 0.3, 2)]
     ],
 )
 def test_the_bound_covers_the_distance_to_finer_meshes(n, mu, solid):
-    problem = GradedProblem(n, mu, solid)
+    problem = Problem(n, 0.0, mu, graded=solid)
     coarse, fine = (solve(problem, "pull_off_force", accuracy) for accuracy in (1e-5, 1e-9))
     assert coarse.u_num < 1e-5 * coarse.value
     assert fine.u_num < 1e-7 * fine.value
@@ -117,7 +129,7 @@ def test_the_bound_covers_the_distance_to_finer_meshes(n, mu, solid):
 
 
 def test_the_error_of_the_kernel_is_a_part_of_the_bound():
-    parts = solve(GradedProblem(2, 1.0, SOFT_BELOW), "pull_off_force").parts
+    parts = solve(Problem(2, 0.0, 1.0, graded=SOFT_BELOW), "pull_off_force").parts
     assert 0.0 < parts["kernel"] < 1e-7
     assert solve(Problem(2, 0, 1.0), "pull_off_force").parts["kernel"] == 0.0
 
@@ -147,7 +159,7 @@ def test_a_refined_mesh_keeps_the_response_between_its_old_panels():
 
 def test_a_solid_that_is_soft_below_needs_no_more_points_of_the_path_than_its_softest_part():
     """The units of the path are those of the largest Tabor number: with that of the surface it had twice the points."""
-    below = GradedProblem(1, 3.0, Coating(5.0, 1.0, 0.7, 0.1, 0.3))
+    below = Problem(1, 0.0, 3.0, graded=Coating(5.0, 1.0, 0.7, 0.1, 0.3))
     assert len(bracketing_path(below, Meshes())) < 80
 
 
@@ -157,28 +169,29 @@ def test_the_short_path_is_for_power_laws_alone():
     gaps = np.geomspace(0.75, 20.0, 100)
     law = TabulatedLaw(gaps, gaps**-9 - gaps**-3, tail_exponent=3)
     assert pull_off_path(Problem(2, 0.0, 1.0, law=law), Meshes()) is None
-    assert pull_off_path(GradedProblem(2, 1.0, Coating(5.0, 1.0, 0.7, 0.1, 0.3)), Meshes()) is None
+    assert pull_off_path(Problem(2, 0.0, 1.0, graded=Coating(5.0, 1.0, 0.7, 0.1, 0.3)), Meshes()) is None
 
 
 def test_physical_units_scale_out():
     solid = Exponential(E_surface=1e9, E_depth=5e9, length=1e-7, nu=0.3)
-    metres, _ = graded_problem(solid, Q=1e-6, n=2, work_of_adhesion=0.05, z0=3e-10)
+    metres = Problem(solid, PowerPunch(2, Q=1e-6), LennardJones(0.05, 3e-10))
     other = Exponential(E_surface=1.0, E_depth=5.0, length=1e2, nu=0.3)
-    nanometres, surface = graded_problem(other, Q=1e3, n=2, work_of_adhesion=0.05, z0=0.3)
+    nanometres = Problem(other, PowerPunch(2, Q=1e3), LennardJones(0.05, 0.3))
     assert metres.mu == pytest.approx(nanometres.mu, rel=1e-12)
-    assert metres.solid.length == pytest.approx(nanometres.solid.length, rel=1e-12)
-    assert surface.scales["radius"] == pytest.approx((1e3 * 0.3) ** 0.5)
+    lengths = [problem.dimensionless.graded.length for problem in (metres, nanometres)]
+    assert lengths[0] == pytest.approx(lengths[1], rel=1e-12)
+    assert nanometres.units["radius"] == pytest.approx((1e3 * 0.3) ** 0.5)
 
 
 def test_what_needs_a_power_law_is_refused_in_one_sentence():
     with pytest.raises(ValueError, match=r"k = 0.4 is outside \[0, 0\]"):
-        GradedProblem(2, 1.0, SOFT_BELOW, k=0.4)
+        Problem(2, 0.4, 1.0, graded=SOFT_BELOW)
     with pytest.raises(ValueError, match="is no graded solid"):
-        GradedProblem(2, 1.0, solid=3.0)
-    state = Analysis(GradedProblem(2, 0.3, SOFT_BELOW)).event("pull_off").value
+        Problem(2, 0.0, 1.0, graded=3.0)
+    state = Analysis(Problem(2, 0.0, 0.3, graded=SOFT_BELOW)).event("pull_off").value
     assert np.isfinite(margins(state, 0)).all()
     with pytest.raises(NotConverged, match="power-law modulus only"):
         margins(state, 1)
     rough = PowerSum([1.0, -2.0, 1.05], [2, 3, 4])
     with pytest.raises(NotConverged, match="power-law modulus only"):
-        Analysis(GradedProblem(4, 1.0, SOFT_BELOW, punch=rough)).event("zero_load")
+        Analysis(Problem(4, 0.0, 1.0, graded=SOFT_BELOW, punch=rough)).event("zero_load")

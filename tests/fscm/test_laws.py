@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fscm.laws import LennardJones93, Mie, SurfaceLaw
+from fscm.laws import LennardJones, Mie, SurfaceLaw
 
 GAPS = np.array([-0.6, -0.3, -1e-3, 0.0, 1e-9, 0.05, 0.2, 0.6, 1.0, 7.0, 50.0, 1e4])
 EXPONENTS = [(9.0, 3.0), (12.0, 6.0), (7.0, 2.5), (9.0, 8.999), (3.0 + 1e-9, 3.0), (15.0, 1.1)]
@@ -26,7 +26,7 @@ def exact(m, n):
 
 @pytest.mark.parametrize(("m", "n"), EXPONENTS)
 def test_mie_and_its_derivatives_match_extended_precision(m, n):
-    law = Mie(m, n)
+    law = Mie(m=m, n=n)
     with mpmath.workdps(60):
         p, A = exact(m, n)
         for H in GAPS:
@@ -47,10 +47,10 @@ def test_mie_and_its_derivatives_match_extended_precision(m, n):
                 assert abs(float(value - true)) <= ROUNDING * size * factor * (1.0 + m * abs(math.log1p(H)))
 
 
-@pytest.mark.parametrize("law", [LennardJones93(), *(Mie(m, n) for m, n in EXPONENTS)])
+@pytest.mark.parametrize("law", [LennardJones(), *(Mie(m=m, n=n) for m, n in EXPONENTS)])
 def test_slope_curvature_and_energy_belong_to_the_traction(law):
     with mpmath.workdps(40):
-        m, n = (law.repulsion, law.attraction) if isinstance(law, Mie) else (9.0, 3.0)
+        m, n = (law.m, law.n) if isinstance(law, Mie) else (9.0, 3.0)
         p, _ = exact(m, n)
         for H in (-0.4, 0.0, 0.3, 2.0):
             here = np.array(H)
@@ -61,7 +61,7 @@ def test_slope_curvature_and_energy_belong_to_the_traction(law):
                 assert float(law.energy(here)) == pytest.approx(float(integral), rel=1e-12, abs=1e-12)
 
 
-@pytest.mark.parametrize("law", [LennardJones93(), *(Mie(m, n) for m, n in EXPONENTS)])
+@pytest.mark.parametrize("law", [LennardJones(), *(Mie(m=m, n=n) for m, n in EXPONENTS)])
 def test_normalisation_peak_and_tail(law):
     assert isinstance(law, SurfaceLaw)
     assert float(law.traction(np.array(0.0))) == 0.0
@@ -69,13 +69,13 @@ def test_normalisation_peak_and_tail(law):
     peak = np.array(law.peak_gap)
     assert abs(float(law.slope(peak))) <= 1e-13 * float(law.curvature(peak))
     C, m = law.decay
-    if (C, m) == (8 / 3, 3.0) or (m > 2 and law.repulsion - m > 1):
+    if (C, m) == (8 / 3, 3.0) or (m > 2 and law.m - m > 1):
         far = np.array(1e9)
         assert float(law.traction(far) * far**m) == pytest.approx(-C, rel=1e-7)
 
 
 def test_nine_three_is_recovered_to_rounding():
-    lj, mie = LennardJones93(), Mie(9, 3)
+    lj, mie = LennardJones(), Mie(m=9, n=3)
     for name in ("traction", "slope", "curvature", "energy"):
         # Powers by multiplication against powers by logarithm: measured worst 9 eps on -0.7 < H < 20; only
         # the traction is written so that it keeps its relative accuracy at its zero.
@@ -87,14 +87,14 @@ def test_nine_three_is_recovered_to_rounding():
 
 
 def test_theoretical_strength():
-    law = LennardJones93()
+    law = LennardJones()
     strength = -float(law.traction(np.array(law.peak_gap)))
     assert strength == pytest.approx(16 * math.sqrt(3) / 27, rel=1e-15)
 
 
 @given(st.floats(1.01, 20.0), st.floats(1e-6, 20.0))
 def test_every_mie_law_has_one_well(n, excess):
-    law = Mie(n + excess, n)
+    law = Mie(m=n + excess, n=n)
     H = np.linspace(-0.5, 5.0, 400)
     p = law.traction(H)
     assert np.all(p[H < 0] > 0)
@@ -121,12 +121,12 @@ def test_every_mie_law_has_one_well(n, excess):
 )
 def test_bad_exponents_are_refused_in_one_sentence(m, n):
     with pytest.raises(ValueError, match="exponent") as caught:
-        Mie(m, n)
+        Mie(m=m, n=n)
     assert "\n" not in str(caught.value)
 
 
 def test_laws_are_values():
-    assert Mie(9, 3) == Mie(9.0, np.float64(3.0))
-    assert hash(Mie(9, 3)) == hash(Mie(9.0, 3.0))
-    assert pickle.loads(pickle.dumps(Mie(12, 6))) == Mie(12, 6)
-    assert pickle.loads(pickle.dumps(LennardJones93())) == LennardJones93()
+    assert Mie(m=9, n=3) == Mie(m=9.0, n=np.float64(3.0))
+    assert hash(Mie(m=9, n=3)) == hash(Mie(m=9.0, n=3.0))
+    assert pickle.loads(pickle.dumps(Mie(m=12, n=6))) == Mie(m=12, n=6)
+    assert pickle.loads(pickle.dumps(LennardJones())) == LennardJones()

@@ -8,10 +8,9 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from fscm import AccuracyWarning, Analysis, Problem, solve
+from fscm import AccuracyWarning, Analysis, Coating, Layers, LennardJones, PowerPunch, Problem, solve
 from fscm import _events as events
 from fscm._path_end import beyond_layers
-from fscm.graded import Coating, GradedSolid, graded_problem
 from fscm.solution import Parts
 from tests.layered_jkr import Stack, jkr, minima_with_error
 
@@ -22,8 +21,8 @@ SUBSTRATE = 1.5e6, 0.49
 
 def contact(solid, z0=Z0):
     """Dimensionless problem of the sphere, and the unit of its radii."""
-    problem, surface = graded_problem(solid, Q=R, n=2, work_of_adhesion=WORK, z0=z0)
-    return problem, surface.length_r
+    problem = Problem(solid, PowerPunch(n=2, Q=R), LennardJones(WORK, z0))
+    return problem.dimensionless, problem.units["radius"]
 
 
 def coated(E, thickness, z0=Z0, substrate=SUBSTRATE):
@@ -32,13 +31,8 @@ def coated(E, thickness, z0=Z0, substrate=SUBSTRATE):
 
 def layered(layers, substrate):
     """Sharp layers (E, nu, thickness) on a substrate."""
-    depths = np.cumsum([thickness for _, _, thickness in layers])
-    E, nu = np.array([*(layer[0] for layer in layers), substrate[0]]), np.array([*(x[1] for x in layers), substrate[1]])
-
-    def at(values):
-        return lambda z: values[np.searchsorted(depths, z, side="right")]
-
-    return GradedSolid(at(E), at(nu), length=float(depths[0]), interfaces=depths)
+    E, nu = zip(*(layer[:2] for layer in layers), substrate, strict=True)
+    return Layers(E, nu, [thickness for _, _, thickness in layers])
 
 
 @lru_cache

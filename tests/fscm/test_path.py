@@ -9,7 +9,7 @@ from scipy.optimize import minimize_scalar
 
 from fscm import (
     Analysis,
-    LennardJones93,
+    LennardJones,
     NoSuchEvent,
     NotConverged,
     Problem,
@@ -192,7 +192,7 @@ def test_a_steep_punch_on_a_stiff_solid_has_the_pull_off_force_of_bradley(n: flo
 
     def load(H: float) -> float:
         def density(r: float) -> float:
-            return 2.0 * r * float(LennardJones93().traction(np.array(H + r**n / n)))
+            return 2.0 * r * float(LennardJones().traction(np.array(H + r**n / n)))
 
         return sum(quad(density, *ends, limit=200)[0] for ends in pairwise([0.0, 0.9, 1.0, 1.1, 1.5]))
 

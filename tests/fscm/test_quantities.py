@@ -22,7 +22,7 @@ def test_every_quantity_needs_known_events() -> None:
     assert tuple(TABLE) == fscm.QUANTITIES
     for row in TABLE.values():
         assert set(row.needs) <= set(fscm.EVENTS)
-        assert row.kind in {"force", "displacement", "gap", "energy", "number"}
+        assert row.kind in {"load", "displacement", "gap", "energy", "number"}
 
 
 def test_the_gibson_solid_has_the_same_quantities() -> None:

@@ -9,10 +9,9 @@ import math
 import numpy as np
 import pytest
 
-from fscm import NoSuchEvent, solve_together
+from fscm import Coating, Exponential, NoSuchEvent, OffsetPowerLaw, Problem, TabulatedModulus, solve_together
 from fscm._meshes import Mesh, Meshes
-from fscm.graded import Coating, Exponential, GradedProblem, OffsetPowerLaw, TabulatedModulus, images, panels, patches
-from fscm.graded import problem as graded_problem
+from fscm.graded import images, panels, patches, response
 
 COUNT = 40
 #: Those of the light tests: spheres on a sharp layer and on an exponential solid.
@@ -49,7 +48,7 @@ def problems():
     found = []
     for _ in range(COUNT):
         n = float(rng.choice([1.0, 1.5, 2.0, 3.0]))
-        found.append(GradedProblem(n, _between(rng, 0.1, 3.0), _solid(rng)))
+        found.append(Problem(n, 0.0, _between(rng, 0.1, 3.0), graded=_solid(rng)))
     return found
 
 
@@ -59,7 +58,7 @@ def finer(monkeypatch):
 
     def forget():
         images.images_of.cache_clear()
-        graded_problem.response_of.cache_clear()
+        response.response_of.cache_clear()
 
     def make():
         for module, name, factor in (

@@ -8,10 +8,14 @@ import pytest
 
 from fscm import (
     SENSITIVE,
+    Coating,
+    Exponential,
+    LennardJones,
     MeasuredPunch,
     Mie,
     NoSuchEvent,
-    PhysicalProblem,
+    PowerLaw,
+    PowerPunch,
     Problem,
     RoundedCone,
     ValueSensitivity,
@@ -19,7 +23,6 @@ from fscm import (
     solve,
     solve_together,
 )
-from fscm.graded import Coating, Exponential, GradedProblem
 
 #: Step of the differences of solved problems: their error is the third derivative times its square over 6, measured at
 #: most 6e-7 of the derivative for these problems; the error of the sensitivities is far below.
@@ -83,13 +86,13 @@ def test_a_steep_punch_with_deformations_as_unknowns():
 
 
 def test_another_law_and_another_punch():
-    problem = Problem(1.0, 0.0, 1.5, RoundedCone(1.0), Mie(12, 6))
+    problem = Problem(1.0, 0.0, 1.5, RoundedCone(1.0), Mie(m=12, n=6))
     found = sensitivity(problem, "pull_off_force")
     for posed, at in (
-        (lambda x: replace(problem, law=Mie(x, 6)), 12.0),
+        (lambda x: replace(problem, law=Mie(m=x, n=6)), 12.0),
         (lambda x: replace(problem, punch=RoundedCone(x)), 1.0),
     ):
-        slope = found.derivative(lambda x, posed=posed: (posed(x), 1.0), at, at)
+        slope = found.derivative(posed, at, at)
         expected = difference(lambda x, posed=posed: solve(posed(x), "pull_off_force").value, at)
         assert close(slope, expected, DIFFERENCE, scale=0.1)
 
@@ -101,18 +104,18 @@ def test_the_state_follows_the_kinks_of_a_measured_punch():
     def posed(x):
         return Problem(2, 0.0, 1.0, MeasuredPunch((x * r).tolist(), (r**2 / 2).tolist()))
 
-    slope = sensitivity(posed(1.0), "pull_off_force").derivative(lambda x: (posed(x), 1.0), 1.0, 1.0)
+    slope = sensitivity(posed(1.0), "pull_off_force").derivative(posed, 1.0, 1.0)
     # A radius that is stretched by x is that of a sphere of radius x^2: the force is proportional to about x^2.
     expected = difference(lambda x: solve(posed(x), "pull_off_force").value, 1.0)
     assert close(slope, expected, DIFFERENCE)
 
 
 def coated(E_coating=1.0, E_substrate=9.0, thickness=1.0, nu=0.3):
-    return GradedProblem(2, 2.0, Coating(E_coating, E_substrate, thickness, 0.1, nu))
+    return Problem(2, 0.0, 2.0, graded=Coating(E_coating, E_substrate, thickness, 0.1, nu))
 
 
 def exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3):
-    return GradedProblem(2, 1.0, Exponential(E_surface, E_depth, length, nu))
+    return Problem(2, 0.0, 1.0, graded=Exponential(E_surface, E_depth, length, nu))
 
 
 @pytest.mark.parametrize(
@@ -124,7 +127,7 @@ def exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3):
 )
 def test_other_solids(posed, name, rule):
     found, at = sensitivity(posed(), "pull_off_force"), {"thickness": 1.0, "nu": 0.3}[name]
-    slope = found.derivative(lambda x: (posed(**{name: x}), 1.0), at, at)
+    slope = found.derivative(lambda x: posed(**{name: x}), at, at)
     expected = rule(lambda x: solve(posed(**{name: x}), "pull_off_force").value, at)
     assert close(slope, expected, FITTED, scale=0.1)
 
@@ -139,7 +142,7 @@ def all_quantities_of_a_coated_solid(name, value):
 @pytest.mark.parametrize("name", ["E_coating", "E_substrate", "thickness", "nu"])
 def test_every_quantity_of_a_coated_solid(quantity, name):
     at = {"E_coating": 1.0, "E_substrate": 9.0, "thickness": 1.0, "nu": 0.3}[name]
-    slope = sensitivity(coated(), quantity).derivative(lambda x: (coated(**{name: x}), 1.0), at, at)
+    slope = sensitivity(coated(), quantity).derivative(lambda x: coated(**{name: x}), at, at)
     expected = five_points(lambda x: all_quantities_of_a_coated_solid(name, x)[quantity].value, at)
     assert close(slope, expected, FITTED, scale=0.1)
 
@@ -147,7 +150,7 @@ def test_every_quantity_of_a_coated_solid(quantity, name):
 @pytest.mark.heavy
 def test_the_limit_of_fitted_kernels_tells_a_poorer_difference():
     found, name = sensitivity(coated(), "pull_off_displacement"), "pull_off_displacement"
-    slope = found.derivative(lambda x: (coated(nu=x), 1.0), 0.3, 0.3)
+    slope = found.derivative(lambda x: coated(nu=x), 0.3, 0.3)
     expected = difference(lambda x: all_quantities_of_a_coated_solid("nu", x)[name].value, 0.3)
     assert not close(slope, expected, FITTED, scale=0.1)
 
@@ -156,7 +159,7 @@ def test_the_limit_of_fitted_kernels_tells_a_poorer_difference():
 def test_only_the_ratio_of_two_moduli_matters_at_a_fixed_tabor_number():
     found = sensitivity(exponential(), "pull_off_force")
     slopes = [
-        at * found.derivative(lambda x, name=name: (exponential(**{name: x}), 1.0), at, at)
+        at * found.derivative(lambda x, name=name: exponential(**{name: x}), at, at)
         for name, at in (("E_surface", 1.0), ("E_depth", 4.0))
     ]
     assert abs(sum(slopes)) < IDENTITY
@@ -168,12 +171,12 @@ def test_dimensions_of_the_force():
     values = {"E0": 2e9, "c0": 1e-6, "Q": 2.5e-6, "work_of_adhesion": 0.05, "z0": 4e-10}
 
     def posed(**changed):
-        found = PhysicalProblem(k=0.4, nu=0.3, n=2.0, **{**values, **changed})
-        return found.problem(), found.scales["load"]
+        p = {**values, **changed}
+        law = LennardJones(p["work_of_adhesion"], p["z0"])
+        return Problem(PowerLaw(p["E0"], p["c0"], k=0.4, nu=0.3), PowerPunch(2.0, p["Q"]), law)
 
-    problem, newtons = posed()
-    found = sensitivity(problem, "pull_off_force")
-    force = found.solution.value * newtons
+    found = sensitivity(posed(), "pull_off_force")
+    force = found.solution.value
     log = {
         name: found.derivative(lambda x, name=name: posed(**{name: x}), at, at) * at / force
         for name, at in values.items()

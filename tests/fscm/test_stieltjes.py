@@ -137,7 +137,7 @@ def test_the_curve_spans_the_range_of_central_gaps():
 
 
 def test_any_punch_and_any_law():
-    scheme = StieltjesScheme(Problem(1, 0.2, 0.3, RoundedCone(1.0), Mie(12, 6)), 200, gap_step=0.25)
+    scheme = StieltjesScheme(Problem(1, 0.2, 0.3, RoundedCone(1.0), Mie(m=12, n=6)), 200, gap_step=0.25)
     # f(r_max) = 50 for f = sqrt(r^2 + 1) - 1
     assert scheme.radius[-1] == pytest.approx(math.sqrt(51**2 - 1), rel=1e-14)
     assert find_event(scheme, "pull_off").load < 0

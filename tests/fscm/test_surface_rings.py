@@ -5,10 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from fscm import Problem, equilibria, solve
+from fscm import Coating, LennardJones, PowerPunch, Problem, equilibria, solve
 from fscm._surface_rings import RingsForm, ring_limit
 from fscm.errors import NotConverged
-from fscm.graded import Coating, GradedProblem, graded_problem
 
 R, Z0, SUBSTRATE = 1e-6, 3e-10, 1e9
 
@@ -24,7 +23,7 @@ def film(nu, contrast, thickness, mu, substrate_nu=0.3):
     plane = SUBSTRATE * contrast / (1.0 - nu**2)
     work = math.sqrt(mu**3 * Z0**3 * plane**2 / R)
     solid = Coating(SUBSTRATE * contrast, SUBSTRATE, thickness * Z0, 0.0, nu, substrate_nu)
-    return graded_problem(solid, Q=R, n=2, work_of_adhesion=work, z0=Z0)[0], work
+    return Problem(solid, PowerPunch(2, R), LennardJones(work, Z0)).dimensionless, work
 
 
 def rubber(mu):
@@ -46,9 +45,9 @@ def test_at_the_limit_the_stiffness_is_the_steepest_fall_of_the_tension():
     limit = ring_limit(problem)
     gaps = np.linspace(problem.law.peak_gap, 2.0, 100001)
     assert limit.steepest == pytest.approx(float(np.max(problem.law.slope(gaps))), rel=1e-5)
-    at_limit = GradedProblem(2, limit.mu * 1.0001, problem.solid)
+    at_limit = Problem(2, 0.0, limit.mu * 1.0001, graded=problem.graded)
     assert ring_limit(at_limit).stiffness == pytest.approx(limit.steepest, rel=2e-4)
-    assert ring_limit(GradedProblem(2, limit.mu * 0.9999, problem.solid)) is None
+    assert ring_limit(Problem(2, 0.0, limit.mu * 0.9999, graded=problem.graded)) is None
 
 
 @pytest.mark.parametrize(
@@ -81,7 +80,7 @@ def test_rings_are_refused_and_the_limit_is_named(compute):
 @pytest.mark.heavy
 def test_below_the_limit_the_path_is_traced():
     problem = rubber(100.0)
-    below = GradedProblem(2, 0.99 * ring_limit(problem).mu, problem.solid)
+    below = Problem(2, 0.0, 0.99 * ring_limit(problem).mu, graded=problem.graded)
     force = solve(below, "pull_off_force")
     assert 1.5 < force.value < 2.0
     assert force.u_num < 1e-6

@@ -9,12 +9,12 @@ import pytest
 from scipy.integrate import quad
 from scipy.interpolate import PPoly
 
-from fscm.laws import LennardJones93, Mie, SurfaceLaw
+from fscm.laws import LennardJones, Mie, SurfaceLaw
 from fscm.problem import Problem
 from fscm.solver import solve
 from fscm.tabulated_law import TabulatedLaw, _checked_shape
 
-LJ = LennardJones93()
+LJ = LennardJones()
 
 
 def sample(law, count, first=0.7, last=20.0):
@@ -51,16 +51,18 @@ def test_the_nine_three_law_is_recovered_from_its_points():
 
 def test_an_unknown_tail_exponent_is_fitted():
     assert TabulatedLaw(*sample(LJ, 80)).decay == pytest.approx((8 / 3, 3.0), rel=5e-3)
-    assert TabulatedLaw(*sample(Mie(12, 6), 80)).decay[1] == pytest.approx(6.0, rel=2e-2)
+    assert TabulatedLaw(*sample(Mie(m=12, n=6), 80)).decay[1] == pytest.approx(6.0, rel=2e-2)
 
 
-@pytest.mark.parametrize("law", [LJ, Mie(12, 6), Mie(7, 2.5)])
+@pytest.mark.parametrize("law", [LJ, Mie(m=12, n=6), Mie(m=7, n=2.5)])
 @pytest.mark.parametrize("known", [True, False])
 def test_normalised_and_consistent(law, known):
     gap, p = sample(law, 100)
-    table = TabulatedLaw(gap + 17.0, 300.0 * p, law.decay[1] if known else None)
+    table = TabulatedLaw(gap + 17.0, 300.0 * p, tail_exponent=law.decay[1] if known else None)
     assert table.equilibrium_gap == pytest.approx(18.0, abs=1e-5)
     assert table.work_of_adhesion == pytest.approx(300.0, rel=0.02)
+    table = table.dimensionless
+    assert (table.work_of_adhesion, table.z0) == (1.0, 1.0)
     zero = np.array(0.0)
     assert float(table.traction(zero)) == pytest.approx(0.0, abs=1e-13)
     assert float(table.energy(zero)) == pytest.approx(-1.0, rel=1e-14)
@@ -118,7 +120,7 @@ def test_a_law_of_finite_range():
     far = np.array([4.0 + 1e-6, 10.0, 1e5])
     for name in ("traction", "slope", "curvature", "energy"):
         np.testing.assert_allclose(getattr(table, name)(far), 0.0, atol=1e-9)
-    assert Problem(0.6, 0.2, 1.0, law=table).law is table  # any growth will do: the load integral ends
+    assert Problem(0.6, 0.2, 1.0, law=table).law == table.dimensionless  # any growth will do: the load integral ends
 
 
 def test_noise_is_carried_or_refused_but_never_turned_into_waves():

@@ -8,7 +8,7 @@ from threadpoolctl import ThreadpoolController
 import fscm
 from fscm._threads import one_thread
 from fscm.gibson import GibsonSolid
-from fscm.laws import LennardJones93
+from fscm.laws import LennardJones
 from fscm.stieltjes import StieltjesScheme, stieltjes_solution
 
 PROBLEM = fscm.Problem(2, 0.4, 1.0)
@@ -54,7 +54,7 @@ def test_one_thread_inside_and_two_afterwards(compute, monkeypatch: pytest.Monke
         seen.update(blas_threads())
         raise InterruptedError
 
-    monkeypatch.setattr(LennardJones93, "traction", traction)
+    monkeypatch.setattr(LennardJones, "traction", traction)
     with pytest.raises(InterruptedError):
         compute(PROBLEM)
     assert seen == {1}

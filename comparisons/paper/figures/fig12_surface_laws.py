@@ -13,7 +13,7 @@ from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.output.style import COLOURS, MODEL_LINES, lettered, styled
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
-from fscm.laws import LennardJones93
+from fscm.laws import LennardJones
 
 __all__ = ["SURFACE_LAWS"]
 
@@ -48,7 +48,7 @@ def dugdale(stress: float) -> pd.DataFrame:
 def _tables(results: Results) -> Tables:
     limits = pd.DataFrame({"n": [math.inf], "eta": [eta(math.inf)]})
     stress = pd.DataFrame({"n": _SHAPES, "eta": results[CachedCall.of(stresses)]})
-    exact = pd.DataFrame({"gap": _GAPS, "pressure": LennardJones93().traction(_GAPS)})
+    exact = pd.DataFrame({"gap": _GAPS, "pressure": LennardJones().traction(_GAPS)})
     laws = {"fscm": exact, "md-original": dugdale(THEORETICAL_STRENGTH), "md-improved": dugdale(eta(_DRAWN))}
     parts = [law.assign(model=model)[["model", "gap", "pressure"]] for model, law in laws.items()]
     return {"": pd.concat([stress, limits], ignore_index=True), "laws": pd.concat(parts, ignore_index=True)}

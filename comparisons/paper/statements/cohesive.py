@@ -16,7 +16,7 @@ from comparisons.paper.figures.fig17_surface_models import cohesive_surface
 from comparisons.paper.statements.evidence import REFERENCES, Evidence, Number
 from comparisons.paper.statements.sources import Case, StatementTest, case_label, grid, number, reading, tasks_of
 from comparisons.paper.tasks import profile
-from fscm.laws import LennardJones93
+from fscm.laws import LennardJones
 
 __all__ = ["TESTS"]
 
@@ -24,7 +24,7 @@ _IMPROVED, _ORIGINAL = "md-improved", "md-original"
 #: Relative rounding of the radii of a Maugis-Dugdale contact, which are roots.
 _ROUNDING = 1e4 * EPS
 _FARTHEST = 3.0
-_LAW = LennardJones93()
+_LAW = LennardJones()
 #: Radii at which two surfaces are compared, evenly spaced.
 _SAMPLES = 501
 

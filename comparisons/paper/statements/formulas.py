@@ -21,7 +21,7 @@ from comparisons.paper.statements.limits import vanishes
 from comparisons.paper.statements.sources import StatementTest, case_label, grid, number, reading, tasks_of, witnesses
 from comparisons.paper.statements.trends import one_way
 from comparisons.runs.cases import Case
-from fscm.physical import PhysicalProblem
+from fscm import LennardJones, PowerLaw, PowerPunch, Problem
 
 __all__ = ["TESTS"]
 
@@ -103,8 +103,9 @@ def _jin(statement: PaperStatement) -> Sequence[Evidence]:
     rows = []
     for n in statement.numbers("n"):
         for k, nu, relation, limit in ((0.0, 0.3, "<", equal), (1.0, 0.5, "<", equal), (0.4, 0.3, ">", apart)):
-            problem = PhysicalProblem(E0=2.0, c0=3.0, k=k, nu=nu, Q=1.5, n=n, work_of_adhesion=0.7, z0=0.25)
-            ratio = problem.tabor_number / problem.tabor_number_jin
+            solid, law = PowerLaw(E0=2.0, c0=3.0, k=k, nu=nu), LennardJones(work_of_adhesion=0.7, z0=0.25)
+            problem = Problem(solid, PowerPunch(n, Q=1.5), law)
+            ratio = problem.mu / problem.tabor_number_jin
             what = f"|mu / mu_Jin - 1|, n = {n:g}, k = {k:g}, nu = {nu:g}"
             clause = f"{'equal' if relation == '<' else 'different'}, n = {n:g}, k = {k:g}"
             rows.append(Evidence(clause, _FORMULA, Number(abs(ratio - 1.0), _ROUNDING, what), relation, limit))

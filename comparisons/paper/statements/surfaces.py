@@ -18,7 +18,7 @@ from comparisons.paper.statements.sources import Case, StatementTest, case_label
 from comparisons.paper.statements.trends import families, one_way
 from comparisons.paper.tasks import profile
 from fscm import Analysis, NoSuchEvent, NotConverged
-from fscm.laws import LennardJones93
+from fscm.laws import LennardJones
 from fscm.problem import Problem
 from fscm.solution import FLOOR, SAFETY, State
 
@@ -27,7 +27,7 @@ __all__ = ["TESTS", "band_width", "half_strength_gaps"]
 Json = dict[str, Any]
 Comparisons = Callable[[PaperStatement, Case, Json], list[Evidence]]
 
-_LAW = LennardJones93()
+_LAW = LennardJones()
 
 
 def _traction(gap: float) -> float:

@@ -8,15 +8,16 @@ surface, the solid that it is at great depth, and its equivalent power law at th
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import fem_reference
+import fscm
 from comparisons.model import ComputationFailed
 from comparisons.problem_file.description import Section
-from fscm import NoSuchEvent, NotConverged, Problem, solve_together
-from fscm.graded import Coating, Exponential, GradedHalfSpace, OffsetPowerLaw, graded_problem
-from fscm.physical import PhysicalProblem
+from comparisons.problem_file.kinds import kind_of
+from fscm import LennardJones, NoSuchEvent, NotConverged, PowerLaw, PowerPunch, Problem, solve_together
 
 __all__ = [
     "EVENTS",
@@ -41,6 +42,8 @@ COATING = (0.8, 0.25)
 #: Of every problem; no scale is 1, so that a wrong power of one shows.
 SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25}
 
+_PUNCH, _LAW = PowerPunch(_N, SCALES["Q"]), LennardJones(SCALES["work_of_adhesion"], SCALES["z0"])
+
 #: Quantities of the table.
 QUANTITIES = (
     "pull_off_force",
@@ -64,10 +67,6 @@ class GradedCase:
 
     Attributes
     ----------
-    solid : GradedHalfSpace
-        For the FSCM, in the units of `scale`.
-    modulus : fem_reference.Modulus
-        The same for the finite elements.
     mu : float
         Tabor number with the modulus of the surface.
     depth : tuple of float
@@ -76,16 +75,15 @@ class GradedCase:
         The solid as in a problem file.
     """
 
-    solid: GradedHalfSpace
-    modulus: fem_reference.Modulus
     mu: float
     depth: tuple[float, float]
     section: Section
 
 
-def _surface(mu: float) -> PhysicalProblem:
-    """The homogeneous problem of a Tabor number, which has the scales of all."""
-    return PhysicalProblem.from_problem(Problem(_N, 0.0, mu), nu=NU, **SCALES)
+def _scaled(k: float, mu: float) -> tuple[PowerLaw, Mapping[str, float]]:
+    """The power law of a Tabor number in the scales of all, and the units."""
+    physical = Problem(_N, k, mu).in_units(nu=NU, **SCALES)
+    return physical.solid, physical.units  # type: ignore[return-value]
 
 
 def case_of(kind: str, parameter: float) -> GradedCase:
@@ -104,25 +102,22 @@ def case_of(kind: str, parameter: float) -> GradedCase:
     """
     if kind == "offset power law":
         k, mu = OFFSET
-        graded = PhysicalProblem.from_problem(Problem(_N, k, mu), nu=NU, **SCALES)
-        z_s = parameter * graded.length_r
+        graded, units = _scaled(k, mu)
+        z_s = parameter * units["radius"]
         E = graded.E0 * (z_s / graded.c0) ** k
-        mu_surface = PhysicalProblem(E0=E, k=0.0, nu=NU, n=_N, **SCALES).tabor_number
+        mu_surface = Problem(PowerLaw(E, SCALES["c0"], 0.0, NU), _PUNCH, _LAW).mu
         offset = (graded.E0, graded.c0, k, z_s)
-        modulus: fem_reference.Modulus = fem_reference.OffsetPowerLawModulus(*offset)
         section = Section("offset-power-law", dict(zip(("E0", "c0", "k", "z_s", "nu"), (*offset, NU), strict=True)))
-        return GradedCase(OffsetPowerLaw(*offset, NU), modulus, mu_surface, OFFSET, section)
+        return GradedCase(mu_surface, OFFSET, section)
     mu, ratio = EXPONENTIAL if kind == "exponential" else COATING
-    surface = _surface(mu)
-    E, length = surface.E0, parameter * surface.length_r
+    surface, units = _scaled(0.0, mu)
+    E, length = surface.E0, parameter * units["radius"]
     depth = (0.0, mu / ratio ** (2.0 / 3.0))
     if kind == "exponential":
         section = Section("exponential", {"E_surface": E, "E_depth": ratio * E, "length": length, "nu": NU})
-        modulus = fem_reference.ExponentialModulus(E, ratio * E, length)
-        return GradedCase(Exponential(E, ratio * E, length, NU), modulus, mu, depth, section)
+        return GradedCase(mu, depth, section)
     coating = {"E_coating": E, "E_substrate": ratio * E, "thickness": length, "transition": 0.0, "nu": NU}
-    modulus = fem_reference.CoatingModulus(E, ratio * E, length)
-    return GradedCase(Coating(E, ratio * E, length, 0.0, NU), modulus, mu, depth, Section("coating", coating))
+    return GradedCase(mu, depth, Section("coating", coating))
 
 
 def by_fscm(kind: str, parameter: float) -> Json:
@@ -149,15 +144,9 @@ def by_fscm(kind: str, parameter: float) -> Json:
     >>> round(value, 6), u_num < 1e-7
     (1.42152, True)
     """
-    case = case_of(kind, parameter)
-    problem, _ = graded_problem(
-        case.solid,
-        Q=SCALES["Q"],
-        n=_N,
-        work_of_adhesion=SCALES["work_of_adhesion"],
-        z0=SCALES["z0"],
-    )
-    return _solved(problem)
+    section = case_of(kind, parameter).section
+    problem = Problem(kind_of("solid", section.kind).build(fscm, section), _PUNCH, _LAW)
+    return _solved(problem.dimensionless)
 
 
 def of_power_law(k: float, mu: float) -> Json:
@@ -202,9 +191,9 @@ def by_elements(event: str, kind: str, parameter: float) -> Json:
     >>> by_elements("jump-out", "offset power law", 100.0)["jump_out_displacement"]
     'the displacement rises all along the path: this solid is too stiff for jumps'
     """
-    case, scales = case_of(kind, parameter), _surface(1.0).scales
+    case, scales = case_of(kind, parameter), _scaled(0.0, 1.0)[1]
     problem = fem_reference.Problem(
-        fem_reference.CustomSolid(case.modulus, NU),
+        kind_of("solid", case.section.kind).build(fem_reference, case.section),
         fem_reference.PowerPunch(n=_N, Q=SCALES["Q"]),
         fem_reference.LennardJones(work_of_adhesion=SCALES["work_of_adhesion"], z0=SCALES["z0"]),
     )

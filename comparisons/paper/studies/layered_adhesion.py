@@ -33,8 +33,7 @@ from comparisons.numerics.bounds import combined
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.studies.coated_jkr import coated_compliance, coated_pull_off
-from fscm import NotConverged, solve
-from fscm.graded import Coating, GradedProblem
+from fscm import Coating, NotConverged, Problem, solve
 from fscm.graded.compliance import compliance
 
 __all__ = ["LAYERED_ADHESION", "coated_force", "extrapolated", "layer_compliance", "soft_limit"]
@@ -82,7 +81,7 @@ def coated_force(ratio: float, thickness: float, mu: float) -> list[float]:
     """
     solid = Coating(1.0, ratio, thickness * mu**0.5, 0.0, NU)
     try:
-        found = solve(GradedProblem(2.0, mu, solid), "pull_off_force")
+        found = solve(Problem(2.0, 0.0, mu, graded=solid), "pull_off_force")
     except NotConverged as failure:
         raise ComputationFailed(str(failure)) from failure
     return [found.value, found.u_num]

@@ -27,9 +27,7 @@ from comparisons.paper.studies.surface_modulus_figure import draw
 from comparisons.paper.studies.surface_modulus_tables import Sample, limits, samples, thresholds
 from comparisons.paper.tasks import quantity
 from comparisons.quantities import QUANTITIES
-from fscm import NoSuchEvent, NotConverged, solve_together
-from fscm.graded import OffsetPowerLaw, graded_problem
-from fscm.physical import PhysicalProblem
+from fscm import NoSuchEvent, NotConverged, OffsetPowerLaw, PowerLaw, solve_together
 from fscm.problem import Problem
 
 __all__ = ["SURFACE_MODULUS", "homogeneous_tabor_number", "with_skin", "with_skin_by_fscm"]
@@ -64,8 +62,10 @@ _REPORTED = (
 _SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25}
 
 
-def _graded(k: float, mu: float) -> PhysicalProblem:
-    return PhysicalProblem.from_problem(Problem(_N, k, mu), nu=_POISSON, **_SCALES)
+def _graded(k: float, mu: float) -> tuple[PowerLaw, Problem]:
+    """The graded limit in units, and its solid."""
+    physical = Problem(_N, k, mu).in_units(nu=_POISSON, **_SCALES)
+    return physical.solid, physical  # type: ignore[return-value]
 
 
 def homogeneous_tabor_number(k: float, mu: float, depth: float) -> float:
@@ -84,9 +84,9 @@ def homogeneous_tabor_number(k: float, mu: float, depth: float) -> float:
     >>> round(thin / thick, 6) == round(1000 ** (2 * 0.4 / 3), 6)
     True
     """
-    graded = _graded(k, mu)
-    modulus = graded.E0 * (depth * graded.length_r / graded.c0) ** k
-    return PhysicalProblem(E0=modulus, k=0.0, nu=_POISSON, n=_N, **_SCALES).tabor_number
+    solid, graded = _graded(k, mu)
+    modulus = solid.E0 * (depth * graded.units["radius"] / solid.c0) ** k
+    return Problem(PowerLaw(modulus, solid.c0, 0.0, _POISSON), graded.punch, graded.law).mu
 
 
 def with_skin(event: str, k: float, mu: float, depth: float) -> dict[str, Any]:
@@ -115,13 +115,13 @@ def with_skin(event: str, k: float, mu: float, depth: float) -> dict[str, Any]:
     >>> with_skin("jump-out", 0.4, 0.1, 100.0)["reason"]
     'the displacement rises all along the path: this solid is too stiff for jumps'
     """
-    graded = _graded(k, mu)
+    solid, graded = _graded(k, mu)
     try:
         found = fem_reference.solve_together(
             fem_reference.Problem(
-                fem_reference.Solid(graded.E0, graded.c0, k, _POISSON, z_s=depth * graded.length_r),
-                fem_reference.PowerPunch(n=_N, Q=graded.Q),
-                fem_reference.LennardJones(work_of_adhesion=graded.work_of_adhesion, z0=graded.z0),
+                fem_reference.OffsetPowerLaw(solid.E0, solid.c0, k, depth * graded.units["radius"], _POISSON),
+                fem_reference.PowerPunch(n=_N, Q=_SCALES["Q"]),
+                fem_reference.LennardJones(work_of_adhesion=_SCALES["work_of_adhesion"], z0=_SCALES["z0"]),
             ),
             _EVENTS[event],
             "quick",
@@ -132,7 +132,7 @@ def with_skin(event: str, k: float, mu: float, depth: float) -> dict[str, Any]:
     for name, solution in found.items():
         if isinstance(solution, fem_reference.NoSuchEvent):
             return {"reason": str(solution)}
-        unit = graded.scales[_kind(name)]
+        unit = graded.units[_kind(name)]
         by_quantity[name] = [solution.value / unit, solution.u_num / unit]
     return by_quantity
 
@@ -160,11 +160,11 @@ def with_skin_by_fscm(k: float, mu: float, depth: float) -> dict[str, Any]:
     >>> round(with_skin_by_fscm(0.4, 1.0, 1000.0)["pull_off_force"][0], 6)
     1.947256
     """
-    graded = _graded(k, mu)
-    solid = OffsetPowerLaw(graded.E0, graded.c0, k, depth * graded.length_r, _POISSON)
-    problem, _ = graded_problem(solid, Q=graded.Q, n=_N, work_of_adhesion=graded.work_of_adhesion, z0=graded.z0)
+    solid, graded = _graded(k, mu)
+    skin = OffsetPowerLaw(solid.E0, solid.c0, k, depth * graded.units["radius"], _POISSON)
+    problem = Problem(skin, graded.punch, graded.law)
     try:
-        found = solve_together(problem, _REPORTED)
+        found = solve_together(problem.dimensionless, _REPORTED)
     except NotConverged as failure:
         raise ComputationFailed(str(failure)) from failure
     return {

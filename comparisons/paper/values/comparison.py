@@ -23,7 +23,7 @@ from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.tasks import quantity
 from comparisons.paper.values.causes import Repeated, frame, repeated, tasks
 from comparisons.runs.cases import Case
-from fscm.laws import LennardJones93
+from fscm.laws import LennardJones
 
 __all__ = ["PAPER_VALUES", "judged"]
 
@@ -48,7 +48,7 @@ def _closed(value: float) -> Number:
 
 
 def _strength(paper_value: PaperValue) -> Number:
-    law = LennardJones93()
+    law = LennardJones()
     return _closed(-float(law.traction(np.array(law.peak_gap))))
 
 

@@ -51,7 +51,7 @@ def test_below_the_critical_tabor_number_a_jump_is_not_applicable():
     assert "critical Tabor number 0.69" in row.reason
 
 
-@pytest.mark.parametrize("other", [{"law": Mie(10, 4)}, {"punch": RoundedCone(1.0)}], ids=["law", "punch"])
+@pytest.mark.parametrize("other", [{"law": Mie(m=10, n=4)}, {"punch": RoundedCone(1.0)}], ids=["law", "punch"])
 def test_another_punch_or_law_is_not_applicable(other):
     with pytest.raises(NotApplicable, match="the power-law punch and the Lennard-Jones 9-3 law"):
         create("atlas").evaluate(Problem(n=1, k=0.2, mu=1.0, **other), "pull_off_force")

@@ -8,7 +8,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq, minimize_scalar
 
 from comparisons.models.bradley import Bradley, rigid_load
-from fscm.laws import LennardJones93
+from fscm.laws import LennardJones
 from fscm.problem import Problem
 
 SHAPES = [0.8, 1.0, 1.5, 2.0, 5.0, 10.0]
@@ -16,7 +16,7 @@ SHAPES = [0.8, 1.0, 1.5, 2.0, 5.0, 10.0]
 
 def load_by_quadrature(n: float, H0: float) -> float:
     """2 integral of p(H0 + r^n / n) r dr, in u = r^n / n with the end u = 0 taken by v = u^(2/n)."""
-    law = LennardJones93()
+    law = LennardJones()
 
     def integrand(v: float) -> float:
         return float(law.traction(np.array(H0 + v ** (n / 2.0) / n)))

@@ -14,7 +14,7 @@ from comparisons.model import Model, NotApplicable, Result
 from comparisons.models.closed_form import ClosedForm, monomial
 from comparisons.models.homogeneous_sphere import HomogeneousSphere
 from comparisons.quantities import QUANTITIES
-from fscm.laws import LennardJones93
+from fscm.laws import LennardJones
 from fscm.problem import Problem
 
 #: Every closed form of the registry, also one that is new.
@@ -72,7 +72,7 @@ class Sinusoid:
         return r + 0.01 * np.sin(2 * r)
 
 
-class OtherLaw(LennardJones93):
+class OtherLaw(LennardJones):
     """A subclass may override anything, so it is another law."""
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from comparisons.model import NotApplicable
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
-from fscm.laws import LennardJones93
+from fscm.laws import LennardJones
 
 
 def printed_eta(n: float) -> mp.mpf:
@@ -48,7 +48,7 @@ def test_flat_punch_limit_is_the_theoretical_strength() -> None:
 
 
 def test_theoretical_strength_is_the_peak_of_the_law() -> None:
-    law = LennardJones93()
+    law = LennardJones()
     gaps = np.linspace(0.1, 0.3, 20001)
     peak = float(-law.traction(gaps).min())
     assert peak == pytest.approx(THEORETICAL_STRENGTH, rel=1e-8)

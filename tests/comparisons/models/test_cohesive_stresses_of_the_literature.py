@@ -14,7 +14,7 @@ from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
 from comparisons.models.maugis_dugdale_jin import MaugisDugdaleJin
-from fscm.physical import PhysicalProblem
+from fscm import LennardJones, PowerLaw, PowerPunch
 from fscm.problem import Problem
 
 
@@ -26,7 +26,7 @@ def test_the_maugis_number_of_jin_is_his_tabor_number(n: float, k: float, nu: fl
     tabor = (Q ** (1 - k) * c0 ** (n * k) * dgamma**n / (modulus**n * z0 ** (2 * n + k - 1))) ** root
     maugis = sigma * (Q ** (1 - k) * c0 ** (n * k) * dgamma ** (1 - n - k) / modulus**n) ** root
     assert maugis == pytest.approx(tabor, rel=1e-13)
-    ours = PhysicalProblem(n=n, k=k, Q=Q, E0=E0, nu=nu, work_of_adhesion=dgamma, z0=z0, c0=c0).tabor_number
+    ours = Problem(PowerLaw(E0, c0, k, nu), PowerPunch(n, Q), LennardJones(dgamma, z0)).mu
     assert not math.isclose(ours, tabor, rel_tol=1e-3)
     model = MaugisDugdaleJin()
     assert model.cohesive_stress(Problem(n, k, ours)) == pytest.approx(maugis / tabor, rel=1e-13)

@@ -9,7 +9,7 @@ from scipy.optimize import minimize_scalar
 
 from comparisons.model import NotApplicable
 from comparisons.models.semi_rigid import SemiRigid, jump_in_coefficient
-from fscm.laws import LennardJones93
+from fscm.laws import LennardJones
 from fscm.problem import Problem
 
 CASES = [
@@ -31,7 +31,7 @@ def central_deformation(problem: Problem, H0: float, traction) -> float:
 
 
 def full_law(H: float) -> float:
-    return float(LennardJones93().traction(np.array(H)))
+    return float(LennardJones().traction(np.array(H)))
 
 
 def attraction(H: float) -> float:
@@ -98,7 +98,7 @@ def test_gibson_limit_is_the_local_spring() -> None:
     problem = Problem(2, 1.0, 1.2)
     curve = SemiRigid().curve(problem)
     H0 = curve.columns["central_gap"]
-    np.testing.assert_allclose(curve.displacement, -H0 + 2 * 1.2**2 * LennardJones93().traction(H0), rtol=1e-12)
+    np.testing.assert_allclose(curve.displacement, -H0 + 2 * 1.2**2 * LennardJones().traction(H0), rtol=1e-12)
 
 
 def test_refuses_a_jump_in_from_contact() -> None:

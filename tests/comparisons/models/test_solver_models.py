@@ -12,7 +12,6 @@ from comparisons.registry import create
 from comparisons.runs.cases import Case
 from comparisons.runs.tasks import evaluate
 from fscm.laws import Mie
-from fscm.physical import PhysicalProblem
 
 
 def test_a_jump_below_the_critical_tabor_number_is_not_applicable():
@@ -55,11 +54,13 @@ def test_the_finite_elements_get_the_same_tabor_number_and_return_the_same_unit(
 
     def one_unit(body, quantity_name):
         solid, punch, law = body.solid, body.punch, body.law
-        physical = PhysicalProblem(
-            solid.E0, solid.c0, solid.k, solid.nu, punch.Q, punch.n, law.work_of_adhesion, law.z0
+        physical = fscm.Problem(
+            fscm.PowerLaw(solid.E0, solid.c0, solid.k, solid.nu),
+            fscm.PowerPunch(punch.n, punch.Q),
+            fscm.LennardJones(law.work_of_adhesion, law.z0),
         )
-        seen.update(mu=physical.tabor_number, nu=solid.nu, quantity=quantity_name)
-        unit = physical.scales[QUANTITIES[quantity_name].scale]
+        seen.update(mu=physical.mu, nu=solid.nu, quantity=quantity_name)
+        unit = physical.units[QUANTITIES[quantity_name].scale]
         return fem_reference.Solution(
             2.5 * unit, 0.5 * unit, 9, 8, 7e-16, 0.6, 5.0, 6.0, (1.05, 0.85, 0.69), (2.5 * unit,) * 3
         )
@@ -77,7 +78,7 @@ def test_the_finite_elements_get_the_same_tabor_number_and_return_the_same_unit(
         (fscm.Problem(0.9, 0, 1), "pull_off_force", "n >= 1"),
         (fscm.Problem(2, 1, 1), "pull_off_force", "k <= 0.9, not k = 1"),
         (fscm.Problem(2, 0.95, 1), "pull_off_force", "k <= 0.9, not k = 0.95"),
-        (fscm.Problem(2, 0, 1, law=Mie(12, 6)), "pull_off_force", "9-3 law"),
+        (fscm.Problem(2, 0, 1, law=Mie(m=12, n=6)), "pull_off_force", "9-3 law"),
         (fscm.Problem(2, 0, 1), "contact_radius", "do not compute"),
     ],
 )

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+import fscm
 from comparisons.model import NotApplicable
 from comparisons.models.carpick_ogletree_salmeron import CarpickOgletreeSalmeron
 from comparisons.models.dmt import DMT
@@ -16,8 +17,7 @@ from comparisons.models.maugis_dugdale import MaugisDugdaleOriginal
 from comparisons.models.maugis_parameter import LAMBDA_OVER_MU, maugis_parameter
 from comparisons.models.pietrement_troyon import PietrementTroyon
 from comparisons.models.schwarz import Schwarz, short_range_share
-from fscm.laws import LennardJones93
-from fscm.physical import PhysicalProblem
+from fscm.laws import LennardJones
 from fscm.problem import Problem
 
 FORMULAS = [CarpickOgletreeSalmeron(), PietrementTroyon(), Schwarz()]
@@ -30,11 +30,11 @@ def value(model, mu: float, quantity: str = "pull_off_force") -> float:
 
 def test_maugis_lambda_in_physical_units() -> None:
     """Eq. 2 with the largest tension of the law, sampled, over Eq. 1; lambda = 1.157 mu in the literature."""
-    sphere = PhysicalProblem(n=2, k=0, Q=1e-6, E0=3e9, nu=0.3, work_of_adhesion=0.05, z0=2e-10, c0=1e-6)
-    strength = -LennardJones93().traction(np.linspace(0.0, 1.0, 200001)).min() * 0.05 / 2e-10
+    sphere = fscm.Problem(fscm.Homogeneous(3e9, 0.3), fscm.PowerPunch(2, 1e-6), LennardJones(0.05, 2e-10))
+    strength = -LennardJones().traction(np.linspace(0.0, 1.0, 200001)).min() * 0.05 / 2e-10
     modulus = 3e9 / (1 - 0.3**2)
     lam = strength * (9 * 1e-6 / (2 * math.pi * 0.05 * modulus**2)) ** (1 / 3)
-    assert maugis_parameter(sphere.tabor_number) == pytest.approx(lam, rel=1e-9)
+    assert maugis_parameter(sphere.mu) == pytest.approx(lam, rel=1e-9)
     assert round(LAMBDA_OVER_MU, 4) == 1.1570
 
 

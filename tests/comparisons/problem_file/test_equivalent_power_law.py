@@ -19,7 +19,6 @@ from comparisons.problem_file.elastic_energy import energy_spectrum
 from comparisons.problem_file.equivalent_power_law import LARGEST_K, equivalent_power_law, least_wrong
 from comparisons.problem_file.evaluation import evaluate_problem
 from comparisons.problem_file.reading import load_problem
-from fscm.graded import Coating, graded_problem
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
 COATED = EXAMPLES / "coated_solid.toml"
@@ -103,12 +102,10 @@ def test_the_error_is_that_of_both_solids_in_the_solver():
     problem = load_problem(COATED)
     found = equivalent(problem)
     solid = found.problem.solid
-    similar = fscm.PhysicalProblem(**solid.values, n=2, Q=1e-7, work_of_adhesion=0.05, z0=4e-10)
-    coated, surface = graded_problem(Coating(1e9, 10e9, 20e-9, 2e-9, 0.3), Q=1e-7, n=2, work_of_adhesion=0.05, z0=4e-10)
-    loads = [
-        fscm.solve(posed, "pull_off_force").value * units.scales["load"]
-        for posed, units in ((similar.problem(), similar), (coated, surface))
-    ]
+    punch, law = fscm.PowerPunch(2, 1e-7), fscm.LennardJones(0.05, 4e-10)
+    similar = fscm.Problem(fscm.PowerLaw(**solid.values), punch, law)
+    coated = fscm.Problem(fscm.Coating(1e9, 10e9, 20e-9, 2e-9, 0.3), punch, law)
+    loads = [fscm.solve(posed, "pull_off_force").value for posed in (similar, coated)]
     assert abs(loads[0] / loads[1] - 1.0 - found.error) <= found.bound < 1e-5
 
 

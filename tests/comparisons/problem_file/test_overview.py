@@ -25,8 +25,9 @@ def described(capsys, path, *options):
 
 def test_a_power_law_has_errors_of_closed_forms(capsys):
     found = json.loads(described(capsys, EXAMPLES / "graded_pad.toml", "--format", "json"))
-    pad = fscm.PhysicalProblem(2e9, 1e-6, 0.4, 0.3, 2.5e-6, 2.0, 0.05, 4e-10)
-    assert math.isclose(found["tabor_number"], pad.tabor_number, rel_tol=1e-12)
+    solid, law = fscm.PowerLaw(2e9, 1e-6, 0.4, 0.3), fscm.LennardJones(0.05, 4e-10)
+    pad = fscm.Problem(solid, fscm.PowerPunch(2.0, 2.5e-6), law)
+    assert math.isclose(found["tabor_number"], pad.mu, rel_tol=1e-12)
     assert found["pull_off_force"]["model"] == "atlas"
     # The value of both references: 670.023314 nN.
     assert math.isclose(found["pull_off_force"]["value"], 6.70023314e-7, rel_tol=1e-6)

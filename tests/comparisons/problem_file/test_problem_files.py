@@ -19,8 +19,9 @@ from comparisons.model import Result
 from comparisons.problem_file.dimensionless import dimensionless_problem
 from comparisons.problem_file.evaluation import model_for, points_of
 from comparisons.problem_file.finite_elements import body_of
-from comparisons.problem_file.form import _schema, kinds
+from comparisons.problem_file.kinds import kinds
 from comparisons.problem_file.punch_shapes import RoundedFlat, SmoothedProfile
+from comparisons.problem_file.schema import FILE, schema, schema_text
 from comparisons.quantities import QUANTITIES
 from tests.fem_reference.solved_together import COARSEST, pull_off_on_the_coarsest_mesh
 
@@ -37,6 +38,7 @@ SECTIONS = {
         "exponential": 'E_surface = "1 GPa"\nE_depth = "3 GPa"\nlength = "10 nm"\nnu = 0.3',
         "coating": 'E_coating = "1 GPa"\nE_substrate = "3 GPa"\nthickness = "10 nm"\ntransition = "1 nm"\n'
         "nu_coating = 0.4\nnu_substrate = 0.2",
+        "layers": 'E = ["1 GPa", "3 GPa", 2e9]\nnu = [0.4, 0.2, 0.3]\nthickness = ["10 nm", 2e-8]',
         "table": 'file = "modulus.csv"',
     },
     "punch": {
@@ -97,18 +99,19 @@ def test_both_solvers_have_the_same_problem(solid, punch, law, written):
     assert math.isclose(body.law.work_of_adhesion, units["energy_per_area"], rel_tol=1e-9)
     if solid not in ("power-law", "homogeneous"):
         z = np.geomspace(1e-10, 1e-6, 30)
-        ratio = problem.solid.modulus(z / units["radius"]) / body.solid.modulus(z)
+        ratio = problem.graded.modulus(z / units["radius"]) / body.solid.modulus(z)
         assert np.allclose(ratio, 1.0, rtol=1e-12)
 
 
 def test_the_force_of_the_power_law_is_that_of_the_physical_problem(written):
     found = written(solid="power-law", punch="sphere", law="lennard-jones-9-3")
-    physical = fscm.PhysicalProblem(1e9, 1e-7, 0.3, 0.3, 1e-7, 2.0, 0.05, 4e-10)
-    expected = fscm.solve(physical.problem(), "pull_off_force")
+    solid, law = fscm.PowerLaw(1e9, 1e-7, 0.3, 0.3), fscm.LennardJones(0.05, 4e-10)
+    physical = fscm.Problem(solid, fscm.PowerPunch(2.0, 1e-7), law)
+    expected = fscm.solve(physical.dimensionless, "pull_off_force")
     value = evaluate_problem(found, "fscm", "pull_off_force")
     assert value.status == "ok"
     assert value.unit == "N"
-    assert math.isclose(value.value, expected.value * physical.scales["load"], rel_tol=1e-12)
+    assert math.isclose(value.value, expected.value * physical.units["load"], rel_tol=1e-12)
     assert math.isclose(value.dimensionless["value"], expected.value, rel_tol=1e-12)
     jkr = evaluate_problem(found, "jkr", "pull_off_force")
     assert math.isclose(jkr.value, (3 + 0.3) / 2 * math.pi * 1e-7 * 0.05, rel_tol=1e-12)
@@ -275,9 +278,22 @@ def test_the_parameters_of_a_case_or_a_file_are_required(capsys):
     assert "--problem FILE" in error
 
 
+def test_the_committed_schema_is_that_of_the_table():
+    assert FILE.read_text(encoding="utf-8") == schema_text()
+
+
+def test_the_page_names_every_kind_with_its_keys():
+    page = (EXAMPLES.parents[1] / "problem_files.md").read_text(encoding="utf-8")
+    for section in SECTIONS:
+        rows = page.partition(f"## [{section}]")[2].partition("\n## ")[0].splitlines()
+        for name, kind in kinds(section).items():
+            (row,) = [row for row in rows if row.startswith(f"| `{name}` |")]
+            assert [key for key in kind.by_name if f"`{key}`" not in row] == []
+
+
 def test_the_schema_takes_the_examples():
     tomllib = pytest.importorskip("tomllib")
-    validator = Draft202012Validator(_schema())
+    validator = Draft202012Validator(schema())
     for path in sorted(EXAMPLES.glob("*.toml")):
         document = tomllib.loads(path.read_text())
         assert not list(validator.iter_errors(document))

@@ -10,8 +10,8 @@ from jsonschema import Draft202012Validator
 
 from comparisons import evaluate_problem, load_problem
 from comparisons.cli.main import main
-from comparisons.problem_file.form import _schema
 from comparisons.problem_file.propagation import propagated
+from comparisons.problem_file.schema import schema
 from comparisons.problem_file.uncertain import is_uncertain, uncertain_in_si
 from comparisons.problem_file.units import NotAValue
 
@@ -117,7 +117,7 @@ def test_bad_forms(text, sentence):
 
 
 def test_the_schema_takes_uncertain_numbers():
-    validator = Draft202012Validator(_schema())
+    validator = Draft202012Validator(schema())
     solid = {"kind": "power-law", "E0": "1 GPa +- 5 %", "c0": 1e-7, "k": "0.3 +- 0.02", "nu": "[0.2, 0.4]"}
     document = {
         "solid": solid,

@@ -1,9 +1,8 @@
-"""Dimensionless problem of a punch on a solid whose modulus is any function of the depth."""
+"""What distinguishes the response of a solid of any E(z) and nu(z) from that of its surface."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -13,12 +12,9 @@ from fscm._typing import Array
 from fscm.graded.kernel import GradedKernel
 from fscm.graded.panels import Remainder, remainder
 from fscm.graded.patches import ImageTable
-from fscm.graded.solids import GradedHalfSpace
-from fscm.laws import SurfaceLaw
-from fscm.problem import Problem
-from fscm.punch import PunchShape
+from fscm.solids import GradedHalfSpace
 
-__all__ = ["GradedProblem", "GradedResponse", "response_of"]
+__all__ = ["GradedResponse", "response_of"]
 
 # The images serve distances up to this one, in the unit of the radii: the pressure farther out is that of the tail.
 _LONGEST = 1e6
@@ -83,63 +79,3 @@ class GradedResponse:
 def response_of(solid: GradedHalfSpace) -> GradedResponse:
     """The response of a solid, made once."""
     return GradedResponse(solid)
-
-
-@dataclass(frozen=True, slots=True, init=False)
-class GradedProblem(Problem):
-    """Adhesive contact of a rigid punch with a solid of any E(z) and nu(z), dimensionless.
-
-    Everything is measured as on the homogeneous solid with the constants of the surface, k = 0: the Tabor number is
-    that of E(0)/(1 - nu(0)^2), heights are in z0 and radii in (Q z0)^(1/n).
-
-    Parameters
-    ----------
-    n : float
-        Shape index of the punch, > 1/2; it also enters the definition of `mu`.
-    mu : float
-        Tabor number with the modulus of the surface (Eq. 29 at k = 0).
-    solid : GradedHalfSpace
-        Depths in the unit of the radii, (Q z0)^(1/n); the unit of the modulus does not matter.
-    punch, law
-        As for `Problem`.
-    k : float, optional
-        Exponent of the modulus at the surface: 0.
-
-    Examples
-    --------
-    >>> from fscm import solve
-    >>> from fscm.graded import Exponential
-    >>> problem = GradedProblem(2, 1.0, Exponential(E_surface=1.0, E_depth=4.0, length=1.0, nu=0.3))
-    >>> round(solve(problem, "pull_off_force").value, 8)
-    1.83389676
-    """
-
-    solid: GradedHalfSpace
-
-    def __init__(
-        self,
-        n: float,
-        mu: float,
-        solid: GradedHalfSpace,
-        punch: PunchShape | None = None,
-        law: SurfaceLaw | None = None,
-        k: float = 0.0,
-    ) -> None:
-        if k != 0.0:
-            raise ValueError(f"gradient exponent k = {k} is outside [0, 0]: the modulus at the surface is finite")
-        if not isinstance(solid, GradedHalfSpace):
-            raise ValueError(
-                f"solid = {solid!r} is no graded solid: it needs modulus(z), poisson(z), length, interfaces"
-            )
-        Problem.__init__(self, n, 0.0, mu, punch, law)
-        object.__setattr__(self, "solid", solid)
-
-    @property
-    def response(self) -> GradedResponse:
-        """The response of the solid."""
-        return response_of(self.solid)
-
-    @property
-    def largest_mu(self) -> float:
-        """The Tabor number with the largest compliance at any wave number."""
-        return self.mu * self.response.softest ** (self.n / (2.0 * self.n - 1.0))

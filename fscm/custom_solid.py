@@ -10,24 +10,24 @@ import numpy as np
 
 from fscm._typing import Array
 from fscm._validation import real_number
-from fscm.graded.solids import ELASTIC, POSITIVE, elastic_ratio
+from fscm.solids import ELASTIC, POSITIVE, elastic_ratio
 
-__all__ = ["GradedSolid"]
+__all__ = ["CustomSolid"]
 
 # Depths, in units of the length, at which a function of the user is checked, besides the surface.
 _CHECKED = np.geomspace(1e-6, 1e6, 25)
 
 
 @dataclass(frozen=True, slots=True)
-class GradedSolid:
+class CustomSolid:
     """Any E(z) and nu(z).
 
     Parameters
     ----------
-    young : callable
+    E : callable
         E(z): array of depths -> array of moduli, > 0 everywhere, the surface included.
     nu : float or callable
-        Poisson's ratio, or nu(z) like `young`.
+        Poisson's ratio, or nu(z) like `E`.
     length : float
         A depth over which they change, > 0.
     interfaces : sequence of float, optional
@@ -36,12 +36,12 @@ class GradedSolid:
 
     Examples
     --------
-    >>> solid = GradedSolid(lambda z: 2.0 + np.sin(z) ** 2, 0.3, length=1.0)
+    >>> solid = CustomSolid(lambda z: 2.0 + np.sin(z) ** 2, 0.3, length=1.0)
     >>> solid.modulus(np.array([0.0])), solid.poisson(np.array([5.0]))
     (array([2.]), array([0.3]))
     """
 
-    young: Callable[[Array], Array]
+    E: Callable[[Array], Array]
     nu: float | Callable[[Array], Array]
     length: float
     interfaces: Sequence[float] = ()
@@ -54,10 +54,15 @@ class GradedSolid:
         if not callable(self.nu):
             object.__setattr__(self, "nu", elastic_ratio("nu", self.nu))
         z = np.append(0.0, self.length * _CHECKED)
-        E, nu = self.modulus(z), self.poisson(z)
+        moduli, ratios = self.modulus(z), self.poisson(z)
         for values, name, good, reason in (
-            (E, "modulus", np.isfinite(E) & (E > 0.0), "(0, inf): it is positive at every depth, also at the surface"),
-            (nu, "Poisson's ratio", (nu >= 0.0) & (nu <= 0.5), f"[0, 0.5]: {ELASTIC}"),
+            (
+                moduli,
+                "modulus",
+                np.isfinite(moduli) & (moduli > 0.0),
+                "(0, inf): it is positive at every depth, also at the surface",
+            ),
+            (ratios, "Poisson's ratio", (ratios >= 0.0) & (ratios <= 0.5), f"[0, 0.5]: {ELASTIC}"),
         ):
             if values.shape != z.shape:
                 raise ValueError(
@@ -70,7 +75,7 @@ class GradedSolid:
 
     def modulus(self, z: Array) -> Array:
         """E(z)."""
-        return np.asarray(self.young(np.asarray(z, float)), float)
+        return np.asarray(self.E(np.asarray(z, float)), float)
 
     def poisson(self, z: Array) -> Array:
         """nu(z)."""

@@ -1,17 +1,19 @@
-"""Solids whose modulus is a function of the depth, in any consistent units.
+"""Solids: half-spaces whose modulus is a function of the depth, in any consistent units.
 
-Each has the modulus E(z) and Poisson's ratio nu(z), the depths at which they jump or have a kink, and a length over
-which they change.  The modulus at the surface is positive: E0 (z/c0)^k has the exact response of `fscm.Problem`.
+A power law E0 (z/c0)^k, with its special case of one modulus, has an exact response.  Every other solid has the modulus
+E(z) and Poisson's ratio nu(z), the depths at which they jump or have a kink, and a length over which they change; its
+modulus at the surface is positive.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
+from fscm._response_factor import response_factor
 from fscm._typing import Array
 from fscm._validation import real_number
 
@@ -19,7 +21,11 @@ __all__ = [
     "Coating",
     "Exponential",
     "GradedHalfSpace",
+    "Homogeneous",
     "OffsetPowerLaw",
+    "PowerLaw",
+    "ScaledSolid",
+    "Solid",
     "contact_modulus",
     "elastic_ratio",
 ]
@@ -61,6 +67,9 @@ class GradedHalfSpace(Protocol):
         ...
 
 
+Solid: TypeAlias = "PowerLaw | Homogeneous | GradedHalfSpace"
+
+
 def _positive(solid: object, *names: str) -> None:
     for name in names:
         value = real_number(name, getattr(solid, name), low=0.0, high=math.inf, reason=POSITIVE)
@@ -86,6 +95,111 @@ def _elastic(solid: object, *names: str) -> None:
 def _not_negative(solid: object, name: str, reason: str, high: float = math.inf) -> None:
     value = real_number(name, getattr(solid, name), low=0.0, high=high, closed_low=True, reason=reason)
     object.__setattr__(solid, name, value)
+
+
+@dataclass(frozen=True, slots=True)
+class PowerLaw:
+    """E(z) = E0 (z/c0)^k (Eq. 3).
+
+    Parameters
+    ----------
+    E0, c0 : float
+        Modulus, and the depth at which it is reached, > 0.
+    k : float
+        Gradient exponent, 0 <= k <= 1.
+    nu : float
+        Poisson's ratio, 0 <= nu <= 1/2; for k = 1 (the Gibson solid) exactly 1/2, or the response is infinite.
+
+    Raises
+    ------
+    ValueError
+        With the value, the admissible range and the reason.
+
+    Examples
+    --------
+    >>> PowerLaw(E0=3.0, c0=1.0, k=0.5, nu=0.3).modulus(np.array([0.0, 4.0]))
+    array([0., 6.])
+    >>> PowerLaw(E0=3.0, c0=1.0, k=0, nu=0.5).contact_modulus
+    4.0
+    """
+
+    E0: float
+    c0: float
+    k: float
+    nu: float
+
+    def __post_init__(self) -> None:
+        _positive(self, "E0", "c0")
+        reason = "E = E0 (z/c0)^k has no finite surface response there"
+        k = real_number("k", self.k, low=0.0, high=1.0, closed_low=True, closed_high=True, reason=reason)
+        object.__setattr__(self, "k", k)
+        _elastic(self, "nu")
+        if k == 1.0 and self.nu != 0.5:
+            raise ValueError(
+                f"nu = {self.nu:g} is outside [0.5, 0.5] for k = 1: only the incompressible Gibson solid has "
+                "a finite b / (1 - k) in Eq. 29"
+            )
+
+    @property
+    def power_law(self) -> PowerLaw:
+        """The solid itself."""
+        return self
+
+    @property
+    def contact_modulus(self) -> float:
+        """E* = E0 / (1 - nu^2)."""
+        return self.E0 / (1.0 - self.nu**2)
+
+    @property
+    def response_factor(self) -> float:
+        """Factor b of Eq. 7, dimensionless."""
+        return response_factor(self.k, self.nu)
+
+    def modulus(self, z: Array) -> Array:
+        """E(z)."""
+        return self.E0 * (np.asarray(z, float) / self.c0) ** self.k
+
+    def poisson(self, z: Array) -> Array:
+        """nu everywhere."""
+        return np.full(np.shape(z), self.nu)
+
+
+@dataclass(frozen=True, slots=True)
+class Homogeneous:
+    """The modulus E and Poisson's ratio nu at every depth: the power law with k = 0.
+
+    Parameters
+    ----------
+    E : float
+        Modulus, > 0.
+    nu : float
+        Poisson's ratio, 0 <= nu <= 1/2.
+
+    Examples
+    --------
+    >>> Homogeneous(E=70e9, nu=0.2).power_law
+    PowerLaw(E0=70000000000.0, c0=1.0, k=0.0, nu=0.2)
+    """
+
+    E: float
+    nu: float
+
+    def __post_init__(self) -> None:
+        _positive(self, "E")
+        _elastic(self, "nu")
+
+    @property
+    def power_law(self) -> PowerLaw:
+        """The solid as a power law; c0 has no effect for k = 0."""
+        return PowerLaw(self.E, 1.0, 0.0, self.nu)
+
+    def modulus(self, z: Array) -> Array:
+        """E everywhere."""
+        return np.full(np.shape(z), self.E)
+
+    def poisson(self, z: Array) -> Array:
+        """nu everywhere."""
+        return np.full(np.shape(z), self.nu)
 
 
 @dataclass(frozen=True, slots=True)
@@ -261,3 +375,45 @@ def contact_modulus(solid: GradedHalfSpace, z: float = 0.0) -> float:
     """
     at = np.array([z])
     return float(solid.modulus(at)[0] / (1.0 - solid.poisson(at)[0] ** 2))
+
+
+@dataclass(frozen=True, slots=True)
+class ScaledSolid:
+    """A solid whose depths are measured in another unit.
+
+    Parameters
+    ----------
+    solid : GradedHalfSpace
+    unit : float
+        The new unit in the old one, > 0.
+
+    Examples
+    --------
+    >>> ScaledSolid(Exponential(E_surface=1.0, E_depth=2.0, length=3.0, nu=0.3), unit=6.0).length
+    0.5
+    """
+
+    solid: GradedHalfSpace
+    unit: float
+
+    def __post_init__(self) -> None:
+        unit = real_number("unit", self.unit, low=0.0, high=float("inf"), reason="it is a length")
+        object.__setattr__(self, "unit", unit)
+
+    @property
+    def length(self) -> float:
+        """A depth over which the constants change."""
+        return self.solid.length / self.unit
+
+    @property
+    def interfaces(self) -> tuple[float, ...]:
+        """Depths at which the constants or their derivatives jump."""
+        return tuple(z / self.unit for z in self.solid.interfaces)
+
+    def modulus(self, z: Array) -> Array:
+        """E(z)."""
+        return self.solid.modulus(self.unit * np.asarray(z, float))
+
+    def poisson(self, z: Array) -> Array:
+        """nu(z)."""
+        return self.solid.poisson(self.unit * np.asarray(z, float))

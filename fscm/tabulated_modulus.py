@@ -11,7 +11,7 @@ import scipy
 
 from fscm._typing import Array
 from fscm._validation import real_number
-from fscm.graded.solids import elastic_ratio
+from fscm.solids import elastic_ratio
 
 __all__ = ["TabulatedModulus"]
 
