@@ -67,6 +67,7 @@ class GradedHalfSpace(Protocol):
         ...
 
 
+#: A half-space of any kind.
 Solid: TypeAlias = "PowerLaw | Homogeneous | GradedHalfSpace"
 
 

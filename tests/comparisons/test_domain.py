@@ -171,7 +171,7 @@ def test_where_the_reference_has_no_value_either_not_applicable_is_right():
 
 def test_the_reference_is_computed_where_a_model_refuses_what_it_promises():
     grids, gates = load_grids(GRID), load_gates(GATE)
-    refused = ("jkr", "pull_off_force", 2.0, 0.0, 1.0, None)
+    refused = ("jkr", "pull_off_force", 2.0, 0.0, 1.0, None, "")
     reference = ("bradley", *refused[1:])
     known = {refused: "not-applicable"}
     assert reference not in needed_keys(gates, grids, ["jkr"], known)

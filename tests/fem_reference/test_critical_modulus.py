@@ -125,7 +125,7 @@ def test_a_solid_whose_compliance_does_not_scale():
 
 def test_a_solid_without_a_reference_modulus_is_refused():
     solid = ProfileSolid(CustomModulus(lambda z: 1.0 + 0.0 * z, 0.0, 0.0, 1.0), 0.3)
-    with pytest.raises(ValueError, match=r"has no reference modulus E0.*take a Solid$"):
+    with pytest.raises(ValueError, match=r"has no reference modulus E0.*take a PowerLaw$"):
         solve(replace(FLAT, solid=solid), "critical_modulus")
 
 
