@@ -16,7 +16,7 @@ _MOST_DIGITS = 20
 LEAST_SHOWN = 5e-10
 
 #: Values below it have a power of ten: newtons and metres of a problem file.
-_SMALL_VALUE = 1e-5
+_SMALL_VALUE = 1e-6
 
 #: A relative error in percent is shown to this digit, or to the digit that its uncertainty leaves it.
 _LEAST_PERCENT = 5e-5
