@@ -194,9 +194,9 @@ def scales(problem: Problem) -> bool:
 
     Examples
     --------
-    >>> from fem_reference import LennardJones, PowerPunch, Solid
+    >>> from fem_reference import LennardJones, PowerLaw, PowerPunch
     >>> sphere, law = PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0)
-    >>> [scales(Problem(Solid(E0, 1.0, 0.0, 0.3), sphere, law)) for E0 in (1.0, 1e-5)]  # mu is 1 and 2000
+    >>> [scales(Problem(PowerLaw(E0, 1.0, 0.0, 0.3), sphere, law)) for E0 in (1.0, 1e-5)]  # mu is 1 and 2000
     [True, False]
     """
     solid, punch, law = problem.solid, problem.punch, problem.law
