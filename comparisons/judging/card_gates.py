@@ -122,7 +122,7 @@ def judge_cards(cards: Mapping[str, Any]) -> pd.DataFrame:
         Name of a model -> what the record of the run has of it.
     """
     judged = [row for name, card in cards.items() if "repeated" in card for row in _repeated(name, card["repeated"])]
-    return _table(judged)
+    return verdict_table(judged)
 
 
 def _repeated(name: str, repeated: Mapping[str, Any]) -> Iterator[Judged]:
@@ -165,14 +165,14 @@ def judge_digits(verdicts: pd.DataFrame, models: Iterable[str]) -> pd.DataFrame:
     """
     compared = verdicts[verdicts[["value", "reference_value"]].notna().all(axis=1)]
     compared = compared.assign(same=compared["value"] == compared["reference_value"])
-    return _table(_digits(name, own) for name in models if len(own := compared[compared["candidate"] == name]))
+    return verdict_table(_digits(name, own) for name in models if len(own := compared[compared["candidate"] == name]))
 
 
 def _digits(name: str, own: pd.DataFrame) -> Judged:
     copied = [(id, rows) for id, rows in own.groupby("gate", sort=False) if 2 * rows["same"].sum() > len(rows)]
     for id, rows in copied:
         same = rows[rows["same"]]
-        if (same["reference"].isin(_NUMERICAL) & (same["k"] < 1.0)).any():
+        if (same["reference"].isin(_NUMERICAL) & ~(same["k"] >= 1.0)).any():
             reason = f"{_same_digits(id, rows)}: computed with it or copied from it, they show nothing of the model"
             return verdict_on_model(DIFFERS, name, Verdict.INCONCLUSIVE, reason)
     reason = f"{_same_digits(*copied[0])}, as those of a closed form may be" if copied else ""
@@ -189,10 +189,6 @@ def verdict_on_model(id: str, name: str, verdict: Verdict, reason: str, **facts:
     limits = {"lower": math.nan, "upper": math.nan, "status": "", "quantity": "", "problem": ""}
     known = {"gate": id, "candidate": name, "reference": name, "verdict": verdict, "reason": reason}
     return Judged(**blank | limits | known | facts)
-
-
-def _table(judged: Iterable[Judged]) -> pd.DataFrame:
-    return verdict_table(judged)
 
 
 def every_verdict(tables: Iterable[pd.DataFrame]) -> pd.DataFrame:

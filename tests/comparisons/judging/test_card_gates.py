@@ -51,6 +51,8 @@ def compared(same, other, reference="fscm", k=0.4, gate="A"):
         # A closed form, and the algebraic limit.
         (compared(4, 0, "jkr"), "PASS"),
         (compared(4, 0, k=1.0), "PASS"),
+        # The problem of a file has no k.
+        (compared(4, 0, k=float("nan")), "INCONCLUSIVE"),
         # Of several gates, such as the standing and the fresh cases, one is enough.
         ([*compared(3, 0), *compared(0, 20, gate="A-RANDOM")], "INCONCLUSIVE"),
     ],
