@@ -130,6 +130,7 @@ def _repeated(name: str, repeated: Mapping[str, Any]) -> Iterator[Judged]:
         first, again, allowed = case["first"], case["again"], case["allowed"]
         same = again is not None and abs(again - first) <= allowed
         facts = {key: case[key] for key in ("quantity", *PARAMETERS)} | {
+            "problem": case.get("problem", ""),
             "value": again,
             "u_num": 0.0,
             "reference_value": first,

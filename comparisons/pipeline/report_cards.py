@@ -16,7 +16,7 @@ from comparisons.external.model_source import load_again
 from comparisons.registry import ExternalIdentity
 from comparisons.runs.cases import Case
 from comparisons.runs.environment import computing_environment
-from comparisons.runs.rows import Row
+from comparisons.runs.rows import CASE, Key, Row
 from comparisons.runs.tasks import evaluate
 
 __all__ = ["AGAIN", "make_cards"]
@@ -31,7 +31,10 @@ _STATE = "the result depends on earlier evaluations: it is another one when the 
 
 
 def make_cards(
-    external: Mapping[str, ExternalIdentity], rows: Sequence[Row], parts: Sequence[Mapping[str, Any]]
+    external: Mapping[str, ExternalIdentity],
+    rows: Sequence[Row],
+    parts: Sequence[Mapping[str, Any]],
+    cases: Mapping[Key, Case],
 ) -> dict[str, Any]:
     """Return the report card of each external model, as the record of the run holds it.
 
@@ -42,19 +45,21 @@ def make_cards(
         Of the run.
     parts : sequence of mapping
         The commands that computed them, with their environments.
+    cases : mapping of Key to Case
+        The case of each row, by its key.
     """
     here = computing_environment()
     exact = all(part.get(name) == value for part in parts for name, value in here.items())
     cards = {}
     for name, identity in external.items():
-        own = [row for row in rows if row.model == name and row.status == "ok" and not row.problem]
+        own = [row for row in rows if row.model == name and row.status == "ok"]
         note(f"checking {name}: some results are evaluated again in a new process, and check-model is called")
         with waiting(f"checking {name}"):
-            cards[name] = _card(identity, own, exact)
+            cards[name] = _card(identity, own, exact, cases)
     return cards
 
 
-def _card(identity: ExternalIdentity, rows: Sequence[Row], exact: bool) -> dict[str, Any]:
+def _card(identity: ExternalIdentity, rows: Sequence[Row], exact: bool, cases: Mapping[Key, Case]) -> dict[str, Any]:
     model = load_again(identity.spec)
     try:
         if isinstance(model, DataModel):
@@ -62,7 +67,7 @@ def _card(identity: ExternalIdentity, rows: Sequence[Row], exact: bool) -> dict[
         card: dict[str, Any] = {"kind": "program" if model.is_program else "code"}
         # First, so that the process has evaluated nothing before.
         if numbers := [row for row in rows if row.value is not None]:
-            card["repeated"] = _repeated(identity, model, numbers, exact)
+            card["repeated"] = _repeated(identity, model, numbers, exact, cases)
         card["check_model"] = _findings(model)
         return card
     finally:
@@ -73,25 +78,26 @@ def _findings(model: AnyExternalModel) -> list[dict[str, str]]:
     return [asdict(finding) for finding in examine(model)]
 
 
-def _repeated(identity: ExternalIdentity, model: AnyExternalModel, rows: Sequence[Row], exact: bool) -> dict[str, Any]:
+def _repeated(
+    identity: ExternalIdentity,
+    model: AnyExternalModel,
+    rows: Sequence[Row],
+    exact: bool,
+    cases: Mapping[Key, Case],
+) -> dict[str, Any]:
     """Evaluate some results again, the last first; the seed of the choice is nothing that a model can know."""
     seed = SystemRandom().randrange(2**32)
-    chosen = _chosen(rows, seed)
-    cases = []
-    for row in reversed(chosen):
-        again = evaluate(model, row.quantity, Case.of_row(row))
+    repeated = []
+    changed: list[Row] = []
+    for row in reversed(_chosen(rows, seed)):
+        again = evaluate(model, row.quantity, cases[row.key])
         allowed = 0.0 if exact else (row.u_num or 0.0) + (again.u_num or 0.0)
-        cases.append(
-            {
-                **{key: getattr(row, key) for key in ("quantity", "n", "k", "mu", "nu")},
-                "first": row.value,
-                "again": again.value,
-                "allowed": allowed,
-            }
-        )
-    changed = [case for case in cases if case["again"] is None or abs(case["again"] - case["first"]) > case["allowed"]]
-    cause = _cause(identity, changed[0]) if changed else ""
-    return {"seed": seed, "cause": cause, "cases": cases}
+        facts = {key: getattr(row, key) for key in ("quantity", *CASE)}
+        repeated.append({**facts, "first": row.value, "again": again.value, "allowed": allowed})
+        if again.value is None or row.value is None or abs(again.value - row.value) > allowed:
+            changed.append(row)
+    cause = _cause(identity, changed[0].quantity, cases[changed[0].key]) if changed else ""
+    return {"seed": seed, "cause": cause, "cases": repeated}
 
 
 def _chosen(rows: Sequence[Row], seed: int) -> list[Row]:
@@ -108,13 +114,13 @@ def _chosen(rows: Sequence[Row], seed: int) -> list[Row]:
     return [rows[number] for number in sorted(chosen)]
 
 
-def _cause(identity: ExternalIdentity, case: Mapping[str, Any]) -> str:
+def _cause(identity: ExternalIdentity, quantity: str, case: Case) -> str:
     """Return why a result changes: it is evaluated as the first one of two new processes."""
     values = []
     for _ in range(2):
         model = load_again(identity.spec)
         try:
-            row = evaluate(model, case["quantity"], Case(case["n"], case["k"], case["mu"], case["nu"]))
+            row = evaluate(model, quantity, case)
             values.append(row.value)
         finally:
             model.close()

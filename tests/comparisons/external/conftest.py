@@ -23,7 +23,7 @@ def _no_children_left():
 @pytest.fixture
 def no_cards(monkeypatch):
     """Runs make no report cards, for which they would start several more processes of each model."""
-    monkeypatch.setattr(finished_run, "make_cards", lambda external, rows, parts: {})
+    monkeypatch.setattr(finished_run, "make_cards", lambda external, rows, parts, cases: {})
 
 
 def light(cases, *places):

@@ -418,7 +418,7 @@ def test_the_sentence_of_each_verdict_names_the_first_reason():
 
 
 def test_what_takes_as_long_as_the_model_does_is_announced_where_no_bar_is_shown(monkeypatch, capsys):
-    monkeypatch.setattr(report_cards, "_card", lambda identity, rows, exact: {})
-    assert report_cards.make_cards({"mine": None}, [], []) == {"mine": {}}
+    monkeypatch.setattr(report_cards, "_card", lambda identity, rows, exact, cases: {})
+    assert report_cards.make_cards({"mine": None}, [], [], {}) == {"mine": {}}
     shown = capsys.readouterr().err
     assert shown == "checking mine: some results are evaluated again in a new process, and check-model is called\n"

@@ -191,3 +191,33 @@ def test_cases_of_a_file_need_gates_and_no_tier(run, tmp_path, capsys):
     for options in ([], ["--tier", "quick", "--gates", "x.toml"]):
         assert main(["run", "--cases", str(tmp_path / "cases.toml"), *options]) == 2
         assert capsys.readouterr().err.count("\n") == 1
+
+
+RANDOM_MODEL = """
+import random
+
+from comparisons import Result
+
+class Noise:
+    name = "noise"
+    version = "1"
+    citation = "none"
+    domain = "everywhere"
+
+    def evaluate(self, problem, quantity):
+        return Result(1.5 + 1e-3 * random.random(), 0.0)
+"""
+
+
+def test_a_random_model_is_seen_on_problems_of_files_alone(run, tmp_path):
+    (tmp_path / "noise.py").write_text(RANDOM_MODEL)
+    (tmp_path / "cases.toml").write_text(CASES.split('[[grid]]\nid = "numbers"')[0])
+    (tmp_path / "gates.toml").write_text(
+        GATE.format(cases=SOFT, lower=-0.3, upper=-0.2, least=2).replace('"jkr"', '"given"')
+    )
+    files = ["--cases", str(tmp_path / "cases.toml"), "--gates", str(tmp_path / "gates.toml")]
+    model = f"{tmp_path / 'noise.py'}:Noise"
+    assert main(["run", *files, "--model", model, "--jobs", "1", "--quiet", "--out", str(tmp_path / "out")]) == 1
+    found = verdicts(tmp_path / "out").set_index("gate")["verdict"]
+    assert set(found["PADS"]) == {"PASS"}
+    assert "FAIL" in set(found[["CARD-SAME-AGAIN"]])
