@@ -16,7 +16,16 @@ from comparisons.quantities import CURVES, QUANTITIES, Points
 from comparisons.quantities.points import FARTHEST_GAP
 from comparisons.registry import create
 
-__all__ = ["SI_UNITS", "PhysicalValue", "evaluate_problem", "model_for", "points_of", "units_of", "value_in_si"]
+__all__ = [
+    "SI_UNITS",
+    "PhysicalValue",
+    "dimensionless_value",
+    "evaluate_problem",
+    "model_for",
+    "points_of",
+    "units_of",
+    "value_in_si",
+]
 
 #: Unit in SI of each kind of quantity.
 SI_UNITS = {
@@ -118,10 +127,9 @@ def evaluate_problem(problem: ProblemFile, model: str | Model, quantity: str) ->
         model = model_for(problem, model)
     started = time.perf_counter()
     kind = QUANTITIES[quantity].scale
-    result, status, reason, units = None, "ok", "", None
+    result, status, reason = None, "ok", ""
     try:
         result = value_in_si(problem, model, quantity)
-        units = dimensionless_problem(problem)[1] if problem.has_power_punch else None
     except NotApplicable as refusal:
         status, reason = "not-applicable", str(refusal)
     except ComputationFailed as failure:
@@ -131,10 +139,6 @@ def evaluate_problem(problem: ProblemFile, model: str | Model, quantity: str) ->
     except Exception as error:
         # A defect of the model: it is named, as in a run.
         status, reason = "failed", f"{type(error).__name__}: {error}"
-    scaled: dict[str, float | str] | None = None
-    if result and units and kind != "number":
-        unit = units[kind]
-        scaled = {"value": result.value / unit, "u_num": result.u_num / unit, "unit": QUANTITIES[quantity].unit}
     return PhysicalValue(
         model=model.name,
         quantity=quantity,
@@ -145,8 +149,17 @@ def evaluate_problem(problem: ProblemFile, model: str | Model, quantity: str) ->
         status=status,
         reason=reason,
         seconds=(result and result.seconds) or time.perf_counter() - started,
-        dimensionless=scaled,
+        dimensionless=dimensionless_value(problem, quantity, result) if result else None,
     )
+
+
+def dimensionless_value(problem: ProblemFile, quantity: str, result: Result) -> dict[str, float | str] | None:
+    """Return a result in SI in the units of the paper, as value, u_num and unit; None where these are not defined."""
+    kind = QUANTITIES[quantity].scale
+    if kind == "number" or not problem.has_power_punch:
+        return None
+    unit = dimensionless_problem(problem)[1][kind]
+    return {"value": result.value / unit, "u_num": result.u_num / unit, "unit": QUANTITIES[quantity].unit}
 
 
 def value_in_si(problem: ProblemFile, model: Model, quantity: str) -> Result:
