@@ -91,7 +91,7 @@ def write_run(
         cards = make_cards(external, rows, completed.parts, {task.key: task.case for task in inputs.plan()})
         judgement = judge_and_write(target, inputs, tables.results, tables.curves, cards)
     stale = {GRID_TEXT} if rules is not None else {GATES_TEXT, *VERDICT_FILES}
-    _remove_stale(target, {*stale, *COMPARISON_FILES} - {path.name for path in texts})
+    _remove_stale(target, {*stale, *COMPARISON_FILES}, texts)
     shipped = {"shipped": len(found.shipped)} if found.shipped else {}
     counts = {"all": len(rows), "resumed": completed.resumed, **shipped, **_statuses(rows)}
     content = record_content(
@@ -138,15 +138,16 @@ def kept_texts(folder: RunFolder, cases: Cases, gates: Gates | None) -> dict[Pat
     return texts
 
 
-def _remove_stale(folder: RunFolder, names: Collection[str]) -> None:
+def _remove_stale(folder: RunFolder, names: Collection[str], kept: Collection[Path]) -> None:
     """Remove files that an earlier run of the folder has written and that this one does not have."""
     try:
         written = read_record(folder.record)["files"]
     except ValueError:
         return
-    for name in names:
-        if name in written:
-            (folder.path / name).unlink(missing_ok=True)
+    for name in written:
+        path = path_inside(folder.path, name)
+        if (name in names or name.startswith(f"{INPUTS}/")) and path not in kept:
+            path.unlink(missing_ok=True)
 
 
 def _statuses(rows: Sequence[Row]) -> Counter[str]:

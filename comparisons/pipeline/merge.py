@@ -72,7 +72,7 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
     if missing := len(wanted) - len(rows):
         raise ComputationFailed(
             f"{missing} of {len(wanted)} computations are in none of the folders; merge more of them, or compute what "
-            f"is missing by the command without --shard and with --out {quote(str(out))}"
+            f"is missing by {_command(target, inputs, records[first])}"
         )
     completed = Completed(rows, len(rows), journal.parts_of(rows), None)
     arguments = {"jobs": 1, "merged": [str(folder) for folder in records]}
@@ -113,3 +113,13 @@ def _usable(rows: Iterable[Row], wanted: Mapping[Any, Task]) -> list[Row]:
         and row.digest == wanted[row.key].digest
         and ((external := wanted[row.key].external) is None or external.version == row.model_version)
     ]
+
+
+def _command(target: RunFolder, inputs: RunInputs, record: Mapping[str, Any]) -> str:
+    """Return the command that computes what no folder has, in words where the folder has not all of its inputs."""
+    out = quote(str(target.path))
+    if inputs.cases.files:
+        return f"the command of the sweep without --shard and with --out {out}"
+    specs = record["arguments"]["external"]
+    models = "".join(f" --model {quote(specs.get(name, name))}" for name in record["arguments"]["model"] or ())
+    return f"fscm-bench sweep {quote(str(target.grid_text))} --out {out}{models}"
