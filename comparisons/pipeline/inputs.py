@@ -16,7 +16,7 @@ from comparisons.domain import Domain, declared_domain
 from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
 from comparisons.judging.selection import cases_of, load_user_gates, needed_keys
-from comparisons.problem_file.overview import REFERENCES
+from comparisons.problem_file.evaluation import REFERENCES
 from comparisons.problem_file.variation import Variation, parse_variations, problems_of
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import MODELS, ExternalIdentity, create
@@ -200,7 +200,7 @@ def cases_of_problem(problem: Path, vary: Sequence[str], models: Sequence[str], 
     vary : sequence of str
         ``SECTION.KEY=VALUES``, as of `comparisons.problem_file.variation.parse_variation`.
     models : sequence of str
-        Names; the first of `comparisons.problem_file.overview.REFERENCES` among them is the reference, if there is one.
+        Names; the first of `comparisons.problem_file.evaluation.REFERENCES` among them is the reference, if one is.
     quantities : sequence of str
         Of `comparisons.QUANTITIES`.
 

@@ -17,7 +17,9 @@ from comparisons.quantities.points import FARTHEST_GAP
 from comparisons.registry import create
 
 __all__ = [
+    "REFERENCES",
     "SI_UNITS",
+    "SOLVERS",
     "PhysicalValue",
     "dimensionless_value",
     "evaluate_problem",
@@ -26,6 +28,12 @@ __all__ = [
     "units_of",
     "value_in_si",
 ]
+
+#: Models that solve the equations; every other one is a closed form or another approximation.
+REFERENCES = ("fscm", "fem", "fscm-stieltjes", "fscm-stieltjes-400", "atlas")
+
+#: Those that take every solid, punch and law.
+SOLVERS = ("fscm", "fem")
 
 #: Unit in SI of each kind of quantity.
 SI_UNITS = {
@@ -147,7 +155,7 @@ def evaluate_problem(problem: ProblemFile, model: str | Model, quantity: str) ->
         u_num=result.u_num if result else None,
         unit=SI_UNITS[kind],
         status=status,
-        reason=reason,
+        reason=result.reason if result else reason,
         seconds=(result and result.seconds) or time.perf_counter() - started,
         dimensionless=dimensionless_value(problem, quantity, result) if result else None,
     )
@@ -170,6 +178,8 @@ def value_in_si(problem: ProblemFile, model: Model, quantity: str) -> Result:
     NotApplicable, ComputationFailed
         As the model.
     """
+    if model.name not in REFERENCES and problem.has_other_solid_alone:
+        return _with_equivalent_solid(problem, model, quantity)
     _refuse(problem, model, quantity)
     if model.name == "fem" and quantity != "critical_tabor_number":
         # Imported here: the other models do not need the finite elements.
@@ -187,11 +197,25 @@ def value_in_si(problem: ProblemFile, model: Model, quantity: str) -> Result:
     return dataclasses.replace(result, value=result.value * units[kind], u_num=result.u_num * units[kind])
 
 
+def _with_equivalent_solid(problem: ProblemFile, model: Model, quantity: str) -> Result:
+    """Evaluate a model that knows n, k and mu alone with the power law that stands for the solid of a problem."""
+    # Imported here: other problems do not need the spectrum of the elastic energy.
+    from comparisons.problem_file.equivalent_solid import equivalent_solids
+
+    with_law, coarser = equivalent_solids(problem)
+    result, other = (value_in_si(one, model, quantity) for one in (with_law, coarser))
+    return dataclasses.replace(
+        result,
+        u_num=result.u_num + abs(result.value - other.value),
+        reason=f"with the equivalent power law of the {problem.solid.kind} solid, k = {with_law.solid['k']:.4f}",
+    )
+
+
 def _refuse(problem: ProblemFile, model: Model, quantity: str) -> None:
     """Raise `NotApplicable` where a model does not take the parts of a problem."""
     if problem.is_of_the_paper:
         return
-    if model.name not in ("fscm", "fem"):
+    if model.name not in SOLVERS:
         raise NotApplicable(
             f"{model.name} takes a power-law or homogeneous solid, a sphere, cone or power-law punch and the 9-3 law; "
             f"this problem has a {problem.solid.kind} solid, a {problem.punch.kind} punch and a {problem.law.kind} law"

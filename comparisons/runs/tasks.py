@@ -198,7 +198,7 @@ def _row(
         u_num=number.u_num if number else None,
         unit=_unit(quantity, case),
         status=status,
-        reason=reason,
+        reason=number.reason if number else reason,
         size=number.size if number else None,
         iterations=number.iterations if number else None,
         residual=number.residual if number else None,

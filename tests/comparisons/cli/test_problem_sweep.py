@@ -81,13 +81,17 @@ def test_the_merged_shards_are_the_whole_sweep(tmp_path, capsys):
     assert main(["merge", str(tmp_path / "part1"), str(tmp_path / "other"), "--out", str(tmp_path / "no")]) == 2
 
 
-def test_a_coated_solid_with_a_model_that_does_not_take_it(tmp_path):
+def test_a_coated_solid_with_models_that_know_power_laws_alone(tmp_path):
     """The example of docs/problem_files.md."""
     vary = ("--vary", "solid.thickness=20 nm")
-    assert sweep(tmp_path, "--model", "fscm", "jkr", "--quiet", problem=COATED, vary=vary) == 0
-    table = read_table(tmp_path / "results.parquet")
-    assert table["status"].tolist() == ["ok", "not-applicable"]
-    assert table["value"][0] == pytest.approx(2.69461712e-8, rel=1e-8)
+    assert sweep(tmp_path, "--model", "fscm", "jkr", "atlas", "--quiet", problem=COATED, vary=vary) == 0
+    table = read_table(tmp_path / "results.parquet").set_index("model")
+    assert table["status"].to_dict() == {"atlas": "not-applicable", "fscm": "ok", "jkr": "ok"}
+    assert table.loc["fscm", "value"] == pytest.approx(2.69461712e-8, rel=1e-8)
+    assert "equivalent power law" in table.loc["jkr", "reason"]
+    errors = read_table(tmp_path / "kappa.parquet")
+    assert errors["model"].tolist() == ["jkr"]
+    assert 0.001 < abs(errors["kappa"][0]) < 0.1
 
 
 @pytest.mark.parametrize(
