@@ -163,7 +163,9 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
     external = {name: ExternalIdentity(name, "", spec, citation="", domain="") for name, spec in specs.items()}
     domains = {name: Domain.of_json(tables) for name, tables in record.get("domains", {}).items()}
     fresh = (
-        FreshCases.of_json(record["fresh"], relevant(chosen.gates, cases.grids, models)) if "fresh" in record else None
+        FreshCases.of_json(record["fresh"], relevant(chosen.gates, cases.grids, models), stored.inputs)
+        if "fresh" in record
+        else None
     )
     inputs = RunInputs(cases, chosen, models, external, domains, fresh)
     _warn_of_missing(inputs, results, curves, folder)

@@ -103,6 +103,35 @@ def test_an_ini_file_names_them(small_grid, pytester):
     pytester.runpytest_inprocess("-p", PLUGIN, "test_an_ini_file_names_them.py").assert_outcomes(passed=1)
 
 
+CASES = """
+[[grid]]
+id = "pads"
+title = "Pads"
+reference = "exact"
+models = ["ten-percent"]
+quantities = ["pull_off_force"]
+problem = "pad.toml"
+vary = { "punch.R" = ["1 um", "2 um"] }
+"""
+PAD = """
+solid = {kind = "homogeneous", E = "2 MPa", nu = 0.4}
+punch = {kind = "sphere", R = "1 um"}
+law = {kind = "lennard-jones-9-3", work_of_adhesion = "50 mJ/m^2", z0 = "0.4 nm"}
+"""
+
+
+@pytest.mark.parametrize("option", [True, False])
+def test_problem_files_take_the_place_of_the_standing_cases(small_grid, pytester, option):
+    pytester.makefile(".toml", cases=CASES, pad=PAD)
+    text = gate("PADS", "ten-percent", 0.05, 0.15).replace("min_cases = 4", "min_cases = 2")
+    text = text.replace("mu = [0.1, 1]", '"punch.R" = ["1 um", "2 um"]')
+    if not option:
+        pytester.makeini("[pytest]\nfscm_bench_cases = cases.toml\n")
+    result = run(pytester, text, "-rA", *(["--fscm-bench-cases=cases.toml"] if option else []))
+    result.assert_outcomes(passed=3)
+    result.stdout.fnmatch_lines(["*PADS?ten-percent pad.toml; punch.R=1 um?*"])
+
+
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
