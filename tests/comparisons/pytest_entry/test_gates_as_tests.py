@@ -107,8 +107,8 @@ CASES = """
 [[grid]]
 id = "pads"
 title = "Pads"
-reference = "exact"
-models = ["ten-percent"]
+reference = "bradley"
+models = ["jkr"]
 quantities = ["pull_off_force"]
 problem = "pad.toml"
 vary = { "punch.R" = ["1 um", "2 um"] }
@@ -120,16 +120,17 @@ law = {kind = "lennard-jones-9-3", work_of_adhesion = "50 mJ/m^2", z0 = "0.4 nm"
 """
 
 
-@pytest.mark.parametrize("option", [True, False])
-def test_problem_files_take_the_place_of_the_standing_cases(small_grid, pytester, option):
-    pytester.makefile(".toml", cases=CASES, pad=PAD)
-    text = gate("PADS", "ten-percent", 0.05, 0.15).replace("min_cases = 4", "min_cases = 2")
-    text = text.replace("mu = [0.1, 1]", '"punch.R" = ["1 um", "2 um"]')
-    if not option:
-        pytester.makeini("[pytest]\nfscm_bench_cases = cases.toml\n")
-    result = run(pytester, text, "-rA", *(["--fscm-bench-cases=cases.toml"] if option else []))
+def test_problem_files_take_the_place_of_the_standing_cases(pytester):
+    """In a process of its own, as of a user: closed forms need no other models."""
+    text = gate("PADS", "jkr", -0.26, -0.24).replace("min_cases = 4", "min_cases = 2").replace("exact", "bradley")
+    pytester.makefile(
+        ".toml", cases=CASES, pad=PAD, gates=text.replace("mu = [0.1, 1]", '"punch.R" = ["1 um", "2 um"]')
+    )
+    pytester.makeini("[pytest]\nfscm_bench_cases = cases.toml\n")
+    options = ["--fscm-bench-gates=gates.toml", "--fscm-bench-model=jkr", "-rA"]
+    result = pytester.runpytest_subprocess("-p", PLUGIN, *options)
     result.assert_outcomes(passed=3)
-    result.stdout.fnmatch_lines(["*PADS?ten-percent pad.toml; punch.R=1 um?*"])
+    result.stdout.fnmatch_lines(["*PADS?jkr pad.toml; punch.R=1 um?*"])
 
 
 @pytest.mark.parametrize(
