@@ -30,7 +30,7 @@ def headline_of_values(results: pd.DataFrame) -> str:
     >>> row = {"model": "fscm", "quantity": "pull_off_force", "u_num": 1e-15, "unit": "N", "status": "ok"}
     >>> rows = [row | {"problem": f"pad.toml; punch.R={R} nm", "value": 2e-10 * R} for R in (100, 300)]
     >>> headline_of_values(pd.DataFrame(rows))
-    'The pull-off force of fscm is between 20.000000(1) nN (punch.R=100 nm) and 60.000000(1) nN (punch.R=300 nm)'
+    'The pull-off force of fscm is between 20.0000000(11) nN (punch.R=100 nm) and 60.0000000(11) nN (punch.R=300 nm)'
     """
     known = results[(results["status"] == "ok") & (with_problem(results)["problem"] != "")]
     if known.empty:
