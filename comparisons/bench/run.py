@@ -25,8 +25,7 @@ from comparisons.runs.csv_format import csv_text
 from comparisons.runs.data_package import write_data_package
 from comparisons.runs.environment import environment, fingerprint
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.journal import alone_in
-from comparisons.runs.part_journal import PartJournal
+from comparisons.runs.store import Store, alone_in
 
 __all__ = ["FinishedBench", "run_bench"]
 
@@ -85,10 +84,11 @@ def run_bench(
         path = RunFolder(folder).measurements
         if again:
             path.unlink(missing_ok=True)
-        journal: PartJournal[Measurement] = PartJournal(path, fingerprint(), _read, _write)
+        journal: Store[Measurement] = Store(path, fingerprint(), _read, _write)
         if retry_failed:
             journal.drop(lambda one: one.status != "ok")
-        _measure(parts, full, journal)
+        with journal.kept():
+            _measure(parts, full, journal)
         return _written(folder, parts, journal, {"only": only and list(only), "full": full})
 
 
@@ -110,7 +110,7 @@ def _key(part: str, settings: Settings) -> tuple[str, tuple[tuple[str, Any], ...
     return part, tuple(sorted((name, str(value)) for name, value in settings.items()))
 
 
-def _measure(parts: Sequence[Part], full: bool, journal: PartJournal[Measurement]) -> None:
+def _measure(parts: Sequence[Part], full: bool, journal: Store[Measurement]) -> None:
     """Make the measurements that the journal lacks, part by part."""
     known = {_key(one.part, one.settings) for one in journal.items}
     missing = {
@@ -146,7 +146,7 @@ class _TimeLeft:
 
 
 def _written(
-    folder: Path, parts: Sequence[Part], journal: PartJournal[Measurement], arguments: dict[str, Any]
+    folder: Path, parts: Sequence[Part], journal: Store[Measurement], arguments: dict[str, Any]
 ) -> FinishedBench:
     """Write the tables and figures of the parts and the record of all that is stored; return what is printed."""
     tables, lines, failures = {}, [], []

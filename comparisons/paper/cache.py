@@ -7,14 +7,14 @@ same folder continues.
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterable
-from contextlib import closing
+from contextlib import AbstractContextManager, closing
 from dataclasses import asdict, dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from comparisons.model import ComputationFailed, NotApplicable
-from comparisons.runs.part_journal import PartJournal
+from comparisons.runs.store import Store
 from comparisons.runs.workers import LOST, each
 
 __all__ = ["CachedCall", "CallCache", "Results"]
@@ -139,11 +139,15 @@ class CallCache:
     """
 
     def __init__(self, path: Path, fingerprint: str) -> None:
-        self._journal = PartJournal(path, fingerprint, _read, _written)
+        self._journal = Store(path, fingerprint, _read, _written)
         self._journal.drop(lambda outcome: outcome.failure == LOST)
         self.results = Results()
         for outcome in self._journal.items:
             self.results.add(outcome)
+
+    def kept(self) -> AbstractContextManager[None]:
+        """State what is safe if the work is interrupted, as `comparisons.runs.store.Store.kept`."""
+        return self._journal.kept()
 
     def failed(self, calls: Iterable[CachedCall]) -> list[CachedCall]:
         """Return the calls that are stored as failures, each once, in their order."""

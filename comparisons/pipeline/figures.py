@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
-from concurrent.futures import BrokenExecutor
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
-from comparisons.console.progress import counting, log
+from comparisons.console.progress import counting
 from comparisons.model import ComputationFailed
 from comparisons.paper.cache import CachedCall, CallCache
 from comparisons.paper.paper_figure import PaperFigure, Tables, write
@@ -19,8 +18,8 @@ from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.computation import checked_jobs, log_failures_used
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.journal import alone_in
 from comparisons.runs.record import write_record
+from comparisons.runs.store import alone_in
 
 __all__ = ["FinishedFigure", "FinishedPaper", "make_figures"]
 
@@ -114,26 +113,17 @@ def make_figures(
 
 def _computed(calls: list[CachedCall], folder: RunFolder, jobs: int, retry_failed: bool) -> tuple[CallCache, int]:
     """Make the calls that are missing; return the cache and the number of these calls."""
-    try:
-        with alone_in(folder.path):
-            cache = CallCache(folder.calls, fingerprint())
-            failed = cache.failed(calls)
-            if retry_failed:
-                cache.forget(failed)
-            else:
-                log_failures_used(Counter(call.function.partition(":")[2] for call in failed))
-            missing = cache.missing(calls)
-            with counting("paper", len(missing)) as advance, closing(cache.work(missing, jobs)) as done:
-                for _ in done:
-                    advance()
-    except KeyboardInterrupt:
-        log(f"finished computations are kept in {folder.path}; repeat the command to continue")
-        raise
-    except BrokenExecutor:
-        raise ComputationFailed(
-            f"a worker process ended early, perhaps for lack of memory; "
-            f"finished computations are kept in {folder.path}; repeat the command to continue"
-        ) from None
+    with alone_in(folder.path):
+        cache = CallCache(folder.calls, fingerprint())
+        failed = cache.failed(calls)
+        if retry_failed:
+            cache.forget(failed)
+        else:
+            log_failures_used(Counter(call.function.partition(":")[2] for call in failed))
+        missing = cache.missing(calls)
+        with cache.kept(), counting("paper", len(missing)) as advance, closing(cache.work(missing, jobs)) as done:
+            for _ in done:
+                advance()
     return cache, len(missing)
 
 

@@ -21,9 +21,8 @@ from comparisons.registry import ExternalIdentity
 from comparisons.runs.atomic_files import atomic, prepare_folder
 from comparisons.runs.computation import Completed
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.journal import alone_in
-from comparisons.runs.row_journal import RowJournal
 from comparisons.runs.rows import Row
+from comparisons.runs.store import alone_in, parts_of, rows_in
 from comparisons.runs.tasks import Task
 
 __all__ = ["merge"]
@@ -62,7 +61,7 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
     if target.grid_text.exists() and read_text(target.grid_text, "the sweep file") != inputs.cases.text:
         raise ValueError(f"{out} has other cases than {first}; choose another folder with --out")
     with alone_in(out):
-        journal = RowJournal(out)
+        journal = rows_in(out)
         usable = partial(_usable, wanted=wanted)
         for folder in records:
             take_rows(folder, journal, usable)
@@ -74,7 +73,7 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
             f"{missing} of {len(wanted)} computations are in none of the folders; merge more of them, or compute what "
             f"is missing by {_command(target, inputs, records[first])}"
         )
-    completed = Completed(rows, len(rows), journal.parts_of(rows), None)
+    completed = Completed(rows, len(rows), parts_of(journal, rows), None)
     arguments = {"jobs": 1, "merged": [str(folder) for folder in records]}
     return write_run(target, inputs, Results(completed, [], {}), arguments, started)
 

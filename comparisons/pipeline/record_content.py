@@ -40,7 +40,7 @@ def record_content(
     started : str
         When this command began; a resumed one began with the first of its parts.
     parts : sequence of mapping
-        The commands that computed the rows (`comparisons.runs.part_journal.PartJournal.parts`).
+        The commands that computed the rows (`comparisons.runs.store.Store.parts`).
     rows : mapping of str to int
         Numbers of rows: all, resumed, and by status.
     seconds : mapping of str to float

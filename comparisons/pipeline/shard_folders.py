@@ -10,11 +10,10 @@ from comparisons.data.validation import known_name
 from comparisons.numerics.number_text import case_text
 from comparisons.registry import MODELS
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.journal import alone_in
 from comparisons.runs.record import read_record
 from comparisons.runs.reevaluation import same
-from comparisons.runs.row_journal import RowJournal
 from comparisons.runs.rows import Row
+from comparisons.runs.store import Store, alone_in, rows_in
 
 __all__ = ["checked_records", "take_rows"]
 
@@ -72,14 +71,14 @@ def _check_models(record: Mapping[str, Any], path: Path) -> None:
         known_name("model", name, described, str(path))
 
 
-def take_rows(folder: Path, journal: RowJournal, usable: Callable[[Iterable[Row]], list[Row]]) -> None:
+def take_rows(folder: Path, journal: Store[Row], usable: Callable[[Iterable[Row]], list[Row]]) -> None:
     """Add the rows of a folder that a journal does not have, or has as failures only.
 
     Parameters
     ----------
     folder : Path
         Of a shard.
-    journal : RowJournal
+    journal : Store of Row
         To which the rows are added.
     usable : callable
         The rows that belong to the sweep.
@@ -90,7 +89,7 @@ def take_rows(folder: Path, journal: RowJournal, usable: Callable[[Iterable[Row]
         If a row has another result than one of the journal.
     """
     with alone_in(folder):
-        given = RowJournal(folder)
+        given = rows_in(folder)
         stored = {row.key: row for row in usable(journal.items)}
         taken = set()
         for row in usable(given.items):

@@ -4,22 +4,18 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping
-from concurrent.futures import BrokenExecutor
 from contextlib import closing
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
-from shlex import quote
 from typing import Any
 
 from comparisons.console.progress import counting, log, note
-from comparisons.model import ComputationFailed
 from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.execution import compute, compute_with_environment
-from comparisons.runs.journal import alone_in
 from comparisons.runs.reevaluation import drop_changed
-from comparisons.runs.row_journal import RowJournal
 from comparisons.runs.rows import Key, Row
+from comparisons.runs.store import alone_in, parts_of, rows_in
 from comparisons.runs.tasks import Task
 from comparisons.runs.time_left import TimeLeft
 from comparisons.runs.workers import LOST, Backend, Processes, processes
@@ -122,9 +118,9 @@ def complete(
         return [task for task in chosen() if task.key not in known]
 
     with alone_in(folder):
-        journal = RowJournal(folder)
+        journal = rows_in(folder)
         journal.drop(lambda row: usable(row) and again(row))
-        try:
+        with journal.kept():
             external = [(wanted[row.key], row) for row in journal.items if usable(row) and row.model in versions]
             local = backend if isinstance(backend, Processes) else processes
             evaluated_again = (
@@ -147,15 +143,10 @@ def complete(
                 missing = missing_of(known)
                 if missing:
                     note(f"{len(missing)} computations more, with which these are compared")
-        except KeyboardInterrupt:
-            log(_safe(journal, folder))
-            raise
-        except BrokenExecutor as failure:
-            raise ComputationFailed(f"{failure}; {_safe(journal, folder)}") from None
         used = {task.key for task in chosen()}
         rows = [row for row in journal.items if usable(row) and row.key in used]
         resumed = sum(row.key in used for row in stored)
-        return Completed(rows, resumed, journal.parts_of(rows), evaluated_again)
+        return Completed(rows, resumed, parts_of(journal, rows), evaluated_again)
 
 
 def log_failures_used(failures: Mapping[str, int]) -> None:
@@ -165,7 +156,3 @@ def log_failures_used(failures: Mapping[str, int]) -> None:
             f"{sum(failures.values())} stored failures of {', '.join(sorted(failures))} are used; "
             "--retry-failed computes them again"
         )
-
-
-def _safe(journal: RowJournal, folder: Path) -> str:
-    return f"{len(journal.items)} finished computations are safe; go on with --out {quote(str(folder))}"

@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 
 from comparisons.console.progress import log
-from comparisons.runs.row_journal import RowJournal
 from comparisons.runs.rows import Key, Row
+from comparisons.runs.store import Store
 from comparisons.runs.tasks import Task
 
 __all__ = ["AT_MOST", "Reevaluation", "chosen", "drop_changed", "evaluate_again", "same"]
@@ -44,7 +44,8 @@ def chosen(tasks: Iterable[Task], seed: int) -> list[Task]:
     Examples
     --------
     >>> from comparisons.runs.cases import Case
-    >>> from comparisons.runs.tasks import Task
+    >>> from comparisons.runs.store import Store
+    from comparisons.runs.tasks import Task
     >>> tasks = [Task("mine", name, Case(2, 0, mu)) for name in ("pull_off_force", "jump_in_gap") for mu in (1, 2, 3)]
     >>> len(chosen(tasks, 1)), len({task.quantity for task in chosen(tasks, 1)})
     (3, 2)
@@ -96,7 +97,7 @@ def evaluate_again(
 
 
 def drop_changed(
-    stored: Iterable[tuple[Task, Row]], journal: RowJournal, compute: Callable[[list[Task]], Iterable[Row]]
+    stored: Iterable[tuple[Task, Row]], journal: Store[Row], compute: Callable[[list[Task]], Iterable[Row]]
 ) -> dict[str, Any]:
     """Evaluate a few stored tasks of each external model again; drop the rows of a model whose results have changed.
 
@@ -104,7 +105,7 @@ def drop_changed(
     ----------
     stored : iterable of (task, row)
         Those of external models that a command would use.
-    journal : RowJournal
+    journal : Store of Row
         That has the rows.
     compute : callable
         Returns the rows of tasks.

@@ -7,7 +7,7 @@ import pytest
 from comparisons.bench.part import Item
 from comparisons.bench.run import _TimeLeft, run_bench
 from comparisons.cli.main import main
-from comparisons.runs import journal as journal_module
+from comparisons.runs import store
 
 
 def measured_sizes(calls):
@@ -49,7 +49,7 @@ def test_a_resumed_run_measures_what_is_missing_and_keeps_the_record_of_the_mach
     assert not (tmp_path / "tiny.csv").exists()
 
     other = {"host": "another machine", "cpu": "another CPU", "python": "3", "numpy": "2", "scipy": "1", "system": "x"}
-    monkeypatch.setattr("comparisons.runs.part_journal.computing_environment", lambda: other)
+    monkeypatch.setattr("comparisons.runs.store.computing_environment", lambda: other)
     tiny(measure=measured_sizes(calls))
     finished = run_bench(tmp_path)
     assert calls == [1, 2]
@@ -108,7 +108,7 @@ def test_a_damaged_measurement_is_made_again(tiny, tmp_path, damage):
 
 def test_two_commands_cannot_use_one_folder(tiny, tmp_path):
     with (
-        journal_module.alone_in(tmp_path),
+        store.alone_in(tmp_path),
         pytest.raises(ValueError, match="another process is computing into"),
     ):
         run_bench(tmp_path)

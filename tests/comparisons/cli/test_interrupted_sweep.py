@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.runs.journal import Journal
+from comparisons.runs.store import Store
 
 #: Closed forms that take milliseconds each: there is time to kill something.
 GRID = """
@@ -159,7 +159,7 @@ def test_the_disk_is_full_while_a_row_is_written(grid, undisturbed, tmp_path, mo
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(journal.path))
 
     with monkeypatch.context() as patch:
-        patch.setattr(Journal, "_append", append)
+        patch.setattr(Store, "_append", append)
         assert main(["sweep", str(grid), "--jobs", "1", "--out", str(tmp_path), "--quiet"]) == 4
     message = capsys.readouterr().err
     assert "No space left on device" in message

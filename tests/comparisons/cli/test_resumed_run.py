@@ -9,7 +9,7 @@ from comparisons.cli.main import main
 from comparisons.model import ComputationFailed
 from comparisons.paper.cache import CachedCall, CallCache
 from comparisons.runs import computation as computing
-from comparisons.runs import execution, row_journal
+from comparisons.runs import execution, store
 from comparisons.runs.execution import compute_with_environment
 from comparisons.runs.record import read_record
 from comparisons.runs.tables import read_table
@@ -112,8 +112,8 @@ def test_a_row_whose_line_is_damaged_is_computed_again(small_grid, tmp_path, cap
 
 def test_results_with_another_numpy_are_refused_and_it_is_said_which(small_grid, tmp_path, monkeypatch, capsys):
     assert run(tmp_path) == 0
-    now = row_journal.fingerprint()
-    monkeypatch.setattr(row_journal, "fingerprint", lambda: now.replace("NumPy ", "NumPy 0."))
+    now = store.fingerprint()
+    monkeypatch.setattr(store, "fingerprint", lambda: now.replace("NumPy ", "NumPy 0."))
     capsys.readouterr()
     assert run(tmp_path) == 2
     message = capsys.readouterr().err

@@ -13,7 +13,7 @@ from comparisons.data.file_names import VERDICT_FILES
 from comparisons.runs import computation as computing
 from comparisons.runs.cases import Case, load_grids
 from comparisons.runs.execution import compute, compute_with_environment
-from comparisons.runs.journal import Journal
+from comparisons.runs.store import Store
 from comparisons.runs.tasks import Task, evaluate_task, plan
 
 FILES = {
@@ -188,7 +188,7 @@ def test_a_failed_computation_costs_its_own_rows_and_the_exit_status(small_grid,
 
 
 def test_results_of_other_code_in_the_folder_are_refused(small_grid, tmp_path, capsys):
-    Journal(tmp_path / "journal.jsonl", "other code", dict, dict)
+    Store(tmp_path / "journal.jsonl", "other code", dict, dict)
     assert run(tmp_path) == 2
     assert "another version of the code" in capsys.readouterr().err
 

@@ -19,7 +19,7 @@ from comparisons.console.exit_status import FAILED, TRACEBACK, WRONG_INPUT, Term
 from comparisons.output.markdown import to_step_summary
 from comparisons.output.style import FORMATS, save
 from comparisons.runs.atomic_files import write_json
-from comparisons.runs.journal import Journal, alone_in
+from comparisons.runs.store import Store, alone_in
 from comparisons.runs.tables import write_table
 
 SOLVE = '["solve", "--model", "jkr", "--quantity", "pull_off_force", "--n", "2", "--k", "0.4", "--mu", "1"]'
@@ -243,14 +243,14 @@ def test_a_full_disk_while_results_are_written_has_status_4(toys, full_disk, tmp
 
 @needs_full_device
 def test_a_full_disk_while_the_journal_is_written(tmp_path, monkeypatch):
-    journal = Journal(tmp_path / "journal.jsonl", "x", dict, dict)
+    journal = Store(tmp_path / "journal.jsonl", "x", dict, dict)
     journal.add({"n": 1})
     full = partial(open, "/dev/full", "a", encoding="utf-8")
     with monkeypatch.context() as patched:
         patched.setattr(Path, "open", lambda path, *mode, **more: full())
         with pytest.raises(OSError, match=r"journal\.jsonl cannot be written"):
             journal.add({"n": 2})
-    assert Journal(tmp_path / "journal.jsonl", "x", dict, dict).entries == [{"n": 1}]
+    assert Store(tmp_path / "journal.jsonl", "x", dict, dict).items == [{"n": 1}]
 
 
 @pytest.mark.parametrize("arguments", [["run", "--jobs", "1"], ["judge"]])
@@ -293,7 +293,7 @@ def test_a_lock_of_another_user(tmp_path, monkeypatch):
     def acquire(lock):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(tmp_path / ".lock"))
 
-    monkeypatch.setattr("comparisons.runs.journal.FileLock.acquire", acquire)
+    monkeypatch.setattr("comparisons.runs.store.FileLock.acquire", acquire)
     with (
         pytest.raises(OSError, match=rf"\.lock.*\({os.strerror(errno.EACCES)}\); choose another folder"),
         alone_in(tmp_path),

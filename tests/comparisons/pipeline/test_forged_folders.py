@@ -11,7 +11,7 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.runs.record import _own_sum
-from comparisons.runs.row_journal import RowJournal
+from comparisons.runs.store import rows_in
 
 PAD = Path(__file__).parents[3] / "docs" / "examples" / "problems" / "graded_pad.toml"
 
@@ -159,7 +159,7 @@ def test_code_that_a_record_names_as_a_model_is_not_run(tmp_path, capsys):
     options = ("--model", "jkr", "--jobs", "1", "--quiet")
     assert main(["sweep", str(tmp_path / "grid.toml"), *options, "--out", str(shard)]) == 0
     spec = f"{tmp_path / 'evil.py'}:Model"
-    journal = RowJournal(shard)
+    journal = rows_in(shard)
     (row,) = (row for row in journal.items if row.model == "jkr")
     journal.add(replace(row, model=spec))
     forge(shard, lambda record: record["arguments"].update(model=[spec]))

@@ -1,4 +1,4 @@
-"""Journal: stored entries, torn lines, and refused files."""
+"""Store: stored entries, torn lines, and refused files."""
 
 import os
 import random
@@ -7,11 +7,11 @@ import sys
 
 import pytest
 
-from comparisons.runs.journal import Journal, alone_in
+from comparisons.runs.store import Store, alone_in
 
 
 def journal(path, fingerprint="x"):
-    return Journal(path, fingerprint, lambda line: line["entry"], lambda entry: {"entry": entry})
+    return Store(path, fingerprint, lambda line: line["entry"], lambda entry: {"entry": entry})
 
 
 @pytest.fixture
@@ -23,7 +23,7 @@ def test_it_gives_back_what_was_added(path):
     first = journal(path)
     for entry in (1.0 / 3.0, "line\nbreak", None, {"list": [1, 2]}):
         first.add(entry)
-    assert journal(path).entries == first.entries
+    assert journal(path).items == first.items
 
 
 @pytest.mark.parametrize("cut", range(1, 30, 7))
@@ -33,17 +33,17 @@ def test_a_line_cut_by_a_crash_is_forgotten_and_the_rest_kept(path, cut):
     first.add("the second, which is longer than that")
     os.truncate(path, path.stat().st_size - cut)
     again = journal(path)
-    assert again.entries == ["the first"]
+    assert again.items == ["the first"]
     again.add("the third")
-    assert journal(path).entries == ["the first", "the third"]
+    assert journal(path).items == ["the first", "the third"]
 
 
 @pytest.mark.parametrize("text", ["", '{"finger', '{"fingerprint": "of other code"}'])
 def test_one_cut_in_its_first_line_starts_again(path, text):
     path.write_text(text)
-    assert journal(path).entries == []
+    assert journal(path).items == []
     journal(path).add(1)
-    assert journal(path).entries == [1]
+    assert journal(path).items == [1]
 
 
 def test_entries_of_other_code_are_not_mixed_in(path):
@@ -81,7 +81,7 @@ def test_a_flipped_bit_never_changes_an_entry(path, capsys):
         damaged = bytearray(whole)
         damaged[chosen.randrange(len(whole))] ^= 1 << chosen.randrange(8)
         path.write_bytes(damaged)
-        entries = journal(path).entries
+        entries = journal(path).items
         # In the order of the file; what is missing is computed again.
         assert entries == [entry for entry in ENTRIES if entry in entries]
         assert len(entries) >= len(ENTRIES) - 2
@@ -89,7 +89,7 @@ def test_a_flipped_bit_never_changes_an_entry(path, capsys):
         # The end of the last line is that of a line that was cut.
         assert message or entries == ENTRIES or damaged[-1] != whole[-1]
         messages += message
-        assert journal(path).entries == entries
+        assert journal(path).items == entries
         assert capsys.readouterr().err == ""
     assert messages > 0.9 * FLIPS
 
@@ -98,7 +98,7 @@ def test_damage_to_the_first_line_alone_loses_no_entry(path, capsys):
     journal(path).add("one")
     _, *lines = path.read_text().splitlines(keepends=True)
     path.write_text("".join(['{"fingerprint": "y"}\n', *lines]))
-    assert journal(path).entries == ["one"]
+    assert journal(path).items == ["one"]
     assert "damaged lines (1)" in capsys.readouterr().err
 
 
@@ -107,7 +107,7 @@ def test_a_line_of_other_code_is_not_taken(path, tmp_path):
     other = tmp_path / "other.jsonl"
     journal(other, "y").add(2)
     path.write_text(path.read_text() + other.read_text().splitlines(keepends=True)[1])
-    assert journal(path).entries == [1]
+    assert journal(path).items == [1]
 
 
 def test_what_differs_from_the_code_is_said(path):
@@ -122,20 +122,20 @@ def test_entries_that_are_dropped_are_gone_from_the_file(path):
         first.add(entry)
     assert first.drop(lambda entry: entry % 2) == 2
     first.add(5)
-    assert first.entries == journal(path).entries == [0, 2, 4, 5]
+    assert first.items == journal(path).items == [0, 2, 4, 5]
 
 
 def test_a_nan_is_refused_and_not_kept(path):
     first = journal(path)
     with pytest.raises(ValueError, match="JSON"):
         first.add(float("nan"))
-    assert first.entries == journal(path).entries == []
+    assert first.items == journal(path).items == []
 
 
 OTHER = """
 import sys
 from pathlib import Path
-from comparisons.runs.journal import alone_in
+from comparisons.runs.store import alone_in
 with alone_in(Path(sys.argv[1])):
     print("alone", flush=True)
     sys.stdin.read()
