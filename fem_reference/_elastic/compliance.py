@@ -18,7 +18,7 @@ from scipy import linalg
 
 from fem_reference._elastic.assembly import half_space_of
 from fem_reference._elastic.condensation import condensed
-from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._elastic.mesh import Grid, MeshSpec
 from fem_reference._elastic.trace import Trace, trace_of
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
@@ -153,6 +153,12 @@ LARGEST_ROUNDING = 1e-6
 of the bound (measured: 2.4e-7 under a coating 1e4 times as stiff as the solid, and 1e-10 of its pull-off force)."""
 
 
+SAFE_THICKNESS = 1e-5
+"""Thickness of an element, relative to its depth, from which on rounding is no reason that a stiffness is refused
+(measured under a fall of the modulus between two rows of a table: by a thousand, refused up to 1.3e-6; by a hundred,
+up to 2e-8; by ten, up to 2e-9; under a rise by a hundred not down to 4e-12)."""
+
+
 def _inverse(S: Array, rounding: Array) -> tuple[Array, Array]:
     """Inverse of S, and its change under a small change of S."""
     X = linalg.cho_solve(linalg.cho_factor(S), np.eye(S.shape[0]))
@@ -263,9 +269,25 @@ def compliance_for(
 @lru_cache(maxsize=8)
 def _fixed_compliance(modulus: Any, nu: Any, spec: MeshSpec, size: float) -> FixedCompliance:
     grid = spec.grid()
-    half_space = half_space_of(scaled_modulus(modulus, size), scaled_poisson(nu, size), spec)
-    matrix, rounding = _inverse(*condensed(half_space))
+    try:
+        half_space = half_space_of(scaled_modulus(modulus, size), scaled_poisson(nu, size), spec)
+        matrix, rounding = _inverse(*condensed(half_space))
+    except NotConverged as error:
+        _refuse_thin_elements(grid, size, error)
+        raise
     return FixedCompliance(trace_of(grid, spec.order), matrix, size, half_space.unknowns, rounding)
+
+
+def _refuse_thin_elements(grid: Grid, size: float, error: NotConverged) -> None:
+    """Say which change of the modulus has elements so thin that rounding spoils their stiffness, if one has."""
+    thickness = np.diff(grid.z)[1:] / grid.z[2:]
+    thinnest = int(np.argmin(thickness))
+    if thickness[thinnest] < SAFE_THICKNESS:
+        raise NotConverged(
+            f"the solid changes so fast at the depth {size * grid.z[thinnest + 2]:.6g} that the elements there are "
+            f"{thickness[thinnest]:.1e} of that depth thick, and rounding can spoil the stiffness of those below "
+            f"{SAFE_THICKNESS:g}; make the change longer, or sharp as between two layers"
+        ) from error
 
 
 def scaled_modulus(modulus: Modulus, size: float) -> Modulus:

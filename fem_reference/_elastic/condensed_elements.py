@@ -124,5 +124,5 @@ def _halves(blocks: Array, couplings: Array) -> tuple[Array, Array]:
     try:
         roots = np.linalg.cholesky(blocks)
     except np.linalg.LinAlgError as error:
-        raise NotConverged(f"an element is not positive definite ({error}); check modulus, mesh and nu") from error
+        raise NotConverged("an element is not positive definite; check modulus, mesh and nu") from error
     return np.asarray(roots, float), np.asarray(np.linalg.solve(roots, couplings), float)

@@ -108,7 +108,12 @@ def _kept_nodes(grid: Grid) -> Index:
 def _double(A: Array, B: Array, D: Array, factor: float) -> Array:
     """Stiffness of infinitely many self-similar shells; `factor` scales one shell to the next."""
     for _ in range(DOUBLINGS):
-        root = linalg.cholesky(D + factor * A, lower=True)
+        try:
+            root = linalg.cholesky(D + factor * A, lower=True)
+        except linalg.LinAlgError as error:
+            raise NotConverged(
+                "the stiffness of the exterior is not positive definite; check modulus and mesh"
+            ) from error
         inner = linalg.solve_triangular(root, B.T, lower=True)
         update = inner.T @ inner
         A = A - update

@@ -7,13 +7,15 @@ import pytest
 
 from fem_reference._elastic import exterior
 from fem_reference._elastic.assembly import assemble_half_space
-from fem_reference._elastic.compliance import _inverse
+from fem_reference._elastic.compliance import _inverse, compliance_for
 from fem_reference._elastic.condensation import condensed, surface_stiffness
+from fem_reference._elastic.depth_scales import depth_scales
 from fem_reference._elastic.dissection import LEAF, condensed_on
 from fem_reference._elastic.dof_ordering import both_components
 from fem_reference._elastic.elasticity import element_places, stiffness
 from fem_reference._elastic.line_functions import line_functions, line_projection
 from fem_reference._elastic.mesh import MeshSpec, graded_grid, uniform_grid
+from fem_reference.depth_profiles import TableModulus
 from fem_reference.errors import NotConverged
 from fem_reference.modulus import PowerLawModulus
 
@@ -111,6 +113,15 @@ def test_a_compliance_that_rounding_changes_is_refused():
     _inverse(stiffness, 0.9 * ALLOWED * change)
     with pytest.raises(NotConverged, match="nearly singular"):
         _inverse(stiffness, 5.0 * ALLOWED * change)
+
+
+@pytest.mark.parametrize("step", [1e-10, 1e-7])
+def test_a_step_too_thin_for_its_elements_is_refused_by_its_depth(step):
+    """The first is lost in the shells of the exterior, the second in the surface stiffness."""
+    modulus = TableModulus((0.0, 2.0, 2.0 * (1.0 + step), 6.0), (1.0, 1.2, 0.0012, 0.0014))
+    spec = MeshSpec(0.05, 0.01, 64.0, 0.8, 4, scales=depth_scales(modulus, 1e-3, 64.0))
+    with pytest.raises(NotConverged, match=r"at the depth 2 .* 1e-05; "):
+        compliance_for(modulus, 0.3, spec, 1.0)
 
 
 def test_one_long_element_under_the_contact_is_enough_for_the_exterior(monkeypatch):
