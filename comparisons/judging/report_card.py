@@ -12,6 +12,7 @@ from comparisons.judging.card_gates import DIFFERS, SAME_AGAIN, overall, without
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.fresh_cases import RANDOM
 from comparisons.judging.summary import coverage, coverage_text
+from comparisons.runs.case_columns import with_problem
 
 __all__ = ["card_lines", "given_models", "verdict_sentence"]
 
@@ -96,7 +97,7 @@ def _reason(own: pd.DataFrame, verdict: Verdict) -> str:
         return f"it gives another number when it is evaluated again: {changed['reason'].iloc[0]}"
     if verdict is not Verdict.FAIL:
         return str(worst["reason"].iloc[0]) or f"{len(worst)} of {len(own)} cases"
-    whole = worst[worst["n"].isna()]
+    whole = worst[worst["n"].isna() & (with_problem(worst)["problem"] == "")]
     standing = ~whole["gate"].str.endswith(RANDOM)
     if len(whole):
         return str((whole[standing] if standing.any() else whole)["reason"].iloc[0 if standing.any() else -1])
@@ -104,10 +105,10 @@ def _reason(own: pd.DataFrame, verdict: Verdict) -> str:
     if len(refused):
         asked = coverage(own.loc[own["gate"].isin(refused["gate"]), "status"])["asked"]
         return f"it is not applicable in {len(refused)} of the {asked} cases of the domain that it declares"
+    worst, judged = without_card_gates(worst), without_card_gates(own[own["error"].notna()])
     largest = worst.loc[worst["error"].astype(float).abs().idxmax()]
-    total = int(own["error"].notna().sum())
     return (
-        f"its error is beyond the limits in {len(worst)} of {total} cases, "
+        f"its error is beyond the limits in {len(worst)} of {len(judged)} cases, "
         f"at worst {largest['error']:.3g} in {largest['gate']}"
     )
 

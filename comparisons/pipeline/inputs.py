@@ -17,6 +17,7 @@ from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
 from comparisons.judging.selection import cases_of, load_user_gates, needed_keys
 from comparisons.problem_file.evaluation import REFERENCES
+from comparisons.problem_file.reading import load_problem
 from comparisons.problem_file.variation import Variation, parse_variations, problems_of
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import MODELS, ExternalIdentity, create
@@ -212,6 +213,7 @@ def cases_of_problem(problem: Path, vary: Sequence[str], models: Sequence[str], 
     for quantity in quantities:
         known_name("quantity", quantity, tuple(QUANTITIES), "--quantity")
     chosen = parse_variations(vary)
+    load_problem(problem)
     try:
         found = {Case.of_file(FileProblem.of(problem.name, varied)) for varied in problems_of(problem, chosen)}
     except ValueError as error:

@@ -137,10 +137,13 @@ def check_files(record: dict[str, Any], folder: Path, written_again: Collection[
     """
     for name, stated in record["files"].items():
         path = path_inside(folder, name)
-        if name not in written_again and path.is_file() and _sum_of(path) != stated:
-            raise ValueError(
-                _changed(path, f"write it again by fscm-bench {record['command_name']} with --out {quote(str(folder))}")
-            )
+        remedy = f"write it again by fscm-bench {record['command_name']} with --out {quote(str(folder))}"
+        if name in written_again or not path.exists():
+            continue
+        if not path.is_file():
+            raise ValueError(f"{path} is not a regular file, as the run has written it: {remedy}")
+        if _sum_of(path) != stated:
+            raise ValueError(_changed(path, remedy))
 
 
 def warn_of_other_code(record: dict[str, Any], folder: Path) -> bool:

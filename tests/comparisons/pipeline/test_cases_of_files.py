@@ -273,6 +273,37 @@ def test_a_model_that_knows_the_problems_by_heart_is_wrong_in_fresh_ones(run, tm
     assert main(["judge", str(tmp_path / "out")]) == 1
 
 
+EXACT = """
+from comparisons import Result
+
+class ByHeart:
+    name = "by-heart"
+    version = "1"
+    citation = "none"
+    domain = "everywhere"
+
+    def evaluate(self, problem, quantity):
+        return Result({value}, 0.0)
+"""
+
+
+def test_stored_results_of_an_external_model_are_evaluated_again_and_the_card_says_why_it_fails(run, tmp_path):
+    options = ["--model", f"{tmp_path / 'model.py'}:ByHeart", "--jobs", "1", "--quiet", "--out", str(tmp_path / "out")]
+    files = ["--cases", str(tmp_path / "cases.toml"), "--gates", str(tmp_path / "gates.toml")]
+    assert with_model(run, tmp_path, EXACT.replace("{value}", "1.5"), PADS) == 0
+    assert main(["run", *files, *options]) == 0
+    record = json.loads((tmp_path / "out" / "run.json").read_text())
+    again = record["evaluated_again"]["models"]["by-heart"]
+    assert again["same"]
+    assert all(task["problem"].startswith("pad.toml; ") for task in again["tasks"])
+
+
+def test_the_card_says_why_a_model_fails_on_problems_of_files(run, tmp_path):
+    assert with_model(run, tmp_path, EXACT.replace("{value}", "1.9"), PADS) == 1
+    assert main(["report", str(tmp_path / "out")]) == 0
+    assert "its error is beyond the limits in 8 of 8 cases" in (tmp_path / "out" / "report.html").read_text()
+
+
 def test_problems_without_a_range_have_no_fresh_ones(run, tmp_path):
     cases = PADS.replace('vary = { "solid.E" = ["1 MPa", "2 MPa", "30 MPa"] }\n', "")
     known = dimensionless_problem(problem_of(PAD, tmp_path))[0].mu

@@ -126,6 +126,13 @@ def test_the_commands_in_messages_are_quoted(name, small_grid, tmp_path, monkeyp
     assert os.listdir(tmp_path) == [name]
 
 
+def test_a_file_of_another_kind_is_named(shard, capsys):
+    (shard / "results.csv").unlink()
+    os.mkfifo(shard / "results.csv")
+    assert main(["report", str(shard)]) == 2
+    assert "results.csv" in capsys.readouterr().err
+
+
 def test_texts_of_a_record_have_no_control_characters_on_the_terminal(shard, capsys):
     def change(record):
         record["models"]["jkr"]["citation"] = "J. \x1b[2J\x1b]0;title\x07"
