@@ -6,8 +6,8 @@ import os
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.external import manifest
-from comparisons.external.data_model import read_submission
+from comparisons.external import data_model
+from comparisons.external.data_model import DataModel as read_submission
 from comparisons.model import Model
 from comparisons.registry import create
 from comparisons.runs.cases import Case
@@ -196,7 +196,7 @@ def test_too_many_promised_cases_are_refused_before_any_is_built(write_data, mon
     """A file of 1 kB must not cost a minute and 400 MB."""
     folder = write_data(change={"[[covers]]": f"{tables}\n[[covers]]"})
     built = []
-    monkeypatch.setattr(manifest, "Problem", lambda *case: built.append(case))
+    monkeypatch.setattr(data_model, "Problem", lambda *case: built.append(case))
     with pytest.raises(ValueError, match=sentence) as refusal:
         read_submission(folder)
     assert "\n" not in str(refusal.value)

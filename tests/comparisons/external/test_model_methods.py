@@ -3,7 +3,7 @@
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.external.model_methods import check_methods
+from comparisons.external.worker import check_methods
 from comparisons.external.model_source import load_model, source_of
 from comparisons.model import ComputationFailed
 

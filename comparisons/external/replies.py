@@ -1,0 +1,264 @@
+"""Replies of the process of a model: descriptions, results and curves, each with one sentence for an error.
+
+The worker turns what a model returns into these; the parent reads all of them again, since a model can write to the
+pipe in place of the worker.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import numbers
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NoReturn
+
+import numpy as np
+
+from comparisons.domain import Domain
+from comparisons.external.fingerprint import fingerprint
+from comparisons.external.text_rules import model_name, one_line
+from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
+
+__all__ = [
+    "LARGEST_CURVE",
+    "TEXTS",
+    "Description",
+    "column",
+    "count",
+    "curve_of",
+    "described",
+    "kind",
+    "parsed",
+    "real",
+    "result_of",
+]
+
+#: What every model states of itself, and what it may state besides.
+TEXTS = ("name", "version", "citation", "domain")
+_STATED = {*TEXTS, "limits", "applies_to", "files", "curve"}
+#: What the worker finds out of a model in Python.
+_OF_WORKER = {"digest", "hashed", "physical"}
+
+#: Digits of the digest that are kept in the version of a model.
+_DIGEST = 12
+
+#: Most points of a curve.
+LARGEST_CURVE = 1_000_000
+#: Counts (of unknowns, of iterations) are below it: tables store them with 64 bits and a sign.
+_LARGEST_COUNT = 2**63
+
+
+@dataclass(frozen=True, slots=True)
+class Description:
+    """A model; its texts are single printable lines, and its version ends in a digest of its files."""
+
+    name: str
+    version: str
+    citation: str
+    domain: str
+    limits: tuple[str, ...]
+    applies_to: Domain | None
+    hashed: str
+    physical: bool
+    has_curve: bool
+
+
+def parsed(line: bytes) -> dict[str, Any]:
+    """Return the JSON object of a line, whose status is one of the three.
+
+    Examples
+    --------
+    >>> parsed(b"1.7")
+    Traceback (most recent call last):
+    comparisons.model.ComputationFailed: its process wrote '1.7', which is not one JSON object in one line
+    """
+    try:
+        reply = json.loads(line.decode(), parse_constant=_refuse_constant)
+    except (ValueError, RecursionError):
+        reply = None
+    if not isinstance(reply, dict):
+        shown = one_line(repr(line[:200].decode(errors="replace").strip()), 80)
+        raise ComputationFailed(f"its process wrote {shown}, which is not one JSON object in one line")
+    return reply
+
+
+def _refuse_constant(name: str) -> NoReturn:
+    raise ComputationFailed(f"its process wrote {name}, which is not a finite number, and which JSON does not have")
+
+
+def _outcome(reply: dict[str, Any], known: set[str], needed: tuple[str, ...]) -> dict[str, Any]:
+    """Return a reply that has a result, with known keys and those that it needs; raise what another status means."""
+    status = reply.get("status")
+    if status in ("not-applicable", "failed"):
+        reason = reply.get("reason", "")
+        text = one_line(reason) if isinstance(reason, str) else ""
+        raise (NotApplicable if status == "not-applicable" else ComputationFailed)(text or "the model gave no reason")
+    if status != "ok":
+        raise ComputationFailed(
+            f'the model gave {kind(status)} as status, which is not "ok", "not-applicable" or "failed"'
+        )
+    if unknown := sorted(reply.keys() - known - {"status"}):
+        raise ComputationFailed(f"the model gave the unknown key {one_line(repr(unknown[0]), 60)}")
+    if missing := [name for name in needed if name not in reply]:
+        raise ComputationFailed(f"the reply of the model has no {', '.join(missing)}")
+    return reply
+
+
+def described(reply: dict[str, Any], source: dict[str, Any]) -> Description:
+    """Return what the reply to the request ``describe`` states.
+
+    Parameters
+    ----------
+    reply : dict
+    source : dict
+        Of the model; the files of a program are hashed here.
+
+    Raises
+    ------
+    comparisons.model.ComputationFailed
+        If it does not describe a model; the sentence has the reason.
+    """
+    program = source["kind"] == "program"
+    reply = _outcome({"status": "ok"} | reply, _STATED if program else _STATED | _OF_WORKER, TEXTS)
+    for name in TEXTS:
+        if not isinstance(reply[name], str):
+            raise ComputationFailed(f"the model gave {kind(reply[name])} as {name}, which is not a text")
+    limits = reply.get("limits", [])
+    if not isinstance(limits, list) or not all(isinstance(limit, str) for limit in limits):
+        raise ComputationFailed(
+            f'limits = {kind(limits)} is not a list of texts such as ("jkr",): it names where the model is exact'
+        )
+    if program:
+        file = Path(source["file"])
+        digest, hashed = fingerprint({file.parent: file}, reply.get("files", ()), skip=source["skip"])
+    else:
+        digest, hashed = str(reply.get("digest")), str(reply.get("hashed"))
+    domain = reply.get("applies_to")
+    try:
+        return Description(
+            model_name(reply["name"]),
+            f"{one_line(reply['version'], 60)} ({one_line(digest)[:_DIGEST]})",
+            one_line(reply["citation"]),
+            one_line(reply["domain"]),
+            tuple(one_line(limit, 60) for limit in limits),
+            None if domain is None else Domain.of(domain),
+            one_line(hashed),
+            bool(reply.get("physical")),
+            reply.get("curve") is True,
+        )
+    except ValueError as error:
+        raise ComputationFailed(one_line(str(error))) from None
+
+
+def result_of(reply: dict[str, Any]) -> Result:
+    """Return the result that a reply has."""
+    reply = _outcome(reply, {"value", "u_num", "size", "iterations", "residual"}, ("value", "u_num"))
+    return Result(
+        real("value", reply["value"]),
+        real("u_num", reply["u_num"]),
+        size=count("size", reply.get("size", 0)),
+        iterations=count("iterations", reply.get("iterations", 0)),
+        residual=real("residual", reply.get("residual", 0.0)),
+    )
+
+
+def curve_of(reply: dict[str, Any]) -> Curve:
+    """Return the curve that a reply has."""
+    reply = _outcome(reply, {"displacement", "load", "columns"}, ("displacement", "load"))
+    more = reply.get("columns", {})
+    if not isinstance(more, dict):
+        raise ComputationFailed(f"the model gave {kind(more)} as columns, which is not a table of columns")
+    columns = {name: column(name, reply[name]) for name in ("displacement", "load")}
+    columns |= {one_line(name, 60): column(name, values) for name, values in more.items()}
+    if len(set(map(len, columns.values()))) != 1:
+        listed = ", ".join(f"{name} {len(values)}" for name, values in columns.items())
+        raise ComputationFailed(f"the columns of the curve have different lengths: {listed}")
+    return Curve(columns.pop("displacement"), columns.pop("load"), columns)
+
+
+def real(name: str, value: object) -> float:
+    """Return a finite real number.
+
+    Raises
+    ------
+    comparisons.model.ComputationFailed
+        If it is none.
+
+    Examples
+    --------
+    >>> real("value", "1.5")
+    Traceback (most recent call last):
+    comparisons.model.ComputationFailed: the model gave str '1.5' as value, which is not a real number
+    """
+    if isinstance(value, bool | np.bool_) or not isinstance(value, numbers.Real):
+        raise ComputationFailed(f"the model gave {kind(value)} as {name}, which is not a real number")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
+        raise ComputationFailed(f"the model gave {number} as {name}, which is not a finite number")
+    return number
+
+
+def count(name: str, value: object) -> int:
+    """Return a count, as the stored tables have it.
+
+    Raises
+    ------
+    comparisons.model.ComputationFailed
+        If it is none.
+
+    Examples
+    --------
+    >>> count("size", 3.0)
+    3
+    """
+    number = int(real(name, value))
+    if not 0 <= number < _LARGEST_COUNT:
+        raise ComputationFailed(
+            f"the model gave {kind(value)} as {name}, which is outside [0, 2^63): it is a number of steps or unknowns"
+        )
+    return number
+
+
+def column(name: str, values: object) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    """Return a column of a curve.
+
+    Raises
+    ------
+    comparisons.model.ComputationFailed
+        If it is not a list of finite real numbers.
+
+    Examples
+    --------
+    >>> column("load", [0, 1.5]).tolist()
+    [0.0, 1.5]
+    """
+    try:
+        array = np.asarray(values)
+    except ValueError:  # lists of different lengths
+        array = np.empty((0, 0))
+    if array.ndim != 1 or array.dtype.kind not in "fiu" or not 1 <= len(array) <= LARGEST_CURVE:
+        raise ComputationFailed(
+            f"column {one_line(name, 60)} of the curve is {kind(values)}, not 1 to {LARGEST_CURVE} real numbers"
+        )
+    if not np.isfinite(array).all():
+        raise ComputationFailed(f"column {one_line(name, 60)} of the curve has values that are not finite")
+    return array.astype(float)
+
+
+def kind(value: object) -> str:
+    """Describe a value; of its own text at most one line.
+
+    Examples
+    --------
+    >>> kind(None), kind([1])
+    ('NoneType None', 'an object of type list')
+    """
+    if isinstance(value, np.ndarray):
+        return f"an array of shape {value.shape} and type {value.dtype}"
+    if isinstance(value, str | int | float | complex | None):
+        return one_line(f"{type(value).__name__} {value!r}", 80)
+    return f"an object of type {one_line(type(value).__name__, 60)}"
