@@ -35,19 +35,16 @@ _LONGEST_REPLY = 200_000_000
 #: Seconds that a process may take to end after its pipe has closed; a loaded machine took more than one.
 _END_SECONDS = 10.0
 
+#: Seconds in which a second line of a program is noticed at once; a later one costs the next request.
+_AFTER_REPLY = 0.005
+
 #: Bytes of the end of stderr that are read for a message.
 _LAST_WORDS = 1000
 
 #: The only variables of our environment that a child gets: enough to find libraries, no token and no path of ours.
-_ENVIRONMENT = (
-    "PATH",
-    "LANG",
-    "LC_ALL",
-    "LD_LIBRARY_PATH",
-    "DYLD_LIBRARY_PATH",
-    "VIRTUAL_ENV",
-    "CONDA_PREFIX",
-)
+_ENVIRONMENT = ("PATH", "LANG", "LC_ALL", "LD_LIBRARY_PATH", "DYLD_LIBRARY_PATH", "VIRTUAL_ENV", "CONDA_PREFIX")
+#: Which kernels OpenBLAS takes decides the last digits: those of the child are those of the references here.
+_KERNELS = "OPENBLAS_"
 _ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 
 _PROGRAM = """
@@ -98,7 +95,7 @@ class Child:
         """
         if self._refusal:
             raise ComputationFailed(self._refusal)
-        if self._has_ended():
+        if self._has_ended(0.0):
             self.close()
         if self._process is None:
             again, first = self._start(), self.description
@@ -106,9 +103,11 @@ class Child:
                 self.close()
                 self._refusal = contradiction((first.name, first.version), (again.name, again.version))
                 raise ComputationFailed(self._refusal)
-        reply = self._exchange(request)
+        reply = self._exchange(request, {})
         # Only the reply to a case shows that the model can be in time; loading it again does not.
         self._overdue = 0
+        if self._source["kind"] == "program" and self._has_ended(_AFTER_REPLY):
+            self.close()
         return reply
 
     def close(self) -> None:
@@ -120,13 +119,15 @@ class Child:
         try:
             self._process = self._launch()
             self._line(_START)
-            return described(self._exchange({"request": "describe"}), self._source)
+            return described(self._exchange({"request": "describe"}, {"status": "ok"}), self._source)
         except BaseException:
             self.close()
             raise
 
     def _launch(self) -> subprocess.Popen[bytes]:
-        environment = {name: os.environ[name] for name in _ENVIRONMENT if name in os.environ}
+        environment = {
+            name: value for name, value in os.environ.items() if name in _ENVIRONMENT or name.startswith(_KERNELS)
+        }
         scratch = os.path.abspath(tempfile.mkdtemp(prefix=cleaner.PREFIX))
         self._open.callback(cleaner.remove, scratch)
         remover = self._popen([sys.executable, "-I", "-S", cleaner.__file__, scratch], "/", environment)
@@ -157,23 +158,23 @@ class Child:
         self._open.callback(_end, process)
         return process
 
-    def _has_ended(self) -> bool:
+    def _has_ended(self, seconds: float) -> bool:
         """Whether the process has ended; a failure if it wrote something without a request."""
         output = self._output()
-        if output < 0 or not select.select([output], [], [], 0)[0]:
+        if output < 0 or not select.select([output], [], [], seconds)[0]:
             return False
         if os.read(output, 1):
             self.close()
-            raise ComputationFailed("its process wrote more than one line for the request before this one")
+            raise ComputationFailed("its process wrote more than one line for one request")
         return True
 
     def _output(self) -> int:
         return self._process.stdout.fileno() if self._process and self._process.stdout else -1
 
-    def _exchange(self, request: dict[str, Any]) -> dict[str, Any]:
+    def _exchange(self, request: dict[str, Any], default: dict[str, Any]) -> dict[str, Any]:
         try:
             _write(self._process, json.dumps(request, allow_nan=False))
-            return parsed(self._line(self._seconds))
+            return parsed(self._line(self._seconds), default)
         except ComputationFailed:
             self.close()
             raise

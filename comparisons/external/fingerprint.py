@@ -72,7 +72,7 @@ def fingerprint(
         beside, words = _of_root(root, installed, imported, skipped)
         files |= {f"{number}/{path.relative_to(root).as_posix()}": path for path in {file, *beside}}
         parts.append(words)
-    named = _declared(declared, next(iter(roots), Path.cwd()))
+    named = _declared(declared, next(iter(roots), Path()))
     if named:
         parts.append(f"{len(named)} declared file{'s' * (len(named) > 1)}")
     digest, size = _digest(files | named)

@@ -40,6 +40,9 @@ _STATED = {*TEXTS, "limits", "applies_to", "files", "curve"}
 #: What the worker finds out of a model in Python.
 _OF_WORKER = {"digest", "hashed", "physical"}
 
+#: Status of a reply -> the exception that it means.
+_STATUSES = {"ok": Exception, "not-applicable": NotApplicable, "failed": ComputationFailed}
+
 #: Digits of the digest that are kept in the version of a model.
 _DIGEST = 12
 
@@ -64,12 +67,18 @@ class Description:
     has_curve: bool
 
 
-def parsed(line: bytes) -> dict[str, Any]:
-    """Return the JSON object of a line, whose status is one of the three.
+def parsed(line: bytes, default: dict[str, Any]) -> dict[str, Any]:
+    """Return the JSON object of a line, with a status.
+
+    Parameters
+    ----------
+    line : bytes
+    default : dict
+        What it has where the line states nothing else.
 
     Examples
     --------
-    >>> parsed(b"1.7")
+    >>> parsed(b"1.7", {})
     Traceback (most recent call last):
     comparisons.model.ComputationFailed: its process wrote '1.7', which is not one JSON object in one line
     """
@@ -80,6 +89,11 @@ def parsed(line: bytes) -> dict[str, Any]:
     if not isinstance(reply, dict):
         shown = one_line(repr(line[:200].decode(errors="replace").strip()), 80)
         raise ComputationFailed(f"its process wrote {shown}, which is not one JSON object in one line")
+    reply = default | reply
+    if reply.get("status") not in [*_STATUSES]:
+        raise ComputationFailed(
+            f"the model gave {kind(reply.get('status'))} as status, which is none of {', '.join(_STATUSES)}"
+        )
     return reply
 
 
@@ -89,15 +103,10 @@ def _refuse_constant(name: str) -> NoReturn:
 
 def _outcome(reply: dict[str, Any], known: set[str], needed: tuple[str, ...]) -> dict[str, Any]:
     """Return a reply that has a result, with known keys and those that it needs; raise what another status means."""
-    status = reply.get("status")
-    if status in ("not-applicable", "failed"):
+    if reply["status"] != "ok":
         reason = reply.get("reason", "")
         text = one_line(reason) if isinstance(reason, str) else ""
-        raise (NotApplicable if status == "not-applicable" else ComputationFailed)(text or "the model gave no reason")
-    if status != "ok":
-        raise ComputationFailed(
-            f'the model gave {kind(status)} as status, which is not "ok", "not-applicable" or "failed"'
-        )
+        raise _STATUSES[reply["status"]](text or "the model gave no reason")
     if unknown := sorted(reply.keys() - known - {"status"}):
         raise ComputationFailed(f"the model gave the unknown key {one_line(repr(unknown[0]), 60)}")
     if missing := [name for name in needed if name not in reply]:
@@ -120,7 +129,7 @@ def described(reply: dict[str, Any], source: dict[str, Any]) -> Description:
         If it does not describe a model; the sentence has the reason.
     """
     program = source["kind"] == "program"
-    reply = _outcome({"status": "ok"} | reply, _STATED if program else _STATED | _OF_WORKER, TEXTS)
+    reply = _outcome(reply, _STATED if program else _STATED | _OF_WORKER, TEXTS)
     for name in TEXTS:
         if not isinstance(reply[name], str):
             raise ComputationFailed(f"the model gave {kind(reply[name])} as {name}, which is not a text")
@@ -147,7 +156,7 @@ def described(reply: dict[str, Any], source: dict[str, Any]) -> Description:
             bool(reply.get("physical")),
             reply.get("curve") is True,
         )
-    except ValueError as error:
+    except (ValueError, TypeError) as error:
         raise ComputationFailed(one_line(str(error))) from None
 
 
