@@ -44,6 +44,27 @@ mu = [0.1, 1]
 """
 
 
+GATE = """
+[[gate]]
+id = "GIVEN"
+requirement = "The model has the pull-off force of Bradley."
+quantity = "pull_off_force"
+candidate = "given"
+reference = "bradley"
+cases = {}
+metric = "rel"
+lower = -0.1
+upper = 0.1
+max_reference_uncertainty = 1e-6
+basis = "derived"
+grounds = "a gate of this test"
+min_cases = 2
+min_coverage = 0.9
+tier = "quick"
+not_applicable = "leave-out"
+"""
+
+
 @pytest.fixture
 def few_cases(monkeypatch, no_cards):
     """A run has four cases and makes no report cards."""

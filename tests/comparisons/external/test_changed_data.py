@@ -9,23 +9,8 @@ from comparisons.external.model_source import close_models
 from comparisons.runs.record import read_record
 from comparisons.runs.tables import read_table
 
-GATE = """
-[[gate]]
-id = "CLOSE"
-requirement = "The force is that of Bradley."
-quantity = "pull_off_force"
-candidate = "given"
-reference = "bradley"
-cases = { mu = [0.1, 1] }
-metric = "rel"
-lower = -0.01
-upper = 0.01
-max_reference_uncertainty = 1e-6
-basis = "derived"
-grounds = "a gate of this test"
-min_cases = 4
-tier = "quick"
-"""
+from .conftest import GATE
+
 PAD = Path(__file__).parents[3] / "docs" / "examples" / "problems" / "graded_pad.toml"
 
 

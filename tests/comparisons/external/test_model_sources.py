@@ -12,27 +12,10 @@ from comparisons.registry import create
 from comparisons.runs.cases import Case
 from comparisons.runs.tasks import evaluate
 
-from .conftest import EXAMPLE
+from .conftest import EXAMPLE, GATE
 
 FILE_SOURCE = f"{EXAMPLE / 'double_hertz.py'}:DoubleHertz"
 QUANTITY = "pull_off_force"
-GATE = f"""
-[[gate]]
-id = "GIVEN"
-requirement = "The model has the pull-off force of Bradley to 50 %."
-quantity = "{QUANTITY}"
-candidate = "given"
-reference = "bradley"
-cases = {{ mu = [0.1, 1] }}
-metric = "rel"
-lower = -0.5
-upper = 0.5
-max_reference_uncertainty = 1e-6
-basis = "derived"
-grounds = "a gate of this test"
-min_cases = 4
-tier = "quick"
-"""
 
 
 @pytest.fixture
@@ -49,7 +32,7 @@ def data_source(write_data):
 @pytest.fixture
 def once(few_cases, tmp_path):
     """Return a function that runs a model and returns the status and the rows, without what differs by its nature."""
-    (tmp_path / "gates.toml").write_text(GATE)
+    (tmp_path / "gates.toml").write_text(GATE.replace("0.1", "0.5"))
     options = ["--jobs", "1", "--gates", str(tmp_path / "gates.toml")]
 
     def go(spec, out):
