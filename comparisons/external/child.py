@@ -175,7 +175,8 @@ class Child:
         try:
             _write(self._process, json.dumps(request, allow_nan=False))
             return parsed(self._line(self._seconds), default)
-        except ComputationFailed:
+        except BaseException:
+            # Also after Ctrl-C: a late reply would be taken for that to the next request.
             self.close()
             raise
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import os
-import pwd
 import stat
 import sys
 from collections.abc import Collection, Iterable, Iterator, Mapping
@@ -137,6 +136,8 @@ def _of_root(
 
 def _is_shared(root: Path) -> bool:
     """Whether a folder has other uses than the model: home, root, temporary files, results."""
+    import pwd  # Not on Windows, where no model that is code is loaded.
+
     home = Path(pwd.getpwuid(os.getuid()).pw_dir).resolve()
     return root in (home, root.parent) or bool(root.stat().st_mode & stat.S_ISVTX) or _has(root, _OF_A_RUN)
 

@@ -54,19 +54,20 @@ def serve(source: dict[str, Any], megabytes: float, seconds: float) -> None:
     model: Any = None
     for line in requests:
         request = json.loads(line)
-        reply: dict[str, Any]
+        loading = request["request"] == "describe"
         try:
             cpu_seconds_from_now(seconds)
-            if request["request"] == "describe":
+            if loading:
                 model, files = _loaded(source)
                 reply = _description(model, files, source)
             else:
                 reply = {"evaluate": _evaluated, "curve": _curve}[request["request"]](model, request, source)
+            text = json.dumps({"status": "ok"} | reply, allow_nan=False)
         except NotApplicable as refusal:
-            reply = {"status": "not-applicable", "reason": _words(refusal)}
+            text = json.dumps({"status": "not-applicable", "reason": _words(refusal)})
         except BaseException as error:
-            reply = {"status": "failed", "reason": _explain(error, megabytes, model is None)}
-        replies.write(json.dumps({"status": "ok"} | reply, allow_nan=False) + "\n")
+            text = json.dumps({"status": "failed", "reason": _explain(error, megabytes, loading)})
+        replies.write(text + "\n")
         replies.flush()
 
 

@@ -178,6 +178,8 @@ def test_a_name_that_could_do_harm_is_refused(name):
         ("class Model: name = version = citation = domain = '<b>'; evaluate = max", "letters, digits"),
         ("class Model: name = version = citation = domain = 'jkr'; evaluate = max", "a model of fscm-bench"),
         ("class Model: name = version = citation = domain = 'x'; evaluate = max; limits = 'jkr'", "limits"),
+        ("class Model: name = version = citation = domain = 'x'; evaluate = max; limits = max", "limits|JSON"),
+        ("class Model: name = version = citation = domain = 'x'; evaluate = max; applies_to = 1", "applies_to"),
         ("class Model:\n    def __init__(self):\n        raise ValueError('no such table')", "no such table"),
         ("class Model:\n    def __init__(self, radius):\n        pass", "radius"),
     ],
@@ -186,7 +188,7 @@ def test_one_that_cannot_be_loaded_is_wrong_input(tmp_path, capsys, text, senten
     (tmp_path / "stranger.py").write_text(text)
     assert main(["solve", "--model", f"{tmp_path / 'stranger.py'}:Model", *FORCE]) == 2
     shown = capsys.readouterr()
-    assert sentence in shown.err
+    assert any(words in shown.err for words in sentence.split("|"))
     assert "NotApplicable" not in shown.err
     assert shown.err.count("\n") == 1
     assert shown.out == ""
