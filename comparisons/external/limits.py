@@ -13,6 +13,7 @@ import time
 
 __all__ = ["MEMORY_LIMIT", "TIME_LIMIT", "cpu_seconds_from_now", "limit_memory_and_files", "limit_of_environment"]
 
+#: Names of the environment variables.
 TIME_LIMIT, MEMORY_LIMIT = "FSCM_BENCH_TIME_LIMIT", "FSCM_BENCH_MEMORY_LIMIT"
 _DEFAULTS = {TIME_LIMIT: 60.0, MEMORY_LIMIT: 4096.0}
 

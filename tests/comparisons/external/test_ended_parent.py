@@ -56,11 +56,10 @@ def test_process_and_scratch_folder_end_with_the_parent_and_other_files_stay(wri
 
 def test_a_link_in_place_of_the_scratch_folder_is_not_followed(tmp_path):
     kept = tmp_path / "kept"
-    kept.mkdir(mode=0o755)
-    (kept / "file").touch()
+    (kept / "closed").mkdir(parents=True, mode=0o500)
     (tmp_path / "link").symlink_to(kept)
     cleaner.remove(str(tmp_path / "link"))
-    assert (kept / "file").exists()
+    assert (kept / "closed").stat().st_mode & 0o777 == 0o500
     (tmp_path / "folder" / "closed").mkdir(parents=True, mode=0)
     (tmp_path / "folder").chmod(0)
     assert cleaner.remove(str(tmp_path / "folder"))
