@@ -7,35 +7,19 @@ pipe in place of the worker.
 from __future__ import annotations
 
 import json
-import math
-import numbers
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
 
-import numpy as np
-
 from comparisons.domain import Domain
 from comparisons.external.fingerprint import fingerprint
-from comparisons.external.text_rules import model_name, one_line
+from comparisons.external.reply_checks import column, count, kind, real
+from comparisons.external.text_rules import TEXTS, model_name, one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 
-__all__ = [
-    "LARGEST_CURVE",
-    "TEXTS",
-    "Description",
-    "column",
-    "count",
-    "curve_of",
-    "described",
-    "kind",
-    "parsed",
-    "real",
-    "result_of",
-]
+__all__ = ["Description", "curve_of", "described", "parsed", "result_of"]
 
-#: What every model states of itself, and what it may state besides.
-TEXTS = ("name", "version", "citation", "domain")
+#: What a model states of itself.
 _STATED = {*TEXTS, "limits", "applies_to", "files", "curve"}
 #: What the worker finds out of a model in Python.
 _OF_WORKER = {"digest", "hashed", "physical"}
@@ -45,11 +29,6 @@ _STATUSES = {"ok": Exception, "not-applicable": NotApplicable, "failed": Computa
 
 #: Digits of the digest that are kept in the version of a model.
 _DIGEST = 12
-
-#: Most points of a curve.
-LARGEST_CURVE = 1_000_000
-#: Counts (of unknowns, of iterations) are below it: tables store them with 64 bits and a sign.
-_LARGEST_COUNT = 2**63
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,90 +163,3 @@ def curve_of(reply: dict[str, Any]) -> Curve:
         listed = ", ".join(f"{name} {len(values)}" for name, values in columns.items())
         raise ComputationFailed(f"the columns of the curve have different lengths: {listed}")
     return Curve(columns.pop("displacement"), columns.pop("load"), columns)
-
-
-def real(name: str, value: object) -> float:
-    """Return a finite real number.
-
-    Raises
-    ------
-    comparisons.model.ComputationFailed
-        If it is none.
-
-    Examples
-    --------
-    >>> real("value", "1.5")
-    Traceback (most recent call last):
-    comparisons.model.ComputationFailed: the model gave str '1.5' as value, which is not a real number
-    """
-    if isinstance(value, bool | np.bool_) or not isinstance(value, numbers.Real):
-        raise ComputationFailed(f"the model gave {kind(value)} as {name}, which is not a real number")
-    try:
-        number = float(value)
-    except OverflowError:
-        number = math.inf
-    if not math.isfinite(number):
-        raise ComputationFailed(f"the model gave {number} as {name}, which is not a finite number")
-    return number
-
-
-def count(name: str, value: object) -> int:
-    """Return a count, as the stored tables have it.
-
-    Raises
-    ------
-    comparisons.model.ComputationFailed
-        If it is none.
-
-    Examples
-    --------
-    >>> count("size", 3.0)
-    3
-    """
-    number = int(real(name, value))
-    if not 0 <= number < _LARGEST_COUNT:
-        raise ComputationFailed(
-            f"the model gave {kind(value)} as {name}, which is outside [0, 2^63): it is a number of steps or unknowns"
-        )
-    return number
-
-
-def column(name: str, values: object) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    """Return a column of a curve.
-
-    Raises
-    ------
-    comparisons.model.ComputationFailed
-        If it is not a list of finite real numbers.
-
-    Examples
-    --------
-    >>> column("load", [0, 1.5]).tolist()
-    [0.0, 1.5]
-    """
-    try:
-        array = np.asarray(values)
-    except ValueError:  # lists of different lengths
-        array = np.empty((0, 0))
-    if array.ndim != 1 or array.dtype.kind not in "fiu" or not 1 <= len(array) <= LARGEST_CURVE:
-        raise ComputationFailed(
-            f"column {one_line(name, 60)} of the curve is {kind(values)}, not 1 to {LARGEST_CURVE} real numbers"
-        )
-    if not np.isfinite(array).all():
-        raise ComputationFailed(f"column {one_line(name, 60)} of the curve has values that are not finite")
-    return array.astype(float)
-
-
-def kind(value: object) -> str:
-    """Describe a value; of its own text at most one line.
-
-    Examples
-    --------
-    >>> kind(None), kind([1])
-    ('NoneType None', 'an object of type list')
-    """
-    if isinstance(value, np.ndarray):
-        return f"an array of shape {value.shape} and type {value.dtype}"
-    if isinstance(value, str | int | float | complex | None):
-        return one_line(f"{type(value).__name__} {value!r}", 80)
-    return f"an object of type {one_line(type(value).__name__, 60)}"

@@ -20,8 +20,8 @@ from comparisons.domain import declared_domain
 from comparisons.external.fingerprint import fingerprint, imported_files, roots_of
 from comparisons.external.limits import cpu_seconds_from_now
 from comparisons.external.physical_model import InUnits, PhysicalModel
-from comparisons.external.replies import TEXTS, column, count, kind, real
-from comparisons.external.text_rules import one_line
+from comparisons.external.reply_checks import column, count, kind, real
+from comparisons.external.text_rules import TEXTS, one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from fscm.problem import Problem
 
