@@ -149,10 +149,12 @@ def write_data(tmp_path):
 @pytest.fixture
 def installed_example(tmp_path, monkeypatch):
     """Put the double-Hertz example on the path as an installation leaves it, by its own pyproject.toml."""
-    project = tomllib.loads((EXAMPLE / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    tables = tomllib.loads((EXAMPLE / "pyproject.toml").read_text(encoding="utf-8"))
+    project = tables["project"]
     info = tmp_path / "site-packages" / "double_hertz-1.0.dist-info"
     info.mkdir(parents=True)
-    shutil.copy(EXAMPLE / "double_hertz.py", info.parent)
+    for module in tables["tool"]["setuptools"]["py-modules"]:
+        shutil.copy(EXAMPLE / f"{module}.py", info.parent)
     (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {project['version']}\n")
     entries = "".join(f"{name} = {place}\n" for name, place in project["entry-points"][GROUP].items())
     (info / "entry_points.txt").write_text(f"[{GROUP}]\n{entries}")
