@@ -71,6 +71,8 @@ class Result:
         Wall-clock time of the computation.
     observed_order : float or None
         Order of convergence seen over several meshes; None where none was measured.
+    reason : str
+        One sentence on what the value depends on besides; else empty.
 
     Examples
     --------
@@ -85,6 +87,7 @@ class Result:
     residual: float = 0.0
     seconds: float = 0.0
     observed_order: float | None = None
+    reason: str = ""
 
     def __post_init__(self) -> None:
         if not math.isfinite(self.value):

@@ -90,6 +90,8 @@ def _text(found: PhysicalValue) -> str:
         scaled = found.dimensionless
         number = si_text(float(scaled["value"]), float(scaled["u_num"]), "1")
         lines.append(f"  dimensionless: {number} {scaled['unit']}")
+    if found.value is not None and found.reason:
+        lines.append(f"  {found.reason}")
     return "\n".join(lines) + "\n"
 
 

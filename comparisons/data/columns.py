@@ -40,22 +40,22 @@ def column(table: str, name: str) -> Column | None:
     's'
     >>> column("results", "depth_of_my_own") is None
     True
-    >>> column("problem_results", "punch.R [m]")
+    >>> column("results", "punch.R [m]")
     Column(unit='m', description='value of the key R of [punch] of the problem file')
     """
     by_file = _tables().get(table)
     layers = [by_file["table"][table].get("column", {}), by_file.get("column", {})] if by_file else []
     found = next((layer[name] for layer in [*layers, _contents()[0]["column"]] if name in layer), None)
-    return Column(**found) if found else _varied(table, name)
+    return Column(**found) if found else _varied(name)
 
 
-def _varied(table: str, name: str) -> Column | None:
+def _varied(name: str) -> Column | None:
     """A key of a problem file that was varied; its unit stands in brackets."""
-    if not table.startswith("problem_"):
+    section, _, key = name.removesuffix("]").partition(".")
+    if section not in ("solid", "punch", "law"):
         return None
-    key, _, unit = name.removesuffix("]").partition(" [")
-    section, dot, key = key.partition(".")
-    return Column(unit or "1", f"value of the key {key} of [{section}] of the problem file") if dot else None
+    key, _, unit = key.partition(" [")
+    return Column(unit or "1", f"value of the key {key} of [{section}] of the problem file")
 
 
 def title(table: str) -> str | None:

@@ -10,12 +10,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
+from pathlib import Path
 from typing import Any
 from zlib import crc32
 
 from comparisons.console.progress import log
 from comparisons.domain import Domain, declared_domain
 from comparisons.judging.fresh_points import REACH, Sample, sample
+from comparisons.judging.fresh_problems import case_of_label, fresh_problems
 from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.selection import cases_of, relevant
 from comparisons.registry import ExternalIdentity, create
@@ -34,6 +36,10 @@ _METRICS = ("rel", "abs", "en")
 _ATLAS, _FSCM = "atlas", "fscm"
 #: The largest bound of the atlas (docs/atlas.md), and how many times wider the limits of a gate are where it is used.
 _ATLAS_BOUND, _WIDER = 1e-4, 100.0
+
+
+#: Why a gate on problem files has no fresh cases.
+_NO_RANGE = "its problem files have no key that is varied over a range of numbers, in which fresh cases could be drawn"
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +105,7 @@ class FreshCases:
                 "gate": part.gate.id.removesuffix(RANDOM),
                 "candidate": part.gate.candidate,
                 "reference": part.gate.reference,
-                "cases": [[case.n, case.k, case.mu] for case in part.grid.cases],
+                "cases": [_as_json(case) for case in part.grid.cases],
             }
             for part in self.parts
         ]
@@ -107,11 +113,11 @@ class FreshCases:
         return {"count": self.count, "seed": self.seed, "parts": parts, "undrawn": undrawn}
 
     @classmethod
-    def of_json(cls, stored: Mapping[str, Any], gates: Iterable[Gate]) -> FreshCases:
-        """Return the fresh cases of a record, as far as they are about some gates."""
+    def of_json(cls, stored: Mapping[str, Any], gates: Iterable[Gate], folder: Path) -> FreshCases:
+        """Return the fresh cases of a record, as far as they are about some gates; the folder has the problem files."""
         known = {gate.id: gate for gate in gates}
         parts = tuple(
-            _part(known[one["gate"]], one["candidate"], one["reference"], tuple(Case(*case) for case in one["cases"]))
+            _part(known[one["gate"]], one["candidate"], one["reference"], _of_json(one["cases"], folder))
             for one in stored["parts"]
             if one["gate"] in known
         )
@@ -129,7 +135,8 @@ def draw(
 ) -> FreshCases:
     """Draw fresh cases for every gate of every model that compares one value with one reference.
 
-    A gate of one model whose cases have tags has none, nor has a gate whose own ranges have no room for them.
+    A gate of one model whose cases have tags has none, nor has a gate whose own ranges have no room for them.  Those of
+    problem files are drawn between the values of their varied keys.
 
     Parameters
     ----------
@@ -162,9 +169,18 @@ def draw(
             passed_over += 1
             continue
         domain = domains.get(gate.candidate)
-        standing = [case for case in cases_of(gate, grids, models) if case.file is None]
+        every = cases_of(gate, grids, models)
+        own_seed = [seed, crc32(f"{gate.id} {gate.candidate}".encode())]
+        if of_files := [case for case in every if case.file is not None]:
+            if problems := fresh_problems(of_files, count, own_seed):
+                parts.append(_part(gate, gate.candidate, gate.reference, problems))
+            else:
+                undrawn.append(Undrawn(gate.id, gate.candidate, gate.quantity, _NO_RANGE))
+        standing = [case for case in every if case.file is None]
+        if of_files and not standing:
+            continue
         known = [case for grid in grids if gate.quantity in grid.quantities for case in grid.cases if case.file is None]
-        drawn = sample(gate, domain, standing, known, count, [seed, crc32(f"{gate.id} {gate.candidate}".encode())])
+        drawn = sample(gate, domain, standing, known, count, own_seed)
         if drawn is None:
             passed_over += 1
             continue
@@ -184,6 +200,17 @@ def draw(
     if passed_over:
         log(f"{passed_over} gates have no fresh cases: of curves, with a rival or a reference_at, or of single cases")
     return FreshCases(count, seed, tuple(parts), tuple(undrawn))
+
+
+def _as_json(case: Case) -> list[float] | str:
+    return [case.n, case.k, case.mu] if case.file is None else case.file.label
+
+
+def _of_json(cases: Iterable[list[float] | str], folder: Path) -> tuple[Case, ...]:
+    return tuple(
+        case_of_label(case, folder) if isinstance(case, str) else Case(n=case[0], k=case[1], mu=case[2])
+        for case in cases
+    )
 
 
 def _no_room(name: str, drawn: Sample, standing: int) -> str:

@@ -12,6 +12,7 @@ from comparisons.judging.card_gates import verdict_on_model
 from comparisons.judging.decision import Verdict
 from comparisons.judging.fresh_cases import RANDOM, Undrawn
 from comparisons.judging.judge import verdict_table
+from comparisons.runs.case_columns import with_problem
 
 __all__ = ["WORSE", "compare_with_standing", "judge_undrawn"]
 
@@ -76,6 +77,8 @@ def _between(standing: pd.DataFrame, fresh: pd.DataFrame) -> str:
     between = pd.Series(True, index=new.index)
     for name in ("n", "k", "mu"):
         between &= new[name].between(known[name].min(), known[name].max())
+    # Those of problem files are drawn between the standing ones.
+    between |= with_problem(new)["problem"].fillna("") != ""
     largest, certain = _errors(known), _errors(new[between])
     # What is certain of the error of a fresh case, against the most that the error of a standing one can be.
     much_worse = len(certain) > 0 and _is_much_worse(largest, certain)

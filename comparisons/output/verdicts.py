@@ -19,9 +19,8 @@ from comparisons.output.markdown import markdown
 from comparisons.quantities import CURVES
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.case_columns import with_problem
-from comparisons.runs.cases import split_label
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.rows import PARAMETERS, Key
+from comparisons.runs.rows import PARAMETERS, Key, split_label
 from comparisons.runs.tables import write_table
 
 __all__ = [

@@ -13,7 +13,7 @@ from filelock import FileLock
 from threadpoolctl import threadpool_limits
 
 from comparisons.judging.card_gates import without_card_gates
-from comparisons.judging.selection import cases_of, relevant
+from comparisons.judging.selection import cases_of, key_of, relevant
 from comparisons.numerics.number_text import exact
 from comparisons.output.junit import numbers_text
 from comparisons.output.verdicts import command
@@ -21,11 +21,12 @@ from comparisons.pipeline.inputs import load_cases, read_gates
 from comparisons.pipeline.run import run
 from comparisons.registry import identify
 from comparisons.runs.atomic_files import prepare_folder
+from comparisons.runs.case_columns import keys_in, with_problem
 from comparisons.runs.tasks import case_for
 
 __all__ = ["ExpectedVerdict", "expected_verdicts", "found_verdicts"]
 
-#: Gate, candidate, n, k, mu and nu; None for what is missing.
+#: Gate, and the key of the result of its candidate; of a whole gate its candidate and a number.
 VerdictKey = tuple[Any, ...]
 
 _LOCK = ".pytest.lock"
@@ -40,7 +41,7 @@ class ExpectedVerdict:
     requirement: str
 
 
-def expected_verdicts(gates: Path, models: Sequence[str], tier: str = "quick") -> Iterator[ExpectedVerdict]:
+def expected_verdicts(gates: Path, models: Sequence[str], cases: str | Path = "quick") -> Iterator[ExpectedVerdict]:
     """Yield each gate for each model in each case, in the order of the judge; nothing is computed.
 
     Parameters
@@ -49,8 +50,8 @@ def expected_verdicts(gates: Path, models: Sequence[str], tier: str = "quick") -
         A gates file.
     models : sequence of str
         Names or SPECs.
-    tier : str
-        Of the standing cases.
+    cases : str or Path
+        A tier of the standing cases, or a file of cases.
 
     Raises
     ------
@@ -58,17 +59,18 @@ def expected_verdicts(gates: Path, models: Sequence[str], tier: str = "quick") -
         If a model or a gate is not admissible; one sentence states which.
     """
     names, _ = identify(models)
-    cases = load_cases(tier, names)
-    for gate in relevant(read_gates(gates, cases, names).gates, cases.grids, names):
-        for case in cases_of(gate, cases.grids, names):
+    loaded = load_cases(cases, names)
+    for gate in relevant(read_gates(gates, loaded, names).gates, loaded.grids, names):
+        for case in cases_of(gate, loaded.grids, names):
             own = case_for(gate.candidate, case)
             parameters = " ".join(f"{name}={exact(value)}" for name, value in own.parameters.items())
-            key = (gate.id, gate.candidate, case.n, case.k, case.mu, own.nu)
-            yield ExpectedVerdict(key, f"{gate.id}[{gate.candidate} {parameters}]", gate.requirement)
+            key = (gate.id, *key_of(gate.candidate, gate, case))
+            place = case.label_of_file or parameters
+            yield ExpectedVerdict(key, f"{gate.id}[{gate.candidate} {place}]", gate.requirement)
 
 
 def found_verdicts(
-    gates: Path, models: Sequence[str], tier: str, folder: Path, jobs: int = 1
+    gates: Path, models: Sequence[str], cases: str | Path, folder: Path, jobs: int = 1
 ) -> dict[VerdictKey, tuple[str, str]]:
     """Run and judge; return the verdict of each key with a text: the reason, the numbers and the command.
 
@@ -81,24 +83,23 @@ def found_verdicts(
     """
     prepare_folder(folder)
     with FileLock(folder / _LOCK), threadpool_limits(1):
-        judgement = run(tier, gates, list(models), folder, jobs=jobs).judgement
+        judgement = run(cases, gates, list(models), folder, jobs=jobs).judgement
     assert judgement is not None
     if without_card_gates(judgement.verdicts).empty:
         raise ValueError(f"{gates}: no gate was evaluated: no candidate of a gate is given")
     repeat = partial(command, specs=judgement.specs)
-    rows = [row for _, row in judgement.verdicts.iterrows()]
-    return {_key(row, place): (str(row["verdict"]), _text(row, repeat(row))) for place, row in enumerate(rows)}
+    verdicts = with_problem(judgement.verdicts).rename(columns={"candidate": "model"})
+    keys = keys_in(verdicts)
+    found = {}
+    for place, (key, (_, row)) in enumerate(zip(keys, judgement.verdicts.iterrows(), strict=True)):
+        # One on a whole gate has its place, since there may be several.
+        whole = pd.isna(row["n"]) and not key[-1]
+        name = (row["gate"], row["candidate"], place) if whole else (row["gate"], *key)
+        found[name] = str(row["verdict"]), _text(row, repeat(row), whole=whole)
+    return found
 
 
-def _key(row: pd.Series, place: int) -> VerdictKey:
-    """Return the key of a verdict; one on a whole gate has its place, since there may be several."""
-    if pd.isna(row["n"]):
-        return row["gate"], row["candidate"], place
-    numbers = [None if pd.isna(row[name]) else float(row[name]) for name in ("n", "k", "mu", "nu")]
-    return row["gate"], row["candidate"], *numbers
-
-
-def _text(row: pd.Series, again: str) -> str:
-    whole = f"{row['gate']} of {row['candidate']}: " if pd.isna(row["n"]) else ""
+def _text(row: pd.Series, again: str, *, whole: bool) -> str:
+    before = f"{row['gate']} of {row['candidate']}: " if whole else ""
     numbers = "" if pd.isna(row["error"]) else numbers_text(row)
-    return "\n".join(filter(None, [f"{whole}{row['reason']}", numbers, f"computed again by: {again}"]))
+    return "\n".join(filter(None, [f"{before}{row['reason']}", numbers, f"computed again by: {again}"]))

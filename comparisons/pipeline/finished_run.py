@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.data.contained_paths import path_inside
-from comparisons.data.file_names import COMPARISON_FILES, GATES_TEXT, GRID_TEXT, RUN_FILES, VERDICT_FILES
+from comparisons.data.file_names import COMPARISON_FILES, GATES_TEXT, GRID_TEXT, INPUTS, RUN_FILES, VERDICT_FILES
 from comparisons.data.input_files import LARGEST_TABLE, read_bytes
 from comparisons.judging.decision import Verdict
 from comparisons.pipeline.inputs import Cases, Gates, RunInputs, names_of_inputs
@@ -91,7 +91,7 @@ def write_run(
         cards = make_cards(external, rows, completed.parts, {task.key: task.case for task in inputs.plan()})
         judgement = judge_and_write(target, inputs, tables.results, tables.curves, cards)
     stale = {GRID_TEXT} if rules is not None else {GATES_TEXT, *VERDICT_FILES}
-    _remove_stale(target, {*stale, *COMPARISON_FILES} - {path.name for path in texts})
+    _remove_stale(target, {*stale, *COMPARISON_FILES}, texts)
     shipped = {"shipped": len(found.shipped)} if found.shipped else {}
     counts = {"all": len(rows), "resumed": completed.resumed, **shipped, **_statuses(rows)}
     content = record_content(
@@ -129,7 +129,7 @@ def kept_texts(folder: RunFolder, cases: Cases, gates: Gates | None) -> dict[Pat
     texts = {} if gates is None else {folder.gates_text: gates.text.encode()}
     if cases.tier is None:
         texts[folder.grid_text] = cases.text.encode()
-        texts |= {path_inside(folder.inputs, name): content for name, content in cases.files.items()}
+        texts |= {path_inside(folder.path, f"{INPUTS}/{name}"): content for name, content in cases.files.items()}
     for path, content in texts.items():
         if path.exists() and not folder.journal.exists() and read_bytes(path, LARGEST_TABLE) != content:
             raise ValueError(
@@ -138,15 +138,16 @@ def kept_texts(folder: RunFolder, cases: Cases, gates: Gates | None) -> dict[Pat
     return texts
 
 
-def _remove_stale(folder: RunFolder, names: Collection[str]) -> None:
+def _remove_stale(folder: RunFolder, names: Collection[str], kept: Collection[Path]) -> None:
     """Remove files that an earlier run of the folder has written and that this one does not have."""
     try:
         written = read_record(folder.record)["files"]
     except ValueError:
         return
-    for name in names:
-        if name in written:
-            (folder.path / name).unlink(missing_ok=True)
+    for name in written:
+        path = path_inside(folder.path, name)
+        if (name in names or name.startswith(f"{INPUTS}/")) and path not in kept:
+            path.unlink(missing_ok=True)
 
 
 def _statuses(rows: Sequence[Row]) -> Counter[str]:
@@ -165,7 +166,7 @@ def _digests(cases: Cases, gates: Gates | None) -> dict[str, Any]:
     return {"cases_sha256": cases.sha256} | ({} if gates is None else {"gates_sha256": gates.sha256})
 
 
-def _evaluated_again(completed: Completed[Row]) -> dict[str, Any]:
+def _evaluated_again(completed: Completed) -> dict[str, Any]:
     return {"evaluated_again": completed.evaluated_again} if completed.evaluated_again else {}
 
 

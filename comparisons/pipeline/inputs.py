@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from hashlib import sha256
@@ -10,17 +11,31 @@ from pathlib import Path, PurePath
 from comparisons.data.contained_paths import path_inside
 from comparisons.data.file_names import INPUTS
 from comparisons.data.input_files import LARGEST_TABLE, LARGEST_TEXT, read_bytes, read_text
+from comparisons.data.validation import known_name
 from comparisons.domain import Domain, declared_domain
 from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
 from comparisons.judging.selection import cases_of, load_user_gates, needed_keys
-from comparisons.registry import ExternalIdentity, create
-from comparisons.runs.cases import TIERS, Grid, cases_text, grids, grids_for, load_grids
+from comparisons.problem_file.evaluation import REFERENCES
+from comparisons.problem_file.variation import Variation, parse_variations, problems_of
+from comparisons.quantities import QUANTITIES
+from comparisons.registry import MODELS, ExternalIdentity, create
+from comparisons.runs.cases import TIERS, Case, FileProblem, Grid, cases_text, grids, grids_for, load_grids, order_of
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.rows import Key
 from comparisons.runs.tasks import Task, plan
 
-__all__ = ["Cases", "Gates", "RunInputs", "domains_of", "load_cases", "names_of_inputs", "read_gates", "stored_cases"]
+__all__ = [
+    "Cases",
+    "Gates",
+    "RunInputs",
+    "cases_of_problem",
+    "domains_of",
+    "load_cases",
+    "names_of_inputs",
+    "read_gates",
+    "stored_cases",
+]
 
 #: The name of a text that is in no file, for messages and for the record.
 _TEXT = "a text"
@@ -173,6 +188,56 @@ def load_cases(cases: str | Path, models: Sequence[str] | None, folder: Path | N
         folder = cases.parent
     found = load_grids(text, tier=TIERS[0], source=source, folder=folder)
     return Cases(found, None, text, source, _files(found, folder) if folder else {})
+
+
+def cases_of_problem(problem: Path, vary: Sequence[str], models: Sequence[str], quantities: Sequence[str]) -> Cases:
+    """Return the grid of a problem file for every combination of values of its keys.
+
+    Parameters
+    ----------
+    problem : Path
+        A problem file.
+    vary : sequence of str
+        ``SECTION.KEY=VALUES``, as of `comparisons.problem_file.variation.parse_variation`.
+    models : sequence of str
+        Names; the first of `comparisons.problem_file.evaluation.REFERENCES` among them is the reference, if one is.
+    quantities : sequence of str
+        Of `comparisons.QUANTITIES`.
+
+    Raises
+    ------
+    ValueError
+        One sentence, if a quantity is unknown, or a text or one of the problems is not admissible.
+    """
+    for quantity in quantities:
+        known_name("quantity", quantity, tuple(QUANTITIES), "--quantity")
+    chosen = parse_variations(vary)
+    try:
+        found = {Case.of_file(FileProblem.of(problem.name, varied)) for varied in problems_of(problem, chosen)}
+    except ValueError as error:
+        raise ValueError(f"--vary {error}") from None
+    reference = next((name for name in REFERENCES if name in models), "")
+    grid = Grid(
+        id=problem.stem,
+        title=problem.name,
+        tier=TIERS[0],
+        reference=reference,
+        # Models from outside are given beside the grid, as for every other.
+        models=tuple(name for name in models if name in MODELS) or (REFERENCES[0],),
+        quantities=tuple(quantities),
+        cases=tuple(sorted(found, key=order_of)),
+        problem=problem.name,
+    )
+    return Cases([grid], None, _text_of(grid, chosen), str(problem), _files([grid], problem.parent))
+
+
+def _text_of(grid: Grid, chosen: Sequence[Variation]) -> str:
+    """Return the TOML text of the grid of a problem file."""
+    # A text and a list of texts or numbers have the same form in JSON and in TOML.
+    entries = {name: getattr(grid, name) for name in ("id", "title", "reference", "models", "quantities", "problem")}
+    lines = [f"{name} = {json.dumps(value)}" for name, value in entries.items() if value]
+    vary = ", ".join(f"{json.dumps(each.name)} = {json.dumps(each.values)}" for each in chosen)
+    return "\n".join(["[[grid]]", *lines, f"vary = {{ {vary} }}", ""])
 
 
 def stored_cases(folder: RunFolder, tier: str | None, models: Sequence[str] | None) -> Cases:

@@ -29,7 +29,7 @@ from comparisons.runs.atomic_files import atomic
 from comparisons.runs.case_columns import keys_in
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.record import PROBLEM_SWEEP, check_files, read_record, warn_of_other_code, write_record
+from comparisons.runs.record import check_files, read_record, warn_of_other_code, write_record
 from comparisons.runs.rows import PARAMETERS, Key
 from comparisons.runs.tables import read_table
 from comparisons.runs.tasks import plan
@@ -135,10 +135,6 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
     name, arguments = record["command_name"], record["arguments"]
     if name == "paper":
         raise ValueError(f"{folder} holds figures of the paper, which no gate judges: give the folder of a run")
-    if name == PROBLEM_SWEEP:
-        raise ValueError(
-            f"{folder} holds values of a problem file in SI, which no gate judges: give the folder of a run"
-        )
     if name == "sweep" and gates is None:
         raise ValueError(f"{folder} is the folder of a sweep, which has no gates: give some with --gates FILE")
     check_files(record, folder, written_again=VERDICT_FILES)
@@ -167,7 +163,9 @@ def judge_folder(folder: Path, gates: Path | None = None) -> Judgement:
     external = {name: ExternalIdentity(name, "", spec, citation="", domain="") for name, spec in specs.items()}
     domains = {name: Domain.of_json(tables) for name, tables in record.get("domains", {}).items()}
     fresh = (
-        FreshCases.of_json(record["fresh"], relevant(chosen.gates, cases.grids, models)) if "fresh" in record else None
+        FreshCases.of_json(record["fresh"], relevant(chosen.gates, cases.grids, models), stored.inputs)
+        if "fresh" in record
+        else None
     )
     inputs = RunInputs(cases, chosen, models, external, domains, fresh)
     _warn_of_missing(inputs, results, curves, folder)

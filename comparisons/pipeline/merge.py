@@ -12,7 +12,6 @@ from typing import Any
 from comparisons.data.input_files import read_text
 from comparisons.domain import Domain
 from comparisons.model import ComputationFailed
-from comparisons.numerics.number_text import case_text
 from comparisons.pipeline.finished_run import FinishedRun, write_run
 from comparisons.pipeline.inputs import RunInputs, stored_cases
 from comparisons.pipeline.record_content import now
@@ -55,7 +54,7 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
         If tasks of the sweep are in none of the folders; the others are then merged.
     """
     started = now()
-    records = checked_records(folders, out, "sweep", _common)
+    records = checked_records(folders, out, _common)
     first = next(iter(records))
     inputs = _inputs(first, records[first])
     wanted = {task.key: task for task in inputs.plan()}
@@ -66,15 +65,14 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
         journal = RowJournal(out)
         usable = partial(_usable, wanted=wanted)
         for folder in records:
-            take_rows(folder, RowJournal, journal, usable, _place)
+            take_rows(folder, journal, usable)
         rows = usable(journal.items)
     with atomic(target.grid_text) as file:
         file.write(inputs.cases.text.encode())
     if missing := len(wanted) - len(rows):
         raise ComputationFailed(
             f"{missing} of {len(wanted)} computations are in none of the folders; merge more of them, or compute what "
-            f"is missing by fscm-bench sweep {quote(str(target.grid_text))} --out {quote(str(out))}"
-            f"{_model_option(records[first])}"
+            f"is missing by {_command(target, inputs, records[first])}"
         )
     completed = Completed(rows, len(rows), journal.parts_of(rows), None)
     arguments = {"jobs": 1, "merged": [str(folder) for folder in records]}
@@ -117,12 +115,11 @@ def _usable(rows: Iterable[Row], wanted: Mapping[Any, Task]) -> list[Row]:
     ]
 
 
-def _place(row: Row) -> str:
-    case = {"n": row.n, "k": row.k, "mu": row.mu, "problem": row.problem}
-    return f"{row.quantity} of {row.model} at {case_text(case)}"
-
-
-def _model_option(record: dict[str, Any]) -> str:
-    names: Iterable[str] = record["arguments"]["model"] or ()
+def _command(target: RunFolder, inputs: RunInputs, record: Mapping[str, Any]) -> str:
+    """Return the command that computes what no folder has, in words where the folder has not all of its inputs."""
+    out = quote(str(target.path))
+    if inputs.cases.files:
+        return f"the command of the sweep without --shard and with --out {out}"
     specs = record["arguments"]["external"]
-    return "".join(f" --model {quote(specs.get(name, name))}" for name in names)
+    models = "".join(f" --model {quote(specs.get(name, name))}" for name in record["arguments"]["model"] or ())
+    return f"fscm-bench sweep {quote(str(target.grid_text))} --out {out}{models}"

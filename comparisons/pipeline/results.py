@@ -38,7 +38,7 @@ class Results:
         What the record states of them; empty if there are none.
     """
 
-    completed: Completed[Row]
+    completed: Completed
     shipped: list[Row]
     entry: dict[str, Any]
 

@@ -27,7 +27,7 @@ _MOST_FRESH = 10_000
 
 
 def run(
-    cases: str | Path = "quick",
+    cases: str | Path | Cases = "quick",
     gates: str | Path | None = None,
     models: Sequence[str] | None = None,
     folder: Path | None = None,
@@ -48,8 +48,9 @@ def run(
 
     Parameters
     ----------
-    cases : str or Path
-        A tier of the standing cases ("quick" or "full"), a file of [[grid]] tables without a tier, or the text of one.
+    cases : str, Path or Cases
+        A tier of the standing cases ("quick" or "full"), a file of [[grid]] tables without a tier, or the text of one;
+        or those of a problem file (`comparisons.pipeline.inputs.cases_of_problem`).
     gates : str, Path or None
         A gates file, or the text of one; by default the standing gates for the standing cases, and no gates for others.
     models : sequence of str, optional
@@ -110,7 +111,7 @@ def run(
     # Before anything is computed or written, every model is loaded and every text is read.
     names, external = identify(models or [])
     chosen_models = None if models is None else names
-    chosen = load_cases(cases, chosen_models)
+    chosen = cases if isinstance(cases, Cases) else load_cases(cases, chosen_models)
     rules = None if chosen.tier is None and gates is None else read_gates(gates, chosen, chosen_models)
     if part is not None and rules is not None:
         raise ValueError(f"shard {part} of a run cannot be judged: only cases without gates are computed in shards")

@@ -4,29 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from comparisons.data.validation import known_name
+from comparisons.numerics.number_text import case_text
 from comparisons.registry import MODELS
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.journal import alone_in
-from comparisons.runs.part_journal import PartJournal
-from comparisons.runs.record import PROBLEM_SWEEP, read_record
-from comparisons.runs.reevaluation import ComparedRow, same
+from comparisons.runs.record import read_record
+from comparisons.runs.reevaluation import same
+from comparisons.runs.row_journal import RowJournal
+from comparisons.runs.rows import Row
 
 __all__ = ["checked_records", "take_rows"]
-
-#: Commands whose folders are merged, in words.
-_SWEEPS = {"sweep": "sweep FILE", PROBLEM_SWEEP: "sweep --problem"}
-
-
-_Row = TypeVar("_Row", bound=ComparedRow)
 
 
 def checked_records(
     folders: Sequence[Path],
     out: Path,
-    command_name: str,
     common: Callable[[Mapping[str, Any]], Mapping[str, Any]],
 ) -> dict[Path, dict[str, Any]]:
     """Return the records of the folders of one sweep, each folder once.
@@ -36,8 +31,6 @@ def checked_records(
     folders : sequence of Path
     out : Path
         For the merged rows; none of `folders`.
-    command_name : str
-        Of the command that writes such folders, as their records have it.
     common : callable
         Entries of a record that all shards of a sweep have in common, each by its name in words.
 
@@ -54,13 +47,8 @@ def checked_records(
         record = read_record(files.record)
         first = first or folder
         found = record["command_name"]
-        if found not in _SWEEPS:
+        if found != "sweep":
             raise ValueError(f"{folder} is the folder of fscm-bench {found}; only sweeps are merged")
-        if found != command_name:
-            raise ValueError(
-                f"{folder} is the folder of fscm-bench {_SWEEPS[found]}, and {first} of {_SWEEPS[command_name]}: only "
-                "shards of one sweep are merged"
-            )
         if not files.journal.exists():
             raise ValueError(f"{files.journal} does not exist: only folders with their journal are merged")
         if folder.resolve() == out.resolve():
@@ -84,27 +72,17 @@ def _check_models(record: Mapping[str, Any], path: Path) -> None:
         known_name("model", name, described, str(path))
 
 
-def take_rows(
-    folder: Path,
-    source: Callable[[Path], PartJournal[_Row]],
-    journal: PartJournal[_Row],
-    usable: Callable[[Iterable[_Row]], list[_Row]],
-    place: Callable[[_Row], str],
-) -> None:
+def take_rows(folder: Path, journal: RowJournal, usable: Callable[[Iterable[Row]], list[Row]]) -> None:
     """Add the rows of a folder that a journal does not have, or has as failures only.
 
     Parameters
     ----------
     folder : Path
         Of a shard.
-    source : callable
-        The journal of a folder.
-    journal : PartJournal
+    journal : RowJournal
         To which the rows are added.
     usable : callable
         The rows that belong to the sweep.
-    place : callable
-        What a row is about, in words.
 
     Raises
     ------
@@ -112,7 +90,7 @@ def take_rows(
         If a row has another result than one of the journal.
     """
     with alone_in(folder):
-        given = source(folder)
+        given = RowJournal(folder)
         stored = {row.key: row for row in usable(journal.items)}
         taken = set()
         for row in usable(given.items):
@@ -121,9 +99,14 @@ def take_rows(
                 taken.add(row.key)
             elif row.status != "failed" and not same(known, row):
                 raise ValueError(
-                    f"{folder} has another result than a folder before it for {place(row)}: they differ by more than "
+                    f"{folder} has another result than a folder before it for {_place(row)}: they differ by more than "
                     "both uncertainties"
                 )
         journal.drop(lambda row: row.key in taken)
         chosen = {id(row) for row in usable(given.items) if row.key in taken}
         journal.take(given, lambda row: id(row) in chosen)
+
+
+def _place(row: Row) -> str:
+    case = {"n": row.n, "k": row.k, "mu": row.mu, "problem": row.problem}
+    return f"{row.quantity} of {row.model} at {case_text(case)}"

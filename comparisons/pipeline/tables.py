@@ -13,7 +13,7 @@ from comparisons.output.style import save
 from comparisons.output.tables import agreement, largest, relative_error
 from comparisons.pipeline.inputs import Cases
 from comparisons.quantities import CURVES as CURVE_QUANTITIES
-from comparisons.runs.case_columns import keys_in
+from comparisons.runs.case_columns import in_case_order, keys_in, varied_of
 from comparisons.runs.cases import VERIFICATION
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.frames import curve_frame, frame
@@ -70,12 +70,26 @@ def _kappa(results: pd.DataFrame, cases: Cases, models: list[str] | None) -> pd.
     """Return the relative errors over the grids that are not for the verification of the references."""
     chosen = [grid for grid in cases.grids if cases.tier is None or VERIFICATION not in grid.tags]
     tables = []
-    for reference in sorted({grid.reference for grid in chosen}):
+    for reference in sorted({grid.reference for grid in chosen} - {""}):
         keys = {task.key for task in plan((grid for grid in chosen if grid.reference == reference), models)}
         of_grids = [key in keys for key in keys_in(results)]
         # An empty list would select no columns.
-        tables.append(relative_error(results[pd.Series(of_grids, index=results.index, dtype=bool)], reference))
-    return pd.concat(tables, ignore_index=True)
+        rows = results[pd.Series(of_grids, index=results.index, dtype=bool)]
+        tables.append(_with_keys_of_files(relative_error(rows, reference), rows))
+    return pd.concat(tables, ignore_index=True) if tables else relative_error(results.head(0), "")
+
+
+def _with_keys_of_files(kappa: pd.DataFrame, results: pd.DataFrame) -> pd.DataFrame:
+    """Return relative errors with the varied keys of problem files, and the unit of the values, as columns."""
+    if "problem" not in kappa:
+        return kappa
+    varied, on = varied_of(results), ["quantity", "problem"]
+    keys = results[[*on, *varied, "unit"]].drop_duplicates(on)
+    joined = kappa.merge(keys, on=on)
+    before = list(kappa.columns[: kappa.columns.get_loc("problem") + 1])
+    values, after = ["value", "u_num", "unit"], list(kappa.columns[len(before) :])
+    columns = [*before, *varied, *values, *(name for name in after if name not in values)]
+    return in_case_order(joined[columns], "quantity", "model")
 
 
 def write_tables(tables: RunTables, folder: RunFolder) -> None:

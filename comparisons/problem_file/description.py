@@ -86,6 +86,9 @@ class ProblemFile:
     punch: Section
     law: Section
 
+    def __hash__(self) -> int:
+        return hash(self.digest)
+
     @property
     def parameters(self) -> dict[str, Any]:
         """The content for output: the name of the file and the three sections."""
@@ -107,6 +110,13 @@ class ProblemFile:
     def is_of_the_paper(self) -> bool:
         """Whether it is the problem of three numbers n, k and mu, which every model takes."""
         return all(kind_of(name, getattr(self, name).kind).is_of_the_paper for name in SECTIONS)
+
+    @property
+    def has_other_solid_alone(self) -> bool:
+        """Whether only the solid keeps it from being the problem of three numbers."""
+        return self.power_law is None and all(
+            kind_of(name, getattr(self, name).kind).is_of_the_paper for name in ("punch", "law")
+        )
 
     @property
     def tables(self) -> list[str]:

@@ -16,7 +16,24 @@ from comparisons.quantities import CURVES, QUANTITIES, Points
 from comparisons.quantities.points import FARTHEST_GAP
 from comparisons.registry import create
 
-__all__ = ["SI_UNITS", "PhysicalValue", "evaluate_problem", "model_for", "points_of", "units_of", "value_in_si"]
+__all__ = [
+    "REFERENCES",
+    "SI_UNITS",
+    "SOLVERS",
+    "PhysicalValue",
+    "dimensionless_value",
+    "evaluate_problem",
+    "model_for",
+    "points_of",
+    "units_of",
+    "value_in_si",
+]
+
+#: Models that solve the equations; every other one is a closed form or another approximation.
+REFERENCES = ("fscm", "fem", "fscm-stieltjes", "fscm-stieltjes-400", "atlas")
+
+#: Those that take every solid, punch and law.
+SOLVERS = ("fscm", "fem")
 
 #: Unit in SI of each kind of quantity.
 SI_UNITS = {
@@ -118,10 +135,9 @@ def evaluate_problem(problem: ProblemFile, model: str | Model, quantity: str) ->
         model = model_for(problem, model)
     started = time.perf_counter()
     kind = QUANTITIES[quantity].scale
-    result, status, reason, units = None, "ok", "", None
+    result, status, reason = None, "ok", ""
     try:
         result = value_in_si(problem, model, quantity)
-        units = dimensionless_problem(problem)[1] if problem.has_power_punch else None
     except NotApplicable as refusal:
         status, reason = "not-applicable", str(refusal)
     except ComputationFailed as failure:
@@ -131,10 +147,6 @@ def evaluate_problem(problem: ProblemFile, model: str | Model, quantity: str) ->
     except Exception as error:
         # A defect of the model: it is named, as in a run.
         status, reason = "failed", f"{type(error).__name__}: {error}"
-    scaled: dict[str, float | str] | None = None
-    if result and units and kind != "number":
-        unit = units[kind]
-        scaled = {"value": result.value / unit, "u_num": result.u_num / unit, "unit": QUANTITIES[quantity].unit}
     return PhysicalValue(
         model=model.name,
         quantity=quantity,
@@ -143,10 +155,19 @@ def evaluate_problem(problem: ProblemFile, model: str | Model, quantity: str) ->
         u_num=result.u_num if result else None,
         unit=SI_UNITS[kind],
         status=status,
-        reason=reason,
+        reason=result.reason if result else reason,
         seconds=(result and result.seconds) or time.perf_counter() - started,
-        dimensionless=scaled,
+        dimensionless=dimensionless_value(problem, quantity, result) if result else None,
     )
+
+
+def dimensionless_value(problem: ProblemFile, quantity: str, result: Result) -> dict[str, float | str] | None:
+    """Return a result in SI in the units of the paper, as value, u_num and unit; None where these are not defined."""
+    kind = QUANTITIES[quantity].scale
+    if kind == "number" or not problem.has_power_punch:
+        return None
+    unit = dimensionless_problem(problem)[1][kind]
+    return {"value": result.value / unit, "u_num": result.u_num / unit, "unit": QUANTITIES[quantity].unit}
 
 
 def value_in_si(problem: ProblemFile, model: Model, quantity: str) -> Result:
@@ -157,6 +178,8 @@ def value_in_si(problem: ProblemFile, model: Model, quantity: str) -> Result:
     NotApplicable, ComputationFailed
         As the model.
     """
+    if model.name not in REFERENCES and problem.has_other_solid_alone:
+        return _with_equivalent_solid(problem, model, quantity)
     _refuse(problem, model, quantity)
     if model.name == "fem" and quantity != "critical_tabor_number":
         # Imported here: the other models do not need the finite elements.
@@ -174,11 +197,25 @@ def value_in_si(problem: ProblemFile, model: Model, quantity: str) -> Result:
     return dataclasses.replace(result, value=result.value * units[kind], u_num=result.u_num * units[kind])
 
 
+def _with_equivalent_solid(problem: ProblemFile, model: Model, quantity: str) -> Result:
+    """Evaluate a model that knows n, k and mu alone with the power law that stands for the solid of a problem."""
+    # Imported here: other problems do not need the spectrum of the elastic energy.
+    from comparisons.problem_file.equivalent_solid import equivalent_solids
+
+    with_law, coarser = equivalent_solids(problem)
+    result, other = (value_in_si(one, model, quantity) for one in (with_law, coarser))
+    return dataclasses.replace(
+        result,
+        u_num=result.u_num + abs(result.value - other.value),
+        reason=f"with the equivalent power law of the {problem.solid.kind} solid, k = {with_law.solid['k']:.4f}",
+    )
+
+
 def _refuse(problem: ProblemFile, model: Model, quantity: str) -> None:
     """Raise `NotApplicable` where a model does not take the parts of a problem."""
     if problem.is_of_the_paper:
         return
-    if model.name not in ("fscm", "fem"):
+    if model.name not in SOLVERS:
         raise NotApplicable(
             f"{model.name} takes a power-law or homogeneous solid, a sphere, cone or power-law punch and the 9-3 law; "
             f"this problem has a {problem.solid.kind} solid, a {problem.punch.kind} punch and a {problem.law.kind} law"

@@ -8,12 +8,11 @@ from dataclasses import dataclass
 from comparisons.model import Model
 from comparisons.problem_file.description import ProblemFile
 from comparisons.problem_file.dimensionless import dimensionless_problem
-from comparisons.problem_file.evaluation import PhysicalValue, evaluate_problem
+from comparisons.problem_file.evaluation import REFERENCES, PhysicalValue, evaluate_problem
 from comparisons.registry import MODELS, create
 
 __all__ = [
     "LIMITS",
-    "REFERENCES",
     "SIMPLEST_FIRST",
     "ModelError",
     "Overview",
@@ -22,9 +21,6 @@ __all__ = [
     "recommended",
     "simplest_within",
 ]
-
-#: Models that solve the equations; every other one is a closed form or another approximation.
-REFERENCES = ("fscm", "fem", "fscm-stieltjes", "fscm-stieltjes-400", "atlas")
 
 #: Errors for which a model is recommended.
 LIMITS = (0.01, 0.05)

@@ -18,7 +18,7 @@ from comparisons.problem_file.form import SECTIONS, unit_of
 from comparisons.problem_file.reading import document_of, problem_of
 from comparisons.problem_file.source import shown
 
-__all__ = ["Variation", "Varied", "parse_variation", "problems_of", "variations"]
+__all__ = ["Variation", "Varied", "parse_variation", "parse_variations", "problems_of"]
 
 #: Most problems of one variation, and most values of a range.
 _MOST = 100_000
@@ -131,43 +131,34 @@ def _value(part: str, unit: str) -> float | str:
 
 @dataclass(frozen=True)
 class Varied:
-    """A problem of a variation, and the values of the varied keys in SI by the names of their columns."""
+    """A problem of a variation.
+
+    Attributes
+    ----------
+    problem : ProblemFile
+    texts : tuple of str
+        The values of the varied keys as ``SECTION.KEY=VALUE``.
+    parameters : mapping of str to float or str
+        The values in SI, by the names of their columns: ``SECTION.KEY [UNIT]``.
+    """
 
     problem: ProblemFile
+    texts: tuple[str, ...]
     parameters: Mapping[str, float | str]
 
 
-def variations(path: Path, texts: Sequence[str]) -> list[Varied]:
-    """Return the problems of a file for every combination of values, each checked as a file is.
-
-    Parameters
-    ----------
-    path : Path
-    texts : sequence of str
-        As of `parse_variation`.
-
-    Raises
-    ------
-    ValueError
-        One sentence, if a text or one of the problems is not admissible.
-    """
+def parse_variations(texts: Sequence[str]) -> list[Variation]:
+    """Read several variations, as `parse_variation`; `ValueError` if one key is there twice."""
     chosen = [parse_variation(text) for text in texts]
     names = [variation.name for variation in chosen]
     twice = [name for name in names if names.count(name) > 1]
     if twice:
         raise ValueError(f"--vary {twice[0]} is there twice; give all values of a key in one --vary")
-    try:
-        problems = [problem for _, problem in problems_of(path, chosen)]
-    except ValueError as error:
-        raise ValueError(f"--vary {error}" if chosen else str(error)) from None
-    return [
-        Varied(problem, {_column(problem, each): _varied_value(problem, each) for each in chosen})
-        for problem in problems
-    ]
+    return chosen
 
 
-def problems_of(path: Path, chosen: Sequence[Variation]) -> Iterator[tuple[list[str], ProblemFile]]:
-    """Yield the problem of a file for every combination of values, with the values as texts ``SECTION.KEY=VALUE``.
+def problems_of(path: Path, chosen: Sequence[Variation]) -> Iterator[Varied]:
+    """Yield the problem of a file for every combination of values.
 
     Raises
     ------
@@ -182,11 +173,12 @@ def problems_of(path: Path, chosen: Sequence[Variation]) -> Iterator[tuple[list[
         changed = deepcopy(document)
         for variation, value in zip(chosen, values, strict=True):
             _change(changed[variation.section], variation, value)
-        texts = [f"{each.name}={value}" for each, value in zip(chosen, values, strict=True)]
+        texts = tuple(f"{each.name}={value}" for each, value in zip(chosen, values, strict=True))
         try:
-            yield texts, problem_of(changed, source)
+            problem = problem_of(changed, source)
         except ValueError as error:
             raise ValueError(f"{', '.join(texts)}: {error}" if texts else str(error)) from None
+        yield Varied(problem, texts, {_column(problem, each): _varied_value(problem, each) for each in chosen})
 
 
 def _change(section: dict[str, Any], variation: Variation, value: float | str) -> None:

@@ -1,12 +1,16 @@
-"""Columns of tables of cases: the key of a row, and the column of problems of files, which a table may leave out."""
+"""Columns of tables of cases: the key of a row, and those of problems of files, which a table may leave out."""
 
 from __future__ import annotations
 
 import pandas as pd
 
-from comparisons.runs.rows import CASE, Key, none_if_nan
+from comparisons.problem_file.kinds import SECTIONS
+from comparisons.runs.rows import CASE, PARAMETERS, Key, none_if_nan, split_label
 
-__all__ = ["keys_in", "with_problem", "without_empty_problem"]
+__all__ = ["DIMENSIONLESS", "in_case_order", "keys_in", "unit_in", "varied_of", "with_problem", "without_empty_problem"]
+
+#: Columns of the value of a problem of a file in the units of the paper.
+DIMENSIONLESS = ("dimensionless_value", "dimensionless_u_num", "dimensionless_unit")
 
 
 def keys_in(table: pd.DataFrame) -> list[Key]:
@@ -37,7 +41,7 @@ def with_problem(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def without_empty_problem(table: pd.DataFrame) -> pd.DataFrame:
-    """Return a table without the column `problem` where no case is of a file.
+    """Return a table without the columns of problems of files where no case is of one.
 
     Examples
     --------
@@ -45,4 +49,43 @@ def without_empty_problem(table: pd.DataFrame) -> pd.DataFrame:
     ['n']
     """
     empty = "problem" in table and not (table["problem"].fillna("") != "").any()
-    return table.drop(columns="problem") if empty else table
+    return table.drop(columns=["problem", *DIMENSIONLESS], errors="ignore") if empty else table
+
+
+def varied_of(table: pd.DataFrame) -> list[str]:
+    """Return the columns of the varied keys of problem files.
+
+    Examples
+    --------
+    >>> varied_of(pd.DataFrame(columns=["model", "punch.R [m]", "value"]))
+    ['punch.R [m]']
+    """
+    return [name for name in table.columns if name.partition(".")[0] in SECTIONS]
+
+
+def unit_in(column: str) -> tuple[str, str]:
+    """Return the key and the unit in SI of the column of a varied key.
+
+    Examples
+    --------
+    >>> unit_in("punch.R [m]"), unit_in("solid.nu")
+    (('punch.R', 'm'), ('solid.nu', '1'))
+    """
+    key, _, unit = column.removesuffix("]").partition(" [")
+    return key, unit or "1"
+
+
+def in_case_order(table: pd.DataFrame, *first: str) -> pd.DataFrame:
+    """Return a table sorted by some columns and then by the case; problems of a file by its name and the varied keys.
+
+    Examples
+    --------
+    >>> labels = ["pad.toml; punch.R=10 nm", "pad.toml; punch.R=5 nm"]
+    >>> cases = {"n": None, "k": None, "mu": None, "nu": None, "problem": labels, "punch.R [m]": [1e-8, 5e-9]}
+    >>> in_case_order(pd.DataFrame(cases))["punch.R [m]"].tolist()
+    [5e-09, 1e-08]
+    """
+    ordered = with_problem(table)
+    ordered = ordered.assign(_file=[split_label(label)[0] for label in ordered["problem"]])
+    order = [*first, *PARAMETERS, "_file", *varied_of(table), "problem"]
+    return ordered.sort_values(order, ignore_index=True)[list(table.columns)]

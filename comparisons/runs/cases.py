@@ -21,11 +21,11 @@ from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, label, validated
 from comparisons.problem_file.description import ProblemFile
 from comparisons.problem_file.dimensionless import dimensionless_problem
-from comparisons.problem_file.variation import Variation, problems_of
+from comparisons.problem_file.variation import Variation, Varied, problems_of
 from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS
 from comparisons.runs.parameter_sets import FORMS, NAMES, parameter_sets
-from comparisons.runs.rows import Row
+from comparisons.runs.rows import Row, joined_label
 from fscm.problem import Problem
 
 __all__ = [
@@ -39,7 +39,6 @@ __all__ = [
     "grids_for",
     "load_grids",
     "order_of",
-    "split_label",
 ]
 
 #: A tier holds its own grids and those of every tier before it.
@@ -48,10 +47,6 @@ TIERS = ("quick", "full")
 #: Grids with this tag verify the references themselves.  A run with --model does not compute them, and they are not in
 #: its tables of errors.
 VERIFICATION = "verification"
-
-
-#: Between the name of a file and the values of its keys.
-_BETWEEN = "; "
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,22 +60,20 @@ class FileProblem:
     digest : str
         SHA-256 of the content.
     content : ProblemFile
+    parameters : mapping of str to float or str
+        The varied keys in SI, by the names of their columns.
     """
 
     label: str
     digest: str
     content: ProblemFile = field(compare=False, repr=False)
+    parameters: Mapping[str, float | str] = field(compare=False, repr=False)
 
-
-def split_label(label: str) -> list[str]:
-    """Return the name of the file of a label, and the values of its keys.
-
-    Examples
-    --------
-    >>> split_label("pad.toml; solid.thickness=12 nm")
-    ['pad.toml', 'solid.thickness=12 nm']
-    """
-    return label.split(_BETWEEN)
+    @classmethod
+    def of(cls, name: str, varied: Varied) -> FileProblem:
+        """Return the problem of a file of that name with values of some keys."""
+        problem = varied.problem
+        return cls(joined_label(name, varied.texts), problem.digest, problem, varied.parameters)
 
 
 @dataclass(frozen=True, slots=True)
@@ -202,7 +195,7 @@ class Grid:
     tier : str
         The first of `TIERS` that computes it.
     reference : str
-        The model the others are compared with.
+        The model the others are compared with; empty where there is none.
     models : tuple of str
         The candidates.
     quantities : tuple of str
@@ -237,7 +230,7 @@ def _grid(table: dict[str, Any], where: str, tier: str | None, folder: Path | No
         raise ValueError(f"{where}: tier missing; it is one of {', '.join(TIERS)}")
     if tier is not None and "tier" in table:
         raise ValueError(f"{where}: unknown key 'tier': the grids of a sweep have none")
-    for model in (table["reference"], *table["models"]):
+    for model in (*(table[key] for key in ("reference",) if key in table), *table["models"]):
         known_name("model", model, MODELS, where)
     for quantity in table["quantities"]:
         known_name("quantity", quantity, tuple(ALL_QUANTITIES), where)
@@ -245,7 +238,7 @@ def _grid(table: dict[str, Any], where: str, tier: str | None, folder: Path | No
         id=table["id"],
         title=table["title"],
         tier=tier or table["tier"],
-        reference=table["reference"],
+        reference=table.get("reference", ""),
         models=tuple(table["models"]),
         quantities=tuple(table["quantities"]),
         cases=tuple(sorted(_cases(table, where, folder), key=order_of)),
@@ -281,11 +274,7 @@ def _cases_of_file(table: dict[str, Any], where: str, folder: Path | None) -> se
         )
     try:
         chosen = [Variation.of_values(key, values) for key, values in table.get("vary", {}).items()]
-        found = problems_of(path_inside(folder, name), chosen)
-        return {
-            Case.of_file(FileProblem(_BETWEEN.join([name, *texts]), problem.digest, problem))
-            for texts, problem in found
-        }
+        return {Case.of_file(FileProblem.of(name, varied)) for varied in problems_of(path_inside(folder, name), chosen)}
     except ValueError as refusal:
         raise ValueError(f"{where}: {refusal}") from None
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from shlex import quote
-from typing import Any, Generic, TypeVar
+from typing import Any
 
 from comparisons.console.progress import counting, log, note
 from comparisons.model import ComputationFailed
@@ -33,9 +33,6 @@ __all__ = [
 ]
 
 
-_Row = TypeVar("_Row")
-
-
 def checked_jobs(jobs: int) -> int:
     """Return the number of processes; `ValueError` if there are none."""
     if jobs < 1:
@@ -49,7 +46,7 @@ def folder_for(out: Path | None, started: datetime) -> Path:
 
 
 @dataclass(frozen=True, slots=True)
-class Completed(Generic[_Row]):
+class Completed:
     """Rows of all tasks of a run, and their origin.
 
     Attributes
@@ -63,7 +60,7 @@ class Completed(Generic[_Row]):
         What was evaluated again before stored rows of external models were used, as the record holds it.
     """
 
-    rows: list[_Row]
+    rows: list[Row]
     resumed: int
     parts: list[dict[str, Any]]
     evaluated_again: dict[str, Any] | None
@@ -76,7 +73,7 @@ def complete(
     retry_failed: bool = False,
     backend: Backend = processes,
     needed: Callable[[list[Row]], Collection[Key]] | None = None,
-) -> Completed[Row]:
+) -> Completed:
     """Compute the tasks that the journal of a folder does not have.
 
     A stored row that failed because its process ended does not count.  A stored row of another version of an external

@@ -6,7 +6,7 @@ The format is Frictionless Data Package (https://datapackage.org), which program
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
@@ -63,7 +63,7 @@ def described(table: str, schema: pa.Schema) -> pa.Schema:
     return pa.schema(fields, metadata=schema.metadata)
 
 
-def write_data_package(folder: Path, names: Iterable[str], described_as: Mapping[str, str] | None = None) -> bool:
+def write_data_package(folder: Path, names: Iterable[str]) -> bool:
     """Write the data package of the CSV tables of a folder, atomically; return whether there is any.
 
     Parameters
@@ -71,8 +71,6 @@ def write_data_package(folder: Path, names: Iterable[str], described_as: Mapping
     folder : Path
     names : iterable of str
         Names of its files; those that are no CSV table, or not there, or in a folder of copies, are passed over.
-    described_as : mapping of str to str, optional
-        Name of a table -> name under which `comparisons.data.columns` describes it, if that is another one.
     """
     tables = [
         folder / name for name in names if name.endswith(".csv") and "/" not in name and (folder / name).is_file()
@@ -84,16 +82,16 @@ def write_data_package(folder: Path, names: Iterable[str], described_as: Mapping
         "name": "fscm-bench-results",
         "title": "Results of fscm-bench",
         "description": _DESCRIPTION,
-        "resources": [_resource(path, (described_as or {}).get(path.stem, path.stem)) for path in tables],
+        "resources": [_resource(path) for path in tables],
         "quantities": quantities(),
     }
     write_json(content, folder / DATA_PACKAGE)
     return True
 
 
-def _resource(path: Path, table: str) -> dict[str, Any]:
+def _resource(path: Path) -> dict[str, Any]:
     text = path.read_bytes()
-    known = title(table)
+    known = title(path.stem)
     return {
         "name": path.stem.lower(),
         **({"title": known} if known else {}),
@@ -104,17 +102,17 @@ def _resource(path: Path, table: str) -> dict[str, Any]:
         "encoding": "utf-8",
         "bytes": len(text),
         "hash": f"sha256:{sha256(text).hexdigest()}",
-        "schema": {"fields": _fields(path, table), "missingValues": [""]},
+        "schema": {"fields": _fields(path), "missingValues": [""]},
     }
 
 
-def _fields(path: Path, table: str) -> list[dict[str, str]]:
+def _fields(path: Path) -> list[dict[str, str]]:
     with path.open(encoding="utf-8", newline="") as file:
         names = next(csv.reader(file), [])
     types = _types(path, names)
     fields = []
     for name in names:
-        known = column(table, name)
+        known = column(path.stem, name)
         # Cells that are all empty have no type of their own.
         kind = types[name] or ("number" if known and known.unit else "string")
         fields.append({"name": name, "type": kind, **(known._asdict() if known else {})})

@@ -9,10 +9,10 @@ from typing import Any
 import pandas as pd
 import pyarrow as pa
 
-from comparisons.runs.case_columns import with_problem, without_empty_problem
+from comparisons.runs.case_columns import in_case_order, varied_of, with_problem, without_empty_problem
 from comparisons.runs.rows import CASE, Row
 
-__all__ = ["COLUMNS", "CURVE_COLUMNS", "curve_frame", "frame", "rows_of"]
+__all__ = ["COLUMNS", "CURVE_COLUMNS", "curve_frame", "frame", "rows_of", "typed"]
 
 _TEXT, _REAL, _COUNT = pa.string(), pa.float64(), pa.int64()
 
@@ -36,6 +36,9 @@ COLUMNS = pa.schema(
         ("u_num", _REAL),
         ("observed_order", _REAL),
         ("unit", _TEXT),
+        ("dimensionless_value", _REAL),
+        ("dimensionless_u_num", _REAL),
+        ("dimensionless_unit", _TEXT),
         ("status", _TEXT),
         ("reason", _TEXT),
         ("size", _COUNT),
@@ -64,20 +67,37 @@ _ORDER = ["quantity", "model", *CASE]
 
 
 def frame(rows: Iterable[Row]) -> pd.DataFrame:
-    """Return the rows as a sorted pandas table with the columns of `COLUMNS`; `problem` where a case is of a file."""
-    table = pa.Table.from_pylist([asdict(row) for row in rows], schema=COLUMNS)
-    return without_empty_problem(table.to_pandas().sort_values(_ORDER, ignore_index=True))
+    """Return the rows as a sorted pandas table with the columns of `COLUMNS`.
+
+    The varied keys of problem files are columns, too; where no case is of a file, there is no column of such ones.
+    """
+    return _sorted([asdict(row) for row in rows], COLUMNS, "quantity", "model")
 
 
 def curve_frame(rows: Iterable[Row]) -> pd.DataFrame:
-    """Return the curves as a sorted table with the columns of `CURVE_COLUMNS`; `problem` where a case is of a file."""
+    """Return the curves as a sorted table with the columns of `CURVE_COLUMNS`; those of a file as of `frame`."""
     records = []
     for row in rows:
         whole = asdict(replace(row, points=None)) | {"u_distance": row.points[2] if row.points else None}
         points = zip(*row.points[:2], strict=True) if row.points else [(None, None)]
         records += [whole | {"point": number, "x": x, "y": y} for number, (x, y) in enumerate(points)]
-    table = pa.Table.from_pylist(records, schema=CURVE_COLUMNS)
-    return without_empty_problem(table.to_pandas().sort_values([*_ORDER, "point"], ignore_index=True))
+    # The points of a curve are in order already, and the sorting keeps it.
+    return _sorted(records, CURVE_COLUMNS, "quantity", "model")
+
+
+def _sorted(records: list[dict[str, Any]], schema: pa.Schema, *first: str) -> pd.DataFrame:
+    varied = {name: value for record in records for name, value in record["parameters"].items()}
+    place = schema.get_field_index("problem") + 1
+    for name, value in reversed(varied.items()):
+        schema = schema.insert(place, pa.field(name, _TEXT if isinstance(value, str) else _REAL))
+    table = pa.Table.from_pylist([record | record["parameters"] for record in records], schema=schema)
+    return in_case_order(without_empty_problem(table.to_pandas()), *first)
+
+
+def typed(table: pd.DataFrame, schema: pa.Schema) -> pa.Schema:
+    """Return the types of the columns of a table: those of a schema, and of its varied keys."""
+    others = pa.Schema.from_pandas(table[varied_of(table)], preserve_index=False)
+    return pa.schema([(schema if name in schema.names else others).field(name) for name in table.columns])
 
 
 def rows_of(results: pd.DataFrame, curves: pd.DataFrame) -> list[Row]:
@@ -90,7 +110,8 @@ def rows_of(results: pd.DataFrame, curves: pd.DataFrame) -> list[Row]:
     True
     """
     results, curves = (with_problem(table) for table in (results, curves))
-    rows = [Row(**_typed(record, COLUMNS)) for record in results[COLUMNS.names].to_dict("records")]
+    given = [name for name in COLUMNS.names if name in results]
+    rows = [Row(**_typed(record, COLUMNS)) for record in results[given].to_dict("records")]
     whole = [name for name in CURVE_COLUMNS.names if name not in ("point", "x", "y", "u_distance")]
     for _, points in curves.groupby(_ORDER, sort=False, dropna=False):
         points = points.sort_values("point")

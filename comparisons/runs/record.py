@@ -28,9 +28,7 @@ from comparisons.runs.environment import differences, fingerprint
 
 __all__ = [
     "FORMAT",
-    "PROBLEM_SWEEP",
     "check_files",
-    "is_problem_sweep",
     "read_record",
     "warn_of_other_code",
     "write_record",
@@ -38,9 +36,6 @@ __all__ = [
 
 #: Version of the schema.
 FORMAT = 5
-
-#: Name of the command in the record of a sweep over a problem file.
-PROBLEM_SWEEP = "problem-sweep"
 
 
 @lru_cache(maxsize=1)
@@ -55,12 +50,7 @@ def _problem(content: object) -> str | None:
     return None if error is None else f"{error.json_path}: {error.message}"
 
 
-def write_record(
-    content: dict[str, Any],
-    path: Path,
-    files: Collection[str] = RUN_FILES,
-    described_as: Mapping[str, str] | None = None,
-) -> None:
+def write_record(content: dict[str, Any], path: Path, files: Collection[str] = RUN_FILES) -> None:
     """Write a record with the checksums of the files beside it, and before it the data package of the tables.
 
     Parameters
@@ -70,15 +60,13 @@ def write_record(
     path : Path
     files : collection of str
         Names of the files that get a checksum, as far as they exist.
-    described_as : mapping of str to str, optional
-        As of `comparisons.runs.data_package.write_data_package`.
 
     Raises
     ------
     RuntimeError
         If it does not fit the schema: a defect of the code that made it.
     """
-    if write_data_package(path.parent, files, described_as):
+    if write_data_package(path.parent, files):
         files = [*files, DATA_PACKAGE]
     sums = {name: _sum_of(path.parent / name) for name in files if (path.parent / name).is_file()}
     content = content | {"files": sums}
@@ -123,17 +111,11 @@ def read_record(path: Path) -> dict[str, Any]:
 
 def _check_paths(content: Mapping[str, Any], path: Path) -> None:
     """Refuse a record that names a file outside of its folder: it may come from elsewhere."""
-    inputs = content.get("inputs", {"problem": "", "tables": {}})
     try:
-        for name in (*content["files"], inputs["problem"], *inputs["tables"].values()):
+        for name in content["files"]:
             path_inside(path.parent, name)
     except ValueError as error:
         raise ValueError(f"{path} is not the record of a run: {error}") from None
-
-
-def is_problem_sweep(folder: Path) -> bool:
-    """Whether a folder is that of a finished sweep over a problem file; `ValueError` as `read_record`."""
-    return bool(read_record(folder / RECORD)["command_name"] == PROBLEM_SWEEP)
 
 
 def check_files(record: dict[str, Any], folder: Path, written_again: Collection[str] = ()) -> None:

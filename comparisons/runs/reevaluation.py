@@ -8,78 +8,29 @@ from __future__ import annotations
 
 import random
 from collections import Counter
-from collections.abc import Callable, Hashable, Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from random import SystemRandom
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any
 
 import numpy as np
 
 from comparisons.console.progress import log
-from comparisons.runs.part_journal import PartJournal
-from comparisons.runs.rows import Row
+from comparisons.runs.row_journal import RowJournal
+from comparisons.runs.rows import Key, Row
+from comparisons.runs.tasks import Task
 
-__all__ = ["AT_MOST", "ComparedRow", "Reevaluation", "chosen", "drop_changed", "evaluate_again", "same"]
+__all__ = ["AT_MOST", "Reevaluation", "chosen", "drop_changed", "evaluate_again", "same"]
 
 #: Stored tasks of each external model that are evaluated again.
 AT_MOST = 3
 
 
-class ComparedRow(Protocol):
-    """A row of one task, with a value and its bound where there is one."""
-
-    @property
-    def model(self) -> str:
-        """The name of the model."""
-
-    @property
-    def model_version(self) -> str:
-        """The version of the model."""
-
-    @property
-    def key(self) -> Hashable:
-        """What identifies the task."""
-
-    @property
-    def status(self) -> str:
-        """One of "ok", "not-applicable" and "failed"."""
-
-    @property
-    def value(self) -> float | None:
-        """The result, None where there is none."""
-
-    @property
-    def u_num(self) -> float | None:
-        """Its bound."""
-
-
-class _ComparedTask(Protocol):
-    """A task whose row may be stored."""
-
-    @property
-    def model(self) -> str: ...
-
-    @property
-    def quantity(self) -> str: ...
-
-    @property
-    def key(self) -> Hashable: ...
-
-    @property
-    def label(self) -> str: ...
-
-    def as_json(self) -> dict[str, Any]: ...
-
-
-_Task = TypeVar("_Task", bound=_ComparedTask)
-_Row = TypeVar("_Row", bound=ComparedRow)
-
-
 @dataclass(frozen=True, slots=True)
-class Reevaluation(Generic[_Task]):
+class Reevaluation:
     """Tasks of a model that were evaluated again, and a text about the first that differs (empty if none does)."""
 
-    tasks: list[_Task]
+    tasks: list[Task]
     difference: str
 
     def as_json(self) -> dict[str, Any]:
@@ -87,7 +38,7 @@ class Reevaluation(Generic[_Task]):
         return {"same": not self.difference, "tasks": [task.as_json() for task in self.tasks]}
 
 
-def chosen(tasks: Iterable[_Task], seed: int) -> list[_Task]:
+def chosen(tasks: Iterable[Task], seed: int) -> list[Task]:
     """Return at most `AT_MOST` of the tasks of a model, at random, of as many quantities as possible.
 
     Examples
@@ -102,7 +53,7 @@ def chosen(tasks: Iterable[_Task], seed: int) -> list[_Task]:
     shuffled = sorted(tasks, key=lambda task: str(task.key))
     generator.shuffle(shuffled)
     met: Counter[str] = Counter()
-    turns: dict[Hashable, int] = {}
+    turns: dict[Key, int] = {}
     for task in shuffled:
         turns[task.key] = met[task.quantity]
         met[task.quantity] += 1
@@ -111,8 +62,8 @@ def chosen(tasks: Iterable[_Task], seed: int) -> list[_Task]:
 
 
 def evaluate_again(
-    stored: Iterable[tuple[_Task, _Row]], seed: int, compute: Callable[[list[_Task]], Iterable[_Row]]
-) -> dict[str, Reevaluation[_Task]]:
+    stored: Iterable[tuple[Task, Row]], seed: int, compute: Callable[[list[Task]], Iterable[Row]]
+) -> dict[str, Reevaluation]:
     """Evaluate a few stored tasks of each model again and compare.
 
     Parameters
@@ -129,8 +80,8 @@ def evaluate_again(
     dict of str to Reevaluation
         By the name of the model.
     """
-    before: dict[Hashable, _Row] = {}
-    of_model: dict[str, list[_Task]] = {}
+    before: dict[Key, Row] = {}
+    of_model: dict[str, list[Task]] = {}
     for task, row in stored:
         before[task.key] = row
         of_model.setdefault(task.model, []).append(task)
@@ -145,7 +96,7 @@ def evaluate_again(
 
 
 def drop_changed(
-    stored: Iterable[tuple[_Task, _Row]], journal: PartJournal[_Row], compute: Callable[[list[_Task]], Iterable[_Row]]
+    stored: Iterable[tuple[Task, Row]], journal: RowJournal, compute: Callable[[list[Task]], Iterable[Row]]
 ) -> dict[str, Any]:
     """Evaluate a few stored tasks of each external model again; drop the rows of a model whose results have changed.
 
@@ -153,7 +104,7 @@ def drop_changed(
     ----------
     stored : iterable of (task, row)
         Those of external models that a command would use.
-    journal : PartJournal
+    journal : RowJournal
         That has the rows.
     compute : callable
         Returns the rows of tasks.
@@ -175,7 +126,7 @@ def drop_changed(
     return {"seed": seed, "models": {model: again.as_json() for model, again in found.items()}}
 
 
-def _same_value(stored: ComparedRow, now: ComparedRow) -> bool:
+def _same_value(stored: Row, now: Row) -> bool:
     """Whether two rows of one task agree: in their status, and within the sum of both uncertainties."""
     if stored.status != now.status:
         return False
@@ -184,19 +135,15 @@ def _same_value(stored: ComparedRow, now: ComparedRow) -> bool:
     return abs(stored.value - now.value) <= (stored.u_num or 0.0) + (now.u_num or 0.0)
 
 
-def same(stored: ComparedRow, now: ComparedRow) -> bool:
+def same(stored: Row, now: Row) -> bool:
     """Whether two rows of one task agree: in their status, and within the sum of both uncertainties.
 
     The points of a curve are compared one by one, as fractions of its ranges, as its uncertainty is.
     """
-    before, after = _points(stored), _points(now)
+    before, after = stored.points, now.points
     if stored.status == now.status and before is not None and after is not None:
         return _same_curve(before, after)
     return _same_value(stored, now)
-
-
-def _points(row: ComparedRow) -> tuple[list[float], list[float], float] | None:
-    return row.points if isinstance(row, Row) else None
 
 
 def _same_curve(stored: tuple[list[float], list[float], float], now: tuple[list[float], list[float], float]) -> bool:
@@ -209,12 +156,11 @@ def _same_curve(stored: tuple[list[float], list[float], float], now: tuple[list[
     return bool(np.all(np.hypot(*apart) <= stored[2] + now[2]))
 
 
-def _difference(task: _ComparedTask, stored: ComparedRow, now: ComparedRow) -> str:
+def _difference(task: Task, stored: Row, now: Row) -> str:
     return "" if same(stored, now) else f"{task.label} was {_text(stored)} and is {_text(now)}"
 
 
-def _text(row: ComparedRow) -> str:
-    points = _points(row)
-    if points is not None:
-        return f"a curve of {len(points[0])} points"
+def _text(row: Row) -> str:
+    if row.points is not None:
+        return f"a curve of {len(row.points[0])} points"
     return row.status if row.value is None else f"{row.value:.9g}"

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 
-__all__ = ["CASE", "PARAMETERS", "Key", "Row", "none_if_nan"]
+__all__ = ["CASE", "PARAMETERS", "Key", "Row", "joined_label", "none_if_nan", "split_label"]
 
 #: Dimensionless parameters of a case; nu is optional.
 PARAMETERS = ("n", "k", "mu", "nu")
@@ -15,6 +16,32 @@ CASE = (*PARAMETERS, "problem")
 
 #: What identifies an evaluation: model, quantity, and the columns of `CASE`.
 Key = tuple[str, str, float | None, float | None, float | None, float | None, str]
+
+
+#: Between the name of a problem file and the values of its keys.
+_BETWEEN = "; "
+
+
+def joined_label(name: str, texts: Iterable[str]) -> str:
+    """Return the label of a problem: the name of its file, and the values of its keys.
+
+    Examples
+    --------
+    >>> joined_label("pad.toml", ["solid.thickness=12 nm"])
+    'pad.toml; solid.thickness=12 nm'
+    """
+    return _BETWEEN.join([name, *texts])
+
+
+def split_label(label: str) -> list[str]:
+    """Return the name of the file of a label, and the values of its keys.
+
+    Examples
+    --------
+    >>> split_label("pad.toml; solid.thickness=12 nm")
+    ['pad.toml', 'solid.thickness=12 nm']
+    """
+    return label.split(_BETWEEN)
 
 
 def none_if_nan(number: float | None) -> float | None:
@@ -48,6 +75,11 @@ class Row:
         Wall-clock time: what the model states, or else the duration of the call.
     problem, digest : str
         Label and SHA-256 of the problem of a file (`comparisons.runs.cases.FileProblem`), else empty.
+    parameters : dict of str to float or str
+        The varied keys of that file in SI, by the names of their columns.
+    dimensionless_value, dimensionless_u_num : float or None
+        Of the problem of a file, in `dimensionless_unit`, where the units of the paper are defined.
+    dimensionless_unit : str
     """
 
     model: str
@@ -70,6 +102,10 @@ class Row:
     points: tuple[list[float], list[float], float] | None = None
     problem: str = ""
     digest: str = ""
+    parameters: Mapping[str, float | str] = field(default_factory=dict)
+    dimensionless_value: float | None = None
+    dimensionless_u_num: float | None = None
+    dimensionless_unit: str = ""
 
     @property
     def key(self) -> Key:

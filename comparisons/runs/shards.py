@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Hashable, Iterable
 from dataclasses import dataclass
-from typing import Protocol, TypeVar
+
+from comparisons.runs.tasks import Task
 
 __all__ = ["Shard"]
 
@@ -13,19 +14,6 @@ __all__ = ["Shard"]
 #: here, as a closed form, `_OTHER`.
 _SECONDS = {"fem": 6.0, "fscm": 0.4, "fscm-stieltjes": 3.0}
 _OTHER = 0.01
-
-
-class _PlannedTask(Protocol):
-    """A task of a sweep."""
-
-    @property
-    def model(self) -> str: ...
-
-    @property
-    def problem_key(self) -> Hashable: ...
-
-
-_Task = TypeVar("_Task", bound=_PlannedTask)
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +54,7 @@ class Shard:
             raise ValueError(f"shard {text!r} must be two numbers i/N, such as 2/3 for the second of three")
         return cls(int(found[1]), int(found[2]))
 
-    def of(self, tasks: Iterable[_Task]) -> list[_Task]:
+    def of(self, tasks: Iterable[Task]) -> list[Task]:
         """Return its tasks of those of the whole sweep, in their order.
 
         All quantities of one problem by one model are in one shard: a solver computes them from one path.  Each model
@@ -88,7 +76,7 @@ class Shard:
         return f"{self.number}/{self.total}"
 
 
-def _spread(tasks: Iterable[_PlannedTask], total: int) -> dict[Hashable, int]:
+def _spread(tasks: Iterable[Task], total: int) -> dict[Hashable, int]:
     """Return the index of the shard of every problem of every model, the same in every process."""
     costs: dict[str, dict[Hashable, float]] = {}
     for task in tasks:

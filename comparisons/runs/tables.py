@@ -17,7 +17,7 @@ from comparisons.data.input_files import LARGEST_ROWS, read_bytes
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.csv_format import csv_text
 from comparisons.runs.data_package import described, quantities
-from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
+from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS, typed
 
 __all__ = ["read_table", "write_curves", "write_results", "write_table"]
 
@@ -38,25 +38,20 @@ def write_table(
     *,
     schema: pa.Schema | None = None,
     leave_out_of_csv: Iterable[str] = (),
-    described_as: str = "",
 ) -> None:
     """Write a table as `stem`.csv and `stem`.parquet, the latter with the types of `schema` if given.
 
-    `described_as` is the name of the table in `comparisons.data.columns`, if that is another than the file's.
-
     The Parquet file has unit and description of each column in the metadata of its field, and the units of the
-    quantities, as JSON, in the metadata of the table.  A column `problem` is left out where no case is of a file.
+    quantities, as JSON, in the metadata of the table.
     """
-    if schema is not None and "problem" not in table:
-        schema = pa.schema([field for field in schema if field.name != "problem"])
+    if schema is not None:
+        schema = typed(table, schema)
     with atomic(stem.with_suffix(".csv")) as file:
         file.write(csv_text(table.drop(columns=list(leave_out_of_csv))).encode())
     with atomic(stem.with_suffix(".parquet")) as file:
         stored = pa.Table.from_pandas(table, schema=schema, preserve_index=False)
         units = {**(stored.schema.metadata or {}), "quantities": json.dumps(quantities())}
-        pq.write_table(
-            stored.cast(described(described_as or stem.name, stored.schema)).replace_schema_metadata(units), file
-        )
+        pq.write_table(stored.cast(described(stem.name, stored.schema)).replace_schema_metadata(units), file)
 
 
 def read_table(path: Path) -> pd.DataFrame:

@@ -17,10 +17,17 @@ from typing import Any
 from comparisons.domain import declared_domain
 from comparisons.external.identity import contradiction
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
-from comparisons.problem_file.evaluation import SI_UNITS, model_for, points_of, units_of, value_in_si
+from comparisons.problem_file.evaluation import (
+    SI_UNITS,
+    dimensionless_value,
+    model_for,
+    points_of,
+    units_of,
+    value_in_si,
+)
 from comparisons.quantities import ALL_QUANTITIES, CURVES, QUANTITIES, Points
 from comparisons.registry import ExternalIdentity, create, depends_on_poisson_ratio
-from comparisons.runs.cases import Case, Grid
+from comparisons.runs.cases import Case, FileProblem, Grid
 from comparisons.runs.rows import Key, Row, none_if_nan
 from comparisons.runs.workers import LOST
 
@@ -99,7 +106,7 @@ def plan(
     tasks = {
         Task(model, quantity, case_for(model, case), (external or {}).get(model))
         for grid in grids
-        for model in {grid.reference, *(models or grid.models)}
+        for model in {grid.reference, *(models or grid.models)} - {""}
         for quantity in grid.quantities
         for case in grid.cases
     }
@@ -191,16 +198,26 @@ def _row(
         u_num=number.u_num if number else None,
         unit=_unit(quantity, case),
         status=status,
-        reason=reason,
+        reason=number.reason if number else reason,
         size=number.size if number else None,
         iterations=number.iterations if number else None,
         residual=number.residual if number else None,
         seconds=(number and number.seconds) or time.perf_counter() - started,
         observed_order=number.observed_order if number else None,
         points=(points.x, points.y, points.u_distance) if points else None,
-        problem=case.label_of_file,
-        digest="" if case.file is None else case.file.digest,
+        **(_of_file(case.file, quantity, number) if case.file else {}),
     )
+
+
+def _of_file(problem: FileProblem, quantity: str, result: Result | None) -> dict[str, Any]:
+    """Return the entries of a row that a problem of a file has besides."""
+    scaled = dimensionless_value(problem.content, quantity, result) if result else None
+    return {
+        "problem": problem.label,
+        "digest": problem.digest,
+        "parameters": dict(problem.parameters),
+        **({f"dimensionless_{name}": entry for name, entry in scaled.items()} if scaled else {}),
+    }
 
 
 def evaluate_task(task: Task) -> Row:

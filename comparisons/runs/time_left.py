@@ -6,28 +6,15 @@ import math
 import time
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable
-from typing import Protocol
 
 from comparisons.console.progress import EVIDENCE
+from comparisons.runs.rows import Row
+from comparisons.runs.tasks import Task
 
 __all__ = ["TimeLeft"]
 
 #: A clock may not see a shorter computation.
 _SHORTEST = 1e-6
-
-
-class _Counted(Protocol):
-    """A task."""
-
-    @property
-    def model(self) -> str: ...
-
-
-class _Timed(_Counted, Protocol):
-    """The row of a task."""
-
-    @property
-    def seconds(self) -> float: ...
 
 
 class TimeLeft:
@@ -52,7 +39,7 @@ class TimeLeft:
     (True, 0.0)
     """
 
-    def __init__(self, tasks: Iterable[_Counted], clock: Callable[[], float] = time.perf_counter) -> None:
+    def __init__(self, tasks: Iterable[Task], clock: Callable[[], float] = time.perf_counter) -> None:
         self._pending = Counter(task.model for task in tasks)
         self._needed = {model: math.ceil(EVIDENCE * count) for model, count in self._pending.items()}
         self._count: Counter[str] = Counter()
@@ -61,7 +48,7 @@ class TimeLeft:
         self._started = clock()
         self._left = math.inf
 
-    def after(self, row: _Timed) -> float:
+    def after(self, row: Row) -> float:
         """Return the seconds left when one more row is finished."""
         self._pending[row.model] -= 1
         self._count[row.model] += 1

@@ -6,13 +6,11 @@ import argparse
 from contextlib import nullcontext
 from pathlib import Path
 
-from comparisons.cli.commands.sweep import show, show_problems
+from comparisons.cli.commands.sweep import show
 from comparisons.cli.options import FAILED, add_quiet
 from comparisons.console.progress import log, quiet
 from comparisons.model import ComputationFailed
 from comparisons.pipeline.merge import merge
-from comparisons.pipeline.problem_merge import merge_problem_sweeps
-from comparisons.runs.record import is_problem_sweep
 
 __all__ = ["EXAMPLES", "add", "call"]
 
@@ -31,8 +29,6 @@ def call(args: argparse.Namespace) -> int:
     """Merge, write and print; return the exit status."""
     with quiet() if args.quiet else nullcontext():
         try:
-            if is_problem_sweep(args.folders[0]):
-                return show_problems(merge_problem_sweeps(args.folders, args.out), with_summary=not args.quiet)
             finished = merge(args.folders, args.out)
         except ComputationFailed as failure:
             log(str(failure))

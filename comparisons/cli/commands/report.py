@@ -8,14 +8,12 @@ from pathlib import Path
 from comparisons.cli.options import OK
 from comparisons.console.progress import log
 from comparisons.data.file_names import CALLS, JOURNAL, LOCK, RECORD, RUN_FILES
-from comparisons.output.report.page import Page, make_page
-from comparisons.output.report.problem_page import ProblemPage, make_problem_page
+from comparisons.output.report.page import make_page
 from comparisons.output.report.render import render
-from comparisons.output.report.stored_problem_sweep import read_problem_sweep
 from comparisons.output.report.stored_run import read_folder
 from comparisons.runs.atomic_files import atomic, writable_file
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.record import is_problem_sweep, read_record
+from comparisons.runs.record import read_record
 
 __all__ = ["EXAMPLES", "add", "call"]
 
@@ -31,11 +29,7 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 def call(args: argparse.Namespace) -> int:
     """Read, lay out and write; return the exit status."""
-    page: Page | ProblemPage
-    if is_problem_sweep(args.folder):
-        page = make_problem_page(read_problem_sweep(args.folder))
-    else:
-        page = make_page(read_folder(args.folder))
+    page = make_page(read_folder(args.folder))
     path = _page_path(args.folder, args.out)
     text = render(page)
     with atomic(path) as file:

@@ -5,20 +5,19 @@ from __future__ import annotations
 import argparse
 from contextlib import nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from comparisons.cli.options import FAILED, OK, add_jobs, add_out, add_quiet, add_retry_failed, output
 from comparisons.console.progress import log, note, quiet
 from comparisons.model import ComputationFailed
+from comparisons.output.problem_values import values_of_problems
 from comparisons.output.sweep_summary import failure_lines, summary_tables
 from comparisons.pipeline.finished_run import FinishedRun
+from comparisons.pipeline.inputs import cases_of_problem
 from comparisons.pipeline.run import run
+from comparisons.registry import identify
 from comparisons.runs.backends import BACKENDS
 
-if TYPE_CHECKING:
-    from comparisons.pipeline.problem_sweep import FinishedProblemSweep
-
-__all__ = ["EXAMPLES", "add", "call", "show", "show_problems"]
+__all__ = ["EXAMPLES", "add", "call", "show"]
 
 #: Examples of the help.
 EXAMPLES = (
@@ -81,13 +80,16 @@ def call(args: argparse.Namespace) -> int:
             f"--shard {args.shard} needs --out DIR: each shard has a folder of its own, which is merged later"
         )
     _require_one_form(args)
+    cases, models = args.file, args.model
+    if args.problem is not None:
+        models = args.model or ["fscm"]
+        names, _ = identify(models)
+        cases = cases_of_problem(args.problem, args.vary, names, args.quantity or ["pull_off_force"])
     with quiet() if args.quiet else nullcontext():
         try:
-            if args.problem is not None:
-                return _sweep_problem(args)
             finished = run(
-                args.file,
-                models=args.model,
+                cases,
+                models=models,
                 folder=args.out,
                 jobs=args.jobs,
                 retry_failed=args.retry_failed,
@@ -112,43 +114,12 @@ def _require_one_form(args: argparse.Namespace) -> None:
         raise ValueError("--problem needs --vary KEY=VALUES; fscm-bench solve --problem computes a single problem")
 
 
-def _sweep_problem(args: argparse.Namespace) -> int:
-    # Imported here: the sweep of dimensionless cases does not need it.
-    from comparisons.pipeline.problem_sweep import problem_sweep
-
-    finished = problem_sweep(
-        args.problem,
-        args.vary,
-        args.model or ("fscm",),
-        args.quantity or ("pull_off_force",),
-        args.out,
-        jobs=args.jobs,
-        retry_failed=args.retry_failed,
-        backend=args.backend,
-        scheduler=args.scheduler,
-        shard=args.shard,
-    )
-    return show_problems(finished, with_summary=not args.quiet)
-
-
-def show_problems(finished: FinishedProblemSweep, *, with_summary: bool) -> int:
-    """Print the tables of a sweep over a problem file; return the exit status."""
-    from comparisons.output.problem_sweep_text import problem_failure_lines, problem_summary
-
-    if with_summary:
-        console = output()
-        for table in problem_summary(finished.table, finished.errors):
-            console.print(table)
-    for line in problem_failure_lines(finished.failures):
-        log(line)
-    note(f"results are in {finished.folder}")
-    return FAILED if finished.failures else OK
-
-
 def show(finished: FinishedRun, *, with_summary: bool) -> int:
     """Print the summary of a sweep and its failures; return the exit status."""
     if with_summary:
         console = output()
+        for table in values_of_problems(finished.tables.results):
+            console.print(table)
         for table in summary_tables(finished.tables.results, finished.tables.curves, finished.tables.kappa):
             console.print(table)
     for line in failure_lines(finished.failures):

@@ -7,17 +7,46 @@ import pandas as pd
 from comparisons.numerics.number_text import case_text, percent_text
 from comparisons.output.gate_sentence import gates_sentence
 from comparisons.output.report.stored_run import Stored
-from comparisons.quantities import ALL_QUANTITIES, title_of
-from comparisons.runs.rows import CASE
+from comparisons.problem_file.units import si_text
+from comparisons.quantities import ALL_QUANTITIES, QUANTITIES, title_of
+from comparisons.runs.case_columns import with_problem
+from comparisons.runs.rows import CASE, split_label
 
-__all__ = ["errors_of_models", "gates_of", "headline", "headline_of_errors"]
+__all__ = ["errors_of_models", "gates_of", "headline", "headline_of_errors", "headline_of_values"]
 
 
 def headline(stored: Stored) -> str:
     """Return the finding of a folder in one sentence: which model is how wrong, or without errors that on all gates."""
     if stored.judged and stored.kappa.empty:
         return gates_of(stored)
-    return headline_of_errors(stored.kappa)
+    return (headline_of_values(stored.results) if stored.kappa.empty else "") or headline_of_errors(stored.kappa)
+
+
+def headline_of_values(results: pd.DataFrame) -> str:
+    """Return the range of the first quantity of problem files by one model; empty where no case of one has a value.
+
+    Examples
+    --------
+    >>> row = {"model": "fscm", "quantity": "pull_off_force", "u_num": 1e-15, "unit": "N", "status": "ok"}
+    >>> rows = [row | {"problem": f"pad.toml; punch.R={R} nm", "value": 2e-10 * R} for R in (100, 300)]
+    >>> headline_of_values(pd.DataFrame(rows))
+    'The pull-off force of fscm is between 20.0000000(11) nN (punch.R=100 nm) and 60.0000000(11) nN (punch.R=300 nm)'
+    """
+    known = results[(results["status"] == "ok") & (with_problem(results)["problem"] != "")]
+    if known.empty:
+        return ""
+    of_model = known[known["model"] == known["model"].iloc[0]]
+    quantity = min(of_model["quantity"], key=list(QUANTITIES).index)
+    rows = of_model[of_model["quantity"] == quantity]
+    ends = [rows.loc[place] for place in (rows["value"].idxmin(), rows["value"].idxmax())]
+    texts = [f"{si_text(row['value'], row['u_num'], row['unit'])} ({_keys(row['problem'])})" for row in ends]
+    first = f"The {title_of(quantity)} of {of_model['model'].iloc[0]} is"
+    return f"{first} {texts[0]}" if len(rows) == 1 else f"{first} between {texts[0]} and {texts[1]}"
+
+
+def _keys(label: str) -> str:
+    file, *values = split_label(label)
+    return ", ".join(values) or file
 
 
 def gates_of(stored: Stored) -> str:

@@ -11,7 +11,7 @@ from comparisons.data.paper_statements import verdicts
 from comparisons.judging.card_gates import overall, without_card_gates
 from comparisons.judging.decision import Verdict
 from comparisons.output.error_summary import error_summary
-from comparisons.output.report import card_table, number_tables, plots, verdict_tables
+from comparisons.output.report import card_table, number_tables, plots, problem_plots, verdict_tables
 from comparisons.output.report.comparison_tables import SUMMARY_FILE, TABLE_FILE, case_tables, summary_tables
 from comparisons.output.report.headline import errors_of_models, gates_of, headline
 from comparisons.output.report.plot import Plot
@@ -43,6 +43,8 @@ class Page:
         How many cases ended with each verdict, worst first.
     summary : str
         What was run, in one sentence.
+    texts : dict of str to str
+        The files of cases and problem files, by their names.
     tables : dict of str to Table
         By their ids.
     compared : list of Table
@@ -64,6 +66,7 @@ class Page:
     meaning: str
     counts: list[tuple[str, int]]
     summary: str
+    texts: dict[str, str]
     tables: dict[str, Table]
     compared: list[Table]
     plots: dict[str, list[Plot]]
@@ -100,6 +103,7 @@ def make_page(stored: Stored) -> Page:
     """
     specs = stored.record["arguments"]["external"]
     curves = plots.curves(stored)
+    over_keys = problem_plots.plots(stored.results)
     of_verdicts = [
         verdict_tables.matrix(stored),
         verdict_tables.offenders(stored, specs),
@@ -110,6 +114,7 @@ def make_page(stored: Stored) -> Page:
     made = [
         *(of_verdicts if stored.judged else ()),
         *compared,
+        *(values.numbers for values in over_keys),
         number_tables.kappa(stored),
         number_tables.largest(stored),
         *(number_tables.curve_points(stored, plot.table, (plot.x_label, plot.y_label)) for plot in curves),
@@ -120,6 +125,7 @@ def make_page(stored: Stored) -> Page:
     ]
     tables = {table.id: table for table in made}
     sections = {
+        "values": [values.plot for values in over_keys],
         "kappa": [plots.kappa(stored)] if stored.kappa["mu"].notna().any() else [],
         "curves": curves,
         "convergence": plots.convergence(stored),
@@ -134,6 +140,7 @@ def make_page(stored: Stored) -> Page:
         meaning=_MEANINGS[verdict] if stored.judged else _UNJUDGED,
         counts=verdict_counts(stored),
         summary=_summary(stored),
+        texts=stored.texts,
         tables=tables,
         compared=compared,
         plots=sections,

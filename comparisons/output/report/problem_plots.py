@@ -1,20 +1,22 @@
-"""Plots of a sweep over a problem file: each quantity over each varied number, in SI and in the unit of the paper."""
+"""Plots of values of problem files: each quantity over each varied number, in SI and in the unit of the paper."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import pandas as pd
 
 from comparisons.numerics.number_text import value_text
-from comparisons.output.problem_sweep_text import key_text, unit_in
+from comparisons.output.problem_values import key_text
 from comparisons.output.report.plot import Control, Plot, Series, key
-from comparisons.output.report.stored_problem_sweep import StoredProblemSweep
 from comparisons.output.report.table import Cell, Column, Row, Table, number, without_empty
 from comparisons.problem_file.units import prefixed_unit, si_text
 from comparisons.quantities import QUANTITIES, title_of
+from comparisons.runs.case_columns import unit_in, varied_of
+from comparisons.runs.rows import split_label
 
-__all__ = ["key_cell", "numbers_of", "plots", "value_cell"]
+__all__ = ["ValuesOverKey", "plots"]
 
 #: The two units of a value, as options of a control.
 _SI, _PAPER = ("si", "SI"), ("paper", "dimensionless")
@@ -23,15 +25,39 @@ _SI, _PAPER = ("si", "SI"), ("paper", "dimensionless")
 _LOG = 30.0
 
 
-def plots(stored: StoredProblemSweep) -> list[Plot]:
-    """Return a plot for each varied key that has two numbers or more; the other keys are choices."""
-    known = stored.results[stored.results["status"] == "ok"]
-    over = [name for name in stored.varied if pd.api.types.is_numeric_dtype(known[name]) and known[name].nunique() > 1]
-    return [_plot(stored, known, name, place) for place, name in enumerate(over, 1)]
+@dataclass(frozen=True, slots=True)
+class ValuesOverKey:
+    """A plot of the values of a problem file over one varied key, and its numbers."""
+
+    plot: Plot
+    numbers: Table
 
 
-def _plot(stored: StoredProblemSweep, known: pd.DataFrame, over: str, place: int) -> Plot:
-    others = [name for name in stored.varied if name != over]
+def plots(results: pd.DataFrame) -> list[ValuesOverKey]:
+    """Return a plot for each varied key of a problem file that has two numbers or more; the other keys are choices.
+
+    Parameters
+    ----------
+    results : DataFrame
+        As of `comparisons.runs.frames.frame`.
+    """
+    if "problem" not in results:
+        return []
+    found: list[ValuesOverKey] = []
+    numbered = results.assign(line=range(len(results)), file=[split_label(label)[0] for label in results["problem"]])
+    known = numbered[(numbered["status"] == "ok") & (numbered["file"] != "")]
+    for file, rows in known.groupby("file"):
+        varied = [name for name in varied_of(rows) if rows[name].notna().any()]
+        for name in varied:
+            if pd.api.types.is_numeric_dtype(rows[name]) and rows[name].nunique() > 1:
+                others = [other for other in varied if other != name]
+                title = f"{unit_in(name)[0]} of {file}"
+                plot = _plot(rows, name, others, title, len(found) + 1)
+                found.append(ValuesOverKey(plot, _numbers(rows, plot, (name, *others))))
+    return found
+
+
+def _plot(known: pd.DataFrame, over: str, others: list[str], title: str, place: int) -> Plot:
     label, unit = unit_in(over)
     power, prefixed = prefixed_unit(float(known[over].abs().max()), unit)
     x = known[over]
@@ -69,7 +95,7 @@ def _plot(stored: StoredProblemSweep, known: pd.DataFrame, over: str, place: int
         controls.append(Control(words, tuple((key(value), key_text(value, of)) for value in values)))
     return Plot(
         id=f"plot-{place}",
-        title=f"Values over {label}",
+        title=f"Values over {title}",
         x_label=label if prefixed == "1" else f"{label} ({prefixed})",
         y_label="value",
         x_scale="log" if wide else "linear",
@@ -84,35 +110,23 @@ def _plot(stored: StoredProblemSweep, known: pd.DataFrame, over: str, place: int
     )
 
 
-def numbers_of(stored: StoredProblemSweep, plot: Plot, over: str) -> Table:
-    """Return the numbers of a plot; a row's group is the choice that shows it.
-
-    Parameters
-    ----------
-    stored : StoredProblemSweep
-    plot : Plot
-        Of `plots`.
-    over : str
-        Its varied key.
-    """
-    others = [name for name in stored.varied if name != over]
-    numbered = stored.results.assign(line=range(len(stored.results)))
-    known = numbered[numbered["status"] == "ok"]
+def _numbers(known: pd.DataFrame, plot: Plot, keys: Sequence[str]) -> Table:
+    """Return the numbers of a plot; a row's group is the choice that shows it."""
     rows, lines = [], []
     for form, column, bound in _forms(known):
         for row in known[known[column].notna()].to_dict("records"):
             cells = (
                 Cell(row["model"]),
-                *(key_cell(row, name) for name in (over, *others)),
+                *(_key_cell(row, name) for name in keys),
                 Cell(_text(row, column), float(row[column])),
                 number(row[bound], ".1e"),
                 Cell(row["unit"] if column == "value" else row["dimensionless_unit"]),
             )
-            rows.append(Row(cells, _group(row, others, form)))
+            rows.append(Row(cells, _group(row, keys[1:], form)))
             lines.append(int(row["line"]))
     columns = (
         Column("model", "head"),
-        *(Column(unit_in(name)[0], "number") for name in (over, *others)),
+        *(Column(unit_in(name)[0], "number") for name in keys),
         Column("value", "number"),
         Column("u_num", "number"),
         Column("unit"),
@@ -120,17 +134,10 @@ def numbers_of(stored: StoredProblemSweep, plot: Plot, over: str) -> Table:
     return without_empty(Table(plot.table, plot.title, columns, rows, "results.csv", lines=tuple(lines)))
 
 
-def key_cell(row: dict[str, float | str], name: str) -> Cell:
+def _key_cell(row: dict[str, float | str], name: str) -> Cell:
     """The value of a varied key, and the number in SI behind it."""
     text = key_text(row[name], unit_in(name)[1])
     return Cell(text) if isinstance(row[name], str) else Cell(text, float(row[name]))
-
-
-def value_cell(row: dict[str, float | str], name: str = "value", bound: str = "u_num") -> Cell:
-    """A value with a unit in SI, and the number behind it; empty where there is none."""
-    if pd.isna(row[name]):
-        return Cell("")
-    return Cell(si_text(float(row[name]), float(row[bound]), str(row["unit"])), float(row[name]))
 
 
 def _forms(known: pd.DataFrame) -> Iterator[tuple[tuple[str, str], str, str]]:
@@ -151,11 +158,11 @@ def _axis(rows: pd.DataFrame, column: str, quantity: str) -> tuple[int, str]:
 
 def _text(row: dict[str, float | str], column: str) -> str:
     if column == "value":
-        return value_cell(row).text
+        return si_text(float(row["value"]), float(row["u_num"]), str(row["unit"]))
     return value_text(float(row[column]), float(row["dimensionless_u_num"]))
 
 
-def _group(row: pd.Series | dict[str, float | str], others: list[str], form: tuple[str, str]) -> str:
+def _group(row: pd.Series | dict[str, float | str], others: Sequence[str], form: tuple[str, str]) -> str:
     return key(row["quantity"], form[0], *(row[name] for name in others))
 
 

@@ -22,7 +22,6 @@ from comparisons.judging.decision import Verdict
 from comparisons.output.latex_layout import NUMBER
 from comparisons.output.latex_text import TOKENS, escaped
 from comparisons.output.report.page import Page
-from comparisons.output.report.problem_page import ProblemPage
 from comparisons.output.report.table import Table
 from comparisons.output.style import VERDICT_SYMBOLS, verdict_class
 
@@ -67,14 +66,13 @@ def script_json(content: Any) -> Markup:
     return Markup(text.encode("utf-8", "replace").decode("utf-8"))
 
 
-def render(page: Page | ProblemPage) -> str:
+def render(page: Page) -> str:
     """Return the HTML of a page; the same page gives the same text.
 
     Parameters
     ----------
-    page : Page or ProblemPage
-        As `comparisons.output.report.page.make_page` or `comparisons.output.report.problem_page.make_problem_page`
-        returns it.
+    page : Page
+        As `comparisons.output.report.page.make_page` returns it.
     """
     styles = {
         name: [style.colour, dark_colour(style.colour), style.dash, style.marker, style.broad]
@@ -83,8 +81,7 @@ def render(page: Page | ProblemPage) -> str:
     plots = [plot.data() for plot in page.every_plot]
     scripts = [*(_script("bokeh", name) for name in _BOKEH), *(_own_script(name) for name in (*_SCRIPTS, "plots.js"))]
     content = {"plots": plots, "model_styles": styles}
-    template = "report.html" if isinstance(page, Page) else "problem_report.html"
-    return _filled(template, page.tables.values(), page.files, scripts, content, page=page, most_open=_MOST_OPEN)
+    return _filled("report.html", page.tables.values(), page.files, scripts, content, page=page, most_open=_MOST_OPEN)
 
 
 def render_table(template: str, table: Table, files: Mapping[str, str], **context: Any) -> str:

@@ -3,21 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
-from comparisons.data.file_names import COMPARISON, CURVES, KAPPA, LARGEST_KAPPA, RESULTS, SUMMARY, VERDICTS
+from comparisons.data.contained_paths import path_inside
+from comparisons.data.file_names import (
+    COMPARISON,
+    CURVES,
+    GRID_TEXT,
+    INPUTS,
+    KAPPA,
+    LARGEST_KAPPA,
+    RESULTS,
+    SUMMARY,
+    VERDICTS,
+)
+from comparisons.data.input_files import read_text
 from comparisons.judging.decision import Verdict
 from comparisons.judging.judge import Judged
 from comparisons.judging.summary import COVERAGE
 from comparisons.output.comparison import COLUMNS as COMPARED
 from comparisons.output.verdicts import GATE_COLUMNS
+from comparisons.runs.case_columns import DIMENSIONLESS, varied_of
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.frames import COLUMNS, CURVE_COLUMNS
-from comparisons.runs.record import PROBLEM_SWEEP, check_files, read_record, warn_of_other_code
+from comparisons.runs.record import check_files, read_record, warn_of_other_code
 from comparisons.runs.rows import CASE
 from comparisons.runs.tables import read_table
 
@@ -56,6 +69,7 @@ _WORDS = {
     "problem",
     "quantity",
     "unit",
+    "dimensionless_unit",
     "status",
     "reason",
     "gate",
@@ -73,7 +87,8 @@ class Stored:
 
     Of a sweep and of a comparison nothing is judged: `judged` is false, and `verdicts` and `summary` have no rows.
     `gates` is None there, and in a folder that was judged before gates were stored beside the verdicts.  `compared` is
-    the table of a comparison (`comparisons.output.comparison.comparison_table`), and None in another folder.
+    the table of a comparison (`comparisons.output.comparison.comparison_table`), and None in another folder.  `texts`
+    are the copies of the file of cases and of the problem files, by their names.
     """
 
     record: dict[str, Any]
@@ -86,6 +101,7 @@ class Stored:
     gates: pd.DataFrame | None
     judged: bool = True
     compared: pd.DataFrame | None = None
+    texts: dict[str, str] = field(default_factory=dict)
 
 
 def read_folder(folder: Path) -> Stored:
@@ -98,8 +114,6 @@ def read_folder(folder: Path) -> Stored:
     """
     files = RunFolder(folder)
     record = read_record(files.record)
-    if record["command_name"] == PROBLEM_SWEEP:
-        raise ValueError(f"{folder} holds values of a problem file in SI, which have no place beside other runs")
     check_files(record, folder)
     warn_of_other_code(record, folder)
     tables = {name: _table(folder / f"{name}.parquet", columns) for name, columns in _TABLES.items()}
@@ -126,7 +140,13 @@ def read_folder(folder: Path) -> Stored:
         _table(gates, GATE_COLUMNS, words=set(GATE_COLUMNS)) if gates.exists() else None,
         judged,
         _table(files.parquet(files.comparison), COMPARED) if _has(folder, record, COMPARISON) else None,
+        {name: read_text(path_inside(folder, name), f"the copy {name}") for name in record["files"] if _is_case(name)},
     )
+
+
+def _is_case(name: str) -> bool:
+    """Whether a file of a folder states cases: the grids, or a problem file."""
+    return name == GRID_TEXT or (name.startswith(f"{INPUTS}/") and name.endswith(".toml"))
 
 
 def _has(folder: Path, record: dict[str, Any], name: str) -> bool:
@@ -136,7 +156,7 @@ def _has(folder: Path, record: dict[str, Any], name: str) -> bool:
 
 def _table(path: Path, columns: Sequence[str], words: set[str] = _WORDS) -> pd.DataFrame:
     table = read_table(path)
-    columns = [name for name in columns if name != "problem" or name in table]
+    columns = [name for name in columns if name not in ("problem", *DIMENSIONLESS) or name in table]
     lost = [name for name in columns if name not in table]
     if lost:
         raise ValueError(f"{path} has no column {', '.join(lost)}: it is not what this version of fscm-bench writes")
@@ -148,4 +168,4 @@ def _table(path: Path, columns: Sequence[str], words: set[str] = _WORDS) -> pd.D
             table[name] = pd.to_numeric(table[name]).astype(float)
         except (TypeError, ValueError):
             raise ValueError(f"{path} has something in its column {name} that is no number") from None
-    return table[columns]
+    return table[[*columns, *varied_of(table)]]

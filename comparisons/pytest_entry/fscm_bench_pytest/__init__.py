@@ -17,7 +17,9 @@ import pytest
 __all__ = ["GateFailure", "GateItem", "GatesFile", "OtherVerdicts"]
 
 #: Names of the options and of the entries of an ini file.
-_GATES, _MODEL, _TIER, _OUT, _JOBS = (f"fscm_bench_{name}" for name in ("gates", "model", "tier", "out", "jobs"))
+_GATES, _MODEL, _TIER, _CASES, _OUT, _JOBS = (
+    f"fscm_bench_{name}" for name in ("gates", "model", "tier", "cases", "out", "jobs")
+)
 
 
 class GateFailure(Exception):
@@ -32,11 +34,13 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--fscm-bench-model", dest=_MODEL, metavar="SPEC", action="append", help="a model to judge; may be repeated"
     )
     group.addoption("--fscm-bench-tier", dest=_TIER, choices=("quick", "full"), help="standing cases (default: quick)")
+    group.addoption("--fscm-bench-cases", dest=_CASES, metavar="FILE", help="cases in place of the standing ones")
     group.addoption(
         "--fscm-bench-out", dest=_OUT, metavar="DIR", help="keep the run folder here; resumed if it has some"
     )
     group.addoption("--fscm-bench-jobs", dest=_JOBS, metavar="N", type=int, default=1, help="processes (default: 1)")
     parser.addini(_GATES, "gates file, relative to the root folder, that is collected as tests", default="")
+    parser.addini(_CASES, "file of cases, relative to the root folder, in place of the standing ones", default="")
     parser.addini(_MODEL, "models to judge, one a line; a file is relative to the root folder", type="linelist")
 
 
@@ -70,7 +74,11 @@ class _Collection:
 
     def __init__(self, config: pytest.Config, path: Path, models: list[str]) -> None:
         self.path, self.models = path, models
-        self.tier: str = config.getoption(_TIER) or "quick"
+        self.cases: str | Path = config.getoption(_TIER) or "quick"
+        if given_cases := config.getoption(_CASES):
+            self.cases = config.invocation_params.dir / given_cases
+        elif stated_cases := config.getini(_CASES):
+            self.cases = config.rootpath / stated_cases
         self.jobs: int = config.getoption(_JOBS)
         given = getattr(config, "workerinput", {}).get(_OUT) or config.getoption(_OUT)
         self._temporary = None if given else tempfile.mkdtemp(prefix="fscm-bench-")
@@ -82,7 +90,7 @@ class _Collection:
 
     def pytest_report_header(self) -> str:
         """State what is judged."""
-        return f"fscm-bench: {', '.join(self.models)} by {self.path}, tier {self.tier}"
+        return f"fscm-bench: {', '.join(self.models)} by {self.path}, cases {self.cases}"
 
     @pytest.hookimpl(optionalhook=True)
     def pytest_configure_node(self, node: Any) -> None:
@@ -110,7 +118,7 @@ class GatesFile(pytest.File):
         from comparisons.pipeline.expected_verdicts import expected_verdicts
 
         try:
-            expected = list(expected_verdicts(self._gates.path, self._gates.models, self._gates.tier))
+            expected = list(expected_verdicts(self._gates.path, self._gates.models, self._gates.cases))
         except ValueError as refusal:
             raise self.CollectError(str(refusal)) from None
         for one in expected:
@@ -132,7 +140,7 @@ class GatesFile(pytest.File):
 
             run = self._gates
             try:
-                self._verdicts = found_verdicts(run.path, run.models, run.tier, run.folder, run.jobs)
+                self._verdicts = found_verdicts(run.path, run.models, run.cases, run.folder, run.jobs)
             except (ValueError, OSError, ComputationFailed) as failure:
                 self._failure = str(failure)
         if self._failure:

@@ -6,6 +6,8 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
+from comparisons.problem_file.dimensionless import dimensionless_problem
+from comparisons.problem_file.reading import load_problem
 
 PAD = """
 solid = {kind = "homogeneous", E = "2 MPa", nu = 0.4}
@@ -221,3 +223,64 @@ def test_a_random_model_is_seen_on_problems_of_files_alone(run, tmp_path):
     found = verdicts(tmp_path / "out").set_index("gate")["verdict"]
     assert set(found["PADS"]) == {"PASS"}
     assert "FAIL" in set(found[["CARD-SAME-AGAIN"]])
+
+
+BY_HEART = """
+from comparisons import Result
+
+KNOWN = {known}
+
+class ByHeart:
+    name = "by-heart"
+    version = "1"
+    citation = "none"
+    domain = "everywhere"
+
+    def evaluate(self, problem, quantity):
+        # JKR where the gate asks, and nothing like it elsewhere.
+        near = any(abs(problem.mu / mu - 1) < 1e-9 for mu in KNOWN)
+        return Result(1.5 if near else 2.0, 0.0)
+"""
+
+
+PADS, _, _ = CASES.partition('[[grid]]\nid = "numbers"')
+
+
+def with_model(run, tmp_path, text, cases=PADS):
+    (tmp_path / "model.py").write_text(text)
+    (tmp_path / "cases.toml").write_text(cases)
+    gate = GATE.format(cases=SOFT, lower=-0.3, upper=-0.2, least=1).replace('"jkr"', '"given"')
+    (tmp_path / "gates.toml").write_text(gate)
+    files = ["--cases", str(tmp_path / "cases.toml"), "--gates", str(tmp_path / "gates.toml")]
+    model = ["--model", f"{tmp_path / 'model.py'}:ByHeart", "--jobs", "1", "--quiet"]
+    return main(["run", *files, *model, "--random", "6", "--out", str(tmp_path / "out")])
+
+
+def test_a_model_that_knows_the_problems_by_heart_is_wrong_in_fresh_ones(run, tmp_path):
+    stated = (problem_of(PAD.replace("2 MPa", E), tmp_path) for E in ("1 MPa", "2 MPa"))
+    known = [dimensionless_problem(problem)[0].mu for problem in stated]
+    assert with_model(run, tmp_path, BY_HEART.replace("{known}", str(known))) == 1
+    found = verdicts(tmp_path / "out")
+    assert set(found.loc[found["gate"] == "PADS", "verdict"]) == {"PASS"}
+    fresh = found[(found["gate"] == "PADS-RANDOM") & found["problem"].notna()]
+    assert len(fresh) == 6
+    assert set(fresh["verdict"]) == {"FAIL"}
+    # The fresh problems are between the stated ones, and none is one of them.
+    values = [float(label.rpartition("=")[2].removesuffix(" Pa")) for label in fresh["problem"]]
+    assert all(1e6 < value < 2e6 for value in values)
+    # They are judged again from the folder alone.
+    (tmp_path / "pad.toml").unlink()
+    assert main(["judge", str(tmp_path / "out")]) == 1
+
+
+def test_problems_without_a_range_have_no_fresh_ones(run, tmp_path):
+    cases = PADS.replace('vary = { "solid.E" = ["1 MPa", "2 MPa", "30 MPa"] }\n', "")
+    known = dimensionless_problem(problem_of(PAD, tmp_path))[0].mu
+    assert with_model(run, tmp_path, BY_HEART.replace("{known}", f"[{known}]"), cases) == 3
+    found = verdicts(tmp_path / "out")
+    assert found.loc[found["gate"] == "PADS-RANDOM", "verdict"].tolist() == ["INCONCLUSIVE"]
+
+
+def problem_of(text, folder):
+    (folder / "one.toml").write_text(text)
+    return load_problem(folder / "one.toml")

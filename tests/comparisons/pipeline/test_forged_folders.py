@@ -4,6 +4,7 @@ import json
 import os
 import shlex
 from dataclasses import replace
+from hashlib import sha256
 from pathlib import Path
 
 import pytest
@@ -57,40 +58,31 @@ def refused(folder, capsys):
     return error
 
 
-NAMES = ["../evil.sh", "../precious.txt", "inputs/../../evil.sh", "inputs/..", "journal.jsonl", "run.json", ""]
+NAMES = ["../evil.sh", "{folder}/mine/precious.txt", "inputs/../../evil.sh", "..", "journal.jsonl", ""]
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_table_of_the_record(name, shard, capsys):
-    (shard.parent / "precious.txt").write_text("theirs")
-    forge(shard, lambda record: record["inputs"]["tables"].update({"a.csv": name}))
-    refused(shard, capsys)
-
-
-def test_an_absolute_path_of_the_record(shard, tmp_path, capsys):
-    precious = str(tmp_path / "mine" / "precious.txt")
-    forge(shard, lambda record: record["inputs"]["tables"].update({"a.csv": precious}))
-    refused(shard, capsys)
+def test_a_problem_file_of_the_grids(name, shard, tmp_path, capsys):
+    """The copy of the grids comes from elsewhere, as the record does, and names a file."""
+    grid = shard / "grid.toml"
+    grid.write_text(grid.read_text().replace(PAD.name, name.format(folder=tmp_path)))
+    forge(shard, lambda record: record["files"].update({"grid.toml": sha256(grid.read_bytes()).hexdigest()}))
+    assert main(["merge", str(shard), "--out", str(tmp_path / "mine" / "out")]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+    assert not (tmp_path / "mine" / "out" / "inputs").exists()
+    assert (tmp_path / "mine" / "precious.txt").read_text() == "precious"
 
 
 @pytest.mark.parametrize("name", ["../evil.sh", "{folder}/mine/precious.txt", "inputs/../../evil.sh"])
-@pytest.mark.parametrize("place", ["problem", "files"])
-def test_other_paths_of_the_record(place, name, shard, tmp_path, capsys):
-    name = name.format(folder=tmp_path)
-
-    def change(record):
-        if place == "problem":
-            record["inputs"]["problem"] = name
-        else:
-            record["files"][name] = "0" * 64
-
-    forge(shard, change)
+def test_a_file_of_the_record(name, shard, tmp_path, capsys):
+    forge(shard, lambda record: record["files"].update({name.format(folder=tmp_path): "0" * 64}))
     refused(shard, capsys)
 
 
 def test_a_copy_that_is_a_link_out_of_the_folder(shard, tmp_path, capsys):
-    (shard / "inputs" / "a.csv").symlink_to(tmp_path / "mine" / "precious.txt")
-    forge(shard, lambda record: record["inputs"]["tables"].update({"a.csv": "inputs/a.csv"}))
+    copy = shard / "inputs" / PAD.name
+    copy.rename(tmp_path / "mine" / "precious.toml")
+    copy.symlink_to(tmp_path / "mine" / "precious.toml")
     refused(shard, capsys)
 
 
@@ -184,7 +176,7 @@ def test_a_record_without_the_version_of_a_model(tmp_path, capsys):
     assert "mine" in capsys.readouterr().err
 
 
-def test_a_problem_sweep_without_the_version_of_a_model(shard, tmp_path, capsys):
+def test_a_record_of_a_problem_file_without_the_version_of_a_model(shard, tmp_path, capsys):
     forge(shard, lambda record: record["models"].pop("jkr"))
     assert main(["merge", str(shard), "--out", str(tmp_path / "mine" / "out")]) == 2
     assert "jkr" in capsys.readouterr().err

@@ -8,11 +8,10 @@ from pathlib import Path
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.problem_file.variation import variations
+from comparisons.pipeline.inputs import cases_of_problem
 from comparisons.registry import create
 from comparisons.runs import execution
 from comparisons.runs.cases import load_grids
-from comparisons.runs.problem_tasks import plan_problems
 from comparisons.runs.record import read_record
 from comparisons.runs.shards import Shard
 from comparisons.runs.tasks import plan
@@ -63,9 +62,9 @@ def test_every_task_is_in_one_shard(toys, total):
 
 
 def test_the_shards_of_a_problem_sweep_cut_no_path_and_share_the_expensive_model():
-    problems = variations(PAD, ["punch.R=1:5:5 um"])
-    models = {name: (name, "") for name in ("bradley", "fscm", "fem", "jkr")}
-    tasks = plan_problems(problems, models, ("pull_off_force", "jump_in_gap", "jump_out_gap"))
+    models = ("bradley", "fscm", "fem", "jkr")
+    quantities = ("pull_off_force", "jump_in_gap", "jump_out_gap")
+    tasks = plan(cases_of_problem(PAD, ["punch.R=1:5:5 um"], models, quantities).grids)
     shards = [Shard(number, 2).of(tasks) for number in (1, 2)]
     assert sorted(task.key for shard in shards for task in shard) == sorted(task.key for task in tasks)
     for shard in shards:

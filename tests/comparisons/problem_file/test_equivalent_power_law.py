@@ -16,7 +16,8 @@ from comparisons.problem_file import elastic_energy, equivalent_text
 from comparisons.problem_file.description import ProblemFile, Section
 from comparisons.problem_file.dimensionless import dimensionless_problem
 from comparisons.problem_file.elastic_energy import energy_spectrum
-from comparisons.problem_file.equivalent_power_law import LARGEST_K, equivalent_power_law, least_wrong
+from comparisons.problem_file.equivalent_power_law import equivalent_power_law
+from comparisons.problem_file.equivalent_solid import LARGEST_K, equivalent_solids, least_wrong
 from comparisons.problem_file.evaluation import evaluate_problem
 from comparisons.problem_file.reading import load_problem
 
@@ -120,6 +121,25 @@ def test_closed_forms_have_the_power_law_and_their_error_is_that_against_the_sol
         assert abs(factor * pull / force.value - 1.0 - errors[model].error) <= errors[model].bound < 1e-7
     assert [abs(one.error) for one in found.closed_forms] == sorted(abs(one.error) for one in found.closed_forms)
     assert not {"fscm", "fem", "atlas"} & set(errors)
+
+
+def test_a_closed_form_has_the_value_of_the_equivalent_and_the_error_of_the_fit(monkeypatch):
+    problem = load_problem(COATED)
+    found = evaluate_problem(problem, "jkr", "pull_off_force")
+    monkeypatch.setattr(elastic_energy, "_POINTS", 4 * elastic_energy._POINTS)
+    fine, _ = equivalent_solids.__wrapped__(problem)
+    force = (3.0 + fine.solid["k"]) / 2.0 * math.pi * 1e-7 * 0.05
+    assert abs(found.value - force) < found.u_num < 2e-3 * force
+    assert "equivalent power law" in found.reason
+    # A model that solves the equations of a power law is no reference for another solid.
+    assert evaluate_problem(problem, "atlas", "pull_off_force").status == "not-applicable"
+
+
+def test_a_solid_that_no_power_law_stands_for():
+    coating = {"E_coating": 1e6, "E_substrate": 1e11, "thickness": 5e-9, "transition": 0.0, "nu": 0.3}
+    found = evaluate_problem(on("coating", coating), "jkr", "pull_off_force")
+    assert (found.status, found.value) == ("not-applicable", None)
+    assert "no power law stands for" in found.reason
 
 
 @pytest.mark.heavy

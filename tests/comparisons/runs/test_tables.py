@@ -13,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from comparisons.runs.atomic_files import atomic, prepare_folder, writable_file, write_json
+from comparisons.runs.case_columns import DIMENSIONLESS
 from comparisons.runs.csv_format import csv_text, plain_text
 from comparisons.runs.frames import COLUMNS, frame
 from comparisons.runs.rows import Row
@@ -112,11 +113,12 @@ def test_parquet_keeps_types_and_csv_leaves_out_the_clock(tmp_path):
     rows = [row(), row("dmt", **REFUSED, status="failed", reason="why")]
     write_results(frame(rows), tmp_path / "results")
     stored = pq.read_table(tmp_path / "results.parquet")
-    assert stored.schema.equals(pa.schema([field for field in COLUMNS if field.name != "problem"]))
+    without_files = [field for field in COLUMNS if field.name not in ("problem", *DIMENSIONLESS)]
+    assert stored.schema.equals(pa.schema(without_files))
     assert stored.to_pylist()[0]["value"] is None
     assert stored.to_pylist()[1]["size"] == 0
     csv = pd.read_csv(tmp_path / "results.csv")
-    assert list(csv) == [name for name in COLUMNS.names if name not in ("problem", "seconds")]
+    assert list(csv) == [field.name for field in without_files if field.name != "seconds"]
     assert csv.loc[1, "value"] == 1.5
 
 

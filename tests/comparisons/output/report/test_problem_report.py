@@ -13,11 +13,10 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.output.latex_text import escaped
-from comparisons.output.report.problem_page import make_problem_page, problem_headline
+from comparisons.output.report.page import make_page
 from comparisons.output.report.render import render
-from comparisons.output.report.stored_problem_sweep import read_problem_sweep
+from comparisons.output.report.stored_run import read_folder
 from comparisons.output.report.table import table_tex
-from comparisons.runs.record import read_record, write_record
 from comparisons.runs.tables import read_table
 
 from .browsing import (
@@ -44,7 +43,7 @@ HOSTILE = "# </script><script>window.hostile = 1</script> <img src=x onerror=\"w
 
 
 def report(folder):
-    return render(make_problem_page(read_problem_sweep(folder)))
+    return render(make_page(read_folder(folder)))
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +60,7 @@ def swept(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def laid_out(swept):
-    return make_problem_page(read_problem_sweep(swept))
+    return make_page(read_folder(swept))
 
 
 @pytest.fixture(scope="module")
@@ -71,30 +70,21 @@ def page_of_sweep(swept):
     return path
 
 
-def test_the_headline_is_the_range_of_the_reference(laid_out, swept):
-    force = pd.read_csv(swept / "results.csv").query("model == 'atlas' and quantity == 'pull_off_force'")["value"]
-    found = re.fullmatch(
-        r"The pull-off force of atlas is between (\S+) nN \(R = 100 nm, work_of_adhesion = 20 mJ/m\^2\) and (\S+) µN "
-        r"\(R = 5 µm, work_of_adhesion = 60 mJ/m\^2\)",
-        laid_out.headline,
-    )
-    assert (float(found[1]) * 1e-9, float(found[2]) * 1e-6) == pytest.approx((force.min(), force.max()), rel=5e-4)
-    assert "Of 2 models bradley differs most from atlas: by 17.36" in laid_out.summary
-    assert "36 computations of 6 problems" in laid_out.summary
-
-
-def test_a_value_that_is_less_certain_than_four_digits_keeps_its_bound():
-    row = {"model": "fem", "quantity": "pull_off_force", "punch.R [m]": 1e-7, "unit": "N", "status": "ok"}
-    values = pd.DataFrame([row | {"value": 2.7172e-8, "u_num": 4e-11}])
-    assert problem_headline(values) == "The pull-off force of fem is 27.17(4) nN (R = 100 nm)"
-    assert problem_headline(values.assign(status="failed")) == "No computation of this sweep has a value"
+def test_the_headline_is_the_largest_error_or_the_range_of_the_values(laid_out, tmp_path):
+    assert laid_out.headline.startswith("Of 2 models bradley differs most from atlas: by 17.36")
+    options = ["--vary", "punch.R=1, 2 um", "--model", "bradley", "--quiet", "--out", str(tmp_path)]
+    assert main(["sweep", "--problem", str(PAD), *options]) == 0
+    headline = make_page(read_folder(tmp_path)).headline
+    form = r"The pull-off force of bradley is between (\S+) nN \(.*=1 um\) and (\S+) nN \(.*=2 um\)"
+    found = re.fullmatch(form, headline)
+    assert [float(text.partition("(")[0]) for text in found.groups()] == pytest.approx([100 * math.pi, 200 * math.pi])
 
 
 def test_every_choice_of_a_plot_shows_the_stored_numbers(laid_out, swept):
     stored = pd.read_csv(swept / "results.csv").set_index(
         ["quantity", "model", "punch.R [m]", "law.work_of_adhesion [J/m^2]"]
     )
-    over_radius, over_work = laid_out.every_plot
+    over_radius, over_work = laid_out.plots["values"]
     assert (over_radius.x_label, over_radius.x_scale) == ("punch.R (µm)", "log")
     assert (over_work.x_label, over_work.x_scale) == ("law.work_of_adhesion (mJ/m^2)", "linear")
     seen = 0
@@ -124,7 +114,8 @@ def test_every_choice_of_a_plot_shows_the_stored_numbers(laid_out, swept):
 
 
 def test_each_row_stands_for_lines_of_its_file(laid_out):
-    for table in laid_out.tables.values():
+    for values in laid_out.plots["values"]:
+        table = laid_out.tables[values.table]
         stored = list(csv.DictReader(io.StringIO(laid_out.files[table.source])))
         lines = table.lines if table.lines is not None else range(len(table.rows))
         assert len(lines) == len(table.rows)
@@ -132,12 +123,6 @@ def test_each_row_stands_for_lines_of_its_file(laid_out):
             assert row.cells[0].text == stored[line]["model"]
         if table.rows:
             assert escaped(table.caption) in table_tex(table)
-
-
-def test_what_has_no_value_has_its_reason(laid_out):
-    rows = laid_out.tables["lacking"].rows
-    assert [row.cells[0].text for row in rows] == ["bradley"] * 6
-    assert all("it has no jump_out_displacement" in row.cells[-1].text for row in rows)
 
 
 def test_the_same_folder_gives_the_same_page_and_a_changed_one_none(swept, tmp_path, capsys):
@@ -152,21 +137,6 @@ def test_the_same_folder_gives_the_same_page_and_a_changed_one_none(swept, tmp_p
     assert not (folder / "report.html").exists()
 
 
-def test_a_table_without_a_column_is_refused(swept, tmp_path, capsys):
-    folder = tmp_path / "changed"
-    shutil.copytree(swept, folder)
-    pd.read_parquet(folder / "results.parquet").drop(columns="unit").to_parquet(folder / "results.parquet")
-    write_record(read_record(folder / "run.json"), folder / "run.json")
-    assert main(["report", str(folder)]) == 2
-    assert "results.parquet has no column unit" in capsys.readouterr().err
-
-
-def test_the_page_replaces_no_file_of_the_sweep(swept, capsys):
-    for name in ("results.csv", "inputs/pad.toml"):
-        assert main(["report", str(swept), "--out", str(swept / name)]) == 2
-        assert "is a file of the run, which the page would replace" in capsys.readouterr().err
-
-
 def test_keys_with_texts_are_choices(tmp_path):
     rows = "r [nm],height [nm]\n" + "".join(f"{r},{r * r / 200}\n" for r in range(40))
     for name in ("a.csv", "b.csv"):
@@ -177,9 +147,9 @@ def test_keys_with_texts_are_choices(tmp_path):
     vary = ["--vary", "punch.file=a.csv, b.csv"]
     out = ["--model", "bradley", "--quiet", "--out", str(tmp_path / "out")]
     assert main(["sweep", "--problem", str(tmp_path / "tip.toml"), *vary, *out]) == 0
-    page = make_problem_page(read_problem_sweep(tmp_path / "out"))
-    assert (page.every_plot, page.headline) == ([], "No computation of this sweep has a value")
-    assert "No varied key has two numbers with values." in render(page)
+    page = make_page(read_folder(tmp_path / "out"))
+    assert page.plots["values"] == []
+    assert "Values over the varied keys" not in render(page)
 
 
 def test_the_page_in_a_browser(browser, page_of_sweep, swept):
@@ -187,7 +157,7 @@ def test_the_page_in_a_browser(browser, page_of_sweep, swept):
     assert messages(browser) == []
     assert {url for url in requests(browser) if not url.startswith("data:")} == {page_of_sweep.as_uri()}
     assert browser.execute_script("return [window.hostile ?? null, document.images.length]") == [None, 0]
-    assert HOSTILE.strip() in find(browser, "pre.file").text
+    assert HOSTILE.strip() in find(browser, "pre.file[aria-label='inputs/pad.toml']").text
     # A choice shows its numbers and its unit.
     unfold(browser, "plot-1-numbers")
     stored = read_table(swept / "results.parquet").query("quantity == 'pull_off_force' and status == 'ok'")
