@@ -40,9 +40,6 @@ _ALL_QUANTITIES = 2
 #: The most rows of a submission that are evaluated; all of them were validated when it was read.
 _MOST_ROWS = 1000
 
-#: What the error towards a limit may grow by: a model that is exact there has rounding for errors.
-_STANDSTILL = 1e-6
-
 #: Relative change on a change of units that rounding explains: scales are powers with exponents up to 2/n, of
 #: logarithms up to 50, and a model's own roots are rarely better than 1e-10.
 _SCALING = 1e-8
@@ -56,106 +53,88 @@ def examine(model: AnyExternalModel) -> list[Finding]:
     model : ExternalModel or DataModel
         As `comparisons.external.model_source.load_model` returns it.
     """
-    evaluations = Evaluations(model)
+    done = Evaluations(model)
     for key in _keys(model):
-        evaluations.get(key)
+        done.get(key)
     # First, because they evaluate further cases, which the other checks include.
-    sizes = [*check_limits(evaluations), check_calibration(evaluations)]
+    sizes = [*check_limits(done), check_calibration(done)]
     return [
-        _check_texts(model),
-        _check_finite(evaluations),
-        _check_signs(evaluations),
-        _check_repeated(evaluations),
-        _check_units(evaluations),
+        Finding("has version, citation and domain", *_texts(model)),
+        Finding("gives finite numbers", *_finite(done)),
+        Finding("keeps the sign rules", *_signs(done)),
+        Finding("gives the same result again", *_repeated(done)),
+        Finding("does not depend on units", *_units(done)),
         *sizes,
     ]
 
 
 def _keys(model: AnyExternalModel) -> Iterator[Key]:
     if isinstance(model, DataModel):
-        yield from (Key(*row) for row in list(model.submission.rows)[:_MOST_ROWS])
+        yield from (Key(*row) for row in list(model.rows)[:_MOST_ROWS])
         return
     for number, case in enumerate(_CASES):
         for quantity in QUANTITIES if number < _ALL_QUANTITIES else ("pull_off_force",):
             yield Key(quantity, *case)
 
 
-def _check_texts(model: AnyExternalModel) -> Finding:
-    check = "has version, citation and domain"
-    missing = [name for name in ("version", "citation", "domain") if not getattr(model, name).strip()]
-    if missing:
-        return Finding(check, WRONG, f"{', '.join(missing)} is empty, but readers cite it")
-    text = f"{model.name} {model.version}; {model.citation}; {model.domain}; hashed: {model.hashed}"
-    return Finding(check, OK, text)
+def _texts(model: AnyExternalModel) -> tuple[str, str]:
+    if missing := [name for name in ("version", "citation", "domain") if not getattr(model, name).strip()]:
+        return WRONG, f"{', '.join(missing)} is empty, but readers cite it"
+    return OK, f"{model.name} {model.version}; {model.citation}; {model.domain}; hashed: {model.hashed}"
 
 
-def _check_finite(evaluations: Evaluations) -> Finding:
-    check = "gives finite numbers"
-    if evaluations.failures:
-        key, reason = next(iter(evaluations.failures.items()))
-        text = f"{len(evaluations.failures)} of {len(evaluations)} evaluations failed, the first is {key}: {reason}"
-        return Finding(check, FAILED, text)
-    values = len(evaluations.results)
+def _finite(done: Evaluations) -> tuple[str, str]:
+    values, refused, failed = len(done.results), len(done.refused), len(done.failures)
+    for key, reason in done.failures.items():
+        return FAILED, f"{failed} of {values + refused + failed} evaluations failed, the first is {key}: {reason}"
     if not values:
-        return Finding(check, FAILED, f"none of {len(evaluations)} evaluations gave a value")
-    return Finding(check, OK, f"{values} values, {len(evaluations) - values} evaluations not applicable")
+        return FAILED, f"none of {refused} evaluations gave a value"
+    return OK, f"{values} values, {refused} evaluations not applicable"
 
 
-def _check_signs(evaluations: Evaluations) -> Finding:
-    check = "keeps the sign rules"
-    for key, result in evaluations.results.items():
+def _signs(done: Evaluations) -> tuple[str, str]:
+    for key, result in done.results.items():
         row = QUANTITIES[key.quantity]
         if not row.admits(result.value):
-            return Finding(check, WRONG, f"{key} is {result.value:g}, but it is: {row.meaning}, {row.sign}")
-    if not evaluations.results:
-        return Finding(check, SKIPPED, "there is no value")
-    return Finding(check, OK, f"{len(evaluations.results)} values")
+            return WRONG, f"{key} is {result.value:g}, but it is: {row.meaning}, {row.sign}"
+    return _kept(done, f"{len(done.results)} values")
 
 
-def _check_repeated(evaluations: Evaluations) -> Finding:
-    check = "gives the same result again"
-    model = evaluations.model
-    if isinstance(model, DataModel):
-        return Finding(check, SKIPPED, "data do not change")
-    if not evaluations.results:
-        return Finding(check, SKIPPED, "there is no value")
-    before = {key: result.value for key, result in evaluations.results.items()}
+def _repeated(done: Evaluations) -> tuple[str, str]:
+    if isinstance(done.model, DataModel):
+        return SKIPPED, "data do not change"
     # A new process and the opposite order: neither the clock, a seed nor an earlier evaluation may matter.
-    model.close()
-    again = Evaluations(model)
-    for key in reversed(before):
+    done.model.close()
+    again = Evaluations(done.model)
+    for key, first in reversed(done.results.items()):
         result = again.get(key)
-        if result is None or result.value != before[key]:
+        if result is None or result.value != first.value:
             later = repr(result.value) if result else again.failures.get(key, "not applicable")
-            return Finding(
-                check,
-                WRONG,
-                f"{key} is {before[key]!r} the first time and {later} in a new process with the "
-                "evaluations in the opposite order: a random number, a clock, or something kept between evaluations",
+            return WRONG, (
+                f"{key} is {first.value!r} the first time and {later} in a new process with the "
+                "evaluations in the opposite order: a random number, a clock, or something kept between evaluations"
             )
-    return Finding(check, OK, f"{len(before)} values are the same to the last bit in a new process")
+    return _kept(done, f"{len(done.results)} values are the same to the last bit in a new process")
 
 
-def _check_units(evaluations: Evaluations) -> Finding:
-    check = "does not depend on units"
-    model = evaluations.model
+def _units(done: Evaluations) -> tuple[str, str]:
+    model = done.model
     if isinstance(model, DataModel) or not model.physical:
-        return Finding(check, SKIPPED, "it is evaluated for dimensionless problems, which have no units")
-    if not evaluations.results:
-        return Finding(check, SKIPPED, "there is no value")
-    for key, first in evaluations.results.items():
+        return SKIPPED, "it is evaluated for dimensionless problems, which have no units"
+    for key, first in done.results.items():
         for scales in range(1, len(SCALES)):
             try:
                 other = model.evaluate(key.problem(), key.quantity, scales=scales)
             except (NotApplicable, ComputationFailed) as error:
-                return Finding(check, WRONG, f"{key} is {first.value:g} in SI units, but in others: {error}")
-            allowed = _SCALING * abs(first.value) + first.u_num + other.u_num
-            if abs(other.value - first.value) > allowed:
-                return Finding(
-                    check,
-                    WRONG,
+                return WRONG, f"{key} is {first.value:g} in SI units, but in others: {error}"
+            if abs(other.value - first.value) > _SCALING * abs(first.value) + first.u_num + other.u_num:
+                return WRONG, (
                     f"{key}, made dimensionless, is {first.value:g} in SI units and {other.value:g} "
                     "for the same problem in other units: a wrong power of a modulus, a length or a work of "
-                    "adhesion, or a constant that has a unit",
+                    "adhesion, or a constant that has a unit"
                 )
-    return Finding(check, OK, f"{len(evaluations.results)} values in {len(SCALES)} systems of units")
+    return _kept(done, f"{len(done.results)} values in {len(SCALES)} systems of units")
+
+
+def _kept(done: Evaluations, text: str) -> tuple[str, str]:
+    return (OK, text) if done.results else (SKIPPED, "there is no value")

@@ -1,8 +1,27 @@
 """Predictions as data: a folder with `model.toml` and a CSV, judged without the execution of any code.
 
-For codes that cannot be shipped and for measurements.  `comparisons.external.manifest` has the keys of
-`model.toml`.  The CSV has the columns quantity, n, k, mu, value, u_num and one row for each case that is
-covered, no other.  `u_num` bounds the numerical error of the value (for a measurement, its uncertainty).
+For codes that cannot be shipped and for measurements:
+
+    name = "my-abaqus"                       # letters, digits, ".", "_", "-"
+    version = "2026-03"
+    author = "A. Author"
+    doi = "10.1000/xyz"                      # or "none"
+    licence = "CC-BY-4.0"                    # SPDX
+    domain = "n = 2, k = 0, 0.1 <= mu <= 2"
+    predictions = "predictions.csv"          # beside this file
+    sha256 = "..."                           # of that file: sha256sum predictions.csv
+    limits = []                              # optional: "rigid", "jkr"
+    [units]                                  # as fscm-bench list quantities has them
+    pull_off_force = "pi Q^(2/n) dgamma z0^(2/n-1)"
+    [[covers]]                               # a product of lists; several are allowed
+    quantities = ["pull_off_force"]
+    n = [2]
+    k = [0]
+    mu = [0.1, 1, 2]
+
+Types, patterns and keys are in `comparisons/data/model.schema.json`.  The CSV has the columns quantity, n, k, mu,
+value, u_num and one row for each case that is covered, no other.  `u_num` bounds the numerical error of the value (for
+a measurement, its uncertainty).
 """
 
 from __future__ import annotations
@@ -11,175 +30,170 @@ import csv
 import hashlib
 import io
 import math
-from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
+from typing import Any
 
 from comparisons.data.contained_paths import path_inside
-from comparisons.data.input_files import LARGEST_TABLE, LARGEST_TEXT, read_bytes
+from comparisons.data.input_files import LARGEST_TABLE, read_bytes, read_text
+from comparisons.data.toml_text import parse
+from comparisons.data.validation import known_name, validated
 from comparisons.domain import Domain
-from comparisons.external.manifest import MANIFEST, Key, check_units, covered_cases, read_manifest
-from comparisons.external.text_rules import one_line
+from comparisons.external.text_rules import model_name, one_line
 from comparisons.model import NotApplicable, Result
+from comparisons.quantities import QUANTITIES
 from fscm.laws import LennardJones
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
-__all__ = ["DataModel", "Submission", "read_submission"]
+__all__ = ["MANIFEST", "DataModel"]
+
+#: Name of the file that describes a model in a folder.
+MANIFEST = "model.toml"
+
+#: quantity, n, k, mu
+Key = tuple[str, float, float, float]
 
 _COLUMNS = ["quantity", "n", "k", "mu", "value", "u_num"]
-_TEXTS = ("name", "version", "author", "doi", "licence", "domain")
+_COVERS = ("quantities", "n", "k", "mu")
+_MOST_CASES = 1_000_000
 
-
-@dataclass(frozen=True, slots=True)
-class Submission:
-    """The checked content of a folder.
-
-    Attributes
-    ----------
-    name, version, author, doi, licence, domain : str
-        As the author states them, each one printable line.
-    limits : tuple of str
-        Limits in which the predictions are exact, as their author states.
-    sha256 : str
-        Of the CSV.
-    rows : dict
-        (quantity, n, k, mu) -> (value, u_num).
-    """
-
-    name: str
-    version: str
-    author: str
-    doi: str
-    licence: str
-    domain: str
-    limits: tuple[str, ...]
-    sha256: str
-    rows: dict[Key, tuple[float, float]]
+#: So many cases more than the CSV has lines are still built: the sentence then names the first that is missing.
+_NAMED_MISSING = 1000
 
 
 class DataModel:
-    """A submission as a `comparisons.model.Model`.
+    """Predictions in a folder as a `comparisons.model.Model`.
 
     Parameters
     ----------
-    submission : Submission
-    """
+    folder : Path
 
-    physical = False
-    #: Its manifest lists the cases.
-    applies_to = Domain(())
-
-    def __init__(self, submission: Submission) -> None:
-        self.submission = submission
-        self.name, self.domain, self.limits = submission.name, submission.domain, submission.limits
-        self.version = f"{submission.version} ({submission.sha256[:12]})"
-        source = "" if submission.doi == "none" else f", doi:{submission.doi}"
-        self.citation = f"{submission.author}{source} ({submission.licence})"
-        self.hashed = f"the predictions, a CSV with {len(submission.rows)} rows"
-
-    def evaluate(self, problem: Problem, quantity: str, *, scales: int = 0) -> Result:
-        """Return the prediction, or raise `NotApplicable` for a case that the submission does not cover."""
-        key = (quantity, problem.n, problem.k, problem.mu)
-        default = problem.punch == PowerPunch(problem.n) and problem.law == LennardJones()
-        if not default or key not in self.submission.rows:
-            raise NotApplicable("the submission does not cover this case")
-        value, u_num = self.submission.rows[key]
-        return Result(value, u_num)
-
-    def close(self) -> None:
-        """Do nothing: there is no process."""
-
-
-def read_submission(folder: Path) -> Submission:
-    """Read and check a folder.
+    Attributes
+    ----------
+    rows : dict
+        (quantity, n, k, mu) -> (value, u_num).
 
     Raises
     ------
     ValueError
         At the first thing that is wrong; one sentence names it with its place.
     """
+
+    physical = False
+    #: Its manifest lists the cases.
+    applies_to = Domain(())
+
+    def __init__(self, folder: Path) -> None:
+        try:
+            manifest = _manifest(folder)
+            content = _content(folder, manifest["predictions"])
+            digest = hashlib.sha256(content).hexdigest()
+            if digest != manifest["sha256"].lower():
+                raise ValueError(
+                    f"{manifest['predictions']} has the SHA-256 {digest}, but {MANIFEST} states "
+                    f"{manifest['sha256']}: one of the two files was changed"
+                )
+            covered = _covered_cases(manifest, len(content.splitlines()))
+            self.rows = _rows(content, manifest["predictions"], covered)
+        except ValueError as error:
+            raise ValueError(f"{one_line(str(folder), 200)}: {one_line(str(error))}") from None
+        except OSError as error:
+            raise ValueError(f"{one_line(str(folder), 200)}: it cannot be read ({error.strerror})") from None
+        self.name, self.domain = manifest["name"], manifest["domain"]
+        self.limits = tuple(one_line(limit, 60) for limit in manifest.get("limits", []))
+        self.version = f"{manifest['version']} ({digest[:12]})"
+        source = "" if manifest["doi"] == "none" else f", doi:{manifest['doi']}"
+        self.citation = f"{manifest['author']}{source} ({manifest['licence']})"
+        self.hashed = f"the predictions, a CSV with {len(self.rows)} rows"
+
+    def evaluate(self, problem: Problem, quantity: str, *, scales: int = 0) -> Result:
+        """Return the prediction, or raise `NotApplicable` for a case that the submission does not cover."""
+        key = (quantity, problem.n, problem.k, problem.mu)
+        default = problem.punch == PowerPunch(problem.n) and problem.law == LennardJones()
+        if not default or key not in self.rows:
+            raise NotApplicable("the submission does not cover this case")
+        return Result(*self.rows[key])
+
+    def close(self) -> None:
+        """Do nothing: there is no process."""
+
+
+def _manifest(folder: Path) -> dict[str, Any]:
+    manifest = parse(read_text(folder / MANIFEST, "the description of the predictions"), MANIFEST)
     try:
-        return _submission(folder)
-    except ValueError as error:
-        raise ValueError(f"{one_line(str(folder), 200)}: {one_line(str(error))}") from None
-    except OSError as error:
-        raise ValueError(f"{one_line(str(folder), 200)}: it cannot be read ({error.strerror})") from None
+        validated(manifest, "model", MANIFEST)
+    except RecursionError:
+        raise ValueError(f"{MANIFEST} cannot be read: its brackets are nested too deeply") from None
+    for name, value in manifest.items():
+        if isinstance(value, str) and value != one_line(value):
+            raise ValueError(f"{MANIFEST}: {name} must be one line of 1 to 500 printable characters")
+    model_name(manifest["name"])
+    for table in manifest["covers"]:
+        for quantity in table["quantities"]:
+            known_name("quantity", quantity, QUANTITIES, f"{MANIFEST}: [[covers]]")
+    _check_units(manifest["units"], {quantity for table in manifest["covers"] for quantity in table["quantities"]})
+    return manifest
 
 
-def _submission(folder: Path) -> Submission:
-    manifest = read_manifest(_text_of(_bytes(folder, MANIFEST, LARGEST_TEXT), MANIFEST))
-    file = manifest["predictions"]
-    content = _bytes(folder, file, LARGEST_TABLE)
-    digest = hashlib.sha256(content).hexdigest()
-    if digest != manifest["sha256"].lower():
+def _check_units(units: dict[str, str], quantities: set[str]) -> None:
+    if units.keys() != quantities:
+        raise ValueError(f"{MANIFEST}: [units] must have exactly {', '.join(sorted(quantities))}")
+    for name, unit in units.items():
+        if unit != QUANTITIES[name].unit:
+            raise ValueError(
+                f'{MANIFEST}: {name} has the unit "{unit}" but is compared in "{QUANTITIES[name].unit}": '
+                "divide the values by that"
+            )
+
+
+def _covered_cases(manifest: dict[str, Any], lines: int) -> set[Key]:
+    """Return the cases that the [[covers]] tables promise, for a CSV with so many lines."""
+    # Nothing is built before it is known how many cases there are: a short file can promise very many.
+    lists = [[list(dict.fromkeys(table[name])) for name in _COVERS] for table in manifest["covers"]]
+    sizes = [math.prod(map(len, columns)) for columns in lists]
+    if sum(sizes) > _MOST_CASES or max(sizes) > lines + _NAMED_MISSING:
         raise ValueError(
-            f"{file} has the SHA-256 {digest}, but {MANIFEST} states {manifest['sha256']}: "
-            "one of the two files was changed"
+            f"{MANIFEST}: the [[covers]] tables promise {sum(sizes)} cases, but the predictions have {lines} "
+            f"lines, and at most {_MOST_CASES} cases are read: each case needs a row"
         )
-    covered = covered_cases(manifest["covers"], _lines(content))
-    check_units(manifest["units"], {key[0] for key in covered})
-    return Submission(
-        **{name: manifest[name] for name in _TEXTS},
-        limits=tuple(one_line(limit, 60) for limit in manifest.get("limits", [])),
-        sha256=digest,
-        rows=_rows(content, file, covered),
-    )
+    promised = ((quantity, Problem(*case)) for columns in lists for quantity, *case in product(*columns))
+    keys = {(quantity, problem.n, problem.k, problem.mu) for quantity, problem in promised}
+    if not keys:
+        raise ValueError(f"{MANIFEST}: [[covers]] has no case")
+    return keys
 
 
-def _bytes(folder: Path, name: str, largest: int) -> bytes:
+def _content(folder: Path, name: str) -> bytes:
     try:
         path = path_inside(folder, name)
     except ValueError:
         raise ValueError(f"{name} is not in the folder of {MANIFEST}") from None
     if not path.is_file():
         raise ValueError(f"there is no file {name}")
-    return read_bytes(path, largest)
-
-
-def _lines(content: bytes) -> int:
-    ends = content.count(b"\n") + content.count(b"\r") - content.count(b"\r\n")
-    return ends + (not content.endswith((b"\n", b"\r")))
-
-
-def _text_of(content: bytes, file: str) -> str:
-    try:
-        return content.decode()
-    except UnicodeDecodeError as error:
-        line = content[: error.start].count(b"\n") + 1
-        raise ValueError(f"{file}, line {line}: byte 0x{content[error.start]:02x} is not UTF-8 text") from None
+    return read_bytes(path, LARGEST_TABLE)
 
 
 def _rows(content: bytes, file: str, covered: set[Key]) -> dict[Key, tuple[float, float]]:
-    # strict: a quotation mark that is not closed is an error, not the rest of the file.
-    # A byte order mark, which spreadsheets write, belongs to no cell.
-    reader = csv.reader(io.StringIO(_text_of(content, file).removeprefix("\ufeff"), newline=""), strict=True)
-    rows: dict[Key, tuple[float, float]] = {}
-    blank = ""
     try:
-        header = next(reader, [])
-        if header != _COLUMNS:
-            raise ValueError(f"{file}: the first line must be {','.join(_COLUMNS)}")
-        for cells in reader:
-            where = f"{file}, line {reader.line_num}"
-            if not cells:
-                # Blank lines are the end of a file, or something is missing between.
-                blank = blank or where
-                continue
-            if blank:
-                raise ValueError(f"{blank}: a blank line, and rows after it")
-            if len(cells) != len(_COLUMNS):
-                raise ValueError(f"{where}: {len(cells)} cells, not {len(_COLUMNS)}")
-            quantity, *rest = cells
-            n, k, mu, value, u_num = (_number(cell, name, where) for cell, name in zip(rest, _COLUMNS[1:], strict=True))
-            key = (quantity, n, k, mu)
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        raise ValueError(f"{file}, line {line}: byte 0x{error.object[error.start]:02x} is not UTF-8 text") from None
+    # strict: a quotation mark that is not closed is an error, not the rest of the file.
+    reader = csv.reader(io.StringIO(text, newline=""), strict=True)
+    rows: dict[Key, tuple[float, float]] = {}
+    try:
+        if next(reader, []) != _COLUMNS:
+            raise ValueError(f"the first line must be {','.join(_COLUMNS)}")
+        for cells in filter(None, reader):
+            key, prediction = _row(cells)
             if key not in covered:
-                raise ValueError(f"{where}: {_label(key)} is not among the cases that [[covers]] promises")
+                raise ValueError(f"{_label(key)} is not among the cases that [[covers]] promises")
             if key in rows:
-                raise ValueError(f"{where}: {_label(key)} has a second row")
-            if u_num < 0:
-                raise ValueError(f"{where}: u_num = {u_num:g} is outside [0, inf): it bounds an error")
-            rows[key] = (value, u_num)
-    except csv.Error as error:
+                raise ValueError(f"{_label(key)} has a second row")
+            rows[key] = prediction
+    except (ValueError, csv.Error) as error:
         raise ValueError(f"{file}, line {reader.line_num}: {error}") from None
     if missing := sorted(covered - rows.keys()):
         raise ValueError(
@@ -189,19 +203,26 @@ def _rows(content: bytes, file: str, covered: set[Key]) -> dict[Key, tuple[float
     return rows
 
 
-def _number(cell: str, name: str, where: str) -> float:
+def _row(cells: list[str]) -> tuple[Key, tuple[float, float]]:
+    if len(cells) != len(_COLUMNS):
+        raise ValueError(f"{len(cells)} cells, not {len(_COLUMNS)}")
+    n, k, mu, value, u_num = (_number(cell, name) for cell, name in zip(cells[1:], _COLUMNS[1:], strict=True))
+    if u_num < 0:
+        raise ValueError(f"u_num = {u_num:g} is outside [0, inf): it bounds an error")
+    return (cells[0], n, k, mu), (value, u_num)
+
+
+def _number(cell: str, name: str) -> float:
     try:
-        number = float(cell)
-        if "_" in cell:
-            # Python reads 1_0 as ten; in a CSV it is a misprint.
-            raise ValueError
+        # Python reads 1_0 as ten; in a CSV it is a misprint.
+        number = float(cell.replace("_", "?"))
     except ValueError:
-        raise ValueError(f"{where}: {name} = {one_line(repr(cell), 40)} is not a number") from None
+        raise ValueError(f"{name} = {one_line(repr(cell), 40)} is not a number") from None
     if not math.isfinite(number):
-        raise ValueError(f"{where}: {name} = {number} is not a finite number")
+        raise ValueError(f"{name} = {number} is not a finite number")
     return number
 
 
 def _label(key: Key) -> str:
     quantity, n, k, mu = key
-    return f"{one_line(str(quantity), 60)} at n = {n:g}, k = {k:g}, mu = {mu:g}"
+    return f"{one_line(quantity, 60)} at n = {n:g}, k = {k:g}, mu = {mu:g}"

@@ -70,34 +70,27 @@ class Evaluations:
 
     Attributes
     ----------
+    results : dict of Key to Result
+        The cases that have a value.
+    refused : set of Key
+        The cases for which the model is not applicable.
     failures : dict of Key to str
         Reasons of the computations that failed.
     """
 
     def __init__(self, model: AnyExternalModel) -> None:
         self.model = model
+        self.results: dict[Key, Result] = {}
+        self.refused: set[Key] = set()
         self.failures: dict[Key, str] = {}
-        self._results: dict[Key, Result | None] = {}
 
     def get(self, key: Key) -> Result | None:
         """Return the result, or None where the model is not applicable or fails."""
-        if key not in self._results:
-            self._results[key] = self._evaluate(key)
-        return self._results[key]
-
-    def __len__(self) -> int:
-        return len(self._results)
-
-    @property
-    def results(self) -> dict[Key, Result]:
-        """The cases that have a value."""
-        return {key: result for key, result in self._results.items() if result}
-
-    def _evaluate(self, key: Key) -> Result | None:
-        try:
-            return self.model.evaluate(key.problem(), key.quantity)
-        except NotApplicable:
-            pass
-        except ComputationFailed as failure:
-            self.failures[key] = str(failure)
-        return None
+        if key not in self.results.keys() | self.refused | self.failures.keys():
+            try:
+                self.results[key] = self.model.evaluate(key.problem(), key.quantity)
+            except NotApplicable:
+                self.refused.add(key)
+            except ComputationFailed as failure:
+                self.failures[key] = str(failure)
+        return self.results.get(key)

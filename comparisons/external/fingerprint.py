@@ -1,26 +1,24 @@
 """SHA-256 of the files that the results of a model can depend on, with a list of them in words.
 
-Run in the child process.  A small folder is hashed as a whole: tables, binaries and modules that are imported
-late count too.  Of a large one, and of one that several programs share, only what is imported or declared does.
+A small folder is hashed as a whole: tables, binaries and modules that are imported late count too.  Of a large one,
+and of one that has other uses, only what is imported or declared does.
 """
 
 from __future__ import annotations
 
 import hashlib
 import os
-import pwd
 import stat
 import sys
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path
 
 from comparisons.data.file_names import JOURNAL, RECORD
-from comparisons.external.scratch import PREFIX
+from comparisons.external.cleaner import PREFIX
 from comparisons.external.text_rules import one_line
 from comparisons.model import ComputationFailed
 
-__all__ = ["Fingerprint", "fingerprint"]
+__all__ = ["MOST_BYTES", "MOST_FILES", "fingerprint", "imported_files", "roots_of"]
 
 #: A folder is small, and hashed as a whole, up to these.
 MOST_FILES, MOST_BYTES = 200, 20_000_000
@@ -31,49 +29,34 @@ _MOST_DECLARED, _MOST_DECLARED_BYTES = 10_000, 2_000_000_000
 _OF_A_RUN = (RECORD, JOURNAL)
 _SITES = ("site-packages", "dist-packages")
 _NOT_ENTERED = ("__pycache__", "results", "node_modules", *_SITES)
-_NOT_READ = (".pyc", ".log", "~")
+_NOT_ENTERED_ENDINGS = (".egg-info", ".dist-info")
+_NOT_READ_ENDINGS = (".pyc", ".log", "~")
 _STANDARD_LIBRARY = Path(os.__file__).resolve().parent
 #: This program has a fingerprint of its own.
 _OURS = [Path(__file__).resolve().parents[2] / name for name in ("comparisons", "fscm", "fem_reference")]
 
 
-@dataclass(frozen=True, slots=True)
-class Fingerprint:
-    """What identifies a state of a model's files.
-
-    Attributes
-    ----------
-    digest : str
-        SHA-256 in hexadecimal digits.
-    hashed : str
-        What was hashed, in words.
-    """
-
-    digest: str
-    hashed: str
-
-
 def fingerprint(
-    modules: Iterable[str],
+    roots: Mapping[Path, Path],
     declared: object = (),
     *,
-    installed: Iterable[Path] = (),
-    programs: Iterable[Path] = (),
-    skip: Iterable[tuple[int, int]] = (),
-) -> Fingerprint:
-    """Return the fingerprint of a model.
+    installed: Collection[Path] = (),
+    imported: Collection[Path] = (),
+    skip: Collection[Iterable[int]] = (),
+) -> tuple[str, str]:
+    """Return the digest of a model's files in hexadecimal digits, and what was hashed in words.
 
     Parameters
     ----------
-    modules : iterable of str
-        Names of loaded modules: where the model was found, and where its class is defined.
+    roots : mapping of Path to Path
+        Folders of the model, and the file that was loaded in each.
     declared : tuple of str, optional
-        Files and folders that the model names, relative to the folder of the first module or its package.
-    installed : iterable of Path, optional
+        Files and folders that the model names, relative to the first of its folders.
+    installed : collection of Path, optional
         Files that were installed with the model.
-    programs : iterable of Path, optional
-        Programs in place of modules.
-    skip : iterable of (device, inode), optional
+    imported : collection of Path, optional
+        Modules that were imported when the model was loaded.
+    skip : collection of (device, inode), optional
         Files that are written during a run, such as one that takes standard output.
 
     Raises
@@ -83,33 +66,48 @@ def fingerprint(
     """
     files: dict[str, Path] = {}
     parts: list[str] = []
-    roots: list[Path] = []
-    for root, file in _starting_points(modules, programs):
-        if root in roots:
-            continue
-        found, words = _of_root(root, file, set(installed), set(skip))
-        files |= {f"{len(roots)}/{path.relative_to(root).as_posix()}": path for path in found}
+    skipped = {tuple(file) for file in skip}
+    for number, (root, file) in enumerate(roots.items()):
+        beside, words = _of_root(root, installed, imported, skipped)
+        files |= {f"{number}/{path.relative_to(root).as_posix()}": path for path in {file, *beside}}
         parts.append(words)
-        roots.append(root)
-    named = _declared(declared, roots[0] if roots else Path.cwd())
+    named = _declared(declared, next(iter(roots), Path()))
     if named:
-        parts.append(f"{len(named)} declared files" if len(named) > 1 else "1 declared file")
-    return _hashed(files | named, parts)
+        parts.append(f"{len(named)} declared file{'s' * (len(named) > 1)}")
+    digest, size = _digest(files | named)
+    words = " and ".join(parts) or "nothing: the model has no file"
+    return digest, one_line(f"{words}; {len(files | named)} files, {size} bytes")
 
 
-def _starting_points(modules: Iterable[str], programs: Iterable[Path]) -> Iterator[tuple[Path, Path]]:
-    """Yield the folder and the file of each module of the model, and of each program."""
+def roots_of(modules: Iterable[str]) -> dict[Path, Path]:
+    """Return the folders of loaded modules or of their packages, and the file of the module in each."""
+    roots: dict[Path, Path] = {}
     for name in modules:
-        file = getattr(sys.modules.get(name), "__file__", None)
-        if file is not None and _is_of_model(Path(file).resolve()):
-            yield _root(name, Path(file).resolve()), Path(file).resolve()
-    for program in programs:
-        yield program.resolve().parent, program.resolve()
+        for file in _files_of([sys.modules.get(name)]):
+            package = getattr(sys.modules.get(name.partition(".")[0]), "__path__", ())
+            # A namespace package has several folders, and only one is this model's.
+            parents = (Path(folder).resolve() for folder in package)
+            roots.setdefault(next((one for one in parents if file.is_relative_to(one)), file.parent), file)
+    return roots
 
 
-def _hashed(files: dict[str, Path], parts: list[str]) -> Fingerprint:
-    digest = hashlib.sha256()
-    size = 0
+def imported_files() -> set[Path]:
+    """Return the files of all modules that are neither of Python itself nor of this program."""
+    return set(_files_of(list(sys.modules.values())))
+
+
+def _files_of(modules: Iterable[object]) -> Iterator[Path]:
+    for module in modules:
+        name = getattr(module, "__file__", None)
+        if isinstance(name, str) and name.startswith(os.sep):
+            file = Path(name).resolve()
+            python = file.is_relative_to(_STANDARD_LIBRARY) and not any(part in _SITES for part in file.parts)
+            if not python and not any(file.is_relative_to(folder) for folder in _OURS):
+                yield file
+
+
+def _digest(files: Mapping[str, Path]) -> tuple[str, int]:
+    digest, size = hashlib.sha256(), 0
     for label, path in sorted(files.items()):
         content = b"unreadable"
         try:
@@ -119,100 +117,72 @@ def _hashed(files: dict[str, Path], parts: list[str]) -> Fingerprint:
         except OSError:
             pass
         digest.update(label.encode(errors="surrogateescape") + b"\0" + content)
-    words = " and ".join(parts) or "nothing: the model has no file"
-    return Fingerprint(digest.hexdigest(), one_line(f"{words}; {len(files)} files, {size} bytes"))
+    return digest.hexdigest(), size
 
 
-def _root(module: str, file: Path) -> Path:
-    """Return the folder of the module's package, or of its file."""
-    package = getattr(sys.modules.get(module.partition(".")[0]), "__path__", None) or ()
-    # A namespace package has several folders, and only one is this model's.
-    return next((Path(part).resolve() for part in package if file.is_relative_to(Path(part).resolve())), file.parent)
-
-
-def _of_root(root: Path, file: Path, installed: set[Path], skip: set[tuple[int, int]]) -> tuple[list[Path], str]:
-    shown = one_line(root.name, 60)
+def _of_root(
+    root: Path, installed: Collection[Path], imported: Collection[Path], skip: Collection[tuple[int, ...]]
+) -> tuple[list[Path], str]:
     if root.name in _SITES or any(root.glob("*.dist-info")):
-        # Several packages share it: this module, and what was installed with it.
-        beside = {path for path in installed if path.is_relative_to(root) and _counts(path.relative_to(root))}
-        found = sorted({file, *(path for path in beside if path.is_file())})
-        return found, f"{len(found)} installed files of the model"
-    if _is_shared(root):
-        return _imported(root, file), f"the imported modules in {shown} (not the folder, which has other uses)"
-    whole = _whole(root, skip)
-    if whole is None:
-        limits = f"{MOST_FILES} files or {MOST_BYTES // 1_000_000} MB"
-        return _imported(root, file), f"the imported modules in {shown} (not the folder, which has over {limits})"
-    return sorted({file, *whole}), f"all files in {shown}"
+        # Several packages share it: the module that was loaded, and what was installed with it.
+        return _counted(installed, root), "the installed files of the model"
+    shown, why = one_line(root.name, 60), "other uses"
+    if not _is_shared(root):
+        if (whole := _whole(root, skip)) is not None:
+            return whole, f"all files in {shown}"
+        why = f"over {MOST_FILES} files or {MOST_BYTES // 1_000_000} MB"
+    return _counted(imported, root), f"the imported modules in {shown} (not the folder, which has {why})"
 
 
 def _is_shared(root: Path) -> bool:
     """Whether a folder has other uses than the model: home, root, temporary files, results."""
+    import pwd  # Not on Windows, where no model that is code is loaded.
+
     home = Path(pwd.getpwuid(os.getuid()).pw_dir).resolve()
-    return (
-        root == home
-        or root.parent == root
-        or bool(root.stat().st_mode & stat.S_ISVTX)
-        or any((root / name).exists() for name in _OF_A_RUN)
-    )
+    return root in (home, root.parent) or bool(root.stat().st_mode & stat.S_ISVTX) or _has(root, _OF_A_RUN)
 
 
-def _whole(root: Path, skip: set[tuple[int, int]]) -> list[Path] | None:
+def _has(folder: Path, names: Iterable[str]) -> bool:
+    return any((folder / name).exists() for name in names)
+
+
+def _whole(root: Path, skip: Collection[tuple[int, ...]]) -> list[Path] | None:
+    """Return the files of a folder; None if they are too many or too large."""
     found: list[Path] = []
     size = 0
-    for path in _counted_paths(root):
+    for path in _paths(root):
         try:
             status = path.stat()
         except OSError:
             continue
         # A pipe or a device would never end.
-        if not stat.S_ISREG(status.st_mode) or (status.st_dev, status.st_ino) in skip:
-            continue
-        found.append(path)
-        size += status.st_size
-        if len(found) > MOST_FILES or size > MOST_BYTES:
-            return None
+        if stat.S_ISREG(status.st_mode) and (status.st_dev, status.st_ino) not in skip:
+            found.append(path)
+            size += status.st_size
+            if len(found) > MOST_FILES or size > MOST_BYTES:
+                return None
     return found
 
 
-def _counted_paths(root: Path) -> Iterator[Path]:
+def _paths(root: Path) -> Iterator[Path]:
     for folder, inner, names in os.walk(root):
         here = Path(folder)
-        inner[:] = [name for name in inner if _is_entered(here / name)]
-        yield from (here / name for name in names if _counts(Path(name)))
+        inner[:] = [name for name in inner if _is_entered(name) and not _has(here / name, (*_OF_A_RUN, "pyvenv.cfg"))]
+        yield from (here / name for name in names if _is_read(name))
 
 
-def _is_entered(folder: Path) -> bool:
-    marks = (*_OF_A_RUN, "pyvenv.cfg")
-    return _counts(folder.relative_to(folder.parent), folder=True) and not any((folder / m).exists() for m in marks)
+def _is_entered(name: str) -> bool:
+    return not (name in _NOT_ENTERED or name.startswith((".", PREFIX)) or name.endswith(_NOT_ENTERED_ENDINGS))
 
 
-def _counts(path: Path, *, folder: bool = False) -> bool:
-    """Whether a path, relative to the model's folder, has no part that is hidden, of a cache or of an environment."""
-    folders = path.parts if folder else path.parts[:-1]
-    return not (
-        any(part.startswith(".") for part in path.parts)
-        or any(part in _NOT_ENTERED or part.startswith(PREFIX) for part in folders)
-        or any(part.endswith((".egg-info", ".dist-info")) for part in folders)
-        or (not folder and path.name.endswith(_NOT_READ))
-    )
+def _is_read(name: str) -> bool:
+    return not (name.startswith(".") or name.endswith(_NOT_READ_ENDINGS))
 
 
-def _imported(root: Path, file: Path) -> list[Path]:
-    found = {file}
-    for module in list(sys.modules.values()):
-        loaded = getattr(module, "__file__", None)
-        if isinstance(loaded, str) and loaded.startswith(os.sep):
-            path = Path(loaded).resolve()
-            if path.is_relative_to(root) and _counts(path.relative_to(root)) and _is_of_model(path):
-                found.add(path)
-    return sorted(found)
-
-
-def _is_of_model(file: Path) -> bool:
-    """Whether a file is neither of Python itself nor of this program."""
-    python = file.is_relative_to(_STANDARD_LIBRARY) and not any(part in _SITES for part in file.parts)
-    return not python and not any(file.is_relative_to(folder) for folder in _OURS)
+def _counted(paths: Iterable[Path], root: Path) -> list[Path]:
+    """Return the files in a folder that have no part that is hidden, of a cache or of an environment."""
+    parts = ((path, path.relative_to(root).parts) for path in paths if path.is_relative_to(root) and path.is_file())
+    return [path for path, (*folders, name) in parts if all(map(_is_entered, folders)) and _is_read(name)]
 
 
 def _declared(declared: object, base: Path) -> dict[str, Path]:
@@ -223,17 +193,15 @@ def _declared(declared: object, base: Path) -> dict[str, Path]:
         )
     files: dict[str, Path] = {}
     for name in declared:
-        shown, path = one_line(repr(name), 80), os.path.join(base, name)
+        shown, path = one_line(repr(name), 80), base / name
         if os.path.isabs(name):
             raise ComputationFailed(f"files has {shown}, but the names are relative to the folder of the model")
-        if os.path.isfile(path):
-            files[f"files/{name}"] = Path(path)
-            continue
-        if not os.path.isdir(path):
+        if not os.path.isfile(path) and not os.path.isdir(path):
             raise ComputationFailed(f"files has {shown}, but there is no such file or folder beside the model")
-        for folder, _, names in os.walk(path):
-            inside = [entry for entry in (Path(folder, one) for one in sorted(names)) if entry.is_file()]
-            files |= {f"files/{name}/{entry.relative_to(path).as_posix()}": entry for entry in inside}
+        # Labels have the declared name: two names may lead to one file.
+        below = (Path(folder, one) for folder, _, names in os.walk(path) for one in names)
+        for entry in [path] if os.path.isfile(path) else filter(Path.is_file, below):
+            files[f"files/{name}/{entry.relative_to(path).as_posix()}"] = entry
             if len(files) > _MOST_DECLARED:
                 raise ComputationFailed(f"files names more than {_MOST_DECLARED} files: they are read at every start")
     if sum(path.stat().st_size for path in files.values()) > _MOST_DECLARED_BYTES:

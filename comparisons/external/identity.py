@@ -1,15 +1,10 @@
-"""Name, version and digest of a model, compared between its processes."""
+"""Name and version of a model, compared between its processes."""
 
 from __future__ import annotations
 
-from typing import Any
-
 from comparisons.external.text_rules import one_line
 
-__all__ = ["DIGEST", "contradiction", "identity_of"]
-
-#: Digits of the digest that are kept in the version of a model.
-DIGEST = 12
+__all__ = ["contradiction"]
 
 
 def contradiction(first: tuple[str, str], later: tuple[str, str]) -> str:
@@ -29,15 +24,3 @@ def contradiction(first: tuple[str, str], later: tuple[str, str]) -> str:
     what = "files" if same else "name or version"
     now = f"it is {' '.join(later)} in a later process, and was {' '.join(first)}"
     return one_line(f"the model's {what} changed after it was loaded: {now}")
-
-
-def identity_of(loaded: dict[str, Any]) -> tuple[str, str]:
-    """Return name and version of a model from the reply of its process, the version with the digest.
-
-    Examples
-    --------
-    >>> identity_of({"name": "mine", "version": "1", "digest": "0123456789abcdef"})
-    ('mine', '1 (0123456789ab)')
-    """
-    name, version, digest = (one_line(str(loaded.get(key)), 60) for key in ("name", "version", "digest"))
-    return name, f"{version} ({digest[:DIGEST]})"

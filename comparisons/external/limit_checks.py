@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
 from comparisons.external.evaluations import OK, SKIPPED, WRONG, Evaluations, Finding, Key
 from comparisons.models.bradley import rigid_pull_off
@@ -21,19 +20,10 @@ __all__ = ["LIMITS", "check_calibration", "check_limits"]
 _QUANTITY = "pull_off_force"
 
 
-@dataclass(frozen=True, slots=True)
-class _Limit:
-    """A limit, Tabor numbers towards it, and the pull-off force there."""
-
-    label: str
-    tabor_numbers: tuple[float, ...]
-    value: Callable[[Problem], float]
-
-
-#: Name of the limit in `limits` of a model -> the limit.
-LIMITS = {
-    "rigid": _Limit("Bradley, mu -> 0", (0.1, 0.01, 0.001), lambda problem: rigid_pull_off(problem.n).value),
-    "jkr": _Limit(
+#: Name of the limit in `limits` of a model -> its name in a sentence, Tabor numbers towards it, the force there.
+LIMITS: dict[str, tuple[str, tuple[float, ...], Callable[[Problem], float]]] = {
+    "rigid": ("Bradley, mu -> 0", (0.1, 0.01, 0.001), lambda problem: rigid_pull_off(problem.n).value),
+    "jkr": (
         "JKR, mu -> infinity",
         (2.0, 5.0, 10.0, 30.0, 100.0),
         lambda problem: JKR().evaluate(problem, _QUANTITY).value,
@@ -55,14 +45,9 @@ _CALIBRATION = {
 #: JKR is wrong by a factor of 1.313 in the first of them, Bradley by 1.263 in the second; pi, 2 and 3/2
 #: are beyond.
 _CALIBRATION_FACTOR = 1.4
-_MISTAKES = {
-    "a factor 2 too much": 2.0,
-    "a factor 2 missing": 0.5,
-    "a factor pi too much": math.pi,
-    "a factor pi missing": 1.0 / math.pi,
-    "a factor 2 pi too much": 2.0 * math.pi,
-    "a factor 2 pi missing": 0.5 / math.pi,
-}
+_FACTORS = {"a factor 2": 2.0, "a factor pi": math.pi, "a factor 2 pi": 2.0 * math.pi}
+#: A mean ratio so near to one of them is named as such a mistake.
+_NEAR = 1.2
 
 
 def check_limits(evaluations: Evaluations) -> Iterator[Finding]:
@@ -73,34 +58,29 @@ def check_limits(evaluations: Evaluations) -> Iterator[Finding]:
     for name in stated:
         check = f"is right in the limit {name}"
         if name in LIMITS:
-            yield _in_limit(evaluations, LIMITS[name], check)
+            yield Finding(check, *_in_limit(evaluations, *LIMITS[name]))
         else:
             yield Finding(check, WRONG, f"no such limit is known; known are {', '.join(LIMITS)}")
 
 
-def _in_limit(evaluations: Evaluations, limit: _Limit, check: str) -> Finding:
+def _in_limit(
+    evaluations: Evaluations, label: str, tabor_numbers: tuple[float, ...], value: Callable[[Problem], float]
+) -> tuple[str, str]:
     parts = []
     for n, k in _LIMIT_CASES:
-        errors = {}
-        for mu in limit.tabor_numbers:
-            key = Key(_QUANTITY, n, k, mu)
-            if result := evaluations.get(key):
-                errors[mu] = result.value / limit.value(key.problem()) - 1.0
+        results = {mu: evaluations.get(Key(_QUANTITY, n, k, mu)) for mu in tabor_numbers}
+        errors = {mu: result.value / value(Problem(n, k, mu)) - 1.0 for mu, result in results.items() if result}
         if not errors:
             continue
         first, *_, last = (*errors, *errors)
         if abs(errors[last]) > _LIMIT_TOLERANCE or abs(errors[last]) > abs(errors[first]) + _STANDSTILL:
-            return Finding(
-                check,
-                WRONG,
-                f"the pull-off force at n = {n:g}, k = {k:g} is {_percent(errors[first])} off {limit.label} at mu = "
+            return WRONG, (
+                f"the pull-off force at n = {n:g}, k = {k:g} is {_percent(errors[first])} off {label} at mu = "
                 f"{first:g} and {_percent(errors[last])} at mu = {last:g}: it must come nearer, to "
-                f"{_percent(_LIMIT_TOLERANCE)} at least",
+                f"{_percent(_LIMIT_TOLERANCE)} at least"
             )
         parts.append(f"{_percent(errors[last])} at n = {n:g}, k = {k:g}, mu = {last:g}")
-    if not parts:
-        return Finding(check, SKIPPED, f"it has no pull-off force towards {limit.label}")
-    return Finding(check, OK, f"off {limit.label} by {'; '.join(parts)}")
+    return (OK, f"off {label} by {'; '.join(parts)}") if parts else (SKIPPED, f"it has no value towards {label}")
 
 
 def check_calibration(evaluations: Evaluations) -> Finding:
@@ -128,10 +108,10 @@ def _suspicion(ratios: list[float]) -> str:
     if min(ratios) <= 0:
         return ""
     mean = math.exp(sum(map(math.log, ratios)) / len(ratios))
-    name, factor = min(_MISTAKES.items(), key=lambda item: _distance(mean / item[1]))
-    if _distance(mean / factor) > math.log(1.2):
-        return f"; its unit is {QUANTITIES[_QUANTITY].unit}"
-    return f": perhaps {name}; its unit is {QUANTITIES[_QUANTITY].unit}"
+    name, factor = min(_FACTORS.items(), key=lambda item: abs(_distance(mean) - math.log(item[1])))
+    near = abs(_distance(mean) - math.log(factor)) <= math.log(_NEAR)
+    hint = f": perhaps {name} {'too much' if mean > 1.0 else 'missing'}" if near else ""
+    return f"{hint}; its unit is {QUANTITIES[_QUANTITY].unit}"
 
 
 def _percent(error: float) -> str:

@@ -9,86 +9,65 @@ The limits are environment variables, so that they reach every process of a run:
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+import time
 
-__all__ = ["LARGEST_COUNT", "TIME_LIMIT", "Limits", "cpu_seconds_from_now", "limit_resources"]
+__all__ = ["MEMORY_LIMIT", "TIME_LIMIT", "cpu_seconds_from_now", "limit_memory_and_files", "limit_of_environment"]
 
 #: Names of the environment variables.
-TIME_LIMIT, _MEMORY = "FSCM_BENCH_TIME_LIMIT", "FSCM_BENCH_MEMORY_LIMIT"
-_DEFAULT_SECONDS, _DEFAULT_MEGABYTES = 60.0, 4096.0
+TIME_LIMIT, MEMORY_LIMIT = "FSCM_BENCH_TIME_LIMIT", "FSCM_BENCH_MEMORY_LIMIT"
+_DEFAULTS = {TIME_LIMIT: 60.0, MEMORY_LIMIT: 4096.0}
 
 #: Bytes of one file in the scratch folder.
 _LARGEST_FILE = 256_000_000
 
-#: Counts (of unknowns, of iterations) are below it: tables store them with 64 bits and a sign.
-LARGEST_COUNT = 2**63
-
-#: The parent ends an evaluation by the clock; the limit of processor time is for a child whose parent was
-#: killed.
+#: The parent ends an evaluation by the clock; the limit of processor time is for what survives the parent.
 _GRACE = 10.0
 
 
-@dataclass(frozen=True, slots=True)
-class Limits:
-    """Limits of one child process.
-
-    Attributes
-    ----------
-    seconds : float
-        Wall-clock time of one evaluation.
-    megabytes : float
-        Address space, 1e6 bytes.
+def limit_of_environment(name: str) -> float:
+    """Return the limit that an environment variable sets.
 
     Raises
     ------
     ValueError
-        If one is not a positive number.
+        If it is not a positive number.
+
+    Examples
+    --------
+    >>> limit_of_environment("FSCM_BENCH_MEMORY_LIMIT")
+    4096.0
     """
-
-    seconds: float = _DEFAULT_SECONDS
-    megabytes: float = _DEFAULT_MEGABYTES
-
-    def __post_init__(self) -> None:
-        for name, value in ((TIME_LIMIT, self.seconds), (_MEMORY, self.megabytes)):
-            if not 0 < value < 1e9:
-                raise ValueError(f"{name} = {value:g} is outside (0, 1e9): a limit is positive and finite")
-
-    @classmethod
-    def of_environment(cls) -> Limits:
-        """Return the limits that the environment variables set."""
-        return cls(_number(TIME_LIMIT, _DEFAULT_SECONDS), _number(_MEMORY, _DEFAULT_MEGABYTES))
-
-
-def _number(name: str, default: float) -> float:
-    text = os.environ.get(name, "")
+    text = os.environ.get(name) or _DEFAULTS[name]
     try:
-        return float(text) if text else default
+        value = float(text)
     except ValueError:
         raise ValueError(f"{name} = {text!r} is not a number") from None
+    if not 0 < value < 1e9:
+        raise ValueError(f"{name} = {value:g} is outside (0, 1e9): a limit is positive and finite")
+    return value
 
 
-def limit_resources(limits: Limits) -> None:
-    """Bind this process, for good (a superuser could raise them again)."""
+def limit_memory_and_files(megabytes: float) -> None:
+    """Bind this process, for good (a superuser could raise the limits again)."""
     import resource  # Not on Windows, where models that are code are refused before this.
 
-    wanted = {
-        resource.RLIMIT_AS: int(1e6 * limits.megabytes),
-        resource.RLIMIT_FSIZE: _LARGEST_FILE,
-        resource.RLIMIT_CORE: 0,
-    }
-    for kind, value in wanted.items():
-        _, hard = resource.getrlimit(kind)
-        value = value if hard == resource.RLIM_INFINITY else min(value, hard)
+    for kind, value in (
+        (resource.RLIMIT_AS, int(1e6 * megabytes)),
+        (resource.RLIMIT_FSIZE, _LARGEST_FILE),
+        (resource.RLIMIT_CORE, 0),
+    ):
+        value = _at_most(value, resource.getrlimit(kind)[1])
         resource.setrlimit(kind, (value, value))
 
 
-def cpu_seconds_from_now(limits: Limits) -> None:
+def cpu_seconds_from_now(seconds: float) -> None:
     """Set the limit of processor time of this process far above the time of one evaluation from now on."""
     import resource
 
-    used = resource.getrusage(resource.RUSAGE_SELF)
-    allowed = used.ru_utime + used.ru_stime + (limits.seconds + _GRACE) * (os.cpu_count() or 1)
+    allowed = int(time.process_time() + (seconds + _GRACE) * (os.cpu_count() or 1)) + 1
     _, hard = resource.getrlimit(resource.RLIMIT_CPU)
-    soft = int(allowed) + 1
-    soft = soft if hard == resource.RLIM_INFINITY else min(soft, hard)
-    resource.setrlimit(resource.RLIMIT_CPU, (soft, hard))
+    resource.setrlimit(resource.RLIMIT_CPU, (_at_most(allowed, hard), hard))
+
+
+def _at_most(value: int, hard: int) -> int:
+    return value if hard < 0 else min(value, hard)

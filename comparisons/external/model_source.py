@@ -17,8 +17,7 @@ from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
-from comparisons.external.data_model import DataModel, read_submission
-from comparisons.external.manifest import MANIFEST
+from comparisons.external.data_model import MANIFEST, DataModel
 from comparisons.external.process_model import ExternalModel, connect
 from comparisons.external.text_rules import one_line
 
@@ -29,6 +28,8 @@ GROUP = "fscm_bench.models"
 
 #: Endings of tables, which are no programs even where a file system marks every file as executable.
 _TABLES = {".csv", ".tsv", ".dat", ".txt", ".parquet", ".xlsx", ".ods"}
+
+_SPECS = f"an installed model, FILE.py:CLASS, a program (./PROGRAM) or a folder with a {MANIFEST}"
 
 _loaded: dict[tuple[str, float | None], ExternalModel | DataModel] = {}
 
@@ -59,26 +60,30 @@ def source_of(spec: str) -> dict[str, Any]:
     ValueError: no installed package has a model 'nothing-of-this-name' ...
     """
     if not spec.strip():
-        raise ValueError(
-            f"the name of a model, {spec!r}, is empty: name an installed model, FILE.py:CLASS, a program (./PROGRAM) "
-            f"or a folder with a {MANIFEST}"
-        )
-    file, colon, attribute = spec.rpartition(":")
-    if colon and file.endswith(".py"):
+        raise ValueError(f"the name of a model, {spec!r}, is empty: name {_SPECS}")
+    shown = one_line(spec, 200)
+    file, _, attribute = spec.rpartition(":")
+    if file.endswith(".py"):
         # Not Path.resolve(), which raises RuntimeError at a loop of symbolic links.
-        path = Path(os.path.realpath(os.path.expanduser(file)))
-        if not path.is_file():
+        path = os.path.realpath(os.path.expanduser(file))
+        if not os.path.isfile(path):
             raise ValueError(f"there is no file {one_line(file, 200)}")
         if not attribute.isidentifier():
-            raise ValueError(f"{one_line(spec, 200)}: the text after the colon must be the name of a class")
-        return {"kind": "file", "file": str(path), "attribute": attribute}
-    _refuse_table(spec)
-    if program := _program(spec):
-        return {"kind": "program", "file": program}
-    folder = Path(os.path.expanduser(spec))
-    if folder.name == MANIFEST:
-        folder = folder.parent
-    data = (folder / MANIFEST).is_file()
+            raise ValueError(f"{shown}: the text after the colon must be the name of a class")
+        return {"kind": "file", "file": path, "attribute": attribute}
+    path = os.path.realpath(os.path.expanduser(spec))
+    folder = os.path.dirname(path) if os.path.basename(path) == MANIFEST else path
+    data = os.path.isfile(os.path.join(folder, MANIFEST))
+    if os.path.isfile(path) and not data:
+        # A value has a quantity, a case and a unit, which the file beside a table states.
+        if os.path.splitext(path)[1].lower() in _TABLES:
+            raise ValueError(
+                f"{shown} is a table and no model: put it in a folder with a {MANIFEST}, which states its name, its "
+                "units and its cases, and give the name of the folder (docs/judge_your_model.md, Only data)"
+            )
+        # Without a separator it is a name, as for a shell.
+        if os.sep in spec:
+            return _program(path, shown)
     count = 0 if os.sep in spec else len({entry for entry in entry_points(group=GROUP) if entry.name == spec})
     if data and count:
         raise ValueError(
@@ -86,40 +91,20 @@ def source_of(spec: str) -> dict[str, Any]:
             f"name the folder .{os.sep}{spec}, or use the package from another working folder"
         )
     if data:
-        return {"kind": "data", "folder": str(folder.resolve())}
+        return {"kind": "data", "folder": folder}
     if count > 1:
         raise ValueError(f"{count} installed packages have a model {spec!r}; name it FILE.py:CLASS instead")
     # A folder without predictions hides no entry point: a package is often installed from a folder of its name.
-    if count == 0 and (os.sep in spec or folder.is_dir()):
-        raise ValueError(f"{one_line(spec, 200)} is neither FILE.py:CLASS nor a program nor a folder with a {MANIFEST}")
     if count == 0:
-        raise ValueError(
-            f"no installed package has a model {one_line(spec, 60)!r} (entry points of group {GROUP}), and it is "
-            f"neither FILE.py:CLASS nor a program (./PROGRAM) nor a folder with a {MANIFEST}"
-        )
+        raise ValueError(f"no installed package has a model {shown!r} (entry points of group {GROUP}); name {_SPECS}")
     return {"kind": "package", "group": GROUP, "name": spec}
 
 
-def _refuse_table(spec: str) -> None:
-    """Refuse a bare table: a value has a quantity, a case and a unit, which the file beside it states."""
-    path = os.path.expanduser(spec)
-    if os.path.splitext(path)[1].lower() in _TABLES and os.path.isfile(path):
-        raise ValueError(
-            f"{one_line(spec, 200)} is a table and no model: put it in a folder with a {MANIFEST}, which states its "
-            "name, its units and its cases, and give the name of the folder (docs/judge_your_model.md, Only data)"
-        )
-
-
-def _program(spec: str) -> str:
-    """Return the path of the program that a SPEC names; nothing if it names none."""
-    # Without a separator it is a name, as for a shell.
-    path = os.path.realpath(os.path.expanduser(spec))
-    if os.sep not in spec or not os.path.isfile(path) or os.path.basename(path) == MANIFEST:
-        return ""
+def _program(path: str, shown: str) -> dict[str, Any]:
     if not os.access(path, os.X_OK):
         hint = " or, for a model in Python, name its class (FILE.py:CLASS)" if path.endswith(".py") else ""
-        raise ValueError(f"{one_line(spec, 200)} is a file that is no program: make it executable (chmod +x){hint}")
-    return path
+        raise ValueError(f"{shown} is a file that is no program: make it executable (chmod +x){hint}")
+    return {"kind": "program", "file": path}
 
 
 def load_model(spec: str, poisson_ratio: float | None = None) -> ExternalModel | DataModel:
@@ -157,7 +142,7 @@ def load_again(spec: str) -> ExternalModel | DataModel:
 
 def _load(source: dict[str, Any], spec: str, poisson_ratio: float | None) -> ExternalModel | DataModel:
     if source["kind"] == "data":
-        return DataModel(read_submission(Path(source["folder"])))
+        return DataModel(Path(source["folder"]))
     return connect(source, spec, poisson_ratio)
 
 

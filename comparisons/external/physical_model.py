@@ -84,8 +84,6 @@ class InUnits:
         self._model = model
         self._poisson_ratio = 0.3 if poisson_ratio is None else poisson_ratio
         self._scales = SCALES[scales]
-        self.name, self.version = model.name, model.version
-        self.citation, self.domain = model.citation, model.domain
 
     def evaluate(self, problem: Problem, quantity: str) -> Result:
         """Return the dimensionless quantity, or raise as the model does."""

@@ -7,7 +7,6 @@ import numbers
 
 import numpy as np
 
-from comparisons.external.limits import LARGEST_COUNT
 from comparisons.external.text_rules import one_line
 from comparisons.model import ComputationFailed
 
@@ -15,6 +14,8 @@ __all__ = ["LARGEST_CURVE", "column", "count", "kind", "real"]
 
 #: Most points of a curve.
 LARGEST_CURVE = 1_000_000
+#: Counts (of unknowns, of iterations) are below it: tables store them with 64 bits and a sign.
+_LARGEST_COUNT = 2**63
 
 
 def real(name: str, value: object) -> float:
@@ -56,14 +57,14 @@ def count(name: str, value: object) -> int:
     3
     """
     number = int(real(name, value))
-    if not 0 <= number < LARGEST_COUNT:
+    if not 0 <= number < _LARGEST_COUNT:
         raise ComputationFailed(
             f"the model gave {kind(value)} as {name}, which is outside [0, 2^63): it is a number of steps or unknowns"
         )
     return number
 
 
-def column(name: str, values: object) -> list[float]:
+def column(name: str, values: object) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
     """Return a column of a curve.
 
     Raises
@@ -73,7 +74,7 @@ def column(name: str, values: object) -> list[float]:
 
     Examples
     --------
-    >>> column("load", [0, 1.5])
+    >>> column("load", [0, 1.5]).tolist()
     [0.0, 1.5]
     """
     try:
@@ -86,7 +87,7 @@ def column(name: str, values: object) -> list[float]:
         )
     if not np.isfinite(array).all():
         raise ComputationFailed(f"column {one_line(name, 60)} of the curve has values that are not finite")
-    return [float(value) for value in array]
+    return array.astype(float)
 
 
 def kind(value: object) -> str:

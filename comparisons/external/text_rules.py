@@ -5,10 +5,14 @@ from __future__ import annotations
 import re
 import unicodedata
 
-__all__ = ["NAME_PATTERN", "model_name", "one_line"]
+__all__ = ["TEXTS", "model_name", "one_line"]
+
+#: Texts that every model states of itself.
+TEXTS = ("name", "version", "citation", "domain")
+
 
 #: Names become file names, table cells, HTML and command lines, and must be harmless in all of them.
-NAME_PATTERN = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}")
+_NAME_PATTERN = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}")
 
 _MISSING = "is what programs that read CSV take for a missing value"
 _TAKEN = {
@@ -33,7 +37,7 @@ def model_name(text: object) -> str:
     """
     if isinstance(text, str) and text.lower() in _TAKEN:
         raise ValueError(f"the model's name {text} {_TAKEN[text.lower()]}")
-    if isinstance(text, str) and NAME_PATTERN.fullmatch(text):
+    if isinstance(text, str) and _NAME_PATTERN.fullmatch(text):
         return text
     raise ValueError(
         f"the model's name {one_line(repr(text), 60)} is not 1 to 64 letters, digits, '.', '_' and '-' beginning "

@@ -7,11 +7,15 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.external.model_source import close_models
-from comparisons.pipeline import finished_run
+from comparisons.external.model_source import GROUP, close_models
+from comparisons.pipeline import finished_run, inputs
 from comparisons.quantities import QUANTITIES
+from comparisons.runs.cases import Case, load_grids
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "double_hertz"
+FORCE = ["--quantity", "pull_off_force", "--n", "2", "--k", "0", "--mu", "1"]
+CASE = Case(2, 0.4, 1)
+GOOD = "return Result(1.5, 1e-9)"
 
 
 @pytest.fixture(autouse=True)
@@ -26,18 +30,49 @@ def no_cards(monkeypatch):
     monkeypatch.setattr(finished_run, "make_cards", lambda external, rows, parts, cases: {})
 
 
-def light(cases, *places):
-    """Cases of which those at some places are in every test run, and the others are heavy."""
-    cases = list(cases)
-    assert set(places) < set(range(len(cases)))
-    return [
-        pytest.param(*(case if isinstance(case, tuple) else (case,)), marks=() if at in places else pytest.mark.heavy)
-        for at, case in enumerate(cases)
-    ]
+GRID = """
+[[grid]]
+id = "few"
+title = "Few cases"
+tier = "quick"
+reference = "bradley"
+models = ["dmt"]
+quantities = ["pull_off_force"]
+n = [2]
+k = [0, 0.4]
+mu = [0.1, 1]
+"""
+
+
+GATE = """
+[[gate]]
+id = "GIVEN"
+requirement = "The model has the pull-off force of Bradley."
+quantity = "pull_off_force"
+candidate = "given"
+reference = "bradley"
+cases = {}
+metric = "rel"
+lower = -0.1
+upper = 0.1
+max_reference_uncertainty = 1e-6
+basis = "derived"
+grounds = "a gate of this test"
+min_cases = 2
+min_coverage = 0.9
+tier = "quick"
+not_applicable = "leave-out"
+"""
+
+
+@pytest.fixture
+def few_cases(monkeypatch, no_cards):
+    """A run has four cases and makes no report cards."""
+    monkeypatch.setattr(inputs, "grids", lambda tier: load_grids(GRID))
 
 
 HEAD = """
-import ctypes, math, os, signal, sys, threading, time
+import ctypes, math, os, shutil, signal, sys, threading, time
 from contextlib import suppress
 from pathlib import Path
 import numpy as np
@@ -55,7 +90,7 @@ class Model:
 def write_model(tmp_path):
     """Return a function that writes a model with a given body of `evaluate` and returns its SPEC."""
 
-    def write(body, name="stranger", more=""):
+    def write(body=GOOD, name="stranger", more=""):
         file = tmp_path / f"{name}.py"
         lines = "\n".join(f"        {line}" for line in body.splitlines())
         members = "\n".join(f"    {line}" for line in more.splitlines())
@@ -67,7 +102,7 @@ def write_model(tmp_path):
 
 
 MANIFEST = """
-name = "{name}"
+name = "measured"
 version = "1"
 author = "A. Author"
 doi = "10.1000/182"
@@ -95,16 +130,13 @@ ROWS = [
 def write_data(tmp_path):
     """Return a function that writes a folder of predictions; `change` maps texts of the manifest."""
 
-    def write(rows=ROWS, change=(), digest=None, header="quantity,n,k,mu,value,u_num", name="measured"):
+    def write(rows=ROWS, change=(), digest=None, header="quantity,n,k,mu,value,u_num", wrap=str.encode):
         folder = tmp_path / "data"
         folder.mkdir(exist_ok=True)
-        content = "\n".join([header, *rows]) + "\n"
-        (folder / "predictions.csv").write_text(content, encoding="utf-8")
-        manifest = MANIFEST.format(
-            name=name,
-            digest=digest or hashlib.sha256(content.encode()).hexdigest(),
-            unit=QUANTITIES["pull_off_force"].unit,
-        )
+        content = wrap("\n".join([header, *rows]) + "\n")
+        (folder / "predictions.csv").write_bytes(content)
+        unit = QUANTITIES["pull_off_force"].unit
+        manifest = MANIFEST.format(digest=digest or hashlib.sha256(content).hexdigest(), unit=unit)
         for old, new in dict(change).items():
             assert old in manifest
             manifest = manifest.replace(old, new)
@@ -117,20 +149,14 @@ def write_data(tmp_path):
 @pytest.fixture
 def installed_example(tmp_path, monkeypatch):
     """Put the double-Hertz example on the path as an installation leaves it, by its own pyproject.toml."""
-    project = tomllib.loads((EXAMPLE / "pyproject.toml").read_text(encoding="utf-8"))
-    site = tmp_path / "site-packages"
-    info = site / "double_hertz-1.0.dist-info"
+    tables = tomllib.loads((EXAMPLE / "pyproject.toml").read_text(encoding="utf-8"))
+    project = tables["project"]
+    info = tmp_path / "site-packages" / "double_hertz-1.0.dist-info"
     info.mkdir(parents=True)
-    for module in project["tool"]["setuptools"]["py-modules"]:
-        shutil.copy(EXAMPLE / f"{module}.py", site)
-    name, version = project["project"]["name"], project["project"]["version"]
-    info.joinpath("METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n")
-    groups = project["project"]["entry-points"]
-    info.joinpath("entry_points.txt").write_text(
-        "".join(
-            f"[{group}]\n" + "".join(f"{key} = {value}\n" for key, value in entries.items())
-            for group, entries in groups.items()
-        )
-    )
-    monkeypatch.syspath_prepend(site)
-    return name
+    for module in tables["tool"]["setuptools"]["py-modules"]:
+        shutil.copy(EXAMPLE / f"{module}.py", info.parent)
+    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {project['version']}\n")
+    entries = "".join(f"{name} = {place}\n" for name, place in project["entry-points"][GROUP].items())
+    (info / "entry_points.txt").write_text(f"[{GROUP}]\n{entries}")
+    monkeypatch.syspath_prepend(info.parent)
+    return project["name"]

@@ -1,20 +1,17 @@
 """A program that speaks JSON lines: the documented example, and programs with every kind of defect."""
 
-import os
 import re
-import stat
-import time
 from pathlib import Path
 
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.external.model_source import close_models, source_of
+from comparisons.external.model_source import close_models
 from comparisons.model import ComputationFailed, HasCurve, NotApplicable
 from comparisons.registry import create
 from fscm.problem import Problem
 
-from .conftest import light
+from .test_hostile_models import comes_true, has_ended
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLE = ROOT / "tests" / "examples" / "program" / "jkr.sh"
@@ -38,7 +35,7 @@ def write_program(tmp_path):
     def write(body, describe=DESCRIBE, text=None):
         file = tmp_path / "program"
         file.write_text(text or SCRIPT.format(describe=describe, body=body), encoding="utf-8")
-        file.chmod(file.stat().st_mode | stat.S_IXUSR)
+        file.chmod(0o755)
         return str(file)
 
     return write
@@ -48,32 +45,19 @@ def ok(value="1.7", more=""):
     return f"""echo '{{"status": "ok", "value": {value}, "u_num": 1e-15{more}}}'"""
 
 
-def is_running(pid):
-    """Whether a process exists and is no zombie."""
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except OSError:
-        return False
-
-
-def test_the_example_of_the_document_is_the_one_that_is_tested():
+def test_the_example_of_the_document_has_the_values_of_jkr_and_keeps_the_contract(capsys):
     document = (ROOT / "docs" / "judge_your_model.md").read_text(encoding="utf-8")
     blocks = re.findall(r"^```sh\n(#!/bin/sh\n.*?)^```", document, flags=re.MULTILINE | re.DOTALL)
     assert blocks == [EXAMPLE.read_text(encoding="utf-8")]
-
-
-def test_the_example_has_the_values_of_jkr_and_keeps_the_contract(capsys):
     model = create(str(EXAMPLE))
     result = model.evaluate(CASE, "pull_off_force")
     assert abs(result.value - create("jkr").evaluate(CASE, "pull_off_force").value) <= 1e-15
     assert str(model.applies_to) == "pull_off_force for n = 2, 0 <= k <= 0.9, mu >= 0.01"
     with pytest.raises(NotApplicable, match="the model is for n = 2"):
         model.evaluate(Problem(1, 0, 1), "pull_off_force")
-    with pytest.raises(NotApplicable, match="no equation"):
-        model.evaluate(CASE, "jump_in_gap")
     assert not isinstance(model, HasCurve)
     assert main(["check-model", str(EXAMPLE)]) == 0
-    assert "hashed: all files in program" in capsys.readouterr().out
+    assert "hashed: all files in program" in " ".join(capsys.readouterr().out.split())
 
 
 def test_counts_and_a_curve_of_a_program(write_program):
@@ -92,25 +76,25 @@ esac"""
 
 #: What a program does instead of a reply, and the sentence about it.
 DEFECTS = (
-    ("echo 'cannot open table' >&2; exit 3", "ended with exit status 3 instead of a reply; the last line of its st"),
-    ("kill -9 $$", "was killed by signal 9 instead of a reply"),
-    ("exec 1>&-; sleep 60", "closed its standard output instead of a reply"),
-    ("echo 1.7", "wrote '1.7', which is not one JSON object in one line"),
-    ("echo hello", "wrote 'hello', which is not one JSON object"),
+    ("echo 'cannot open table' >&2; exit 3", "exit status 3 instead of a reply; .*: cannot open table"),
+    ("kill -9 $$", "was killed by signal 9"),
+    ("exec 1>&-; sleep 60", "closed its standard output"),
+    ("echo 1.7", "wrote '1.7', which is not one JSON object"),
     ("echo", "wrote '', which is not one JSON object"),
     ("printf '\\377\\n'", "which is not one JSON object"),
     (ok("NaN"), "wrote NaN, which is not a finite number"),
     (ok("1e999"), "gave inf as value, which is not a finite number"),
     (ok('"1.7"'), "gave str '1.7' as value, which is not a real number"),
-    (ok("null"), "gave NoneType None as value"),
     (ok(more=', "size": -1'), "size, which is outside"),
     (ok(more=', "unum": 1'), "gave the unknown key 'unum'"),
-    ("""echo '{"status": "ok", "value": 1.7}'""", "the reply of the program has no u_num"),
+    ("""echo '{"status": "ok", "value": 1.7}'""", "has no u_num"),
     ("""echo '{"value": 1.7, "u_num": 0}'""", "gave NoneType None as status"),
+    ("""echo '{"status": []}'""", "as status"),
     ("""echo '{"status": "failed", "reason": "no root"}'""", "^no root$"),
-    ("""echo '{"status": "failed"}'""", "the model failed without a reason"),
+    ("""echo '{"status": "failed"}'""", "no reason"),
     (f"{ok()}; {ok()}", "more than one line for"),
-    ("head -c 2000000 /dev/zero | tr '\\0' '['; echo", "which is not one JSON object in one line"),
+    ("head -c 2000000 /dev/zero | tr '\\0' '['; echo", "which is not one JSON object"),
+    ("yes | tr -d '\\n'", "wrote 200 MB without the end of a line"),
 )
 
 
@@ -130,100 +114,55 @@ def test_a_defect_of_a_program_is_one_sentence_and_costs_one_result(write_progra
         assert model.evaluate(Problem(2, 0, 0.5), "pull_off_force").value == 1.7
 
 
-@pytest.mark.parametrize("body", ["sleep 60", pytest.param("while :; do :; done", marks=pytest.mark.heavy)])
-def test_a_program_that_is_silent_or_too_slow_is_ended(write_program, monkeypatch, body):
+def test_a_program_that_is_too_slow_or_keeps_its_line_is_ended(write_program, monkeypatch):
     monkeypatch.setenv("FSCM_BENCH_TIME_LIMIT", "1.5")
-    model = create(write_program(body))
-    with pytest.raises(
-        ComputationFailed, match=r"no result within 1.5 s \(FSCM_BENCH_TIME_LIMIT\) and was ended; a program must flush"
-    ):
-        model.evaluate(CASE, "pull_off_force")
-
-
-def test_a_line_that_stays_in_the_buffer_of_a_program_is_named_as_the_cause(write_program, monkeypatch):
-    monkeypatch.setenv("FSCM_BENCH_TIME_LIMIT", "1.5")
-    with pytest.raises(ValueError, match=r"cannot be loaded: it gave no result .* must flush its standard output"):
+    with pytest.raises(ComputationFailed, match=r"within 1.5 s \(FSCM_BENCH_TIME_LIMIT\) .* must flush"):
+        create(write_program("sleep 60")).evaluate(CASE, "pull_off_force")
+    close_models()
+    with pytest.raises(ValueError, match=r"cannot be loaded: .* must flush its standard output"):
         create(write_program("", text="#!/bin/sh\nread -r request\nprintf '{}'\nsleep 60\n"))
 
 
 @pytest.mark.parametrize(
     ("describe", "sentence"),
-    light(
-        [
-            ("{}", "the reply of the program has no name, version, citation, domain"),
-            (DESCRIBE.replace('"1"', "1"), "gave int 1 as version, which is not a text"),
-            (DESCRIBE.replace('"mine"', '"two words"'), "the model's name 'two words' is not 1 to 64 letters"),
-            (DESCRIBE[:-1] + ', "limits": "jkr"}', "gave str 'jkr' as limits, which is not a list of texts"),
-            (DESCRIBE[:-1] + ', "applies_to": {"n": [2, 2]}}', "applies_to: quantities = None is not a list"),
-            (DESCRIBE[:-1] + ', "colour": "red"}', "gave the unknown key 'colour'"),
-            (DESCRIBE[:-1] + ', "files": ["none.csv"]}', "there is no such file or folder beside the model"),
-        ],
-        0,
-        2,
-        6,
-    ),
+    [
+        ("{}", "has no name, version, citation, domain"),
+        (DESCRIBE.replace('"1"', "1"), "gave int 1 as version, which is not a text"),
+        (DESCRIBE.replace('"mine"', '"two words"'), "'two words' is not 1 to 64 letters"),
+        (DESCRIBE[:-1] + ', "limits": "jkr"}', "limits = str 'jkr'"),
+        (DESCRIBE[:-1] + ', "applies_to": {"n": [2, 2]}}', "applies_to: quantities = None is not a list"),
+        (DESCRIBE[:-1] + ', "applies_to": {"quantities": [["a"]]}}', "cannot be loaded"),
+        (DESCRIBE[:-1] + ', "digest": "0"}', "gave the unknown key 'digest'"),
+        (DESCRIBE[:-1] + ', "files": ["none.csv"]}', "there is no such file or folder beside the model"),
+    ],
 )
 def test_a_program_that_describes_no_model_cannot_be_loaded(write_program, describe, sentence):
     with pytest.raises(ValueError, match=re.escape(sentence)):
         create(write_program(ok(), describe))
 
 
-@pytest.mark.parametrize("mode", [0o644, 0o755])
-def test_a_bare_table_is_told_how_to_be_data(tmp_path, monkeypatch, mode):
-    """With and without a separator in the SPEC, and on a file system that marks every file as executable."""
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "mine.csv").write_text("quantity,n,k,mu,value,u_num\n")
-    (tmp_path / "mine.csv").chmod(mode)
-    for spec in ("mine.csv", "./mine.csv", str(tmp_path / "mine.csv")):
-        with pytest.raises(ValueError, match=r"model\.toml") as refusal:
-            source_of(spec)
-        assert "executable" not in str(refusal.value)
-        assert spec in str(refusal.value)
-
-
-def test_what_is_no_program_is_wrong_input(write_program, tmp_path):
+def test_what_is_no_program_is_wrong_input(write_program):
     with pytest.raises(ValueError, match=r"cannot be started .*whose first line"):
         create(write_program("", text="no program\n"))
-    file = tmp_path / "model.py"
-    file.write_text("")
-    with pytest.raises(ValueError, match=r"is a file that is no program: make it executable .*FILE.py:CLASS"):
-        source_of(str(file))
-    with pytest.raises(ValueError, match="nor a program"):
-        source_of(str(tmp_path / "nothing"))
 
 
-def test_a_program_has_the_limits_of_other_models(write_program, tmp_path):
+def test_a_program_has_the_limits_of_other_models_and_ends_with_it(write_program, tmp_path, monkeypatch):
     """It writes in the scratch folder, and not beside itself; its memory is limited; it sees no token of ours."""
     target = tmp_path / "written"
     body = f"""
 free=yes; (echo x > {target}) 2>/dev/null || free=no
 scratch=no; (echo x > here) && scratch=yes
-printf '{{"status": "not-applicable", "reason": "%s %s %s %s"}}\\n' $free $scratch $(ulimit -v) "$SECRET_TOKEN"
+printf '{{"status": "not-applicable", "reason": "%s %s %s %s %s"}}\\n' $$ $free $scratch $(ulimit -v) "$SECRET_TOKEN"
 """
-    os.environ["SECRET_TOKEN"] = "secret"
-    try:
-        model = create(write_program(body))
-        with pytest.raises(NotApplicable) as refusal:
-            model.evaluate(CASE, "pull_off_force")
-    finally:
-        del os.environ["SECRET_TOKEN"]
-    free, scratch, kilobytes, *token = str(refusal.value).split()
+    monkeypatch.setenv("SECRET_TOKEN", "secret")
+    with pytest.raises(NotApplicable) as refusal:
+        create(write_program(body)).evaluate(CASE, "pull_off_force")
+    process, free, scratch, kilobytes, *token = str(refusal.value).split()
     assert (scratch, int(kilobytes), token) == ("yes", 4_096_000_000 // 1024, [])
     assert (free == "no") == (not target.exists())
-
-
-@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="it reads the state of a process in /proc")
-def test_a_program_ends_with_its_model(write_program, tmp_path):
-    model = create(write_program("""printf '{"status": "not-applicable", "reason": "%s"}\\n' $$"""))
-    with pytest.raises(NotApplicable) as refusal:
-        model.evaluate(CASE, "pull_off_force")
-    assert is_running(int(str(refusal.value)))
+    assert not has_ended(process)
     close_models()
-    for _ in range(100):
-        if not is_running(int(str(refusal.value))):
-            return
-        time.sleep(0.05)
-    pytest.fail("the program goes on")
+    assert comes_true(lambda: has_ended(process))
 
 
 def test_a_changed_program_has_another_version(write_program):
