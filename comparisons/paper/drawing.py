@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
 import pandas as pd
@@ -54,14 +53,16 @@ def one_a_value(axes: Axes, table: pd.DataFrame, name: str, x: str, y: str, scal
         axes.plot(part[x], scale * part[y], label=f"${name}$ = {value:g}", **dashed(index))
 
 
-def crosses(axes: Axes, x: Iterable[float], y: Iterable[float], **style: Any) -> None:
+def crosses(axes: Axes, x: Any, y: Any, **style: Any) -> None:
     """Mark points of the finite elements."""
-    axes.plot(x, y, **{"ls": "none", "marker": "x", "ms": 8, "color": "0.2"} | style)
+    marked: dict[str, Any] = {"ls": "none", "marker": "x", "ms": 8, "color": "0.2"} | style
+    axes.plot(x, y, **marked)
 
 
 def level(axes: Axes, y: float = 0.0, **style: Any) -> None:
     """Draw a thin horizontal line."""
-    axes.axhline(y, **{"color": "0.4", "lw": 0.8} | style)
+    thin: dict[str, Any] = {"color": "0.4", "lw": 0.8} | style
+    axes.axhline(y, **thin)
 
 
 def legend_below(figure: Figure, columns: int, **style: Any) -> None:

@@ -19,7 +19,7 @@ from comparisons.paper.cache import CachedCall, Results
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.csv_format import csv_text
 
-__all__ = ["PaperFigure", "Plan", "Tables", "calls_of", "given", "lines_of", "results_by", "rows_of", "texts_of", "write"]
+__all__ = ["PaperFigure", "Plan", "Tables", "calls_of", "given", "lines_of", "results_by", "rows_of", "write"]
 
 T = TypeVar("T")
 K = TypeVar("K")

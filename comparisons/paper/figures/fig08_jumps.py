@@ -82,11 +82,11 @@ def _plan() -> Plan[Tables]:
     onsets = {k: CachedCall.of(near_critical, 2.0, k) for k in _GRADIENTS}
     beyond = {(k, mu): CachedCall.of(jumps, 2.0, k, mu) for mu in reversed(TABOR_NUMBERS) for k in _GRADIENTS}
     results = yield [*onsets.values(), *beyond.values()]
-    critical = [{"n": 2.0, "k": k} | {name: results[call][name] for name in ("mu", "u_mu")} for k, call in onsets.items()]
+    critical = pd.DataFrame([{"n": 2.0, "k": k} | results[call] for k, call in onsets.items()])
     rows = [{"n": 2.0, "k": k} | row for k, call in onsets.items() for row in results[call]["jumps"]]
     rows += [{"n": 2.0, "k": k, "mu": mu} | results[call] for (k, mu), call in beyond.items()]
     table = pd.DataFrame(rows).sort_values(["k", "mu"], ignore_index=True)
-    return {"": table, "critical": pd.DataFrame(critical)}
+    return {"": table, "critical": critical.drop(columns="jumps")}
 
 
 def _picture(figure: Figure, tables: Tables) -> None:

@@ -92,9 +92,9 @@ def _displacements(axes: Axes, table: pd.DataFrame) -> None:
     fscm, closed = of_model(table, "fscm", "asymptote")
     broad = MODEL_LINES["fscm"]
     for index, (name, equation) in enumerate((("in", "Eq. 47"), ("out", "Eq. 54"))):
-        column, colour = f"jump_{name}_displacement", {"color": COLOURS[index]}
-        axes.plot(closed["mu"], closed[column], **colour, ls=("-", "--")[index], label=f"jump {name}, {equation}")
-        axes.plot(fscm["mu"], fscm[column], **broad | colour, label=f"jump {name}, FSCM")
+        column, colour = f"jump_{name}_displacement", COLOURS[index]
+        axes.plot(closed["mu"], closed[column], color=colour, ls=("-", "--")[index], label=f"jump {name}, {equation}")
+        axes.plot(fscm["mu"], fscm[column], **broad | {"color": colour}, label=f"jump {name}, FSCM")
     last, asymptote = fscm.iloc[-1], closed.iloc[-1]
     difference = asymptote["jump_in_displacement"] / last["jump_in_displacement"] - 1.0
     text = f"Eq. 47 is {100.0 * difference:.0f} % farther\nthan the FSCM at $\\mu$ = {last['mu']:g}"

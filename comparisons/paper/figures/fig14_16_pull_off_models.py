@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from itertools import product
+from typing import Any
+
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
@@ -27,13 +30,13 @@ _MODELS = ("fscm", "md-original", "md-improved")
 
 def _forces(*limits: str) -> Plan[pd.DataFrame]:
     """Forces of the three models, then those of limiting ones."""
-    cases = [(n, model, mu) for models in (_MODELS, limits) for n in _SHAPES for model in models for mu in TABOR_NUMBERS]
+    models = [*product(_SHAPES, _MODELS), *product(_SHAPES, limits)]
     table = yield from rows_of(
         (
             {"n": n, "k": _K, "mu": mu, "model": model},
             CachedCall.of(quantity, model, "pull_off_force", n, _K, mu),
         )
-        for n, model, mu in cases
+        for (n, model), mu in product(models, TABOR_NUMBERS)
     )
     return table.astype({"value": float, "u_num": float})
 
@@ -96,7 +99,7 @@ def _draw_by_soft(figure: Figure, tables: Tables) -> None:
     axes = above.subplots()
     shapes = []
     for index, (n, of_shape) in enumerate(tables[""].groupby("n")):
-        marked = {"color": COLOURS[index], "marker": MARKERS[index], "ms": 3.5, "mfc": "white"}
+        marked: Any = {"color": COLOURS[index], "marker": MARKERS[index], "ms": 3.5, "mfc": "white"}
         shapes.append(Line2D([], [], label=f"$n$ = {n:g}", **marked))
         for model, part in zip(MODEL_LINES, of_model(of_shape, *MODEL_LINES), strict=True):
             places = {"markevery": (2 * index, 8)} if model == "md-improved" else {"marker": ""}
@@ -105,7 +108,8 @@ def _draw_by_soft(figure: Figure, tables: Tables) -> None:
     axes.set(xscale="log", yscale="log", xlim=(0.008, 12.0), xlabel=LABELS["mu"], ylabel=r"$P_c/P_c^{\mathrm{JKR}}$")
     _plain_ticks(axes)
     lettered(axes, "a", f"scaled by the soft limit, $k$ = {_K:g}")
-    models = [Line2D([], [], label=MODEL_NAMES[name], **style | {"color": "0.45"}) for name, style in MODEL_LINES.items()]
+    grey = {name: style | {"color": "0.45"} for name, style in MODEL_LINES.items()}
+    models = [Line2D([], [], label=MODEL_NAMES[name], **style) for name, style in grey.items()]
     above.legend(handles=[*shapes, *models], loc="outside right center")
     whole, near = below.subplots(1, 2)
     kappa_figure.panels(whole, near, tables["kappa"])

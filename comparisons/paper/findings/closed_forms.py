@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
@@ -14,7 +16,7 @@ from comparisons.paper.figures.fig17_surface_models import cohesive_surface
 from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
 from comparisons.paper.statements.numbers import case_keys, number, numbers, relative_error, tasks_of
 from comparisons.paper.tasks import profile
-from comparisons.paper.values.sampling import LAST_K
+from comparisons.paper.values.causes import LAST_K
 
 __all__ = ["CHI_RANGE", "COHESIVE_ERRORS", "SEMI_RIGID", "SURFACE_INSIDE"]
 
@@ -50,7 +52,8 @@ def near_the_end(up_to: float) -> list[float]:
 
 
 def _chi_range() -> Plan[Tables]:
-    calls = {last: [CachedCall.of(function, last) for function in (near_the_end, insensitive_regions)] for last in _LAST}
+    functions = (near_the_end, insensitive_regions)
+    calls = {last: [CachedCall.of(function, last) for function in functions] for last in _LAST}
     results = yield [call for of_last in calls.values() for call in of_last]
     parts = [
         pd.DataFrame({"last_k": last, "n": _CHI_SHAPES, "chi_max": results[near]}) for last, (near, _) in calls.items()
@@ -88,8 +91,8 @@ def _cohesive_errors() -> Plan[Tables]:
     for reference, case in _FORCES:
         for model in _MODELS:
             error = relative_error(model, force[model, case], reference, force[reference, case])
-            errors = {"error": error.value, "u_error": error.u}
-            rows.append({"reference": reference, "model": model} | case_keys(case) | errors)
+            row: dict[str, Any] = {"reference": reference, "model": model} | case_keys(case)
+            rows.append(row | {"error": error.value, "u_error": error.u})
     return {"": pd.DataFrame(rows)}
 
 
@@ -129,9 +132,7 @@ COHESIVE_ERRORS = PaperFigure(
 def _semi_rigid() -> Plan[Tables]:
     share, place = "jump_in_deformation", "jump_in_displacement"
     calls = [
-        call
-        for model, case in _JUMPS
-        for call in (*tasks_of(model, share, case), *tasks_of("semi-rigid", place, case))
+        call for model, case in _JUMPS for call in (*tasks_of(model, share, case), *tasks_of("semi-rigid", place, case))
     ]
     results = yield calls
     rows = []

@@ -34,11 +34,7 @@ _SHOWN = (0.5, 1.0)
 _FALLING_N = 1.5
 _FORCE, _PLACE = "pull_off_force", "pull_off_displacement"
 _FALLING = [
-    *(
-        ("fscm", _FORCE, k, mu)
-        for k in _GRADIENTS
-        for mu in (0.01, 0.03, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1.0)
-    ),
+    *(("fscm", _FORCE, k, mu) for k in _GRADIENTS for mu in (0.01, 0.03, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1.0)),
     *(("fem", _FORCE, k, mu) for k, mu in ((0.0, 0.01), (0.0, 0.3), (0.4, 0.01), (0.4, 0.05))),
     *(("fscm", _PLACE, 0.4, mu) for mu in (0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3)),
     *(("fem", _PLACE, 0.4, mu) for mu in (0.01, 0.1)),

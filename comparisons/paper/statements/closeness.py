@@ -94,13 +94,13 @@ def curve_distances(statement: PaperStatement) -> Comparisons:
         exact = paths["fscm", case]
         x, y = (np.array(exact[name]) for name in ("displacement", "load"))
         # Both bounds as shares of the picture, in which the distance is measured.
-        own = exact["u_displacement"] / np.ptp(x) + exact["u_load"] / np.ptp(y)
+        bound = exact["u_displacement"] / np.ptp(x) + exact["u_load"] / np.ptp(y)
         distances = []
         for model in models:
-            theirs = (np.array(paths[model, case][name]) for name in ("displacement", "load"))
-            distance = curve_distance(*theirs, x, y)
+            their_x, their_y = (np.array(paths[model, case][name]) for name in ("displacement", "load"))
+            distance = curve_distance(their_x, their_y, x, y)
             what = f"distance of the curves, {model} from fscm, {case_label(case)}"
-            distances.append(Number(distance.value, distance.u_interpolation + 2.0 * own, what))
+            distances.append(Number(distance.value, distance.u_interpolation + 2.0 * bound, what))
         limit = reading(statement) if "within" in statement.arguments else distances[1]
         rows.append(Evidence(case_label(case), "fscm", distances[0], "<", limit))
     return rows

@@ -194,11 +194,12 @@ def force_at(n: float, k: float, mu: float, nu: float) -> dict[str, float]:
 
 def segments_suffice(statement: PaperStatement) -> Comparisons:
     """The segments change the force by less than the limit, compared on the same finite domain."""
-    places = product((scheme_force, exact_force), grid(statement))
-    found = yield from results_by({place: CachedCall.of(place[0], *place[1]) for place in places})
+    functions = (scheme_force, exact_force)
+    calls = {case: [CachedCall.of(function, *case) for function in functions] for case in grid(statement)}
+    results = yield [call for of_case in calls.values() for call in of_case]
     rows = []
-    for case in grid(statement):
-        coarse, full = (found[function, case] for function in (scheme_force, exact_force))
+    for case, of_case in calls.items():
+        coarse, full = (results[call] for call in of_case)
         same_domain = full["force"] - full["beyond"][0]
         share = abs(coarse["force"] - same_domain) / full["force"]
         u = (coarse["u_num"] + full["u_num"]) / full["force"]

@@ -232,9 +232,8 @@ def contact_edge(statement: PaperStatement) -> Comparisons:
 
 def _zones(cases: Iterable[Case]) -> dict[tuple[str, Case], CachedCall]:
     """Surfaces of both Maugis-Dugdale models."""
-    return {
-        (model, case): CachedCall.of(cohesive_surface, model, *case) for case in cases for model in (_IMPROVED, _ORIGINAL)
-    }
+    models = (_IMPROVED, _ORIGINAL)
+    return {(model, case): CachedCall.of(cohesive_surface, model, *case) for case in cases for model in models}
 
 
 def wider_zone(statement: PaperStatement) -> Comparisons:

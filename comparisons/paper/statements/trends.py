@@ -80,7 +80,8 @@ def vanishes(clause: str, values: Sequence[Number], limit: Number, model: str = 
 def trend(statement: PaperStatement) -> Comparisons:
     """A quantity, or its size, rises or falls along one parameter; pairs of cases by the finite elements, too."""
     relation, along = _RELATIONS[str(statement.arguments["direction"])], str(statement.arguments["along"])
-    pairs = [[tuple(map(float, case)) for case in pair] for pair in statement.arguments.get("witness", ())]
+    witness = statement.arguments.get("witness", ())
+    pairs: list[list[Case]] = [[(float(n), float(k), float(mu)) for n, k, mu in pair] for pair in witness]
     of_both = [("fscm", label, cases) for label, cases in families(grid(statement), along).items()]
     of_both += [("fem", family_label(pair[0], along), pair) for pair in pairs]
     found = yield from numbers(quantity_of(statement), [(model, case) for model, _, cases in of_both for case in cases])

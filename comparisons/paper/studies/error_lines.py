@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.studies.error_grid import GRADIENT_SLICES, ONSET_EXCESS, SHAPE_SLICES, error
+from comparisons.paper.studies.error_grid import GRADIENT_SLICES, ONSET_EXCESS, SHAPE_SLICES, compared, with_kappa
 from comparisons.paper.tasks import quantity
 from fscm.interpolation.atlas import atlas
 
@@ -73,7 +73,7 @@ def line_errors(n: float, k: float) -> dict[str, Any]:
     return {"critical": critical.value, "u_critical": critical.bound, "points": points}
 
 
-def calls(lines: Iterable[Line]) -> Sequence[CachedCall]:
+def calls(lines: Iterable[Line]) -> list[CachedCall]:
     """Return one call a line."""
     return [CachedCall.of(line_errors, *line) for line in dict.fromkeys(lines)]
 
@@ -88,14 +88,14 @@ def table_of(results: Results, lines: Iterable[Line], names: Iterable[str]) -> p
         the atlas), ``kappa`` and ``u_kappa``; for jumps also ``critical`` and ``u_critical``.
     """
     rows = []
-    for call in calls(lines):
-        found = results[call]
+    for n, k in dict.fromkeys(lines):
+        found = results[CachedCall.of(line_errors, n, k)]
         for name in names:
             more = {} if name == "pull_off_force" else {of: found[of] for of in ("critical", "u_critical")}
             for number, point in enumerate(found["points"][name]):
-                key = dict(zip("nk", call.arguments, strict=True)) | {"point": number, "mu": point["mu"]}
+                key = {"n": n, "k": k, "point": number, "mu": point["mu"], "quantity": name}
                 for model in MAPPED[name]:
-                    compared = error(point["fscm"], point[model])
-                    kept = {column: compared[column] for column in ("fscm", "u_fscm", "kappa", "u_kappa")}
-                    rows.append(key | {"quantity": name, "model": model} | kept | more)
-    return pd.DataFrame(rows)
+                    rows.append(key | {"model": model} | compared(point["fscm"], point[model]) | more)
+    table = with_kappa(rows).drop(columns=["value", "u_num", "reason"])
+    last = [name for name in table if name in ("critical", "u_critical")]
+    return table[[*table.columns.drop(last), *last]]
