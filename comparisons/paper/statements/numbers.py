@@ -22,8 +22,9 @@ Case = tuple[float, float, float]
 #: Their names, in this order.
 PARAMETERS = ("n", "k", "mu")
 
-#: The comparisons of a statement, and the test that plans them.
+#: The comparisons of a statement.
 Comparisons = Plan[list[Evidence]]
+#: A test: it plans the comparisons of a statement.
 StatementTest = Callable[[PaperStatement], Comparisons]
 
 

@@ -53,6 +53,7 @@ _JIN_STRESS = 1.0
 #: the paper states neither.  A largest value depends on the points at which it was searched: here the ends of the
 #: regions of Fig. 11(b) are the first and the last multiple of 0.001.
 LAST_K, N_STEP = 0.999, 0.001
+#: Name of the scheme of Fig. 11.
 GRID = f"k up to {LAST_K:g}, n in steps of {N_STEP:g}"
 #: Gradient exponents near 1: the last ones of a computation that does not take the limit k = 1.
 _SHORT_OF_GIBSON = (0.9995, LAST_K)
