@@ -213,16 +213,11 @@ def domain_suffices(statement: PaperStatement) -> Comparisons:
     schemes = {case: CachedCall.of(scheme_force, *case) for case in grid(statement)}
     places = [(model, case) for case in schemes for model in ("fscm", "fem")[: 1 + (case in witnesses(statement))]]
     results = yield [*schemes.values(), *(call for model, case in places for call in tasks_of(model, _FORCE, case))]
-    return [
-        Evidence(
-            case_label(case),
-            model,
-            lacking(results[schemes[case]], number(results, model, _FORCE, case)),
-            "<",
-            reading(statement),
-        )
-        for model, case in places
-    ]
+    rows = []
+    for model, case in places:
+        share = lacking(results[schemes[case]], number(results, model, _FORCE, case))
+        rows.append(Evidence(case_label(case), model, share, "<", reading(statement)))
+    return rows
 
 
 def no_poisson_ratio(statement: PaperStatement) -> Comparisons:

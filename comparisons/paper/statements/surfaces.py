@@ -23,14 +23,13 @@ from comparisons.paper.statements.numbers import (
     Case,
     Comparisons,
     case_label,
-    families,
     grid,
     number,
     reading,
     tasks_of,
     witnesses,
 )
-from comparisons.paper.statements.trends import one_way
+from comparisons.paper.statements.trends import ordered
 from comparisons.paper.tasks import profile
 from fscm import Analysis, NoSuchEvent, NotConverged
 from fscm.laws import LennardJones
@@ -176,33 +175,25 @@ def contact_gap(statement: PaperStatement) -> Comparisons:
 def centre_falls_with_k(statement: PaperStatement) -> Comparisons:
     """Deformation and pressure at the centre fall with k."""
     surfaces = yield from _of_grid(surface, statement)
-
-    def at_centre(case: Case, name: str, title: str) -> Number:
-        what = f"{title} at the centre at pull-off, {case_label(case)}"
-        return Number(abs(surfaces[case][name][0]), surfaces[case][f"u_{name}"][0], what)
-
-    return [
-        row
-        for label, cases in families(grid(statement), "k").items()
-        for name, title in (("deformation", "size of the deformation"), ("pressure", "pressure"))
-        for row in one_way(label, "fscm", [at_centre(case, name, title) for case in cases], "<")
-    ]
+    rows: list[Evidence] = []
+    for name, title in (("deformation", "size of the deformation"), ("pressure", "pressure")):
+        values = {}
+        for case, found in surfaces.items():
+            what = f"{title} at the centre at pull-off, {case_label(case)}"
+            values[case] = Number(abs(found[name][0]), found[f"u_{name}"][0], what)
+        rows += ordered(values, "k", "<")
+    return rows
 
 
 def pile_up_rises(statement: PaperStatement) -> Comparisons:
     """The pile-up above the centre rises with k."""
     surfaces = yield from _of_grid(surface, statement)
-
-    def height(case: Case) -> Number:
-        w, u = (np.array(surfaces[case][name]) for name in ("deformation", "u_deformation"))
+    heights = {}
+    for case, found in surfaces.items():
+        w, u = (np.array(found[name]) for name in ("deformation", "u_deformation"))
         what = f"height of the pile-up above the centre at pull-off, {case_label(case)}"
-        return Number(float(w[0] - w.min()), float(u[0] + u[np.argmin(w)]), what)
-
-    return [
-        row
-        for label, cases in families(grid(statement), "k").items()
-        for row in one_way(label, "fscm", list(map(height, cases)), ">")
-    ]
+        heights[case] = Number(float(w[0] - w.min()), float(u[0] + u[np.argmin(w)]), what)
+    return ordered(heights, "k", ">")
 
 
 def _widths(statement: PaperStatement) -> Plan[dict[Case, Number]]:
@@ -214,11 +205,7 @@ def _widths(statement: PaperStatement) -> Plan[dict[Case, Number]]:
 def band_narrows(statement: PaperStatement) -> Comparisons:
     """The band of large tension becomes narrower along the cases."""
     widths = yield from _widths(statement)
-    return [
-        row
-        for label, cases in families(widths, str(statement.arguments["along"])).items()
-        for row in one_way(label, "fscm", [widths[case] for case in cases], "<")
-    ]
+    return ordered(widths, str(statement.arguments["along"]), "<")
 
 
 def contact_edge(statement: PaperStatement) -> Comparisons:
@@ -263,20 +250,15 @@ def equal_areas(statement: PaperStatement) -> Comparisons:
         radius, gap = np.array(zone["radius"]), np.array(zone["gap"])
         at_end = float(np.interp(zone["cohesive_radius"], radius, gap))
         # The end of the zone is a sample of the surface; its neighbours tell what interpolation may miss.
-        apart = float(np.abs(radius - zone["cohesive_radius"]).min())
-        u_gap = apart * float(np.abs(np.gradient(gap, radius)).max()) + _ROUNDING
+        nearest = float(np.abs(radius - zone["cohesive_radius"]).min())
+        u_gap = nearest * float(np.abs(np.gradient(gap, radius)).max()) + _ROUNDING
         title = f"cohesive stress times the gap at c of {model}, {case_label(case)}"
         areas.append((model, title, stress * at_end, stress * u_gap))
-    return [
-        Evidence(
-            model,
-            "formula",
-            Number(abs(area - 1.0), u_area, f"difference from the work of adhesion: {title}"),
-            "<",
-            reading(statement),
-        )
-        for model, title, area, u_area in areas
-    ]
+    rows = []
+    for model, title, area, u_area in areas:
+        apart = Number(abs(area - 1.0), u_area, f"difference from the work of adhesion: {title}")
+        rows.append(Evidence(model, "formula", apart, "<", reading(statement)))
+    return rows
 
 
 def surface_nearer(statement: PaperStatement) -> Comparisons:

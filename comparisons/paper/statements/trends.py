@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations, pairwise, product
 
@@ -27,7 +27,7 @@ from comparisons.paper.statements.numbers import (
     tasks_of,
 )
 
-__all__ = ["TESTS", "extrapolated", "one_way", "vanishes"]
+__all__ = ["TESTS", "extrapolated", "one_way", "ordered", "vanishes"]
 
 _RELATIONS = {"rises": ">", "falls": "<"}
 
@@ -42,6 +42,15 @@ def one_way(clause: str, model: str, values: Sequence[Number], relation: str) ->
     ['holds', 'holds', 'fails']
     """
     return [Evidence(clause, model, later, relation, earlier) for earlier, later in combinations(values, 2)]
+
+
+def ordered(values: Mapping[Case, Number], along: str, relation: str) -> list[Evidence]:
+    """Compare numbers of the FSCM along one parameter, every one with all before it."""
+    return [
+        row
+        for label, cases in families(values, along).items()
+        for row in one_way(label, "fscm", [values[case] for case in cases], relation)
+    ]
 
 
 def extrapolated(first: Number, second: Number, third: Number) -> Number:
@@ -82,16 +91,14 @@ def trend(statement: PaperStatement) -> Comparisons:
     relation, along = _RELATIONS[str(statement.arguments["direction"])], str(statement.arguments["along"])
     witness = statement.arguments.get("witness", ())
     pairs: list[list[Case]] = [[(float(n), float(k), float(mu)) for n, k, mu in pair] for pair in witness]
-    of_both = [("fscm", label, cases) for label, cases in families(grid(statement), along).items()]
-    of_both += [("fem", family_label(pair[0], along), pair) for pair in pairs]
-    found = yield from numbers(quantity_of(statement), [(model, case) for model, _, cases in of_both for case in cases])
+    places = [("fscm", case) for case in grid(statement)] + [("fem", case) for pair in pairs for case in pair]
+    found = yield from numbers(quantity_of(statement), places)
     if statement.arguments.get("size", False):
         found = {at: replace(one, value=abs(one.value), what=f"size of {one.what}") for at, one in found.items()}
-    return [
-        row
-        for model, label, cases in of_both
-        for row in one_way(label, model, [found[model, case] for case in cases], relation)
-    ]
+    rows = ordered({case: found["fscm", case] for case in grid(statement)}, along, relation)
+    for pair in pairs:
+        rows += one_way(family_label(pair[0], along), "fem", [found["fem", case] for case in pair], relation)
+    return rows
 
 
 def order(statement: PaperStatement) -> Comparisons:
