@@ -206,6 +206,8 @@ def number_of(found: Json, name: str) -> tuple[float, float]:
     --------
     >>> number_of({"jump_in_energy": [1.0, 0.1], "jump_out_energy": [2.0, 0.1]}, "hysteresis_energy")
     (3.0, 0.2)
+    >>> number_of({"jump_in_displacement": "no jump"}, "jump_in_displacement")
+    (nan, nan)
     """
     pieces = ("jump_in_energy", "jump_out_energy") if name == "hysteresis_energy" and name not in found else (name,)
     known = [found.get(piece, "") for piece in pieces]

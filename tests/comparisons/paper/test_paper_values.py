@@ -15,7 +15,7 @@ from comparisons.paper.figures.fig11_gradient_effect import insensitive_regions,
 from comparisons.paper.paper_figure import results_by
 from comparisons.paper.studies.tabor_curve import RANGE, TaborCurve, largest_error, tabor_numbers
 from comparisons.paper.values import comparison
-from comparisons.paper.values.causes import LAST_K, Repeated, cohesive_forces, first_or_last_step, frame
+from comparisons.paper.values.causes import LAST_K, Repeated, _region, cohesive_forces, frame
 from comparisons.paper.values.comparison import judged, readable
 from comparisons.paper.values.scheme_ingredients import HEIGHTS, exact_force, sampled_force, scheme_force
 from comparisons.registry import create
@@ -84,7 +84,10 @@ def test_a_gradient_exponent_that_stops_short_of_the_gibson_limit_gives_the_last
         ["agrees", "agrees if truncated", "agrees", "agrees"],
         ["agrees", "agrees if truncated", "differs", "agrees if truncated"],
     ]
-    steps = [first_or_last_step(end, first=i % 2 == 0) for i, end in enumerate(insensitive_regions(LAST_K))]
+    ends = zip(paper_values("insensitive_region"), insensitive_regions(LAST_K), strict=True)
+    rows = [list(_region(number, {LAST_K: end}))[-1] for number, end in ends]
+    assert [row.verdict for row in rows] == ["agrees"] * 4
+    steps = [row.value for row in rows]
     assert steps == [0.974, 1.056, 3.335, 6.219]
     inside = [largest_chi(n, LAST_K)[0] for n in steps]
     outside = [largest_chi(n, LAST_K)[0] for n in (0.973, 1.057, 3.334, 6.220)]

@@ -132,6 +132,7 @@ def test_the_branches_part_as_at_a_cusp(critical):
         u = row["u_jump_in_displacement"] + row["u_jump_out_displacement"]
         assert row["jump_in_displacement"] - row["jump_out_displacement"] > 10 * u
     first, later = critical["jumps"][0], critical["jumps"][3]
+    assert first["mu"] / critical["mu"] - 1 == pytest.approx(1e-4, rel=1e-6)
     ratio = (later["mu"] - critical["mu"]) / (first["mu"] - critical["mu"])
     # Two roots of a square part like its root, and their values like the power 3/2.
     for kind, power, tolerance in (("gap", 0.5, 0.02), ("displacement", 1.5, 0.05)):

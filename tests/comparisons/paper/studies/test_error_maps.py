@@ -101,6 +101,8 @@ def test_bands_are_bracketed_and_not_too_precise():
 def test_two_ranges_are_two_rows_and_no_range_is_a_row_without_numbers():
     found = bands(table_of([0.0, 0.03, 0.0]))
     assert found.groupby("limit").size().to_dict() == {0.01: 2, 0.02: 2, 0.05: 1}
+    # Within the limit is within, however little.
+    assert bands(table_of([0.03, 0.0099, 0.08])).set_index("limit").loc[0.01, "from_above"] == 1.0
     never = bands(table_of([0.6, 0.5, 0.4]))
     assert len(never) == 3
     assert never["mu_from"].isna().all()
