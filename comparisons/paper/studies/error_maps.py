@@ -18,7 +18,7 @@ from comparisons.output.style import lettered
 from comparisons.paper.drawing import LABELS
 from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
 from comparisons.paper.studies.error_grid import GRADIENT_SLICES, SHAPE_SLICES
-from comparisons.paper.studies.error_lines import TABOR_RANGE, Line, along_gradients, along_shapes, calls, table_of
+from comparisons.paper.studies.error_lines import TABOR_RANGE, Line, along_gradients, along_shapes, errors_along
 
 __all__ = ["ERROR_MAPS_GRADIENT", "ERROR_MAPS_JUMPS", "ERROR_MAPS_SHAPE"]
 
@@ -44,10 +44,9 @@ _PULL_OFF = ("md-improved", "md-original", "jkr", "bradley")
 _JUMPS = (("jump_in_displacement", "semi-rigid", "jump-in"), ("jump_out_displacement", "jkr", "jump-out"))
 
 
-def _plan(lines: Iterable[Line], names: Iterable[str]) -> Plan[Tables]:
-    known = list(dict.fromkeys(lines))
-    results = yield calls(known)
-    return {"": table_of(results, known, names)}
+def _plan(lines: Iterable[Line], names: Sequence[str]) -> Plan[Tables]:
+    table = yield from errors_along(lines, names)
+    return {"": table}
 
 
 def lattice(table: pd.DataFrame, across: str) -> tuple[Array, Array, Array]:

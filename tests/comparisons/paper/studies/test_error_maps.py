@@ -11,7 +11,7 @@ from comparisons.paper.paper_figure import results_by
 from comparisons.paper.studies import error_maps
 from comparisons.paper.studies.error_bands import bands, coefficients, rates
 from comparisons.paper.studies.error_grid import CANDIDATES, ONSET_EXCESS, errors, errors_at
-from comparisons.paper.studies.error_lines import MAPPED
+from comparisons.paper.studies.error_lines import MAPPED, errors_along
 from comparisons.paper.tasks import quantity
 
 BASELINE = Path(__file__).parents[4] / "results" / "baseline" / "paper"
@@ -43,7 +43,7 @@ def test_errors_are_relative_to_known_forces(few):
 
 
 def test_the_references_of_the_maps_are_those_of_the_solver(made_of):
-    table = made_of(lambda: error_maps._plan([(2.0, 0.0)], MAPPED))[""]
+    table = made_of(lambda: errors_along([(2.0, 0.0)], list(MAPPED)))
     assert set(zip(table["quantity"], table["model"], strict=True)) == {
         (name, model) for name, models in MAPPED.items() for model in models
     }
