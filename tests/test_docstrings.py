@@ -28,7 +28,6 @@ LONG = {
     "comparisons.paper.studies.graded_equivalent",
     "comparisons.paper.studies.graded_routes",
     "comparisons.paper.studies.layered_adhesion",
-    "comparisons.paper.studies.surface_modulus",
     "comparisons.problem_file.elastic_energy",
     "comparisons.problem_file.equivalent_power_law",
     "fem_reference.verification.element_checks",

@@ -24,7 +24,6 @@ ALLOWED = {
     # Shows the functions inside the FSCM.
     "comparisons.paper.figures.fig02_kernel_functions": ("fscm",),
     # A solid that is no power law has no dimensionless problem.
-    "comparisons.paper.studies.surface_modulus": ("fscm", "fem_reference"),
     "comparisons.paper.studies.graded_routes": ("fscm", "fem_reference"),
     "comparisons.paper.studies.layered_adhesion": ("fscm",),
     # The landing of a jump and the surface at pull-off are no quantities of a model.

@@ -10,8 +10,8 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from scipy.ndimage import gaussian_filter1d
 
-from comparisons.output.style import COLOURS, styled
-from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.output.style import COLOURS
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
 
 __all__ = ["SKETCH"]
 
@@ -35,50 +35,40 @@ def _surface(r: np.ndarray) -> np.ndarray:
     return gaussian_filter1d(height, _ROUNDING, mode="nearest")
 
 
-def _draw(tables: Tables) -> Figure:
+def _picture(figure: Figure, tables: Tables) -> None:
     r = np.linspace(-_WIDTH, _WIDTH, 841)
     punch, surface = _punch(r), _surface(r)
-    with styled():
-        figure = Figure(figsize=(7.2, 4.9), layout="constrained")
-        axes = figure.subplots()
-        drawn = punch <= _HEIGHT
-        axes.fill_between(r[drawn], punch[drawn], _HEIGHT, color="#d9d9d9", lw=0)
-        axes.plot(r[drawn], punch[drawn], color=COLOURS[0])
-        shade = axes.imshow(
-            np.linspace(0.0, 1.0, 128)[:, None],
-            cmap=_SHADES,
-            extent=(-_WIDTH, _WIDTH, -_DEPTH, surface.max()),
-            aspect="auto",
-            interpolation="bilinear",
-        )
-        body = axes.fill_between(r, -_DEPTH, surface, facecolor="none", lw=0)
-        shade.set_clip_path(body.get_paths()[0], axes.transData)
-        axes.plot(r, surface, color=COLOURS[1])
-        axes.plot([-_WIDTH, _WIDTH], [0.0, 0.0], color="0.35", lw=0.7, ls=(0, (6, 3)))
-        _lengths(axes, lambda at: float(np.interp(at, r, surface)))
-        _frame(axes)
-    return figure
+    axes = figure.subplots()
+    drawn = punch <= _HEIGHT
+    axes.fill_between(r[drawn], punch[drawn], _HEIGHT, color="#d9d9d9", lw=0)
+    axes.plot(r[drawn], punch[drawn], color=COLOURS[0])
+    shade = axes.imshow(
+        np.linspace(0.0, 1.0, 128)[:, None],
+        cmap=_SHADES,
+        extent=(-_WIDTH, _WIDTH, -_DEPTH, surface.max()),
+        aspect="auto",
+        interpolation="bilinear",
+    )
+    body = axes.fill_between(r, -_DEPTH, surface, facecolor="none", lw=0)
+    shade.set_clip_path(body.get_paths()[0], axes.transData)
+    axes.plot(r, surface, color=COLOURS[1])
+    axes.plot([-_WIDTH, _WIDTH], [0.0, 0.0], color="0.35", lw=0.7, ls=(0, (6, 3)))
+    _lengths(axes, lambda at: float(np.interp(at, r, surface)))
+    _frame(axes)
 
 
 def _lengths(axes: Axes, surface: Callable[[float], float]) -> None:
     arrow = {"arrowstyle": "<->", "lw": 0.9, "shrinkA": 0, "shrinkB": 0}
     axes.plot([-3.4, 2.2], [-_DELTA, -_DELTA], color="0.35", lw=0.7, ls=":")
-    for at, low, high, text, side, share in (
-        (-3.2, -_DELTA, 0.0, r"$\delta$", 1, 0.5),
-        (-0.55, surface(-0.55), 0.0, r"$w(r)$", 1, 0.5),
+    for at, low, high, text, share in (
+        (-3.2, -_DELTA, 0.0, r"$\delta$", 0.5),
+        (-0.55, surface(-0.55), 0.0, r"$w(r)$", 0.5),
         # Its name stands above the surface, which passes the middle of the length.
-        (2.0, -_DELTA, 2.0**2 / 2.0 - _DELTA, r"$f(r)$", 1, 0.65),
-        (2.45, surface(2.45), 2.45**2 / 2.0 - _DELTA, r"$H(r)$", 1, 0.5),
+        (2.0, -_DELTA, 2.0**2 / 2.0 - _DELTA, r"$f(r)$", 0.65),
+        (2.45, surface(2.45), 2.45**2 / 2.0 - _DELTA, r"$H(r)$", 0.5),
     ):
         axes.annotate("", (at, low), (at, high), arrowprops=arrow)
-        axes.annotate(
-            text,
-            (at, low + share * (high - low)),
-            (5 * side, 0),
-            textcoords="offset points",
-            va="center",
-            ha="left" if side > 0 else "right",
-        )
+        axes.annotate(text, (at, low + share * (high - low)), (5, 0), textcoords="offset points", va="center")
 
 
 def _frame(axes: Axes) -> None:
@@ -96,11 +86,16 @@ def _frame(axes: Axes) -> None:
     axes.set_axis_off()
 
 
+def _plan() -> Plan[Tables]:
+    yield ()
+    return {}
+
+
 SKETCH = PaperFigure(
     name="1",
     stem="fig01_sketch",
     title="A rigid punch on a power-law graded half-space",
-    tasks=tuple,
-    tables=lambda results: {},
-    draw=_draw,
+    plan=_plan,
+    picture=_picture,
+    size=(7.2, 4.9),
 )

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
 import fscm
-from comparisons.output.style import COLOURS, LINES, lettered, styled
-from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.output.style import lettered
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.drawing import dashed, gradient, legend_below
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
 
 __all__ = ["KERNEL_FUNCTIONS", "values"]
 
@@ -51,43 +50,34 @@ def values(k: float) -> dict[str, list[float | None]]:
     }
 
 
-def _tasks() -> Sequence[CachedCall]:
-    return [CachedCall.of(values, k) for k in _GRADIENTS]
-
-
-def _tables(results: Results) -> Tables:
-    parts = [pd.DataFrame({"k": k, "s": _RATIOS} | results[CachedCall.of(values, k)]).astype(float) for k in _GRADIENTS]
+def _plan() -> Plan[Tables]:
+    calls = {k: CachedCall.of(values, k) for k in _GRADIENTS}
+    results = yield list(calls.values())
+    parts = [pd.DataFrame({"k": k, "s": _RATIOS} | results[call]).astype(float) for k, call in calls.items()]
     return {"": pd.concat(parts, ignore_index=True)}
 
 
-def _draw(tables: Tables) -> Figure:
-    with styled():
-        figure = Figure(figsize=(7.2, 3.8), layout="constrained")
-        left, right = figure.subplots(1, 2)
-        for index, k in enumerate(_GRADIENTS):
-            part = tables[""][tables[""]["k"] == k]
-            style = {"color": COLOURS[index], "ls": LINES[index]}
-            label = f"$k$ = {k:g}" + (" (Gibson)" if k == 1.0 else "")
-            left.plot(part["s"], part["phi"], label=label, **style)
-            if k < 1.0:
-                left.plot(part["s"], part["slope"], lw=0.7, **style)
-            shown = part[part["s"] > 0.0] if k == 1.0 else part
-            right.plot(shown["s"], shown["psi"], **style)
-        left.set(xlabel="ratio of radii $s = t/r$", ylabel=r"$\Phi_k(s)$ (thick), $\Phi_k'(s)$ (thin)", ylim=(0.0, 2.5))
-        right.set(xlabel="ratio of radii $s = t/r$", ylabel=r"$\Psi_k(s)$", ylim=(-1.05, 0.05))
-        for axes, letter in ((left, "a"), (right, "b")):
-            axes.set_xlim(0.0, _FARTHEST)
-            lettered(axes, letter)
-        handles, labels = left.get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=len(_GRADIENTS))
-    return figure
+def _picture(figure: Figure, tables: Tables) -> None:
+    left, right = figure.subplots(1, 2)
+    for index, (k, part) in enumerate(tables[""].groupby("k")):
+        left.plot(part["s"], part["phi"], label=gradient(k), **dashed(index))
+        if k < 1.0:
+            left.plot(part["s"], part["slope"], lw=0.7, **dashed(index))
+        shown = part[part["s"] > 0.0] if k == 1.0 else part
+        right.plot(shown["s"], shown["psi"], **dashed(index))
+    left.set(ylabel=r"$\Phi_k(s)$ (thick), $\Phi_k'(s)$ (thin)", ylim=(0.0, 2.5))
+    right.set(ylabel=r"$\Psi_k(s)$", ylim=(-1.05, 0.05))
+    for axes, letter in ((left, "a"), (right, "b")):
+        axes.set(xlabel="ratio of radii $s = t/r$", xlim=(0.0, _FARTHEST))
+        lettered(axes, letter)
+    legend_below(figure, len(_GRADIENTS))
 
 
 KERNEL_FUNCTIONS = PaperFigure(
     name="2",
     stem="fig02_kernel_functions",
     title="The functions Phi_k, its derivative, and Psi_k",
-    tasks=_tasks,
-    tables=_tables,
-    draw=_draw,
+    plan=_plan,
+    picture=_picture,
+    size=(7.2, 3.8),
 )

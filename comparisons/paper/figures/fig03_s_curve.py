@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from operator import attrgetter
 
 import numpy as np
 import pandas as pd
@@ -10,25 +10,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.models.solver import translated
-from comparisons.output.style import COLOURS, MODEL_NAMES, lettered, styled
-from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.output.style import COLOURS, MODEL_NAMES, lettered
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.drawing import LABELS, level, of_model
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables, lines_of
 from comparisons.paper.tasks import curve, quantity
 from fscm import Analysis, NoSuchEvent, NotConverged
 from fscm.problem import Problem
-from fscm.solution import FLOOR, SAFETY, EventPair, State
+from fscm.solution import FLOOR, SAFETY, EventPair
 
 __all__ = ["S_CURVE", "named_points"]
 
 _CASE = (2.0, 0.4, 3.0)
-_CURVE, _JKR = CachedCall.of(curve, "fscm", *_CASE), CachedCall.of(curve, "jkr", *_CASE)
-_ENERGY = CachedCall.of(quantity, "fscm", "hysteresis_energy", *_CASE)
-
-_COORDINATES: dict[str, Callable[[State], float]] = {
-    "central_gap": lambda state: state.central_gap,
-    "displacement": lambda state: state.displacement,
-    "load": lambda state: state.load,
-}
+_COORDINATES = ("central_gap", "displacement", "load")
 #: The points, and the offsets of their names in (b), in points of the page.
 _BESIDE = {"B'": (-3, 6), "A": (4, 5), "B": (-11, -9), "A'": (7, -3), "C": (-3, -12), "D": (-12, 3)}
 #: Ranges of the axes: the approach continues to the left of (b) and to the right of (a).
@@ -72,49 +66,48 @@ def named_points(n: float, k: float, mu: float) -> dict[str, dict[str, float]]:
 
 def _coordinates(pair: EventPair) -> dict[str, float]:
     found = {}
-    for name, of in _COORDINATES.items():
+    for name in _COORDINATES:
+        of = attrgetter(name)
         value = float(of(pair.value))
         found[name] = value
         found[f"u_{name}"] = float(SAFETY * pair.difference(of) + FLOOR * (1.0 + abs(value)))
     return found
 
 
-def _tasks() -> Sequence[CachedCall]:
-    return [_CURVE, CachedCall.of(named_points, *_CASE), _ENERGY, _JKR]
-
-
-def _tables(results: Results) -> Tables:
-    parts = []
-    for model, call in (("fscm", _CURVE), ("jkr", _JKR)):
-        found = results[call]
-        columns = {name: found[name] for name in ("displacement", "u_displacement", "load", "u_load")}
-        # The coordinate along the path, at which displacement and load are uncertain; JKR has none.
-        gaps = {"central_gap": found["columns"].get("central_gap", np.nan)}
-        parts.append(pd.DataFrame({"model": model} | gaps | columns))
-    points = pd.DataFrame.from_dict(results[CachedCall.of(named_points, *_CASE)], orient="index").rename_axis("name")
+def _plan() -> Plan[Tables]:
+    path, jkr = (CachedCall.of(curve, model, *_CASE) for model in ("fscm", "jkr"))
+    places, energy = CachedCall.of(named_points, *_CASE), CachedCall.of(quantity, "fscm", "hysteresis_energy", *_CASE)
+    results = yield [path, places, energy, jkr]
+    # The coordinate along the path, at which displacement and load are uncertain; JKR has none.
+    parts = [
+        lines_of(
+            {"model": model, "central_gap": results[call]["columns"].get("central_gap", np.nan)},
+            results[call],
+            ["displacement", "u_displacement", "load", "u_load"],
+        )
+        for model, call in (("fscm", path), ("jkr", jkr))
+    ]
+    points = pd.DataFrame.from_dict(results[places], orient="index").rename_axis("name")
     return {
         "curves": pd.concat(parts, ignore_index=True),
         "points": points.reset_index(),
-        "hysteresis": pd.DataFrame([{"quantity": "hysteresis_energy"} | results[_ENERGY]]),
+        "hysteresis": pd.DataFrame([{"quantity": "hysteresis_energy"} | results[energy]]),
     }
 
 
-def _draw(tables: Tables) -> Figure:
-    curves, points = tables["curves"], tables["points"].set_index("name")
-    path, jkr = (curves[curves["model"] == model] for model in ("fscm", "jkr"))
-    with styled():
-        figure = Figure(figsize=(7.2, 4.8), layout="constrained")
-        grid = figure.add_gridspec(2, 2, width_ratios=(1.0, 1.35))
-        above = figure.add_subplot(grid[0, 0])
-        below = figure.add_subplot(grid[1, 0], sharex=above)
-        _against_gap(above, path, points, "displacement", (0.38, 0.5, 0.59, 0.46))
-        _against_gap(below, path, points, "load", (0.38, 0.17, 0.59, 0.50))
-        above.set(xlim=_GAPS, ylim=_DISPLACEMENTS, ylabel=r"displacement $\delta/z_0$")
-        above.tick_params(labelbottom=False)
-        below.set(ylim=_LOADS, ylabel=r"load $\bar P$", xlabel=r"central gap $H_0/z_0$")
-        lettered(above, "a")
-        _plane(figure.add_subplot(grid[:, 1]), path, jkr, points, tables["hysteresis"].iloc[0])
-    return figure
+def _picture(figure: Figure, tables: Tables) -> None:
+    points = tables["points"].set_index("name")
+    path, jkr = of_model(tables["curves"], "fscm", "jkr")
+    grid = figure.add_gridspec(2, 2, width_ratios=(1.0, 1.35))
+    above = figure.add_subplot(grid[0, 0])
+    below = figure.add_subplot(grid[1, 0], sharex=above)
+    _against_gap(above, path, points, "displacement", (0.38, 0.5, 0.59, 0.46))
+    _against_gap(below, path, points, "load", (0.38, 0.17, 0.59, 0.50))
+    above.set(xlim=_GAPS, ylim=_DISPLACEMENTS, ylabel=LABELS["displacement"])
+    above.tick_params(labelbottom=False)
+    below.set(ylim=_LOADS, ylabel=LABELS["load"], xlabel=r"central gap $H_0/z_0$")
+    lettered(above, "a")
+    _plane(figure.add_subplot(grid[:, 1]), path, jkr, points, tables["hysteresis"]["value"].item())
 
 
 def _against_gap(
@@ -123,7 +116,7 @@ def _against_gap(
     inset = axes.inset_axes(place)
     for shown in (axes, inset):
         shown.plot(path["central_gap"], path[name], color=COLOURS[0])
-        shown.axhline(0.0, color="0.4", lw=0.8)
+        level(shown)
     near = (points["central_gap"] > _NEAR_GAPS[0]) & (points["central_gap"] < _NEAR_GAPS[1])
     # The names are on the convex side of the curve.
     in_inset = (3, 4) if name == "displacement" else (6, -7)
@@ -136,12 +129,11 @@ def _against_gap(
     inset.tick_params(labelsize=7, pad=2)
 
 
-def _plane(axes: Axes, path: pd.DataFrame, jkr: pd.DataFrame, points: pd.DataFrame, energy: pd.Series) -> None:
-    outline = _loop(path, points)
-    axes.fill(*outline, color=COLOURS[6], alpha=0.35, lw=0)
+def _plane(axes: Axes, path: pd.DataFrame, jkr: pd.DataFrame, points: pd.DataFrame, energy: float) -> None:
+    axes.fill(*_loop(path, points), color=COLOURS[6], alpha=0.35, lw=0)
     axes.plot(path["displacement"], path["load"], color=COLOURS[0], label=MODEL_NAMES["fscm"])
     axes.plot(jkr["displacement"], jkr["load"], color=COLOURS[2], ls="--", label=MODEL_NAMES["jkr"])
-    axes.axhline(0.0, color="0.4", lw=0.8)
+    level(axes)
     places = _places(points)
     for start, end in (("A", "A'"), ("B", "B'")):
         arrow = {"arrowstyle": "-|>", "color": COLOURS[1], "lw": 1.2, "ls": ":"}
@@ -150,12 +142,12 @@ def _plane(axes: Axes, path: pd.DataFrame, jkr: pd.DataFrame, points: pd.DataFra
     for name, offset in _BESIDE.items():
         axes.annotate(name, places[name], offset, textcoords="offset points")
     axes.annotate(
-        f"hysteresis loss\n$\\oint\\,\\bar P\\,d\\delta/z_0$ = {energy['value']:.4f}",
+        f"hysteresis loss\n$\\oint\\,\\bar P\\,d\\delta/z_0$ = {energy:.4f}",
         (0.5 * (places["A"][0] + places["B"][0]), -0.75),
         (-0.9, -0.62),
         arrowprops={"arrowstyle": "-", "color": "0.4", "lw": 0.7},
     )
-    axes.set(xlim=_DISPLACEMENTS, ylim=_LOADS, xlabel=r"displacement $\delta/z_0$", ylabel=r"load $\bar P$")
+    axes.set(xlim=_DISPLACEMENTS, ylim=_LOADS, xlabel=LABELS["displacement"], ylabel=LABELS["load"])
     lettered(axes, "b", r"$n$ = {:g}, $k$ = {:g}, $\mu$ = {:g}".format(*_CASE))
     axes.legend(loc="lower right")
 
@@ -188,8 +180,8 @@ S_CURVE = PaperFigure(
     name="3",
     stem="fig03_s_curve",
     title="The S-shaped curve at n = 2, k = 0.4, mu = 3",
-    tasks=_tasks,
-    tables=_tables,
-    draw=_draw,
+    plan=_plan,
+    picture=_picture,
+    size=(7.2, 4.8),
     follows_path=True,
 )

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH
 from comparisons.models.gibson_limit import gibson_profile
 from comparisons.models.solver import translated
-from comparisons.output.style import COLOURS, LINES, lettered, styled
-from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.output.style import COLOURS, lettered
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.drawing import LABELS, dashed, gradient, legend_below, level
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
 from fscm import Analysis, NoSuchEvent, NotConverged, solve
 from fscm.problem import Problem
 from fscm.solution import FLOOR, SAFETY, State
@@ -25,14 +25,10 @@ __all__ = ["OVER_GRADIENTS", "OVER_TABOR_NUMBERS", "surface"]
 _TABOR_NUMBERS = (0.1, 0.3, 0.5, 1.0, 2.0, 3.0)
 #: k = 1 is the Gibson limit.
 _GRADIENTS = (0.0, 0.2, 0.4, 0.6, 1.0)
-_CASES_5 = [(2.0, 0.4, mu) for mu in _TABOR_NUMBERS]
-_CASES_7 = [(2.0, k, 1.0) for k in _GRADIENTS]
-
-#: Strength of the 9-3 law, 16 sqrt(3) / 27 (Eq. 73).
-_STRENGTH = 16.0 * math.sqrt(3.0) / 27.0
 #: Radii shown: everywhere, and around the cohesive edge, whose width is a small part of its radius.
 _FARTHEST, _STEPS = 6.0, 240
 _AROUND_EDGE = np.concatenate([-np.geomspace(0.3, 1e-3, 40), [0.0], np.geomspace(1e-3, 0.3, 40)])
+_PUNCH: Any = {"lw": 0.6, "ls": (0, (6, 3))}
 
 
 def surface(n: float, k: float, mu: float) -> dict[str, Any]:
@@ -83,11 +79,8 @@ def _gibson(problem: Problem) -> dict[str, Any]:
     """The surface at k = 1, algebra at every point: its error is that of the displacement."""
     found, pull_off = gibson_profile(problem), solve(problem, "pull_off_displacement")
     shown = found.radius <= _FARTHEST
-    shapes = {
-        "gap": found.gap[shown],
-        "pressure": found.pressure[shown],
-        "deformation": problem.compliance * found.pressure[shown],
-    }
+    pressure = found.pressure[shown]
+    shapes = {"gap": found.gap[shown], "pressure": pressure, "deformation": problem.compliance * pressure}
     columns: dict[str, Any] = {"displacement": pull_off.value, "radius": found.radius[shown].tolist()}
     for name, values in shapes.items():
         # Along the surface gap and pressure are exact functions of each other; only the radius carries an error.
@@ -96,55 +89,43 @@ def _gibson(problem: Problem) -> dict[str, Any]:
     return columns
 
 
-def _tasks(cases: Iterable[tuple[float, float, float]]) -> Sequence[CachedCall]:
-    return [CachedCall.of(surface, *case) for case in sorted(cases, key=lambda case: -case[2])]
-
-
-def _tables(cases: Iterable[tuple[float, float, float]], results: Results) -> Tables:
+def _plan(cases: Iterable[tuple[float, float, float]]) -> Plan[Tables]:
+    calls = {case: CachedCall.of(surface, *case) for case in sorted(cases, key=lambda case: -case[2])}
+    results = yield list(calls.values())
     parts = []
-    for n, k, mu in cases:
-        part = pd.DataFrame({"n": n, "k": k, "mu": mu} | results[CachedCall.of(surface, n, k, mu)])
+    for (n, k, mu), call in sorted(calls.items()):
+        part = pd.DataFrame({"n": n, "k": k, "mu": mu} | results[call])
         parts.append(part.assign(punch=part["radius"] ** n / n - part["displacement"]))
     return {"": pd.concat(parts, ignore_index=True)}
 
 
-def _draw(tables: Tables, name: str, farthest: float, heights: tuple[float, float]) -> Figure:
-    symbol, held = {"mu": (r"$\mu$", "$n$ = 2, $k$ = 0.4"), "k": ("$k$", r"$n$ = 2, $\mu$ = 1")}[name]
-    with styled():
-        figure = Figure(figsize=(7.2, 3.7), layout="constrained")
-        left, right = figure.subplots(1, 2)
-        for index, (value, part) in enumerate(tables[""].groupby(name)):
-            label = f"{symbol} = {value:g}" + (" (Gibson)" if (name, value) == ("k", 1.0) else "")
-            style = {"color": COLOURS[index], "ls": LINES[index], "label": label}
-            left.plot(part["radius"], -part["deformation"], **style)
-            left.plot(part["radius"], part["punch"], color=COLOURS[index], lw=0.6, ls=(0, (6, 3)))
-            right.plot(part["radius"], part["pressure"], **style)
-        right.axhline(-_STRENGTH, color="0.4", lw=0.8, ls="--")
-        right.annotate(
-            r"$-\sigma_{\mathrm{th}}$", (farthest, -_STRENGTH), (-4, 3), textcoords="offset points", ha="right"
-        )
-        left.set(ylim=heights, ylabel=r"height of the surface $-w/z_0$")
-        right.set(ylabel=r"pressure $p z_0/\Delta\gamma$")
-        _finish(figure, left, right, farthest, held)
-    return figure
-
-
-def _finish(figure: Figure, left: Axes, right: Axes, farthest: float, held: str) -> None:
+def _draw(figure: Figure, table: pd.DataFrame, name: str, farthest: float, heights: tuple[float, float]) -> None:
+    held = {"mu": "$n$ = 2, $k$ = 0.4", "k": r"$n$ = 2, $\mu$ = 1"}[name]
+    left, right = figure.subplots(1, 2)
+    for index, (value, part) in enumerate(table.groupby(name)):
+        style = {"label": gradient(value) if name == "k" else rf"$\mu$ = {value:g}"} | dashed(index)
+        left.plot(part["radius"], -part["deformation"], **style)
+        left.plot(part["radius"], part["punch"], color=COLOURS[index], **_PUNCH)
+        right.plot(part["radius"], part["pressure"], **style)
+    level(right, -THEORETICAL_STRENGTH, ls="--")
+    place = (farthest, -THEORETICAL_STRENGTH)
+    right.annotate(r"$-\sigma_{\mathrm{th}}$", place, (-4, 3), textcoords="offset points", ha="right")
+    left.set(ylim=heights, ylabel=LABELS["height"])
+    right.set(ylabel=LABELS["pressure"])
     for letter, axes in zip("ab", (left, right), strict=True):
-        axes.set(xlim=(0.0, farthest), xlabel=r"radius $r/(Qz_0)^{1/n}$")
+        axes.set(xlim=(0.0, farthest), xlabel=LABELS["radius"])
         lettered(axes, letter, held)
-    handles, labels = left.get_legend_handles_labels()
-    (punch,) = left.plot([], [], color="0.4", lw=0.6, ls=(0, (6, 3)))
-    figure.legend([*handles, punch], [*labels, r"punch $f-\delta$"], loc="outside lower center", ncols=4)
+    left.plot([], [], color="0.4", label=r"punch $f-\delta$", **_PUNCH)
+    legend_below(figure, 4)
 
 
 OVER_TABOR_NUMBERS = PaperFigure(
     name="5",
     stem="fig05_pull_off_over_tabor_numbers",
     title="Surface and pressure at pull-off for n = 2, k = 0.4, over the Tabor number",
-    tasks=lambda: _tasks(_CASES_5),
-    tables=lambda results: _tables(_CASES_5, results),
-    draw=lambda tables: _draw(tables, "mu", 5.0, (-0.2, 6.2)),
+    plan=lambda: _plan((2.0, 0.4, mu) for mu in _TABOR_NUMBERS),
+    picture=lambda figure, tables: _draw(figure, tables[""], "mu", 5.0, (-0.2, 6.2)),
+    size=(7.2, 3.7),
     follows_path=True,
 )
 
@@ -152,8 +133,8 @@ OVER_GRADIENTS = PaperFigure(
     name="7",
     stem="fig07_pull_off_over_gradients",
     title="Surface and pressure at pull-off for n = 2, mu = 1, over the gradient exponent",
-    tasks=lambda: _tasks(_CASES_7),
-    tables=lambda results: _tables(_CASES_7, results),
-    draw=lambda tables: _draw(tables, "k", 4.0, (-0.1, 2.0)),
+    plan=lambda: _plan((2.0, k, 1.0) for k in _GRADIENTS),
+    picture=lambda figure, tables: _draw(figure, tables[""], "k", 4.0, (-0.1, 2.0)),
+    size=(7.2, 3.7),
     follows_path=True,
 )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import pandas as pd
@@ -10,9 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.models.solver import translated
-from comparisons.output.style import COLOURS, LINES, lettered, styled
-from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.output.style import COLOURS, lettered
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.drawing import LABELS, dashed, legend_below
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
 from fscm import Analysis, NoSuchEvent, NotConverged, solve
 from fscm.problem import Problem
 
@@ -78,35 +78,26 @@ def near_critical(n: float, k: float) -> dict[str, Any]:
     return {"mu": float(critical.value), "u_mu": float(critical.u_num), "jumps": found}
 
 
-def _tasks() -> Sequence[CachedCall]:
-    far = [CachedCall.of(jumps, 2.0, k, mu) for mu in reversed(TABOR_NUMBERS) for k in _GRADIENTS]
-    return [CachedCall.of(near_critical, 2.0, k) for k in _GRADIENTS] + far
-
-
-def _tables(results: Results) -> Tables:
-    rows, critical = [], []
-    for k in _GRADIENTS:
-        near = results[CachedCall.of(near_critical, 2.0, k)]
-        critical.append({"n": 2.0, "k": k, "mu": near["mu"], "u_mu": near["u_mu"]})
-        far = [{"mu": mu} | results[CachedCall.of(jumps, 2.0, k, mu)] for mu in TABOR_NUMBERS]
-        rows += [{"n": 2.0, "k": k} | row for row in [*near["jumps"], *far]]
+def _plan() -> Plan[Tables]:
+    onsets = {k: CachedCall.of(near_critical, 2.0, k) for k in _GRADIENTS}
+    beyond = {(k, mu): CachedCall.of(jumps, 2.0, k, mu) for mu in reversed(TABOR_NUMBERS) for k in _GRADIENTS}
+    results = yield [*onsets.values(), *beyond.values()]
+    critical = pd.DataFrame([{"n": 2.0, "k": k} | results[call] for k, call in onsets.items()])
+    rows = [{"n": 2.0, "k": k} | row for k, call in onsets.items() for row in results[call]["jumps"]]
+    rows += [{"n": 2.0, "k": k, "mu": mu} | results[call] for (k, mu), call in beyond.items()]
     table = pd.DataFrame(rows).sort_values(["k", "mu"], ignore_index=True)
-    return {"": table, "critical": pd.DataFrame(critical)}
+    return {"": table, "critical": critical.drop(columns="jumps")}
 
 
-def _draw(tables: Tables) -> Figure:
-    with styled():
-        figure = Figure(figsize=(7.2, 3.8), layout="constrained")
-        panels = figure.subplots(1, 2)
-        for axes, kind, letter in zip(panels, ("displacement", "gap"), "ab", strict=True):
-            _branches(axes, tables, kind)
-            lettered(axes, letter, "$n$ = 2")
-            axes.set(xlabel=r"Tabor number $\mu$", xlim=(0.5, 5.0))
-        panels[0].set_ylabel(r"displacement at the jumps $\delta/z_0$")
-        panels[1].set_ylabel(r"central gap at the jumps $H_0/z_0$")
-        handles, labels = panels[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=4)
-    return figure
+def _picture(figure: Figure, tables: Tables) -> None:
+    panels = figure.subplots(1, 2)
+    for axes, kind, letter in zip(panels, ("displacement", "gap"), "ab", strict=True):
+        _branches(axes, tables, kind)
+        lettered(axes, letter, "$n$ = 2")
+        axes.set(xlabel=LABELS["mu"], xlim=(0.5, 5.0))
+    panels[0].set_ylabel(r"displacement at the jumps $\delta/z_0$")
+    panels[1].set_ylabel(r"central gap at the jumps $H_0/z_0$")
+    legend_below(figure, 4)
 
 
 def _branches(axes: Axes, tables: Tables, kind: str) -> None:
@@ -114,7 +105,7 @@ def _branches(axes: Axes, tables: Tables, kind: str) -> None:
     inset = axes.inset_axes(_INSETS[kind])
     for index, (k, mu) in enumerate(zip(_GRADIENTS, tables["critical"]["mu"], strict=True)):
         part = tables[""][tables[""]["k"] == k]
-        style = {"color": COLOURS[index], "ls": LINES[index]}
+        style = dashed(index)
         inward, outward = part[f"jump_in_{kind}"], part[f"jump_out_{kind}"]
         # Both branches begin in one point, at the critical Tabor number, between their first points.
         meeting = 0.5 * (inward.iloc[0] + outward.iloc[0])
@@ -135,7 +126,7 @@ JUMPS = PaperFigure(
     name="8",
     stem="fig08_jumps",
     title="Displacement and central gap at the jumps for n = 2, over the Tabor number",
-    tasks=_tasks,
-    tables=_tables,
-    draw=_draw,
+    plan=_plan,
+    picture=_picture,
+    size=(7.2, 3.8),
 )

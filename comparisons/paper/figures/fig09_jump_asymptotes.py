@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -11,10 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.models.semi_rigid import jump_in_coefficient
-from comparisons.output.style import COLOURS, LINES, MODEL_LINES, lettered, styled
-from comparisons.paper.cache import CachedCall, Results
+from comparisons.output.style import COLOURS, MODEL_LINES, lettered
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.drawing import LABELS, dashed, of_model
 from comparisons.paper.figures.fig08_jumps import TABOR_NUMBERS, jumps, near_critical
-from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
 from comparisons.paper.tasks import quantity
 
 __all__ = ["JUMP_ASYMPTOTES", "asymptotes", "coefficients"]
@@ -64,74 +64,55 @@ def coefficients(n: float) -> list[dict[str, float]]:
     ]
 
 
-def _tasks() -> Sequence[CachedCall]:
-    return [
-        CachedCall.of(near_critical, _N, _K),
-        *(CachedCall.of(jumps, _N, _K, mu) for mu in reversed(TABOR_NUMBERS)),
-        CachedCall.of(asymptotes, _N, _K),
-        *(CachedCall.of(coefficients, n) for n in _SHAPES),
-    ]
-
-
-def _tables(results: Results) -> Tables:
+def _plan() -> Plan[Tables]:
+    onset, closed_forms = CachedCall.of(near_critical, _N, _K), CachedCall.of(asymptotes, _N, _K)
+    beyond = {mu: CachedCall.of(jumps, _N, _K, mu) for mu in reversed(TABOR_NUMBERS)}
+    of_shapes = {n: CachedCall.of(coefficients, n) for n in _SHAPES}
+    results = yield [onset, *beyond.values(), closed_forms, *of_shapes.values()]
     # Where the two jumps part, then evenly.
-    first = results[CachedCall.of(near_critical, _N, _K)]["jumps"][0]
-    computed = [first, *({"mu": mu} | results[CachedCall.of(jumps, _N, _K, mu)] for mu in TABOR_NUMBERS)]
-    computed_columns = ["mu", *(f"{u}{name}" for name in _MODELS for u in ("", "u_"))]
-    fscm = pd.DataFrame(computed)[computed_columns].sort_values("mu")
-    closed = pd.DataFrame(results[CachedCall.of(asymptotes, _N, _K)])
-    displacements = pd.concat([fscm.assign(model="fscm"), closed.assign(model="asymptote")], ignore_index=True)
-    constants = [pd.DataFrame(results[CachedCall.of(coefficients, n)]).assign(n=n) for n in _SHAPES]
+    computed = [results[onset]["jumps"][0], *({"mu": mu} | results[call] for mu, call in beyond.items())]
+    columns = ["mu", *(f"{u}{name}" for name in _MODELS for u in ("", "u_"))]
+    fscm = pd.DataFrame(computed)[columns].sort_values("mu").assign(model="fscm")
+    closed = pd.DataFrame(results[closed_forms]).assign(model="asymptote")
+    displacements = pd.concat([fscm, closed], ignore_index=True)[["model", *columns]]
+    constants = pd.concat([pd.DataFrame(results[call]).assign(n=n) for n, call in of_shapes.items()], ignore_index=True)
     return {
-        "displacements": displacements[["model", *computed_columns]].assign(n=_N, k=_K),
-        "coefficients": pd.concat(constants, ignore_index=True)[["n", "k", "C_in", "C_out"]],
+        "displacements": displacements.assign(n=_N, k=_K),
+        "coefficients": constants[["n", "k", "C_in", "C_out"]],
     }
 
 
-def _draw(tables: Tables) -> Figure:
-    with styled():
-        figure = Figure(figsize=(7.2, 3.5), layout="constrained")
-        left, right = figure.subplots(1, 2)
-        _displacements(left, tables["displacements"])
-        _coefficients(right, tables["coefficients"])
-    return figure
+def _picture(figure: Figure, tables: Tables) -> None:
+    left, right = figure.subplots(1, 2)
+    _displacements(left, tables["displacements"])
+    _coefficients(right, tables["coefficients"])
 
 
 def _displacements(axes: Axes, table: pd.DataFrame) -> None:
-    fscm, closed = (table[table["model"] == model] for model in ("fscm", "asymptote"))
-    for index, (name, label) in enumerate((("jump_in", "in, Eq. 47"), ("jump_out", "out, Eq. 54"))):
-        column = f"{name}_displacement"
-        axes.plot(closed["mu"], closed[column], color=COLOURS[index], ls=("-", "--")[index], label=f"jump {label}")
-        axes.plot(
-            fscm["mu"],
-            fscm[column],
-            **MODEL_LINES["fscm"] | {"color": COLOURS[index]},
-            label=f"jump {label.split(',')[0]}, FSCM",
-        )
+    fscm, closed = of_model(table, "fscm", "asymptote")
+    broad = MODEL_LINES["fscm"]
+    for index, (name, equation) in enumerate((("in", "Eq. 47"), ("out", "Eq. 54"))):
+        column, colour = f"jump_{name}_displacement", COLOURS[index]
+        axes.plot(closed["mu"], closed[column], color=colour, ls=("-", "--")[index], label=f"jump {name}, {equation}")
+        axes.plot(fscm["mu"], fscm[column], **broad | {"color": colour}, label=f"jump {name}, FSCM")
     last, asymptote = fscm.iloc[-1], closed.iloc[-1]
     difference = asymptote["jump_in_displacement"] / last["jump_in_displacement"] - 1.0
+    text = f"Eq. 47 is {100.0 * difference:.0f} % farther\nthan the FSCM at $\\mu$ = {last['mu']:g}"
     # Below both curves, where no line runs.
-    axes.text(
-        0.03,
-        0.03,
-        f"Eq. 47 is {100.0 * difference:.0f} % farther\nthan the FSCM at $\\mu$ = {last['mu']:g}",
-        transform=axes.transAxes,
-        fontsize=8,
-    )
-    axes.set(xlim=(0.0, 5.1), xlabel=r"Tabor number $\mu$", ylabel=r"displacement at the jumps $\delta/z_0$")
+    axes.text(0.03, 0.03, text, transform=axes.transAxes, fontsize=8)
+    axes.set(xlim=(0.0, 5.1), xlabel=LABELS["mu"], ylabel=r"displacement at the jumps $\delta/z_0$")
     lettered(axes, "a", f"$n$ = {_N:g}, $k$ = {_K:g}")
     axes.legend()
 
 
 def _coefficients(axes: Axes, table: pd.DataFrame) -> None:
     for index, (n, part) in enumerate(table.groupby("n")):
-        axes.plot(part["k"], part["C_in"], color=COLOURS[index], ls=LINES[index], label=f"$n$ = {n:g}")
-        axes.plot(part["k"], part["C_out"], color=COLOURS[index], ls=LINES[index], lw=0.8)
+        axes.plot(part["k"], part["C_in"], label=f"$n$ = {n:g}", **dashed(index))
+        axes.plot(part["k"], part["C_out"], lw=0.8, **dashed(index))
     for limit, text in ((8.0 / 3.0, "8/3"), (2.0, "2")):
         axes.plot(1.0, limit, ls="none", marker="o", ms=4, color="0.2", clip_on=False)
         axes.annotate(text, (1.0, limit), (6, -3), textcoords="offset points", annotation_clip=False)
-    axes.set(xlim=(0.0, 1.0), xlabel="gradient exponent $k$")
-    axes.set_ylabel(r"$C^{\mathrm{in}}$ (thick), $C^{\mathrm{out}}$ (thin)")
+    axes.set(xlim=(0.0, 1.0), xlabel=LABELS["k"], ylabel=r"$C^{\mathrm{in}}$ (thick), $C^{\mathrm{out}}$ (thin)")
     lettered(axes, "b")
     # Between the two bundles of curves.
     axes.legend(loc="center", bbox_to_anchor=(0.45, 0.7), ncols=2)
@@ -141,7 +122,7 @@ JUMP_ASYMPTOTES = PaperFigure(
     name="9",
     stem="fig09_jump_asymptotes",
     title="Asymptotes of the jumps beside the FSCM, and their coefficients",
-    tasks=_tasks,
-    tables=_tables,
-    draw=_draw,
+    plan=_plan,
+    picture=_picture,
+    size=(7.2, 3.5),
 )

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from scipy.optimize import brentq, minimize_scalar
 
 from comparisons.models.jkr import JKR
-from comparisons.output.style import COLOURS, LINES, lettered, styled
-from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.output.style import COLOURS, lettered
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.drawing import LABELS, level, one_a_value
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
 from comparisons.runs.cases import Case
 
 __all__ = ["GRADIENT_EFFECT", "chi", "insensitive_regions", "largest_chi"]
@@ -86,59 +85,48 @@ def over_shapes() -> list[tuple[float, float]]:
     return [largest_chi(float(n)) for n in _SHAPE_INDICES]
 
 
-def _tasks() -> Sequence[CachedCall]:
-    return [
-        CachedCall.of(over_shapes),
-        CachedCall.of(insensitive_regions),
-        *(CachedCall.of(over_gradients, n) for n in _SHAPES),
-    ]
-
-
-def _tables(results: Results) -> Tables:
-    parts = [pd.DataFrame({"n": n, "k": _GRADIENTS, "chi": results[CachedCall.of(over_gradients, n)]}) for n in _SHAPES]
-    largest = pd.DataFrame(results[CachedCall.of(over_shapes)], columns=["chi_max", "k_of_chi_max"])
+def _plan() -> Plan[Tables]:
+    largest_chis, ends = CachedCall.of(over_shapes), CachedCall.of(insensitive_regions)
+    of_shapes = {n: CachedCall.of(over_gradients, n) for n in _SHAPES}
+    results = yield [largest_chis, ends, *of_shapes.values()]
+    parts = [pd.DataFrame({"n": n, "k": _GRADIENTS, "chi": results[call]}) for n, call in of_shapes.items()]
+    largest = pd.DataFrame(results[largest_chis], columns=["chi_max", "k_of_chi_max"])
     largest.insert(0, "n", _SHAPE_INDICES)
-    ends = results[CachedCall.of(insensitive_regions)]
-    regions = pd.DataFrame({"limit": _LIMIT, "n_from": ends[::2], "n_to": ends[1::2]})
+    regions = pd.DataFrame({"limit": _LIMIT, "n_from": results[ends][::2], "n_to": results[ends][1::2]})
     return {"": pd.concat(parts, ignore_index=True), "largest": largest, "regions": regions}
 
 
-def _draw(tables: Tables) -> Figure:
-    with styled():
-        figure = Figure(figsize=(7.2, 3.4), layout="constrained")
-        left, right = figure.subplots(1, 2)
-        for index, (n, part) in enumerate(tables[""].groupby("n")):
-            left.plot(part["k"], 100 * part["chi"], color=COLOURS[index], ls=LINES[index], label=f"$n$ = {n:g}")
-        left.set(xlabel=r"gradient exponent $k$", ylabel=r"deviation $\chi$ (%)", xlim=(0, 1), ylim=(0, None))
-        lettered(left, "a")
-        left.legend()
-        largest = tables["largest"]
-        right.plot(largest["n"], 100 * largest["chi_max"], color=COLOURS[0])
-        right.axhline(100 * _LIMIT, color="0.4", lw=0.8, ls="--")
-        ends = tables["regions"][["n_from", "n_to"]].to_numpy()
-        # The first region is too narrow for its text, which stands beside it.
-        for (low, high), place, align, then in zip(
-            ends, ((1.3, 2.0), (4.8, 17.0)), ("left", "center"), ("\n", " "), strict=True
-        ):
-            right.axvspan(low, high, color=COLOURS[1], alpha=0.2, lw=0)
-            right.annotate(
-                f"{low:.3f} ≤ $n${then}≤ {high:.3f}",
-                (0.5 * (low + high), 100 * _LIMIT),
-                place,
-                ha=align,
-                fontsize=8,
-                arrowprops={"arrowstyle": "-", "lw": 0.6, "color": "0.3"},
-            )
-        right.set(xlabel=r"shape index $n$", ylabel=r"largest deviation $\chi_{\max}$ (%)", ylim=(0, 50), xlim=(0.9, 8))
-        lettered(right, "b")
-    return figure
+def _picture(figure: Figure, tables: Tables) -> None:
+    left, right = figure.subplots(1, 2)
+    one_a_value(left, tables[""], "n", "k", "chi", 100)
+    left.set(xlabel=LABELS["k"], ylabel=r"deviation $\chi$ (%)", xlim=(0, 1), ylim=(0, None))
+    lettered(left, "a")
+    left.legend()
+    largest = tables["largest"]
+    right.plot(largest["n"], 100 * largest["chi_max"], color=COLOURS[0])
+    level(right, 100 * _LIMIT, ls="--")
+    ends = tables["regions"][["n_from", "n_to"]].to_numpy()
+    # The first region is too narrow for its text, which stands beside it.
+    for (low, high), place, align, then in zip(
+        ends, ((1.3, 2.0), (4.8, 17.0)), ("left", "center"), ("\n", " "), strict=True
+    ):
+        right.axvspan(low, high, color=COLOURS[1], alpha=0.2, lw=0)
+        right.annotate(
+            f"{low:.3f} ≤ $n${then}≤ {high:.3f}",
+            (0.5 * (low + high), 100 * _LIMIT),
+            place,
+            ha=align,
+            fontsize=8,
+            arrowprops={"arrowstyle": "-", "lw": 0.6, "color": "0.3"},
+        )
+    right.set(xlabel=LABELS["n"], ylabel=r"largest deviation $\chi_{\max}$ (%)", ylim=(0, 50), xlim=(0.9, 8))
+    lettered(right, "b")
 
 
 GRADIENT_EFFECT = PaperFigure(
     name="11",
     stem="fig11_gradient_effect",
     title="Deviation chi of the JKR pull-off force from the homogeneous solid's, and its largest over k",
-    tasks=_tasks,
-    tables=_tables,
-    draw=_draw,
+    plan=_plan,
+    picture=_picture,
 )

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
-from comparisons.output.style import COLOURS, MODEL_LINES, lettered, styled
-from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.output.style import COLOURS, MODEL_LINES, lettered
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.drawing import LABELS, level, of_model
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
 from fscm.laws import LennardJones
 
 __all__ = ["SURFACE_LAWS"]
@@ -29,10 +30,6 @@ def stresses() -> list[float]:
     return [eta(float(n)) for n in _SHAPES]
 
 
-def _tasks() -> Sequence[CachedCall]:
-    return [CachedCall.of(stresses)]
-
-
 def dugdale(stress: float) -> pd.DataFrame:
     """Return the corners of Dugdale's law: -stress up to the gap 1 / stress, so that its area is dgamma.
 
@@ -45,54 +42,52 @@ def dugdale(stress: float) -> pd.DataFrame:
     return pd.DataFrame({"gap": ends, "pressure": [0.0, -stress, -stress, 0.0, 0.0]})
 
 
-def _tables(results: Results) -> Tables:
-    limits = pd.DataFrame({"n": [math.inf], "eta": [eta(math.inf)]})
-    stress = pd.DataFrame({"n": _SHAPES, "eta": results[CachedCall.of(stresses)]})
+def _plan() -> Plan[Tables]:
+    call = CachedCall.of(stresses)
+    results = yield [call]
+    stress = pd.DataFrame({"n": [*_SHAPES, math.inf], "eta": [*results[call], eta(math.inf)]})
     exact = pd.DataFrame({"gap": _GAPS, "pressure": LennardJones().traction(_GAPS)})
     laws = {"fscm": exact, "md-original": dugdale(THEORETICAL_STRENGTH), "md-improved": dugdale(eta(_DRAWN))}
     parts = [law.assign(model=model)[["model", "gap", "pressure"]] for model, law in laws.items()]
-    return {"": pd.concat([stress, limits], ignore_index=True), "laws": pd.concat(parts, ignore_index=True)}
+    return {"": stress, "laws": pd.concat(parts, ignore_index=True)}
 
 
-def _draw(tables: Tables) -> Figure:
-    with styled():
-        figure = Figure(figsize=(7.2, 3.4), layout="constrained")
-        left, right = figure.subplots(1, 2)
-        stress = tables[""][np.isfinite(tables[""]["n"])]
-        left.plot(stress["n"], stress["eta"], color=COLOURS[0], label=r"$\eta(n)$")
-        left.axhline(
-            THEORETICAL_STRENGTH, color=COLOURS[2], ls=":", label=r"theoretical strength $\sigma_{\mathrm{th}}$"
-        )
-        for n in _MARKED:
-            left.plot(n, eta(n), "o", color=COLOURS[0], ms=4)
-            left.annotate(f"({n:g}, {eta(n):.3f})", (n, eta(n)), (6, -9), textcoords="offset points", fontsize=8)
-        left.annotate(f"{THEORETICAL_STRENGTH:.3f}", (1.0, THEORETICAL_STRENGTH), (0, 3), textcoords="offset points")
-        left.set(xlabel=r"shape index $n$", ylabel=r"cohesive stress $\sigma_0 z_0/\Delta\gamma$", xscale="log")
-        left.set(xlim=(0.7, 100), ylim=(0, 1.15), xticks=[1, 2, 5, 10, 20, 50, 100])
-        left.set_xticklabels(["1", "2", "5", "10", "20", "50", "100"])
-        left.minorticks_off()
-        lettered(left, "a")
-        left.legend(loc="lower right")
-        names = {
-            "fscm": "FSCM (9-3 law)",
-            "md-original": rf"original M-D: $\sigma_0$ = {THEORETICAL_STRENGTH:.3f}",
-            "md-improved": rf"improved M-D, $n$ = {_DRAWN:g}: $\sigma_0$ = {eta(_DRAWN):.3f}",
-        }
-        for model, name in names.items():
-            law = tables["laws"][tables["laws"]["model"] == model]
-            right.plot(law["gap"], law["pressure"], label=name, **MODEL_LINES[model])
-        right.axhline(0, color="0.4", lw=0.8)
-        right.set(xlabel=r"gap $H/z_0$", ylabel=r"pressure $p_s z_0/\Delta\gamma$", xlim=(-0.1, 4), ylim=(-1.15, 0.9))
-        lettered(right, "b")
-        right.legend(loc="upper right")
-    return figure
+def _picture(figure: Figure, tables: Tables) -> None:
+    left, right = figure.subplots(1, 2)
+    _stresses(left, tables[""][np.isfinite(tables[""]["n"])])
+    names = {
+        "fscm": "FSCM (9-3 law)",
+        "md-original": rf"original M-D: $\sigma_0$ = {THEORETICAL_STRENGTH:.3f}",
+        "md-improved": rf"improved M-D, $n$ = {_DRAWN:g}: $\sigma_0$ = {eta(_DRAWN):.3f}",
+    }
+    for model, law in zip(names, of_model(tables["laws"], *names), strict=True):
+        right.plot(law["gap"], law["pressure"], label=names[model], **MODEL_LINES[model])
+    level(right)
+    right.set(xlabel=r"gap $H/z_0$", ylabel=r"pressure $p_s z_0/\Delta\gamma$", xlim=(-0.1, 4), ylim=(-1.15, 0.9))
+    lettered(right, "b")
+    right.legend(loc="upper right")
+
+
+def _stresses(axes: Axes, table: pd.DataFrame) -> None:
+    axes.plot(table["n"], table["eta"], color=COLOURS[0], label=r"$\eta(n)$")
+    axes.axhline(THEORETICAL_STRENGTH, color=COLOURS[2], ls=":", label=r"theoretical strength $\sigma_{\mathrm{th}}$")
+    for n in _MARKED:
+        axes.plot(n, eta(n), "o", color=COLOURS[0], ms=4)
+        axes.annotate(f"({n:g}, {eta(n):.3f})", (n, eta(n)), (6, -9), textcoords="offset points", fontsize=8)
+    axes.annotate(f"{THEORETICAL_STRENGTH:.3f}", (1.0, THEORETICAL_STRENGTH), (0, 3), textcoords="offset points")
+    axes.set(xlabel=LABELS["n"], ylabel=r"cohesive stress $\sigma_0 z_0/\Delta\gamma$", xscale="log")
+    ticks = (1, 2, 5, 10, 20, 50, 100)
+    axes.set(xlim=(0.7, 100), ylim=(0, 1.15))
+    axes.set_xticks(ticks, [str(tick) for tick in ticks])
+    axes.minorticks_off()
+    lettered(axes, "a")
+    axes.legend(loc="lower right")
 
 
 SURFACE_LAWS = PaperFigure(
     name="12",
     stem="fig12_surface_laws",
     title="The cohesive stress eta(n), and the surface laws of the FSCM and both Maugis-Dugdale models",
-    tasks=_tasks,
-    tables=_tables,
-    draw=_draw,
+    plan=_plan,
+    picture=_picture,
 )

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from comparisons.output.style import MODEL_LINES, MODEL_NAMES, lettered, styled
-from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.output.style import MODEL_LINES, lettered
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.drawing import LABELS, by_model, legend_below, level, of_model
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables, lines_of
 from comparisons.paper.tasks import curve
 
 __all__ = ["FORCE_CURVE_MODELS"]
@@ -21,63 +19,40 @@ _K, _MU = 0.4, 1.0
 _FAINT = 0.04
 
 
-def _task(model: str, n: float) -> CachedCall:
-    return CachedCall.of(curve, model, n, _K, _MU)
-
-
-def _tasks() -> Sequence[CachedCall]:
-    return [_task(model, n) for model in MODEL_LINES for n in _SHAPES]
-
-
-def _tables(results: Results) -> Tables:
+def _plan() -> Plan[Tables]:
+    calls = {(n, model): CachedCall.of(curve, model, n, _K, _MU) for n in _SHAPES for model in MODEL_LINES}
+    results = yield list(calls.values())
     parts = []
-    for n in _SHAPES:
-        for model in MODEL_LINES:
-            found = results[_task(model, n)]
-            shape = {"displacement": [np.nan], "load": [np.nan]} | {
-                name: found[name] for name in ("displacement", "load") if name in found
-            }
-            bounds = {name: found.get(name, np.nan) for name in ("u_displacement", "u_load")}
-            part = pd.DataFrame({"n": n, "k": _K, "mu": _MU, "model": model} | shape | bounds)
-            parts.append(part.assign(status=found["status"], reason=found["reason"]))
+    for (n, model), call in calls.items():
+        key, found = {"n": n, "k": _K, "mu": _MU, "model": model}, results[call]
+        part = lines_of(key, found, ["displacement", "load", "u_displacement", "u_load"])
+        parts.append(part.assign(status=found["status"], reason=found["reason"]))
     return {"": pd.concat(parts, ignore_index=True)}
 
 
-def _draw(tables: Tables) -> Figure:
-    with styled():
-        figure = Figure(figsize=(7.2, 5.6), layout="constrained")
-        for letter, axes, (n, of_shape) in zip(
-            "abcd", figure.subplots(2, 2).flat, tables[""].groupby("n"), strict=True
-        ):
-            for model, style in MODEL_LINES.items():
-                part = of_shape[of_shape["model"] == model]
-                axes.plot(part["displacement"], part["load"], label=MODEL_NAMES[model], **style)
-            exact = of_shape[of_shape["model"] == "fscm"]
-            depth = -of_shape["load"].min()
-            top = 0.35 * depth
-            seen = exact[(exact["load"] < top) & (exact["load"].abs() > _FAINT * depth)]["displacement"]
-            margin = 0.06 * (seen.max() - seen.min())
-            axes.axhline(0, color="0.4", lw=0.8)
-            axes.set(xlim=(seen.min() - margin, seen.max() + margin), ylim=(-1.12 * depth, top))
-            axes.set(xlabel=r"displacement $\delta/z_0$", ylabel=r"load $\bar P$")
-            lettered(axes, letter, rf"$n$ = {n:g}, $k$ = {_K:g}, $\mu$ = {_MU:g}")
-        # Eqs. 66-69 hold in contact only; there both curves end.
-        figure.legend(
-            *figure.axes[0].get_legend_handles_labels(),
-            loc="outside lower center",
-            ncols=3,
-            title="M-D-$n$-$k$ as far as there is contact, $a > 0$",
-            title_fontsize=8,
-        )
-    return figure
+def _picture(figure: Figure, tables: Tables) -> None:
+    panels = figure.subplots(2, 2).flat
+    for letter, axes, (n, of_shape) in zip("abcd", panels, tables[""].groupby("n"), strict=True):
+        by_model(axes, of_shape, "displacement", "load")
+        (exact,) = of_model(of_shape, "fscm")
+        depth = -of_shape["load"].min()
+        top = 0.35 * depth
+        seen = exact[(exact["load"] < top) & (exact["load"].abs() > _FAINT * depth)]["displacement"]
+        margin = 0.06 * (seen.max() - seen.min())
+        level(axes)
+        axes.set(xlim=(seen.min() - margin, seen.max() + margin), ylim=(-1.12 * depth, top))
+        axes.set(xlabel=LABELS["displacement"], ylabel=LABELS["load"])
+        lettered(axes, letter, rf"$n$ = {n:g}, $k$ = {_K:g}, $\mu$ = {_MU:g}")
+    # Eqs. 66-69 hold in contact only; there both curves end.
+    legend_below(figure, 3, title="M-D-$n$-$k$ as far as there is contact, $a > 0$", title_fontsize=8)
 
 
 FORCE_CURVE_MODELS = PaperFigure(
     name="13",
     stem="fig13_force_curve_models",
     title="Force-displacement curves of both Maugis-Dugdale models, which end at first contact, and the FSCM",
-    tasks=_tasks,
-    tables=_tables,
-    draw=_draw,
+    plan=_plan,
+    picture=_picture,
+    size=(7.2, 5.6),
     follows_path=True,
 )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import pandas as pd
@@ -10,9 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
-from comparisons.output.style import MODEL_LINES, MODEL_NAMES, lettered, styled
-from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.output.style import MODEL_LINES, lettered
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.drawing import LABELS, by_model, legend_below, level, of_model
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables, lines_of
 from comparisons.paper.tasks import profile, quantity
 from comparisons.runs.cases import Case
 
@@ -54,61 +54,43 @@ def cohesive_surface(model: str, n: float, k: float, mu: float) -> dict[str, Any
     }
 
 
-_FSCM = CachedCall.of(profile, "fscm", _N, _K, _MU)
-_FSCM_DISPLACEMENT = CachedCall.of(quantity, "fscm", "pull_off_displacement", _N, _K, _MU)
-_MD = {model: CachedCall.of(cohesive_surface, model, _N, _K, _MU) for model in _COHESIVE}
-
-
-def _tasks() -> Sequence[CachedCall]:
-    return [_FSCM, _FSCM_DISPLACEMENT, *_MD.values()]
-
-
-def _tables(results: Results) -> Tables:
-    shape = results[_FSCM]
-    displacement = results[_FSCM_DISPLACEMENT]
-    parts = [_surface("fscm", shape, displacement["value"], shape["u_distance"])]
-    radii = []
-    for model, call in _MD.items():
-        found = results[call]
-        # The closed form is good to rounding.
-        parts.append(_surface(model, found, found["displacement"], 0.0))
-        radii.append({"model": model, "contact_radius": found["contact_radius"]})
-        radii[-1]["cohesive_radius"] = found["cohesive_radius"]
+def _plan() -> Plan[Tables]:
+    exact = CachedCall.of(profile, "fscm", _N, _K, _MU)
+    displacement = CachedCall.of(quantity, "fscm", "pull_off_displacement", _N, _K, _MU)
+    calls = {model: CachedCall.of(cohesive_surface, model, _N, _K, _MU) for model in _COHESIVE}
+    results = yield [exact, displacement, *calls.values()]
+    # The closed form is good to rounding.
+    found = {"fscm": results[exact] | {"displacement": results[displacement]["value"]}}
+    found |= {model: {"u_distance": 0.0} | results[call] for model, call in calls.items()}
+    names = ("contact_radius", "cohesive_radius")
+    radii = [{"model": model} | {name: found[model][name] for name in names} for model in calls]
+    parts = [_surface(model, shape) for model, shape in found.items()]
     return {"": pd.concat(parts, ignore_index=True), "radii": pd.DataFrame(radii)}
 
 
-def _surface(model: str, found: dict[str, Any], displacement: float, u: float) -> pd.DataFrame:
+def _surface(model: str, found: dict[str, Any]) -> pd.DataFrame:
     """Return the profile with the height of the deformed surface, -w = f - delta - H (Eq. 4)."""
-    table = pd.DataFrame({name: found[name] for name in ("radius", "gap", "pressure")}).astype(float)
-    table.insert(0, "model", model)
-    table["height"] = table["radius"] ** _N / _N - displacement - table["gap"]
-    table["punch"] = table["radius"] ** _N / _N - displacement
-    return table.assign(u_distance=u)
+    table = lines_of({"model": model}, found, ("radius", "gap", "pressure"))
+    punch = table["radius"] ** _N / _N - found["displacement"]
+    return table.assign(height=punch - table["gap"], punch=punch, u_distance=found["u_distance"])
 
 
-def _draw(tables: Tables) -> Figure:
-    with styled():
-        figure = Figure(figsize=(7.2, 3.7), layout="constrained")
-        left, right = figure.subplots(1, 2)
-        for model, style in MODEL_LINES.items():
-            part = tables[""][tables[""]["model"] == model]
-            left.plot(part["radius"], part["height"], label=MODEL_NAMES[model], **style)
-            right.plot(part["radius"], part["pressure"], **style)
-        exact = tables[""][tables[""]["model"] == "fscm"]
-        left.plot(exact["radius"], exact["punch"], color="0.45", ls=":", lw=0.9, label="punch (FSCM)")
-        right.axhline(0, color="0.4", lw=0.8)
-        for axes in (left, right):
-            axes.set(xlabel=r"radius $r/(Qz_0)^{1/n}$", xlim=(0, _FARTHEST))
-        left.set(ylabel=r"height of the surface $-w/z_0$", ylim=(0.0, 1.75))
-        right.set(ylabel=r"pressure $p z_0/\Delta\gamma$")
-        for letter, axes in (("a", left), ("b", right)):
-            lettered(axes, letter, rf"$n$ = {_N:g}, $k$ = {_K:g}, $\mu$ = {_MU:g}")
-        for axes, at in ((left, 0.02), (right, 0.98)):
-            for model, a, c in tables["radii"].to_numpy():
-                _mark(axes, float(a), "a", at, str(model))
-                _mark(axes, float(c), "c", at, str(model))
-        figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    return figure
+def _picture(figure: Figure, tables: Tables) -> None:
+    left, right = figure.subplots(1, 2)
+    by_model(left, tables[""], "radius", "height")
+    by_model(right, tables[""], "radius", "pressure")
+    (exact,) = of_model(tables[""], "fscm")
+    left.plot(exact["radius"], exact["punch"], color="0.45", ls=":", lw=0.9, label="punch (FSCM)")
+    level(right)
+    left.set(ylabel=LABELS["height"], ylim=(0.0, 1.75))
+    right.set(ylabel=LABELS["pressure"])
+    for axes, letter, at in ((left, "a", 0.02), (right, "b", 0.98)):
+        axes.set(xlabel=LABELS["radius"], xlim=(0, _FARTHEST))
+        lettered(axes, letter, rf"$n$ = {_N:g}, $k$ = {_K:g}, $\mu$ = {_MU:g}")
+        for model, a, c in tables["radii"].to_numpy():
+            _mark(axes, float(a), "a", at, str(model))
+            _mark(axes, float(c), "c", at, str(model))
+    legend_below(figure, 4)
 
 
 def _mark(axes: Axes, radius: float, letter: str, at: float, model: str) -> None:
@@ -136,8 +118,8 @@ SURFACE_MODELS = PaperFigure(
     name="17",
     stem="fig17_surface_models",
     title="Surface and pressure at pull-off of both Maugis-Dugdale models and the FSCM; n = 2, k = 0.4, mu = 1",
-    tasks=_tasks,
-    tables=_tables,
-    draw=_draw,
+    plan=_plan,
+    picture=_picture,
+    size=(7.2, 3.7),
     follows_path=True,
 )

@@ -1,31 +1,15 @@
-"""Comparisons of numbers with bounds, and the verdict on a statement that follows from them."""
+"""Comparisons of numbers with bounds, the verdict on a statement, and the factors that change it."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import pandas as pd
 
-__all__ = [
-    "FAILS",
-    "FALSE",
-    "HOLDS",
-    "IN_PART",
-    "READING",
-    "REFERENCES",
-    "TRUE",
-    "UNDECIDED",
-    "Evidence",
-    "Number",
-    "by_clause",
-    "clauses",
-    "decisive",
-    "evidence_frame",
-    "evidence_of",
-    "verdict",
-]
+__all__ = ["READING", "REFERENCES", "Evidence", "Number", "by_clause", "clauses", "evidence_frame", "flips", "verdict"]
 
 #: Outcomes of a comparison of a clause.
 HOLDS, FAILS, UNDECIDED = "holds", "fails", "not decided"
@@ -38,8 +22,17 @@ REFERENCES = ("fscm", "fem")
 #: What a limit is that reads a word without a number ("well", "small"), or that the paper states as a round number.
 READING = "limit"
 
+#: The value is zero within its bound: no number above that bound changes the verdict.
+NO_FLIP = "none above the bounds"
+
 #: Relation -> sign of value - limit where it holds.
 _SIGNS = {"<": -1.0, ">": 1.0}
+#: What decides first: a failure, then what is not decided.
+_RANK = {FAILS: 0, UNDECIDED: 1, HOLDS: 2}
+#: Factor of the range beyond the largest and below the smallest number at which a comparison changes.
+_FAR = 2.0
+#: A factor below this has an exponent.
+_SMALL = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,13 +81,13 @@ class Evidence:
         return _SIGNS[self.relation] * (self.value.value - self.limit.value)
 
     @property
-    def bound(self) -> float:
-        """Bound on the error of the margin: the sum of both bounds, not a combination of them."""
-        return self.value.u + self.limit.u
+    def is_read(self) -> bool:
+        """Whether the limit reads a word."""
+        return self.limit.what == READING
 
     @property
     def outcome(self) -> str:
-        """Whether it holds, fails, or is not decided within the bounds.
+        """Whether it holds, fails, or is not decided within the sum of both bounds.
 
         Examples
         --------
@@ -104,50 +97,42 @@ class Evidence:
         >>> Evidence("", "fscm", low, "<", Number(1.15, 0.1, "b")).outcome
         'not decided'
         """
-        if not math.isfinite(self.margin) or not math.isfinite(self.bound):
-            return UNDECIDED
-        if abs(self.margin) <= self.bound:
+        bound = self.value.u + self.limit.u
+        if not math.isfinite(self.margin) or not math.isfinite(bound) or abs(self.margin) <= bound:
             return UNDECIDED
         return HOLDS if self.margin > 0.0 else FAILS
-
-
-#: What decides first: a failure, then what is not decided.
-_RANK = {FAILS: 0, UNDECIDED: 1, HOLDS: 2}
-
-
-def decisive(comparisons: Iterable[Evidence]) -> Evidence:
-    """Return the comparison that decides: the largest failure, else what is least certain to hold.
-
-    Examples
-    --------
-    >>> rows = [Evidence("", "", Number(x, 0.0, ""), "<", Number(2.0, 0.0, "")) for x in (1.0, 1.9, 1.5)]
-    >>> row = decisive(rows)
-    >>> row.value.value, row.comparisons
-    (1.9, 3)
-    """
-    rows = list(comparisons)
-    if not rows:
-        raise ValueError("a clause has no comparison: the cases of its statement are empty")
-    first = min(rows, key=lambda row: (_RANK[row.outcome], row.margin))
-    return replace(first, comparisons=sum(row.comparisons for row in rows))
 
 
 def by_clause(comparisons: Iterable[Evidence]) -> list[Evidence]:
     """Return the decisive comparison of each clause, model and kind of limit, in the order of the first ones.
 
-    A limit that reads a word is kept beside the others: the verdict may change with it.
+    It is the largest failure, else what is least certain to hold.  A limit that reads a word is kept beside the others:
+    the verdict may change with it.
+
+    Raises
+    ------
+    ValueError
+        If there is no comparison.
 
     Examples
     --------
     >>> limit = Number(2.0, 0.0, READING)
     >>> rows = [Evidence(clause, "fscm", Number(x, 0.0, ""), "<", limit) for clause, x in zip("aba", (1, 2, 3))]
-    >>> [(row.clause, row.value.value) for row in by_clause(rows)]
-    [('a', 3), ('b', 2)]
+    >>> [(row.clause, row.value.value, row.comparisons) for row in by_clause(rows)]
+    [('a', 3, 2), ('b', 2, 1)]
     """
     groups: dict[tuple[str, str, bool], list[Evidence]] = {}
     for row in comparisons:
-        groups.setdefault((row.clause, row.model, row.limit.what == READING), []).append(row)
-    return [decisive(rows) for rows in groups.values()]
+        groups.setdefault((row.clause, row.model, row.is_read), []).append(row)
+    if not groups:
+        raise ValueError("a statement has no comparison: its cases are empty")
+    return [
+        replace(
+            min(rows, key=lambda row: (_RANK[row.outcome], row.margin)),
+            comparisons=sum(row.comparisons for row in rows),
+        )
+        for rows in groups.values()
+    ]
 
 
 def clauses(evidence: Iterable[Evidence]) -> dict[str, str]:
@@ -170,30 +155,27 @@ def clauses(evidence: Iterable[Evidence]) -> dict[str, str]:
 
 
 def _outcome(rows: Sequence[Evidence]) -> str:
-    outcomes = {row.outcome for row in rows}
-    if outcomes == {HOLDS}:
+    if all(row.outcome == HOLDS for row in rows):
         return HOLDS
     failed = {row.model for row in rows if row.outcome == FAILS}
-    if not failed:
-        return UNDECIDED
     # Formulas need no second reference; the two references need each other.
-    confirmed = not failed.intersection(REFERENCES) or failed.issuperset(REFERENCES)
+    confirmed = failed and (not failed.intersection(REFERENCES) or failed.issuperset(REFERENCES))
     return FAILS if confirmed else UNDECIDED
 
 
-def verdict(outcomes: Iterable[str]) -> str:
-    """Return the verdict on a statement from the outcomes of its clauses; empty without a clause.
+def verdict(evidence: Iterable[Evidence]) -> str:
+    """Return the verdict on a statement from its clauses; empty without a clause.
 
     Examples
     --------
-    >>> verdict([HOLDS, HOLDS]), verdict([FAILS]), verdict([HOLDS, FAILS]), verdict([HOLDS, UNDECIDED])
+    >>> limit = Number(2.0, 0.0, "")
+    >>> rows = [Evidence(f"n = {x}", "formula", Number(x, 0.0, ""), "<", limit) for x in (1.0, 2.0, 3.0)]
+    >>> verdict(rows[:1]), verdict(rows[2:]), verdict(rows), verdict(rows[:2])
     ('true', 'false', 'true in part', 'not decided')
     """
-    known = set(outcomes)
-    if not known:
-        return ""
-    if known == {HOLDS}:
-        return TRUE
+    known = set(clauses(evidence).values())
+    if known <= {HOLDS}:
+        return TRUE if known else ""
     if FAILS not in known:
         return UNDECIDED
     return IN_PART if HOLDS in known else FALSE
@@ -222,18 +204,87 @@ def evidence_frame(statement: str, evidence: Iterable[Evidence]) -> pd.DataFrame
     )
 
 
-def evidence_of(table: pd.DataFrame) -> list[Evidence]:
-    """Return the comparisons of a table that `evidence_frame` made."""
-    return [
-        Evidence(
-            str(row.clause),
-            str(row.model),
-            Number(float(row.value), float(row.u_value), str(row.what)),
-            str(row.relation),
-            Number(float(row.limit), float(row.u_limit), str(row.limit_what)),
-            bool(row.own_case),
-            bool(row.beyond_paper),
-            int(row.comparisons),
-        )
-        for row in table.itertuples(index=False)
-    ]
+def read_number(evidence: Iterable[Evidence]) -> float | None:
+    """Return the number that reads a word of the statement, or None if every comparison is of two computed numbers.
+
+    Raises
+    ------
+    ValueError
+        If there are several: a factor would not say which of them must change.
+    """
+    numbers = {row.limit.value for row in evidence if row.is_read}
+    if len(numbers) > 1:
+        raise ValueError(f"a statement is judged by {sorted(numbers)}; it must be judged by one number")
+    return numbers.pop() if numbers else None
+
+
+def verdict_at(evidence: Iterable[Evidence], number: float) -> str:
+    """Return the verdict with another number that reads the word.
+
+    Both references are given what only one of them computes: nothing is left open for lack of the other.
+    """
+    rows = [replace(row, limit=Number(number, 0.0, READING)) if row.is_read else row for row in evidence]
+    models: dict[str, set[str]] = {}
+    for row in rows:
+        models.setdefault(row.clause, set()).add(row.model)
+    alone = [row for row in rows if row.model in REFERENCES and models[row.clause] == {row.model}]
+    return verdict([*rows, *(replace(row, model=model) for row in alone for model in REFERENCES)])
+
+
+def flips(evidence: Sequence[Evidence]) -> dict[str, float]:
+    """Return the other verdicts, each with the factor nearest to 1 by which the number must change for it.
+
+    Examples
+    --------
+    >>> rows = [Evidence(f"mu = {x}", "fscm", Number(x, 0.0, ""), "<", Number(2.0, 0.0, READING)) for x in (3.0, 5.0)]
+    >>> flips(rows)
+    {'true in part': 1.5, 'true': 2.5}
+    """
+    number = read_number(evidence)
+    if number is None:
+        return {}
+    now = verdict_at(evidence, number)
+    nearest: dict[str, float] = {}
+    for low, high in _ranges(evidence):
+        other = verdict_at(evidence, 0.5 * (low + high))
+        if other in (now, UNDECIDED) or low <= number <= high:
+            continue
+        factor = (low if low > number else high) / number
+        nearest[other] = min(nearest.get(other, math.inf), factor, key=_distance)
+    return dict(sorted(nearest.items(), key=lambda item: _distance(item[1])))
+
+
+def _ranges(evidence: Sequence[Evidence]) -> Iterator[tuple[float, float]]:
+    """Ranges of the number in which no comparison changes its outcome."""
+    ends = {row.value.value + u for row in evidence if row.is_read for u in (-row.value.u, row.value.u)}
+    positive = sorted(end for end in ends if end > 0.0)
+    if positive:
+        yield from pairwise([0.0, *positive, _FAR * positive[-1]])
+
+
+def _distance(factor: float) -> float:
+    return max(factor, 1.0 / factor) if factor > 0.0 else math.inf
+
+
+def flips_text(evidence: Sequence[Evidence]) -> str:
+    """Return the factors as a text, the nearest first; empty where there is no number.
+
+    Examples
+    --------
+    >>> row = Evidence("n = 2", "formula", Number(0.1000341, 0.0, ""), "<", Number(0.1, 0.0, READING))
+    >>> flips_text([row])
+    'true above x 1.00035'
+    """
+    if read_number(evidence) is None:
+        return ""
+    factors = flips(evidence).items()
+    texts = [f"{other} {'above' if factor > 1.0 else 'below'} x {_factor_text(factor)}" for other, factor in factors]
+    return "; ".join(texts) or NO_FLIP
+
+
+def _factor_text(factor: float) -> str:
+    """Three digits, or those that tell the factor from 1 to a part in ten, rounded away from 1: it is enough."""
+    decimals = max(2 - math.floor(math.log10(factor)), 1 - math.floor(math.log10(abs(factor - 1.0))))
+    step = 10.0**-decimals
+    steps = math.ceil(factor / step) if factor > 1.0 else math.floor(factor / step)
+    return f"{steps * step:.3g}" if factor < _SMALL else f"{steps * step:.{max(decimals, 0)}f}"

@@ -3,34 +3,31 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import pandas as pd
 
 from comparisons.data.paper_statements import PaperStatement, paper_statements
 from comparisons.numerics.number_text import value_text
-from comparisons.output.fitted_table import FittedTable
-from comparisons.output.latex import latex
-from comparisons.output.markdown import markdown
 from comparisons.output.tables import rich_table
-from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.paper.cache import Results
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables, calls_of, given, texts_of
 from comparisons.paper.statements.evidence import (
     FAILS,
     HOLDS,
-    READING,
     UNDECIDED,
     Evidence,
     by_clause,
     clauses,
     evidence_frame,
+    flips_text,
+    read_number,
     verdict,
 )
-from comparisons.paper.statements.flips import flips_text, read_number
 from comparisons.paper.statements.registry import find_test
 
-__all__ = ["PAPER_STATEMENTS", "evidence_for", "judged", "readable"]
+__all__ = ["PAPER_STATEMENTS", "evidence_for", "judged"]
 
 _TITLE = "Statements of the paper, judged"
 _NOTES = (
@@ -56,7 +53,7 @@ _PARAMETER = re.compile(r"\b(n|k|mu) = ([0-9][0-9.e+-]*)")
 def evidence_for(statement: PaperStatement, results: Results) -> list[Evidence]:
     """Return the decisive comparisons of every clause, each with whether it is one of the paper's own cases."""
     rows = []
-    for row in by_clause(find_test(statement).evidence(statement, results)):
+    for row in by_clause(given(find_test(statement)(statement), results)):
         case = {name: float(value) for name, value in _PARAMETER.findall(row.clause)}
         rows.append(replace(row, own=statement.is_own(case), beyond=statement.is_beyond(case)))
     return rows
@@ -66,7 +63,6 @@ def judged(statement: PaperStatement, evidence: Sequence[Evidence]) -> dict[str,
     """Return the row of a statement from its evidence."""
     stated_rows = [row for row in evidence if not row.beyond]
     stated = clauses(stated_rows)
-    own = clauses(row for row in stated_rows if row.own)
     number = read_number(stated_rows)
     return {
         "id": statement.id,
@@ -74,9 +70,9 @@ def judged(statement: PaperStatement, evidence: Sequence[Evidence]) -> dict[str,
         "statement": statement.statement,
         "test": statement.how,
         "range": statement.range,
-        "verdict": verdict(stated.values()),
+        "verdict": verdict(stated_rows),
         "holds_in": _share_text(stated),
-        "own_cases": _share_text(own),
+        "own_cases": _share_text(clauses(row for row in stated_rows if row.own)),
         "fails_for": _named(stated, FAILS),
         "beyond_paper": _beyond(clauses(row for row in evidence if row.beyond)),
         "number": "" if number is None else f"{number:g}",
@@ -119,13 +115,12 @@ def _together(named: Sequence[tuple[str, ...]], position: int) -> list[tuple[str
 
 
 def _beyond(outcomes: dict[str, str]) -> str:
-    parts = [f"{outcome} for {_named(outcomes, outcome)}" for outcome in (HOLDS, FAILS, UNDECIDED)]
-    return ", ".join(part for part in parts if not part.endswith(" for "))
+    known = [outcome for outcome in (HOLDS, FAILS, UNDECIDED) if outcome in outcomes.values()]
+    return ", ".join(f"{outcome} for {_named(outcomes, outcome)}" for outcome in known)
 
 
-def _sentences(evidence: Iterable[Evidence]) -> str:
+def _sentences(rows: Sequence[Evidence]) -> str:
     """Return what decides: the clause that fails by most, the paper's own cases first, or what holds by least."""
-    rows = list(evidence)
     missed = [row for row in rows if row.outcome != HOLDS]
     least = min(missed or rows, key=lambda row: (row.outcome != FAILS, bool(missed) and not row.own, _share(row)))
     return "; ".join(_sentence(row) for row in rows if row.clause == least.clause and (row is least or row in missed))
@@ -139,7 +134,7 @@ def _share(row: Evidence) -> float:
 def _sentence(row: Evidence) -> str:
     limit = _number(row.limit.value, row.limit.u)
     compared = f"{_number(row.value.value, row.value.u)} {row.relation} {limit} {row.outcome}"
-    against = "" if row.limit.what in (READING, "") else f" against {row.limit.what}"
+    against = "" if row.is_read or not row.limit.what else f" against {row.limit.what}"
     return f"{row.model}: {row.value.what}{against}: {compared}"
 
 
@@ -147,44 +142,32 @@ def _number(value: float, u: float) -> str:
     return f"{value:g}" if u == 0.0 else value_text(value, u)
 
 
-def _tasks() -> Sequence[CachedCall]:
-    calls = (call for statement in paper_statements() for call in find_test(statement).tasks(statement))
-    return list(dict.fromkeys(calls))
-
-
-def _tables(results: Results) -> Tables:
-    evidence = [(statement, evidence_for(statement, results)) for statement in paper_statements()]
-    rows = [judged(statement, comparisons) for statement, comparisons in evidence]
-    frames = [evidence_frame(statement.id, comparisons) for statement, comparisons in evidence]
+def _plan() -> Plan[Tables]:
+    statements = paper_statements()
+    results = yield [call for statement in statements for call in calls_of(find_test(statement)(statement))]
+    evidence = {statement.id: evidence_for(statement, results) for statement in statements}
+    rows = [judged(statement, evidence[statement.id]) for statement in statements]
+    frames = [evidence_frame(name, comparisons) for name, comparisons in evidence.items()]
     return {"": pd.DataFrame(rows), "evidence": pd.concat(frames, ignore_index=True)}
 
 
-def readable(table: pd.DataFrame) -> pd.DataFrame:
+def _readable(table: pd.DataFrame) -> pd.DataFrame:
     """Return the table for reading: empty columns of a row as nothing."""
-    shown = table.fillna("").drop(columns=["id"])
-    return shown.rename(columns=_HEADS)
+    return table.fillna("").drop(columns=["id"]).rename(columns=_HEADS)
 
 
 def _texts(tables: Tables) -> dict[str, str]:
-    shown = readable(tables[""])
-    short = shown[_ON_PAPER]
-    text = latex(short, f"{_TITLE}. {_NOTES}", "paper-statements")
-    return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": text}
-
-
-def _shown(tables: Tables) -> FittedTable:
-    return rich_table(readable(tables[""])[_SHORT], _TITLE)
+    shown = _readable(tables[""])
+    return texts_of(shown, shown[_ON_PAPER], _TITLE, _NOTES, "paper-statements")
 
 
 PAPER_STATEMENTS = PaperFigure(
     name="statements",
     stem="paper_statements",
     title="Statements of the paper in words of our own, a verdict on each, and its evidence",
-    tasks=_tasks,
-    tables=_tables,
-    draw=None,
+    plan=_plan,
     texts=_texts,
-    shown=_shown,
+    shown=lambda tables: rich_table(_readable(tables[""])[_SHORT], _TITLE),
     # The turning points are counted at the points that the solver places.
     follows_path=True,
 )

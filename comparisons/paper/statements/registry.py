@@ -3,34 +3,12 @@
 from __future__ import annotations
 
 from comparisons.data.paper_statements import PaperStatement
-from comparisons.paper.statements import (
-    closeness,
-    cohesive,
-    formulas,
-    hysteresis,
-    limits,
-    paths,
-    pull_off_limits,
-    scheme,
-    surfaces,
-    trends,
-)
-from comparisons.paper.statements.sources import StatementTest
+from comparisons.paper.statements import closeness, formulas, paths, surfaces, trends
+from comparisons.paper.statements.numbers import StatementTest
 
 __all__ = ["TESTS", "find_test"]
 
-_GROUPS = (
-    trends,
-    closeness,
-    paths,
-    hysteresis,
-    pull_off_limits,
-    limits,
-    surfaces,
-    formulas,
-    cohesive,
-    scheme,
-)
+_GROUPS = (trends, closeness, paths, surfaces, formulas)
 
 #: Every test by its name; a group that repeats a name would hide a test, which `tests` refuse.
 TESTS: dict[str, StatementTest] = {name: test for group in _GROUPS for name, test in group.TESTS.items()}

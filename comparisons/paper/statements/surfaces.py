@@ -1,21 +1,35 @@
-"""Tests of the surface at pull-off: pile-up, pressure, contact zone, and the width of the band of large tension."""
+"""Tests of the surface at pull-off: pile-up, pressure, contact zone, band of large tension, cohesive zones."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
+from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
 from comparisons.data.paper_statements import PaperStatement
+from comparisons.models.closed_form import EPS
+from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.solver import translated
-from comparisons.paper.cache import CachedCall, Results
+from comparisons.paper.cache import CachedCall
 from comparisons.paper.figures.fig05_07_pull_off_surfaces import surface
-from comparisons.paper.statements.evidence import Evidence, Number
-from comparisons.paper.statements.sources import Case, StatementTest, case_label, grid, reading, witnesses
-from comparisons.paper.statements.trends import families, one_way
+from comparisons.paper.figures.fig17_surface_models import cohesive_surface
+from comparisons.paper.paper_figure import Plan, results_by
+from comparisons.paper.statements.evidence import REFERENCES, Evidence, Number
+from comparisons.paper.statements.numbers import (
+    Case,
+    Comparisons,
+    case_label,
+    grid,
+    number,
+    reading,
+    tasks_of,
+    witnesses,
+)
+from comparisons.paper.statements.trends import ordered
 from comparisons.paper.tasks import profile
 from fscm import Analysis, NoSuchEvent, NotConverged
 from fscm.laws import LennardJones
@@ -25,9 +39,14 @@ from fscm.solution import FLOOR, SAFETY, State
 __all__ = ["TESTS", "band_width", "half_strength_gaps"]
 
 Json = dict[str, Any]
-Comparisons = Callable[[PaperStatement, Case, Json], list[Evidence]]
 
 _LAW = LennardJones()
+_IMPROVED, _ORIGINAL = "md-improved", "md-original"
+#: Relative rounding of the radii of a Maugis-Dugdale contact, which are roots.
+_ROUNDING = 1e4 * EPS
+_FARTHEST = 3.0
+#: Radii at which two surfaces are compared, and at which the gap is averaged, evenly spaced.
+_SAMPLES, _MEANS = 501, 2001
 
 
 def _traction(gap: float) -> float:
@@ -79,87 +98,56 @@ def _width(state: State) -> float:
     """Width in the plane of radius and gap, between roots of the interpolated gap."""
     outer = float(state.radius[-1])
 
+    def gap_at(radius: float) -> float:
+        return float(state.disc.mesh.evaluate(state.gap, np.array([radius / state.scale]))[0])
+
     def radius_of(gap: float) -> float:
-        return float(brentq(lambda r: _gap_at(state, r) - gap, 0.0, outer, xtol=1e-14))
+        return float(brentq(lambda r: gap_at(r) - gap, 0.0, outer, xtol=1e-14))
 
     near, far = (radius_of(gap) for gap in half_strength_gaps())
     return (far - near) / radius_of(float(_LAW.peak_gap))
 
 
-def _gap_at(state: State, radius: float) -> float:
-    return float(state.disc.mesh.evaluate(state.gap, np.array([radius / state.scale]))[0])
+def _of_grid(function: Callable[..., Json], statement: PaperStatement) -> Plan[dict[Case, Json]]:
+    found = yield from results_by({case: CachedCall.of(function, *case) for case in grid(statement)})
+    return found
 
 
-def _surface_tasks(statement: PaperStatement) -> Sequence[CachedCall]:
-    return [CachedCall.of(surface, *case) for case in grid(statement)]
-
-
-def _each_surface(comparisons: Comparisons) -> StatementTest:
-    """Return the test that compares numbers of every surface of a grid."""
-
-    def evidence(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
-        return [
-            row
-            for case in grid(statement)
-            for row in comparisons(statement, case, results[CachedCall.of(surface, *case)])
-        ]
-
-    return StatementTest(_surface_tasks, evidence)
-
-
-def _pile_up(statement: PaperStatement, case: Case, values: Json) -> list[Evidence]:
+def pile_up_at_edge(statement: PaperStatement) -> Comparisons:
     """The surface is pulled up most at the edge, and less and less outside."""
-    radius, w, u = (np.array(values[name]) for name in ("radius", "deformation", "u_deformation"))
-    edge, top = int(np.argmin(values["pressure"])), int(np.argmin(w))
-    spacing = float(np.diff(radius)[max(top - 1, 0) : top + 1].max())
-    apart = Number(
-        abs(radius[top] - radius[edge]) / radius[edge],
-        spacing / radius[edge],
-        f"distance of the highest point of the surface from the edge, over the edge's radius, {case_label(case)}",
-    )
-    outside = np.arange(len(radius)) >= edge
-    steps, bounds = np.diff(w[outside]), u[outside][1:] + u[outside][:-1]
-    least = int(np.argmin(steps))
-    falling = Number(float(steps[least]), float(bounds[least]), f"least step of w outside the edge, {case_label(case)}")
-    return [
-        Evidence(case_label(case), "fscm", apart, "<", reading(statement)),
-        Evidence(case_label(case), "fscm", falling, ">", Number(0.0, 0.0, "w approaches zero from below")),
-    ]
-
-
-def _centre(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
-    """The pressure at the centre is compressive."""
+    surfaces = yield from _of_grid(surface, statement)
     rows = []
-    for case in grid(statement):
-        values = results[CachedCall.of(surface, *case)]
-        rows.append(_compressed("fscm", values["pressure"][0], values["u_pressure"][0], case))
-    for case in witnesses(statement):
-        values = results[CachedCall.of(profile, "fem", *case)]
-        u = values["u_distance"] * float(np.ptp(values["pressure"]))
-        rows.append(_compressed("fem", values["pressure"][0], u, case))
+    for case, values in surfaces.items():
+        label = case_label(case)
+        radius, w, u = (np.array(values[name]) for name in ("radius", "deformation", "u_deformation"))
+        edge, top = int(np.argmin(values["pressure"])), int(np.argmin(w))
+        spacing = float(np.diff(radius)[max(top - 1, 0) : top + 1].max())
+        apart = Number(
+            abs(radius[top] - radius[edge]) / radius[edge],
+            spacing / radius[edge],
+            f"distance of the highest point of the surface from the edge, over the edge's radius, {label}",
+        )
+        outside = np.arange(len(radius)) >= edge
+        steps, bounds = np.diff(w[outside]), u[outside][1:] + u[outside][:-1]
+        least = int(np.argmin(steps))
+        falling = Number(float(steps[least]), float(bounds[least]), f"least step of w outside the edge, {label}")
+        rows.append(Evidence(label, "fscm", apart, "<", reading(statement)))
+        rows.append(Evidence(label, "fscm", falling, ">", Number(0.0, 0.0, "w approaches zero from below")))
     return rows
 
 
-def _compressed(model: str, pressure: float, u: float, case: Case) -> Evidence:
-    value = Number(pressure, u, f"pressure at the centre at pull-off, {case_label(case)}")
-    return Evidence(case_label(case), model, value, ">", Number(0.0, 0.0, "compressive"))
-
-
-def _centre_tasks(statement: PaperStatement) -> Sequence[CachedCall]:
-    return [*_surface_tasks(statement), *(CachedCall.of(profile, "fem", *case) for case in witnesses(statement))]
-
-
-def _mean_gap(case: Case, values: Json) -> Number:
-    """Mean of the gap's size inside the radius of the largest tension."""
-    radius, gap, u = (np.array(values[name]) for name in ("radius", "gap", "u_gap"))
-    edge = float(radius[np.argmin(values["pressure"])])
-    x = np.linspace(0.0, edge, 2001)
-    size = np.abs(CubicSpline(radius, gap)(x))
-    linear = np.abs(np.interp(x, radius, gap))
-    mean, rough = (float(np.trapezoid(sampled, x)) / edge for sampled in (size, linear))
-    return Number(
-        mean, abs(mean - rough) + float(u[radius <= edge].max()), f"mean gap inside the edge, {case_label(case)}"
-    )
+def compressed_centre(statement: PaperStatement) -> Comparisons:
+    """The pressure at the centre is compressive."""
+    calls = {("fscm", case): CachedCall.of(surface, *case) for case in grid(statement)}
+    calls |= {("fem", case): CachedCall.of(profile, "fem", *case) for case in witnesses(statement)}
+    found = yield from results_by(calls)
+    rows = []
+    for (model, case), values in found.items():
+        pressure = values["pressure"]
+        u = values["u_pressure"][0] if model == "fscm" else values["u_distance"] * float(np.ptp(pressure))
+        value = Number(pressure[0], u, f"pressure at the centre at pull-off, {case_label(case)}")
+        rows.append(Evidence(case_label(case), model, value, ">", Number(0.0, 0.0, "compressive")))
+    return rows
 
 
 def _from_mu(statement: PaperStatement, case: Case) -> str:
@@ -167,77 +155,161 @@ def _from_mu(statement: PaperStatement, case: Case) -> str:
     return "<" if case[2] >= float(statement.arguments["from_mu"]) else ">"
 
 
-def _gap_size(statement: PaperStatement, case: Case, values: Json) -> list[Evidence]:
+def contact_gap(statement: PaperStatement) -> Comparisons:
     """The mean gap in the contact is below a limit from one Tabor number on, and above it at a small one."""
-    mean, relation = _mean_gap(case, values), _from_mu(statement, case)
-    return [Evidence(case_label(case), "fscm", mean, relation, reading(statement))]
+    surfaces = yield from _of_grid(surface, statement)
+    rows = []
+    for case, values in surfaces.items():
+        radius, gap, u = (np.array(values[name]) for name in ("radius", "gap", "u_gap"))
+        # Inside the radius of the largest tension, by a spline and by chords.
+        edge = float(radius[np.argmin(values["pressure"])])
+        x = np.linspace(0.0, edge, _MEANS)
+        sizes = np.abs(CubicSpline(radius, gap)(x)), np.abs(np.interp(x, radius, gap))
+        mean, rough = (float(np.trapezoid(sampled, x)) / edge for sampled in sizes)
+        bound = abs(mean - rough) + float(u[radius <= edge].max())
+        value = Number(mean, bound, f"mean gap inside the edge, {case_label(case)}")
+        rows.append(Evidence(case_label(case), "fscm", value, _from_mu(statement, case), reading(statement)))
+    return rows
 
 
-def _centre_falls(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
+def centre_falls_with_k(statement: PaperStatement) -> Comparisons:
     """Deformation and pressure at the centre fall with k."""
-    rows = []
-    for label, cases in families(statement, "k").items():
-        for name, title in (("deformation", "size of the deformation"), ("pressure", "pressure")):
-            numbers = []
-            for case in cases:
-                values = results[CachedCall.of(surface, *case)]
-                what = f"{title} at the centre at pull-off, {case_label(case)}"
-                numbers.append(Number(abs(values[name][0]), values[f"u_{name}"][0], what))
-            rows += one_way(label, "fscm", numbers, "<")
+    surfaces = yield from _of_grid(surface, statement)
+    rows: list[Evidence] = []
+    for name, title in (("deformation", "size of the deformation"), ("pressure", "pressure")):
+        values = {}
+        for case, found in surfaces.items():
+            what = f"{title} at the centre at pull-off, {case_label(case)}"
+            values[case] = Number(abs(found[name][0]), found[f"u_{name}"][0], what)
+        rows += ordered(values, "k", "<")
     return rows
 
 
-def _pile_up_heights(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
+def pile_up_rises(statement: PaperStatement) -> Comparisons:
     """The pile-up above the centre rises with k."""
-    rows = []
-    for label, cases in families(statement, "k").items():
-        numbers = []
-        for case in cases:
-            values = results[CachedCall.of(surface, *case)]
-            w, u = np.array(values["deformation"]), np.array(values["u_deformation"])
-            what = f"height of the pile-up above the centre at pull-off, {case_label(case)}"
-            numbers.append(Number(float(w[0] - w.min()), float(u[0] + u[np.argmin(w)]), what))
-        rows += one_way(label, "fscm", numbers, ">")
-    return rows
+    surfaces = yield from _of_grid(surface, statement)
+    heights = {}
+    for case, found in surfaces.items():
+        w, u = (np.array(found[name]) for name in ("deformation", "u_deformation"))
+        what = f"height of the pile-up above the centre at pull-off, {case_label(case)}"
+        heights[case] = Number(float(w[0] - w.min()), float(u[0] + u[np.argmin(w)]), what)
+    return ordered(heights, "k", ">")
 
 
-def _width_tasks(statement: PaperStatement) -> Sequence[CachedCall]:
-    return [CachedCall.of(band_width, *case) for case in grid(statement)]
+def _widths(statement: PaperStatement) -> Plan[dict[Case, Number]]:
+    bands = yield from _of_grid(band_width, statement)
+    title = "width of the band with more than half of the strength, over its radius"
+    return {case: Number(band["width"], band["u"], f"{title}, {case_label(case)}") for case, band in bands.items()}
 
 
-def _widths(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
+def band_narrows(statement: PaperStatement) -> Comparisons:
     """The band of large tension becomes narrower along the cases."""
+    widths = yield from _widths(statement)
+    return ordered(widths, str(statement.arguments["along"]), "<")
+
+
+def contact_edge(statement: PaperStatement) -> Comparisons:
+    """The band of large tension is narrow from one Tabor number on, and wide at a smaller one."""
+    widths = yield from _widths(statement)
     return [
-        row
-        for label, cases in families(statement, str(statement.arguments["along"])).items()
-        for row in one_way(label, "fscm", [_width_of(case, results) for case in cases], "<")
+        Evidence(case_label(case), "fscm", width, _from_mu(statement, case), reading(statement))
+        for case, width in widths.items()
     ]
 
 
-def _edges(statement: PaperStatement, results: Results) -> Sequence[Evidence]:
-    """The band of large tension is narrow from one Tabor number on, and wide at a smaller one."""
+def _zones(cases: Iterable[Case]) -> dict[tuple[str, Case], CachedCall]:
+    """Surfaces of both Maugis-Dugdale models."""
+    models = (_IMPROVED, _ORIGINAL)
+    return {(model, case): CachedCall.of(cohesive_surface, model, *case) for case in cases for model in models}
+
+
+def wider_zone(statement: PaperStatement) -> Comparisons:
+    """The cohesive zone of the improved model is wider."""
+    zones = yield from results_by(_zones(grid(statement)))
+
+    def width(model: str, case: Case) -> Number:
+        outer, inner = (zones[model, case][name] for name in ("cohesive_radius", "contact_radius"))
+        return Number(outer - inner, _ROUNDING * outer, f"width c - a of {model} at pull-off, {case_label(case)}")
+
     return [
-        Evidence(case_label(case), "fscm", _width_of(case, results), _from_mu(statement, case), reading(statement))
+        Evidence(case_label(case), "formula", width(_IMPROVED, case), ">", width(_ORIGINAL, case))
         for case in grid(statement)
     ]
 
 
-def _width_of(case: Case, results: Results) -> Number:
-    band = results[CachedCall.of(band_width, *case)]
-    return Number(band["width"], band["u"], _width_title(case))
+def equal_areas(statement: PaperStatement) -> Comparisons:
+    """The tension over the gap, from zero gap on, has the area of the work of adhesion in each model.
+
+    The area of a Maugis-Dugdale model is its cohesive stress times its gap at c, at which Eq. 69 ends the zone.
+    """
+    zones = yield from results_by(_zones(grid(statement)))
+    tension, u = quad(_traction, 0.0, np.inf, epsabs=1e-13, epsrel=1e-13)
+    areas = [("fscm", "area of the 9-3 law", -tension, u)]
+    for (model, case), zone in zones.items():
+        stress = eta(case[0]) if model == _IMPROVED else THEORETICAL_STRENGTH
+        radius, gap = np.array(zone["radius"]), np.array(zone["gap"])
+        at_end = float(np.interp(zone["cohesive_radius"], radius, gap))
+        # The end of the zone is a sample of the surface; its neighbours tell what interpolation may miss.
+        nearest = float(np.abs(radius - zone["cohesive_radius"]).min())
+        u_gap = nearest * float(np.abs(np.gradient(gap, radius)).max()) + _ROUNDING
+        title = f"cohesive stress times the gap at c of {model}, {case_label(case)}"
+        areas.append((model, title, stress * at_end, stress * u_gap))
+    rows = []
+    for model, title, area, u_area in areas:
+        apart = Number(abs(area - 1.0), u_area, f"difference from the work of adhesion: {title}")
+        rows.append(Evidence(model, "formula", apart, "<", reading(statement)))
+    return rows
 
 
-def _width_title(case: Case) -> str:
-    return f"width of the band with more than half of the strength, over its radius, {case_label(case)}"
+def surface_nearer(statement: PaperStatement) -> Comparisons:
+    """The surface of the improved model is nearer inside its contact and outside its cohesive zone."""
+    cases = grid(statement)
+    zones = _zones(cases)
+    exact = {(model, case): CachedCall.of(profile, model, *case) for case in cases for model in REFERENCES}
+    places = [call for model, case in exact for call in tasks_of(model, "pull_off_displacement", case)]
+    results = yield [*zones.values(), *exact.values(), *places]
+    rows: list[Evidence] = []
+    for (reference, case), call in exact.items():
+        displacement = number(results, reference, "pull_off_displacement", case)
+        models = {model: results[zones[model, case]] for model in (_IMPROVED, _ORIGINAL)}
+        rows += _distances(case, reference, results[call], displacement, models)
+    return rows
+
+
+def _distances(
+    case: Case, reference: str, exact: Json, displacement: Number, models: dict[str, Json]
+) -> list[Evidence]:
+    radius, gap = np.array(exact["radius"]), np.array(exact["gap"])
+    u = displacement.u + 2.0 * exact["u_distance"] * float(np.ptp(gap))
+    inner = min(found["contact_radius"] for found in models.values())
+    outer = max(found["cohesive_radius"] for found in models.values())
+    rows = []
+    for clause, start, end in (
+        ("inside the contact", float(radius[0]), inner),
+        ("outside the cohesive zone", outer, _FARTHEST),
+    ):
+        r = np.linspace(start, end, _SAMPLES)
+        # The deformation is w = H + delta - f (Eq. 4); f is the same everywhere.
+        own = CubicSpline(radius, gap)(r) + displacement.value
+        errors = []
+        for model, found in models.items():
+            theirs = np.interp(r, found["radius"], found["gap"]) + found["displacement"]
+            what = f"mean distance of the surface of {model} from {reference} {clause}, {case_label(case)}"
+            errors.append(Number(float(np.abs(theirs - own).mean()), u, what))
+        rows.append(Evidence(f"{clause}, {case_label(case)}", reference, errors[0], "<", errors[1]))
+    return rows
 
 
 #: Tests of statements on the surface at pull-off, by name.
 TESTS = {
-    "pile_up_at_edge": _each_surface(_pile_up),
-    "compressed_centre": StatementTest(_centre_tasks, _centre),
-    "contact_gap": _each_surface(_gap_size),
-    "contact_edge": StatementTest(_width_tasks, _edges),
-    "centre_falls_with_k": StatementTest(_surface_tasks, _centre_falls),
-    "pile_up_rises": StatementTest(_surface_tasks, _pile_up_heights),
-    "band_narrows": StatementTest(_width_tasks, _widths),
+    "pile_up_at_edge": pile_up_at_edge,
+    "compressed_centre": compressed_centre,
+    "contact_gap": contact_gap,
+    "contact_edge": contact_edge,
+    "centre_falls_with_k": centre_falls_with_k,
+    "pile_up_rises": pile_up_rises,
+    "band_narrows": band_narrows,
+    "wider_zone": wider_zone,
+    "equal_areas": equal_areas,
+    "surface_nearer": surface_nearer,
 }

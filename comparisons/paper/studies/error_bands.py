@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -12,15 +13,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from comparisons.models.semi_rigid import jump_in_coefficient
-from comparisons.output.style import COLOURS, LINES, MARKERS, lettered, styled
-from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.output.style import COLOURS, LINES, MARKERS, lettered
+from comparisons.paper.drawing import LABELS, level
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
 from comparisons.paper.studies.error_grid import CANDIDATES, all_cases, errors, tasks
 
 __all__ = ["ERROR_BANDS", "bands", "coefficients", "rates"]
 
 #: Limits of the relative error.
 LIMITS = (0.01, 0.02, 0.05)
+
+_KEY = ["quantity", "model", "n", "k"]
 
 #: Beyond the maps, for the rates: (n, k, mu).
 _SOFT = [(2.0, k, mu) for k in (0.0, 0.4) for mu in (10.0, 20.0)]
@@ -37,7 +40,7 @@ def _round(value: float) -> float:
     return float(f"{value:.2g}")
 
 
-def _crossing(a: tuple[float, float], b: tuple[float, float], limit: float) -> float:
+def _crossing(a: list[float], b: list[float], limit: float) -> float:
     """Tabor number where |kappa| passes the limit between two points (mu, kappa), linear in log mu and kappa."""
     (mu_a, low), (mu_b, high) = a, b
     target = math.copysign(limit, high if abs(high) > limit else low)
@@ -68,35 +71,34 @@ def bands(table: pd.DataFrame) -> pd.DataFrame:
     [[0.1, 0.32], [3.4, 10.0]]
     """
     rows = []
-    for key, part in table.groupby(["quantity", "model", "n", "k"], sort=False):
-        known = part[part["kappa"].notna()].sort_values("mu")
-        points = [(mu, kappa) for mu, kappa in known[["mu", "kappa"]].to_numpy(float).tolist()]
-        if not points:
-            continue
-        worst = max(points, key=lambda point: abs(point[1]))
+    for key, points in _series(table, "mu", "kappa"):
+        at_mu, largest = max(points, key=lambda point: abs(point[1]))
         for limit in LIMITS:
-            row = dict(zip(("quantity", "model", "n", "k", "limit"), (*key, limit), strict=True))
-            row |= {"largest_kappa": worst[1], "at_mu": worst[0]}
+            row = key | {"limit": limit, "largest_kappa": largest, "at_mu": at_mu}
             rows += [row | span for span in _spans(points, limit) or [{}]]
     columns = ["mu_from", "mu_to", "from_below", "from_above", "to_below", "to_above"]
-    return pd.DataFrame(rows).reindex(
-        columns=["quantity", "model", "n", "k", "limit", *columns, "largest_kappa", "at_mu"]
-    )
+    return pd.DataFrame(rows).reindex(columns=[*_KEY, "limit", *columns, "largest_kappa", "at_mu"])
 
 
-def _spans(points: list[tuple[float, float]], limit: float) -> list[dict[str, float]]:
+def _series(table: pd.DataFrame, *columns: str) -> Iterator[tuple[dict[str, Any], list[list[float]]]]:
+    """Points with an error of one quantity of one model at one n and k, by rising Tabor numbers."""
+    for key, part in table.groupby(_KEY, sort=False):
+        known = part[part["kappa"].notna()].sort_values("mu")
+        if len(known):
+            yield dict(zip(_KEY, key, strict=True)), known[list(columns)].to_numpy(float).tolist()
+
+
+def _spans(points: list[list[float]], limit: float) -> list[dict[str, float]]:
     """Ranges of mu within the limit; a sign change between two points beyond the limit is not a range."""
     spans: list[dict[str, float]] = []
-    first = points[0]
-    start = {"mu_from": first[0], "from_below": first[0], "from_above": first[0]} if abs(first[1]) <= limit else None
+    first, last = points[0][0], points[-1][0]
+    start = {"mu_from": first, "from_below": first, "from_above": first}
     for a, b in pairwise(points):
         if abs(a[1]) > limit >= abs(b[1]):
             start = {"mu_from": _round(_crossing(a, b, limit)), "from_below": a[0], "from_above": b[0]}
-        elif abs(a[1]) <= limit < abs(b[1]) and start is not None:
+        elif abs(a[1]) <= limit < abs(b[1]):
             spans.append(start | {"mu_to": _round(_crossing(a, b, limit)), "to_below": a[0], "to_above": b[0]})
-            start = None
-    if start is not None:
-        last = points[-1][0]
+    if abs(points[-1][1]) <= limit:
         spans.append(start | {"mu_to": last, "to_below": last, "to_above": last})
     return spans
 
@@ -124,14 +126,11 @@ def rates(table: pd.DataFrame) -> pd.DataFrame:
     mu^(-2/(1-k)), is no larger a correction; it is the only one of the Maugis-Dugdale models.
     """
     rows = []
-    for key, part in table.groupby(["quantity", "model", "n", "k"], sort=False):
-        known = part[part["kappa"].notna() & (part["mu"] >= 1.0)].sort_values("mu")
-        points = known[["mu", "kappa", "u_kappa"]].to_numpy(float).tolist()
+    for key, points in _series(table[table["mu"] >= 1.0], "mu", "kappa", "u_kappa"):
         for (mu_a, kappa_a, _), (mu_b, kappa_b, u_kappa) in list(pairwise(points))[-2:]:
             same = kappa_a * kappa_b > 0.0
             rate = -math.log(kappa_b / kappa_a) / math.log(mu_b / mu_a) if same else math.nan
-            row = dict(zip(("quantity", "model", "n", "k"), key, strict=True))
-            rows.append(row | {"mu_from": mu_a, "mu_to": mu_b, "kappa": kappa_b, "u_kappa": u_kappa, "rate": rate})
+            rows.append(key | {"mu_from": mu_a, "mu_to": mu_b, "kappa": kappa_b, "u_kappa": u_kappa, "rate": rate})
     return pd.DataFrame(rows)
 
 
@@ -155,25 +154,21 @@ def coefficients(table: pd.DataFrame) -> pd.DataFrame:
     equation for all mu.  The power of Eq. 47 is therefore exact, and the excess of its coefficient does not vanish as
     mu grows: at the fold the deformation is a fixed share of the gap.
     """
-    rows = []
-    found = table[(table["model"] == "semi-rigid") & table["fscm"].notna()]
-    for n, k in found[["n", "k"]].drop_duplicates().to_numpy(float).tolist():
-        part = found[(found["n"] == n) & (found["k"] == k)]
-        exponent = (2.0 * n + k - 1.0) / (4.0 * n + k - 1.0)
-        semi_rigid = jump_in_coefficient(n, k)
-        for mu, fscm, u_fscm in part.sort_values("mu")[["mu", "fscm", "u_fscm"]].to_numpy(float)[-2:].tolist():
-            exact = (1.0 - fscm) / mu**exponent
-            row = {"n": n, "k": k, "mu": mu, "semi_rigid": semi_rigid, "fscm": exact, "u_fscm": u_fscm / mu**exponent}
-            rows.append(row | {"excess": semi_rigid / exact - 1.0})
-    return pd.DataFrame(rows)
+    known = table[(table["model"] == "semi-rigid") & table["fscm"].notna()]
+    last = known.sort_values("mu", kind="stable").groupby(["n", "k"], sort=False).tail(2)
+    order = known[["n", "k"]].drop_duplicates()
+    rows = order.merge(last[["n", "k", "mu", "fscm", "u_fscm"]], on=["n", "k"])
+    unit = rows["mu"] ** ((2.0 * rows["n"] + rows["k"] - 1.0) / (4.0 * rows["n"] + rows["k"] - 1.0))
+    semi_rigid = [jump_in_coefficient(n, k) for n, k in rows[["n", "k"]].to_numpy()]
+    exact, u_exact = (1.0 - rows["fscm"]) / unit, rows["u_fscm"] / unit
+    found = rows[["n", "k", "mu"]].assign(semi_rigid=semi_rigid, fscm=exact, u_fscm=u_exact)
+    return found.assign(excess=semi_rigid / exact - 1.0)
 
 
-def _tasks() -> Sequence[CachedCall]:
-    return tasks(all_cases() + _SOFT)
-
-
-def _tables(results: Results) -> Tables:
-    jumps = errors(results, all_cases() + _SOFT, [name for name in CANDIDATES if name != "pull_off_force"])
+def _plan() -> Plan[Tables]:
+    beyond = all_cases() + _SOFT
+    results = yield tasks(beyond)
+    jumps = errors(results, beyond, [name for name in CANDIDATES if name != "pull_off_force"])
     return {
         "": bands(errors(results, all_cases(), CANDIDATES)),
         "rates": rates(jumps),
@@ -182,19 +177,15 @@ def _tables(results: Results) -> Tables:
     }
 
 
-def _draw(tables: Tables) -> Figure:
+def _picture(figure: Figure, tables: Tables) -> None:
     table = tables["jumps"]
-    with styled():
-        figure = Figure(figsize=(7.2, 3.8), layout="constrained")
-        left, right = figure.subplots(1, 2)
-        _curves(left, table[table["model"] == "semi-rigid"], "a", "jump-in, semi-rigid")
-        jkr = table[(table["model"] == "jkr") & (table["quantity"] == "jump_out_displacement")]
-        _curves(right, jkr, "b", "jump-out, JKR")
-        guide = np.array([5.0, 20.0])
-        right.plot(guide, 0.05 * (guide / 20.0) ** -2.0, color="0.4", lw=2.5, alpha=0.5, label=r"$\mu^{-2}$")
-        handles, labels = right.get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncol=5)
-    return figure
+    left, right = figure.subplots(1, 2)
+    _curves(left, table[table["model"] == "semi-rigid"], "a", "jump-in, semi-rigid")
+    jkr = table[(table["model"] == "jkr") & (table["quantity"] == "jump_out_displacement")]
+    _curves(right, jkr, "b", "jump-out, JKR")
+    guide = np.array([5.0, 20.0])
+    right.plot(guide, 0.05 * (guide / 20.0) ** -2.0, color="0.4", lw=2.5, alpha=0.5, label=r"$\mu^{-2}$")
+    figure.legend(*right.get_legend_handles_labels(), loc="outside lower center", ncol=5)
 
 
 def _curves(axes: Axes, table: pd.DataFrame, letter: str, title: str) -> None:
@@ -204,10 +195,10 @@ def _curves(axes: Axes, table: pd.DataFrame, letter: str, title: str) -> None:
             style = {"color": COLOURS[index], "ls": line, "marker": MARKERS[index], "ms": 3.5, "lw": 1.0}
             axes.plot(part["mu"], 100.0 * part["kappa"], label=f"$n$ = {n:g}, $k$ = {k:g}", **style)
     lettered(axes, letter, title)
-    axes.set(xscale="log", xlabel=r"Tabor number $\mu$")
+    axes.set(xscale="log", xlabel=LABELS["mu"])
     axes.set_yscale("symlog", linthresh=_LINEAR, linscale=0.5)
     axes.set_ylabel(r"relative error of the displacement $\kappa$ (%)")
-    axes.axhline(0.0, color="0.4", lw=0.8)
+    level(axes)
     axes.set_xticks([1, 2, 5, 10, 20], labels=["1", "2", "5", "10", "20"])
     # A third beyond the smallest and the largest error, whatever their signs.
     low, high = (100.0 * values for values in (table["kappa"].min(), table["kappa"].max()))
@@ -226,7 +217,7 @@ ERROR_BANDS = PaperFigure(
     name="error-bands",
     stem="error_bands",
     title="Where each closed form is good to 1, 2 and 5 %, and how fast the jumps approach their asymptotes",
-    tasks=_tasks,
-    tables=_tables,
-    draw=_draw,
+    plan=_plan,
+    picture=_picture,
+    size=(7.2, 3.8),
 )

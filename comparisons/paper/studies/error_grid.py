@@ -6,8 +6,7 @@ beyond -z0, so no divisor is small, and an experiment measures this displacement
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any
 
 import pandas as pd
@@ -16,19 +15,7 @@ from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.tasks import quantity
 
-__all__ = [
-    "CANDIDATES",
-    "GRADIENTS",
-    "GRADIENT_SLICES",
-    "ONSET_EXCESS",
-    "SHAPES",
-    "SHAPE_SLICES",
-    "TABOR",
-    "error",
-    "errors",
-    "errors_at",
-    "tasks",
-]
+__all__ = ["CANDIDATES", "ONSET_EXCESS", "all_cases", "compared", "errors", "errors_at", "tasks", "with_kappa"]
 
 #: Closed forms, by quantity.  DMT has Bradley's pull-off force by the choice of its cohesive stress (Eq. 74).
 CANDIDATES = {
@@ -56,19 +43,11 @@ ONSET_EXCESS = 1e-3
 Case = tuple[float, float, float]
 
 
-def shape_cases() -> list[Case]:
-    """Return (n, k, mu) of the maps over the shape index."""
-    return [(n, k, mu) for k in SHAPE_SLICES for n in SHAPES for mu in TABOR]
-
-
-def gradient_cases() -> list[Case]:
-    """Return (n, k, mu) of the maps over the gradient exponent."""
-    return [(n, k, mu) for n in GRADIENT_SLICES for k in GRADIENTS for mu in TABOR]
-
-
 def all_cases() -> list[Case]:
-    """Return every (n, k, mu), each once."""
-    return list(dict.fromkeys(shape_cases() + gradient_cases()))
+    """Return (n, k, mu) of the maps over the shape index and over the gradient exponent, each once."""
+    over_shapes = [(n, k, mu) for k in SHAPE_SLICES for n in SHAPES for mu in TABOR]
+    over_gradients = [(n, k, mu) for n in GRADIENT_SLICES for k in GRADIENTS for mu in TABOR]
+    return list(dict.fromkeys(over_shapes + over_gradients))
 
 
 def errors_at(n: float, k: float, mu: float) -> dict[str, dict[str, Any]]:
@@ -86,7 +65,7 @@ def errors_at(n: float, k: float, mu: float) -> dict[str, dict[str, Any]]:
     }
 
 
-def tasks(cases: Iterable[Case]) -> Sequence[CachedCall]:
+def tasks(cases: Iterable[Case]) -> list[CachedCall]:
     """Return the tasks of these cases; soft, sharp and steep ones take longest."""
     return [CachedCall.of(errors_at, *case) for case in sorted(cases, key=lambda case: (-case[2], case[0], -case[1]))]
 
@@ -101,24 +80,25 @@ def errors(results: Results, cases: Iterable[Case], quantities: Iterable[str]) -
         ``u_kappa`` (its numerical uncertainty), NaN where one of the two has no value; ``reason`` then has the reason.
     """
     rows = []
-    for case in cases:
-        found = results[CachedCall.of(errors_at, *case)]
+    for n, k, mu in cases:
+        found = results[CachedCall.of(errors_at, n, k, mu)]
         for name in quantities:
             for model in CANDIDATES[name]:
-                key = {"n": case[0], "k": case[1], "mu": case[2], "quantity": name, "model": model}
-                rows.append(key | error(found[name]["fscm"], found[name][model]))
-    return pd.DataFrame(rows)
+                key = {"n": n, "k": k, "mu": mu, "quantity": name, "model": model}
+                rows.append(key | compared(found[name]["fscm"], found[name][model]))
+    return with_kappa(rows)
 
 
-def error(fscm: dict[str, Any], candidate: dict[str, Any]) -> dict[str, Any]:
-    """Return the columns of `errors` that follow from the results of the FSCM and a closed form."""
-    missing = math.nan
-    row: dict[str, Any] = {
-        "value": candidate["value"] if candidate["value"] is not None else missing,
-        "u_num": candidate["u_num"] if candidate["u_num"] is not None else missing,
-        "fscm": fscm["value"] if fscm["value"] is not None else missing,
-        "u_fscm": fscm["u_num"] if fscm["u_num"] is not None else missing,
-    }
-    kappa = relative_difference(row["value"], row["fscm"])
-    u_kappa = relative_uncertainty(row["value"], row["u_num"], row["fscm"], row["u_fscm"])
-    return row | {"kappa": kappa, "u_kappa": u_kappa, "reason": fscm["reason"] or candidate["reason"]}
+def compared(fscm: dict[str, Any], candidate: dict[str, Any]) -> dict[str, Any]:
+    """Return the results of a closed form and of the FSCM as columns, and the reason why one of them is missing."""
+    numbers = {"value": candidate["value"], "u_num": candidate["u_num"], "fscm": fscm["value"], "u_fscm": fscm["u_num"]}
+    return numbers | {"reason": fscm["reason"] or candidate["reason"]}
+
+
+def with_kappa(rows: list[dict[str, Any]]) -> pd.DataFrame:
+    """Return rows with the columns of `compared` as a table with kappa and its uncertainty."""
+    table = pd.DataFrame(rows).astype(dict.fromkeys(("value", "u_num", "fscm", "u_fscm"), float))
+    reason = table.pop("reason")
+    kappa = relative_difference(table["value"], table["fscm"])
+    u_kappa = relative_uncertainty(table["value"], table["u_num"], table["fscm"], table["u_fscm"])
+    return table.assign(kappa=kappa, u_kappa=u_kappa, reason=reason)

@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.studies.error_grid import GRADIENT_SLICES, ONSET_EXCESS, SHAPE_SLICES, error
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.paper_figure import Plan, results_by
+from comparisons.paper.studies.error_grid import GRADIENT_SLICES, ONSET_EXCESS, SHAPE_SLICES, compared, with_kappa
 from comparisons.paper.tasks import quantity
 from fscm.interpolation.atlas import atlas
 
-__all__ = ["MAPPED", "TABOR_RANGE", "along_gradients", "along_shapes", "calls", "line_errors", "table_of"]
+__all__ = ["MAPPED", "TABOR_RANGE", "along_gradients", "along_shapes", "errors_along", "line_errors"]
 
 #: Quantities of the maps, and the closed forms.  DMT has Bradley's pull-off force by its cohesive stress (Eq. 74).
 MAPPED = {
@@ -73,13 +74,8 @@ def line_errors(n: float, k: float) -> dict[str, Any]:
     return {"critical": critical.value, "u_critical": critical.bound, "points": points}
 
 
-def calls(lines: Iterable[Line]) -> Sequence[CachedCall]:
-    """Return one call a line."""
-    return [CachedCall.of(line_errors, *line) for line in dict.fromkeys(lines)]
-
-
-def table_of(results: Results, lines: Iterable[Line], names: Iterable[str]) -> pd.DataFrame:
-    """Return one row a point, quantity and closed form.
+def errors_along(lines: Iterable[Line], names: Sequence[str]) -> Plan[pd.DataFrame]:
+    """Plan a table of one row a point, quantity and closed form.
 
     Returns
     -------
@@ -87,15 +83,15 @@ def table_of(results: Results, lines: Iterable[Line], names: Iterable[str]) -> p
         ``n``, ``k``, ``point`` (its number on the line), ``mu``, ``quantity``, ``model``, ``fscm``, ``u_fscm`` (from
         the atlas), ``kappa`` and ``u_kappa``; for jumps also ``critical`` and ``u_critical``.
     """
+    found = yield from results_by({line: CachedCall.of(line_errors, *line) for line in lines})
     rows = []
-    for call in calls(lines):
-        found = results[call]
+    for (n, k), of_line in found.items():
         for name in names:
-            more = {} if name == "pull_off_force" else {of: found[of] for of in ("critical", "u_critical")}
-            for number, point in enumerate(found["points"][name]):
-                key = dict(zip("nk", call.arguments, strict=True)) | {"point": number, "mu": point["mu"]}
+            more = {} if name == "pull_off_force" else {of: of_line[of] for of in ("critical", "u_critical")}
+            for number, point in enumerate(of_line["points"][name]):
+                key = {"n": n, "k": k, "point": number, "mu": point["mu"], "quantity": name}
                 for model in MAPPED[name]:
-                    compared = error(point["fscm"], point[model])
-                    kept = {column: compared[column] for column in ("fscm", "u_fscm", "kappa", "u_kappa")}
-                    rows.append(key | {"quantity": name, "model": model} | kept | more)
-    return pd.DataFrame(rows)
+                    rows.append(key | {"model": model} | compared(point["fscm"], point[model]) | more)
+    table = with_kappa(rows).drop(columns=["value", "u_num", "reason"])
+    last = [name for name in table if name in ("critical", "u_critical")]
+    return table[[*table.columns.drop(last), *last]]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
 
 import numpy as np
@@ -14,11 +14,11 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from comparisons.output.figures.contour_labels import label_lines
-from comparisons.output.style import lettered, styled
-from comparisons.paper.cache import Results
-from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.output.style import lettered
+from comparisons.paper.drawing import LABELS
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
 from comparisons.paper.studies.error_grid import GRADIENT_SLICES, SHAPE_SLICES
-from comparisons.paper.studies.error_lines import TABOR_RANGE, along_gradients, along_shapes, calls, table_of
+from comparisons.paper.studies.error_lines import TABOR_RANGE, Line, along_gradients, along_shapes, errors_along
 
 __all__ = ["ERROR_MAPS_GRADIENT", "ERROR_MAPS_JUMPS", "ERROR_MAPS_SHAPE"]
 
@@ -44,20 +44,9 @@ _PULL_OFF = ("md-improved", "md-original", "jkr", "bradley")
 _JUMPS = (("jump_in_displacement", "semi-rigid", "jump-in"), ("jump_out_displacement", "jkr", "jump-out"))
 
 
-def _jump_lines() -> list[tuple[float, float]]:
-    return list(dict.fromkeys(along_shapes() + along_gradients()))
-
-
-def _shape_tables(results: Results) -> Tables:
-    return {"": table_of(results, along_shapes(), ("pull_off_force",))}
-
-
-def _gradient_tables(results: Results) -> Tables:
-    return {"": table_of(results, along_gradients(), ("pull_off_force",))}
-
-
-def _jump_tables(results: Results) -> Tables:
-    return {"": table_of(results, _jump_lines(), [name for name, _, _ in _JUMPS])}
+def _plan(lines: Iterable[Line], names: Sequence[str]) -> Plan[Tables]:
+    table = yield from errors_along(lines, names)
+    return {"": table}
 
 
 def lattice(table: pd.DataFrame, across: str) -> tuple[Array, Array, Array]:
@@ -114,68 +103,60 @@ def _finish(figure: Figure, name: str, more: str = "") -> None:
         label_lines(axes)
 
 
-def _draw_pull_off(tables: Tables, across: str, held: str, slices: Sequence[float]) -> Figure:
+def _draw_pull_off(figure: Figure, tables: Tables, across: str, held: str, slices: Sequence[float]) -> None:
     table = tables[""]
-    label = {"n": r"shape index $n$", "k": r"gradient exponent $k$"}[across]
-    with styled():
-        figure = Figure(figsize=(7.2, 10.4), layout="constrained")
-        grid = figure.subplots(len(_PULL_OFF), 2, sharex=True, sharey=True)
-        letters = iter("abcdefgh")
-        for row, model in zip(grid, _PULL_OFF, strict=True):
-            for axes, value in zip(row, slices, strict=True):
-                _map(axes, table[(table["model"] == model) & (table[held] == value)], across)
-                lettered(axes, next(letters), rf"{_NAMES[model]}, ${held}$ = {value:g}")
-        for axes in grid[:, 0]:
-            axes.set_ylabel(r"Tabor number $\mu$")
-        for axes in grid[-1]:
-            axes.set_xlabel(label)
-        _finish(figure, "pull-off force")
-    return figure
+    grid = figure.subplots(len(_PULL_OFF), 2, sharex=True, sharey=True)
+    letters = iter("abcdefgh")
+    for row, model in zip(grid, _PULL_OFF, strict=True):
+        for axes, value in zip(row, slices, strict=True):
+            _map(axes, table[(table["model"] == model) & (table[held] == value)], across)
+            lettered(axes, next(letters), rf"{_NAMES[model]}, ${held}$ = {value:g}")
+        row[0].set_ylabel(LABELS["mu"])
+    for axes in grid[-1]:
+        axes.set_xlabel(LABELS[across])
+    _finish(figure, "pull-off force")
 
 
-def _draw_jumps(tables: Tables) -> Figure:
+def _draw_jumps(figure: Figure, tables: Tables) -> None:
     table = tables[""]
     columns = [("n", "k", value) for value in SHAPE_SLICES] + [("k", "n", value) for value in GRADIENT_SLICES]
-    with styled():
-        figure = Figure(figsize=(7.2, 10.4), layout="constrained")
-        grid = figure.subplots(len(columns), 2, sharey=True)
-        letters = iter("abcdefgh")
-        for row, (across, held, value) in zip(grid, columns, strict=True):
-            for axes, (_, model, event) in zip(row, _JUMPS, strict=True):
-                part = table[(table["model"] == model) & (table[held] == value)]
-                lines = along_shapes() if across == "n" else along_gradients()
-                _map(axes, part[pd.MultiIndex.from_frame(part[["n", "k"]]).isin(lines)], across)
-                lettered(axes, next(letters), rf"{_NAMES[model]} {event}, ${held}$ = {value:g}")
-                axes.set_xlabel({"n": r"shape index $n$", "k": r"gradient exponent $k$"}[across])
-                axes.set_ylim(0.5, 5.0)
-                axes.set_yticks([0.5, 1, 2, 5], labels=["0.5", "1", "2", "5"])
-                axes.minorticks_off()
-            row[0].set_ylabel(r"Tabor number $\mu$")
-        _finish(figure, "displacement", "\nhatched: no jump, below the critical Tabor number $\\mu_c$ (dotted)")
-    return figure
+    grid = figure.subplots(len(columns), 2, sharey=True)
+    letters = iter("abcdefgh")
+    for row, (across, held, value) in zip(grid, columns, strict=True):
+        lines = along_shapes() if across == "n" else along_gradients()
+        of_row = table[(table[held] == value) & pd.MultiIndex.from_frame(table[["n", "k"]]).isin(lines)]
+        for axes, (_, model, event) in zip(row, _JUMPS, strict=True):
+            _map(axes, of_row[of_row["model"] == model], across)
+            lettered(axes, next(letters), rf"{_NAMES[model]} {event}, ${held}$ = {value:g}")
+            axes.set_xlabel(LABELS[across])
+            axes.set_ylim(0.5, 5.0)
+            axes.set_yticks([0.5, 1, 2, 5], labels=["0.5", "1", "2", "5"])
+            axes.minorticks_off()
+        row[0].set_ylabel(LABELS["mu"])
+    _finish(figure, "displacement", "\nhatched: no jump, below the critical Tabor number $\\mu_c$ (dotted)")
 
 
 ERROR_MAPS_SHAPE = PaperFigure(
     name="error-maps-shape",
     stem="error_maps_shape",
     title="Error of the pull-off force of the closed forms over shape index and Tabor number",
-    tasks=lambda: calls(along_shapes()),
-    tables=_shape_tables,
-    draw=partial(_draw_pull_off, across="n", held="k", slices=SHAPE_SLICES),
+    plan=lambda: _plan(along_shapes(), ["pull_off_force"]),
+    picture=partial(_draw_pull_off, across="n", held="k", slices=SHAPE_SLICES),
+    size=(7.2, 10.4),
 )
 ERROR_MAPS_GRADIENT = PaperFigure(
     name="error-maps-gradient",
     stem="error_maps_gradient",
     title="Error of the pull-off force of the closed forms over gradient exponent and Tabor number",
-    tasks=lambda: calls(along_gradients()),
-    tables=_gradient_tables,
-    draw=partial(_draw_pull_off, across="k", held="n", slices=GRADIENT_SLICES),
+    plan=lambda: _plan(along_gradients(), ["pull_off_force"]),
+    picture=partial(_draw_pull_off, across="k", held="n", slices=GRADIENT_SLICES),
+    size=(7.2, 10.4),
 )
 ERROR_MAPS_JUMPS = PaperFigure(
     name="error-maps-jumps",
     stem="error_maps_jumps",
     title="Errors of the semi-rigid jump-in and of JKR's jump-out; none where there is no jump",
-    tasks=lambda: calls(_jump_lines()),
-    tables=_jump_tables,
-    draw=_draw_jumps,
+    plan=lambda: _plan(along_shapes() + along_gradients(), [name for name, _, _ in _JUMPS]),
+    picture=_draw_jumps,
+    size=(7.2, 10.4),
 )

@@ -8,26 +8,19 @@ surface, the solid that it is at great depth, and its equivalent power law at th
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import fem_reference
 import fscm
-from comparisons.model import ComputationFailed
+from comparisons.models.solver import translated
 from comparisons.problem_file.description import Section
 from comparisons.problem_file.kinds import kind_of
 from fscm import LennardJones, NoSuchEvent, NotConverged, PowerLaw, PowerPunch, Problem, solve_together
 
-__all__ = [
-    "EVENTS",
-    "QUANTITIES",
-    "GradedCase",
-    "by_elements",
-    "by_fscm",
-    "case_of",
-    "of_power_law",
-]
+__all__ = ["EVENTS", "QUANTITIES", "GradedCase", "by_elements", "by_fscm", "case_of", "number_of", "of_power_law"]
 
 Json = dict[str, Any]
 
@@ -86,7 +79,7 @@ def _scaled(k: float, mu: float) -> tuple[PowerLaw, Mapping[str, float]]:
     return physical.solid, physical.units  # type: ignore[return-value]
 
 
-def case_of(kind: str, parameter: float) -> GradedCase:
+def case_of(kind: str, parameter: float, k: float = OFFSET[0], mu: float = OFFSET[1]) -> GradedCase:
     """Return a solid of the study.
 
     Parameters
@@ -94,6 +87,8 @@ def case_of(kind: str, parameter: float) -> GradedCase:
     kind : {"offset power law", "exponential", "coating"}
     parameter : float
         z_s, length of the decay or thickness of a sharp coating, in L.
+    k, mu : float
+        Exponent and Tabor number of the limit z_s = 0 of an offset power law.
 
     Examples
     --------
@@ -101,14 +96,13 @@ def case_of(kind: str, parameter: float) -> GradedCase:
     0.793701
     """
     if kind == "offset power law":
-        k, mu = OFFSET
         graded, units = _scaled(k, mu)
         z_s = parameter * units["radius"]
         E = graded.E0 * (z_s / graded.c0) ** k
         mu_surface = Problem(PowerLaw(E, SCALES["c0"], 0.0, NU), _PUNCH, _LAW).mu
         offset = (graded.E0, graded.c0, k, z_s)
         section = Section("offset-power-law", dict(zip(("E0", "c0", "k", "z_s", "nu"), (*offset, NU), strict=True)))
-        return GradedCase(mu_surface, OFFSET, section)
+        return GradedCase(mu_surface, (k, mu), section)
     mu, ratio = EXPONENTIAL if kind == "exponential" else COATING
     surface, units = _scaled(0.0, mu)
     E, length = surface.E0, parameter * units["radius"]
@@ -120,12 +114,12 @@ def case_of(kind: str, parameter: float) -> GradedCase:
     return GradedCase(mu, depth, Section("coating", coating))
 
 
-def by_fscm(kind: str, parameter: float) -> Json:
+def by_fscm(kind: str, parameter: float, k: float = OFFSET[0], mu: float = OFFSET[1]) -> Json:
     """Return all quantities of a solid by the FSCM.
 
     Parameters
     ----------
-    kind, parameter
+    kind, parameter, k, mu
         As for `case_of`.
 
     Returns
@@ -144,7 +138,7 @@ def by_fscm(kind: str, parameter: float) -> Json:
     >>> round(value, 6), u_num < 1e-7
     (1.42152, True)
     """
-    section = case_of(kind, parameter).section
+    section = case_of(kind, parameter, k, mu).section
     problem = Problem(kind_of("solid", section.kind).build(fscm, section), _PUNCH, _LAW)
     return _solved(problem.dimensionless)
 
@@ -161,24 +155,22 @@ def of_power_law(k: float, mu: float) -> Json:
 
 
 def _solved(problem: Problem) -> Json:
-    try:
+    with translated(NoSuchEvent, NotConverged):
         found = solve_together(problem, QUANTITIES)
-    except NotConverged as failure:
-        raise ComputationFailed(str(failure)) from failure
     return {
         name: str(event) if isinstance(event, NoSuchEvent) else [event.value, event.u_num]
         for name, event in found.items()
     }
 
 
-def by_elements(event: str, kind: str, parameter: float) -> Json:
+def by_elements(event: str, kind: str, parameter: float, k: float = OFFSET[0], mu: float = OFFSET[1]) -> Json:
     """Return the quantities of an event by the finite elements, as `by_fscm`.
 
     Parameters
     ----------
     event : {"pull-off", "jump-out", "landing"}
         Which family of meshes, see `EVENTS`.
-    kind, parameter
+    kind, parameter, k, mu
         As for `case_of`.
 
     Raises
@@ -191,21 +183,34 @@ def by_elements(event: str, kind: str, parameter: float) -> Json:
     >>> by_elements("jump-out", "offset power law", 100.0)["jump_out_displacement"]
     'the displacement rises all along the path: this solid is too stiff for jumps'
     """
-    case, scales = case_of(kind, parameter), _scaled(0.0, 1.0)[1]
+    case, scales = case_of(kind, parameter, k, mu), _scaled(0.0, 1.0)[1]
     problem = fem_reference.Problem(
         kind_of("solid", case.section.kind).build(fem_reference, case.section),
         fem_reference.PowerPunch(n=_N, Q=SCALES["Q"]),
         fem_reference.LennardJones(work_of_adhesion=SCALES["work_of_adhesion"], z0=SCALES["z0"]),
     )
-    try:
+    with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
         found = fem_reference.solve_together(problem, EVENTS[event], "quick")
-    except fem_reference.NotConverged as failure:
-        raise ComputationFailed(str(failure)) from failure
-    results: Json = {}
-    for name, solution in found.items():
-        unit = scales[_UNITS.get(name, "displacement")]
-        if isinstance(solution, fem_reference.NoSuchEvent):
-            results[name] = str(solution)
-        else:
-            results[name] = [solution.value / unit, solution.u_num / unit]
-    return results
+    return {
+        name: str(solution)
+        if isinstance(solution, fem_reference.NoSuchEvent)
+        else [part / scales[_UNITS.get(name, "displacement")] for part in (solution.value, solution.u_num)]
+        for name, solution in found.items()
+    }
+
+
+def number_of(found: Json, name: str) -> tuple[float, float]:
+    """Return value and bound of a quantity, NaN without the event; the elements have the energy in two parts.
+
+    Examples
+    --------
+    >>> number_of({"jump_in_energy": [1.0, 0.1], "jump_out_energy": [2.0, 0.1]}, "hysteresis_energy")
+    (3.0, 0.2)
+    >>> number_of({"jump_in_displacement": "no jump"}, "jump_in_displacement")
+    (nan, nan)
+    """
+    pieces = ("jump_in_energy", "jump_out_energy") if name == "hysteresis_energy" and name not in found else (name,)
+    known = [found.get(piece, "") for piece in pieces]
+    if any(isinstance(piece, str) for piece in known):
+        return math.nan, math.nan
+    return sum(float(piece[0]) for piece in known), sum(float(piece[1]) for piece in known)

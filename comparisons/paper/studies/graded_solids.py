@@ -11,14 +11,17 @@ Beside each value stand those of three simpler solids (see `graded_routes`) and 
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from comparisons.numerics.kappa import relative_difference
-from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.output.style import COLOURS, lettered
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
 from comparisons.paper.studies.graded_equivalent import of_equivalent
 from comparisons.paper.studies.graded_routes import (
     EVENTS,
@@ -26,11 +29,11 @@ from comparisons.paper.studies.graded_routes import (
     by_elements,
     by_fscm,
     case_of,
+    number_of,
     of_power_law,
 )
-from comparisons.paper.studies.graded_solids_figure import draw
 
-__all__ = ["GRADED_SOLIDS", "SERIES", "SIMPLER"]
+__all__ = ["GRADED_SOLIDS", "SERIES"]
 
 #: Depths of each kind in L, the finite elements have the pull-off of all; and those at which they have the jumps, too.
 SERIES: dict[str, tuple[tuple[float, ...], tuple[float, ...]]] = {
@@ -38,8 +41,22 @@ SERIES: dict[str, tuple[tuple[float, ...], tuple[float, ...]]] = {
     "exponential": ((0.1, 0.5, 2.0, 10.0), (0.5, 2.0)),
     "coating": ((0.1, 0.3, 1.0, 3.0), (0.3, 1.0)),
 }
-#: Names of the simpler solids in the columns of the table.
-SIMPLER = ("surface", "depth", "power_law")
+_LABELS = {
+    "offset power law": r"offset $z_s\,/\,L$",
+    "exponential": r"length of the decay $/\,L$",
+    "coating": r"thickness $/\,L$",
+}
+_ROWS = (
+    (r"$-P_c\,/\,\pi Q\Delta\gamma$", ("pull_off_force",)),
+    (r"$\delta\,/\,z_0$ at the jumps", ("jump_in_displacement", "jump_out_displacement")),
+    (r"$W\,/\,\pi Q\Delta\gamma z_0$", ("hysteresis_energy",)),
+)
+#: Label, line and colour of each simpler solid, by its column.
+_STYLES = {
+    "surface": ("homogeneous, modulus of the surface", "--", COLOURS[1]),
+    "depth": ("solid of great depth", ":", COLOURS[2]),
+    "power_law": ("equivalent power law", "-.", COLOURS[3]),
+}
 
 
 def _cases() -> Iterator[tuple[str, float, bool]]:
@@ -62,51 +79,69 @@ def _elements(kind: str, parameter: float, jumps: bool) -> list[CachedCall]:
     return [CachedCall.of(by_elements, event, kind, parameter) for event in EVENTS if jumps or event == "pull-off"]
 
 
-def _tasks() -> Sequence[CachedCall]:
+def _plan() -> Plan[Tables]:
     calls: list[CachedCall] = []
     for kind, parameter, jumps in _cases():
         calls += [*_elements(kind, parameter, jumps), CachedCall.of(by_fscm, kind, parameter)]
-    for kind, parameter, _ in _cases():
-        calls += _simpler(kind, parameter).values()
-    return list(dict.fromkeys(calls))
-
-
-def _number(found: dict[str, list[float] | str], name: str) -> tuple[float, float]:
-    """Value and bound, NaN without the event."""
-    pieces = ("jump_in_energy", "jump_out_energy") if name == "hysteresis_energy" and name not in found else (name,)
-    known = [found.get(piece, "") for piece in pieces]
-    if any(isinstance(piece, str) for piece in known):
-        return math.nan, math.nan
-    return sum(float(piece[0]) for piece in known), sum(float(piece[1]) for piece in known)
-
-
-def _tables(results: Results) -> Tables:
+    simpler = {(kind, parameter): _simpler(kind, parameter) for kind, parameter, _ in _cases()}
+    results = yield [*calls, *(call for of_case in simpler.values() for call in of_case.values())]
     rows = []
     for kind, parameter, jumps in _cases():
         reference = results[CachedCall.of(by_fscm, kind, parameter)]
         elements = {k: v for call in _elements(kind, parameter, jumps) for k, v in results[call].items()}
-        simpler = _simpler(kind, parameter)
         for name in QUANTITIES:
             row = {"solid": kind, "parameter": parameter, "quantity": name}
-            value, row_u = _number(reference, name)
-            row |= {"fscm": value, "u_fscm": row_u}
-            row["fem"], row["u_fem"] = _number(elements, name)
-            for other in SIMPLER:
-                solved = results[simpler[other]]
-                k, mu = (solved["k"], solved["mu"]) if other == "power_law" else simpler[other].arguments
-                found, u_num = _number(solved, name)
-                error = relative_difference(found, value)
+            row["fscm"], row["u_fscm"] = number_of(reference, name)
+            row["fem"], row["u_fem"] = number_of(elements, name)
+            for other, call in simpler[kind, parameter].items():
+                solved = results[call]
+                k, mu = (solved["k"], solved["mu"]) if other == "power_law" else call.arguments
+                found, u_num = number_of(solved, name)
+                error = relative_difference(found, row["fscm"])
                 row |= {f"{other}_k": k, f"{other}_mu": mu, other: found, f"u_{other}": u_num, f"{other}_error": error}
-            row["reason"] = reference[name] if isinstance(reference[name], str) else ""
-            rows.append(row)
+            rows.append(row | {"reason": reference[name] if isinstance(reference[name], str) else ""})
     return {"": pd.DataFrame(rows)}
+
+
+def _picture(figure: Figure, tables: Tables) -> None:
+    table = tables[""]
+    panels = figure.subplots(3, 3, sharex="col", sharey="row")
+    letters = iter("abcdefghi")
+    for index, (label, names) in enumerate(_ROWS):
+        for axes, kind in zip(panels[index], _LABELS, strict=True):
+            lettered(axes, next(letters), "" if index else kind)
+            for name in names:
+                part = table[(table["solid"] == kind) & (table["quantity"] == name)]
+                _curves(axes, part, "^" if name == "jump_in_displacement" else "o")
+            axes.set(xscale="log")
+        panels[index][0].set_ylabel(label)
+    for axes, depth in zip(panels[-1], _LABELS.values(), strict=True):
+        axes.set(xlabel=depth, yscale="log")
+    # The softest surfaces jump far below.
+    panels[1][0].set(ylim=(-5.2, -1.0))
+    panels[2][0].set(ylim=(3e-4, 5.0))
+    figure.suptitle(r"sphere, $\nu=0.3$, $L=(Qz_0)^{1/2}$", fontsize=9)
+    handles = [
+        Line2D([], [], color=COLOURS[0], marker="o", ms=4, label="FSCM (jump-in: triangles)"),
+        Line2D([], [], color=COLOURS[5], marker="o", ms=8, mfc="none", ls="none", label="finite elements"),
+        *(Line2D([], [], color=colour, ls=line, label=label) for label, line, colour in _STYLES.values()),
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncol=3)
+
+
+def _curves(axes: Axes, table: pd.DataFrame, marker: str) -> None:
+    depth = table["parameter"]
+    for column, (_, line, colour) in _STYLES.items():
+        axes.plot(depth, table[column], color=colour, ls=line, lw=1.1)
+    axes.plot(depth, table["fscm"], color=COLOURS[0], marker=marker, ms=4, lw=1.1)
+    axes.plot(depth, table["fem"], color=COLOURS[5], marker=marker, ms=8, mfc="none", ls="none")
 
 
 GRADED_SOLIDS = PaperFigure(
     name="graded-solids",
     stem="graded_solids",
     title="Solids that are no power law: pull-off, jumps and hysteresis, and what simpler solids get wrong",
-    tasks=_tasks,
-    tables=_tables,
-    draw=draw,
+    plan=_plan,
+    picture=_picture,
+    size=(7.2, 7.0),
 )

@@ -28,15 +28,15 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from comparisons.model import ComputationFailed
+from comparisons.models.solver import translated
 from comparisons.numerics.bounds import combined
-from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
 from comparisons.paper.studies.coated_jkr import coated_compliance, coated_pull_off
-from fscm import Coating, NotConverged, Problem, solve
+from fscm import Coating, NoSuchEvent, NotConverged, Problem, solve
 from fscm.graded.compliance import compliance
 
-__all__ = ["LAYERED_ADHESION", "coated_force", "extrapolated", "layer_compliance", "soft_limit"]
+__all__ = ["LAYERED_ADHESION", "coated_force", "extrapolated", "layer_compliance"]
 
 NU = 0.3
 
@@ -46,6 +46,7 @@ _TERMS = 5
 
 #: Moduli of the substrate over that of the coating, and thicknesses in (w R^2/E*)^(1/3).
 _COATED = ((4.0, 0.5), (0.25, 0.5), (100.0, 0.3))
+_HOMOGENEOUS = (1.0, 0.5)
 #: Wave number times thickness, ratio of the moduli, Poisson's ratios of coating and substrate.
 _LAYERS = ((0.1, 4.0, 0.3, 0.3), (1.0, 0.25, 0.45, 0.2), (0.5, 100.0, 0.4, 0.1))
 #: A substrate that is rigid to 1e-6, and thicknesses that fall.
@@ -80,10 +81,8 @@ def coated_force(ratio: float, thickness: float, mu: float) -> list[float]:
     1.670665
     """
     solid = Coating(1.0, ratio, thickness * mu**0.5, 0.0, NU)
-    try:
+    with translated(NoSuchEvent, NotConverged):
         found = solve(Problem(2.0, 0.0, mu, graded=solid), "pull_off_force")
-    except NotConverged as failure:
-        raise ComputationFailed(str(failure)) from failure
     return [found.value, found.u_num]
 
 
@@ -99,14 +98,14 @@ def layer_compliance(q: float, ratio: float, nu_coating: float, nu_substrate: fl
     return float(compliance(solid, np.array([q]))[0]) / (2.0 * (1.0 - nu_coating**2))
 
 
-def extrapolated(mu: Sequence[float], forces: Sequence[Number]) -> Number:
+def extrapolated(mu: Sequence[float], forces: Sequence[Sequence[float]]) -> Number:
     """Return the limit of a force at large mu, and its bound.
 
     Parameters
     ----------
     mu : sequence of float
         One more Tabor number than there are terms, rising.
-    forces : sequence of tuple of float
+    forces : sequence of pairs of float
         Value and bound at each.
 
     Examples
@@ -132,26 +131,6 @@ def _terms(mu: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack([np.ones_like(mu), log / mu**2, 1.0 / mu**2, log / mu**3, 1.0 / mu**3], axis=1)
 
 
-def soft_limit(results: Results, ratio: float, thickness: float) -> Number:
-    """Return the limit of large mu of the FSCM, from finished calls of `coated_force`."""
-    forces = [tuple(results[call]) for call in _forces(ratio, thickness)]
-    return extrapolated(TABOR_NUMBERS, forces)
-
-
-def _forces(ratio: float, thickness: float) -> list[CachedCall]:
-    return [CachedCall.of(coated_force, ratio, thickness, mu) for mu in TABOR_NUMBERS]
-
-
-def _derived(ratio: float, thickness: float) -> CachedCall:
-    return CachedCall.of(coated_pull_off, ratio, thickness, NU, NU)
-
-
-def _tasks() -> Sequence[CachedCall]:
-    forces = [call for case in (*_COATED, (1.0, 0.5)) for call in _forces(*case)]
-    derived = [_derived(_RIGID, thickness) for thickness in reversed(_THIN)] + [_derived(*case) for case in _COATED]
-    return derived + forces + [CachedCall.of(layer_compliance, *layer) for layer in _LAYERS]
-
-
 def _row(check: str, origin: str, by: str, case: tuple[float, ...], expected: Number, found: Number) -> dict[str, Any]:
     difference, bound = found[0] - expected[0], combined(expected[1], found[1])
     return {
@@ -168,32 +147,34 @@ def _row(check: str, origin: str, by: str, case: tuple[float, ...], expected: Nu
     }
 
 
-def _thin_limit(results: Results) -> Number:
+def _thin_limit(thicknesses: Sequence[float], found: Sequence[dict[str, float]]) -> Number:
     """The force as the thickness falls: a parabola in thickness over contact radius; its bound is the linear term's."""
-    found = [results[_derived(_RIGID, thickness)] for thickness in _THIN]
-    x = np.array([thickness / one["radius"] for thickness, one in zip(_THIN, found, strict=True)])
+    x = np.array([thickness / one["radius"] for thickness, one in zip(thicknesses, found, strict=True)])
     y = np.array([one["force"] for one in found])
     parabola, line = float(np.polyfit(x, y, 2)[-1]), float(np.polyfit(x[1:], y[1:], 1)[-1])
     return parabola, abs(parabola - line)
 
 
-def _tables(results: Results) -> Tables:
+def _plan() -> Plan[Tables]:
+    thin = [(_RIGID, thickness) for thickness in _THIN]
+    derived = {case: CachedCall.of(coated_pull_off, *case, NU, NU) for case in (*reversed(thin), *_COATED)}
+    forces = {
+        case: [CachedCall.of(coated_force, *case, mu) for mu in TABOR_NUMBERS] for case in (*_COATED, _HOMOGENEOUS)
+    }
+    layers = {layer: CachedCall.of(layer_compliance, *layer) for layer in _LAYERS}
+    results = yield [*derived.values(), *(call for calls in forces.values() for call in calls), *layers.values()]
+    soft = {case: extrapolated(TABOR_NUMBERS, [results[call] for call in calls]) for case, calls in forces.items()}
     rows = []
-    for q, ratio, *nu in _LAYERS:
-        expected = float(coated_compliance(np.array([q]), ratio, *nu)[0])
-        found = results[CachedCall.of(layer_compliance, q, ratio, *nu)]
-        rows.append(
-            _row(
-                "compliance", "published", "fscm", (ratio, q), (expected, _U_COMPLIANCE), (float(found), _U_COMPLIANCE)
-            )
-        )
-    rows.append(_row("JKR", "published", "fscm", (1.0, np.nan), (1.5, 0.0), soft_limit(results, 1.0, 0.5)))
+    for (q, ratio, *nu), call in layers.items():
+        expected, found = float(coated_compliance(np.array([q]), ratio, *nu)[0]), results[call]
+        pair = (expected, _U_COMPLIANCE), (found, _U_COMPLIANCE)
+        rows.append(_row("compliance", "published", "fscm", (ratio, q), *pair))
+    rows.append(_row("JKR", "published", "fscm", (1.0, np.nan), (1.5, 0.0), soft[_HOMOGENEOUS]))
     for case in _COATED:
-        exact = results[_derived(*case)]
-        rows.append(
-            _row("coated JKR", "derived", "fscm", case, (exact["force"], exact["u_num"]), soft_limit(results, *case))
-        )
-    rows.append(_row("thin coating", "published", "coated JKR", (_RIGID, 0.0), (2.0, 0.0), _thin_limit(results)))
+        exact = results[derived[case]]
+        rows.append(_row("coated JKR", "derived", "fscm", case, (exact["force"], exact["u_num"]), soft[case]))
+    limit = _thin_limit(_THIN, [results[derived[case]] for case in thin])
+    rows.append(_row("thin coating", "published", "coated JKR", (_RIGID, 0.0), (2.0, 0.0), limit))
     return {"": pd.DataFrame(rows)}
 
 
@@ -201,7 +182,5 @@ LAYERED_ADHESION = PaperFigure(
     name="layered-adhesion",
     stem="layered_adhesion",
     title="Coated solids against results of the literature, in the limit of large Tabor numbers",
-    tasks=_tasks,
-    tables=_tables,
-    draw=None,
+    plan=_plan,
 )

@@ -16,24 +16,26 @@ surface, and the results do not depend on where.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
-import fem_reference
-from comparisons.model import ComputationFailed
-from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.paper_figure import PaperFigure, Tables
-from comparisons.paper.studies.surface_modulus_figure import draw
-from comparisons.paper.studies.surface_modulus_tables import Sample, limits, samples, thresholds
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from comparisons.numerics.bounds import combined
+from comparisons.output.style import COLOURS, MARKERS, lettered
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
+from comparisons.paper.studies.graded_routes import EVENTS, QUANTITIES, by_elements, by_fscm, case_of, number_of
 from comparisons.paper.tasks import quantity
-from comparisons.quantities import QUANTITIES
-from fscm import NoSuchEvent, NotConverged, OffsetPowerLaw, PowerLaw, solve_together
-from fscm.problem import Problem
 
-__all__ = ["SURFACE_MODULUS", "homogeneous_tabor_number", "with_skin", "with_skin_by_fscm"]
+__all__ = ["SURFACE_MODULUS", "THRESHOLDS", "limits", "thresholds"]
 
-_N, _POISSON = 2.0, 0.3
-
+_KIND = "offset power law"
 #: (k, mu) of the graded limit and the depths z_s / L.  A skin of 1e-4 under a sharp edge (mu = 2) costs a minute.
 _SERIES: dict[tuple[float, float], tuple[float, ...]] = {
     (0.4, 1.0): (1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0, 1000.0),
@@ -42,201 +44,168 @@ _SERIES: dict[tuple[float, float], tuple[float, ...]] = {
 }
 #: The uniform limit is shown from here on; far below, its Tabor number does not describe the solid.
 _THICK = 0.3
+#: Relative changes of a quantity whose depth is tabulated.
+THRESHOLDS = (0.01, 0.05)
+#: Greatest factor in the change over which the law of thin skins is extrapolated.
+STRETCH = 5.0
 
-#: Quantities that share a family of meshes: their contact edge is at one radius, that of the first.
-_EVENTS = {
-    "pull-off": ("pull_off_force", "pull_off_displacement"),
-    "jump-out": ("jump_out_displacement", "jump_in_displacement", "jump_out_energy"),
-    "landing": ("jump_in_energy",),
-}
-#: Quantities of the tables; the hysteresis is the sum of the losses of both jumps.
-_REPORTED = (
-    "pull_off_force",
-    "pull_off_displacement",
-    "jump_in_displacement",
-    "jump_out_displacement",
-    "hysteresis_energy",
+_PANELS = (
+    ("pull-off force", r"$-P_c\,/\,\pi Q\Delta\gamma$", ("pull_off_force",)),
+    ("displacement at pull-off", r"$\delta_c\,/\,z_0$", ("pull_off_displacement",)),
+    ("jump-in (open) and jump-out (filled)", r"$\delta\,/\,z_0$", ("jump_in_displacement", "jump_out_displacement")),
+    ("energy lost in a cycle", r"$W\,/\,\pi Q\Delta\gamma z_0$", ("hysteresis_energy",)),
 )
 
-# No scale is 1, so that a wrong power of one shows.
-_SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25}
 
-
-def _graded(k: float, mu: float) -> tuple[PowerLaw, Problem]:
-    """The graded limit in units, and its solid."""
-    physical = Problem(_N, k, mu).in_units(nu=_POISSON, **_SCALES)
-    return physical.solid, physical  # type: ignore[return-value]
-
-
-def homogeneous_tabor_number(k: float, mu: float, depth: float) -> float:
-    """Tabor number of the uniform solid with the surface modulus E0 (z_s / c0)^k, dimensionless.
-
-    Parameters
-    ----------
-    k, mu : float
-        The graded solid, z_s = 0.
-    depth : float
-        z_s / L, > 0.
-
-    Examples
-    --------
-    >>> thin, thick = (homogeneous_tabor_number(0.4, 1.0, depth) for depth in (1.0, 1000.0))
-    >>> round(thin / thick, 6) == round(1000 ** (2 * 0.4 / 3), 6)
-    True
-    """
-    solid, graded = _graded(k, mu)
-    modulus = solid.E0 * (depth * graded.units["radius"] / solid.c0) ** k
-    return Problem(PowerLaw(modulus, solid.c0, 0.0, _POISSON), graded.punch, graded.law).mu
-
-
-def with_skin(event: str, k: float, mu: float, depth: float) -> dict[str, Any]:
-    """Return the quantities of an event of the solid with a surface modulus, dimensionless, with their uncertainty.
-
-    Parameters
-    ----------
-    event : {"pull-off", "jump-out", "landing"}
-        Which family of meshes; see `_EVENTS`.
-    k, mu, depth : float
-        As for `homogeneous_tabor_number`.
-
-    Returns
-    -------
-    dict
-        ``reason`` (empty, or why there is no such event) and by quantity ``[value, u_num]``, in the units of the
-        graded problem (Eqs. 25 and 31), which do not contain z_s.
-
-    Raises
-    ------
-    ComputationFailed
-        If an iteration misses its tolerance.
-
-    Examples
-    --------
-    >>> with_skin("jump-out", 0.4, 0.1, 100.0)["reason"]
-    'the displacement rises all along the path: this solid is too stiff for jumps'
-    """
-    solid, graded = _graded(k, mu)
-    try:
-        found = fem_reference.solve_together(
-            fem_reference.Problem(
-                fem_reference.OffsetPowerLaw(solid.E0, solid.c0, k, depth * graded.units["radius"], _POISSON),
-                fem_reference.PowerPunch(n=_N, Q=_SCALES["Q"]),
-                fem_reference.LennardJones(work_of_adhesion=_SCALES["work_of_adhesion"], z0=_SCALES["z0"]),
-            ),
-            _EVENTS[event],
-            "quick",
-        )
-    except fem_reference.NotConverged as failure:
-        raise ComputationFailed(str(failure)) from failure
-    by_quantity: dict[str, Any] = {"reason": ""}
-    for name, solution in found.items():
-        if isinstance(solution, fem_reference.NoSuchEvent):
-            return {"reason": str(solution)}
-        unit = graded.units[_kind(name)]
-        by_quantity[name] = [solution.value / unit, solution.u_num / unit]
-    return by_quantity
-
-
-def with_skin_by_fscm(k: float, mu: float, depth: float) -> dict[str, Any]:
-    """Return the quantities of the tables by the FSCM, in the same units as `with_skin`.
-
-    Parameters
-    ----------
-    k, mu, depth : float
-        As for `homogeneous_tabor_number`.
-
-    Returns
-    -------
-    dict
-        By quantity ``[value, u_num]``, or the reason why there is no such event.
-
-    Raises
-    ------
-    ComputationFailed
-        If an iteration misses its tolerance.
-
-    Examples
-    --------
-    >>> round(with_skin_by_fscm(0.4, 1.0, 1000.0)["pull_off_force"][0], 6)
-    1.947256
-    """
-    solid, graded = _graded(k, mu)
-    skin = OffsetPowerLaw(solid.E0, solid.c0, k, depth * graded.units["radius"], _POISSON)
-    problem = Problem(skin, graded.punch, graded.law)
-    try:
-        found = solve_together(problem.dimensionless, _REPORTED)
-    except NotConverged as failure:
-        raise ComputationFailed(str(failure)) from failure
-    return {
-        name: str(event) if isinstance(event, NoSuchEvent) else [event.value, event.u_num]
-        for name, event in found.items()
-    }
-
-
-def _kind(name: str) -> str:
-    return QUANTITIES[name].scale if name in QUANTITIES else "energy"
-
-
-def _reference(name: str, k: float, mu: float) -> CachedCall:
-    return CachedCall.of(quantity, "fscm", name, _N, k, mu)
-
-
-def _uniform(name: str, k: float, mu: float, depth: float) -> CachedCall:
-    return _reference(name, 0.0, homogeneous_tabor_number(k, mu, depth))
-
-
-def _tasks() -> Sequence[CachedCall]:
-    cases = [(k, mu, depth) for (k, mu), depths in _SERIES.items() for depth in depths]
+def _plan() -> Plan[Tables]:
+    cases = [(depth, k, mu) for (k, mu), depths in _SERIES.items() for depth in depths]
     # The sharper the edge and the thinner the skin, the longer it takes.
-    cases.sort(key=lambda case: (-case[1], case[2], -case[0]))
-    elements = [CachedCall.of(with_skin, event, *case) for case in cases for event in _EVENTS]
-    second = [CachedCall.of(with_skin_by_fscm, *case) for case in cases]
-    graded = [_reference(name, k, mu) for k, mu in _SERIES for name in _REPORTED]
-    uniform = [_uniform(name, *case) for case in cases if case[2] >= _THICK for name in _REPORTED]
-    return elements + second + graded + uniform
+    longest_first = sorted(cases, key=lambda case: (-case[2], case[0], -case[1]))
+    elements = {case: [CachedCall.of(by_elements, event, _KIND, *case) for event in EVENTS] for case in longest_first}
+    fscm = {case: CachedCall.of(by_fscm, _KIND, *case) for case in longest_first}
+    mu_homogeneous = {case: case_of(_KIND, *case).mu for case in cases}
+    places = [*_SERIES, *((0.0, mu_homogeneous[case]) for case in cases if case[0] >= _THICK)]
+    power_laws = {
+        (name, *place): CachedCall.of(quantity, "fscm", name, 2.0, *place) for place in places for name in QUANTITIES
+    }
+    results = yield [*(call for calls in elements.values() for call in calls), *fscm.values(), *power_laws.values()]
+
+    def limit(name: str, k: float, mu: float) -> tuple[float, float]:
+        found = results[power_laws[name, k, mu]]
+        return (found["value"], found["u_num"]) if found["status"] == "ok" else (math.nan, math.nan)
+
+    rows = []
+    for k, mu in _SERIES:
+        for name in QUANTITIES:
+            for depth in _SERIES[k, mu]:
+                case = depth, k, mu
+                uniform = mu_homogeneous[case]
+                found: dict[str, Any] = {event: v for call in elements[case] for event, v in results[call].items()}
+                row = {"k": k, "mu": mu, "depth": depth, "mu_homogeneous": uniform, "quantity": name}
+                row["value"], row["u_num"] = number_of(found, name)
+                row["graded_value"], row["graded_u_num"] = limit(name, k, mu)
+                thick = depth >= _THICK
+                row["homogeneous_value"], row["homogeneous_u_num"] = (
+                    limit(name, 0.0, uniform) if thick else (math.nan, math.nan)
+                )
+                row["fscm_value"], row["u_fscm"] = number_of(results[fscm[case]], name)
+                pieces = ("jump_out_energy", "jump_in_energy") if name == "hysteresis_energy" else (name,)
+                row["reason"] = next((found[piece] for piece in pieces if isinstance(found[piece], str)), "")
+                rows.append(row)
+    table = pd.DataFrame(rows)
+    return {"": table, "limits": limits(table), "thresholds": thresholds(table)}
 
 
-def _sample(results: Results, k: float, mu: float, depth: float, name: str) -> Sample:
-    parts = {event: results[CachedCall.of(with_skin, event, k, mu, depth)] for event in _EVENTS}
-    known = {key: value for part in parts.values() for key, value in part.items() if key != "reason"}
-    pieces = ("jump_in_energy", "jump_out_energy") if name == "hysteresis_energy" else (name,)
-    reason = (
-        "" if all(piece in known for piece in pieces) else parts["jump-out"]["reason"] or parts["landing"]["reason"]
-    )
-    fscm = results[CachedCall.of(with_skin_by_fscm, k, mu, depth)][name]
-    return Sample(
-        k=k,
-        mu=mu,
-        depth=depth,
-        mu_homogeneous=homogeneous_tabor_number(k, mu, depth),
-        quantity=name,
-        elements=None if reason else (sum(known[p][0] for p in pieces), sum(known[p][1] for p in pieces)),
-        fscm=None if isinstance(fscm, str) else (fscm[0], fscm[1]),
-        reason=reason,
-        graded=_number(results[_reference(name, k, mu)]),
-        homogeneous=_number(results[_uniform(name, k, mu, depth)]) if depth >= _THICK else None,
-    )
+def limits(table: pd.DataFrame) -> pd.DataFrame:
+    """Return how the finite elements approach the integral equation in both limits.
+
+    The two thinnest and the two thickest skins with a value; `difference` is elements minus limit, `u_num` bounds
+    it, `rate` is the observed exponent of its decay in z_s (negative) or 1 / z_s (positive), NaN in the first row
+    of each pair and where the difference is not four times its uncertainty; `expected` is 1 - k for a thin skin.  A
+    thick one stiffens its solid by a share of a / z_s, a the contact radius, and as the solid becomes rigid what is
+    left to change dies out too: the rate is one or more.
+    """
+    rows: list[dict[str, Any]] = []
+    for _, series in table.groupby(["k", "mu", "quantity"], sort=False):
+        for name in ("graded", "homogeneous"):
+            known = series.dropna(subset=["value", f"{name}_value"])
+            # A jump that ends before its solid is uniform has no such limit.
+            ended = math.isnan(series["value"].iloc[-1])
+            ends = known.iloc[1::-1] if name == "graded" else known.iloc[-2:] if not ended else known.iloc[:0]
+            difference = ends["value"] - ends[f"{name}_value"]
+            u_num = combined(ends["u_num"], ends[f"{name}_u_num"])
+            factor, of_depth = (column / column.shift() for column in (difference, ends["depth"]))
+            rate = (np.log(factor.abs()) / np.log(of_depth)).abs()
+            rows += (
+                ends[["k", "mu", "quantity"]]
+                .assign(
+                    limit=name,
+                    depth=ends["depth"],
+                    value=ends["value"],
+                    limit_value=ends[f"{name}_value"],
+                    difference=difference,
+                    u_num=u_num,
+                    rate=rate.where(difference.abs() > 4.0 * u_num),
+                    expected=1.0 - ends["k"] if name == "graded" else 1.0,
+                )
+                .to_dict("records")
+            )
+    return pd.DataFrame(rows)
 
 
-def _number(found: dict[str, Any]) -> tuple[float, float] | None:
-    return (found["value"], found["u_num"]) if found["status"] == "ok" else None
+def thresholds(table: pd.DataFrame) -> pd.DataFrame:
+    """Return the depth of the first skin that changes a quantity by 1 % and by 5 % of its graded value.
+
+    `below` and `above` are the computed depths that bracket it, `depth` is interpolated between them in the logarithms
+    of both.  Below the thinnest computed skin, where `below` is 0, the change goes as z_s^(1-k) (see `limits`); that
+    law is not extrapolated beyond a factor of `STRETCH` in the change; `depth` is then NaN.  No row where it stays
+    smaller or the quantity ends first.
+    """
+    rows = []
+    for (k, mu, name), series in table.groupby(["k", "mu", "quantity"], sort=False):
+        known = series.assign(change=series["value"] / series["graded_value"] - 1.0).dropna(subset="change")
+        changes = known[["depth", "change"]].to_numpy().tolist()
+        for share in THRESHOLDS:
+            if crossed := _crossed(changes, share, 1.0 - k):
+                rows.append({"k": k, "mu": mu, "quantity": name} | crossed)
+    return pd.DataFrame(rows)
 
 
-def _tables(results: Results) -> Tables:
-    found = [
-        _sample(results, k, mu, depth, name)
-        for (k, mu), depths in _SERIES.items()
-        for name in _REPORTED
-        for depth in depths
+def _crossed(changes: Sequence[list[float]], share: float, exponent: float) -> dict[str, float] | None:
+    """Where the change first exceeds a share."""
+    index = next((index for index, (_, change) in enumerate(changes) if abs(change) >= share), None)
+    if index is None:
+        return None
+    above, large = changes[index]
+    below, slope, known = 0.0, exponent, abs(large) < STRETCH * share
+    if index:
+        below, small = changes[index - 1]
+        slope, known = math.log(abs(large / small)) / math.log(above / below), True
+    depth = above * (share / abs(large)) ** (1.0 / slope) if known else math.nan
+    return {"change": math.copysign(share, large), "below": below, "above": above, "depth": float(f"{depth:.2g}")}
+
+
+def _picture(figure: Figure, tables: Tables) -> None:
+    table = tables[""]
+    panels = figure.subplots(2, 2, sharex=True).flat
+    for letter, axes, (title, label, names) in zip("abcd", panels, _PANELS, strict=True):
+        lettered(axes, letter, title)
+        for name in names:
+            _curves(axes, table[table["quantity"] == name], hollow=name == "jump_in_displacement")
+        axes.set(ylabel=label, xscale="log")
+    for axes in figure.axes[2:]:
+        axes.set_xlabel(r"offset $z_s\,/\,(Qz_0)^{1/n}$")
+    # The displacements of the softest solids are far below those of interest.
+    figure.axes[1].set(ylim=(-1.15, 0.05))
+    figure.axes[2].set(ylim=(-3.4, -1.2))
+    figure.axes[3].set(yscale="log")
+    figure.suptitle(r"$E=E_0((z+z_s)/c_0)^k$, $n=2$, $\nu=0.3$; $\mu$ of the limit $z_s=0$", fontsize=9)
+    handles = [
+        Line2D([], [], color=COLOURS[i], marker=MARKERS[i], ms=4, label=rf"$k$ = {k:g}, $\mu$ = {mu:g}")
+        for i, (k, mu) in enumerate(table[["k", "mu"]].drop_duplicates().to_numpy(float))
     ]
-    return {"": samples(found), "limits": limits(found), "thresholds": thresholds(found)}
+    handles.append(Line2D([], [], color="0.3", ls=":", label=r"graded limit, $z_s=0$"))
+    handles.append(Line2D([], [], color="0.3", ls="--", lw=0.9, label=r"uniform solid of modulus $E(0)$"))
+    figure.legend(handles=handles, loc="outside lower center", ncol=3)
+
+
+def _curves(axes: Axes, table: pd.DataFrame, hollow: bool) -> None:
+    for index, (_, part) in enumerate(table.groupby(["k", "mu"], sort=False)):
+        colour = COLOURS[index]
+        depth = part["depth"].to_numpy()
+        face = "white" if hollow else colour
+        axes.plot(depth, part["value"], color=colour, marker=MARKERS[index], ms=4, lw=1.1, mfc=face)
+        # The limit of thin skins, as far as it is one.
+        thin = depth[depth <= max(1.0, depth[0])]
+        axes.plot(thin, np.full(thin.size, part["graded_value"].iloc[0]), color=colour, ls=":", lw=0.9)
+        axes.plot(depth, part["homogeneous_value"], color=colour, ls="--", lw=0.9)
 
 
 SURFACE_MODULUS = PaperFigure(
     name="surface-modulus",
     stem="surface_modulus",
     title="A non-zero surface modulus, from graded to uniform: pull-off, jumps and hysteresis",
-    tasks=_tasks,
-    tables=_tables,
-    draw=draw,
+    plan=_plan,
+    picture=_picture,
+    size=(7.2, 6.0),
 )

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-__all__ = ["RANGE", "Extreme", "TaborCurve", "crossing", "largest_error", "tabor_numbers"]
+__all__ = ["RANGE", "Extreme", "TaborCurve", "largest_error", "tabor_numbers"]
 
 Array = NDArray[np.float64]
 
@@ -109,21 +108,3 @@ def _parabola(x: Array, y: Array) -> tuple[float, float]:
     """Extreme of the parabola through three points with equal steps, and where it is."""
     rise, bend = 0.5 * (y[2] - y[0]), y[2] - 2.0 * y[1] + y[0]
     return float(y[1] - 0.5 * rise**2 / bend), float(x[1] - (x[1] - x[0]) * rise / bend)
-
-
-def crossing(function: Callable[[Array], Array], target: float) -> float | None:
-    """Return the first mu of `RANGE` at which a function passes a value, or None.
-
-    Examples
-    --------
-    >>> round(crossing(lambda mu: mu, 0.5), 6)
-    0.5
-    """
-    mu = np.geomspace(*RANGE, _SEARCH)
-    excess = function(mu) - target
-    turns = np.flatnonzero(np.diff(np.sign(excess)))
-    if not turns.size:
-        return None
-    i = int(turns[0])
-    share = excess[i] / (excess[i] - excess[i + 1])
-    return float(mu[i] * (mu[i + 1] / mu[i]) ** share)

@@ -20,16 +20,14 @@ from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.figures.fig11_gradient_effect import insensitive_regions, largest_chi
+from comparisons.paper.paper_figure import Plan
 from comparisons.paper.studies.tabor_curve import Extreme, TaborCurve, largest_error, tabor_numbers
-from comparisons.paper.values import sampling
 from comparisons.paper.values import scheme_ingredients as scheme
 
-__all__ = ["CONVERGED", "GRID", "Repeated", "cohesive_forces", "frame", "repeated", "tasks"]
+__all__ = ["GRID", "LAST_K", "Repeated", "cohesive_forces", "first_or_last_step", "frame", "repeated"]
 
 #: Name of the converged computation, without any ingredient changed.
 CONVERGED = "converged: mu from 0.01 to 10, tail carried, sigma_0 exact"
-#: The same for chi, the change by the gradient.
-CONVERGED_CHI = "k up to 1, the Gibson limit"
 #: Rounding of chi in percent, and of the ends of its regions, which are roots to 1e-10.
 CHI_ROUNDING, REGION_ROUNDING = 1e-11, 1e-9
 
@@ -51,11 +49,27 @@ _PLACES = {
 _CONE = 1.0
 #: Jin et al. (2021) left out the decimals of 1.026 (Sec. 4.2).
 _JIN_STRESS = 1.0
+#: Last gradient exponent and step of the shape index with which all eight numbers of Fig. 11 have the printed digits;
+#: the paper states neither.  A largest value depends on the points at which it was searched: here the ends of the
+#: regions of Fig. 11(b) are the first and the last multiple of 0.001.
+LAST_K, N_STEP = 0.999, 0.001
+#: Name of the scheme of Fig. 11.
+GRID = f"k up to {LAST_K:g}, n in steps of {N_STEP:g}"
 #: Gradient exponents near 1: the last ones of a computation that does not take the limit k = 1.
-_SHORT_OF_GIBSON = (0.9995, sampling.LAST_K)
-#: The scheme of Fig. 11, of which the paper states neither number.
-GRID = f"k up to {sampling.LAST_K:g}, n in steps of {sampling.N_STEP:g}"
+_SHORT_OF_GIBSON = (0.9995, LAST_K)
 _SPARSE = np.array([step * 10.0**power for power in (-2, -1, 0) for step in (1, 2, 5)] + [10.0])
+
+
+def first_or_last_step(end: float, *, first: bool) -> float:
+    """Return the first multiple of `N_STEP` from a least n on, or the last up to a largest n.
+
+    Examples
+    --------
+    >>> first_or_last_step(0.97395, first=True), first_or_last_step(6.21961, first=False)
+    (0.974, 6.219)
+    """
+    steps = math.ceil(end / N_STEP) if first else math.floor(end / N_STEP)
+    return round(steps * N_STEP, 3)
 
 
 def cohesive_forces(n: float, k: float, stress: float) -> list[float]:
@@ -86,25 +100,6 @@ def _printed_stress(paper_value: PaperValue) -> float:
 
 def _forces(paper_value: PaperValue, stress: float) -> CachedCall:
     return CachedCall.of(cohesive_forces, paper_value.n, _K, stress)
-
-
-def _at_places() -> Iterator[tuple[float, float, float]]:
-    for (_, n), mu in _PLACES.items():
-        yield n, _K, mu
-
-
-def tasks() -> Sequence[CachedCall]:
-    """Return the tasks that `repeated` needs, the longest first."""
-    errors = paper_values("largest_relative_error")
-    found = [CachedCall.of(scheme.scheme_force, *place) for place in _at_places()]
-    found += [CachedCall.of(scheme.sampled_force, *place) for place in _at_places()]
-    found += [CachedCall.of(insensitive_regions, up_to) for up_to in (1.0, *_SHORT_OF_GIBSON)]
-    for n in sorted({error.n for error in errors}):
-        found += [CachedCall.of(scheme.exact_force, n, _K, mu) for mu in tabor_numbers(_EXACT_DEGREE)]
-    found += [CachedCall.of(scheme.exact_force, *place) for place in _at_places()]
-    found += [_forces(error, stress(error)) for error in errors for stress in (_exact_stress, _printed_stress)]
-    found += [_forces(error, _JIN_STRESS) for error in errors if error.model == "md-original"]
-    return list(dict.fromkeys(found))
 
 
 @dataclass(frozen=True)
@@ -140,23 +135,44 @@ class Repeated:
         return self.paper_value.verdict(abs(self.value), self.u)
 
 
-def repeated(results: Results) -> list[Repeated]:
-    """Return every repetition, those of one number together and the converged one first."""
-    rows = [row for paper_value in paper_values("largest_relative_error") for row in _errors(paper_value, results)]
-    ranges = {1.0: CONVERGED_CHI} | {up_to: f"k up to {up_to:g}" for up_to in _SHORT_OF_GIBSON}
-    for paper_value in paper_values("largest_chi"):
-        for up_to, ingredient in [*ranges.items(), (sampling.LAST_K, GRID)]:
-            largest = 100.0 * largest_chi(paper_value.n, up_to)[0]
-            of_figure = ingredient == GRID
-            rows.append(Repeated(paper_value, ingredient, largest, CHI_ROUNDING, stated=up_to == 1.0, scheme=of_figure))
-    for paper_value in paper_values("insensitive_region"):
-        for up_to, ingredient in ranges.items():
-            end = results[CachedCall.of(insensitive_regions, up_to)][paper_value.index]
-            rows.append(Repeated(paper_value, ingredient, end, REGION_ROUNDING, stated=up_to == 1.0))
-        # The last end is that of `sampling.LAST_K`; ends of even index are where a region begins.
-        step = sampling.first_or_last_step(end, first=paper_value.index % 2 == 0)
-        rows.append(Repeated(paper_value, GRID, step, 0.0, stated=False, scheme=True))
+def repeated() -> Plan[list[Repeated]]:
+    """Plan every repetition, those of one number together and the converged one first."""
+    errors = paper_values("largest_relative_error")
+    places = [(n, _K, mu) for (_, n), mu in _PLACES.items()]
+    regions = {up_to: CachedCall.of(insensitive_regions, up_to) for up_to in (1.0, *_SHORT_OF_GIBSON)}
+    results = yield [
+        *(CachedCall.of(scheme.scheme_force, *place) for place in places),
+        *(CachedCall.of(scheme.sampled_force, *place) for place in places),
+        *regions.values(),
+        *(call for n in sorted({error.n for error in errors}) for call in _exact_forces(n)),
+        *(CachedCall.of(scheme.exact_force, *place) for place in places),
+        *(_forces(error, stress) for error in errors for stress in (_exact_stress(error), _printed_stress(error))),
+        *(_forces(error, _JIN_STRESS) for error in errors if error.model == "md-original"),
+    ]
+    rows = [row for error in errors for row in _errors(error, results)]
+    rows += [row for number in paper_values("largest_chi") for row in _chi(number)]
+    for number in paper_values("insensitive_region"):
+        rows += _region(number, {up_to: results[call][number.index] for up_to, call in regions.items()})
     return rows
+
+
+def _up_to(last_k: float) -> str:
+    return f"k up to {last_k:g}" if last_k < 1.0 else "k up to 1, the Gibson limit"
+
+
+def _chi(number: PaperValue) -> Iterator[Repeated]:
+    for last_k in (1.0, *_SHORT_OF_GIBSON):
+        largest = 100.0 * largest_chi(number.n, last_k)[0]
+        yield Repeated(number, _up_to(last_k), largest, CHI_ROUNDING, stated=last_k == 1.0)
+    yield Repeated(number, GRID, largest, CHI_ROUNDING, stated=False, scheme=True)
+
+
+def _region(number: PaperValue, ends: dict[float, float]) -> Iterator[Repeated]:
+    for last_k, end in ends.items():
+        yield Repeated(number, _up_to(last_k), end, REGION_ROUNDING, stated=last_k == 1.0)
+    # Ends of even index are where a region begins.
+    step = first_or_last_step(ends[LAST_K], first=number.index % 2 == 0)
+    yield Repeated(number, GRID, step, 0.0, stated=False, scheme=True)
 
 
 def _errors(paper_value: PaperValue, results: Results) -> Iterator[Repeated]:
@@ -165,11 +181,13 @@ def _errors(paper_value: PaperValue, results: Results) -> Iterator[Repeated]:
     def row(ingredient: str, found: Extreme, stated: bool = True, scheme: bool = False) -> Repeated:
         return Repeated(paper_value, ingredient, 100.0 * found.kappa, 100.0 * found.u, found.mu, stated, scheme)
 
+    def model_of(stress: float) -> TaborCurve:
+        return TaborCurve.through(np.array(results[_forces(paper_value, stress)]))
+
     exact, cut = _exact_curves(paper_value.n, results)
-    model = TaborCurve.through(np.array(results[_forces(paper_value, _exact_stress(paper_value))]))
-    printed = TaborCurve.through(np.array(results[_forces(paper_value, _printed_stress(paper_value))]))
-    nothing_beyond = f"f(r_max) = {scheme.HEIGHTS[0]:g}, nothing beyond"
-    rounded = f"sigma_0 = {_printed_stress(paper_value):g} as printed"
+    stress = _printed_stress(paper_value)
+    model, printed = model_of(_exact_stress(paper_value)), model_of(stress)
+    nothing_beyond, rounded = f"f(r_max) = {scheme.HEIGHTS[0]:g}, nothing beyond", f"sigma_0 = {stress:g} as printed"
 
     yield row(CONVERGED, largest_error(model, exact))
     yield row(nothing_beyond, largest_error(model, cut[0]))
@@ -181,41 +199,40 @@ def _errors(paper_value: PaperValue, results: Results) -> Iterator[Repeated]:
 
     # The rest needs one Tabor number only: kappa is stationary there, or it is the end of the range.
     mu = _PLACES[paper_value.model, paper_value.n]
-    place = paper_value.n, _K, mu
-    full, coarse = (
-        results[CachedCall.of(scheme.exact_force, *place)],
-        results[CachedCall.of(scheme.scheme_force, *place)],
+    full, coarse, steps = (
+        results[CachedCall.of(function, paper_value.n, _K, mu)]
+        for function in (scheme.exact_force, scheme.scheme_force, scheme.sampled_force)
     )
-    steps = results[CachedCall.of(scheme.sampled_force, *place)]
+
+    def single(model: TaborCurve, force: float, u: float) -> Extreme:
+        kappa = float(model(np.array([mu]))[0]) / force - 1.0
+        return Extreme(kappa, (1.0 + abs(kappa)) * (model.error + u / force), mu)
+
+    segments = f"N = {scheme.SEGMENTS} segments"
     mesh = coarse["force"] - (full["force"] - full["beyond"][0])
-    yield row(f"N = {scheme.SEGMENTS} segments", _single(model, full["force"] + mesh, coarse["u_num"], mu))
-    yield row(f"{nothing_beyond}; N = {scheme.SEGMENTS} segments", _single(model, coarse["force"], coarse["u_num"], mu))
-    yield row(
-        f"{nothing_beyond}; N = {scheme.SEGMENTS} segments; {rounded}",
-        _single(printed, coarse["force"], coarse["u_num"], mu),
-    )
-    yield row(f"central gap not below {scheme.LAST_GAP:g}", _single(model, steps["at_last_gap"], steps["u_num"], mu))
+    yield row(segments, single(model, full["force"] + mesh, coarse["u_num"]))
+    yield row(f"{nothing_beyond}; {segments}", single(model, coarse["force"], coarse["u_num"]))
+    yield row(f"{nothing_beyond}; {segments}; {rounded}", single(printed, coarse["force"], coarse["u_num"]))
+    yield row(f"central gap not below {scheme.LAST_GAP:g}", single(model, steps["at_last_gap"], steps["u_num"]))
     for step, force in zip(scheme.GAP_STEPS, steps["sampled"], strict=True):
-        yield row(
-            f"largest load among central gaps {step:g} apart", _single(model, force, steps["u_num"], mu), stated=False
-        )
+        found = single(model, force, steps["u_num"])
+        yield row(f"largest load among central gaps {step:g} apart", found, stated=False)
 
     if paper_value.model == "md-original":
-        jin = TaborCurve.through(np.array(results[_forces(paper_value, _JIN_STRESS)]))
+        jin = model_of(_JIN_STRESS)
         yield row("sigma_0 = 1, without its decimals", largest_error(jin, exact), stated=False)
     yield row("mu from 0.02 to 10", largest_error(model, exact, low=0.02), stated=False)
     yield row("mu from 0.01 to 2", largest_error(model, exact, high=2.0), stated=False)
     yield row("mu = 1, 2, 5, 10, ... of 0.01 to 10 only", largest_error(model, exact, sampled=_SPARSE), stated=False)
 
 
-def _single(model: TaborCurve, force: float, u: float, mu: float) -> Extreme:
-    kappa = float(model(np.array([mu]))[0]) / force - 1.0
-    return Extreme(kappa, (1.0 + abs(kappa)) * (model.error + u / force), mu)
+def _exact_forces(n: float) -> list[CachedCall]:
+    return [CachedCall.of(scheme.exact_force, n, _K, mu) for mu in tabor_numbers(_EXACT_DEGREE)]
 
 
 def _exact_curves(n: float, results: Results) -> tuple[TaborCurve, list[TaborCurve]]:
     """Return the converged force over mu, and those without what is beyond each height."""
-    found = [results[CachedCall.of(scheme.exact_force, n, _K, mu)] for mu in tabor_numbers(_EXACT_DEGREE)]
+    found = [results[call] for call in _exact_forces(n)]
     force = np.array([point["force"] for point in found])
     beyond = np.array([point["beyond"] for point in found])
     numerical = max(point["u_num"] / point["force"] for point in found)
@@ -227,12 +244,8 @@ def _exact_curves(n: float, results: Results) -> tuple[TaborCurve, list[TaborCur
 def frame(rows: Sequence[Repeated]) -> pd.DataFrame:
     """Return one row a repetition; ``shift`` is what the ingredient changes, in the unit of the number."""
     table = pd.DataFrame(
-        {
-            "quantity": row.paper_value.quantity,
-            "model": row.paper_value.model,
-            "n": row.paper_value.n,
-            "k": row.paper_value.k,
-            "unit": row.paper_value.unit,
+        {name: getattr(row.paper_value, name) for name in ("quantity", "model", "n", "k", "unit")}
+        | {
             "printed": row.paper_value.text,
             "ingredient": row.ingredient,
             "stated_in_paper": row.stated,

@@ -14,14 +14,11 @@ from comparisons.models.cohesive_stress import eta
 from comparisons.models.jkr import JKR
 from comparisons.models.semi_rigid import SemiRigid, jump_in_coefficient
 from comparisons.numerics.number_text import LEAST_SHOWN, value_text
-from comparisons.output.fitted_table import FittedTable
-from comparisons.output.latex import latex
-from comparisons.output.markdown import markdown
 from comparisons.output.tables import rich_table
 from comparisons.paper.cache import CachedCall, Results
-from comparisons.paper.paper_figure import PaperFigure, Tables
+from comparisons.paper.paper_figure import PaperFigure, Plan, Tables, calls_of, given, texts_of
 from comparisons.paper.tasks import quantity
-from comparisons.paper.values.causes import Repeated, frame, repeated, tasks
+from comparisons.paper.values.causes import Repeated, frame, repeated
 from comparisons.runs.cases import Case
 from fscm.laws import LennardJones
 
@@ -37,10 +34,6 @@ _ROUNDING = 64.0 * EPS
 def _critical(paper_value: PaperValue) -> CachedCall:
     # The Tabor number of the case is not used.
     return CachedCall.of(quantity, "fscm", "critical_tabor_number", paper_value.n, paper_value.k, 1.0)
-
-
-def _tasks() -> Sequence[CachedCall]:
-    return [*map(_critical, paper_values("critical_tabor_number")), *tasks()]
 
 
 def _closed(value: float) -> Number:
@@ -88,8 +81,9 @@ _DIRECT: dict[str, Callable[[PaperValue], Number]] = {
 }
 
 
-def _tables(results: Results) -> Tables:
-    again = repeated(results)
+def _plan() -> Plan[Tables]:
+    results = yield [*map(_critical, paper_values("critical_tabor_number")), *calls_of(repeated())]
+    again = given(repeated(), results)
     rows = [judged(paper_value, results, again) for paper_value in paper_values()]
     return {"": pd.DataFrame(rows), "causes": frame(again)}
 
@@ -109,11 +103,7 @@ def judged(paper_value: PaperValue, results: Results, again: Sequence[Repeated])
     size = abs(computed)
     return {
         "where": paper_value.source,
-        "quantity": paper_value.quantity,
-        "model": paper_value.model,
-        "n": paper_value.n,
-        "k": paper_value.k,
-        "unit": paper_value.unit,
+        **{name: getattr(paper_value, name) for name in ("quantity", "model", "n", "k", "unit")},
         "printed": paper_value.text,
         "computed": computed,
         "u": u,
@@ -134,37 +124,24 @@ def _of_scheme(rows: Sequence[Repeated]) -> dict[str, str | float]:
 def readable(table: pd.DataFrame) -> pd.DataFrame:
     """Return the table as texts, the computed number with the digits that its uncertainty leaves."""
 
-    def case(row: pd.Series) -> str:
+    def texts(row: pd.Series) -> dict[str, str]:
+        unit = f" {row['unit']}" if row["unit"] else ""
         parts = [f"{name} = {row[name]:g}" for name in ("n", "k") if not math.isnan(row[name])]
-        return ", ".join([*parts, *([row["model"]] if row["model"] else [])])
-
-    def computed(row: pd.Series) -> str:
-        return in_unit(value_text(row["computed"], row["u"]), row["unit"])
-
-    def by_scheme(row: pd.Series) -> str:
-        return in_unit(value_text(row["by_scheme"], row["u_scheme"]), row["unit"]) if row["scheme"] else ""
-
-    def difference(row: pd.Series) -> str:
         small = abs(row["difference"]) <= LEAST_SHOWN
-        return "0" if small else in_unit(f"{row['difference']:+.2g}", row["unit"])
-
-    def in_unit(text: str, unit: str) -> str:
-        return f"{text} {unit}" if unit else text
-
-    return pd.DataFrame(
-        {
-            "where": table["where"],
-            "quantity": table["quantity"],
-            "case": table.apply(case, axis=1),
-            "printed": table.apply(lambda row: in_unit(row["printed"], row["unit"]), axis=1),
-            "computed": table.apply(computed, axis=1),
-            "verdict": table["verdict"],
-            "difference": table.apply(difference, axis=1),
-            "scheme": table["scheme"],
-            "by scheme": table.apply(by_scheme, axis=1),
-            "verdict by scheme": table["scheme_verdict"],
+        return {
+            "where": row["where"],
+            "quantity": row["quantity"],
+            "case": ", ".join([*parts, *([row["model"]] if row["model"] else [])]),
+            "printed": row["printed"] + unit,
+            "computed": value_text(row["computed"], row["u"]) + unit,
+            "verdict": row["verdict"],
+            "difference": "0" if small else f"{row['difference']:+.2g}{unit}",
+            "scheme": row["scheme"],
+            "by scheme": value_text(row["by_scheme"], row["u_scheme"]) + unit if row["scheme"] else "",
+            "verdict by scheme": row["scheme_verdict"],
         }
-    )
+
+    return pd.DataFrame([texts(row) for _, row in table.iterrows()])
 
 
 _TITLE = "Numbers printed in the paper, computed again"
@@ -180,21 +157,14 @@ _NOTES = (
 
 def _texts(tables: Tables) -> dict[str, str]:
     shown = readable(tables[""])
-    text = latex(shown, f"{_TITLE}. {_NOTES}", "paper-values")
-    return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": text}
-
-
-def _shown(tables: Tables) -> FittedTable:
-    return rich_table(readable(tables[""]), _TITLE)
+    return texts_of(shown, shown, _TITLE, _NOTES, "paper-values")
 
 
 PAPER_VALUES = PaperFigure(
     name="numbers",
     stem="paper_values",
     title="Numbers that the paper prints, a verdict on each, and what one scheme for each figure gives",
-    tasks=_tasks,
-    tables=_tables,
-    draw=None,
+    plan=_plan,
     texts=_texts,
-    shown=_shown,
+    shown=lambda tables: rich_table(readable(tables[""]), _TITLE),
 )

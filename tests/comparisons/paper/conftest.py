@@ -3,15 +3,22 @@
 import pytest
 
 from comparisons.paper.cache import CallCache
+from comparisons.paper.paper_figure import calls_of, given
 
 
 @pytest.fixture(scope="module")
-def tables_of(tmp_path_factory):
-    """Make the tasks and return the tables of a figure."""
+def made_of(tmp_path_factory):
+    """Make the calls of a plan and return what it makes of their results."""
 
-    def tables(figure):
+    def made(plan):
         cache = CallCache(tmp_path_factory.mktemp("paper") / "tasks.jsonl", "test")
-        list(cache.work(figure.tasks(), 1))
-        return figure.tables(cache.results)
+        list(cache.work(calls_of(plan()), 1))
+        return given(plan(), cache.results)
 
-    return tables
+    return made
+
+
+@pytest.fixture(scope="module")
+def tables_of(made_of):
+    """Make the tasks and return the tables of a figure."""
+    return lambda figure: made_of(figure.plan)

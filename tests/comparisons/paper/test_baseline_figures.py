@@ -1,4 +1,4 @@
-"""Committed figures: all of them, with the numbers that the code computes.
+"""Committed figures: all of them, with the numbers that the code computes, and pictures that a page holds.
 
 Figures whose tables follow equilibrium paths are not compared: the solver places the points.  The curves of the quick
 tier are compared through their gates.
@@ -6,78 +6,92 @@ tier are compared through their gates.
 
 import shutil
 from pathlib import Path
+from string import ascii_lowercase
 
 import pandas as pd
 import pytest
 
 from comparisons.baseline import main
-from comparisons.paper.baseline import PAPER_BASELINE, changes, check, renew
+from comparisons.paper.baseline import PAPER_BASELINE, SHIPPED_STATEMENTS, changes, check, renew
 from comparisons.paper.registry import NAMES, paper_figures
 from comparisons.runs.csv_format import csv_text
 
 FOLDER = Path(__file__).parents[3] / PAPER_BASELINE
+FIGURES = {figure.name: figure for figure in paper_figures()}
 #: Figures of closed forms, which take seconds; the others take minutes.
 CHEAP = ("1", "2", "12")
-COMPARED = [
-    pytest.param(figure.name, marks=() if figure.name in CHEAP else pytest.mark.heavy)
-    for figure in paper_figures()
-    if not figure.follows_path
-]
+#: Every so many pictures are drawn in every test run.
+LIGHT = 4
+
+
+def marked(names, is_light):
+    return [pytest.param(name, marks=() if is_light(at, name) else pytest.mark.heavy) for at, name in enumerate(names)]
 
 
 def committed(figure, name):
     return pd.read_csv(FOLDER / figure.table_file(name))
 
 
-@pytest.mark.parametrize("name", COMPARED)
+@pytest.mark.parametrize(
+    "name", marked([name for name in NAMES if not FIGURES[name].follows_path], lambda at, name: name in CHEAP)
+)
 def test_the_numbers_are_those_committed(name, tables_of, tmp_path):
-    (figure,) = paper_figures([name])
-    for table, computed in tables_of(figure).items():
+    for table, computed in tables_of(FIGURES[name]).items():
         path = tmp_path / "computed.csv"
         path.write_text(csv_text(computed))
-        assert changes(committed(figure, table), pd.read_csv(path)) == []
+        assert changes(committed(FIGURES[name], table), pd.read_csv(path)) == []
+
+
+@pytest.mark.parametrize(
+    "name", marked([name for name in NAMES if FIGURES[name].picture], lambda at, name: at % LIGHT == 0)
+)
+def test_a_picture_is_whole_and_its_panels_are_lettered_in_order(name):
+    figure = FIGURES[name]
+    files = [path for path in figure.files_in(FOLDER) if path.suffix == ".csv"]
+    picture = figure.draw({path.stem[len(figure.stem) :].removeprefix("_"): pd.read_csv(path) for path in files})
+    picture.draw_without_rendering()
+    shown, (width, height) = picture.get_tightbbox(), picture.get_size_inches()
+    # Rounding to pixels.
+    assert min(shown.x0, shown.y0, width - shown.x1, height - shown.y1) > -0.01
+    titles = [axes.get_title(loc="left") for axes in picture.axes]
+    # Twice where a panel is shown again, enlarged.
+    letters = "".join(dict.fromkeys(title[1] for title in titles if title))
+    assert letters == ascii_lowercase[: len(letters)]
 
 
 def test_every_figure_is_there_and_nothing_else():
     files = set(FOLDER.iterdir())
-    for figure in paper_figures():
+    for figure in FIGURES.values():
         found = set(figure.files_in(FOLDER))
-        assert found, f"{figure.name} is not committed"
         for suffix in (".png", ".pdf"):
-            assert (FOLDER / f"{figure.stem}{suffix}" in found) == (figure.draw is not None)
+            assert (FOLDER / f"{figure.stem}{suffix}" in found) == (figure.picture is not None)
         assert any(path.suffix == ".csv" for path in found) or not figure.tasks()
         assert found <= files, "two figures share a file"
         files -= found
     assert files == set()
 
 
-def test_a_changed_number_text_or_row_is_seen():
-    stored = committed(paper_figures(["16"])[0], "kappa")
-    assert changes(stored, stored) == []
+def test_a_changed_number_text_or_row_is_seen_and_bounds_are_no_values():
+    stored = committed(FIGURES["16"], "kappa")
+    assert changes(stored, stored.assign(u_kappa=0.0)) == []
     moved = stored.assign(kappa=stored["kappa"].where(stored.index != 7, stored["kappa"] + 1e-5))
     assert changes(stored, moved) == ["kappa: up to 1e-05 apart"]
-    assert changes(stored, stored.assign(u_kappa=0.0)) == []
     assert changes(stored, stored.assign(model="jkr")) == ["model: other texts"]
     assert changes(stored, stored.iloc[:-1])[0].startswith("248 rows")
-    with_booleans = stored.assign(stated=stored["mu"] > 1.0)
-    assert changes(with_booleans, with_booleans) == []
-    assert changes(with_booleans, with_booleans.assign(stated=True)) == ["stated: other texts"]
     gone = stored.assign(kappa=stored["kappa"].mask(stored.index == 7))
     assert changes(stored, gone) == ["kappa: a number where there was none, or none where there was"]
-
-
-def test_bounds_of_every_name_are_no_values():
-    stored = committed(paper_figures(["surface-modulus"])[0], "")
-    bounds = [name for name in stored.columns if name.endswith("u_num") or name.startswith("u_")]
-    assert {"u_num", "graded_u_num", "homogeneous_u_num", "u_fscm"} == set(bounds)
-    assert changes(stored, stored.assign(**{name: 2.0 * stored[name] for name in bounds})) == []
-    assert changes(stored, stored.assign(graded_value=2.0 * stored["graded_value"])) != []
+    with_booleans = stored.assign(stated=stored["mu"] > 1.0)
+    assert changes(with_booleans, with_booleans.assign(stated=True)) == ["stated: other texts"]
+    several = committed(FIGURES["surface-modulus"], "")
+    bounds = {name: 2.0 * several[name] for name in ("u_num", "graded_u_num", "homogeneous_u_num", "u_fscm")}
+    assert changes(several, several.assign(**bounds)) == []
+    assert changes(several, several.assign(graded_value=2.0 * several["graded_value"])) != []
 
 
 def test_a_folder_is_compared_with_the_committed_figures(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(FOLDER.parents[2])
     for name in ("2", "3", "16"):
-        for path in paper_figures([name])[0].files_in(FOLDER):
+        for path in FIGURES[name].files_in(FOLDER):
             shutil.copy(path, tmp_path)
     assert main(["--check", str(tmp_path)]) == 0
     assert "agrees with the baseline" in capsys.readouterr().out
@@ -101,20 +115,23 @@ def test_a_folder_is_compared_with_the_committed_figures(tmp_path, capsys, monke
     assert "results/baseline/paper of the baseline is neither in" in capsys.readouterr().err
 
 
-def test_only_a_whole_set_renews_the_baseline(tmp_path, capsys):
-    made, target = tmp_path / "made", tmp_path / "target"
-    made.mkdir()
-    for figure in paper_figures():
+def test_only_a_whole_set_renews_the_baseline_and_ships_the_verdicts(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    made, other = tmp_path / "made", tmp_path / "other"
+    for folder in (made, PAPER_BASELINE, SHIPPED_STATEMENTS.parent):
+        folder.mkdir(parents=True)
+    for figure in FIGURES.values():
         (made / f"{figure.stem}.csv").write_text(figure.name)
     (made / "tasks.jsonl").write_text("a journal")
-    target.mkdir()
-    (target / "stale.csv").write_text("of a figure that does not exist")
-    written = renew(made, target)
-    assert sorted(path.name for path in target.iterdir()) == sorted(path.name for path in written)
-    assert len(written) == len(NAMES)
-    (made / f"{paper_figures(['8'])[0].stem}.csv").unlink()
+    (PAPER_BASELINE / "stale.csv").write_text("of a figure that does not exist")
+    # Another target is not the baseline: nothing is shipped.
+    renew(made, other)
+    assert not SHIPPED_STATEMENTS.exists()
+    written = renew(made)
+    assert {*PAPER_BASELINE.iterdir(), SHIPPED_STATEMENTS} == set(written)
+    assert len(written) == len(NAMES) + 1
+    assert SHIPPED_STATEMENTS.read_text() == (PAPER_BASELINE / "paper_statements.csv").read_text() == "statements"
+    (made / f"{FIGURES['8'].stem}.csv").unlink()
     assert main([str(made)]) == 2
     assert "lacks 8" in capsys.readouterr().err
-    with pytest.raises(ValueError, match="lacks 8"):
-        renew(made, target)
-    assert len(list(target.iterdir())) == len(NAMES)
+    assert len(list(PAPER_BASELINE.iterdir())) == len(NAMES)

@@ -1,9 +1,9 @@
-"""Outcomes of comparisons, clauses and verdicts."""
+"""Outcomes of comparisons, clauses, verdicts, and the factors that change them."""
 
 import math
 from dataclasses import replace
-from itertools import product
 
+import numpy as np
 import pytest
 
 from comparisons.paper.statements.evidence import (
@@ -11,6 +11,7 @@ from comparisons.paper.statements.evidence import (
     FALSE,
     HOLDS,
     IN_PART,
+    NO_FLIP,
     READING,
     TRUE,
     UNDECIDED,
@@ -18,59 +19,46 @@ from comparisons.paper.statements.evidence import (
     Number,
     by_clause,
     clauses,
-    decisive,
-    evidence_frame,
-    evidence_of,
+    flips,
+    flips_text,
+    read_number,
     verdict,
+    verdict_at,
 )
+from comparisons.paper.statements.paths import jumps, turning_points
+from comparisons.paper.statements.trends import extrapolated, vanishes
 
 
-def comparison(value, limit=0.0, u=0.0, u_limit=0.0, relation="<", model="fscm", clause="n = 2"):
-    return Evidence(clause, model, Number(value, u, "value"), relation, Number(limit, u_limit, "limit"))
+def comparison(value, limit=0.0, u=0.0, u_limit=0.0, relation="<", model="fscm", clause="n = 2", what="other"):
+    return Evidence(clause, model, Number(value, u, "value"), relation, Number(limit, u_limit, what))
 
 
 @pytest.mark.parametrize(
     ("value", "u", "u_limit", "outcome"),
     [
-        (-1.0, 0.0, 0.0, HOLDS),
-        (1.0, 0.0, 0.0, FAILS),
+        (-1.0, 0.7, 0.25, HOLDS),
+        (1.0, 0.7, 0.25, FAILS),
         # Both bounds are added, and a difference equal to their sum decides nothing.
         (-1.0, 0.75, 0.25, UNDECIDED),
         (1.0, 0.75, 0.25, UNDECIDED),
-        (-1.0, 0.7, 0.25, HOLDS),
-        (1.0, 0.7, 0.25, FAILS),
-        (0.0, 0.0, 0.0, UNDECIDED),
         (math.nan, 0.0, 0.0, UNDECIDED),
         (-1.0, math.nan, 0.0, UNDECIDED),
     ],
 )
-@pytest.mark.parametrize("relation", "<>")
-def test_a_comparison_is_decided_beyond_the_sum_of_the_bounds(value, u, u_limit, outcome, relation):
-    signed = value if relation == "<" else -value
-    assert comparison(signed, 0.0, u, u_limit, relation).outcome == outcome
+def test_a_comparison_is_decided_beyond_the_sum_of_the_bounds(value, u, u_limit, outcome):
+    assert comparison(value, 0.0, u, u_limit, "<").outcome == outcome
+    assert comparison(-value, 0.0, u, u_limit, ">").outcome == outcome
 
 
-def test_the_largest_failure_decides_a_clause_before_what_is_not_decided():
+def test_each_clause_model_and_kind_of_limit_keeps_the_largest_failure_before_what_is_not_decided():
     rows = [comparison(value, u=u) for value, u in ((-1.0, 0.0), (1e-9, 1.0), (0.5, 0.0), (2.0, 0.0))]
-    found = decisive(rows)
+    (found,) = by_clause(rows)
     assert (found.value.value, found.outcome, found.comparisons) == (2.0, FAILS, 4)
-    assert decisive(rows[:2]).outcome == UNDECIDED
-    assert decisive(rows[:1]).outcome == HOLDS
+    assert [row.outcome for row in by_clause(rows[:2])] == [UNDECIDED]
+    others = [comparison(-2.0, clause="n = 1"), comparison(-3.0, model="fem"), comparison(-4.0, what=READING)]
+    assert [row.value.value for row in by_clause([*rows, *others])] == [2.0, -2.0, -3.0, -4.0]
     with pytest.raises(ValueError, match="no comparison"):
-        decisive([])
-
-
-def test_every_clause_model_and_kind_of_limit_keeps_its_decisive_comparison():
-    rows = [comparison(value, clause=clause) for clause in ("n = 1", "n = 2") for value in (-2.0, -1.0)]
-    rows.append(comparison(-3.0, clause="n = 2", model="fem"))
-    rows.append(replace(comparison(-4.0, clause="n = 2"), limit=Number(0.0, 0.0, READING)))
-    kept = by_clause([replace(row, limit=replace(row.limit, what="other")) for row in rows[:-1]] + rows[-1:])
-    assert [(row.clause, row.model, row.value.value, row.comparisons) for row in kept] == [
-        ("n = 1", "fscm", -1.0, 2),
-        ("n = 2", "fscm", -1.0, 2),
-        ("n = 2", "fem", -3.0, 1),
-        ("n = 2", "fscm", -4.0, 1),
-    ]
+        by_clause([])
 
 
 @pytest.mark.parametrize(
@@ -80,7 +68,6 @@ def test_every_clause_model_and_kind_of_limit_keeps_its_decisive_comparison():
         ({"fem": 1.0}, UNDECIDED),
         ({"fscm": 1.0, "fem": 1.0}, FAILS),
         ({"fscm": 1.0, "fem": -1.0}, UNDECIDED),
-        ({"fscm": -1.0, "fem": 1.0}, UNDECIDED),
         ({"fscm": -1.0, "fem": -1.0}, HOLDS),
         ({"formula": 1.0}, FAILS),
         ({"fscm-stieltjes": -1.0}, HOLDS),
@@ -91,19 +78,127 @@ def test_a_failure_needs_both_references(values, outcome):
 
 
 @pytest.mark.parametrize(
-    "outcomes", [found for length in (1, 2, 3) for found in product((HOLDS, FAILS, UNDECIDED), repeat=length)]
+    ("values", "expected"),
+    [
+        ((), ""),
+        ((-1.0, -1.0), TRUE),
+        ((1.0, 1.0), FALSE),
+        ((1.0, 0.0), FALSE),
+        ((-1.0, 1.0), IN_PART),
+        ((-1.0, 0.0, 1.0), IN_PART),
+        ((-1.0, 0.0), UNDECIDED),
+    ],
 )
-def test_a_verdict_follows_from_the_clauses(outcomes):
-    expected = {
-        frozenset({HOLDS}): TRUE,
-        frozenset({FAILS}): FALSE,
-        frozenset({FAILS, UNDECIDED}): FALSE,
-        frozenset({HOLDS, FAILS}): IN_PART,
-        frozenset({HOLDS, FAILS, UNDECIDED}): IN_PART,
-    }
-    assert verdict(outcomes) == expected.get(frozenset(outcomes), UNDECIDED)
+def test_a_verdict_follows_from_the_clauses(values, expected):
+    rows = [comparison(value, model="formula", clause=f"n = {i}") for i, value in enumerate(values)]
+    assert verdict(rows) == expected
 
 
-def test_evidence_survives_its_table():
-    rows = [comparison(1.0 / 3.0, 0.1, 1e-17), replace(comparison(2.0), own=True, beyond=True, comparisons=7)]
-    assert evidence_of(evidence_frame("a", rows)) == rows
+def read(*values, limit=2.0, relation="<", u=0.0, what=READING):
+    return [
+        comparison(value, limit, u, relation=relation, clause=f"mu = {i}", what=what) for i, value in enumerate(values)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("evidence", "expected"),
+    [
+        (read(3.0, 5.0), {IN_PART: 1.5, TRUE: 2.5}),
+        (read(1.0, 5.0), {FALSE: 0.5, TRUE: 2.5}),
+        (read(1.0, 0.5), {IN_PART: 0.5, FALSE: 0.25}),
+        (read(3.0, relation=">"), {FALSE: 1.5}),
+        # Within its bound nothing is decided.
+        (read(3.0, u=0.5), {TRUE: 1.75}),
+        (read(1e-9, u=1.0), {}),
+        (read(1.0, what="another computed number"), {}),
+        # One number below and above which clauses hold.
+        ([*read(1.0), *(replace(row, clause="other") for row in read(3.0, relation=">"))], {IN_PART: 1.5}),
+    ],
+)
+def test_the_nearest_factor_of_every_other_verdict(evidence, expected):
+    assert flips(evidence) == pytest.approx(expected)
+    for other, factor in flips(evidence).items():
+        assert verdict_at(evidence, 2.0 * factor * (1.0 + math.copysign(1e-6, factor - 1.0))) == other
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(3.262, "true above x 1.64"), (2.0006817, "true above x 1.00035"), (72.8, "true above x 36.4"), (1e-9, NO_FLIP)],
+)
+def test_a_factor_is_rounded_away_from_one(value, text):
+    assert flips_text(read(value, u=1.0 if value < 1.0 else 0.0)) == text
+    assert flips_text(read(1.0, what="")) == ""
+
+
+def test_two_numbers_are_refused():
+    with pytest.raises(ValueError, match=r"judged by \[1.0, 2.0\]"):
+        read_number([*read(1.0), *read(1.0, limit=1.0)])
+
+
+def sequence(function, u=0.0):
+    return [Number(function(mu), u, f"mu = {mu}") for mu in (10.0, 20.0, 40.0)]
+
+
+@pytest.mark.parametrize("power", [0.5, 2.0])
+@pytest.mark.parametrize("end", [-0.2, 0.0])
+def test_a_power_has_its_limit(power, end):
+    assert extrapolated(*sequence(lambda mu: end + 0.7 * mu**-power)).value == pytest.approx(end, abs=1e-14)
+    assert extrapolated(*sequence(lambda mu: 0.25)).value == 0.25
+
+
+def test_the_bound_of_a_limit_is_that_of_the_members():
+    members = sequence(lambda mu: 0.3 + 1.0 / mu, u=1e-9)
+    limit, expected = extrapolated(*members), 0.0
+    for i, member in enumerate(members):
+        moved = [*members[:i], Number(member.value + 1e-7, 0.0, ""), *members[i + 1 :]]
+        expected += abs(extrapolated(*moved).value - limit.value) / 1e-7 * 1e-9
+    assert limit.u == pytest.approx(expected, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("function", "u", "outcomes"),
+    [
+        (lambda mu: -3.0 / mu, 0.0, {HOLDS}),
+        (lambda mu: 0.05 + 3.0 / mu, 0.0, {HOLDS, FAILS}),
+        # It passes through zero and grows again.
+        (lambda mu: 0.1 - 3.0 / mu, 0.0, {HOLDS, FAILS}),
+        (lambda mu: mu / 100.0, 0.0, {HOLDS, FAILS}),
+        (lambda mu: 3.0 / mu, 1.0, {UNDECIDED}),
+    ],
+)
+def test_only_what_falls_to_zero_vanishes(function, u, outcomes):
+    rows = vanishes("n = 2", sequence(function, u), Number(1e-3, 0.0, READING))
+    assert {row.outcome for row in rows} == outcomes
+
+
+T = np.linspace(0.0, 1.0, 401)
+
+
+@pytest.mark.parametrize(
+    ("displacement", "u", "count"),
+    [
+        (T, 1e-9, 0),
+        (np.sin(6.5 * np.pi * T), 1e-9, 6),
+        # Ripples within twice the bound are no turns.
+        (np.sin(2.5 * np.pi * T) + 1e-3 * np.sin(60 * np.pi * T), 2e-3, 2),
+    ],
+)
+def test_turns_are_counted_beyond_the_bound(displacement, u, count):
+    assert len(turning_points(displacement, u)) == count
+
+
+@pytest.mark.parametrize(
+    ("corners", "count"),
+    [
+        ([0, 1], 0),
+        # An inner pair within the outer one is passed over both ways.
+        ([0, 4, 2, 3, 1, 5], 2),
+        # A second maximum above the first stops the machine before it, on the way there or on the way back.
+        ([0, 3, 2, 4, 1, 5], 3),
+        ([0, 4, 1, 3, 2, 5], 3),
+        ([0, 2, 1, 4, 3, 5], 4),
+    ],
+)
+def test_jumps_are_those_that_a_machine_sees(corners, count):
+    displacement = np.interp(np.linspace(0, len(corners) - 1, 20 * len(corners)), range(len(corners)), corners)
+    assert jumps(np.array(displacement), 1e-3) == count

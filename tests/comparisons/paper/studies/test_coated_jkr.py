@@ -28,11 +28,6 @@ def test_the_closed_form_of_the_compliance(ratio, nu, nu_below):
     assert expected == pytest.approx(found, rel=TRANSFORM_ERROR)
 
 
-def test_long_waves_see_the_substrate():
-    expected = (1.0 - 0.45**2) / (1.0 - 0.2**2) / 0.25
-    assert coated_compliance(np.zeros(1), 0.25, 0.2, 0.45)[0] == pytest.approx(expected, rel=1e-13)
-
-
 @pytest.mark.parametrize("radius", [0.5, 1.5, 3.0])
 def test_the_load_on_a_homogeneous_solid_is_that_of_jkr(radius):
     expected = 4.0 / 3.0 * radius**3 - math.sqrt(8.0 * math.pi * radius**3)

@@ -6,30 +6,24 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from comparisons.models.bradley import rigid_pull_off
-from comparisons.paper.cache import CallCache
+from comparisons.paper.cache import CachedCall
+from comparisons.paper.paper_figure import results_by
+from comparisons.paper.studies import error_maps
 from comparisons.paper.studies.error_bands import bands, coefficients, rates
-from comparisons.paper.studies.error_grid import CANDIDATES, ONSET_EXCESS, errors, tasks
-from comparisons.paper.studies.error_lines import MAPPED, along_gradients, along_shapes, calls
-from comparisons.paper.studies.error_lines import table_of as table_of_lines
-from comparisons.paper.studies.error_maps import (
-    ERROR_MAPS_GRADIENT,
-    ERROR_MAPS_JUMPS,
-    ERROR_MAPS_SHAPE,
-    lattice,
-)
+from comparisons.paper.studies.error_grid import CANDIDATES, ONSET_EXCESS, errors, errors_at
+from comparisons.paper.studies.error_lines import MAPPED, errors_along
 from comparisons.paper.tasks import quantity
 
 BASELINE = Path(__file__).parents[4] / "results" / "baseline" / "paper"
 
 
 @pytest.fixture(scope="module")
-def few(tmp_path_factory):
-    """Results of three cases."""
+def few(made_of):
+    """Errors in three cases."""
     cases = [(1.0, 0.4, 0.01), (2.0, 0.4, 1.0), (2.0, 0.0, 5.0)]
-    cache = CallCache(tmp_path_factory.mktemp("grid") / "tasks.jsonl", "test")
-    list(cache.work(tasks(cases), 1))
-    return errors(cache.results, cases, CANDIDATES).set_index(["quantity", "model", "n", "mu"])
+    calls = {CachedCall.of(errors_at, *case): CachedCall.of(errors_at, *case) for case in cases}
+    found = made_of(lambda: results_by(calls))
+    return errors(found, cases, CANDIDATES).set_index(["quantity", "model", "n", "mu"])
 
 
 def test_errors_are_relative_to_known_forces(few):
@@ -42,30 +36,14 @@ def test_errors_are_relative_to_known_forces(few):
     assert few.loc[("pull_off_force", "md-original", 1.0, 0.01), "kappa"] == pytest.approx(-0.65, abs=5e-3)
     # JKR is right for soft solids, at Tabor number 5 to a few per cent.
     assert 1e-4 < abs(few.loc[("jump_out_displacement", "jkr", 2.0, 5.0), "kappa"]) < 0.05
-
-
-def test_a_jump_that_is_not_there_has_no_error(few):
+    # A jump that is not there has no error.
     row = few.loc[("jump_in_displacement", "semi-rigid", 1.0, 0.01)]
     assert np.isnan(row["kappa"])
     assert "no jump" in row["reason"]
 
 
-def test_dmt_has_the_force_of_bradley():
-    """Its cohesive stress is chosen so that it has Bradley's pull-off force (Eq. 74)."""
-    for n in (0.8, 1.5, 8.0):
-        assert quantity("dmt", "pull_off_force", n, 0.4, 1.0)["value"] == pytest.approx(
-            rigid_pull_off(n).value, rel=1e-12
-        )
-
-
-def test_each_map_has_its_lines_and_the_references_are_those_of_the_solver(tmp_path):
-    assert [figure.tasks() for figure in (ERROR_MAPS_SHAPE, ERROR_MAPS_GRADIENT)] == [
-        calls(lines) for lines in (along_shapes(), along_gradients())
-    ]
-    assert set(ERROR_MAPS_JUMPS.tasks()) == set(calls(along_shapes() + along_gradients()))
-    cache = CallCache(tmp_path / "tasks.jsonl", "test")
-    list(cache.work(calls([(2.0, 0.0)]), 1))
-    table = table_of_lines(cache.results, [(2.0, 0.0)], MAPPED)
+def test_the_references_of_the_maps_are_those_of_the_solver(made_of):
+    table = made_of(lambda: errors_along([(2.0, 0.0)], list(MAPPED)))
     assert set(zip(table["quantity"], table["model"], strict=True)) == {
         (name, model) for name, models in MAPPED.items() for model in models
     }
@@ -78,25 +56,10 @@ def test_each_map_has_its_lines_and_the_references_are_those_of_the_solver(tmp_p
         assert 0.0 < row["u_kappa"] < 1e-4
 
 
-def test_the_map_is_where_it_is_labelled():
-    table = pd.DataFrame(
-        {
-            "k": [0.4, 0.0, 0.4, 0.0],
-            "point": [0, 0, 1, 1],
-            "mu": [0.5, 0.6, 2.0, 3.0],
-            "kappa": [-0.03, 0.0, 0.01, 0.02],
-        }
-    )
-    k, mu, kappa = lattice(table, "k")
-    assert k.tolist() == [[0.0, 0.4]] * 2
-    assert mu.tolist() == [[0.6, 0.5], [3.0, 2.0]]
-    assert kappa.tolist() == [[0.0, -3.0], [2.0, 1.0]]
-
-
 def test_the_map_of_a_jump_begins_at_the_critical_tabor_number():
     """At n = 2, k = 0 that is 0.69721461: there are jumps at 0.70, and none at 0.69."""
     stored = {"": pd.read_csv(BASELINE / "error_maps_jumps.csv")}
-    figure = ERROR_MAPS_JUMPS.draw(stored)
+    figure = error_maps.ERROR_MAPS_JUMPS.draw(stored)
     for title in ("semi-rigid jump-in, $k$ = 0", "JKR jump-out, $k$ = 0"):
         axes = next(axes for axes in figure.axes if axes.get_title(loc="left").endswith(title))
         (hatched,) = [part for part in axes.collections if part.get_hatch()]
@@ -138,6 +101,8 @@ def test_bands_are_bracketed_and_not_too_precise():
 def test_two_ranges_are_two_rows_and_no_range_is_a_row_without_numbers():
     found = bands(table_of([0.0, 0.03, 0.0]))
     assert found.groupby("limit").size().to_dict() == {0.01: 2, 0.02: 2, 0.05: 1}
+    # Within the limit is within, however little.
+    assert bands(table_of([0.03, 0.0099, 0.08])).set_index("limit").loc[0.01, "from_above"] == 1.0
     never = bands(table_of([0.6, 0.5, 0.4]))
     assert len(never) == 3
     assert never["mu_from"].isna().all()

@@ -1,6 +1,5 @@
 """The study of solids that are no power law: both references, and the simpler solids beside them."""
 
-import re
 from pathlib import Path
 
 import numpy as np
@@ -9,8 +8,8 @@ import pytest
 
 from comparisons.paper.baseline import PAPER_BASELINE
 from comparisons.paper.studies.graded_equivalent import equivalent_of
-from comparisons.paper.studies.graded_routes import OFFSET, QUANTITIES, by_elements, by_fscm, case_of, of_power_law
-from comparisons.paper.studies.graded_solids import SERIES, SIMPLER
+from comparisons.paper.studies.graded_routes import OFFSET, by_elements, by_fscm, case_of, of_power_law
+from comparisons.paper.studies.graded_solids import SERIES
 from comparisons.problem_file.description import ProblemFile, Section
 from comparisons.problem_file.dimensionless import dimensionless_problem
 from comparisons.problem_file.equivalent_power_law import equivalent_power_law
@@ -24,10 +23,6 @@ LARGEST_BOUND = 3e-5
 
 #: Distance of k and mu from those of a power law with an offset of 1e-6 L: see the test for how it falls.
 LARGEST_OFFSET = 3e-4
-
-#: Distance of k and mu from those of the surface where the modulus changes over 1e4 L: measured 2.6e-3 (exponential),
-#: since a share of the energy is at lengths far above the contact radius.
-LARGEST_DEPTH = 4e-3
 
 
 def rows(kind, parameter):
@@ -51,24 +46,6 @@ def test_both_references_agree_within_their_bounds():
         assert (part["u_fscm"] + part["u_fem"]).max() < LARGEST_BOUND * part["fscm"].abs().max(), name
 
 
-def test_the_pull_off_is_there_twice_at_every_point_and_the_jumps_at_two_of_each_kind():
-    assert [(kind, parameter) for kind, parameter in TABLE[["solid", "parameter"]].drop_duplicates().to_numpy()] == [
-        (kind, pytest.approx(parameter)) for kind, parameter in CASES
-    ]
-    assert set(TABLE["quantity"]) == set(QUANTITIES)
-    assert TABLE.loc[TABLE["quantity"] == "pull_off_force", ["fscm", "fem"]].notna().all(axis=None)
-    for _, part in TABLE[TABLE["quantity"] == "hysteresis_energy"].groupby("solid"):
-        assert part["fem"].notna().sum() >= 1
-
-
-def test_a_point_is_that_of_the_example_of_the_fscm():
-    """The example is computed with those of all docstrings; the heavy test computes every point."""
-    (printed,) = re.findall(
-        r"by_fscm\(\"coating\", 1\.0\)\[\"pull_off_force\"\].*\n.*\n\s*\((.*), True\)", by_fscm.__doc__
-    )
-    assert rows("coating", 1.0).loc["pull_off_force", "fscm"] == pytest.approx(float(printed), abs=0.5e-6)
-
-
 @pytest.mark.heavy
 def test_a_point_is_computed_again_by_the_finite_elements():
     assert_stored(rows("coating", 1.0), by_elements("pull-off", "coating", 1.0), "fem")
@@ -83,22 +60,14 @@ def test_every_point_is_computed_again_by_the_fscm(kind, parameter):
 @pytest.mark.heavy
 def test_the_equivalent_power_law_of_a_power_law_is_itself():
     """The skin changes the compliance at the contact radius by its share, z_s^(1-k)."""
-    apart = [np.abs(np.subtract(equivalent_of("offset power law", z_s), OFFSET)) for z_s in (1e-4, 1e-6)]
-    assert max(apart[1]) < LARGEST_OFFSET
-    assert max(apart[1]) < max(apart[0]) / 3.0
+    apart = [max(np.abs(np.subtract(equivalent_of("offset power law", z_s), OFFSET))) for z_s in (1e-4, 1e-6)]
+    assert apart[1] < min(LARGEST_OFFSET, apart[0] / 3.0)
 
 
 @pytest.mark.parametrize("kind", [pytest.param("exponential", marks=pytest.mark.heavy), "coating"])
 def test_the_equivalent_power_law_of_a_thin_layer_is_that_of_the_depth(kind):
     """What is left is the share of the depth in the lengths of the contact."""
     assert equivalent_of(kind, 1e-6) == pytest.approx(case_of(kind, 1e-6).depth, abs=1e-5)
-
-
-@pytest.mark.heavy
-@pytest.mark.parametrize("kind", ["exponential", "coating"])
-def test_the_equivalent_power_law_of_a_thick_layer_is_that_of_the_surface(kind):
-    """What is left is the share of the contact in the depth."""
-    assert equivalent_of(kind, 1e4) == pytest.approx((0.0, case_of(kind, 1e4).mu), abs=LARGEST_DEPTH)
 
 
 def test_the_equivalent_power_laws_are_those_of_the_rule_of_a_problem_file():
@@ -114,14 +83,11 @@ def test_the_equivalent_power_laws_are_those_of_the_rule_of_a_problem_file():
     assert found.error == pytest.approx(stored["power_law_error"], abs=2e-6)
 
 
-def test_errors_are_those_of_the_columns():
-    for other in SIMPLER:
+def test_errors_are_those_of_the_columns_and_a_missing_jump_has_a_reason():
+    assert (TABLE["fscm"].isna() == TABLE["reason"].notna()).all()
+    for other in ("surface", "depth", "power_law"):
         error = (TABLE[other] - TABLE["fscm"]) / TABLE["fscm"].abs()
         assert TABLE[f"{other}_error"].to_numpy() == pytest.approx(error.to_numpy(), nan_ok=True)
     row = rows("exponential", 2.0).iloc[0]
     value, u_num = of_power_law(row["power_law_k"], row["power_law_mu"])["pull_off_force"]
     assert abs(value - row["power_law"]) <= 2.0 * u_num
-
-
-def test_a_missing_jump_has_a_reason():
-    assert (TABLE["fscm"].isna() == TABLE["reason"].notna()).all()
