@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pandas as pd
 from matplotlib.figure import Figure
+from rich.console import Group
 
-from comparisons.output.fitted_table import FittedTable
 from comparisons.output.style import save
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.runs.atomic_files import atomic
@@ -58,7 +58,7 @@ class PaperFigure:
     tables: Callable[[Results], Tables]
     draw: Callable[[Tables], Figure] | None
     texts: Callable[[Tables], dict[str, str]] | None = None
-    shown: Callable[[Tables], FittedTable] | None = None
+    shown: Callable[[Tables], Group] | None = None
     follows_path: bool = False
 
     def table_file(self, name: str) -> str:

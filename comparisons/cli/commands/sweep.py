@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from comparisons.cli.options import FAILED, OK, add_jobs, add_out, add_quiet, add_retry_failed, output
 from comparisons.console.progress import log, note, quiet
 from comparisons.model import ComputationFailed
-from comparisons.output.sweep_summary import failure_lines, summary_tables
+from comparisons.output.run_summary import failure_lines, summary_tables
 from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.run import run
 from comparisons.runs.backends import BACKENDS

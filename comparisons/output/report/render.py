@@ -13,18 +13,16 @@ from functools import cache
 from hashlib import sha256
 from importlib.resources import files
 from typing import Any
-from unicodedata import normalize
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from comparisons.judging.decision import Verdict
-from comparisons.output.latex_layout import NUMBER
-from comparisons.output.latex_text import TOKENS, escaped
+from comparisons.output.latex import latex_table
 from comparisons.output.report.page import Page
 from comparisons.output.report.problem_page import ProblemPage
-from comparisons.output.report.table import Table
 from comparisons.output.style import VERDICT_SYMBOLS, verdict_class
+from comparisons.output.table import Table
 
 __all__ = ["dark_colour", "environment", "records", "render", "render_table", "script_json"]
 
@@ -133,13 +131,6 @@ def records(text: str) -> list[str]:
     return found
 
 
-def _characters(tables: Iterable[dict[str, Any]]) -> dict[str, str]:
-    """Return every character of the tables that LaTeX needs in another form, and that form."""
-    texts = (cell if isinstance(cell, str) else cell[0] for one in tables for _, cells in one["rows"] for cell in cells)
-    every = sorted(set().union(*(normalize("NFC", text) for text in texts)))
-    return {one: form for one in every if not one.isspace() and (form := escaped(one)) != one}
-
-
 @cache
 def environment() -> Environment:
     """Return the environment of all templates: everything that is text is escaped."""
@@ -163,13 +154,10 @@ def _filled(
     content: dict[str, Any],
     **context: Any,
 ) -> str:
-    laid_out = {table.id: table.data() for table in tables}
     data = {
-        "tables": laid_out,
+        "tables": {table.id: _data(table) for table in tables},
         **content,
         "files": {name: records(text) for name, text in files.items()},
-        "latex": {"number": NUMBER, "tokens": TOKENS, "characters": _characters(laid_out.values())},
-        "verdicts": {str(name): [VERDICT_SYMBOLS[name], verdict_class(name)] for name in Verdict},
     }
     page = environment().get_template(template)
     return (
@@ -183,6 +171,12 @@ def _filled(
         )
         + "\n"
     )
+
+
+def _data(table: Table) -> dict[str, Any]:
+    """Return what the scripts need of a table to save the rows that are shown."""
+    latex = latex_table(table.on_paper(), table.caption, table.id)
+    return {"source": table.source, "lines": table.lines, "latex": [latex.before, latex.rows, latex.after]}
 
 
 def _asset(name: str) -> str:

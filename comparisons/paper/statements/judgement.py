@@ -7,13 +7,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import pandas as pd
+from rich.console import Group
 
 from comparisons.data.paper_statements import PaperStatement, paper_statements
 from comparisons.numerics.number_text import value_text
-from comparisons.output.fitted_table import FittedTable
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
-from comparisons.output.tables import rich_table
+from comparisons.output.terminal import records
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.statements.evidence import (
@@ -172,8 +172,8 @@ def _texts(tables: Tables) -> dict[str, str]:
     return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": text}
 
 
-def _shown(tables: Tables) -> FittedTable:
-    return rich_table(readable(tables[""])[_SHORT], _TITLE)
+def _shown(tables: Tables) -> Group:
+    return records(readable(tables[""])[_SHORT], _TITLE)
 
 
 PAPER_STATEMENTS = PaperFigure(

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 import pandas as pd
+from rich.console import Group
 
 from comparisons.data.paper_values import PaperValue, paper_values
 from comparisons.models.closed_form import EPS
@@ -14,10 +15,9 @@ from comparisons.models.cohesive_stress import eta
 from comparisons.models.jkr import JKR
 from comparisons.models.semi_rigid import SemiRigid, jump_in_coefficient
 from comparisons.numerics.number_text import LEAST_SHOWN, value_text
-from comparisons.output.fitted_table import FittedTable
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
-from comparisons.output.tables import rich_table
+from comparisons.output.terminal import records
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Tables
 from comparisons.paper.tasks import quantity
@@ -184,8 +184,8 @@ def _texts(tables: Tables) -> dict[str, str]:
     return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": text}
 
 
-def _shown(tables: Tables) -> FittedTable:
-    return rich_table(readable(tables[""]), _TITLE)
+def _shown(tables: Tables) -> Group:
+    return records(readable(tables[""]), _TITLE)
 
 
 PAPER_VALUES = PaperFigure(

@@ -1,0 +1,92 @@
+"""Tables on a terminal, by rich: a row a line, or a row as a block of lines where a line has no room for it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+from rich.box import SIMPLE_HEAD
+from rich.console import Group
+from rich.table import Table
+from rich.text import Text
+
+from comparisons.console.printable import printable
+from comparisons.output.table import aligned
+
+__all__ = ["records", "rich_table"]
+
+
+def rich_table(table: pd.DataFrame, title: str, formats: Mapping[str, str] | None = None) -> Group:
+    """Return a table for the terminal: numbers on the right, texts folded between words, blank where missing.
+
+    Parameters
+    ----------
+    table : DataFrame
+    title : str
+    formats : mapping of str to str, optional
+        Formats of columns of numbers.
+
+    Examples
+    --------
+    >>> from rich import print
+    >>> print(rich_table(pd.DataFrame({"model": ["jkr"], "kappa": [0.5]}), "errors", {"kappa": "+.2f"}))
+    errors
+    model  kappa
+    ────────────
+    jkr    +0.50
+    """
+    texts = _texts(table, formats or {})
+    shown = Table(box=SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0), header_style="bold")
+    for name, cells in texts.items():
+        lines = [line for cell in cells for line in cell.split("\n")]
+        number = aligned([part for line in lines for part in line.split(", ")])
+        # Numbers and names are never folded: digits of the next line would be read as another number.
+        whole = number or not any(" " in line for line in lines)
+        width = max(map(len, [*lines, *name.split()])) if whole else None
+        shown.add_column(
+            Text(name), justify="right" if number else "left", no_wrap=whole, min_width=width, overflow="fold"
+        )
+    for row in texts.itertuples(index=False):
+        shown.add_row(*map(Text, row))
+    return Group(Text(title, style="bold"), shown)
+
+
+def records(table: pd.DataFrame, title: str) -> Group:
+    """Return a table as a block for each row: its first cell and, indented, the others that are not empty.
+
+    Examples
+    --------
+    >>> from rich import print
+    >>> print(records(pd.DataFrame({"model": ["jkr"], "domain": ["soft solids"]}), "models"))
+    models
+    jkr
+      domain  soft solids
+    """
+    texts = _texts(table, {})
+    first, *others = texts
+    parts: list[Text | Table] = [Text(title, style="bold")]
+    for row in texts.to_dict("records"):
+        block = Table.grid(padding=(0, 2, 0, 0))
+        block.add_column(no_wrap=True, min_width=2 + max(map(len, others), default=0))
+        block.add_column(overflow="fold")
+        for name in others:
+            if row[name]:
+                block.add_row(Text(f"  {name}"), Text(row[name]))
+        parts += [Text(row[first], style="bold"), block]
+    return Group(*parts)
+
+
+def _texts(table: pd.DataFrame, formats: Mapping[str, str]) -> pd.DataFrame:
+    return pd.DataFrame(
+        {str(name): [printable(_text(cell, formats.get(str(name), "g"))) for cell in table[name]] for name in table},
+        dtype=object,
+    )
+
+
+def _text(cell: object, form: str) -> str:
+    if isinstance(cell, bool | np.bool_):
+        return "yes" if cell else ""
+    if isinstance(cell, float | np.floating):
+        return "" if np.isnan(cell) else format(cell, form)
+    return str(cell)
