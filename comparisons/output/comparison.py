@@ -13,7 +13,7 @@ from rich.console import Group
 from comparisons.judging.summary import coverage_text
 from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.numerics.number_text import exact, value_text
-from comparisons.output.table import CASE_NAMES, MODEL, Cell, Column, short_percent, table_of, texts_of, words
+from comparisons.output.table import CASE_NAMES, Cell, Column, chosen, short_percent, table_of, texts_of, words
 from comparisons.output.terminal import rich_table
 from comparisons.runs.case_columns import keys_in, with_problem, without_empty_problem
 from comparisons.runs.cases import Grid
@@ -134,7 +134,7 @@ def _place(row: Mapping[str, Any]) -> Cell:
 
 #: Columns of the summary of a quantity; errors are in percent.
 SUMMARY = (
-    MODEL,
+    *chosen("model"),
     Column("a value in", cell=lambda row: Cell(coverage_text(row))),
     Column("largest", "number", lambda row: _percent(row["largest"], row["u_largest"])),
     Column("at", cell=_place),

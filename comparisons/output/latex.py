@@ -60,33 +60,23 @@ _SIGNS = {
     "≥": r"\geq",
     "≠": r"\neq",
     "≈": r"\approx",
-    "∼": r"\sim",
-    "∝": r"\propto",
-    "≪": r"\ll",
-    "≫": r"\gg",
     "±": r"\pm",
     "×": r"\times",
     "·": r"\cdot",
     "∞": r"\infty",
     "√": r"\surd",
-    "∂": r"\partial",
     "→": r"\rightarrow",
     "′": r"\prime",
     "°": r"\circ",
-    "ε": r"\varepsilon",
-    "φ": r"\varphi",
-    "ς": r"\varsigma",
 }
 
 _TEXTS = {
     "–": r"\textendash{}",
     "—": r"\textemdash{}",
-    "…": r"\ldots{}",
     "’": "{'}",
     "“": "{``}",
     "”": "{''}",
     "§": r"\S{}",
-    "\N{NO-BREAK SPACE}": "~",
     "ß": r"\ss{}",
     "æ": r"\ae{}",
     "ø": r"\o{}",
@@ -110,8 +100,8 @@ _ACCENTS = {
 
 #: Greek letters that have a command in both sizes, and in the small one; others have the shape of Latin letters.
 _GREEK = {"GAMMA", "DELTA", "THETA", "LAMDA", "XI", "PI", "SIGMA", "UPSILON", "PHI", "PSI", "OMEGA"}
-_SMALL_GREEK = _GREEK | {"ALPHA", "BETA", "ZETA", "ETA", "IOTA", "KAPPA", "MU", "NU", "RHO", "TAU", "CHI"}
-_LETTER = re.compile(r"GREEK (SMALL|CAPITAL) LETTER (\w+)|(MICRO) SIGN")
+_SMALL_GREEK = _GREEK | {"ALPHA", "BETA", "EPSILON", "ZETA", "ETA", "IOTA", "KAPPA", "MU", "NU", "RHO", "TAU", "CHI"}
+_LETTER = re.compile(r"GREEK (SMALL|CAPITAL) LETTER (\w+)")
 
 #: A minus sign before a number.
 _MINUS = re.compile(r"(?<![A-Za-z0-9_.)}-])-(?=[0-9])")
@@ -305,7 +295,7 @@ def _greek(one: str) -> str:
     named = _LETTER.fullmatch(unicodedata.name(one, ""))
     if not named:
         return ""
-    small, name = named[1] != "CAPITAL", "MU" if named[3] else named[2]
+    small, name = named[1] == "SMALL", named[2]
     if name not in (_SMALL_GREEK if small else _GREEK):
         return ""
     name = name.replace("LAMDA", "LAMBDA")

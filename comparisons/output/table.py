@@ -14,21 +14,23 @@ from typing import Any
 
 import pandas as pd
 
-from comparisons.numerics.number_text import exact, percent_text, value_text
+from comparisons.judging.decision import Verdict
+from comparisons.judging.summary import coverage_text
+from comparisons.numerics.number_text import error_text, exact, limits_text, percent_text, value_text
 from comparisons.quantities import title_of
 from comparisons.runs.csv_format import csv_text
 from comparisons.runs.rows import PARAMETERS
 
 __all__ = [
-    "CASE_COLUMNS",
+    "CASE_LABELS",
     "CASE_NAMES",
-    "MODEL",
-    "QUANTITY",
+    "COLUMNS",
     "Cell",
     "Column",
     "Row",
     "Table",
     "aligned",
+    "chosen",
     "is_number",
     "kappa_cell",
     "number",
@@ -149,7 +151,7 @@ def table_of(
     Examples
     --------
     >>> stored = pd.DataFrame({"model": ["jkr"], "n": [2.0]})
-    >>> made = table_of("errors", "Errors", (MODEL, *CASE_COLUMNS), stored)
+    >>> made = table_of("errors", "Errors", chosen("model", *CASE_LABELS), stored)
     >>> [(one.label, cell.text) for one, cell in zip(made.columns, made.rows[0].cells)]
     [('model', 'jkr'), ('n', '2')]
     """
@@ -173,7 +175,7 @@ def texts_of(columns: Sequence[Column], stored: pd.DataFrame) -> pd.DataFrame:
 
     Examples
     --------
-    >>> texts_of([MODEL, values("value", "value", "u_num")],
+    >>> texts_of(chosen("model", "value"),
     ...          pd.DataFrame({"model": ["jkr"], "value": [1.7884817], "u_num": [2.6e-6]})).values.tolist()
     [['jkr', '1.788482(3)']]
     """
@@ -276,11 +278,50 @@ def short_percent(kappa: float, u_kappa: float) -> str:
     return value_text(100 * kappa, max(100 * u_kappa, _LEAST_PERCENT))
 
 
-MODEL = words("model", "model", "head")
-QUANTITY = Column("quantity", cell=lambda row: Cell(title_of(row["quantity"])))
-#: The parameters of a case, and its problem file; by Greek letters, and by the names of the command line.
-CASE_COLUMNS = (*(numbers(*pair, "") for pair in zip("nkμν", PARAMETERS, strict=True)), words("problem", "problem"))
+def _verdict(row: Mapping[str, Any]) -> Cell:
+    return Cell(row["verdict"], float(Verdict(row["verdict"]).rank)) if row["verdict"] else Cell("")
+
+
+def _error(row: Mapping[str, Any]) -> Cell:
+    error = row["error"]
+    return Cell("") if _missing(error) else Cell(error_text(error, row["uncertainty"]), float(error))
+
+
+#: The parameters of a case and its problem file: by Greek letters, and by the names of the command line.
+CASE_LABELS = ("n", "k", "μ", "ν", "problem")
 CASE_NAMES = (*(numbers(name, name, "") for name in PARAMETERS), words("problem", "problem"))
+
+#: Columns of more than one table, by their headings.
+COLUMNS = {
+    one.label: one
+    for one in (
+        *(words(name, name) for name in ("candidate", "reference", "problem", "unit", "status")),
+        *(words(name, name, "head") for name in ("model", "gate")),
+        *(words("version", "model_version"), words("reason", "reason", "prose")),
+        *(numbers(label, name, "") for label, name in zip("nkμν", PARAMETERS, strict=True)),
+        Column("quantity", cell=lambda row: Cell(title_of(row["quantity"]))),
+        *(values("value", "value", "u_num"), numbers("u_num", "u_num", ".1e")),
+        *(values("candidate's value", "value", "u_num"), values("reference's value", "reference_value", "u_reference")),
+        *(percents(label, "kappa", "u_kappa") for label in ("κ (%)", "largest κ (%)")),
+        numbers("u of κ", "u_kappa", ".1e"),
+        Column("verdict", "verdict", _verdict),
+        Column("coverage", cell=lambda row: Cell(coverage_text(row))),
+        *(Column(label, "number", _error) for label in ("E(U)", "worst E(U)")),
+        numbers("U", "uncertainty", ".1e", paper=False),
+        Column("limits", cell=lambda row: Cell(limits_text(row["lower"], row["upper"]))),
+    )
+}
+
+
+def chosen(*labels: str) -> list[Column]:
+    """Return columns of `COLUMNS` by their headings.
+
+    Examples
+    --------
+    >>> [one.kind for one in chosen("model", "value")]
+    ['head', 'number']
+    """
+    return [COLUMNS[label] for label in labels]
 
 
 def table_csv(table: Table) -> str:

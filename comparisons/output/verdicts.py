@@ -11,14 +11,13 @@ from typing import Any
 import pandas as pd
 
 from comparisons.judging.card_gates import CARD
-from comparisons.judging.decision import Verdict
 from comparisons.judging.gates import Gate
-from comparisons.judging.summary import coverage_text, summarise
-from comparisons.numerics.number_text import error_text, exact, limits_text
+from comparisons.judging.summary import summarise
+from comparisons.numerics.number_text import exact
 from comparisons.output.junit import junit
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
-from comparisons.output.table import CASE_COLUMNS, Cell, Column, table_of, texts_of, values, words
+from comparisons.output.table import CASE_LABELS, COLUMNS, Cell, Column, chosen, table_of, texts_of
 from comparisons.quantities import CURVES
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.cases import split_label
@@ -26,22 +25,7 @@ from comparisons.runs.folder import RunFolder
 from comparisons.runs.rows import PARAMETERS, Key
 from comparisons.runs.tables import write_table
 
-__all__ = [
-    "CANDIDATE",
-    "CANDIDATE_VALUE",
-    "COVERAGE",
-    "ERROR",
-    "GATE",
-    "GATE_COLUMNS",
-    "LIMITS",
-    "REFERENCE",
-    "REFERENCE_VALUE",
-    "VERDICT",
-    "WORST",
-    "WORST_CASES",
-    "command",
-    "write_verdicts",
-]
+__all__ = ["GATE_COLUMNS", "WORST_CASES", "command", "write_verdicts"]
 
 #: What is stored of each gate beside its verdicts: what was required, in which unit, and on what grounds.
 GATE_COLUMNS = ("id", "requirement", "metric", "basis", "grounds")
@@ -87,27 +71,11 @@ def _command_of_file(row: Mapping[str, Any], specs: Mapping[str, str]) -> str:
     return f"fscm-bench sweep --problem {quoted}{vary} --model {model} --quantity {row['quantity']}"
 
 
-def _verdict(row: Mapping[str, Any]) -> Cell:
-    return Cell(str(row["verdict"]), float(Verdict(row["verdict"]).rank)) if row["verdict"] else Cell("")
-
-
-def _error(row: Mapping[str, Any]) -> Cell:
-    error = row["error"]
-    return Cell("") if pd.isna(error) else Cell(error_text(error, row["uncertainty"]), float(error))
-
-
-#: Columns of verdicts and of their summary; an error has its U in brackets.
-VERDICT = Column("verdict", "verdict", _verdict)
-GATE, CANDIDATE, REFERENCE = words("gate", "gate"), words("candidate", "candidate"), words("reference", "reference")
-CANDIDATE_VALUE = values("candidate's value", "value", "u_num")
-REFERENCE_VALUE = values("reference's value", "reference_value", "u_reference")
-COVERAGE = Column("coverage", cell=lambda row: Cell(coverage_text(row)))
-ERROR = Column("E(U)", "number", _error)
-WORST = Column("worst E(U)", "number", _error)
-LIMITS = Column("limits", cell=lambda row: Cell(limits_text(row["lower"], row["upper"])))
-
 #: The worst case of each gate, as it is in LaTeX.
-WORST_CASES = (VERDICT, GATE, *CASE_COLUMNS, CANDIDATE, CANDIDATE_VALUE, REFERENCE, REFERENCE_VALUE, ERROR)
+WORST_CASES = chosen(
+    *("verdict", "gate", *CASE_LABELS),
+    *("candidate", "candidate's value", "reference", "reference's value", "E(U)"),
+)
 
 
 def write_verdicts(
@@ -131,9 +99,9 @@ def write_verdicts(
     write_table(summary.assign(verdict=summary["verdict"].map(str)), files.summary)
     requirement = {gate.id: gate.requirement for gate in gates}
     columns = (
-        *(VERDICT, GATE, CANDIDATE, REFERENCE, COVERAGE, WORST, LIMITS),
+        *chosen("verdict", "gate", "candidate", "reference", "coverage", "worst E(U)", "limits"),
         Column("command", cell=lambda row: Cell(command(row, specs))),
-        words("reason", "reason"),
+        COLUMNS["reason"],
         Column("requirement", cell=lambda row: Cell(requirement.get(row["gate"], ""))),
     )
     page = markdown(texts_of(columns, summary), "Verdicts")

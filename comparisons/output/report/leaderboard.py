@@ -14,18 +14,7 @@ from comparisons.judging.decision import roll_up
 from comparisons.output.error_summary import error_summary
 from comparisons.output.report.render import render_table
 from comparisons.output.report.stored_run import Stored
-from comparisons.output.table import (
-    CASE_COLUMNS,
-    MODEL,
-    QUANTITY,
-    Cell,
-    Column,
-    kappa_cell,
-    numbers,
-    table_of,
-    words,
-)
-from comparisons.output.verdicts import REFERENCE, VERDICT
+from comparisons.output.table import CASE_LABELS, Cell, Column, chosen, kappa_cell, numbers, table_of, words
 from comparisons.runs.case_columns import keys_in, with_problem
 from comparisons.runs.csv_format import csv_text
 from comparisons.runs.rows import CASE, Key
@@ -48,11 +37,11 @@ def _bound(row: Mapping[str, Any]) -> Cell:
 
 
 _COLUMNS = (
-    *(MODEL, QUANTITY, VERDICT, _size("largest |κ| (%)", "largest", "u_largest"), *CASE_COLUMNS),
+    *(*chosen("quantity", "verdict"), _size("largest |κ| (%)", "largest", "u_largest"), *chosen(*CASE_LABELS)),
     *(_size("rms κ (%)", "rms", "u"), Column("bound (%)", "number", _bound)),
     *(numbers(name.replace("_", " "), name, ".0f") for name in ("asked", "answered", "not_applicable", "failed")),
-    *(numbers("cases with κ", "cases", ".0f"), REFERENCE, words("version", "version"), words("date", "finished")),
-    *(words("fscm-bench", "package"), words("run", "run")),
+    *(numbers("cases with κ", "cases", ".0f"), *chosen("reference"), words("version", "version")),
+    *(words("date", "finished"), words("fscm-bench", "package"), words("run", "run")),
 )
 
 _KEY = ["model", "quantity", *CASE]
@@ -175,7 +164,7 @@ def leaderboard_html(entries: Sequence[Entry], mixed: bool = False) -> str:
     size = every["largest"].abs()
     every = every.assign(size=size).sort_values(["quantity", "case_set", "size"], kind="stable", ignore_index=True)
     mixed_sets = [words("set", "case_set")] if len(set(letters)) > 1 else []
-    columns = (*_COLUMNS[:1], *mixed_sets, *_COLUMNS[1:])
+    columns = (*chosen("model"), *mixed_sets, *_COLUMNS)
     table = table_of("leaderboard", "One row a model and quantity of each run", columns, every, "leaderboard.csv")
     return render_table(
         "leaderboard.html",

@@ -100,7 +100,12 @@ def read_folder(folder: Path) -> Stored:
     gates, compared = files.parquet(files.gates), files.parquet(files.comparison)
     return Stored(
         record,
-        *[tables[name] for name in (RESULTS, CURVES, KAPPA, VERDICTS, SUMMARY, LARGEST_KAPPA)],
+        tables[RESULTS],
+        tables[CURVES],
+        tables[KAPPA],
+        tables[VERDICTS],
+        tables[SUMMARY],
+        tables[LARGEST_KAPPA],
         _table(gates, GATE_COLUMNS) if gates.exists() else None,
         judged,
         _table(compared, COMPARED) if _has(folder, record, COMPARISON) else None,

@@ -19,30 +19,17 @@ from comparisons.output.comparison import SUMMARY, by_case, case_columns
 from comparisons.output.report.plots import curve_group, kappa_group
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.table import (
-    CASE_COLUMNS,
-    MODEL,
-    QUANTITY,
+    CASE_LABELS,
+    COLUMNS,
     Cell,
     Column,
     Table,
+    chosen,
     numbers,
-    percents,
     table_of,
-    values,
     words,
 )
-from comparisons.output.verdicts import (
-    CANDIDATE,
-    CANDIDATE_VALUE,
-    COVERAGE,
-    ERROR,
-    LIMITS,
-    REFERENCE,
-    REFERENCE_VALUE,
-    VERDICT,
-    WORST,
-    command,
-)
+from comparisons.output.verdicts import command
 from comparisons.quantities import title_of
 from comparisons.runs.case_columns import with_problem
 from comparisons.runs.rows import CASE
@@ -67,12 +54,8 @@ _AT_LEAST, _AT_MOST = 12, 60
 #: Verdicts on the statements of the paper in the order of the table: what does not hold is first.
 _ORDER = ("false", "true in part", "not decided", "true")
 
-_VALUE, _U = values("value", "value", "u_num"), numbers("u_num", "u_num", ".1e")
-_REASON = words("reason", "reason", "prose")
-_OF_VERDICT = (
-    *CASE_COLUMNS,
-    *(CANDIDATE_VALUE, REFERENCE_VALUE, ERROR, numbers("U", "uncertainty", ".1e", paper=False), LIMITS),
-)
+#: Numbers of a verdict.
+_OF_VERDICT = (*CASE_LABELS, "candidate's value", "reference's value", "E(U)", "U", "limits")
 
 
 def _small(column: Column, more: Any, kind: str = "") -> Column:
@@ -96,7 +79,7 @@ def verdict_tables(stored: Stored, specs: Mapping[str, str]) -> Iterator[Table]:
     """
     yield _matrix(stored)
     yield _offenders(stored, specs)
-    columns = (VERDICT, words("gate", "gate", "head"), CANDIDATE, REFERENCE, QUANTITY, *_OF_VERDICT, _REASON)
+    columns = chosen("verdict", "gate", "candidate", "reference", "quantity", *_OF_VERDICT, "reason")
     yield table_of("verdicts", "Every gate in every case", columns, stored.verdicts, "verdicts.csv")
     yield _cards(stored)
 
@@ -121,10 +104,10 @@ def _matrix(stored: Stored) -> Table:
         return f"E = {METRICS.get(fact['metric'], fact['metric'])}; {fact['basis']}: {fact['grounds']}" if fact else ""
 
     columns = (
-        VERDICT,
-        _small(words("gate", "gate", "head"), lambda row: facts.get(row["gate"], {}).get("requirement")),
-        *(CANDIDATE, REFERENCE, Column("cases", "marks", marked), COVERAGE, WORST),
-        _small(LIMITS, grounds, "prose"),
+        COLUMNS["verdict"],
+        _small(COLUMNS["gate"], lambda row: facts.get(row["gate"], {}).get("requirement")),
+        *(*chosen("candidate", "reference"), Column("cases", "marks", marked), *chosen("coverage", "worst E(U)")),
+        _small(COLUMNS["limits"], grounds, "prose"),
     )
     return table_of("matrix", "Gates, worst first; one square a case", columns, stored.summary, "summary.csv")
 
@@ -140,9 +123,9 @@ def _offenders(stored: Stored, specs: Mapping[str, str]) -> Table:
     bad = int((judged["verdict"] != Verdict.PASS).sum())
     shown = judged.head(min(max(bad, _AT_LEAST), _AT_MOST))
     columns = (
-        VERDICT,
-        _small(words("gate", "gate", "head"), lambda row: row["reason"]),
-        *(CANDIDATE, QUANTITY, *_OF_VERDICT),
+        COLUMNS["verdict"],
+        _small(COLUMNS["gate"], lambda row: row["reason"]),
+        *chosen("candidate", "quantity", *_OF_VERDICT),
         Column("computed again by", "code", lambda row: Cell(command(row, specs))),
     )
     note = "Every judged case passes."
@@ -166,7 +149,7 @@ def _cards(stored: Stored) -> Table:
             name, stored.verdicts, found.get(name), Domain.of_json(domains[name]) if name in domains else None
         )
     ]
-    columns = (MODEL, words("item", "item"), words("found", "found", "prose"))
+    columns = (COLUMNS["model"], words("item", "item"), words("found", "found", "prose"))
     lines = pd.DataFrame(rows, columns=["model", "item", "found"])
     return table_of("cards", "Report cards of the given models", columns, lines, "cards.csv")
 
@@ -180,55 +163,31 @@ def run_tables(stored: Stored, specs: Mapping[str, str]) -> Iterator[Table]:
     specs : mapping of str to str
         The SPEC that finds each external model.
     """
+    case = ("model", "quantity", *CASE_LABELS, "value")
+    columns = chosen(*case, "reference", "reference's value", "κ (%)", "u of κ")
     yield table_of(
-        "kappa",
-        "Relative errors against the reference",
-        (
-            *(MODEL, QUANTITY, *CASE_COLUMNS, _VALUE, REFERENCE, REFERENCE_VALUE),
-            *(percents("κ (%)", "kappa", "u_kappa"), numbers("u of κ", "u_kappa", ".1e")),
-        ),
-        stored.kappa,
-        "kappa.csv",
-        group=kappa_group,
+        "kappa", "Relative errors against the reference", columns, stored.kappa, "kappa.csv", group=kappa_group
     )
-    yield table_of(
-        "largest",
-        "Largest relative error over the computed Tabor numbers, by size, with its sign",
-        (
-            *(MODEL, QUANTITY, *CASE_COLUMNS[:2], percents("largest κ (%)", "kappa", "u_kappa")),
-            numbers("at μ", "mu", ""),
-            Column("where", cell=lambda row: Cell("an end of the range" if row["at_end"] else "inside")),
-            numbers("cases", "cases", ".0f"),
-            *(words("paper (%)", "paper_percent", "number"), words("digits of the paper", "verdict")),
-        ),
-        stored.largest,
-        "largest_kappa.csv",
-    )
+    columns = [
+        *(*chosen("model", "quantity", "n", "k", "largest κ (%)"), numbers("at μ", "mu", "")),
+        Column("where", cell=lambda row: Cell("an end of the range" if row["at_end"] else "inside")),
+        *(numbers("cases", "cases", ".0f"), words("paper (%)", "paper_percent", "number")),
+        words("digits of the paper", "verdict"),
+    ]
+    caption = "Largest relative error over the computed Tabor numbers, by size, with its sign"
+    yield table_of("largest", caption, columns, stored.largest, "largest_kappa.csv")
     numbered = stored.results.reset_index(drop=True)
     discrete = numbered[(numbered["size"] > 0) & (numbered["status"] == "ok")]
-    sizes = (("unknowns", "size", ".0f"), ("iterations", "iterations", ".0f"), ("residual", "residual", ".1e"))
+    columns = [*chosen(*case, "u_num"), numbers("observed order", "observed_order", ".2f")]
+    columns += [numbers("unknowns", "size", ".0f"), numbers("iterations", "iterations", ".0f")]
     yield table_of(
-        "convergence",
-        "Numbers from a discretisation",
-        (
-            *(MODEL, QUANTITY, *CASE_COLUMNS, _VALUE, _U, numbers("observed order", "observed_order", ".2f")),
-            *(numbers(*column) for column in sizes),
-        ),
-        discrete,
-        "results.csv",
+        *("convergence", "Numbers from a discretisation", [*columns, numbers("residual", "residual", ".1e")]),
+        *(discrete, "results.csv"),
         group=lambda row: row["quantity"],
         lines=discrete.index,
     )
-    yield table_of(
-        "results",
-        "Every computed number",
-        (
-            *(MODEL, words("version", "model_version"), QUANTITY, *CASE_COLUMNS, _VALUE, _U),
-            *(words("unit", "unit"), words("status", "status"), _REASON),
-        ),
-        stored.results,
-        "results.csv",
-    )
+    columns = chosen("model", "version", *case[1:], "u_num", "unit", "status", "reason")
+    yield table_of("results", "Every computed number", columns, stored.results, "results.csv")
     yield _models(stored, specs)
     yield _statements()
 
@@ -236,14 +195,14 @@ def run_tables(stored: Stored, specs: Mapping[str, str]) -> Iterator[Table]:
 def curve_points(stored: Stored, quantity: str, labels: tuple[str, str]) -> Table:
     """Return the stored points of one kind of curve, with the labels of its axes."""
     numbered = stored.curves.reset_index(drop=True)
-    chosen = numbered[(numbered["quantity"] == quantity) & (numbered["status"] == "ok")]
+    points = numbered[(numbered["quantity"] == quantity) & (numbered["status"] == "ok")]
     columns = (
-        *(MODEL, *CASE_COLUMNS, numbers("point", "point", ".0f")),
+        *(*chosen("model", *CASE_LABELS), numbers("point", "point", ".0f")),
         *(numbers(label, name, ".8g") for label, name in zip(labels, "xy", strict=True)),
         numbers("u, share of the picture", "u_distance", ".1e"),
     )
     caption = f"Stored points: {title_of(quantity)}"
-    return table_of(quantity, caption, columns, chosen, "curves.csv", group=curve_group, lines=chosen.index)
+    return table_of(quantity, caption, columns, points, "curves.csv", group=curve_group, lines=points.index)
 
 
 def _models(stored: Stored, specs: Mapping[str, str]) -> Table:
@@ -259,7 +218,7 @@ def _models(stored: Stored, specs: Mapping[str, str]) -> Table:
         **{name: [described.get(model, {}).get(name) for model in found["model"]] for name in ("domain", "citation")},
     )
     columns = (
-        *(MODEL, words("version", "model_version")),
+        *chosen("model", "version"),
         *(Column(name, "number", _count(name.replace(" ", "-"))) for name in ("ok", "not applicable", "failed")),
         *(numbers("seconds", "seconds", ".3g"), words("SPEC, if external", "spec", "code")),
         *(words("domain", "domain", "prose"), words("citation", "citation", "prose")),

@@ -1,6 +1,5 @@
 """The leaderboard: one row a model and quantity of each run, on one page that needs no other file."""
 
-import json
 import math
 import re
 from dataclasses import replace
@@ -190,10 +189,8 @@ def test_many_rows_are_laid_out_by_the_script():
     results = pd.DataFrame([case | {"quantity": "pull_off_force", "model": model} for model in models])
     planned = {(model, "pull_off_force", 2.0, 0.0, 1.0, None, ""): "exact" for model in models}
     of_run = record(finished="2026-01-01T00:00:00+00:00", package={"version": "1", "commit": None})
-    data = json.loads(
-        re.search(r'id="data">(.*?)</script>', leaderboard_html([entry(of_run, [], results, planned)]))[1]
-    )
-    assert len(data["tables"]["leaderboard"]["rows"]) == 260
+    page = leaderboard_html([entry(of_run, [], results, planned)])
+    assert page.partition("<template>")[2].partition("</template>")[0].count("<tr>") == 260
 
 
 def test_a_part_of_a_sweep_and_a_wrong_place_are_refused(toys, tmp_path, capsys):
