@@ -12,7 +12,7 @@ import pandas as pd
 from comparisons.judging.card_gates import without_card_gates
 from comparisons.judging.decision import roll_up
 from comparisons.output.error_summary import error_summary
-from comparisons.output.report.render import render_table
+from comparisons.output.report.render import filled
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.table import CASE_LABELS, Cell, Column, chosen, kappa_cell, numbers, table_of, words
 from comparisons.runs.case_columns import keys_in, with_problem
@@ -161,15 +161,16 @@ def leaderboard_html(entries: Sequence[Entry], mixed: bool = False) -> str:
         ],
         ignore_index=True,
     )
-    size = every["largest"].abs()
-    every = every.assign(size=size).sort_values(["quantity", "case_set", "size"], kind="stable", ignore_index=True)
+    order = every.assign(size=every["largest"].abs()).sort_values(["quantity", "case_set", "size"], kind="stable").index
+    every = every.loc[order].reset_index(drop=True)
     mixed_sets = [words("set", "case_set")] if len(set(letters)) > 1 else []
     columns = (*chosen("model"), *mixed_sets, *_COLUMNS)
     table = table_of("leaderboard", "One row a model and quantity of each run", columns, every, "leaderboard.csv")
-    return render_table(
+    return filled(
         "leaderboard.html",
-        table,
-        {"leaderboard.csv": csv_text(every.drop(columns=["size"]))},
+        [table],
+        {"leaderboard.csv": csv_text(every)},
+        table=table,
         models=every["model"].nunique(),
         runs=len(entries),
         sets=_sets(entries, letters),

@@ -24,7 +24,7 @@ from comparisons.output.report.problem_page import ProblemPage
 from comparisons.output.style import VERDICT_SYMBOLS, verdict_class
 from comparisons.output.table import Table
 
-__all__ = ["dark_colour", "environment", "records", "render", "render_table", "script_json"]
+__all__ = ["dark_colour", "environment", "filled", "records", "render", "script_json"]
 
 #: Bokeh draws the plots: of the well-kept libraries that pip installs and that can draw a curve which turns
 #: back, zoom it and read it off, it is the smallest (1.4 MB, plotly.js 4.8 MB), and needs no `eval`.
@@ -78,27 +78,9 @@ def render(page: Page | ProblemPage) -> str:
         name: [style.colour, dark_colour(style.colour), style.dash, style.marker, style.broad]
         for name, style in page.model_styles.items()
     }
-    plots = [plot.data() for plot in page.every_plot]
-    scripts = [*(_script("bokeh", name) for name in _BOKEH), *(_own_script(name) for name in (*_SCRIPTS, "plots.js"))]
-    content = {"plots": plots, "model_styles": styles}
+    drawn = {"plots": [plot.data() for plot in page.every_plot], "model_styles": styles}
     template = "report.html" if isinstance(page, Page) else "problem_report.html"
-    return _filled(template, page.tables.values(), page.files, scripts, content, page=page, most_open=_MOST_OPEN)
-
-
-def render_table(template: str, table: Table, files: Mapping[str, str], **context: Any) -> str:
-    """Return the HTML of a page with one table, which sorts and filters.
-
-    Parameters
-    ----------
-    template : str
-        Its name among the assets.
-    table : Table
-    files : mapping of str to str
-        What can be downloaded.
-    context
-        What else the template shows.
-    """
-    return _filled(template, [table], files, [_own_script(name) for name in _SCRIPTS], {}, table=table, **context)
+    return filled(template, page.tables.values(), page.files, drawn, page=page, most_open=_MOST_OPEN)
 
 
 def dark_colour(colour: str) -> str:
@@ -146,31 +128,44 @@ def environment() -> Environment:
     return made
 
 
-def _filled(
+def filled(
     template: str,
     tables: Iterable[Table],
     files: Mapping[str, str],
-    scripts: list[Markup],
-    content: dict[str, Any],
+    drawn: Mapping[str, Any] | None = None,
     **context: Any,
 ) -> str:
+    """Return the HTML of a page whose tables sort and filter.
+
+    Parameters
+    ----------
+    template : str
+        Its name among the assets.
+    tables : iterable of Table
+    files : mapping of str to str
+        What can be downloaded.
+    drawn : mapping, optional
+        Plots and the styles of their models, for a page that has some.
+    context
+        What else the template shows.
+    """
+    scripts = [_script(_ASSETS, f"assets/{name}") for name in _SCRIPTS]
+    if drawn:
+        bokeh = [_script("bokeh", name) for name in _BOKEH]
+        scripts = [*bokeh, *scripts, _script(_ASSETS, "assets/plots.js")]
     data = {
         "tables": {table.id: _data(table) for table in tables},
-        **content,
+        **(drawn or {}),
         "files": {name: records(text) for name, text in files.items()},
     }
-    page = environment().get_template(template)
-    return (
-        page.render(
-            verdicts=list(map(str, Verdict)),
-            style=Markup(_asset("report.css")),
-            scripts=scripts,
-            policy=_policy(scripts),
-            data=script_json(data),
-            **context,
-        )
-        + "\n"
-    )
+    context |= {
+        "verdicts": list(map(str, Verdict)),
+        "style": Markup(_asset("report.css")),
+        "scripts": scripts,
+        "policy": _policy(scripts),
+        "data": script_json(data),
+    }
+    return environment().get_template(template).render(context) + "\n"
 
 
 def _data(table: Table) -> dict[str, Any]:
@@ -181,10 +176,6 @@ def _data(table: Table) -> dict[str, Any]:
 
 def _asset(name: str) -> str:
     return files(_ASSETS).joinpath("assets", name).read_text(encoding="utf-8")
-
-
-def _own_script(name: str) -> Markup:
-    return _script(_ASSETS, f"assets/{name}")
 
 
 @cache

@@ -13,8 +13,6 @@ from comparisons.output.report.stored_run import Stored
 from comparisons.runs.cases import load_grids
 from comparisons.runs.record import read_record, write_record
 
-from .browsing import DESKTOP, click, head, sorting
-
 GATE = """
 [[gate]]
 id = "TEN"
@@ -160,27 +158,6 @@ def test_texts_of_others_are_escaped_and_there_is_no_network(run_folder, hostile
     assert hostile.image not in page
     assert "Content-Security-Policy" in page
     assert not re.search(r"(src|href)=\"(?!data:|#)", page)
-
-
-def test_it_sorts_in_a_browser(browser, run_folder, tmp_path):
-    board([run_folder], tmp_path)
-    size = {"width": DESKTOP[0], "height": DESKTOP[1], "deviceScaleFactor": 1, "mobile": False}
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
-    browser.get((tmp_path / "board.html").as_uri())
-    script = """
-      const heads = Array.from(document.querySelectorAll("thead th"), (h) => h.innerText.trim());
-      const at = heads.findIndex((text) => text.startsWith("largest"));
-      return Array.from(document.querySelectorAll("tbody tr"), (row) => row.cells[at].dataset.v ?? "");
-    """
-    for direction, rising in (("ascending", True), ("descending", False)):
-        click(browser, head(browser, "leaderboard", "largest |κ| (%)"))
-        assert sorting(browser, "leaderboard", "largest |κ| (%)") == direction
-        shown = browser.execute_script(script)
-        numbers = [float(text) for text in shown if text]
-        assert len(numbers) == 2
-        assert numbers == sorted(numbers, reverse=not rising)
-        assert shown[len(numbers) :] == [""] * (len(shown) - len(numbers))
-    assert browser.execute_script("return window.hostile") is None
 
 
 def test_many_rows_are_laid_out_by_the_script():

@@ -12,7 +12,7 @@ from itertools import pairwise
 import pytest
 
 from comparisons.output.report.page import make_page
-from comparisons.output.report.render import render, script_json
+from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
 
 
@@ -80,18 +80,6 @@ def test_the_data_are_json_whatever_the_names(elements, hostile):
     models = {series["model"] for plot in data["plots"] for series in plot["series"]}
     assert {hostile.image, hostile.script, "fscm", "fem"} == models
     assert hostile.line in "\n".join(data["files"]["verdicts.csv"]).replace('""', '"')
-
-
-@pytest.mark.parametrize("text", ["</script>", "<!--<script>", "]]>", "&amp;", "'", "\u2028", "\u2029", "\ud800"])
-def test_no_text_ends_a_script(text):
-    shown = str(script_json({"a": text}))
-    assert not re.search("[<>&'\u2028\u2029\ud800]", shown)
-    assert json.loads(shown) == {"a": text.replace("\ud800", "?")}
-
-
-def test_what_is_no_number_is_no_data():
-    with pytest.raises(ValueError, match="JSON"):
-        script_json([float("nan")])
 
 
 def test_nothing_is_fetched(elements):
