@@ -101,7 +101,8 @@ def card_summary(judgement: Judgement, width: int, most: int = SHOWN, full: bool
 
 def _card(judgement: Judgement, name: str, width: int) -> list[str]:
     found = card_lines(name, judgement.verdicts, judgement.cards.get(name), judgement.domains.get(name))
-    lines = [f"report card of {name}", *(f"  {label}  {text}" for label, text in found)]
+    label_width = max(len(label) for label, _ in found)
+    lines = [f"report card of {name}", *(f"  {label:{label_width}}  {text}" for label, text in found)]
     return [part for line in lines for part in hanging(line, width)]
 
 

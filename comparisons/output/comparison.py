@@ -8,12 +8,22 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from rich.console import Group
+from rich.console import RenderableType
 
 from comparisons.judging.summary import coverage_text
 from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.numerics.number_text import exact, value_text
-from comparisons.output.table import CASE_NAMES, Cell, Column, chosen, short_percent, table_of, texts_of, words
+from comparisons.output.table import (
+    CASE_NAMES,
+    Cell,
+    Column,
+    chosen,
+    percents,
+    short_percent,
+    table_of,
+    texts_of,
+    words,
+)
 from comparisons.output.terminal import rich_table
 from comparisons.runs.case_columns import keys_in, with_problem, without_empty_problem
 from comparisons.runs.cases import Grid
@@ -113,11 +123,8 @@ def error_cell(row: Mapping[str, Any]) -> Cell:
     """
     if row["status"] != "ok":
         return Cell(_WORDS.get(row["status"], str(row["status"])))
-    return Cell("no reference") if np.isnan(row["kappa"]) else _percent(row["kappa"], row["u_kappa"])
-
-
-def _percent(kappa: float, u_kappa: float) -> Cell:
-    return Cell("") if np.isnan(kappa) else Cell(short_percent(kappa, u_kappa), kappa)
+    kappa = row["kappa"]
+    return Cell("no reference") if np.isnan(kappa) else Cell(short_percent(kappa, row["u_kappa"]), kappa)
 
 
 def _reference_cell(row: Mapping[str, Any]) -> Cell:
@@ -136,9 +143,9 @@ def _place(row: Mapping[str, Any]) -> Cell:
 SUMMARY = (
     *chosen("model"),
     Column("a value in", cell=lambda row: Cell(coverage_text(row))),
-    Column("largest", "number", lambda row: _percent(row["largest"], row["u_largest"])),
+    percents("largest", "largest", "u_largest"),
     Column("at", cell=_place),
-    Column("rms", "number", lambda row: _percent(row["rms"], row["u"])),
+    percents("rms", "rms", "u"),
 )
 
 
@@ -183,7 +190,7 @@ def by_case(table: pd.DataFrame) -> Iterator[tuple[str, str, list[str], pd.DataF
 
 def terminal_tables(
     table: pd.DataFrame, summary: pd.DataFrame, every: bool = False, width: int = WIDTH
-) -> Iterator[Group]:
+) -> Iterator[RenderableType]:
     """Yield the tables of a comparison for a terminal: errors with as many models as fit, and the summary.
 
     Parameters

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 import pandas as pd
-from rich.console import Group
+from rich.console import RenderableType
 
 from comparisons.numerics.number_text import case_text, exact
 from comparisons.output.gate_sentence import counted
@@ -30,8 +30,8 @@ _CASE = tuple(numbers(name, name, ".4g") for name in ("n", "k", "mu"))
 _LARGEST = percents("largest", "kappa", "u_kappa")
 _SHORT = Column("largest", cell=lambda row: Cell(short_percent(row["kappa"], row["u_kappa"])))
 
-#: Values of n for which a line of 80 columns has room beside the models.
-_SHAPES = 4
+#: Values of n for which a line has room beside the models, and its columns.
+_SHAPES, _WIDTH = 4, 80
 
 #: Lines of a table that are no rows: title, columns and rule.
 _FRAME = 3
@@ -46,19 +46,19 @@ _FAILURES = 3
 _SEVERAL = {"agrees": "agree", "differs": "differ"}
 
 
-def largest_table(maxima: pd.DataFrame, lines: int) -> Group | None:
+def largest_table(maxima: pd.DataFrame, width: int, lines: int) -> RenderableType | None:
     """Return the largest abs(kappa) of each model, for each n if these are few and there are lines for them.
 
     Parameters
     ----------
     maxima : DataFrame
         As of `comparisons.output.tables.largest`.
-    lines : int
-        How many lines there are for the table.
+    width, lines : int
+        Columns of the terminal, and how many lines there are for the table.
 
     Returns
     -------
-    Group or None
+    RenderableType or None
         One column for each n, with k and mu below each error; or one row for each model with the largest over all n,
         the first ones and their number if the lines are too few.  None if there is no kappa.
     """
@@ -68,7 +68,8 @@ def largest_table(maxima: pd.DataFrame, lines: int) -> Group | None:
     series = ["quantity", "model"] if several else ["model"]
     lead = "" if several else f"{maxima['quantity'].iloc[0]}: "
     worst = worst_rows(maxima, series)
-    if not several and maxima["n"].nunique() <= _SHAPES and _FRAME + 2 * len(worst) <= lines:
+    by_shape = width >= _WIDTH and not several and maxima["n"].nunique() <= _SHAPES
+    if by_shape and _FRAME + 2 * len(worst) <= lines:
         return rich_table(_by_shape(maxima), f"{lead}largest abs(kappa) in percent for each n; below it k and mu")
     most = max(lines - _FRAME, 1)
     first = "" if len(worst) <= most else f"the first {most} of {len(worst)} rows; "
@@ -88,7 +89,7 @@ def _by_shape(maxima: pd.DataFrame) -> pd.DataFrame:
     return wide.reset_index()
 
 
-def summary_tables(results: pd.DataFrame, curves: pd.DataFrame, kappa: pd.DataFrame) -> list[Group]:
+def summary_tables(results: pd.DataFrame, curves: pd.DataFrame, kappa: pd.DataFrame) -> list[RenderableType]:
     """Return the tables of a sweep: how the computations ended, and the largest error of each quantity and model.
 
     Parameters
@@ -117,7 +118,7 @@ def statuses(rows: pd.DataFrame) -> pd.DataFrame:
     return counts.reindex(columns=["ok", "not-applicable", "failed"], fill_value=0).rename_axis(columns=None)
 
 
-def largest_errors(kappa: pd.DataFrame) -> Group:
+def largest_errors(kappa: pd.DataFrame) -> RenderableType:
     """Return the largest relative error of each model and quantity, in percent, and its case."""
     worst = worst_rows(kappa, ["quantity", "model"])
     columns = [_QUANTITY, _MODEL, *(one for one in _CASE if worst[one.label].notna().any()), _LARGEST]
@@ -125,14 +126,14 @@ def largest_errors(kappa: pd.DataFrame) -> Group:
     return _first(texts, _ERRORS, "largest abs(kappa) in percent")
 
 
-def _first(table: pd.DataFrame, rows: int, title: str) -> Group:
+def _first(table: pd.DataFrame, rows: int, title: str) -> RenderableType:
     """Return the first rows of a table; the title tells how many there are."""
     if len(table) > rows:
         title += f" (the first {rows} of {len(table)} rows)"
     return rich_table(table.head(rows), title)
 
 
-def every_error(results: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame) -> Iterator[Group]:
+def every_error(results: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame) -> Iterator[RenderableType]:
     """Yield the errors in every case, the failed computations, and the largest errors beside those of the paper.
 
     Parameters

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pandas as pd
 from matplotlib.figure import Figure
-from rich.console import Group
+from rich.console import RenderableType
 
 from comparisons.output.style import save
 from comparisons.paper.cache import CachedCall, Results
@@ -58,7 +58,7 @@ class PaperFigure:
     tables: Callable[[Results], Tables]
     draw: Callable[[Tables], Figure] | None
     texts: Callable[[Tables], dict[str, str]] | None = None
-    shown: Callable[[Tables], Group] | None = None
+    shown: Callable[[Tables], RenderableType] | None = None
     follows_path: bool = False
 
     def table_file(self, name: str) -> str:

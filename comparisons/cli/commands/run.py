@@ -137,7 +137,7 @@ def _show(finished: FinishedRun, *, verbose: bool, failures_only: bool, with_pap
         if judgement is not None and judged:
             lines = room - _LEAST_TABLE
             taken = len(verdict_lines(judgement, width, lines))
-        table = largest_table(maxima, room - taken)
+        table = largest_table(maxima, width, room - taken)
         if table is not None:
             output().print(table)
         kappa = finished.tables.kappa

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import pandas as pd
-from rich.console import Group
+from rich.console import RenderableType
 
 from comparisons.data.paper_statements import PaperStatement, paper_statements
 from comparisons.numerics.number_text import value_text
@@ -172,7 +172,7 @@ def _texts(tables: Tables) -> dict[str, str]:
     return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": text}
 
 
-def _shown(tables: Tables) -> Group:
+def _shown(tables: Tables) -> RenderableType:
     return records(readable(tables[""])[_SHORT], _TITLE)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 import pandas as pd
-from rich.console import Group
+from rich.console import RenderableType
 
 from comparisons.data.paper_values import PaperValue, paper_values
 from comparisons.models.closed_form import EPS
@@ -184,7 +184,7 @@ def _texts(tables: Tables) -> dict[str, str]:
     return {".md": f"{markdown(shown, _TITLE)}\n{_NOTES}\n", ".tex": text}
 
 
-def _shown(tables: Tables) -> Group:
+def _shown(tables: Tables) -> RenderableType:
     return records(readable(tables[""]), _TITLE)
 
 

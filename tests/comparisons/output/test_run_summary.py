@@ -36,7 +36,7 @@ def shown(table, width=80):
 
 
 def test_each_shape_has_its_largest_error_with_its_place():
-    title, heads, _, first, second = shown(largest_table(maxima(["jkr"]), 30))
+    title, heads, _, first, second = shown(largest_table(maxima(["jkr"]), 80, 30))
     assert title.startswith("pull_off_force: ")
     assert heads.split() == ["model", *["n", "=", "1", "n", "=", "1.5", "n", "=", "2", "n", "=", "5"]]
     assert first.split() == ["jkr", "-41.000(5)", "-41.500(5)", "-42.000(5)", "-45.000(5)"]
@@ -46,18 +46,18 @@ def test_each_shape_has_its_largest_error_with_its_place():
 @pytest.mark.parametrize("count", [1, 12, 40])
 @pytest.mark.parametrize("shapes", [(2.0,), (1.0, 1.5, 2.0, 5.0), tuple(np.linspace(1, 10, 19))])
 def test_the_table_has_no_more_lines_and_columns_than_there_are(count, shapes):
-    lines = shown(largest_table(maxima([f"a-model-with-a-name-{number}" for number in range(count)], shapes), 25))
+    lines = shown(largest_table(maxima([f"a-model-with-a-name-{number}" for number in range(count)], shapes), 80, 25))
     assert len(lines) <= 26
     assert max(map(len, lines[1:])) <= 80
     assert ("the first 22 of 40 rows" in " ".join(lines)) is (count == 40)
 
 
 def test_the_largest_of_all_shapes_is_named_with_its_shape_and_quantity():
-    lines = shown(largest_table(maxima(["jkr"], quantities=("pull_off_force", "jump_in_gap")), 6))
+    lines = shown(largest_table(maxima(["jkr"], quantities=("pull_off_force", "jump_in_gap")), 80, 6))
     assert [line.split() for line in lines[-2:]] == [
         [quantity, "jkr", "-45.000(5)", "5", "0.4", "0.8367"] for quantity in ("jump_in_gap", "pull_off_force")
     ]
-    assert largest_table(maxima([]), 30) is None
+    assert largest_table(maxima([]), 80, 30) is None
 
 
 def gates(*verdicts):

@@ -4,7 +4,6 @@ import csv
 import io
 import re
 import shutil
-from dataclasses import replace
 
 import pandas as pd
 import pytest
@@ -12,9 +11,9 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.output.latex import latex
 from comparisons.output.report.page import make_page
-from comparisons.output.report.render import environment, render
+from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
-from comparisons.output.style import first_shown, model_styles
+from comparisons.output.style import model_styles
 from comparisons.output.table import texts_of
 from comparisons.output.verdicts import WORST_CASES
 from comparisons.registry import MODELS
@@ -163,19 +162,6 @@ def test_all_models_and_external_ones_differ_by_colour_and_marker_and_as_lines_b
     assert len({(style.colour, style.dash) for style in styles.values()}) == len(styles)
 
 
-def test_a_plot_shows_five_models_at_first_and_those_of_the_user_among_them(page):
-    (kappa,) = page.plots["kappa"]
-    assert kappa.first_models == kappa.models
-    assert len(first_shown(MODELS)) == 5
-    assert first_shown([*MODELS, "mine"])[0] == "mine"
-    models = sorted({"mine", *MODELS} - {"fscm"})
-    plot = replace(kappa, series=[replace(kappa.series[0], model=name) for name in models])
-    styles = model_styles(models)
-    html = str(environment().get_template("macros.html").module.plot_html(plot, styles))
-    checked = re.findall(r'checkbox" checked value="([^"]+)"', html)
-    assert sorted(checked) == sorted(first_shown(models))
-
-
 def test_a_run_without_verdicts_errors_or_curves_has_a_page(run_folder, tmp_path, hostile):
     folder = shutil.copytree(run_folder, tmp_path / "run")
     for name in ("verdicts", "summary", "kappa", "largest_kappa", "curves"):
@@ -225,14 +211,6 @@ def test_a_comparison_has_a_page_with_its_tables(tmp_path, capsys):
     assert page.files[cases.source] == (tmp_path / "run" / "comparison.csv").read_text()
     text = (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
     assert text.index('id="compared"') < text.index('id="errors"')
-
-
-def test_the_matrix_is_the_stored_summary(run_folder, tmp_path, hostile):
-    folder = shutil.copytree(run_folder, tmp_path / "run")
-    summary = pd.read_parquet(folder / "summary.parquet")
-    summary.assign(reference="stored").to_parquet(folder / "summary.parquet")
-    hostile.seal(folder)
-    assert set(texts(make_page(read_folder(folder)).tables["matrix"], "reference")) == {"stored"}
 
 
 def test_a_folder_judged_before_gates_were_stored_has_a_page(run_folder, tmp_path):
