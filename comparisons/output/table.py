@@ -287,8 +287,9 @@ def _error(row: Mapping[str, Any]) -> Cell:
     return Cell("") if _missing(error) else Cell(error_text(error, row["uncertainty"]), float(error))
 
 
-#: The parameters of a case and its problem file: by Greek letters, and by the names of the command line.
+#: Headings of the parameters of a case and of its problem file.
 CASE_LABELS = ("n", "k", "μ", "ν", "problem")
+#: The same columns by the names of the command line.
 CASE_NAMES = (*(numbers(name, name, "") for name in PARAMETERS), words("problem", "problem"))
 
 #: Columns of more than one table, by their headings.
