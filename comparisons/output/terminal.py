@@ -92,7 +92,8 @@ def _blocks(texts: pd.DataFrame) -> Group:
         for name in others:
             if row[name]:
                 block.add_row(Text(f"  {name}"), Text(row[name]))
-        parts += [Text(row[first], style="bold"), block]
+        heading = f"{first} {row[first]}" if aligned([row[first]]) else row[first]
+        parts += [Text(heading, style="bold"), block]
     return Group(*parts)
 
 
