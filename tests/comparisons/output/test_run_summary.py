@@ -146,3 +146,9 @@ def test_names_and_numbers_are_whole_and_texts_are_folded(width):
         assert "nan" not in words
         assert words.count("[bold]n") == 2
         assert max(map(len, lines)) <= width
+
+
+def test_a_row_is_a_block_where_names_and_numbers_have_no_room_in_a_line():
+    table = rich_table(pd.DataFrame({"model": ["a" * 10], "kappa": ["-1234567.5"]}), "t")
+    assert shown(table, 22)[-1] == "aaaaaaaaaa  -1234567.5"
+    assert shown(table, 21) == ["t", "a" * 10, "  kappa  -1234567.5"]

@@ -158,7 +158,10 @@ def test_many_rows_are_laid_out_by_the_script():
     results = pd.DataFrame([case | {"quantity": "pull_off_force", "model": model} for model in models])
     planned = {(model, "pull_off_force", 2.0, 0.0, 1.0, None, ""): "exact" for model in models}
     of_run = record(finished="2026-01-01T00:00:00+00:00", package={"version": "1", "commit": None})
-    page = leaderboard_html([entry(of_run, [], results, planned)])
+    errors = [("pull_off_force", "model-0", 2.0, 0.0, 1.0, math.nan, "exact", -0.3, 1e-9)]
+    page = leaderboard_html([entry(of_run, errors, results, planned)])
+    # An error is shown with its sign, and sorts by its size.
+    assert 'data-v="0.3">-30.00000(5)<' in page
     assert page.partition("<template>")[2].partition("</template>")[0].count("<tr>") == 260
 
 
