@@ -4,18 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-import pandas as pd
-
 from comparisons.cli.options import output
-from comparisons.console.folding import folded
-from comparisons.console.shell_text import wrapped_command
+from comparisons.console.folding import folded, hanging
 from comparisons.judging.decision import Verdict
 from comparisons.judging.report_card import card_lines, given_models, verdict_sentence
 from comparisons.judging.summary import summarise
-from comparisons.output.fitted_table import FittedTable
-from comparisons.output.run_summary import declared_lines, gates_line, not_passed
-from comparisons.output.tables import rich_table
-from comparisons.output.verdicts import matrix
+from comparisons.output.gate_sentence import declared_sentence, gate_lines, gates_line, unexpected
 from comparisons.pipeline.judgement import Judgement
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.tables import read_table
@@ -53,9 +47,10 @@ def summary_lines(judgement: Judgement, width: int, most: int = SHOWN) -> list[s
     files = RunFolder(judgement.folder)
     required = read_table(files.parquet(files.gates))
     bases = dict(zip(required["id"], required["basis"], strict=True))
+    declared = declared_sentence(gates)
     return [
-        *not_passed(gates, judgement.specs, width, most),
-        *declared_lines(gates, width),
+        *gate_lines(unexpected(gates), judgement.specs, width, most),
+        *(hanging(declared, width) if declared else ()),
         *folded(gates_line(gates, judgement.verdicts, bases), width),
     ]
 
@@ -72,7 +67,7 @@ def verdict_lines(judgement: Judgement, width: int, lines: int) -> list[str]:
 
 def unexpected_lines(judgement: Judgement, width: int) -> list[str]:
     """Return what does not behave as declared, with its commands: the output of a command with --quiet."""
-    return not_passed(summarise(judgement.verdicts), judgement.specs, width, SHOWN)
+    return gate_lines(unexpected(summarise(judgement.verdicts)), judgement.specs, width, SHOWN)
 
 
 def error_lines(judgement: Judgement) -> list[str]:
@@ -105,21 +100,17 @@ def card_summary(judgement: Judgement, width: int, most: int = SHOWN, full: bool
 
 
 def _card(judgement: Judgement, name: str, width: int) -> list[str]:
-    lines = card_lines(name, judgement.verdicts, judgement.cards.get(name), judgement.domains.get(name))
-    return FittedTable(pd.DataFrame([{"": f"report card of {name}", **dict(lines)}])).blocks(width)
+    found = card_lines(name, judgement.verdicts, judgement.cards.get(name), judgement.domains.get(name))
+    label_width = max(len(label) for label, _ in found)
+    lines = [f"report card of {name}", *(f"  {label:{label_width}}  {text}" for label, text in found)]
+    return [part for line in lines for part in hanging(line, width)]
 
 
 def print_every_verdict(judgement: Judgement) -> None:
     """Print all gates, worst first, with their commands, the report cards, and the sentence on all gates."""
-    console = output()
-    width = console.width
-    shown = matrix(summarise(judgement.verdicts), judgement.specs)
-    columns = shown[["gate", *shown.columns.drop(["gate", "command", "reason"])]]
-    console.print(rich_table(columns, "verdicts, worst first", optional=["reference", "coverage", "limits"]))
-    print_lines(["the worst case of each gate is computed again by"])
-    for gate, line, reason in zip(shown["gate"], shown["command"], shown["reason"], strict=True):
-        print_lines([str(gate), *(f"  {part}" for part in folded(reason, width - 2) if part)])
-        print_lines(wrapped_command(line, width))
+    width = output().width
+    print_lines(["verdicts, worst first, each with the command that computes its worst case again"])
+    print_lines(gate_lines(summarise(judgement.verdicts), judgement.specs, width))
     print_lines(card_summary(judgement, width, full=True))
     print_lines(summary_lines(judgement, width))
 

@@ -12,13 +12,13 @@ import os
 import shutil
 import signal
 import sys
-import textwrap
 import threading
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import TextIO
 
+from comparisons.console.folding import folded
 from comparisons.console.installation import sentence_on_missing_module
 from comparisons.console.printable import printable
 
@@ -190,11 +190,7 @@ def _say(program: str, sentence: str) -> None:
     with suppress(OSError):
         if sys.stderr.isatty():
             columns = shutil.get_terminal_size().columns
-            folded = (
-                textwrap.fill(line, columns, break_long_words=False, break_on_hyphens=False, replace_whitespace=False)
-                for line in text.split("\n")
-            )
-            text = "\n".join(folded)
+            text = "\n".join(folded(text, columns))
         print(text, file=sys.stderr, flush=True)
 
 

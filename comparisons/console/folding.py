@@ -2,30 +2,31 @@
 
 from __future__ import annotations
 
-from rich.cells import cell_len
+import textwrap
 
 __all__ = ["folded", "hanging"]
 
 
-def folded(text: str, width: int) -> list[str]:
+def folded(text: str, width: int, indent: str = "") -> list[str]:
     """Return the lines of a text, folded between words; a word that is longer than a line stays whole.
+
+    Parameters
+    ----------
+    text : str
+    width : int
+        Columns of the terminal.
+    indent : str
+        Begins every line of a paragraph from the second on.
 
     Examples
     --------
     >>> folded("pull_off_force of md-improved", 14)
     ['pull_off_force', 'of md-improved']
     """
-    lines = []
-    for line in text.split("\n"):
-        current = ""
-        for word in line.split(" "):
-            joined = f"{current} {word}" if current else word
-            if current and cell_len(joined) > width:
-                lines.append(current)
-                joined = word
-            current = joined
-        lines.append(current)
-    return lines
+    wrapper = textwrap.TextWrapper(
+        max(width, 1), subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+    )
+    return [part for line in text.split("\n") for part in wrapper.wrap(line) or [""]]
 
 
 def hanging(text: str, width: int) -> list[str]:
@@ -36,6 +37,4 @@ def hanging(text: str, width: int) -> list[str]:
     >>> hanging("  a text of several words", 16)
     ['  a text of', '    several', '    words']
     """
-    start = text[: len(text) - len(text.lstrip())]
-    first, *others = folded(text.strip(), width - len(start) - 2)
-    return [start + first, *(f"{start}  {line}" for line in others)]
+    return folded(text, width, " " * (len(text) - len(text.lstrip()) + 2))

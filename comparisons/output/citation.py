@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from importlib.resources import files
 from typing import Any
 
-from comparisons.output.latex_text import escaped
+from comparisons.output.latex import escaped
 
 __all__ = ["Work", "as_bibtex", "as_text", "methods", "works"]
 

@@ -2,16 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 import pandas as pd
+from rich.console import RenderableType
 
 from comparisons.judging.summary import coverage_text
 from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.numerics.number_text import exact, value_text
-from comparisons.output.fitted_table import FittedTable
+from comparisons.output.table import (
+    CASE_NAMES,
+    Cell,
+    Column,
+    chosen,
+    percents,
+    short_percent,
+    table_of,
+    texts_of,
+    words,
+)
+from comparisons.output.terminal import rich_table
 from comparisons.runs.case_columns import keys_in, with_problem, without_empty_problem
 from comparisons.runs.cases import Grid
 from comparisons.runs.rows import CASE, PARAMETERS
@@ -19,13 +32,13 @@ from comparisons.runs.tasks import Task, case_for
 
 __all__ = [
     "COLUMNS",
+    "SUMMARY",
     "WIDTH",
+    "by_case",
+    "case_columns",
     "comparison_table",
     "error_cell",
-    "place_text",
-    "reference_cell",
     "terminal_tables",
-    "wide",
 ]
 
 #: Columns of `comparison_table`.
@@ -40,9 +53,8 @@ WIDTH = 80
 #: Cases that a terminal shows: the file has the others.
 _ROWS = 40
 
-#: The reference is shown to this digit, and an error in percent to that one, or to the digit that its uncertainty
-#: leaves it: four models then fit beside the case.
-_LEAST_REFERENCE, _LEAST_PERCENT = 5e-7, 5e-3
+#: The reference is shown to this digit, or to the digit that its uncertainty leaves it.
+_LEAST_REFERENCE = 5e-7
 
 #: Spaces between columns.
 _GAP = 2
@@ -99,68 +111,87 @@ def comparison_table(results: pd.DataFrame, grids: Iterable[Grid], models: Seque
     return without_empty_problem(table[list(COLUMNS)])
 
 
-def error_cell(row: pd.Series) -> str:
+def error_cell(row: Mapping[str, Any]) -> Cell:
     """Return kappa of a row in percent, or the reason why there is none in a word or two.
 
     Examples
     --------
-    >>> error_cell(pd.Series({"status": "ok", "kappa": -0.0494, "u_kappa": 1e-9}))
-    '-4.940(5)'
-    >>> error_cell(pd.Series({"status": "not-applicable", "kappa": np.nan, "u_kappa": np.nan}))
+    >>> error_cell({"status": "ok", "kappa": -0.0494, "u_kappa": 1e-9})
+    Cell(text='-4.940(5)', value=-0.0494, marks=(), more='')
+    >>> error_cell({"status": "not-applicable", "kappa": np.nan, "u_kappa": np.nan}).text
     'n/a'
     """
     if row["status"] != "ok":
-        return _WORDS.get(row["status"], str(row["status"]))
-    return percent(row["kappa"], row["u_kappa"]) or "no reference"
+        return Cell(_WORDS.get(row["status"], str(row["status"])))
+    kappa = row["kappa"]
+    return Cell("no reference") if np.isnan(kappa) else Cell(short_percent(kappa, row["u_kappa"]), kappa)
 
 
-def percent(kappa: float, u_kappa: float) -> str:
-    """Return a relative error in percent, to the digit that fits a table."""
-    return value_text(100 * kappa, max(100 * u_kappa, _LEAST_PERCENT))
+def _reference_cell(row: Mapping[str, Any]) -> Cell:
+    """The value of a reference to seven decimals, or digits, at most."""
+    value, u = row["reference_value"], row["u_reference"]
+    text = value_text(value, max(u, _LEAST_REFERENCE * min(abs(value), 1.0)))
+    return Cell(text, value) if text else Cell("none")
 
 
-def reference_cell(value: float, u: float) -> str:
-    """Return the value of a reference to seven decimals, or digits, at most; nothing where it has none."""
-    return value_text(value, max(u, _LEAST_REFERENCE * min(abs(value), 1.0)))
+def _place(row: Mapping[str, Any]) -> Cell:
+    named = [f"{name}={exact(row[name])}" for name in PARAMETERS if not np.isnan(row[name])]
+    return Cell(row.get("problem") or " ".join(named))
 
 
-def place_text(row: pd.Series) -> str:
-    """Return the case of a row in short.
+#: Columns of the summary of a quantity; errors are in percent.
+SUMMARY = (
+    *chosen("model"),
+    Column("a value in", cell=lambda row: Cell(coverage_text(row))),
+    percents("largest", "largest", "u_largest"),
+    Column("at", cell=_place),
+    percents("rms", "rms", "u"),
+)
 
-    Examples
-    --------
-    >>> place_text(pd.Series({"n": 2.0, "k": 0.4, "mu": 1.0, "nu": np.nan}))
-    'n=2 k=0.4 mu=1'
+
+def case_columns(reference: str, models: Sequence[str]) -> list[Column]:
+    """Return the columns of a table with a row a case: its parameters, the reference, and kappa of each model.
+
+    Parameters
+    ----------
+    reference : str
+    models : sequence of str
     """
-    return row.get("problem") or " ".join(f"{name}={exact(row[name])}" for name in PARAMETERS if pd.notna(row[name]))
+    return [
+        *CASE_NAMES,
+        Column(reference, "number", _reference_cell),
+        *(Column(name, "number", partial(_error_of, name)) for name in models),
+    ]
 
 
-def wide(table: pd.DataFrame) -> Iterator[tuple[str, str, pd.DataFrame]]:
-    """Yield the quantity, the reference and a table of texts for each: one row a case, one column a model.
+def _error_of(model: str, row: Mapping[str, Any]) -> Cell:
+    return row["errors"].get(model, Cell(""))
+
+
+def by_case(table: pd.DataFrame) -> Iterator[tuple[str, str, list[str], pd.DataFrame]]:
+    """Yield the quantity, the reference, the models and a row a case for each, as `case_columns` shows it.
+
+    The column `errors` holds a cell of each model, and `lines` the places of its rows in the table.
 
     Parameters
     ----------
     table : DataFrame
         As of `comparison_table`.
     """
-    for (quantity, reference), group in with_problem(table).groupby(["quantity", "reference"], sort=False):
-        models = list(dict.fromkeys(group["model"]))
-        cases = [name for name in CASE if (group[name].notna() & (group[name] != "")).any()]
+    numbered = with_problem(table).assign(line=range(len(table)))
+    for (quantity, reference), group in numbered.groupby(["quantity", "reference"], sort=False):
         rows = []
-        for case, of_case in group.groupby([*CASE], sort=False, dropna=False):
-            first = of_case.iloc[0]
-            texts_of_case = {name: "" if pd.isna(x) else exact(x) for name, x in zip(PARAMETERS, case, strict=False)}
-            texts = {name: text for name, text in (texts_of_case | {"problem": case[-1]}).items() if name in cases}
-            cells = {row["model"]: error_cell(row) for _, row in of_case.iterrows()}
-            shown = reference_cell(first["reference_value"], first["u_reference"]) or "none"
-            rows.append([*texts.values(), shown, *(cells.get(model, "") for model in models)])
-        yield quantity, reference, pd.DataFrame(rows, columns=[*cases, reference, *models], dtype=object)
+        for _, of_case in group.groupby([*CASE], sort=False, dropna=False):
+            records = of_case.to_dict("records")
+            errors = {row["model"]: error_cell(row) for row in records}
+            rows.append(records[0] | {"errors": errors, "lines": tuple(of_case["line"])})
+        yield quantity, reference, list(dict.fromkeys(group["model"])), pd.DataFrame(rows)
 
 
 def terminal_tables(
     table: pd.DataFrame, summary: pd.DataFrame, every: bool = False, width: int = WIDTH
-) -> list[FittedTable]:
-    """Return the tables of a comparison for a terminal: errors in blocks of as many models as fit, and the summary.
+) -> Iterator[RenderableType]:
+    """Yield the tables of a comparison for a terminal: errors with as many models as fit, and the summary.
 
     Parameters
     ----------
@@ -171,49 +202,32 @@ def terminal_tables(
     width : int
         Columns of the terminal.
     """
-    shown = [
-        block
-        for quantity, reference, texts in wide(table)
-        for block in _blocks(quantity, reference, texts, every, width)
-    ]
-    return [*shown, *(_summary(str(quantity), group) for quantity, group in summary.groupby("quantity", sort=False))]
+    for quantity, reference, models, rows in by_case(table):
+        made = table_of("cases", "", case_columns(reference, models), rows if every else rows.head(_ROWS))
+        texts = made.on_paper()
+        title = f"{quantity}: kappa in percent (uncertainty) against {reference}"
+        more = "" if len(texts) == len(rows) else f", first {len(texts)} of {len(rows)} cases"
+        fixed = [name for name in texts if name not in models]
+        for block in _blocks(texts, fixed, width):
+            yield rich_table(texts[[*fixed, *block]], title + more)
+            title = f"{quantity}: other models"
+    for quantity, group in summary.groupby("quantity", sort=False):
+        columns = [
+            SUMMARY[0],
+            *([words("reference", "reference")] if group["reference"].nunique() > 1 else ()),
+            *SUMMARY[1:],
+        ]
+        yield rich_table(
+            texts_of(columns, group), f"{quantity}: coverage, largest and root mean square kappa in percent"
+        )
 
 
-def _blocks(quantity: str, reference: str, texts: pd.DataFrame, every: bool, width: int) -> Iterator[FittedTable]:
-    """Yield tables of at most so many columns; each has the case and the reference."""
-    fixed = list(texts.columns[: list(texts.columns).index(reference) + 1])
-    widths = {
-        column: max([len(column), *map(len, texts.iloc[:, place])]) + _GAP for place, column in enumerate(texts.columns)
-    }
-    room = width + _GAP - sum(widths[column] for column in fixed)
-    block: list[str] = []
-    title = f"{quantity}: kappa in percent (uncertainty) against {reference}"
-    for model in texts.columns[len(fixed) :]:
-        if block and sum(widths[column] for column in (*block, model)) > room:
-            yield _shown(title, texts[[*fixed, *block]], every)
-            block, title = [], f"{quantity}: other models"
-        block.append(model)
-    yield _shown(title, texts[[*fixed, *block]], every)
-
-
-def _shown(title: str, texts: pd.DataFrame, every: bool) -> FittedTable:
-    rows = texts if every else texts.head(_ROWS)
-    if len(rows) < len(texts):
-        title += f", first {len(rows)} of {len(texts)} cases"
-    return FittedTable(rows, title, frozenset(rows))
-
-
-def _summary(quantity: str, group: pd.DataFrame) -> FittedTable:
-    texts = pd.DataFrame(
-        {
-            "model": group["model"],
-            **({"reference": group["reference"]} if group["reference"].nunique() > 1 else {}),
-            "a value in": [coverage_text(row) for _, row in group.iterrows()],
-            "largest": [percent(*pair) for pair in zip(group["largest"], group["u_largest"], strict=True)],
-            "at": [place_text(row) for _, row in group.iterrows()],
-            "rms": [percent(*pair) for pair in zip(group["rms"], group["u"], strict=True)],
-        },
-        dtype=object,
-    )
-    title = f"{quantity}: coverage, largest and root mean square kappa in percent"
-    return FittedTable(texts, title, frozenset(("a value in", "largest", "rms")))
+def _blocks(texts: pd.DataFrame, fixed: Sequence[str], width: int) -> list[list[str]]:
+    """Return the models in groups for which a line has room beside the case and the reference."""
+    widths = {name: _GAP + max(map(len, [name, *texts[name]])) for name in texts}
+    blocks: list[list[str]] = [[]]
+    for name in texts.columns.drop(list(fixed)):
+        if blocks[-1] and sum(widths[one] for one in (*fixed, *blocks[-1], name)) > width + _GAP:
+            blocks.append([])
+        blocks[-1].append(name)
+    return blocks

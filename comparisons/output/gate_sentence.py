@@ -1,4 +1,4 @@
-"""Sentence on all gates of a run, for the terminal and for the report, and the form of a verb beside a number."""
+"""Sentences on the gates of a run for the terminal and for the report, and the form of a verb beside a number."""
 
 from __future__ import annotations
 
@@ -7,13 +7,21 @@ from collections.abc import Mapping
 
 import pandas as pd
 
+from comparisons.console.folding import hanging
+from comparisons.console.shell_text import wrapped_command
 from comparisons.judging.card_gates import without_card_gates
 from comparisons.judging.decision import Verdict
+from comparisons.judging.summary import coverage_text
+from comparisons.numerics.number_text import error_text, limits_text
+from comparisons.output.verdicts import command
 
-__all__ = ["EXPECTED", "counted", "gates_sentence"]
+__all__ = ["counted", "declared_sentence", "gate_lines", "gates_line", "gates_sentence", "unexpected"]
 
 #: Verdicts of gates that behave as declared: a gate passes, fails as it is declared to, or applies to no case.
-EXPECTED = (Verdict.PASS, Verdict.XFAIL, Verdict.NOT_APPLICABLE)
+_EXPECTED = (Verdict.PASS, Verdict.XFAIL, Verdict.NOT_APPLICABLE)
+
+#: Names of gates that are listed in one sentence.
+_NAMES = 12
 
 
 def counted(count: int, several: str, one: str) -> str:
@@ -67,10 +75,82 @@ def _of_user(gates: pd.DataFrame, bases: Mapping[str, str]) -> str:
         parts.append(counted(len(declared) - paper, "fail", "fails") + " as declared")
     if empty := found[Verdict.NOT_APPLICABLE]:
         parts.append(counted(empty, "apply", "applies") + " to no case")
-    others = [f"{found[verdict]} {verdict}" for verdict in Verdict if verdict not in EXPECTED and found[verdict]]
-    unexpected = len(verdicts) - sum(found[verdict] for verdict in EXPECTED)
+    others = [f"{found[verdict]} {verdict}" for verdict in Verdict if verdict not in _EXPECTED and found[verdict]]
+    unexpected = len(verdicts) - sum(found[verdict] for verdict in _EXPECTED)
     return f"{', '.join(parts)}, {unexpected} unexpected" + (f": {', '.join(others)}" if others else "")
 
 
 def _passed(count: int, gates: int) -> str:
     return f"{count} of {counted(gates, 'gates', 'gate')} {'passes' if 1 in (count, gates) else 'pass'}"
+
+
+def gates_line(gates: pd.DataFrame, verdicts: pd.DataFrame, bases: Mapping[str, str]) -> str:
+    """Return the sentence on all gates, and how many cases have each verdict.
+
+    Parameters
+    ----------
+    gates : DataFrame
+        As of `comparisons.judging.summary.summarise`.
+    verdicts : DataFrame
+        As of `comparisons.judging.judge.judge`.
+    bases : mapping of str to str
+        What each gate is based on.
+
+    Examples
+    --------
+    >>> gates = pd.DataFrame({"gate": ["A", "B", "C"], "verdict": ["PASS", "XFAIL", "FAIL"]})
+    >>> gates_line(gates, gates, {"B": "published"}).partition(" (")[2]
+    '3 cases: 1 PASS, 1 XFAIL, 1 FAIL)'
+    """
+    judged = without_card_gates(verdicts)
+    if judged.empty:
+        return gates_sentence(gates, bases)
+    cases = Counter(map(str, judged["verdict"]))
+    every = ", ".join(f"{cases[verdict]} {verdict}" for verdict in reversed(Verdict) if cases[verdict])
+    return f"{gates_sentence(gates, bases)} ({counted(len(judged), 'cases', 'case')}: {every})"
+
+
+def unexpected(gates: pd.DataFrame) -> pd.DataFrame:
+    """Return the gates of a summary that do not behave as declared, worst first."""
+    return gates[~gates["verdict"].isin(_EXPECTED)]
+
+
+def gate_lines(gates: pd.DataFrame, specs: Mapping[str, str], width: int, most: int | None = None) -> list[str]:
+    """Return for each gate its verdict, the error of the worst case, and the command that computes that case again.
+
+    Parameters
+    ----------
+    gates : DataFrame
+        As of `comparisons.judging.summary.summarise`.
+    specs : mapping of str to str
+        The SPEC that finds each external model.
+    width : int
+        Columns of the terminal.
+    most : int, optional
+        Gates that are shown; the last line counts the others.
+    """
+    lines: list[str] = []
+    for row in gates.head(most or len(gates)).to_dict("records"):
+        error = error_text(row["error"], row["uncertainty"])
+        against = f" against {row['reference']}" if row["reference"] else ""
+        found = f": E = {error}, limits {limits_text(row['lower'], row['upper'])}" if error else ""
+        covered = f", a value in {text}" if (text := coverage_text(row)) else ""
+        lines += hanging(f"{row['verdict']} {row['gate']} of {row['candidate']}{against}{found}{covered}", width)
+        lines += hanging(f"  {row['reason']}", width) if row["reason"] else []
+        lines += wrapped_command(command(row, specs), width)
+    if most and len(gates) > most:
+        lines += hanging(f"{len(gates) - most} more do not pass; --verbose prints all", width)
+    return lines
+
+
+def declared_sentence(gates: pd.DataFrame) -> str:
+    """Return the names of the gates that fail as declared, the first ones and the number of the others.
+
+    Examples
+    --------
+    >>> declared_sentence(pd.DataFrame({"gate": ["A", "B"], "verdict": ["PASS", "XFAIL"]}))
+    'as declared (XFAIL; --verbose prints the commands): B'
+    """
+    names = list(dict.fromkeys(gates.loc[gates["verdict"] == Verdict.XFAIL, "gate"]))
+    more = f" and {len(names) - _NAMES} more" if len(names) > _NAMES else ""
+    return f"as declared (XFAIL; --verbose prints the commands): {', '.join(names[:_NAMES])}{more}" if names else ""

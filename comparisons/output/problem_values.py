@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import pandas as pd
+from rich.console import RenderableType
 
-from comparisons.output.fitted_table import FittedTable
+from comparisons.output.terminal import rich_table
 from comparisons.problem_file.units import si_text
 from comparisons.runs.case_columns import unit_in, varied_of
 
@@ -16,7 +17,7 @@ __all__ = ["key_text", "values_of_problems"]
 _MOST = 24
 
 
-def values_of_problems(results: pd.DataFrame) -> list[FittedTable]:
+def values_of_problems(results: pd.DataFrame) -> list[RenderableType]:
     r"""Return a table of values in SI for each quantity; none where no case is of a problem file.
 
     Parameters
@@ -29,7 +30,9 @@ def values_of_problems(results: pd.DataFrame) -> list[FittedTable]:
     >>> row = {"model": "fscm", "quantity": "pull_off_force", "problem": "pad.toml; punch.R=100 nm"}
     >>> found = {"punch.R [m]": 1e-7, "value": 2e-8, "u_num": 1.54e-15, "unit": "N", "status": "ok"}
     >>> (shown,) = values_of_problems(pd.DataFrame([row | found]))
-    >>> print("\n".join(shown.lines(80)))
+    >>> from rich import print
+    >>> print(shown)
+    <BLANKLINE>
     punch.R  model  pull_off_force
     ─────────────────────────────────
     100 nm   fscm   20.0000000(16) nN
@@ -38,14 +41,14 @@ def values_of_problems(results: pd.DataFrame) -> list[FittedTable]:
         return []
     of_files = results[results["problem"] != ""]
     varied = [name for name in varied_of(of_files) if of_files[name].notna().any()] or ["problem"]
-    tables = []
+    tables: list[RenderableType] = []
     for quantity, rows in of_files.groupby("quantity", sort=False):
         cells = [
             {**_keys(row, varied), "model": row["model"], str(quantity): _value(row)}
             for row in rows.head(_MOST).to_dict("records")
         ]
         title = f"the first {_MOST} of {len(rows)} rows; the CSV file has all" if len(rows) > _MOST else ""
-        tables.append(FittedTable(pd.DataFrame(cells, dtype=object), title, group="model"))
+        tables.append(rich_table(pd.DataFrame(cells, dtype=object), title))
     return tables
 
 

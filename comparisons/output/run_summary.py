@@ -1,44 +1,53 @@
-"""Summary of a run for the terminal: the largest errors, what does not pass, and one sentence on all gates."""
+"""Summary of a run and of a sweep for the terminal: how the computations ended, and the largest errors."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import pandas as pd
+from rich.console import RenderableType
 
-from comparisons.console.folding import hanging
-from comparisons.console.shell_text import wrapped_command
-from comparisons.judging.card_gates import without_card_gates
-from comparisons.judging.decision import Verdict
-from comparisons.numerics.number_text import error_text, exact, limits_text, value_text
-from comparisons.output.fitted_table import FittedTable
-from comparisons.output.gate_sentence import EXPECTED, counted, gates_sentence
-from comparisons.output.verdicts import command
+from comparisons.numerics.number_text import case_text, exact
+from comparisons.output.gate_sentence import counted
+from comparisons.output.table import Cell, Column, numbers, percents, short_percent, texts_of, values, words
+from comparisons.output.tables import worst_rows
+from comparisons.output.terminal import rich_table
+from comparisons.runs.rows import Row
 
 __all__ = [
     "computations_sentence",
-    "declared_lines",
-    "gates_line",
+    "every_error",
+    "failure_lines",
+    "largest_errors",
     "largest_table",
-    "not_passed",
     "paper_sentence",
+    "statuses",
+    "summary_tables",
 ]
 
-#: An error in percent is shown to this digit, or to the digit that its uncertainty leaves it.
-_LEAST_PERCENT = 5e-3
+_MODEL, _QUANTITY, _PROBLEM = (words(name, name) for name in ("model", "quantity", "problem"))
+_CASE = tuple(numbers(name, name, ".4g") for name in ("n", "k", "mu"))
+_LARGEST = percents("largest", "kappa", "u_kappa")
+_SHORT = Column("largest", cell=lambda row: Cell(short_percent(row["kappa"], row["u_kappa"])))
 
-#: Lines of a table that are no rows: title, columns and rule, and the line on the rows that are not shown.
-_FRAME = 4
+#: Values of n for which a line has room beside the models, and its columns.
+_SHAPES, _WIDTH = 4, 80
 
-#: Names of gates that are listed in one block.
-_NAMES = 12
+#: Lines of a table that are no rows: title, columns and rule.
+_FRAME = 3
+
+#: Rows of the tables of a sweep, which have 30 lines at most.
+_MODELS, _ERRORS = 7, 10
+
+#: Failures that are written one by one.
+_FAILURES = 3
 
 #: Verdict on a number of the paper -> its verb where it is said of several.
 _SEVERAL = {"agrees": "agree", "differs": "differ"}
 
 
-def largest_table(maxima: pd.DataFrame, width: int, lines: int) -> FittedTable | None:
-    r"""Return the largest abs(kappa) of each model, for each n if the table then has no more lines and columns.
+def largest_table(maxima: pd.DataFrame, width: int, lines: int) -> RenderableType | None:
+    """Return the largest abs(kappa) of each model, for each n if these are few and there are lines for them.
 
     Parameters
     ----------
@@ -49,138 +58,127 @@ def largest_table(maxima: pd.DataFrame, width: int, lines: int) -> FittedTable |
 
     Returns
     -------
-    FittedTable or None
+    RenderableType or None
         One column for each n, with k and mu below each error; or one row for each model with the largest over all n,
         the first ones and their number if the lines are too few.  None if there is no kappa.
-
-    Examples
-    --------
-    >>> row = {"quantity": "pull_off_force", "model": "jkr", "k": 0.4, "mu": 1.0, "u_kappa": 1e-9}
-    >>> maxima = pd.DataFrame([row | {"n": 1.0, "kappa": -0.05}, row | {"n": 2.0, "kappa": 0.02}])
-    >>> largest_table(maxima, 80, 9).texts.values.tolist()
-    [['jkr', '-5.000(5)\n0.4, 1', '2.000(5)\n0.4, 1']]
-    >>> largest_table(maxima, 80, 4).texts.values.tolist()
-    [['jkr', '-5.000(5)', '1', '0.4', '1']]
     """
     if maxima.empty:
         return None
-    worst = maxima.loc[maxima.groupby(["quantity", "model", "n"])["kappa"].transform(_is_largest)]
-    cells = [value_text(100 * kappa, max(100 * u, _LEAST_PERCENT)) for kappa, u in _pairs(worst)]
-    worst = worst.assign(shown=cells)
-    series = ["quantity", "model"] if worst["quantity"].nunique() > 1 else ["model"]
-    quantity = "" if len(series) > 1 else f"{worst['quantity'].iloc[0]}: "
-    by_shape = worst.assign(
-        n=[f"n = {exact(n)}" for n in worst["n"]],
-        shown=[f"{cell}\n{exact(k)}, {_short(mu)}" for cell, k, mu in zip(cells, worst["k"], worst["mu"], strict=True)],
-    )
-    wide = by_shape.pivot(index=series, columns="n", values="shown")
-    wide = wide[list(dict.fromkeys(by_shape.sort_values("n", key=lambda n: n.str[4:].astype(float))["n"]))]
-    table = FittedTable(
-        wide.fillna("").reset_index(),
-        f"{quantity}largest abs(kappa) in percent for each n; below it k and mu",
-        frozenset(wide.columns),
-        "quantity" if len(series) > 1 else "",
-    )
-    if table.is_table(width) and 1 + len(table.lines(width)) <= lines:
-        return table
-    return _by_model(worst, series, quantity, lines)
-
-
-def _by_model(worst: pd.DataFrame, series: list[str], quantity: str, lines: int) -> FittedTable:
-    rows = worst.loc[worst.groupby(series)["kappa"].transform(_is_largest)].sort_values(series)
-    texts = pd.DataFrame(
-        {
-            **{name: rows[name] for name in series},
-            "largest": rows["shown"],
-            "n": [exact(n) for n in rows["n"]],
-            "k": [exact(k) for k in rows["k"]],
-            "mu": [_short(mu) for mu in rows["mu"]],
-        },
-        dtype=object,
-    )
-    title = f"{quantity}largest abs(kappa) in percent over all n"
+    several = maxima["quantity"].nunique() > 1
+    series = ["quantity", "model"] if several else ["model"]
+    lead = "" if several else f"{maxima['quantity'].iloc[0]}: "
+    worst = worst_rows(maxima, series)
+    by_shape = width >= _WIDTH and not several and maxima["n"].nunique() <= _SHAPES
+    if by_shape and _FRAME + 2 * len(worst) <= lines:
+        return rich_table(_by_shape(maxima), f"{lead}largest abs(kappa) in percent for each n; below it k and mu")
     most = max(lines - _FRAME, 1)
-    shown = "" if len(texts) <= most else f"the first {most} of {len(texts)} rows; "
-    title += f" ({shown}--verbose prints every n)"
-    return FittedTable(
-        texts.head(most), title, frozenset(("largest", "n", "k", "mu")), "quantity" if len(series) > 1 else ""
-    )
+    first = "" if len(worst) <= most else f"the first {most} of {len(worst)} rows; "
+    title = f"{lead}largest abs(kappa) in percent over all n ({first}--verbose prints every n)"
+    columns = (*([_QUANTITY] if several else []), _MODEL, _SHORT, *_CASE)
+    return rich_table(texts_of(columns, worst.head(most)), title)
 
 
-def _is_largest(kappa: pd.Series) -> pd.Series:
-    """Return True for the first of the largest sizes."""
-    return pd.Series(kappa.index == kappa.abs().idxmax(), index=kappa.index)
+def _by_shape(maxima: pd.DataFrame) -> pd.DataFrame:
+    worst = worst_rows(maxima, ["model", "n"])
+    places = [
+        f"{short_percent(row['kappa'], row['u_kappa'])}\n{exact(row['k'])}, {row['mu']:.4g}"
+        for row in worst.to_dict("records")
+    ]
+    wide = worst.assign(shown=places).pivot(index="model", columns="n", values="shown").fillna("")
+    wide.columns = pd.Index([f"n = {exact(n)}" for n in wide.columns])
+    return wide.reset_index()
 
 
-def _pairs(rows: pd.DataFrame) -> Iterator[tuple[float, float]]:
-    return zip(rows["kappa"], rows["u_kappa"], strict=True)
-
-
-def _short(mu: float) -> str:
-    return f"{mu:.4g}"
-
-
-def not_passed(gates: pd.DataFrame, specs: Mapping[str, str], width: int, most: int) -> list[str]:
-    """Return the gates that do not behave as declared, worst first: the error of the worst case, and its command.
+def summary_tables(results: pd.DataFrame, curves: pd.DataFrame, kappa: pd.DataFrame) -> list[RenderableType]:
+    """Return the tables of a sweep: how the computations ended, and the largest error of each quantity and model.
 
     Parameters
     ----------
-    gates : DataFrame
-        As of `comparisons.judging.summary.summarise`.
-    specs : mapping of str to str
-        The SPEC that finds each external model.
-    width : int
-        Columns of the terminal.
-    most : int
-        Gates that are shown; the last line counts the others.
+    results, curves, kappa : DataFrame
+        As `comparisons.pipeline.tables.RunTables` has them.
     """
-    wrong = gates[~gates["verdict"].isin(EXPECTED)]
-    lines: list[str] = []
-    for _, row in wrong.head(most).iterrows():
-        error = error_text(row["error"], row["uncertainty"])
-        found = f": E = {error}, limits {limits_text(row['lower'], row['upper'])}" if error else ""
-        against = f" against {row['reference']}" if row["reference"] else ""
-        lines += hanging(f"{row['verdict']} {row['gate']} of {row['candidate']}{against}{found}", width)
-        lines += hanging(f"  {row['reason']}", width) if row["reason"] else []
-        lines += wrapped_command(command(row, specs), width)
-    if len(wrong) > most:
-        lines += hanging(f"{len(wrong) - most} more do not pass; --verbose prints all", width)
-    return lines
+    # A curve has a row for each point.
+    whole = curves[curves["point"] == 0] if "point" in curves else curves
+    tables = [table[["model", "status", "seconds"]] for table in (results, whole)]
+    # Not one without rows: older versions of pandas warn that its types will count.
+    rows = pd.concat([table for table in tables if len(table)] or tables)
+    counts = statuses(rows).assign(seconds=rows.groupby("model")["seconds"].sum().round(1))
+    return [_first(counts.reset_index(), _MODELS, "computations"), *([largest_errors(kappa)] if len(kappa) else [])]
 
 
-def declared_lines(gates: pd.DataFrame, width: int) -> list[str]:
-    """Return the names of the gates that fail as declared, the first ones and the number of the others."""
-    names = list(dict.fromkeys(gates.loc[gates["verdict"] == Verdict.XFAIL, "gate"]))
-    if not names:
-        return []
-    more = f" and {len(names) - _NAMES} more" if len(names) > _NAMES else ""
-    return hanging(f"as declared (XFAIL; --verbose prints the commands): {', '.join(names[:_NAMES])}{more}", width)
-
-
-def gates_line(gates: pd.DataFrame, verdicts: pd.DataFrame, bases: Mapping[str, str]) -> str:
-    """Return the sentence on all gates, and how many cases have each verdict.
-
-    Parameters
-    ----------
-    gates : DataFrame
-        As of `comparisons.judging.summary.summarise`.
-    verdicts : DataFrame
-        As of `comparisons.judging.judge.judge`.
-    bases : mapping of str to str
-        What each gate is based on; "published" for numbers of the paper.
+def statuses(rows: pd.DataFrame) -> pd.DataFrame:
+    """Return how many rows of each model ended with each status.
 
     Examples
     --------
-    >>> gates = pd.DataFrame({"gate": ["A", "B", "C"], "verdict": ["PASS", "XFAIL", "FAIL"]})
-    >>> gates_line(gates, gates, {"B": "published"}).partition(" (")[2]
-    '3 cases: 1 PASS, 1 XFAIL, 1 FAIL)'
+    >>> statuses(pd.DataFrame({"model": ["jkr", "jkr"], "status": ["ok", "failed"]})).values.tolist()
+    [[1, 0, 1]]
     """
-    judged = without_card_gates(verdicts)
-    if judged.empty:
-        return gates_sentence(gates, bases)
-    cases = judged["verdict"].map(str).value_counts()
-    every = ", ".join(f"{cases[str(verdict)]} {verdict}" for verdict in reversed(Verdict) if str(verdict) in cases)
-    return f"{gates_sentence(gates, bases)} ({counted(len(judged), 'cases', 'case')}: {every})"
+    counts = rows.groupby(["model", "status"]).size().unstack(fill_value=0)
+    return counts.reindex(columns=["ok", "not-applicable", "failed"], fill_value=0).rename_axis(columns=None)
+
+
+def largest_errors(kappa: pd.DataFrame) -> RenderableType:
+    """Return the largest relative error of each model and quantity, in percent, and its case."""
+    worst = worst_rows(kappa, ["quantity", "model"])
+    columns = [_QUANTITY, _MODEL, *(one for one in _CASE if worst[one.label].notna().any()), _LARGEST]
+    texts = texts_of([*columns, *([_PROBLEM] if "problem" in worst else [])], worst)
+    return _first(texts, _ERRORS, "largest abs(kappa) in percent")
+
+
+def _first(table: pd.DataFrame, rows: int, title: str) -> RenderableType:
+    """Return the first rows of a table; the title tells how many there are."""
+    if len(table) > rows:
+        title += f" (the first {rows} of {len(table)} rows)"
+    return rich_table(table.head(rows), title)
+
+
+def every_error(results: pd.DataFrame, kappa: pd.DataFrame, maxima: pd.DataFrame) -> Iterator[RenderableType]:
+    """Yield the errors in every case, the failed computations, and the largest errors beside those of the paper.
+
+    Parameters
+    ----------
+    results, kappa, maxima : DataFrame
+        As `comparisons.pipeline.tables.RunTables` has them.
+    """
+    case = [*_CASE, *([_PROBLEM] if "problem" in kappa else [])]
+    reference, error = values("reference", "reference_value", "u_reference"), _signed("kappa", 3)
+    for names, rows in kappa.groupby(["quantity", "reference"]):
+        title = f"{names[0]} of {names[1]} with its u_num, and kappa of each model in percent"
+        yield rich_table(texts_of([_MODEL, *case, reference, error], rows), title)
+    failed = results[results["status"] == "failed"]
+    if len(failed):
+        yield rich_table(texts_of([_MODEL, _QUANTITY, *case, words("reason", "reason")], failed), "failed computations")
+    yield rich_table(statuses(results).reset_index(), "computations")
+    if len(maxima):
+        columns = [_QUANTITY, _MODEL, *_CASE, _signed("kappa", 2)]
+        yield rich_table(texts_of(columns, maxima), "largest abs(kappa) in percent")
+    stated = maxima[maxima["paper_percent"] != ""]
+    if len(stated):
+        end = Column("at_end", cell=lambda row: Cell("yes" if row["at_end"] else ""))
+        columns = [_MODEL, *_CASE, end, percents("kappa", "kappa", "u_kappa")]
+        columns += [words("paper_percent", "paper_percent"), words("verdict", "verdict")]
+        title = "largest abs(kappa) in percent beside that of the paper (at_end: at an end of the range of mu)"
+        yield rich_table(texts_of(columns, stated), title)
+
+
+def _signed(name: str, decimals: int) -> Column:
+    return Column(name, cell=lambda row: Cell(f"{100 * row[name]:+.{decimals}f}"))
+
+
+def failure_lines(failures: Sequence[Row]) -> Iterator[str]:
+    """Yield a sentence for each of the first failures, and one for the others.
+
+    Examples
+    --------
+    >>> list(failure_lines([]))
+    []
+    """
+    for row in failures[:_FAILURES]:
+        place = case_text({"n": row.n, "k": row.k, "mu": row.mu, "problem": row.problem})
+        yield f"{row.model}: {row.quantity} at {place}: {row.reason}"
+    if len(failures) > _FAILURES:
+        yield f"{len(failures) - _FAILURES} more computations failed; the tables have their reasons"
 
 
 def computations_sentence(counts: Mapping[str, int]) -> str:

@@ -8,27 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
 import pandas as pd
 
 from comparisons.data.paper_values import paper_values
 from comparisons.numerics.bounds import combined
 from comparisons.numerics.kappa import relative_difference, relative_uncertainty
-from comparisons.numerics.number_text import percent_text, value_text
-from comparisons.output.fitted_table import FittedTable
 from comparisons.quantities import QUANTITIES
 from comparisons.runs.case_columns import with_problem, without_empty_problem
 from comparisons.runs.rows import CASE
 
 __all__ = [
     "agreement",
-    "beside_paper_values",
-    "by_case",
     "largest",
-    "largest_by_gradient",
     "relative_error",
-    "rich_table",
-    "statuses",
+    "worst_rows",
 ]
 
 _CASE = ["quantity", *CASE]
@@ -53,7 +46,7 @@ def relative_error(rows: pd.DataFrame, reference: str) -> pd.DataFrame:
 
     Examples
     --------
-    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "mu": 1.0, "nu": np.nan, "status": "ok"}
+    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "mu": 1.0, "nu": None, "status": "ok"}
     >>> rows = pd.DataFrame([case | {"model": "a", "value": 1.1, "u_num": 0.0},
     ...                      case | {"model": "b", "value": 1.0, "u_num": 0.01}])
     >>> relative_error(rows, "b")[["model", "kappa", "u_kappa"]].round(3).values.tolist()
@@ -96,7 +89,7 @@ def agreement(rows: pd.DataFrame, model: str, reference: str) -> pd.DataFrame:
 
     Examples
     --------
-    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "mu": 1.0, "nu": np.nan, "status": "ok"}
+    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.0, "mu": 1.0, "nu": None, "status": "ok"}
     >>> rows = pd.DataFrame([case | {"model": "a", "value": 4.004, "u_num": 0.008},
     ...                      case | {"model": "b", "value": 4.0, "u_num": 0.0}])
     >>> agreement(rows, "a", "b")[["difference", "claimed", "en"]].round(9).values.tolist()
@@ -126,15 +119,14 @@ def largest(kappa: pd.DataFrame) -> pd.DataFrame:
 
     Examples
     --------
-    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": np.nan, "status": "ok", "u_num": 1e-9}
+    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": None, "status": "ok", "u_num": 1e-9}
     >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
     >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
     >>> largest(relative_error(rows, "fscm"))[["mu", "at_end", "paper_percent", "verdict"]].values.tolist()
     [[2.0, True, '0.73', 'differs']]
     """
     known = {("pull_off_force", p.model, p.n, p.k): p for p in paper_values("largest_relative_error")}
-    worst = kappa.loc[kappa["kappa"].abs().groupby([kappa[name] for name in _SERIES]).idxmax()]
-    table = worst[[*_SERIES, "mu", "kappa", "u_kappa"]].sort_values(_SERIES, ignore_index=True)
+    table = worst_rows(kappa, _SERIES)[[*_SERIES, "mu", "kappa", "u_kappa"]].sort_values(_SERIES, ignore_index=True)
     ends = kappa.groupby(_SERIES)["mu"].agg(["size", "min", "max"]).reset_index(drop=True)
     table.insert(4, "cases", ends["size"])
     table.insert(6, "at_end", (table["mu"] == ends["min"]) | (table["mu"] == ends["max"]))
@@ -147,117 +139,12 @@ def largest(kappa: pd.DataFrame) -> pd.DataFrame:
     return table
 
 
-def by_case(kappa: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
-    """Return one row a case: the reference with its uncertainty, and kappa of each model in percent.
-
-    The second value holds the formats of its columns, for `rich_table`.
+def worst_rows(kappa: pd.DataFrame, by: Sequence[str]) -> pd.DataFrame:
+    """Return the row of the largest abs(kappa) for each combination of the columns `by`, sorted by these.
 
     Examples
     --------
-    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": np.nan, "status": "ok", "u_num": 1e-9}
-    >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
-    >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
-    >>> shown = by_case(relative_error(rows, "fscm"))[0]
-    >>> shown["reference"].tolist(), shown["md-improved"].round(3).tolist()
-    (['1.8000000000(10)', '1.7500000000(10)'], [-0.556, -1.143])
+    >>> worst_rows(pd.DataFrame({"model": ["a", "a", "b"], "kappa": [0.1, -0.2, 0.3]}), ["model"]).values.tolist()
+    [['a', -0.2], ['b', 0.3]]
     """
-    case = ["n", "k", "mu", *(["problem"] if "problem" in kappa else [])]
-    wide = kappa.pivot(index=[*case, "reference_value", "u_reference"], columns="model", values="kappa")
-    shown = (100 * wide).reset_index().rename_axis(columns=None)
-    values = [value_text(*pair) for pair in zip(shown["reference_value"], shown["u_reference"], strict=True)]
-    shown.insert(len(case), "reference", values)
-    shown = shown.drop(columns=[name for name in ("n", "k", "mu") if shown[name].isna().all()])
-    return shown.drop(columns=["reference_value", "u_reference"]), dict.fromkeys(wide.columns, "+.3f")
-
-
-def largest_by_gradient(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
-    """Return the largest abs(kappa) in percent, signed: one row a model and n, one column a k.
-
-    The second value holds the formats of its columns, for `rich_table`.
-
-    Examples
-    --------
-    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": np.nan, "status": "ok", "u_num": 1e-9}
-    >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
-    >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
-    >>> largest_by_gradient(largest(relative_error(rows, "fscm")))[0]["k = 0.4"].round(3).tolist()
-    [-1.143]
-    """
-    wide = maxima.pivot(index=["quantity", "model", "n"], columns="k", values="kappa")
-    wide.columns = pd.Index([f"k = {k:g}" for k in wide.columns])
-    return (100 * wide).reset_index(), dict.fromkeys(wide.columns, "+.2f")
-
-
-def beside_paper_values(maxima: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, str]]:
-    """Return the maxima that the paper prints, in percent, with the verdict; and the formats of the columns.
-
-    Examples
-    --------
-    >>> case = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "nu": np.nan, "status": "ok", "u_num": 1e-9}
-    >>> values = {("md-improved", 1.0): 1.79, ("md-improved", 2.0): 1.73, ("fscm", 1.0): 1.8, ("fscm", 2.0): 1.75}
-    >>> rows = pd.DataFrame([case | {"model": m, "mu": mu, "value": value} for (m, mu), value in values.items()])
-    >>> beside_paper_values(largest(relative_error(rows, "fscm")))[0]["kappa"].tolist()
-    ['-1.14286(5)']
-    """
-    stated = maxima[maxima["paper_percent"] != ""].drop(columns=["quantity", "cases"])
-    texts = [percent_text(*pair) for pair in zip(stated["kappa"], stated["u_kappa"], strict=True)]
-    return stated.assign(kappa=texts).drop(columns="u_kappa"), {}
-
-
-def statuses(rows: pd.DataFrame) -> pd.DataFrame:
-    """Return how many rows of each model ended with each status.
-
-    Examples
-    --------
-    >>> statuses(pd.DataFrame({"model": ["jkr", "jkr"], "status": ["ok", "failed"]})).values.tolist()
-    [['jkr', 1, 1]]
-    """
-    if rows.empty:
-        return pd.DataFrame({"model": []})
-    return rows.groupby(["model", "status"]).size().unstack(fill_value=0).reset_index()
-
-
-def rich_table(
-    table: pd.DataFrame,
-    title: str,
-    formats: dict[str, str] | None = None,
-    *,
-    group: str = "",
-    optional: Sequence[str] = (),
-) -> FittedTable:
-    """Return a pandas table for the terminal: numbers to the right, blank where missing.
-
-    Parameters
-    ----------
-    table : DataFrame
-    title : str
-    formats : dict of str to str, optional
-        Formats of columns of numbers.
-    group : str
-        The column that becomes headings on a narrow terminal.
-    optional : sequence of str
-        The columns that a narrow terminal may leave out.
-
-    Examples
-    --------
-    >>> rich_table(pd.DataFrame({"model": ["jkr"], "kappa": [0.5]}), "errors", {"kappa": "+.2f"}).row_count
-    1
-    """
-    known = formats or {}
-    texts = pd.DataFrame(
-        {str(name): [_words(value, known.get(str(name), "")) for value in table[name]] for name in table}, dtype=object
-    )
-    numbers = frozenset(
-        str(name)
-        for name in table
-        if pd.api.types.is_numeric_dtype(table[name]) and not pd.api.types.is_bool_dtype(table[name])
-    )
-    return FittedTable(texts, title, numbers, group, optional)
-
-
-def _words(value: object, form: str) -> str:
-    if isinstance(value, bool | np.bool_):
-        return "yes" if value else ""
-    if isinstance(value, float | np.floating):
-        return "" if np.isnan(value) else format(value, form or "g")
-    return str(value)
+    return kappa.loc[kappa["kappa"].abs().groupby([kappa[name] for name in by]).idxmax()]

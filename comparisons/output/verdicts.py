@@ -1,4 +1,4 @@
-"""The verdicts of a run as tables of texts, and their files beside the results."""
+"""Columns of tables of verdicts, the command that computes a case again, and the files of verdicts."""
 
 from __future__ import annotations
 
@@ -6,41 +6,36 @@ import shlex
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
 from comparisons.judging.card_gates import CARD
 from comparisons.judging.gates import Gate
-from comparisons.judging.summary import COVERAGE, coverage_text, summarise
-from comparisons.numerics.number_text import error_text, exact, limits_text, value_text
+from comparisons.judging.summary import summarise
+from comparisons.numerics.number_text import exact
 from comparisons.output.junit import junit
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
+from comparisons.output.table import CASE_LABELS, COLUMNS, Cell, Column, chosen, table_of, texts_of
 from comparisons.quantities import CURVES
 from comparisons.runs.atomic_files import atomic
-from comparisons.runs.case_columns import with_problem
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.rows import PARAMETERS, Key, split_label
 from comparisons.runs.tables import write_table
 
-__all__ = [
-    "GATE_COLUMNS",
-    "command",
-    "matrix",
-    "worst_cases",
-    "write_verdicts",
-]
+__all__ = ["GATE_COLUMNS", "WORST_CASES", "command", "write_verdicts"]
 
 #: What is stored of each gate beside its verdicts: what was required, in which unit, and on what grounds.
 GATE_COLUMNS = ("id", "requirement", "metric", "basis", "grounds")
 
 
-def command(row: pd.Series, specs: Mapping[str, str]) -> str:
+def command(row: Mapping[str, Any], specs: Mapping[str, str]) -> str:
     """Return the command that computes the candidate's side of a verdict again.
 
     Parameters
     ----------
-    row : Series
+    row : mapping or Series
         A row of verdicts.
     specs : mapping of str to str
         The SPEC that finds each external model: its name alone does not.
@@ -63,7 +58,7 @@ def command(row: pd.Series, specs: Mapping[str, str]) -> str:
     return f"fscm-bench {verb} --model {model} --quantity {row['quantity']} {case}"
 
 
-def _command_of_file(row: pd.Series, specs: Mapping[str, str]) -> str:
+def _command_of_file(row: Mapping[str, Any], specs: Mapping[str, str]) -> str:
     file, *varied = split_label(row["problem"])
     model = shlex.quote(specs.get(row["candidate"], row["candidate"]))
     vary = "".join(f" --vary {shlex.quote(one)}" for one in varied)
@@ -75,50 +70,11 @@ def _command_of_file(row: pd.Series, specs: Mapping[str, str]) -> str:
     return f"fscm-bench sweep --problem {quoted}{vary} --model {model} --quantity {row['quantity']}"
 
 
-def matrix(gates: pd.DataFrame, specs: Mapping[str, str]) -> pd.DataFrame:
-    """Return one row of texts for each row of a summary (`comparisons.judging.summary.summarise`), in its order.
-
-    Columns: verdict, gate, candidate, reference, coverage (in how many cases the candidate has a value, of how many in
-    which it is evaluated), error of the worst case with its U in brackets, limits, the command that computes that case
-    again, and the reason.
-    """
-    return pd.DataFrame(
-        {
-            "verdict": gates["verdict"].map(str),
-            "gate": gates["gate"],
-            "candidate": gates["candidate"],
-            "reference": gates["reference"],
-            "coverage": [coverage_text(row) for row in gates[list(COVERAGE)].to_dict("records")],
-            "worst E(U)": _errors(gates),
-            "limits": [limits_text(*limits) for limits in zip(gates["lower"], gates["upper"], strict=True)],
-            "command": [command(row, specs) for _, row in gates.iterrows()],
-            "reason": gates["reason"],
-        },
-        dtype=object,
-    )
-
-
-def _errors(gates: pd.DataFrame) -> list[str]:
-    return [error_text(*pair) for pair in zip(gates["error"], gates["uncertainty"], strict=True)]
-
-
-def worst_cases(gates: pd.DataFrame) -> pd.DataFrame:
-    """Return the worst case of each gate of a summary as texts, the two values with their uncertainty."""
-    rows = [row for _, row in gates.iterrows()]
-    return pd.DataFrame(
-        {
-            "verdict": gates["verdict"].map(str),
-            "gate": gates["gate"],
-            **{name: ["" if pd.isna(row[name]) else exact(row[name]) for row in rows] for name in ("n", "k", "mu")},
-            **({"problem": gates["problem"]} if with_problem(gates)["problem"].any() else {}),
-            "candidate": gates["candidate"],
-            "candidate's value": [value_text(row["value"], row["u_num"]) for row in rows],
-            "reference": gates["reference"],
-            "reference's value": [value_text(row["reference_value"], row["u_reference"]) for row in rows],
-            "E(U)": _errors(gates),
-        },
-        dtype=object,
-    )
+#: The worst case of each gate, as it is in LaTeX.
+WORST_CASES = chosen(
+    *("verdict", "gate", *CASE_LABELS),
+    *("candidate", "candidate's value", "reference", "reference's value", "E(U)"),
+)
 
 
 def write_verdicts(
@@ -140,15 +96,16 @@ def write_verdicts(
     write_table(pd.DataFrame(required, columns=list(GATE_COLUMNS), dtype=str), files.gates)
     summary = summarise(judged)
     write_table(summary.assign(verdict=summary["verdict"].map(str)), files.summary)
-    shown = matrix(summary, specs)
     requirement = {gate.id: gate.requirement for gate in gates}
-    page = markdown(shown.assign(requirement=[requirement.get(id, "") for id in shown["gate"]]), "Verdicts")
-    texts = {
-        files.verdicts_markdown: page,
-        files.verdicts_latex: latex(
-            worst_cases(summary), "Verdicts of fscm-bench, worst first, each in its worst case", "verdicts"
-        ),
-    }
+    columns = (
+        *chosen("verdict", "gate", "candidate", "reference", "coverage", "worst E(U)", "limits"),
+        Column("command", cell=lambda row: Cell(command(row, specs))),
+        COLUMNS["reason"],
+        Column("requirement", cell=lambda row: Cell(requirement.get(row["gate"], ""))),
+    )
+    page = markdown(texts_of(columns, summary), "Verdicts")
+    worst = table_of("verdicts", "Verdicts of fscm-bench, worst first, each in its worst case", WORST_CASES, summary)
+    texts = {files.verdicts_markdown: page, files.verdicts_latex: latex(worst.on_paper(), worst.caption, worst.id)}
     for path, text in texts.items():
         with atomic(path) as file:
             file.write(text.encode())

@@ -10,8 +10,8 @@ from typing import Any, TypeVar
 
 import pandas as pd
 from matplotlib.figure import Figure
+from rich.console import RenderableType
 
-from comparisons.output.fitted_table import FittedTable
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
 from comparisons.output.style import save, styled
@@ -120,7 +120,7 @@ class PaperFigure:
     picture: Callable[[Figure, Tables], None] | None = None
     size: tuple[float, float] = (7.2, 3.4)
     texts: Callable[[Tables], dict[str, str]] | None = None
-    shown: Callable[[Tables], FittedTable] | None = None
+    shown: Callable[[Tables], RenderableType] | None = None
     follows_path: bool = False
 
     def tasks(self) -> list[CachedCall]:

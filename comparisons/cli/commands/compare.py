@@ -20,7 +20,7 @@ from comparisons.cli.options import (
 from comparisons.console.progress import log, note, quiet
 from comparisons.model import ComputationFailed
 from comparisons.output.comparison import terminal_tables
-from comparisons.output.sweep_summary import failure_lines
+from comparisons.output.run_summary import failure_lines
 from comparisons.pipeline.compare import REFERENCES, compare
 
 __all__ = ["EXAMPLES", "add", "call"]

@@ -14,7 +14,7 @@ from comparisons.console.progress import log, waiting
 from comparisons.model import ComputationFailed, NotApplicable
 from comparisons.models.fem_model import FiniteElements
 from comparisons.output.style import picture_path, save
-from comparisons.output.tables import rich_table
+from comparisons.output.terminal import rich_table
 from comparisons.runs.atomic_files import writable_file, writing
 from fem_reference import export
 from fem_reference.verification import FULL_STUDY, QUICK_STUDY, elastic_checks, solver_table

@@ -15,7 +15,7 @@ from comparisons.console.progress import log
 from comparisons.external.model_source import installed
 from comparisons.judging.gates import gates_text, load_gates
 from comparisons.numerics.number_text import limits_text
-from comparisons.output.tables import rich_table
+from comparisons.output.terminal import records
 from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS, create
 from comparisons.runs.cases import TIERS, grids
@@ -51,7 +51,7 @@ def call(args: argparse.Namespace) -> int:
     if table.empty:
         log(f"no {args.what} are declared")
     else:
-        output().print(rich_table(table, args.what))
+        output().print(records(table, args.what))
     return OK
 
 

@@ -7,19 +7,21 @@ from contextlib import nullcontext
 from pathlib import Path
 from shlex import quote
 
-import pandas as pd
-
 from comparisons.cli.commands.judge import STATUS, show
 from comparisons.cli.options import FAILED, add_jobs, add_out, add_quiet, add_retry_failed, add_verbose, output
 from comparisons.cli.verdict_screen import error_lines, print_lines, verdict_lines
 from comparisons.console.folding import folded
 from comparisons.console.progress import log, note, quiet
 from comparisons.model import ComputationFailed
-from comparisons.output.fitted_table import FittedTable
 from comparisons.output.markdown import to_step_summary
-from comparisons.output.run_summary import computations_sentence, largest_table, paper_sentence
-from comparisons.output.sweep_summary import failure_lines, largest_errors
-from comparisons.output.tables import beside_paper_values, by_case, largest_by_gradient, rich_table, statuses
+from comparisons.output.run_summary import (
+    computations_sentence,
+    every_error,
+    failure_lines,
+    largest_errors,
+    largest_table,
+    paper_sentence,
+)
 from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.run import run
 from comparisons.runs.cases import TIERS
@@ -104,7 +106,8 @@ def call(args: argparse.Namespace) -> int:
             return FAILED
         judgement = finished.judgement
         if args.verbose:
-            _print_every_row(finished)
+            for every in every_error(finished.tables.results, finished.tables.kappa, finished.tables.largest):
+                output().print(every)
         _show(finished, verbose=args.verbose, failures_only=args.quiet, with_paper=args.gates is None)
         note(f"results are in {finished.folder}")
         if judgement is not None and not judgement.verdicts.empty:
@@ -137,42 +140,11 @@ def _show(finished: FinishedRun, *, verbose: bool, failures_only: bool, with_pap
         table = largest_table(maxima, width, room - taken)
         if table is not None:
             output().print(table)
-        of_files = _largest_of_files(finished)
-        if of_files is not None:
-            output().print(of_files)
+        kappa = finished.tables.kappa
+        if "problem" in kappa:
+            output().print(largest_errors(kappa[kappa["problem"].fillna("") != ""]))
         print_lines(below)
     if judgement is not None:
         show(judgement, verbose=verbose, failures_only=failures_only, lines=lines)
     for line in failures:
         log(line)
-
-
-def _largest_of_files(finished: FinishedRun) -> FittedTable | None:
-    """Return the largest errors in the cases of problem files; None if there are none."""
-    kappa = finished.tables.kappa
-    of_files = kappa[kappa["problem"] != ""] if "problem" in kappa else kappa.head(0)
-    return None if of_files.empty else largest_errors(of_files)
-
-
-def _print_every_row(finished: FinishedRun) -> None:
-    """Print the relative errors in every case, the failed computations, and the largest errors."""
-    console, tables = output(), finished.tables
-    for (quantity, reference), group in tables.kappa.groupby(["quantity", "reference"]):
-        title = f"{quantity} of {reference} with its u_num, and kappa of each model in percent"
-        console.print(_titled(by_case(group), title))
-    of_case = ["n", "k", "mu", *(["problem"] if "problem" in tables.results else [])]
-    failed = tables.results.loc[tables.results["status"] == "failed", ["model", "quantity", *of_case, "reason"]]
-    if len(failed):
-        console.print(rich_table(failed, "failed computations"))
-    console.print(rich_table(statuses(tables.results), "computations"))
-    if len(tables.largest):
-        console.print(_titled(largest_by_gradient(tables.largest), "largest abs(kappa) in percent"))
-    stated = beside_paper_values(tables.largest)
-    if not stated[0].empty:
-        title = "largest abs(kappa) in percent beside that of the paper (at_end: at an end of the range of mu)"
-        console.print(_titled(stated, title))
-
-
-def _titled(shown: tuple[pd.DataFrame, dict[str, str]], title: str) -> FittedTable:
-    table, formats = shown
-    return rich_table(table, title, formats, group="quantity" if "quantity" in table else "")

@@ -10,7 +10,7 @@ from comparisons.cli.options import FAILED, OK, add_jobs, add_out, add_quiet, ad
 from comparisons.console.progress import log, note, quiet
 from comparisons.model import ComputationFailed
 from comparisons.output.problem_values import values_of_problems
-from comparisons.output.sweep_summary import failure_lines, summary_tables
+from comparisons.output.run_summary import failure_lines, summary_tables
 from comparisons.pipeline.finished_run import FinishedRun
 from comparisons.pipeline.inputs import cases_of_problem
 from comparisons.pipeline.run import run

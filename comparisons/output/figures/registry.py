@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import pandas as pd
@@ -14,36 +13,15 @@ from comparisons.output.figures import agreement, kappa, references
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["FIGURES", "RunFigure", "figures_of"]
+__all__ = ["FIGURES", "figures_of"]
 
 
-@dataclass(frozen=True, slots=True)
-class RunFigure:
-    """A figure of a run.
-
-    Attributes
-    ----------
-    stem : str
-        Name of its files, without suffix.
-    table : str
-        Stem of the stored table that it shows.
-    draw : callable
-        From that table to the figure.
-    rows : callable
-        The rows of that table that it shows; without one there is no figure.
-    """
-
-    stem: str
-    table: str
-    draw: Callable[[pd.DataFrame], Figure]
-    rows: Callable[[pd.DataFrame], pd.DataFrame] = lambda table: table
-
-
-#: Every figure of a run, with the table that it draws.
-FIGURES = (
-    RunFigure(KAPPA_FIGURE, KAPPA, kappa.draw, kappa.shown),
-    RunFigure(AGREEMENT, AGREEMENT, agreement.draw),
-    RunFigure(REFERENCES, CURVES, references.draw),
+#: Every figure of a run: the stem of its files, the stem of the stored table that it shows, how it is drawn, and which
+#: rows it shows; without one there is no figure.
+FIGURES: tuple[tuple[str, str, Callable[..., Figure], Callable[..., pd.DataFrame]], ...] = (
+    (KAPPA_FIGURE, KAPPA, kappa.draw, kappa.shown),
+    (AGREEMENT, AGREEMENT, agreement.draw, pd.DataFrame),
+    (REFERENCES, CURVES, references.draw, pd.DataFrame),
 )
 
 
@@ -60,7 +38,7 @@ def figures_of(tables: dict[str, pd.DataFrame]) -> Iterator[tuple[str, Figure]]:
     >>> list(figures_of({"agreement": pd.DataFrame()}))
     []
     """
-    for figure in FIGURES:
-        table = tables.get(figure.table)
-        if table is not None and not figure.rows(table).empty:
-            yield figure.stem, figure.draw(table)
+    for stem, name, draw, rows in FIGURES:
+        table = tables.get(name)
+        if table is not None and not rows(table).empty:
+            yield stem, draw(table)

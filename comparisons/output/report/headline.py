@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import pandas as pd
 
 from comparisons.numerics.number_text import case_text, percent_text
 from comparisons.output.gate_sentence import gates_sentence
 from comparisons.output.report.stored_run import Stored
+from comparisons.output.tables import worst_rows
 from comparisons.problem_file.units import si_text
 from comparisons.quantities import ALL_QUANTITIES, QUANTITIES, title_of
 from comparisons.runs.case_columns import with_problem
@@ -67,16 +71,14 @@ def errors_of_models(kappa: pd.DataFrame) -> list[tuple[str, str]]:
     [('dmt', '1.00000(5) % in the pull-off force at n = 2, k = 0, mu = 1')]
     """
     order = list(ALL_QUANTITIES)
-    rows = []
-    for model, of_model in kappa.groupby("model"):
-        first = min(of_model["quantity"], key=lambda name: order.index(name) if name in order else len(order))
-        of_quantity = of_model[of_model["quantity"] == first]
-        worst = of_quantity.iloc[int(of_quantity["kappa"].abs().to_numpy().argmax())]
-        rows.append((abs(float(worst["kappa"])), str(model), _error_text(worst)))
-    return [(model, text) for _, model, text in sorted(rows, key=lambda row: -row[0])]
+    rank = kappa["quantity"].map(lambda name: order.index(name) if name in order else len(order))
+    first = kappa[rank == rank.groupby(kappa["model"]).transform("min")]
+    worst = worst_rows(first, ["model"])
+    worst = worst.iloc[(-worst["kappa"].abs()).argsort(kind="stable")]
+    return [(str(row["model"]), _error_text(row)) for row in worst.to_dict("records")]
 
 
-def _error_text(row: pd.Series) -> str:
+def _error_text(row: Mapping[str, Any]) -> str:
     where = case_text({name: row.get(name) for name in CASE})
     return f"{percent_text(row['kappa'], row['u_kappa'])} % in the {title_of(row['quantity'])} at {where}"
 

@@ -10,27 +10,39 @@ from typing import Any
 import pandas as pd
 
 from comparisons.judging.card_gates import without_card_gates
-from comparisons.judging.decision import Verdict, roll_up
-from comparisons.numerics.number_text import percent_text
+from comparisons.judging.decision import roll_up
 from comparisons.output.error_summary import error_summary
-from comparisons.output.report.render import render_table
+from comparisons.output.report.render import filled
 from comparisons.output.report.stored_run import Stored
-from comparisons.output.report.table import (
-    CASE_COLUMNS,
-    Cell,
-    Column,
-    Row,
-    Table,
-    case_cells,
-    number,
-    without_empty,
-)
-from comparisons.quantities import title_of
+from comparisons.output.table import CASE_LABELS, Cell, Column, chosen, kappa_cell, numbers, table_of, words
 from comparisons.runs.case_columns import keys_in, with_problem
 from comparisons.runs.csv_format import csv_text
 from comparisons.runs.rows import CASE, Key
 
 __all__ = ["Entry", "case_sets", "leaderboard_html", "standing"]
+
+
+def _size(label: str, name: str, u: str) -> Column:
+    """Return a column of relative errors with their signs, which sorts by their sizes."""
+
+    def cell(row: Mapping[str, Any]) -> Cell:
+        found = kappa_cell(row[name], row[u])
+        return Cell(found.text, None if found.value is None else abs(found.value))
+
+    return Column(label, "number", cell)
+
+
+def _bound(row: Mapping[str, Any]) -> Cell:
+    return Cell("") if pd.isna(row["u"]) else Cell(f"{100 * row['u']:.1e}", float(row["u"]))
+
+
+_COLUMNS = (
+    *(*chosen("quantity", "verdict"), _size("largest |κ| (%)", "largest", "u_largest"), *chosen(*CASE_LABELS)),
+    *(_size("rms κ (%)", "rms", "u"), Column("bound (%)", "number", _bound)),
+    *(numbers(name.replace("_", " "), name, ".0f") for name in ("asked", "answered", "not_applicable", "failed")),
+    *(numbers("cases with κ", "cases", ".0f"), *chosen("reference"), words("version", "version")),
+    *(words("date", "finished"), words("fscm-bench", "package"), words("run", "run")),
+)
 
 _KEY = ["model", "quantity", *CASE]
 
@@ -149,36 +161,16 @@ def leaderboard_html(entries: Sequence[Entry], mixed: bool = False) -> str:
         ],
         ignore_index=True,
     )
-    size = every["largest"].abs()
-    every = every.assign(size=size).sort_values(["quantity", "case_set", "size"], kind="stable", ignore_index=True)
-    columns = (
-        Column("model", "head"),
-        *([Column("set")] if len(set(letters)) > 1 else []),
-        Column("quantity"),
-        Column("verdict", "verdict"),
-        Column("largest |κ| (%)", "number"),
-        *CASE_COLUMNS,
-        Column("rms κ (%)", "number"),
-        Column("bound (%)", "number"),
-        Column("asked", "number"),
-        Column("answered", "number"),
-        Column("not applicable", "number"),
-        Column("failed", "number"),
-        Column("cases with κ", "number"),
-        Column("reference"),
-        Column("version"),
-        Column("date"),
-        Column("fscm-bench"),
-        Column("run"),
-    )
-    rows = [Row(_cells(row, mixed=len(set(letters)) > 1)) for _, row in every.iterrows()]
-    table = without_empty(
-        Table("leaderboard", "One row a model and quantity of each run", columns, rows, "leaderboard.csv")
-    )
-    return render_table(
+    order = every.assign(size=every["largest"].abs()).sort_values(["quantity", "case_set", "size"], kind="stable").index
+    every = every.loc[order].reset_index(drop=True)
+    mixed_sets = [words("set", "case_set")] if len(set(letters)) > 1 else []
+    columns = (*chosen("model"), *mixed_sets, *_COLUMNS)
+    table = table_of("leaderboard", "One row a model and quantity of each run", columns, every, "leaderboard.csv")
+    return filled(
         "leaderboard.html",
-        table,
-        {"leaderboard.csv": csv_text(every.drop(columns=["size"]))},
+        [table],
+        {"leaderboard.csv": csv_text(every)},
+        table=table,
         models=every["model"].nunique(),
         runs=len(entries),
         sets=_sets(entries, letters),
@@ -201,28 +193,3 @@ def _sets(entries: Sequence[Entry], letters: Sequence[str]) -> list[tuple[str, s
         words += f", gates {gates[:12]}" if gates else ", no gates"
         described.setdefault(letter, words + (", computed as far as the gates need them" if chosen == "yes" else ""))
     return sorted(described.items()) if len(described) > 1 else []
-
-
-def _cells(row: pd.Series, mixed: bool) -> list[Cell]:
-    rank = float(Verdict(row["verdict"]).rank) if row["verdict"] else None
-    return [
-        Cell(row["model"]),
-        *([Cell(row["case_set"])] if mixed else []),
-        Cell(title_of(row["quantity"])),
-        Cell(row["verdict"], rank),
-        _size(row["largest"], row["u_largest"]),
-        *case_cells(row),
-        _size(row["rms"], row["u"]),
-        Cell("") if pd.isna(row["u"]) else Cell(f"{100 * row['u']:.1e}", float(row["u"])),
-        *(number(row[name], ".0f") for name in ("asked", "answered", "not_applicable", "failed", "cases")),
-        Cell(row["reference"]),
-        Cell(row["version"]),
-        Cell(row["finished"]),
-        Cell(row["package"]),
-        Cell(row["run"]),
-    ]
-
-
-def _size(kappa: float, u: float) -> Cell:
-    """Return a relative error with its sign, which sorts by its size."""
-    return Cell("") if pd.isna(kappa) else Cell(percent_text(kappa, u), abs(float(kappa)))

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pandas as pd
 
-from comparisons.output.report.comparison_tables import case_tables, summary_tables
 from comparisons.output.report.render import environment
+from comparisons.output.report.tables import case_tables, summary_tables
 
 __all__ = ["notebook_html"]
 

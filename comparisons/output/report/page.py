@@ -11,15 +11,22 @@ from comparisons.data.paper_statements import verdicts
 from comparisons.judging.card_gates import overall, without_card_gates
 from comparisons.judging.decision import Verdict
 from comparisons.output.error_summary import error_summary
-from comparisons.output.report import card_table, number_tables, plots, problem_plots, verdict_tables
-from comparisons.output.report.comparison_tables import SUMMARY_FILE, TABLE_FILE, case_tables, summary_tables
+from comparisons.output.report import plots, problem_plots
 from comparisons.output.report.headline import errors_of_models, gates_of, headline
 from comparisons.output.report.plot import Plot
 from comparisons.output.report.provenance import provenance, verdict_counts
-from comparisons.output.report.statement_table import statements
 from comparisons.output.report.stored_run import Stored
-from comparisons.output.report.table import Table, table_csv
+from comparisons.output.report.tables import (
+    SUMMARY_FILE,
+    TABLE_FILE,
+    case_tables,
+    curve_points,
+    run_tables,
+    summary_tables,
+    verdict_tables,
+)
 from comparisons.output.style import ModelStyle, model_styles
+from comparisons.output.table import Table, table_csv
 from comparisons.runs.csv_format import csv_text
 
 __all__ = ["Page", "make_page"]
@@ -104,24 +111,13 @@ def make_page(stored: Stored) -> Page:
     specs = stored.record["arguments"]["external"]
     curves = plots.curves(stored)
     over_keys = problem_plots.plots(stored.results)
-    of_verdicts = [
-        verdict_tables.matrix(stored),
-        verdict_tables.offenders(stored, specs),
-        verdict_tables.all_verdicts(stored),
-        card_table.cards(stored),
-    ]
     compared = [] if stored.compared is None else _compared(stored.compared)
     made = [
-        *(of_verdicts if stored.judged else ()),
+        *(verdict_tables(stored, specs) if stored.judged else ()),
         *compared,
         *(values.numbers for values in over_keys),
-        number_tables.kappa(stored),
-        number_tables.largest(stored),
-        *(number_tables.curve_points(stored, plot.table, (plot.x_label, plot.y_label)) for plot in curves),
-        number_tables.convergence(stored),
-        number_tables.results(stored),
-        number_tables.models(stored, specs),
-        statements(),
+        *(curve_points(stored, plot.table, (plot.x_label, plot.y_label)) for plot in curves),
+        *run_tables(stored, specs),
     ]
     tables = {table.id: table for table in made}
     sections = {
@@ -132,10 +128,11 @@ def make_page(stored: Stored) -> Page:
     }
     drawn = {name for section in sections.values() for plot in section for name in plot.models}
     verdict = overall(stored.verdicts)
+    gates = gates_of(stored)
     return Page(
         headline=headline(stored),
         errors=errors_of_models(stored.kappa),
-        gates=gates_of(stored),
+        gates=gates,
         verdict=str(verdict) if stored.judged else "",
         meaning=_MEANINGS[verdict] if stored.judged else _UNJUDGED,
         counts=verdict_counts(stored),

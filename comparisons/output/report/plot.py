@@ -50,13 +50,13 @@ class Plot:
     title: str
     x_label: str
     y_label: str
-    x_scale: str
-    y_scale: str
-    mark: str
     controls: tuple[Control, ...]
     series: list[Series]
     table: str
     caption: str
+    x_scale: str = "linear"
+    y_scale: str = "linear"
+    mark: str = "both"
     views: dict[str, list[float]] = field(default_factory=dict)
     y_labels: dict[str, str] = field(default_factory=dict)
 

@@ -10,7 +10,7 @@ import pandas as pd
 from comparisons.numerics.number_text import value_text
 from comparisons.output.problem_values import key_text
 from comparisons.output.report.plot import Control, Plot, Series, key
-from comparisons.output.report.table import Cell, Column, Row, Table, number, without_empty
+from comparisons.output.table import Cell, Column, Row, Table, number, without_empty
 from comparisons.problem_file.units import prefixed_unit, si_text
 from comparisons.quantities import QUANTITIES, title_of
 from comparisons.runs.case_columns import unit_in, varied_of

@@ -13,19 +13,17 @@ from functools import cache
 from hashlib import sha256
 from importlib.resources import files
 from typing import Any
-from unicodedata import normalize
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from comparisons.judging.decision import Verdict
-from comparisons.output.latex_layout import NUMBER
-from comparisons.output.latex_text import TOKENS, escaped
+from comparisons.output.latex import latex_table
 from comparisons.output.report.page import Page
-from comparisons.output.report.table import Table
 from comparisons.output.style import VERDICT_SYMBOLS, verdict_class
+from comparisons.output.table import Table
 
-__all__ = ["dark_colour", "environment", "records", "render", "render_table", "script_json"]
+__all__ = ["dark_colour", "environment", "filled", "records", "render", "script_json"]
 
 #: Bokeh draws the plots: of the well-kept libraries that pip installs and that can draw a curve which turns
 #: back, zoom it and read it off, it is the smallest (1.4 MB, plotly.js 4.8 MB), and needs no `eval`.
@@ -78,26 +76,8 @@ def render(page: Page) -> str:
         name: [style.colour, dark_colour(style.colour), style.dash, style.marker, style.broad]
         for name, style in page.model_styles.items()
     }
-    plots = [plot.data() for plot in page.every_plot]
-    scripts = [*(_script("bokeh", name) for name in _BOKEH), *(_own_script(name) for name in (*_SCRIPTS, "plots.js"))]
-    content = {"plots": plots, "model_styles": styles}
-    return _filled("report.html", page.tables.values(), page.files, scripts, content, page=page, most_open=_MOST_OPEN)
-
-
-def render_table(template: str, table: Table, files: Mapping[str, str], **context: Any) -> str:
-    """Return the HTML of a page with one table, which sorts and filters.
-
-    Parameters
-    ----------
-    template : str
-        Its name among the assets.
-    table : Table
-    files : mapping of str to str
-        What can be downloaded.
-    context
-        What else the template shows.
-    """
-    return _filled(template, [table], files, [_own_script(name) for name in _SCRIPTS], {}, table=table, **context)
+    drawn = {"plots": [plot.data() for plot in page.every_plot], "model_styles": styles}
+    return filled("report.html", page.tables.values(), page.files, drawn, page=page, most_open=_MOST_OPEN)
 
 
 def dark_colour(colour: str) -> str:
@@ -130,13 +110,6 @@ def records(text: str) -> list[str]:
     return found
 
 
-def _characters(tables: Iterable[dict[str, Any]]) -> dict[str, str]:
-    """Return every character of the tables that LaTeX needs in another form, and that form."""
-    texts = (cell if isinstance(cell, str) else cell[0] for one in tables for _, cells in one["rows"] for cell in cells)
-    every = sorted(set().union(*(normalize("NFC", text) for text in texts)))
-    return {one: form for one in every if not one.isspace() and (form := escaped(one)) != one}
-
-
 @cache
 def environment() -> Environment:
     """Return the environment of all templates: everything that is text is escaped."""
@@ -152,42 +125,54 @@ def environment() -> Environment:
     return made
 
 
-def _filled(
+def filled(
     template: str,
     tables: Iterable[Table],
     files: Mapping[str, str],
-    scripts: list[Markup],
-    content: dict[str, Any],
+    drawn: Mapping[str, Any] | None = None,
     **context: Any,
 ) -> str:
-    laid_out = {table.id: table.data() for table in tables}
+    """Return the HTML of a page whose tables sort and filter.
+
+    Parameters
+    ----------
+    template : str
+        Its name among the assets.
+    tables : iterable of Table
+    files : mapping of str to str
+        What can be downloaded.
+    drawn : mapping, optional
+        Plots and the styles of their models, for a page that has some.
+    context
+        What else the template shows.
+    """
+    scripts = [_script(_ASSETS, f"assets/{name}") for name in _SCRIPTS]
+    if drawn:
+        bokeh = [_script("bokeh", name) for name in _BOKEH]
+        scripts = [*bokeh, *scripts, _script(_ASSETS, "assets/plots.js")]
     data = {
-        "tables": laid_out,
-        **content,
+        "tables": {table.id: _data(table) for table in tables},
+        **(drawn or {}),
         "files": {name: records(text) for name, text in files.items()},
-        "latex": {"number": NUMBER, "tokens": TOKENS, "characters": _characters(laid_out.values())},
-        "verdicts": {str(name): [VERDICT_SYMBOLS[name], verdict_class(name)] for name in Verdict},
     }
-    page = environment().get_template(template)
-    return (
-        page.render(
-            verdicts=list(map(str, Verdict)),
-            style=Markup(_asset("report.css")),
-            scripts=scripts,
-            policy=_policy(scripts),
-            data=script_json(data),
-            **context,
-        )
-        + "\n"
-    )
+    context |= {
+        "verdicts": list(map(str, Verdict)),
+        "style": Markup(_asset("report.css")),
+        "scripts": scripts,
+        "policy": _policy(scripts),
+        "data": script_json(data),
+    }
+    return environment().get_template(template).render(context) + "\n"
+
+
+def _data(table: Table) -> dict[str, Any]:
+    """Return what the scripts need of a table to save the rows that are shown."""
+    latex = latex_table(table.on_paper(), table.caption, table.id)
+    return {"source": table.source, "lines": table.lines, "latex": [latex.before, latex.rows, latex.after]}
 
 
 def _asset(name: str) -> str:
     return files(_ASSETS).joinpath("assets", name).read_text(encoding="utf-8")
-
-
-def _own_script(name: str) -> Markup:
-    return _script(_ASSETS, f"assets/{name}")
 
 
 @cache

@@ -9,6 +9,7 @@ from typing import Any
 
 import pandas as pd
 
+from comparisons.data.columns import column
 from comparisons.data.contained_paths import path_inside
 from comparisons.data.file_names import (
     COMPARISON,
@@ -36,49 +37,33 @@ from comparisons.runs.tables import read_table
 
 __all__ = ["Stored", "read_folder"]
 
-_KAPPA = (
-    *("quantity", "model", *CASE, "value", "u_num"),
-    *("reference", "reference_value", "u_reference", "kappa", "u_kappa"),
-)
-_LARGEST = ("quantity", "model", "n", "k", "cases", "mu", "at_end", "kappa", "u_kappa", "paper_percent", "verdict")
-
-#: Table -> its columns.
+#: Table of every folder -> its columns.
 _TABLES: dict[str, Sequence[str]] = {
     RESULTS: COLUMNS.names,
     CURVES: CURVE_COLUMNS.names,
-    KAPPA: _KAPPA,
+    KAPPA: (
+        *("quantity", "model", *CASE, "value", "u_num"),
+        *("reference", "reference_value", "u_reference", "kappa", "u_kappa"),
+    ),
 }
-#: In the order of `comparisons.judging.summary.summarise`.
-_SUMMARY = (
-    "verdict",
-    *(name for name in Judged.__slots__ if name not in ("verdict", "reason")),
-    *("cases", "skipped", *COVERAGE, "reason"),
-)
 
-#: Tables of what is judged, which a sweep does not have.
+#: Table of what is judged, which a sweep does not have -> its columns.
 _JUDGED: dict[str, Sequence[str]] = {
     VERDICTS: Judged.__slots__,
-    SUMMARY: _SUMMARY,
-    LARGEST_KAPPA: _LARGEST,
+    # In the order of `comparisons.judging.summary.summarise`.
+    SUMMARY: (
+        "verdict",
+        *(name for name in Judged.__slots__ if name not in ("verdict", "reason")),
+        *("cases", "skipped", *COVERAGE, "reason"),
+    ),
+    LARGEST_KAPPA: (
+        *("quantity", "model", "n", "k", "cases", "mu", "at_end"),
+        *("kappa", "u_kappa", "paper_percent", "verdict"),
+    ),
 }
 
-#: Columns of texts, and of yes or no; every other one holds numbers.
-_WORDS = {
-    "model",
-    "model_version",
-    "problem",
-    "quantity",
-    "unit",
-    "dimensionless_unit",
-    "status",
-    "reason",
-    "gate",
-    "candidate",
-    "reference",
-    "verdict",
-    "paper_percent",
-    "at_end",
-}
+#: Numbers that are texts with the digits of the paper.
+_TEXTS = ("paper_percent",)
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,19 +101,16 @@ def read_folder(folder: Path) -> Stored:
     record = read_record(files.record)
     check_files(record, folder)
     warn_of_other_code(record, folder)
-    tables = {name: _table(folder / f"{name}.parquet", columns) for name, columns in _TABLES.items()}
     judged = _has(folder, record, VERDICTS) or _has(folder, record, SUMMARY)
-    tables |= {
-        name: _table(folder / f"{name}.parquet", columns)
-        if judged or _has(folder, record, name)
-        else pd.DataFrame(columns=list(columns))
-        for name, columns in _JUDGED.items()
-    }
-    gates = files.parquet(files.gates)
+    tables = {name: _table(folder / f"{name}.parquet", columns) for name, columns in _TABLES.items()}
+    for name, columns in _JUDGED.items():
+        there = judged or _has(folder, record, name)
+        tables[name] = _table(folder / f"{name}.parquet", columns) if there else pd.DataFrame(columns=list(columns))
     for name in (VERDICTS, SUMMARY):
         unknown = sorted(set(tables[name]["verdict"]) - {str(verdict) for verdict in Verdict})
         if unknown:
             raise ValueError(f"{folder / f'{name}.parquet'} has the unknown verdict {unknown[0]!r}")
+    gates, compared = files.parquet(files.gates), files.parquet(files.comparison)
     return Stored(
         record,
         tables[RESULTS],
@@ -137,9 +119,9 @@ def read_folder(folder: Path) -> Stored:
         tables[VERDICTS],
         tables[SUMMARY],
         tables[LARGEST_KAPPA],
-        _table(gates, GATE_COLUMNS, words=set(GATE_COLUMNS)) if gates.exists() else None,
+        _table(gates, GATE_COLUMNS) if gates.exists() else None,
         judged,
-        _table(files.parquet(files.comparison), COMPARED) if _has(folder, record, COMPARISON) else None,
+        _table(compared, COMPARED) if _has(folder, record, COMPARISON) else None,
         {name: read_text(path_inside(folder, name), f"the copy {name}") for name in record["files"] if _is_case(name)},
     )
 
@@ -154,14 +136,15 @@ def _has(folder: Path, record: dict[str, Any], name: str) -> bool:
     return (folder / f"{name}.parquet").exists() or f"{name}.parquet" in record["files"]
 
 
-def _table(path: Path, columns: Sequence[str], words: set[str] = _WORDS) -> pd.DataFrame:
+def _table(path: Path, columns: Sequence[str]) -> pd.DataFrame:
     table = read_table(path)
     columns = [name for name in columns if name not in ("problem", *DIMENSIONLESS) or name in table]
     lost = [name for name in columns if name not in table]
     if lost:
         raise ValueError(f"{path} has no column {', '.join(lost)}: it is not what this version of fscm-bench writes")
     for name in columns:
-        if name in words:
+        described = column(path.stem, name)
+        if described is None or not described.unit or name in _TEXTS:
             continue
         try:
             # A column without a single number comes back without the type of one.

@@ -10,7 +10,7 @@ import pandas as pd
 
 from comparisons.data.paper_statements import PaperStatement, paper_statements
 from comparisons.numerics.number_text import value_text
-from comparisons.output.tables import rich_table
+from comparisons.output.terminal import records
 from comparisons.paper.cache import Results
 from comparisons.paper.paper_figure import PaperFigure, Plan, Tables, calls_of, given, texts_of
 from comparisons.paper.statements.evidence import (
@@ -151,13 +151,13 @@ def _plan() -> Plan[Tables]:
     return {"": pd.DataFrame(rows), "evidence": pd.concat(frames, ignore_index=True)}
 
 
-def _readable(table: pd.DataFrame) -> pd.DataFrame:
+def readable(table: pd.DataFrame) -> pd.DataFrame:
     """Return the table for reading: empty columns of a row as nothing."""
     return table.fillna("").drop(columns=["id"]).rename(columns=_HEADS)
 
 
 def _texts(tables: Tables) -> dict[str, str]:
-    shown = _readable(tables[""])
+    shown = readable(tables[""])
     return texts_of(shown, shown[_ON_PAPER], _TITLE, _NOTES, "paper-statements")
 
 
@@ -167,7 +167,7 @@ PAPER_STATEMENTS = PaperFigure(
     title="Statements of the paper in words of our own, a verdict on each, and its evidence",
     plan=_plan,
     texts=_texts,
-    shown=lambda tables: rich_table(_readable(tables[""])[_SHORT], _TITLE),
+    shown=lambda tables: records(readable(tables[""])[_SHORT], _TITLE),
     # The turning points are counted at the points that the solver places.
     follows_path=True,
 )

@@ -14,7 +14,7 @@ from comparisons.models.cohesive_stress import eta
 from comparisons.models.jkr import JKR
 from comparisons.models.semi_rigid import SemiRigid, jump_in_coefficient
 from comparisons.numerics.number_text import LEAST_SHOWN, value_text
-from comparisons.output.tables import rich_table
+from comparisons.output.terminal import records
 from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Plan, Tables, calls_of, given, texts_of
 from comparisons.paper.tasks import quantity
@@ -166,5 +166,5 @@ PAPER_VALUES = PaperFigure(
     title="Numbers that the paper prints, a verdict on each, and what one scheme for each figure gives",
     plan=_plan,
     texts=_texts,
-    shown=lambda tables: rich_table(readable(tables[""]), _TITLE),
+    shown=lambda tables: records(readable(tables[""]), _TITLE),
 )

@@ -73,7 +73,7 @@ def test_an_exit_of_argparse_keeps_its_status(code, status):
 
 
 def test_a_defect_of_a_command_is_not_taken_for_a_gate_that_fails(capsys, monkeypatch):
-    monkeypatch.setattr("comparisons.cli.commands.listing.rich_table", raising(None))
+    monkeypatch.setattr("comparisons.cli.commands.listing.records", raising(None))
     assert main(["list", "models"]) == FAILED
     assert "internal error: TypeError" in capsys.readouterr().err
 

@@ -8,7 +8,7 @@ from rich.progress import Progress
 
 from comparisons.cli.options import for_terminal, output
 from comparisons.console.progress import _TimeLeft, counting, log, note
-from comparisons.output.tables import rich_table
+from comparisons.output.terminal import rich_table
 
 
 class Clock:

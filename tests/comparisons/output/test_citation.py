@@ -2,14 +2,12 @@
 
 import json
 import re
-from importlib.metadata import version
 from importlib.resources import files
 from pathlib import Path
 
-import pytest
 import yaml
 
-from comparisons.output.citation import Work, as_bibtex, as_text, methods, works
+from comparisons.output.citation import Work, as_bibtex, methods, works
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -84,21 +82,9 @@ def test_changes_after_the_commit_are_stated():
     assert "(commit 0123456789ab with changes)" in methods(record, {})
 
 
-@pytest.mark.parametrize("commit", [None, "0123456789abcdef"])
-def test_the_version_of_a_run_without_a_commit(commit):
-    record = RECORD | {"package": RECORD["package"] | {"commit": commit}}
-    assert ("commit" in works("", record)[0].text()) is (commit is not None)
-
-
 def test_a_paper_with_journal_year_and_doi():
     work = Work(
         "a", "article", {"author": "A, B. and others", "title": "T", "journal": "J", "year": "2022", "doi": "10.1/x_y"}
     )
     assert work.text() == "A, B. et al. T. J (2022). doi:10.1/x_y."
     assert "doi = {10.1/x_y}" in work.bibtex()
-
-
-def test_the_works_are_numbered():
-    text = as_text(works(version("fscm-bench"), RECORD), "A paragraph.")
-    assert text.splitlines()[:2] == ["A paragraph.", ""]
-    assert [line.split()[0] for line in text.splitlines()[2:]] == [f"[{number}]" for number in range(1, 7)]

@@ -6,7 +6,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from comparisons.output.figures import comparison, curves, kappa
-from comparisons.output.figures.registry import FIGURES, figures_of
+from comparisons.output.figures.registry import figures_of
 from comparisons.output.style import FORMATS, save
 from comparisons.quantities import CURVES, Points
 from comparisons.registry import MODELS
@@ -36,13 +36,6 @@ def test_fig_16b_shows_both_models_for_every_shape_at_one_k():
     assert lines[improved].get_linestyle() != lines["$n$ = 2, original M-D-$n$-$k$"].get_linestyle()
 
 
-def test_fig_16b_has_no_legend_for_a_shape_without_a_maugis_dugdale_model():
-    others = errors().query("n == 2").assign(n=3.0, model="jkr")
-    figure = kappa.draw(pd.concat([errors(), others]))
-    names = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert names == ["$n$ = 1", "$n$ = 2", "original M-D-$n$-$k$", "improved M-D-$n$-$k$"]
-
-
 def test_fig_16b_of_nothing_is_empty():
     assert len(kappa.draw(errors().iloc[:0]).axes) == 2
 
@@ -50,14 +43,6 @@ def test_fig_16b_of_nothing_is_empty():
 def drawn(**curves_of):
     points = {name: Points(x.tolist(), y.tolist(), 0.0) for name, (x, y) in curves_of.items()}
     return curves.draw(points, CURVES["force_curve"], "n = 2")
-
-
-def test_force_curves_are_named():
-    x = np.linspace(-1, 1, 5)
-    figure = drawn(a=(x, x**2), b=(x, x))
-    assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == ["a", "b"]
-    first, second = figure.axes[0].get_lines()[:2]
-    assert (first.get_color(), first.get_linestyle()) != (second.get_color(), second.get_linestyle())
 
 
 def test_the_unstable_part_of_a_curve_is_thin():
@@ -79,7 +64,6 @@ def test_a_figure_without_rows_is_not_drawn():
     assert "fig16b_kappa" in drawn_stems
     assert "references" not in drawn_stems
     assert list(figures_of({"kappa": others})) == []
-    assert len({figure.stem for figure in FIGURES}) == len(FIGURES)
 
 
 def test_force_curves_are_shown_where_the_surfaces_pull():

@@ -1,120 +1,127 @@
-"""Summary of a run: at most 40 lines, whatever its models and gates."""
+"""Texts of a run on the terminal: the largest errors, what does not pass, and one sentence on all gates."""
 
 import shlex
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
+from rich.console import Console
 
 from comparisons.console.shell_text import wrapped_command
 from comparisons.judging.decision import Verdict
-from comparisons.output.run_summary import declared_lines, gates_line, largest_table, not_passed
+from comparisons.output.gate_sentence import declared_sentence, gate_lines, gates_line, gates_sentence
+from comparisons.output.report.headline import gates_of
+from comparisons.output.run_summary import largest_table, paper_sentence
+from comparisons.output.terminal import records, rich_table
 
 CASE = {"quantity": "pull_off_force", "n": 2.0, "k": 0.4, "mu": 1.0, "nu": np.nan}
 
 
-def maxima(models, shapes=(1.0, 1.5, 2.0, 5.0), gradients=(0.0, 0.4), quantities=("pull_off_force",)):
-    rows = [
+def maxima(models, shapes=(1.0, 1.5, 2.0, 5.0), quantities=("pull_off_force",)):
+    return pd.DataFrame(
         {"quantity": quantity, "model": model, "n": n, "k": k, "mu": 0.8367, "kappa": -0.01 * n - k, "u_kappa": 1e-9}
         for quantity in quantities
         for model in models
         for n in shapes
-        for k in gradients
-    ]
-    return pd.DataFrame(rows)
+        for k in (0.0, 0.4)
+    )
 
 
-def names(count):
-    return [f"a-model-with-a-long-name-{number}" for number in range(count)]
+def shown(table, width=80):
+    console = Console(width=width)
+    with console.capture() as capture:
+        console.print(table)
+    return [line.rstrip() for line in capture.get().splitlines()]
 
 
 def test_each_shape_has_its_largest_error_with_its_place():
-    table = largest_table(maxima(["jkr"]), 80, 30)
-    assert list(table.texts) == ["model", "n = 1", "n = 1.5", "n = 2", "n = 5"]
-    assert table.texts.loc[0, "n = 5"] == "-45.000(5)\n0.4, 0.8367"
-    assert "below it k and mu" in table.title
+    title, heads, _, first, second = shown(largest_table(maxima(["jkr"]), 80, 30))
+    assert title.startswith("pull_off_force: ")
+    assert heads.split() == ["model", *["n", "=", "1", "n", "=", "1.5", "n", "=", "2", "n", "=", "5"]]
+    assert first.split() == ["jkr", "-41.000(5)", "-41.500(5)", "-42.000(5)", "-45.000(5)"]
+    assert second.split() == ["0.4,", "0.8367"] * 4
 
 
-@pytest.mark.parametrize("width", [60, 80, 120])
-@pytest.mark.parametrize("count", [1, 5, 12, 40, pytest.param(200, marks=pytest.mark.heavy)])
+@pytest.mark.parametrize("count", [1, 12, 40])
 @pytest.mark.parametrize("shapes", [(2.0,), (1.0, 1.5, 2.0, 5.0), tuple(np.linspace(1, 10, 19))])
-def test_the_table_has_no_more_lines_than_there_are(width, count, shapes):
-    room = 25
-    shown = largest_table(maxima(names(count), shapes), width, room)
-    text = shown.lines(width)
-    assert len(text) + 2 <= room
-    assert max(map(len, text)) <= width
-    if shown.row_count < count:
-        assert f"the first {shown.row_count} of {count} rows" in shown.title
+def test_the_table_has_no_more_lines_and_columns_than_there_are(count, shapes):
+    lines = shown(largest_table(maxima([f"a-model-with-a-name-{number}" for number in range(count)], shapes), 80, 25))
+    assert len(lines) <= 26
+    assert max(map(len, lines[1:])) <= 80
+    assert ("the first 22 of 40 rows" in " ".join(lines)) is (count == 40)
 
 
-def test_the_largest_of_all_shapes_is_named_with_its_shape():
-    table = largest_table(maxima(["jkr"]), 80, 4)
-    assert table.texts.values.tolist() == [["jkr", "-45.000(5)", "5", "0.4", "0.8367"]]
-    assert "--verbose prints every n" in table.title
-
-
-def test_without_errors_there_is_no_table():
+def test_the_largest_of_all_shapes_is_named_with_its_shape_and_quantity():
+    lines = shown(largest_table(maxima(["jkr"], quantities=("pull_off_force", "jump_in_gap")), 80, 6))
+    assert [line.split() for line in lines[-2:]] == [
+        [quantity, "jkr", "-45.000(5)", "5", "0.4", "0.8367"] for quantity in ("jump_in_gap", "pull_off_force")
+    ]
     assert largest_table(maxima([]), 80, 30) is None
 
 
-def test_several_quantities_have_a_column():
-    table = largest_table(maxima(["jkr", "dmt"], quantities=("pull_off_force", "jump_in_gap")), 80, 30)
-    assert sorted(set(table.texts["quantity"])) == ["jump_in_gap", "pull_off_force"]
-
-
 def gates(*verdicts):
-    rows = [
-        CASE
-        | {"gate": f"GATE-{number}", "candidate": "jkr", "reference": "fscm", "verdict": verdict, "reason": ""}
-        | {"error": -0.0494, "uncertainty": 3e-9, "lower": -0.04, "upper": 0.04}
+    other = {"candidate": "jkr", "reference": "fscm", "reason": "", "error": -0.0494, "uncertainty": 3e-9}
+    limits = {"lower": -0.04, "upper": 0.04}
+    return pd.DataFrame(
+        CASE | other | limits | {"gate": f"GATE-{number}", "verdict": verdict}
         for number, verdict in enumerate(verdicts)
-    ]
-    return pd.DataFrame(rows)
+    )
 
 
-def test_what_does_not_pass_has_its_error_its_limits_and_its_command():
-    shown = not_passed(gates(Verdict.FAIL, Verdict.PASS, Verdict.XFAIL), {}, 80, 4)
-    assert shown[0] == "FAIL GATE-0 of jkr against fscm: E = -0.049400(5), limits -0.04 to 0.04"
-    words = shlex.split("".join(shown[1:]).replace("\\", ""))
-    assert words == shlex.split("fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0.4 --mu 1")
+def test_a_gate_has_its_error_its_limits_and_its_command():
+    lines = gate_lines(gates(Verdict.FAIL), {}, 80, 4)
+    assert lines[0] == "FAIL GATE-0 of jkr against fscm: E = -0.049400(5), limits -0.04 to 0.04"
+    command = "fscm-bench solve --model jkr --quantity pull_off_force --n 2 --k 0.4 --mu 1"
+    assert shlex.split("".join(lines[1:]).replace("\\", "")) == shlex.split(command)
 
 
-@pytest.mark.parametrize("width", [60, 80])
-def test_many_gates_that_fail_are_counted(width):
-    shown = not_passed(gates(*[Verdict.INCONCLUSIVE] * 50), {}, width, 4)
-    assert len(shown) <= 4 * 5 + 1
-    assert max(map(len, shown)) <= width
-    assert shown[-1] == "46 more do not pass; --verbose prints all"
-
-
-def test_gates_that_fail_as_declared_are_named():
-    shown = declared_lines(gates(*[Verdict.XFAIL] * 15), 80)
-    assert "GATE-0, GATE-1" in shown[0]
-    assert " ".join(" ".join(shown).split()).endswith("GATE-11 and 3 more")
-    assert declared_lines(gates(Verdict.PASS), 80) == []
+def test_many_gates_are_counted():
+    lines = gate_lines(gates(*[Verdict.INCONCLUSIVE] * 50), {}, 60, 4)
+    assert len(lines) <= 4 * 5 + 1
+    assert max(map(len, lines)) <= 60
+    assert lines[-1].startswith("46 more")
+    named = declared_sentence(gates(*[Verdict.XFAIL] * 15))
+    assert "GATE-0, GATE-1" in named
+    assert named.endswith("GATE-11 and 3 more")
+    assert declared_sentence(gates(Verdict.PASS)) == ""
 
 
 @pytest.mark.parametrize(
-    ("verdicts", "basis", "sentence"),
+    ("verdicts", "bases", "sentence"),
     [
-        (["PASS", "PASS"], "derived", "2 of 2 gates pass, 0 fail as declared, 0 unexpected (2 cases: 2 PASS)"),
+        (["PASS"] * 2, {}, "2 of 2 gates pass, 0 fail as declared, 0 unexpected"),
+        # Each declared failure has the words of its own basis.
         (
-            ["PASS", "XFAIL"],
-            "published",
-            "1 of 2 gates passes, 1 differs from the paper as declared, 0 unexpected (2 cases: 1 PASS, 1 XFAIL)",
+            ["PASS", "XFAIL", "XFAIL"],
+            {"GATE-1": "published", "GATE-2": "derived"},
+            "1 of 3 gates passes, 1 differs from the paper as declared, 1 fails as declared, 0 unexpected",
         ),
         (
-            ["XFAIL", "XPASS", "ERROR"],
-            "measured",
-            "0 of 3 gates pass, 1 fails as declared, 2 unexpected: 1 ERROR, 1 XPASS "
-            "(3 cases: 1 XFAIL, 1 XPASS, 1 ERROR)",
+            ["NOT-APPLICABLE", "FAIL", "ERROR", "FAIL"],
+            {},
+            "0 of 4 gates pass, 0 fail as declared, 1 applies to no case, 3 unexpected: 1 ERROR, 2 FAIL",
         ),
+        ([], {}, "No gate was evaluated"),
     ],
 )
-def test_one_sentence_on_all_gates(verdicts, basis, sentence):
-    table = gates(*map(Verdict, verdicts))
-    assert gates_line(table, table, dict.fromkeys(table["gate"], basis)) == sentence
+def test_the_sentence_on_all_gates(verdicts, bases, sentence):
+    table = gates(*verdicts) if verdicts else gates("PASS").iloc[:0]
+    assert gates_sentence(table, bases) == sentence
+
+
+def test_terminal_and_report_say_the_same():
+    table = gates("PASS", "XFAIL", "XFAIL", "FAIL")
+    bases = dict.fromkeys(table["gate"], "published")
+    stored = SimpleNamespace(judged=True, summary=table, gates=pd.DataFrame({"id": bases.keys(), "basis": "published"}))
+    assert gates_line(table, table, bases) == f"{gates_of(stored)} (4 cases: 1 PASS, 2 XFAIL, 1 FAIL)"
+    assert "fail as declared" in gates_of(SimpleNamespace(judged=True, summary=table, gates=None))
+
+
+def test_verbs_on_the_numbers_of_the_paper_agree_with_their_count():
+    verdicts = ["agrees", "agrees if truncated", "agrees if truncated", *["differs"] * 5, "undecided"]
+    rows = pd.DataFrame({"k": 0.4, "paper_percent": "3.5", "verdict": verdicts})
+    assert paper_sentence(rows).endswith(": 1 agrees, 2 agree if truncated, 5 differ, 1 undecided")
 
 
 def test_a_folded_command_is_the_same_for_a_shell():
@@ -122,3 +129,26 @@ def test_a_folded_command_is_the_same_for_a_shell():
     folded = wrapped_command(line, 30)
     assert len(folded) > 1
     assert shlex.split("\n".join(folded).replace("\\\n", "")) == shlex.split(line)
+
+
+NAMES = ["carpick-ogletree-salmeron", "double-hertz-n-k"]
+
+
+@pytest.mark.parametrize("width", [60, 80, 140])
+def test_names_and_numbers_are_whole_and_texts_are_folded(width):
+    reason = "[bold]n = 2 and k = 0, fitted to the values of another model, and to nothing else at all"
+    table = pd.DataFrame({"model": NAMES, "kappa": [-1132.5, np.nan], "failed": [True, False], "reason": reason})
+    for made in (rich_table(table, "[b]title", {"kappa": ".1f"}), records(table, "[b]title")):
+        lines = shown(made, width)
+        words = " ".join(lines).split()
+        assert lines[0] == "[b]title"
+        assert {*NAMES, "-1132.5", "yes"} <= {*words}
+        assert "nan" not in words
+        assert words.count("[bold]n") == 2
+        assert max(map(len, lines)) <= width
+
+
+def test_a_row_is_a_block_where_names_and_numbers_have_no_room_in_a_line():
+    table = rich_table(pd.DataFrame({"model": ["a" * 10], "kappa": ["-1234567.5"]}), "t")
+    assert shown(table, 22)[-1] == "aaaaaaaaaa  -1234567.5"
+    assert shown(table, 21) == ["t", "a" * 10, "  kappa  -1234567.5"]

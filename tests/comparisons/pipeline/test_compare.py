@@ -14,10 +14,11 @@ import comparisons
 from comparisons.baseline import read_baseline
 from comparisons.cli.main import main
 from comparisons.judging.summary import coverage_text
-from comparisons.output.comparison import WIDTH, comparison_table, terminal_tables, wide
+from comparisons.output.comparison import WIDTH, by_case, case_columns, comparison_table, terminal_tables
 from comparisons.output.error_summary import error_summary
 from comparisons.output.figures.comparison import draw
 from comparisons.output.report.notebook import notebook_html
+from comparisons.output.table import table_of
 from comparisons.runs.cases import load_grids
 from comparisons.runs.frames import frame
 from comparisons.runs.record import check_files, read_record
@@ -108,6 +109,14 @@ def test_the_command_fits_80_columns_and_states_reference_and_coverage(tmp_path,
     assert len(load_grids(grid, tier="quick")[0].cases) == 6
 
 
+def wide(table):
+    """The texts of each quantity: one row a case, one column a model."""
+    return [
+        table_of("cases", "", case_columns(reference, models), rows).on_paper()
+        for _, reference, models, rows in by_case(table)
+    ]
+
+
 def printed(table, capsys, **options):
     console = Console(width=WIDTH)
     for one in terminal_tables(table, error_summary(table), **options):
@@ -139,7 +148,7 @@ def test_a_reference_that_needs_no_poisson_ratio_is_found():
     table = comparison_table(frame(rows), grid, None)
     assert table["nu"].tolist() == [0.25] * 8
     assert table["kappa"].tolist() == pytest.approx([0.1] * 8)
-    (_, _, texts), _ = wide(table)
+    texts, _ = wide(table)
     assert list(texts) == ["n", "k", "mu", "nu", "fscm", "fem"]
 
 
@@ -242,6 +251,6 @@ def test_the_printed_table_of_the_document_is_the_one_of_the_baseline():
     known = rows[rows["quantity"] == "pull_off_force"].assign(nu=np.nan, reason="")
     force = replace(grid[0], quantities=("pull_off_force",))
     table = comparison_table(known, [force], ["jkr", "md-improved"])
-    ((_, _, texts),) = wide(table)
+    (texts,) = wide(table)
     for row in texts.itertuples(index=False):
         assert "  ".join(row).split() in [line.split() for line in text.splitlines()]

@@ -10,10 +10,8 @@ const Tables = (() => {
     const id = box.dataset.table;
     const table = {
       id, box, body: box.querySelector("tbody"), count: box.querySelector(".count"), group: null, words: [],
-      laidOut: !DATA.tables[id].long,
     };
     byId[id] = table;
-    Array.from(table.body.rows, (row, place) => { row.dataset.row = place; });
     box.querySelectorAll("thead th").forEach((head, index) => {
       head.querySelector("button").addEventListener("click", () => sort(table, head, index));
     });
@@ -23,49 +21,21 @@ const Tables = (() => {
     });
     const fold = box.closest("details");
     if (fold) fold.addEventListener("toggle", () => fold.open && layOut(table));
-    else layOut(table);
-    show(table);
+    if (!fold || fold.open) layOut(table);
   }
 
-  // Long tables come as data and are laid out when they are first seen.
+  // The rows of a long table are in a template, and laid out when they are first seen.
   function layOut(table) {
     if (table.laidOut) return;
     table.laidOut = true;
-    const { kinds, rows } = DATA.tables[table.id];
-    const all = document.createDocumentFragment();
-    rows.forEach(([group, cells], place) => {
-      const row = document.createElement("tr");
-      row.dataset.row = place;
-      if (group) row.dataset.group = group;
-      cells.forEach((cell, index) => row.append(element(cell, kinds[index])));
-      all.append(row);
-    });
-    table.body.append(all);
+    const template = table.body.querySelector("template");
+    if (template) {
+      table.body.append(template.content);
+      template.remove();
+    }
+    Array.from(table.body.rows, (row, place) => { row.dataset.row = place; });
+    for (const cell of table.body.querySelectorAll("td.number[data-v]")) cell.title = cell.dataset.v;
     show(table);
-  }
-
-  function element(cell, kind) {
-    const made = document.createElement(kind === "head" ? "th" : "td");
-    const [text, exact, more] = Array.isArray(cell) ? cell : [cell];
-    if (kind === "head") made.scope = "row";
-    if (kind === "number" || kind === "prose") made.className = kind;
-    if (exact) {
-      made.dataset.v = exact;
-      if (exact !== text && kind === "number") made.title = exact;
-    }
-    if (kind === "verdict" && text) {
-      const badge = document.createElement("span");
-      const [symbol, className] = DATA.verdicts[text];
-      badge.className = `verdict ${className}`;
-      badge.textContent = `${symbol} ${text}`;
-      made.append(badge);
-    } else made.textContent = text;
-    if (more) {
-      const small = document.createElement("small");
-      small.textContent = more;
-      made.append(small);
-    }
-    return made;
   }
 
   function sort(table, head, index) {

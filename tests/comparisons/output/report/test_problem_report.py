@@ -12,11 +12,9 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.output.latex_text import escaped
 from comparisons.output.report.page import make_page
 from comparisons.output.report.render import render
 from comparisons.output.report.stored_run import read_folder
-from comparisons.output.report.table import table_tex
 from comparisons.runs.tables import read_table
 
 from .browsing import (
@@ -121,8 +119,6 @@ def test_each_row_stands_for_lines_of_its_file(laid_out):
         assert len(lines) == len(table.rows)
         for row, line in zip(table.rows, lines, strict=True):
             assert row.cells[0].text == stored[line]["model"]
-        if table.rows:
-            assert escaped(table.caption) in table_tex(table)
 
 
 def test_the_same_folder_gives_the_same_page_and_a_changed_one_none(swept, tmp_path, capsys):
