@@ -32,7 +32,7 @@ def values_of_problems(results: pd.DataFrame) -> list[RenderableType]:
     >>> (shown,) = values_of_problems(pd.DataFrame([row | found]))
     >>> from rich import print
     >>> print(shown)
-    <BLANKLINE>
+    values
     punch.R  model  pull_off_force
     ─────────────────────────────────
     100 nm   fscm   20.0000000(16) nN
@@ -47,8 +47,8 @@ def values_of_problems(results: pd.DataFrame) -> list[RenderableType]:
             {**_keys(row, varied), "model": row["model"], str(quantity): _value(row)}
             for row in rows.head(_MOST).to_dict("records")
         ]
-        title = f"the first {_MOST} of {len(rows)} rows; the CSV file has all" if len(rows) > _MOST else ""
-        tables.append(rich_table(pd.DataFrame(cells, dtype=object), title))
+        part = f" (the first {_MOST} of {len(rows)} rows; the CSV file has all)" if len(rows) > _MOST else ""
+        tables.append(rich_table(pd.DataFrame(cells, dtype=object), f"values{part}"))
     return tables
 
 

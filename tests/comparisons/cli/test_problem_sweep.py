@@ -46,8 +46,8 @@ def test_every_combination_by_every_model(tmp_path, capsys):
         assert (row["unit"], row["status"]) == ("N", "ok")
     assert sorted(set(table["law.work_of_adhesion [J/m^2]"])) == [0.02, 0.04, 0.06]
     lines = capsys.readouterr().out.splitlines()
-    assert lines[0].split() == ["punch.R", "law.work_of_adhesion", "model", "pull_off_force"]
-    assert lines[2].split() == ["1", "µm", "20", "mJ/m^2", "bradley", "125.6637061435920(16)", "nN"]
+    assert lines[1].split() == ["punch.R", "law.work_of_adhesion", "model", "pull_off_force"]
+    assert lines[3].split() == ["1", "µm", "20", "mJ/m^2", "bradley", "125.6637061435920(16)", "nN"]
     stored = pd.read_csv(tmp_path / "results.csv")
     assert "seconds" not in stored
     record = read_record(tmp_path / "run.json")
@@ -201,11 +201,11 @@ def test_a_long_table_is_short_on_the_terminal(tmp_path, capsys):
     assert sweep(tmp_path, "--model", "bradley", vary=("--vary", "punch.R=1:100:40 um")) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) < 40
-    assert lines[0] == "the first 24 of 40 rows; the CSV file has all"
+    assert lines[0] == "values (the first 24 of 40 rows; the CSV file has all)"
 
 
 def test_lines_of_a_problem_are_folded_on_a_terminal_and_whole_in_a_file(monkeypatch, capsys):
-    options = ["solve", "--model", "jkr", "--quantity", "pull_off_force", "--problem", str(COATED)]
+    options = ["solve", "--model", "atlas", "--quantity", "pull_off_force", "--problem", str(COATED)]
     assert main(options) == 0
     whole = capsys.readouterr().out.splitlines()
     assert max(map(len, whole)) > 100
