@@ -278,21 +278,32 @@ def _superfluous(state: State, tolerance: float) -> NDArray[np.intp]:
 
 
 def _known_on(state: State, mesh: PanelMesh) -> Array:
-    """The unknowns of a state on another mesh at the same scale: gaps, or deformations of a steep punch."""
+    """The unknowns of a state on another mesh at the same scale: gaps, or deformations of a steep punch.
+
+    Where a polynomial falls below the singular gap, at which the traction ends, the gap is linear between the nodes.
+    """
     own, problem = state.disc.mesh, state.disc.problem
     if state.lift is not None:
-        return own.transfer(state.lift, mesh)
-    if kinks_of(problem.punch):  # the deformation is smooth where the shape is not resolved
+        known = own.transfer(state.lift, mesh)
+        gap = _lifted_gap(state, mesh, known)
+    elif kinks_of(problem.punch):  # the deformation is smooth where the shape is not resolved
         shape = problem.punch.height
-        return own.transfer(state.gap - shape(state.radius), mesh) + shape(state.scale * mesh.nodes)
-    return own.transfer(state.gap, mesh)
+        gap = known = own.transfer(state.gap - shape(state.radius), mesh) + shape(state.scale * mesh.nodes)
+    else:
+        gap = known = own.transfer(state.gap, mesh)
+    below = gap <= problem.law.singular_gap
+    if np.any(below):
+        known = np.where(below, known + np.interp(mesh.nodes, own.nodes, state.gap) - gap, known)
+    return known
+
+
+def _lifted_gap(state: State, mesh: PanelMesh, lift: Array) -> Array:
+    return state.disc.height(state.scale * mesh.nodes) - state.displacement + lift
 
 
 def _gap_on(state: State, mesh: PanelMesh) -> Array:
     known = _known_on(state, mesh)
-    if state.lift is None:
-        return known
-    return state.disc.height(state.scale * mesh.nodes) - state.displacement + known
+    return known if state.lift is None else _lifted_gap(state, mesh, known)
 
 
 def on_mesh(state: State, mesh: PanelMesh) -> State:

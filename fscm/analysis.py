@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 import warnings
 from collections.abc import Callable
@@ -14,6 +15,7 @@ from fscm._bounds import EventErrors, bounds, energy_of_jump
 from fscm._completeness import completed, least_loads
 from fscm._defect import Errors
 from fscm._events import Bracket, Condition
+from fscm._jumps import Branch, jumps_between
 from fscm._meshes import Accuracy, Mesh, Meshes
 from fscm._pull_off_path import pull_off_path
 from fscm._surface_rings import RingsForm
@@ -25,10 +27,11 @@ from fscm.problem import Problem
 from fscm.punch import PowerPunch
 from fscm.quantities import quantity_named
 from fscm.solution import EventPair, Parts, Solution
+from fscm.stability import stable_sections
 
 __all__ = ["EVENTS", "EXTREMAL", "Analysis"]
 
-# Minima of the load that differ by less than this, relative to 1 + |P|, are compared on the finest mesh.
+# Extremes of load or displacement that differ by less than this, relative to 1 + |f|, are compared on the finest mesh.
 _NEAR = 1e-2
 # Path that is traced again where the usual one, which resolves 3e-3 of a load of at least 1, leads to no event.
 # Measured: a tall asperity with a force of 2.9e-3, which is the same to 3e-13 down to a tolerance of 1e-7.
@@ -66,7 +69,6 @@ class Analysis:
         self.problem = problem
         self.meshes = Meshes.of(accuracy)
         self._pairs: dict[str, EventPair] = {}
-        self._landings: dict[EventPair, tuple[EventPair, Bracket]] = {}
         self._jumps: dict[str, list[tuple[EventPair, EventPair]]] = {}
         self._parts: dict[tuple[str, str], Parts] = {}
         # The finer mesh of one event at a time: it holds several square matrices.
@@ -100,15 +102,15 @@ class Analysis:
         return folds_of(self.points)
 
     @cached_property
-    def _folds(self) -> tuple[Bracket, Bracket]:
-        """Brackets of the first fold met on approach and of the first met on retreat."""
-        approach = events.brackets(self.points, events.displacement_fold, rising=False)
-        if approach:
-            return approach[0], events.brackets(self.points, events.displacement_fold, rising=True)[-1]
+    def _folds(self) -> tuple[list[Bracket], list[Bracket]]:
+        """Brackets of the maxima and of the minima of the displacement, in the order of the path."""
+        maxima = events.brackets(self.points, events.displacement_fold, rising=False)
+        if maxima:
+            return maxima, events.brackets(self.points, events.displacement_fold, rising=True)
         # The two folds may hide between neighbouring points: look where the displacement is slowest.
         before, at, after, rate = events.slowest(self.points)
         if rate < 0.0:
-            return (before, at), (at, after)
+            return [(before, at)], [(at, after)]
         end = self.points[-1].state
         beyond = "below the critical Tabor number"
         if not isinstance(self.problem.punch, PowerPunch):
@@ -116,6 +118,41 @@ class Analysis:
         raise NoSuchEvent(
             f"the displacement rises monotonically along the path at mu = {self.problem.mu}: there is no jump {beyond}"
         )
+
+    @cached_property
+    def _branches(self) -> list[Branch]:
+        """The branches that are stable under prescribed displacement, from separation into contact."""
+        maxima, minima = self._folds
+        if len(maxima) == len(minima) == 1:
+            return [Branch(high=maxima[0], largest=0.0), Branch(low=minima[0], least=0.0)]  # any displacements will do
+        turns = [i for i, fold in enumerate(self.folds) if fold.quantity == "displacement"]
+        if [self.folds[i].maximum for i in turns] != [j % 2 == 0 for j in range(len(maxima) + len(minima))]:
+            raise NotConverged(f"the turning points of the displacement on the path of {self.problem} do not alternate")
+        sections = stable_sections(self.points[0], [fold.quantity for fold in self.folds])
+        places = [self.folds[i].displacement for i in turns]
+        found = []
+        for j, start in enumerate([-1, *turns[1::2]]):
+            if sections[start + 1][0]:
+                low = (minima[j - 1], places[2 * j - 1]) if j else (None, -math.inf)
+                high = (maxima[j], places[2 * j]) if j < len(maxima) else (None, math.inf)
+                found.append(Branch(low[0], high[0], low[1], high[1]))
+        if len(found) < 2:
+            raise NotConverged(f"no part of the path of {self.problem} in contact was found to be stable")
+        return self._told_apart(found)
+
+    def _told_apart(self, branches: list[Branch]) -> list[Branch]:
+        """Branches whose ends are close to each other, with the displacements of the finest mesh there."""
+        known = [place for branch in branches for place in (branch.least, branch.largest) if math.isfinite(place)]
+
+        def at(bracket: Bracket | None, place: float) -> float:
+            if bracket is None or sum(abs(place - other) < _NEAR * (1.0 + abs(place)) for other in known) == 1:
+                return place
+            return self._pair(bracket, events.displacement_fold).value.displacement
+
+        return [
+            replace(branch, least=at(branch.low, branch.least), largest=at(branch.high, branch.largest))
+            for branch in branches
+        ]
 
     def _least_load(self) -> Bracket:
         points = None if "_traced" in self.__dict__ else pull_off_path(self.problem, self.meshes)
@@ -204,7 +241,7 @@ class Analysis:
         if self._last is None or self._last[0] != event:
             errors = EventErrors(self.event(event).value)
             self._last = event, errors
-            if event in _LANDINGS:
+            if event in _NAMED:
                 self._fold_errors[event] = errors.at_fold()
         return self._last[1]
 
@@ -231,10 +268,8 @@ class Analysis:
 
     @one_thread()
     def landing(self, event: str) -> EventPair:
-        """Where a jump ("jump_in" or "jump_out") under displacement control lands: on the other branch."""
-        if event not in _LANDINGS:
-            raise ValueError(f"unknown jump {event!r}; known are {', '.join(_LANDINGS)}")
-        return self._landing(event, self.event(event))[0]
+        """Where the "jump_in" or the "jump_out" under displacement control lands: on the next stable branch."""
+        return self.jumps(event)[_NAMED[event]][1]
 
     @one_thread()
     def jumps(self, event: str) -> list[tuple[EventPair, EventPair]]:
@@ -243,56 +278,44 @@ class Analysis:
         Returns
         -------
         list of (EventPair, EventPair)
-            The fold and the landing of each, in their order.  A punch with asperities may jump several times.
+            The fold and the landing of each, in their order: "jump_in" is the first of the approach and "jump_out" the
+            last of the retreat.  A punch with asperities, or a stiff film on a soft solid, may jump several times.
         """
+        if event not in _NAMED:
+            raise ValueError(f"unknown jump {event!r}; known are {', '.join(_NAMED)}")
         if event not in self._jumps:
             self._jumps[event] = self._all_jumps(event)
         return self._jumps[event]
 
     def _all_jumps(self, event: str) -> list[tuple[EventPair, EventPair]]:
-        if event not in _LANDINGS:
-            raise ValueError(f"unknown jump {event!r}; known are {', '.join(_LANDINGS)}")
-        fold = self.event(event)
-        landing, place = self._landing(event, fold)
-        found, places = [(fold, landing)], {id(point): i for i, point in enumerate(self.points)}
-        approach = event == "jump_in"
-        folds = events.brackets(self.points, events.displacement_fold, rising=not approach)
-        while True:
-            # On from the landing: into contact on approach, towards separation on retreat.
-            here = places[id(place[0])]
-            folds = [
-                pair for pair in folds if (places[id(pair[0])] >= here if approach else places[id(pair[0])] <= here)
-            ]
-            if not folds:
-                return found
-            bracket = folds.pop(0 if approach else -1)
-            fold = self._pair(bracket, events.displacement_fold)
-            landing, place = self._landing(event, fold)
-            if (places[id(place[0])] <= places[id(bracket[0])]) == approach:
-                raise NotConverged(f"the path of {self.problem} ends before the landing of a {event.replace('_', '-')}")
-            found.append((fold, landing))
+        jumps = jumps_between(self._branches, event == "jump_in")
+        named, found = jumps[_NAMED[event]][0], []
+        for bracket, branch in jumps:
+            fold = self.event(event) if bracket is named else self._pair(bracket, events.displacement_fold)
+            found.append((fold, self._landing(event, fold, branch)))
+        return found
 
-    def _landing(self, event: str, fold: EventPair) -> tuple[EventPair, Bracket]:
-        """State in which a jump from a fold lands, and its bracket on the path."""
-        if fold in self._landings:
-            return self._landings[fold]
+    def _landing(self, event: str, fold: EventPair, branch: Branch) -> EventPair:
+        """State on a branch in which a jump from a fold lands."""
 
         def at(displacement: float) -> Condition:
             return lambda state, rates: state.displacement - displacement
 
         condition = at(fold.value.displacement)
-        crossings = events.brackets(self.points, condition, rising=True)
-        if not crossings:
+        # A fold that hides between neighbouring points is none of them.
+        places = {id(point): i for i, point in enumerate(self.points)}
+        first = 0 if branch.low is None else places.get(id(branch.low[0]), 0)
+        last = len(places) if branch.high is None else places.get(id(branch.high[1]), len(places))
+        crossings = events.crossings(self.points[first : last + 1], condition, events.displacement_fold)
+        rising = [pair for pair in crossings if condition(pair[0].state, pair[0].rates) < 0.0]
+        if not rising:
             raise NotConverged(
                 f"the path of {self.problem} does not reach the displacement {fold.value.displacement:.6g}, "
                 f"at which the {event.replace('_', '-')} lands"
             )
-        place = crossings[_LANDINGS[event]]
-        coarse = events.locate(*place, condition)
+        coarse = events.locate(*rising[-1 if event == "jump_in" else 0], condition)
         value = events.sharpen(coarse, condition, *self.meshes.value)
-        pair = EventPair(value, lambda: events.sharpen(coarse, at(fold.check.displacement), *self.meshes.check))
-        self._landings[fold] = pair, place
-        return self._landings[fold]
+        return EventPair(value, lambda: events.sharpen(coarse, at(fold.check.displacement), *self.meshes.check))
 
     @one_thread()
     def solution(self, quantity: str) -> Solution:
@@ -351,14 +374,14 @@ class Analysis:
 # Bracket and condition of each event.
 _EVENTS: dict[str, tuple[Callable[[Analysis], Bracket], Condition]] = {
     "pull_off": (Analysis._least_load, events.load_fold),
-    "jump_in": (lambda analysis: analysis._folds[0], events.displacement_fold),
-    "jump_out": (lambda analysis: analysis._folds[1], events.displacement_fold),
+    "jump_in": (lambda analysis: analysis._folds[0][0], events.displacement_fold),
+    "jump_out": (lambda analysis: jumps_between(analysis._branches, inward=False)[-1][0], events.displacement_fold),
     "zero_load": (Analysis._last_zero_load, events.zero_load),
 }
 #: The functional that is extreme at an event; none: the load is prescribed.
 EXTREMAL = {"pull_off": "load", "jump_in": "displacement", "jump_out": "displacement", "zero_load": None}
-# Where a jump lands among the points of the path with the displacement of its fold: on the last or on the first branch.
-_LANDINGS = {"jump_in": -1, "jump_out": 0}
+# Which of the jumps of an approach or a retreat is the event: the first one into contact, the last one out of it.
+_NAMED = {"jump_in": 0, "jump_out": -1}
 
 #: Points of the equilibrium path that have names.
 EVENTS = tuple(_EVENTS)

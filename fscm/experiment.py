@@ -2,8 +2,8 @@
 
 Under displacement control an approaching punch follows the path to the jump-in fold, lands on the contact
 branch at the same displacement and goes on; on retreat it leaves at the jump-out fold and lands on the far
-branch.  A punch with asperities may jump several times.  The area between is the hysteresis energy.  Under load
-control the contact branch is left at the pull-off point.
+branch.  A punch with asperities, or a stiff film on a soft solid, may jump several times.  The area between is the
+hysteresis energy.  Under load control the contact branch is left at the pull-off point.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 import scipy
 
 from fscm._typing import Array
-from fscm.path import EquilibriumPath
+from fscm.path import EquilibriumPath, Mask
 
 __all__ = ["Cycle", "displacement_cycle", "load_controlled_retreat"]
 
@@ -28,7 +28,7 @@ class Cycle:
     loading, unloading : ndarray, shape (2, m)
         Rows delta and P.  A jump is two consecutive columns of equal delta.
     jump_in, jump_out : ndarray, shape (2, 2), or None
-        Columns before and after the first jump.
+        Columns before and after the first jump of the approach, and the last one of the retreat.
     u_landing : float
         Uncertainty of every load after a jump, which is interpolated on the path: 0 without a jump.
 
@@ -50,9 +50,10 @@ class Cycle:
 def displacement_cycle(path: EquilibriumPath) -> Cycle:
     """The cycle under displacement control.
 
-    A jump lands on the rising part of the path that is farthest in contact (on approach) or farthest apart (on retreat)
-    among those that have its displacement.  Its load is a cubic between the points of the path; `u_landing` adds up the
-    error of the path and the distance of that cubic from the straight line, which is less exact.
+    A jump lands on the next stable part of the path, farther in (on approach) or out (on retreat), that has its
+    displacement.  A part on which the displacement rises is stable unless `stable_under_displacement` denies it.  The
+    load after a jump is a cubic between the points of the path; `u_landing` adds up the error of the path and the
+    distance of that cubic from the straight line, which is less exact.
 
     Raises
     ------
@@ -71,26 +72,32 @@ def displacement_cycle(path: EquilibriumPath) -> Cycle:
     if np.all(np.diff(path.displacement) > 0.0):
         return Cycle(curve, curve[:, ::-1], None, None)
     errors = path.u_displacement, path.u_load
-    loading, jump_in, u_in = _recorded(curve, errors, "the displacement of jump-in", "max_load")
+    stable = path.stable_under_displacement if path.stable_under_displacement.size else np.ones(curve.shape[1], bool)
+    loading, jumps_in, u_in = _recorded(curve, stable, errors, "the displacement of jump-in", "max_load")
     # A retreat is an approach of the curve turned by half a circle.
-    turned, jump, u_out = _recorded(-curve[:, ::-1], errors, "the displacement of jump-out", "start_gap")
-    return Cycle(loading, -turned, jump_in, None if jump is None else -jump, max(u_in, u_out))
+    turned, jumps_out, u_out = _recorded(
+        -curve[:, ::-1], stable[::-1], errors, "the displacement of jump-out", "start_gap"
+    )
+    return Cycle(loading, -turned, jumps_in[0], -jumps_out[-1], max(u_in, u_out))
 
 
 def _recorded(
-    curve: Array, errors: tuple[float, float], event: str, argument: str
-) -> tuple[Array, Array | None, float]:
-    """Columns of the curve that are recorded while the displacement rises, the first jump, and `u_landing`."""
+    curve: Array, stable: Mask, errors: tuple[float, float], event: str, argument: str
+) -> tuple[Array, list[Array], float]:
+    """Columns of the curve that are recorded while the displacement rises, the jumps, and `u_landing`."""
     d = curve[0]
     rising = np.diff(d) > 0.0
     stretches: list[Array] = []
-    jump, i, uncertainty = None, 0, 0.0
+    jumps: list[Array] = []
+    i, uncertainty = 0, 0.0
     while True:
         falls = np.flatnonzero(~rising[i:])
         if not falls.size:
-            return np.hstack([*stretches, curve[:, i:]]), jump, uncertainty
+            return np.hstack([*stretches, curve[:, i:]]), jumps, uncertainty
         top = i + int(falls[0])
-        after = np.flatnonzero((d[top:-1] <= d[top]) & (d[top + 1 :] > d[top]))
+        # The fold at the end of a stable part is not marked as stable.
+        held = stable[top:-1] | stable[top + 1 :]
+        after = np.flatnonzero((d[top:-1] <= d[top]) & (d[top + 1 :] > d[top]) & held)
         if not after.size:
             end = d[-1] if argument == "max_load" else -d[-1]
             level = d[top] if argument == "max_load" else -d[top]
@@ -98,12 +105,12 @@ def _recorded(
                 f"the path ends at delta = {end:.6g} and does not contain {event}, {level:.6g}, on the other branch: "
                 f"trace it with a larger {argument}"
             )
-        last = top + int(after[-1])
+        last = top + int(after[0])
         landing, curved, slope = _at(curve, d[top], last)
         # The displacement of the fold is wrong by as much as that of the branch.
         uncertainty = max(uncertainty, curved + errors[1] + 2.0 * slope * errors[0])
         stretches += [curve[:, i : top + 1], landing]
-        jump = np.hstack([curve[:, [top]], landing]) if jump is None else jump
+        jumps.append(np.hstack([curve[:, [top]], landing]))
         i = last + 1
 
 

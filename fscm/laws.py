@@ -235,8 +235,9 @@ class Mie:
         return (self.m - 1.0) * (self.n - 1.0) / (self.m - self.n)
 
     def _powers(self, H: Array) -> tuple[Array, Array]:
-        """Return q = 1/(H/z0 + 1) and q^(m-n) - 1."""
+        """Return q = 1/(H/z0 + 1) and q^(m-n) - 1; nan at the singular gap and below it."""
         x = np.asarray(H, float) / self.z0
+        x = np.where(x > -1.0, x, np.nan)
         return 1.0 / (x + 1.0), np.expm1((self.n - self.m) * np.log1p(x))
 
     def traction(self, H: Array) -> Array:

@@ -233,8 +233,8 @@ def test_two_jumps_on_one_approach() -> None:
     assert cycle.jump_in is not None
     assert cycle.jump_out is not None
     assert cycle.jump_in[0].tolist() == [-5.0, -5.0]
-    assert cycle.jump_out[0].tolist() == [0.0, 0.0]
-    assert cycle.jump_out[1, 0] == -5.0 < cycle.jump_out[1, 1]
+    assert cycle.jump_out[0].tolist() == [-6.0, -6.0]
+    assert cycle.jump_out[1, 0] == -2.0 < cycle.jump_out[1, 1]
 
 
 def test_a_path_without_end_is_cut_by_its_stretches() -> None:

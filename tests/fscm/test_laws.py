@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fscm import Problem, solve
 from fscm.laws import LennardJones, Mie, SurfaceLaw
 
 GAPS = np.array([-0.6, -0.3, -1e-3, 0.0, 1e-9, 0.05, 0.2, 0.6, 1.0, 7.0, 50.0, 1e4])
@@ -130,3 +131,18 @@ def test_laws_are_values():
     assert hash(Mie(m=9, n=3)) == hash(Mie(m=9.0, n=3.0))
     assert pickle.loads(pickle.dumps(Mie(m=12, n=6))) == Mie(m=12, n=6)
     assert pickle.loads(pickle.dumps(LennardJones())) == LennardJones()
+
+
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+def test_no_traction_at_the_singular_gap_and_below():
+    law = Mie(m=12, n=6, z0=0.5)
+    for function in (law.traction, law.slope, law.curvature, law.energy):
+        found = function(np.array([-1.0, -0.5, -0.4]))
+        assert np.isnan(found).tolist() == [True, True, False]
+
+
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+def test_a_law_without_traction_below_its_singular_gap_is_solved_as_one_that_has_it():
+    """Under a sharp edge trial gaps are below it: between the nodes of a coarse mesh and behind a long step."""
+    found, known = (solve(Problem(8, 0, 257, law=law), "pull_off_force") for law in (Mie(m=9, n=3), LennardJones()))
+    assert abs(found.value - known.value) <= found.u_num + known.u_num

@@ -1,0 +1,127 @@
+"""Jumps of a cycle of prescribed displacement on paths with several stable branches."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import scipy
+
+from fscm import Analysis, Coating, EquilibriumPath, LennardJones, PowerPunch, Problem, displacement_cycle
+from fscm._arc_length import Point
+from fscm._curve_density import turning_slowly
+from fscm._equilibrium import State
+from fscm._jumps import Branch, jumps_between
+from fscm.errors import NotConverged
+from fscm.path import _with_events
+from fscm.stability import margins
+
+#: Displacements at jump-in and at both folds of the retreat of the film below, in nm; from its traced path.
+FILM_JUMPS = [-9.0557, -122.2588, -135.4293]
+#: Quadrature of the path by a cubic spline: measured 2e-6.
+SPLINE = 2e-5
+
+
+def _bracket(name: str) -> tuple[Point, Point]:
+    """A stand-in that is only handed on."""
+    return name  # type: ignore[return-value]
+
+
+def _branches(*spans: tuple[float, float]) -> list[Branch]:
+    found = []
+    for i, (least, largest) in enumerate(spans):
+        low = None if least == -math.inf else _bracket(f"low {i}")
+        high = None if largest == math.inf else _bracket(f"high {i}")
+        found.append(Branch(low, high, least, largest))
+    return found
+
+
+@pytest.mark.parametrize(
+    ("spans", "approach", "retreat"),
+    [
+        ([(-math.inf, 1.0), (0.0, math.inf)], [("high 0", 1)], [("low 1", 0)]),
+        # The last minimum is not the lowest: two jumps of the retreat, one of the approach.
+        ([(-math.inf, 9.0), (0.0, 3.0), (2.0, math.inf)], [("high 0", 2)], [("low 2", 1), ("low 1", 0)]),
+        # The last minimum is the lowest: the branch in the middle is not met on retreat.
+        ([(-math.inf, 3.0), (2.0, 9.0), (0.0, math.inf)], [("high 0", 1), ("high 1", 2)], [("low 2", 0)]),
+        # Two asperities that jump one after the other both ways.
+        ([(-math.inf, 1.0), (0.0, 7.0), (6.0, math.inf)], [("high 0", 1), ("high 1", 2)], [("low 2", 1), ("low 1", 0)]),
+        # The branch in the middle is above the first jump and below the second: neither lands there.
+        ([(-math.inf, 1.0), (2.0, 3.0), (0.0, math.inf)], [("high 0", 2)], [("low 2", 0)]),
+    ],
+)
+def test_each_jump_lands_on_the_next_branch_with_its_displacement(
+    spans: list[tuple[float, float]], approach: list[tuple[str, int]], retreat: list[tuple[str, int]]
+) -> None:
+    branches = _branches(*spans)
+    for inward, expected in ((True, approach), (False, retreat)):
+        found = [(fold, branches.index(branch)) for fold, branch in jumps_between(branches, inward)]
+        assert found == expected
+
+
+def test_a_jump_without_a_branch_to_land_on_is_told() -> None:
+    with pytest.raises(NotConverged, match=r"displacement 9, at which a jump-in begins"):
+        jumps_between(_branches((-math.inf, 9.0), (0.0, 3.0)), inward=True)
+
+
+@pytest.fixture(scope="module")
+def film() -> Analysis:
+    """A sphere on a stiff film on a soft solid: the film alone jumps out of contact before the solid below does."""
+    solid = Coating(1e9, 1.5e6, 1e-7, 0.0, nu_coating=0.4, nu_substrate=0.49)
+    problem = Problem(solid, PowerPunch(2.0, 5e-6), LennardJones(0.05, 0.4e-9))
+    return Analysis(problem.dimensionless, "quick")
+
+
+def test_a_film_jumps_twice_on_retreat(film: Analysis) -> None:
+    jumps = [*film.jumps("jump_in"), *film.jumps("jump_out")]
+    assert [len(film.jumps(name)) for name in ("jump_in", "jump_out")] == [1, 2]
+    assert [0.4 * fold.value.displacement for fold, _ in jumps] == pytest.approx(FILM_JUMPS, abs=1e-4)
+    assert film.solution("jump_out_displacement").value == jumps[-1][0].value.displacement
+    for fold, landing in jumps:
+        assert landing.value.displacement == pytest.approx(fold.value.displacement, abs=1e-9)
+        assert margins(landing.value, 0)[0] > 0.0
+        assert fold.value.energy > landing.value.energy
+
+
+def test_the_hysteresis_of_a_film_is_the_area_of_its_loops(film: Analysis) -> None:
+    """The work between fold and landing along the whole path, by a spline through its loads and displacements."""
+    states, _ = _with_events(turning_slowly(film.points, 20.0))
+    curve = np.array([[state.displacement, state.load] for state in states])
+    size = np.ptp(curve, axis=0)
+    length = np.concatenate([[0.0], np.cumsum(np.hypot(*(np.diff(curve, axis=0) / size).T))])
+    spline = scipy.interpolate.CubicSpline(length, curve)
+
+    def place(state: State) -> float:
+        def distance(at: float) -> float:
+            return float(np.hypot(*((spline(at) - [state.displacement, state.load]) / size)))
+
+        i = int(np.argmin([distance(at) for at in length]))
+        around = length[max(i - 1, 0)], length[min(i + 1, len(length) - 1)]
+        return float(scipy.optimize.minimize_scalar(distance, bounds=around, method="bounded").x)
+
+    lost = 0.0
+    for fold, landing in film.jumps("jump_in") + film.jumps("jump_out"):
+        displacement, load = spline(np.linspace(place(fold.value), place(landing.value), 20001)).T
+        lost -= np.trapezoid(load, displacement)
+    found = film.solution("hysteresis_energy")
+    assert found.value == pytest.approx(lost, rel=SPLINE)
+    assert 0.0 < found.u_num < 1e-7 * found.value
+
+
+@pytest.mark.parametrize(
+    ("held", "retreat"), [([True, False, False, False, False, True], [-2.5]), ([], [-2.5, -3.0])], ids=["marks", "none"]
+)
+def test_a_recorded_jump_passes_over_what_cannot_be_held(held: list[bool], retreat: list[float]) -> None:
+    """Of a part between two folds that is unstable twice the displacement rises, too."""
+    displacement = np.array([-9.0, 0.0, -3.0, -1.0, -2.5, 1.0])
+    blank, marks = np.zeros(6), np.array(held, bool)
+    cycle = displacement_cycle(
+        EquilibriumPath(blank, displacement, np.arange(6.0), blank, blank, 0.0, 0.0, (), marks, marks)
+    )
+    jumps = np.flatnonzero(np.diff(cycle.unloading[0]) == 0.0)
+    assert cycle.unloading[0, jumps].tolist() == retreat
+    assert cycle.jump_in is not None
+    assert cycle.jump_out is not None
+    assert cycle.jump_in[0].tolist() == [0.0, 0.0]
+    assert cycle.jump_out[0, 0] == retreat[-1]
