@@ -15,7 +15,7 @@ from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import level_for
 from fem_reference.errors import NoSuchEvent, NotConverged
-from fem_reference.laws import LennardJones
+from fem_reference.laws import LennardJones, Mie
 from fem_reference.modulus import PowerLawModulus
 from fem_reference.problem import Problem
 from fem_reference.punch import CustomPunch, PowerPunch, radius_at_height
@@ -162,6 +162,13 @@ def test_newton_refuses_a_hopeless_start():
     y = np.append(np.zeros(contact.unknowns), [50.0, 1.0])
     with pytest.raises(NotConverged, match="Newton stopped at a residual"):
         newton(contact, y, Size(1.0), CentralGap(-50.0))
+
+
+def test_newton_refuses_a_start_below_the_singular_gap_of_a_law_of_mie():
+    contact = _contact(law=Mie(1.0, 1.0, 12.0, 6.0))
+    y = np.append(np.zeros(contact.unknowns), [50.0, 1.0])
+    with pytest.raises(NotConverged, match="Newton stopped"):
+        newton(contact, y, Size(1.0), CentralGap(-0.5))
 
 
 def test_punch_shapes():
