@@ -8,7 +8,16 @@ import pytest
 from scipy.interpolate import CubicHermiteSpline
 
 import fem_reference.solution as solution_module
-from fem_reference import LennardJones, NoSuchEvent, NotConverged, PowerPunch, Problem, Solution
+from fem_reference import (
+    Coating,
+    LennardJones,
+    NoSuchEvent,
+    NotConverged,
+    PowerPunch,
+    Problem,
+    Solution,
+    solve_together,
+)
 from fem_reference._contact.events import PathEvents, energy_lost
 from fem_reference._contact.path import Point
 from fem_reference.depth_profiles import ExponentialModulus
@@ -167,3 +176,13 @@ def test_the_loss_on_meshes_of_their_own_has_every_jump(name, monkeypatch):
     assert found.u_num == pytest.approx(1e-8 * len(requested))
     # A further jump has two parts.
     assert len(requested) == 2 * len(events.jumps) - 2
+
+
+@pytest.mark.heavy
+def test_the_hysteresis_on_a_stiff_film_has_three_jumps():
+    """A film of 1 GPa on 1.5 MPa: the innermost fold is at -122.3 nm, and the jump out of contact at -135.4 nm."""
+    film = Coating(E_coating=1e9, E_substrate=1.5e6, thickness=1e-7, transition=0.0, nu_coating=0.4, nu_substrate=0.49)
+    problem = Problem(film, PowerPunch(2.0, 5e-6), LennardJones(0.05, 4e-10))
+    found = solve_together(problem, ("hysteresis_energy", *LOSSES), "quick")
+    further = found["hysteresis_energy"].value - sum(found[name].value for name in LOSSES)
+    assert further == pytest.approx(1.4542e-16, rel=1e-3)
