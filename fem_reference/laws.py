@@ -188,7 +188,9 @@ class Mie:
 
     def _split(self, H: Array) -> tuple[Array, Array]:
         """Logarithm of 1 + H/z0, and the repulsion relative to the attraction less one (exact near H = 0)."""
-        distance = np.log1p(np.asarray(H, float) / self.z0)
+        x = np.asarray(H, float) / self.z0
+        # The powers have no value at or below the singular gap, where a step of Newton's method may lead.
+        distance = np.log1p(np.where(x > -1.0, x, np.nan))
         return distance, np.expm1(-(self.m - self.n) * distance)
 
     def traction(self, H: Array) -> Array:

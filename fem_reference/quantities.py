@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal, Protocol
 
-from fem_reference._contact.events import LANDING
+from fem_reference._contact.events import JUMP_IN, JUMP_OUT, LANDING, SEPARATED, Jump, energy_lost, event_energy
 from fem_reference._contact.path import Point
 
-__all__ = ["CRITICAL_MODULUS", "LOSSES", "QUANTITIES", "TABLE", "Quantity", "critical_quantity", "quantity_named"]
+__all__ = [
+    "CRITICAL_MODULUS",
+    "LOSSES",
+    "QUANTITIES",
+    "TABLE",
+    "Quantity",
+    "critical_quantity",
+    "further_losses",
+    "quantity_named",
+]
 
 GAP_ORDER = 2.0
 """Declared order of the central gap at jump-out, in contact: under the tip of a cone the pressure has a kink, the
@@ -18,7 +29,11 @@ decides it, not the degree of the element."""
 
 
 class Events(Protocol):
-    """Points of a path at its events, and the energies that the jumps lose."""
+    """Points of a path at its events, and its jumps."""
+
+    def at(self, event: str) -> Point:
+        """Return the point at an event."""
+        ...
 
     @property
     def pull_off(self) -> Point:
@@ -46,13 +61,8 @@ class Events(Protocol):
         ...
 
     @property
-    def jump_in_loss(self) -> float:
-        """Energy lost by the jump into contact."""
-        ...
-
-    @property
-    def jump_out_loss(self) -> float:
-        """Energy lost by the jump out of contact."""
+    def jumps(self) -> tuple[Jump, ...]:
+        """Every jump of a cycle of approach and retreat."""
         ...
 
 
@@ -82,8 +92,9 @@ class Quantity:
 
 
 LOSSES = ("jump_in_energy", "jump_out_energy")
-"""Energies lost by the two jumps; their sum is the hysteresis energy.  Each needs the contact edge at one radius only,
-so that the mesh of a solid that is no power law can be fine there."""
+"""Energies lost by the jump into contact and the jump out of contact.  Each needs the contact edge at one radius only,
+so that the mesh of a solid that is no power law can be fine there.  Their sum is the hysteresis energy, unless the
+displacement has more folds at which the cycle jumps: see `further_losses`."""
 
 TABLE = {
     "pull_off_force": Quantity(("pull_off",), lambda e: -e.pull_off.state.load, "force"),
@@ -94,10 +105,10 @@ TABLE = {
     "jump_out_gap": Quantity(("jump_out",), lambda e: e.jump_out.state.central_gap, "length", GAP_ORDER),
     "zero_load_displacement": Quantity(("zero_load",), lambda e: e.zero_load.state.displacement, "length"),
     "hysteresis_energy": Quantity(
-        ("jump_out", LANDING), lambda e: e.jump_in_loss + e.jump_out_loss, "energy", parts=LOSSES
+        (JUMP_OUT, LANDING), lambda e: math.fsum(energy_lost(e, jump) for jump in e.jumps), "energy", parts=LOSSES
     ),
-    "jump_in_energy": Quantity((LANDING,), lambda e: e.jump_in_loss, "energy"),
-    "jump_out_energy": Quantity(("jump_out",), lambda e: e.jump_out_loss, "energy"),
+    "jump_in_energy": Quantity((LANDING,), lambda e: energy_lost(e, (JUMP_IN, LANDING)), "energy"),
+    "jump_out_energy": Quantity((JUMP_OUT,), lambda e: energy_lost(e, (JUMP_OUT, SEPARATED)), "energy"),
 }
 """Quantities by name; pull_off_force is the positive number -min P."""
 
@@ -119,6 +130,39 @@ def critical_quantity(E0: float) -> Quantity:
         Modulus of that path.
     """
     return Quantity(("cusp",), lambda events: E0 * events.cusp.branch.contact.compliance.stiffness, "modulus")
+
+
+def further_losses(path: Events) -> dict[str, Quantity]:
+    """Return quantities whose sum is the energy lost by the jumps of a cycle that are not of `LOSSES`.
+
+    Each needs the contact edge at one radius only: the energy at the fold, and the negative one where the jump ends.
+    On two meshes these points do not have exactly the same displacement.  With the load P where the jump ends, both
+    energies U are continued to one displacement, because dU = P d(delta) there.
+
+    Parameters
+    ----------
+    path : Events
+        The path of the problem.
+
+    Returns
+    -------
+    dict of str to Quantity
+        By names of their own; empty if the cycle has two jumps only.
+    """
+    rows: dict[str, Quantity] = {}
+    for fold, end in path.jumps:
+        if (fold, end) not in ((JUMP_IN, LANDING), (JUMP_OUT, SEPARATED)):
+            at_end = path.at(end).state
+            for event, sign in ((fold, 1.0), (end, -1.0)):
+                functional = partial(_energy_at, event, sign, at_end.displacement, at_end.load)
+                rows[f"energy at {event}"] = Quantity((event,), functional, "energy")
+    return rows
+
+
+def _energy_at(event: str, sign: float, displacement: float, load: float, events: Events) -> float:
+    """Energy of an event, continued to a displacement with a load."""
+    point = events.at(event)
+    return sign * (event_energy(point) - load * (point.state.displacement - displacement))
 
 
 def quantity_named(name: str) -> Quantity:

@@ -13,7 +13,7 @@ from functools import partial
 from fem_reference._contact.critical import stiffer_than_critical
 from fem_reference._contact.error_parts import EventsOnMeshes, events_on_meshes
 from fem_reference._contact.events import PathEvents
-from fem_reference._contact.mesh_choice import MeshChoice, chosen
+from fem_reference._contact.mesh_choice import MeshChoice, chosen, path_over_meshes
 from fem_reference._contact.mesh_lengths import scales
 from fem_reference._contact.path import edge_is_resolved
 from fem_reference._contact.resolved import ResolvedEvents
@@ -23,7 +23,15 @@ from fem_reference._threads import one_thread
 from fem_reference.accuracy import Level, coarser_accuracy
 from fem_reference.errors import AccuracyWarning, NoSuchEvent, NotConverged
 from fem_reference.problem import Problem
-from fem_reference.quantities import CRITICAL_MODULUS, QUANTITIES, TABLE, Quantity, critical_quantity, quantity_named
+from fem_reference.quantities import (
+    CRITICAL_MODULUS,
+    QUANTITIES,
+    TABLE,
+    Quantity,
+    critical_quantity,
+    further_losses,
+    quantity_named,
+)
 from fem_reference.result import Solution
 
 __all__ = ["solve", "solve_together"]
@@ -167,7 +175,13 @@ def _summed(problem: Problem, rows: Mapping[str, Quantity], accuracy: float | st
     for name, row in rows.items():
         single |= {part: quantity_named(part) for part in row.parts} or {name: row}
     solved = _solved_together(problem, single, accuracy)
-    return {name: _sum(solved[part] for part in row.parts or (name,)) for name, row in rows.items()}
+    found = {name: _sum(solved[part] for part in row.parts or (name,)) for name, row in rows.items()}
+    for name, solution in found.items():
+        if rows[name].parts and isinstance(solution, Solution):
+            further = further_losses(path_over_meshes(problem, accuracy))
+            if further:
+                found[name] = _sum((solution, *_solved_together(problem, further, accuracy).values()))
+    return found
 
 
 def _sum(terms: Iterable[Solution | NoSuchEvent]) -> Solution | NoSuchEvent:

@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 from fem_reference._contact.carried_path import log_displacement_sample, log_load_sample
 from fem_reference._contact.edge_states import EdgeStates
-from fem_reference._contact.events import Pair, PathEvents, anchor_of
+from fem_reference._contact.events import Pair, PathEvents, anchor_of, kind_of
 from fem_reference._contact.hermite import Interval
 from fem_reference._contact.path import Point
 
@@ -75,7 +75,7 @@ class CarriedEvents(PathEvents):
 
     def take(self, event: str, point: Point, slope: float) -> None:
         """Set the state at an event to that on its own mesh, where the path has several within their errors."""
-        vars(self)[event] = point
+        (vars(self) if event == kind_of(event) else self._further)[event] = point
         self._slopes[point] = slope
 
 

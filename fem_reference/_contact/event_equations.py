@@ -16,16 +16,13 @@ from scipy import linalg
 
 from fem_reference._contact.controls import Control, EdgeRadius
 from fem_reference._contact.cusp import displacement_rates
-from fem_reference._contact.events import CUSP
+from fem_reference._contact.events import CUSP, JUMP_IN, JUMP_OUT, beginning_of, kind_of
 from fem_reference._contact.full_system import FullSystem
 from fem_reference._contact.newton import State
 from fem_reference._contact.path import Point, point_at
 from fem_reference._typing import Array
 
-__all__ = ["BEGINNINGS", "EventEquations"]
-
-BEGINNINGS = {"landing": "jump_in", "separated": "jump_out"}
-"""Where the jump begins that ends at an event: both have the same displacement."""
+__all__ = ["EventEquations"]
 
 SLOPE_STEP = 1e-4
 """Change of the parameter, in its largest steps, for the slope of a rate: an error of this size slows Newton only."""
@@ -64,7 +61,7 @@ class EventEquations:
     @property
     def is_fold(self) -> bool:
         """Whether a rate vanishes at the event."""
-        return not self.point.held and self.name in ("pull_off", "jump_in", "jump_out", CUSP)
+        return not self.point.held and kind_of(self.name) in ("pull_off", JUMP_IN, JUMP_OUT, CUSP)
 
     @property
     def controls(self) -> tuple[float, float, float]:
@@ -173,8 +170,11 @@ class EventEquations:
 
     def _excess(self, events: Mapping[str, EventEquations]) -> float:
         """What vanishes at the event."""
-        if self.name in BEGINNINGS:
-            return float(self.y[-2] - events[BEGINNINGS[self.name]].y[-2])
+        if self.point.held:
+            return 0.0
+        beginning = beginning_of(self.name)
+        if beginning is not None:
+            return float(self.y[-2] - events[beginning].y[-2])
         if self.name == "zero_load":
             return self.contact.load(self.y)
         if self.name == "pull_off":
@@ -184,7 +184,7 @@ class EventEquations:
     def _excess_slope(self) -> float:
         """Return the derivative of `_excess` with respect to the parameter, from the condensed path."""
         state = self.point.state
-        if self.name in BEGINNINGS:
+        if beginning_of(self.name) is not None:
             return state.displacement_rate
         if self.name == "zero_load":
             return state.load_rate

@@ -6,9 +6,11 @@ method on the derivative from the bordered solve finds it to rounding.  No event
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from itertools import pairwise
+from itertools import count, pairwise
+from typing import Protocol
 
 from scipy.optimize import brentq
 
@@ -22,14 +24,19 @@ __all__ = [
     "CUSP",
     "EVENTS",
     "JUMP_IN",
+    "JUMP_OUT",
     "LANDING",
     "SEPARATED",
+    "Jump",
     "Pair",
     "PathEvents",
     "anchor_of",
+    "beginning_of",
     "beyond_pull_off",
+    "energy_lost",
     "event_energy",
     "excess_of",
+    "kind_of",
 ]
 
 ROOT_TOLERANCE = 1e-11
@@ -40,13 +47,16 @@ EVENTS = ("pull_off", "jump_in", "jump_out", "zero_load")
 where the load changes from tension to compression."""
 
 LANDING = "landing"
-"""The point in contact at the displacement of the jump into contact: where that jump ends."""
+"""The point at the displacement of the jump into contact, on the next branch inwards: where that jump ends."""
 
 SEPARATED = "separated"
 """The point out of contact at the displacement of the jump out of contact: where that jump ends."""
 
 JUMP_IN = "jump_in"
 """The first fold on approach."""
+
+JUMP_OUT = "jump_out"
+"""The last fold on retreat."""
 
 STIFF = "the displacement rises all along the path: this solid is too stiff for jumps"
 
@@ -58,10 +68,50 @@ SLOPE_STEP = 1e-4
 
 Pair = tuple[Point, Point]
 
+Jump = tuple[str, str]
+"""Names of the fold where a jump begins and of the point where it ends.  Those of a further jump have a number, from 2
+on and from outside to inside: "jump_in_2" and "landing_2", "jump_out_2" and "separated_2"."""
+
+
+class Events(Protocol):
+    """Points of a path by the names of its events."""
+
+    def at(self, event: str) -> Point: ...
+
+
+def kind_of(event: str) -> str:
+    """Return the name of an event without the number of its jump.
+
+    Examples
+    --------
+    >>> kind_of("jump_out_2"), kind_of("jump_out")
+    ('jump_out', 'jump_out')
+    """
+    return event.rstrip("0123456789").removesuffix("_")
+
+
+def beginning_of(event: str) -> str | None:
+    """Return the fold where the jump begins that ends at an event, or None.
+
+    Examples
+    --------
+    >>> beginning_of("landing"), beginning_of("separated_2"), beginning_of("pull_off")
+    ('jump_in', 'jump_out_2', None)
+    """
+    kind = kind_of(event)
+    beginning = {LANDING: JUMP_IN, SEPARATED: JUMP_OUT}.get(kind)
+    return None if beginning is None else beginning + event.removeprefix(kind)
+
+
+def energy_lost(events: Events, jump: Jump) -> float:
+    """Return the energy lost by a jump: that at its fold less that at its end."""
+    fold, end = jump
+    return event_energy(events.at(fold)) - event_energy(events.at(end))
+
 
 def beyond_pull_off(event: str) -> bool:
     """Whether an event lies on the path beyond the pull-off, where the edge is sharper relative to its radius."""
-    return event in ("zero_load", LANDING)
+    return kind_of(event) in ("zero_load", LANDING)
 
 
 class PathEvents:
@@ -103,7 +153,7 @@ class PathEvents:
         Parameters
         ----------
         event : str
-            One of `EVENTS`, `LANDING`, `SEPARATED` or `CUSP`.
+            One of `EVENTS`, `LANDING`, `SEPARATED` or `CUSP`, or of the names in `jumps`.
 
         Raises
         ------
@@ -112,8 +162,12 @@ class PathEvents:
         NoSuchEvent
             If the path has no such point.
         """
-        if event not in (*EVENTS, LANDING, SEPARATED, CUSP):
+        if kind_of(event) not in (*EVENTS, LANDING, SEPARATED, CUSP):
             raise ValueError(f"event {event!r} is unknown; choose one of {', '.join(EVENTS)}")
+        if event != kind_of(event):
+            if event not in self._further:
+                raise NoSuchEvent(f"the cycle of approach and retreat has no {event}")
+            return self._further[event]
         point: Point = getattr(self, event)
         return point
 
@@ -155,20 +209,20 @@ class PathEvents:
     @cached_property
     def zero_load(self) -> Point:
         """The point in contact where the load changes from tension to compression."""
-        found = self._rise_through(_load, _load_rate, 0.0, last=True)
+        found = self._rise_through(_neighbours(self.points), _load, _load_rate, 0.0, last=True)
         if found is None:
             raise NoSuchEvent("the load does not become compressive on the path")
         return found
 
     @cached_property
     def landing(self) -> Point:
-        """The point in contact where the jump into contact ends."""
-        return self._at_displacement(self.jump_in.state.displacement, last=True)
+        """The point where the jump into contact ends."""
+        return self._landing(self.jump_in, inwards=True)
 
     @cached_property
     def separated(self) -> Point:
         """The point where the jump out of contact ends."""
-        return self._at_displacement(self.jump_out.state.displacement, last=False)
+        return self._landing(self.jump_out, inwards=False)
 
     @cached_property
     def cusp(self) -> Point:
@@ -187,26 +241,79 @@ class PathEvents:
         return cusp_from(slowest(self.samples))
 
     @cached_property
-    def jump_in_loss(self) -> float:
-        """Energy lost by the jump into contact."""
-        return event_energy(self.jump_in) - event_energy(self.landing)
+    def jumps(self) -> tuple[Jump, ...]:
+        """Every jump of a cycle of approach and retreat under displacement control.
+
+        On approach the state lands on the next branch inwards that has the displacement of the fold, and jumps again
+        at the end of that branch, if it has one.  On retreat it does the same outwards, from the innermost branch on.
+        """
+        further = [(begin, name) for name in self._further if (begin := beginning_of(name)) is not None]
+        return ((JUMP_IN, LANDING), (JUMP_OUT, SEPARATED), *further)
 
     @cached_property
-    def jump_out_loss(self) -> float:
-        """Energy lost by the jump out of contact."""
-        return event_energy(self.jump_out) - event_energy(self.separated)
+    def _further(self) -> dict[str, Point]:
+        """Folds and ends of the jumps but the first on approach and the last on retreat, by their names."""
+        maxima = _sign_changes(self.points, _displacement_rate, rising=False)
+        minima = _sign_changes(self.points, _displacement_rate, rising=True)
+        found: dict[str, Point] = {}
+        if len(maxima) > 1:
+            for number, (fold, end) in zip(count(2), self._later_on_approach(maxima), strict=False):
+                found |= {f"{JUMP_IN}_{number}": fold, f"{LANDING}_{number}": end}
+        if len(minima) > 1:
+            for number, (fold, end) in zip(count(2), reversed(self._earlier_on_retreat(minima)), strict=False):
+                found |= {f"{JUMP_OUT}_{number}": fold, f"{SEPARATED}_{number}": end}
+        return found
 
-    def _at_displacement(self, delta: float, last: bool) -> Point:
-        """Return the first or the last point where the displacement rises through a value."""
-        found = self._rise_through(_displacement, _displacement_rate, delta, last)
+    def _later_on_approach(self, maxima: Sequence[Pair]) -> list[Pair]:
+        """Fold and end of each jump on approach after the first."""
+        found, end = [], self.landing
+        while inside := [pair for pair in maxima if _place(pair[1]) > _place(end)]:
+            fold = self.root(inside[0], _displacement_rate)
+            end = self._landing(fold, inwards=True)
+            found.append((fold, end))
+        return found
+
+    def _earlier_on_retreat(self, minima: Sequence[Pair]) -> list[Pair]:
+        """Fold and end of each jump on retreat before the last.
+
+        Raises
+        ------
+        NotConverged
+            If another fold is as low as the last one, within the error of a path over several meshes.
+        """
+        last = min(minima, key=lambda pair: _distance(pair, self.jump_out))
+        found: list[Pair] = []
+        outside = list(minima)
+        while outside and outside[-1] != last:
+            fold = self.root(outside[-1], _displacement_rate)
+            end = self._landing(fold, inwards=False)
+            found.append((fold, end))
+            outside = [pair for pair in minima if _place(pair[0]) < _place(end)]
+        if not outside:
+            raise NotConverged(
+                f"two folds near delta = {self.jump_out.state.displacement:.6g} are equally low within the error of "
+                "the path: which of them is the last on retreat is not decided"
+            )
+        return found
+
+    def _landing(self, fold: Point, inwards: bool) -> Point:
+        """Return the nearest point inwards or outwards of a fold where the displacement rises through that of it."""
+        delta, place = fold.state.displacement, _place(fold)
+        pairs = [(a, b) for a, b in _neighbours(self.points) if (_place(a) >= place if inwards else _place(b) <= place)]
+        found = self._rise_through(pairs, _displacement, _displacement_rate, delta, last=not inwards)
         if found is None:
             raise NoSuchEvent(f"the path does not reach the displacement {delta:.6g} on both branches")
         return found
 
     def _rise_through(
-        self, value: Callable[[Point], float], rate: Callable[[Point], float], level: float, last: bool
+        self,
+        pairs: Sequence[Pair],
+        value: Callable[[Point], float],
+        rate: Callable[[Point], float],
+        level: float,
+        last: bool,
     ) -> Point | None:
-        """Find the first or the last point of a complete path where a value rises through a level.
+        """Find the first or the last point of a part of a complete path where a value rises through a level.
 
         Between two neighbours is one turning point at most; where it may reach the level, it is located too.
         """
@@ -214,7 +321,6 @@ class PathEvents:
         def excess(point: Point) -> float:
             return value(point) - level
 
-        pairs = _neighbours(self.points)
         for a, b in reversed(pairs) if last else pairs:
             before, after = excess(a), excess(b)
             if before < 0 <= after:
@@ -249,7 +355,7 @@ class PathEvents:
 
 def anchor_of(event: str, point: Point) -> tuple[Point, float]:
     """Return the state at an event, and the slope there of the function that vanishes (see `excess_of`)."""
-    if event in (LANDING, SEPARATED):
+    if beginning_of(event) is not None:
         return point, point.state.displacement_rate
     if event == "zero_load":
         return point, point.state.load_rate
@@ -265,7 +371,7 @@ def excess_of(event: str, level: float = 0.0) -> Callable[[Point], float]:
     Parameters
     ----------
     event : str
-        One of `EVENTS`, `LANDING` or `SEPARATED`.
+        One of `EVENTS`, or of the names in `PathEvents.jumps`.
     level : float
         Displacement at a landing or separation.
 
@@ -276,7 +382,7 @@ def excess_of(event: str, level: float = 0.0) -> Callable[[Point], float]:
     2.0
     """
     value = {"pull_off": _load_rate, "jump_in": _displacement_rate, "jump_out": _displacement_rate, "zero_load": _load}
-    rate = value.get(event, _displacement)
+    rate = value.get(kind_of(event), _displacement)
     return lambda point: rate(point) - level
 
 
@@ -299,6 +405,17 @@ def _displacement(point: Point) -> float:
 
 def _displacement_rate(point: Point) -> float:
     return point.displacement_rate
+
+
+def _place(point: Point) -> tuple[bool, float]:
+    """Place along the path: it grows from far away into contact."""
+    return point.branch.touching, point.sense * point.parameter
+
+
+def _distance(pair: Pair, point: Point) -> float:
+    """How far outside an interval a point is; 0 inside."""
+    (touching, low), (_, high), (at, place) = (_place(each) for each in (*pair, point))
+    return max(low - place, place - high, 0.0) if touching == at else math.inf
 
 
 def _neighbours(points: Sequence[Point]) -> list[Pair]:

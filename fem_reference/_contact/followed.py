@@ -12,7 +12,7 @@ from fem_reference._contact.carried_path import FARTHER, carried_path
 from fem_reference._contact.completeness import complete_path, displacement_range
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.edge_states import EdgeStates
-from fem_reference._contact.events import JUMP_IN, LANDING, PathEvents, excess_of
+from fem_reference._contact.events import JUMP_IN, LANDING, SEPARATED, PathEvents, beginning_of, excess_of
 from fem_reference._contact.jkr_tension import last_turn
 from fem_reference._contact.mesh_lengths import EDGE_PER_BALANCE, WIDEST, check_width, kinks_within, spot_length
 from fem_reference._contact.path import WIDTH_SHARE, Point, edge_width, equilibrium_points
@@ -150,19 +150,27 @@ class FollowedPath:
 
     def _located(self, event: str, point: Point) -> tuple[tuple[MeshSpec, float], Point, float]:
         """The mesh for the edge of an event, its state there, and the slope of what vanishes."""
-        slope = self._whole.slope(event, point)
+        slope, beginning = self._whole.slope(event, point), beginning_of(event)
+        # A further jump begins at an edge for which this mesh is not fine: its end is kept where the path has it.
+        held = beginning is not None and event not in (LANDING, SEPARATED)
         if not point.branch.touching:
-            return self._first, point, slope
-        level = self._whole.jump_in.state.displacement if event == LANDING else 0.0
+            return self._first, replace(point, held=held), slope
+        level = 0.0 if beginning is None else self._whole.at(beginning).state.displacement
         # Its own finest mesh decides where the edge is, because the rates on coarser ones are less certain.
         order, densities = self._choice.level.order, self._choice.level.densities
-        if event not in (LANDING, "zero_load") and edge_width(point) < NARROW_EDGE:
+        if beginning is None and event != "zero_load" and edge_width(point) < NARROW_EDGE:
             states = EdgeStates(self._choice, point, order, densities[0], EVENT_SHARE)
             radius, slope = states.extremum(lambda state: _height(event, state))
             spec, found = EdgeStates(self._choice, states.start, order, densities[-1], EVENT_SHARE).own(radius)
             return (spec, radius), replace(found, held=True), slope
         states = EdgeStates(self._choice, point, order, densities[-1], EVENT_SHARE)
-        return states.located(excess_of(event, level), slope), states.start, slope
+        excess = excess_of(event, level)
+        spec, radius = states.located(excess, slope)
+        if held:
+            radius -= excess(states.start) / slope
+            spec, found = states.own(radius)
+            return (spec, radius), replace(found, held=True), slope
+        return (spec, radius), states.start, slope
 
 
 def _height(event: str, point: Point) -> float:

@@ -26,7 +26,7 @@ from fem_reference.errors import NotConverged
 from fem_reference.problem import Problem
 from fem_reference.punch import check_without_asperities, radius_at_height
 
-__all__ = ["MeshChoice", "chosen", "followed_path", "whole_path"]
+__all__ = ["MeshChoice", "chosen", "followed_path", "path_over_meshes", "whole_path"]
 
 LOWEST, HIGHEST = 1e-8, 1e4
 """Heights of a punch, in lengths of the law, between which it may have no asperity: below, it is flat to the law, and
@@ -150,6 +150,21 @@ def whole_path(problem: Problem, accuracy: float | str) -> PathEvents:
 def followed_path(choice: MeshChoice) -> FollowedPath:
     """Return the path of a solid that does not scale, followed once for all of its events."""
     return _followed(replace(choice, event=""))
+
+
+def path_over_meshes(problem: Problem, accuracy: float | str) -> PathEvents:
+    """Return the path of a solid that does not scale, on the first meshes from those of an accuracy that carry it.
+
+    Raises
+    ------
+    NotConverged
+        If the path cannot be followed on the finest meshes either.
+    """
+    *others, last = [MeshChoice(problem, level) for level in finer_levels(accuracy)]
+    for choice in others:
+        with suppress(NotConverged):
+            return followed_path(choice).events()
+    return followed_path(last).events()
 
 
 # Several problems are solved in turns where a parameter is varied.

@@ -113,8 +113,9 @@ class Point:
         Changes of P and delta per unit of the parameter, where those of the state are not taken: along a path over
         several meshes.
     held : bool
-        Whether the point is an extremum by the values of its neighbours on similar meshes.  Its own rate, of a narrow
-        edge that moves over elements, does not tell, and the parameter is kept.
+        Whether the parameter is kept on other meshes.  The point is an extremum by the values of its neighbours on
+        similar meshes, where its own rate, of a narrow edge that moves over elements, does not tell; or a jump ends
+        there that begins at an edge for which the mesh is not fine.
     """
 
     branch: Branch

@@ -16,7 +16,7 @@ import numpy as np
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import Control, EdgeGap, GapRise, Size
 from fem_reference._contact.cusp import cusp_from
-from fem_reference._contact.events import CUSP, PathEvents, anchor_of, event_energy, excess_of
+from fem_reference._contact.events import CUSP, Jump, PathEvents, anchor_of, beginning_of, excess_of
 from fem_reference._contact.path import WIDTH_SHARE, Branch, Point, edge_width, point_at
 from fem_reference._elastic.compliance import FixedCompliance
 from fem_reference._typing import Array
@@ -76,11 +76,8 @@ class ResolvedEvents:
             if event == CUSP:
                 return self._found.setdefault(event, self._cusp())
             original, slope = self._path.anchor(event)
-            level = 0.0
-            if event == "landing":
-                level = self.jump_in.state.displacement
-            elif event == "separated":
-                level = self.jump_out.state.displacement
+            beginning = None if original.held else beginning_of(event)
+            level = 0.0 if beginning is None else self.at(beginning).state.displacement
             self._found[event] = self._solved(original, slope, excess_of(event, level))
         return self._found[event]
 
@@ -115,14 +112,9 @@ class ResolvedEvents:
         return self.at(CUSP)
 
     @property
-    def jump_in_loss(self) -> float:
-        """Energy lost by the jump into contact."""
-        return event_energy(self.jump_in) - event_energy(self.at("landing"))
-
-    @property
-    def jump_out_loss(self) -> float:
-        """Energy lost by the jump out of contact."""
-        return event_energy(self.jump_out) - event_energy(self.at("separated"))
+    def jumps(self) -> tuple[Jump, ...]:
+        """The jumps of the path."""
+        return self._path.jumps
 
     def _cusp(self) -> Point:
         """Find the cusp from that of the path."""

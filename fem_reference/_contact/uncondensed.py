@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from fem_reference._contact.event_equations import EventEquations
-from fem_reference._contact.events import PathEvents
+from fem_reference._contact.events import Jump, PathEvents, beginning_of
 from fem_reference._contact.full_system import FullSystem
 from fem_reference._contact.mesh_choice import MeshChoice
 from fem_reference._contact.path import Point
@@ -98,16 +98,27 @@ class UncondensedValue:
 
 
 class PointsAtEvents:
-    """Points of a path at its events, and the energies that the jumps lose.
+    """Points of a path at its events.
 
     Parameters
     ----------
     points : mapping of str to Point
-        By the names of the properties below.
+        By the names of the events.
+    path : PathEvents or ResolvedEvents
+        The path.
     """
 
-    def __init__(self, points: Mapping[str, Point]) -> None:
-        self.points = points
+    def __init__(self, points: Mapping[str, Point], path: PathEvents | ResolvedEvents) -> None:
+        self.points, self._path = points, path
+
+    def at(self, event: str) -> Point:
+        """Return the point at an event."""
+        return self.points[event]
+
+    @property
+    def jumps(self) -> tuple[Jump, ...]:
+        """The jumps of the path."""
+        return self._path.jumps
 
     @property
     def pull_off(self) -> Point:
@@ -133,16 +144,6 @@ class PointsAtEvents:
     def cusp(self) -> Point:
         """The point where the two folds merge, at the modulus at which they do."""
         return self.points["cusp"]
-
-    @property
-    def jump_in_loss(self) -> float:
-        """Energy lost by the jump into contact."""
-        return _energy(self.jump_in) - _energy(self.points["landing"])
-
-    @property
-    def jump_out_loss(self) -> float:
-        """Energy lost by the jump out of contact."""
-        return _energy(self.jump_out) - _energy(self.points["separated"])
 
 
 Functional = Callable[[PointsAtEvents], float]
@@ -187,12 +188,13 @@ class UncondensedEvents:
         """
         condensed = _Condensed(self._path)
         for functional in functionals:
-            functional(PointsAtEvents(condensed))
+            functional(PointsAtEvents(condensed, self._path))
         missing = {name: point for name, point in condensed.items() if name not in self._found}
         if missing:
             # A jump ends at the displacement where it begins, which therefore comes first.
-            for end, begin in (("landing", "jump_in"), ("separated", "jump_out")):
-                if end in missing:
+            for end in sorted(missing):
+                begin = None if missing[end].held else beginning_of(end)
+                if begin is not None:
                     missing = {begin: condensed[begin], **missing}
             self._solve(missing)
 
@@ -206,9 +208,9 @@ class UncondensedEvents:
         """
         self.prepare((functional,))
         condensed = _Condensed(self._path)
-        difference = functional(PointsAtEvents(condensed))
-        value = functional(PointsAtEvents(self._found))
-        left = abs(functional(PointsAtEvents(self._shifted)) - value)
+        difference = functional(PointsAtEvents(condensed, self._path))
+        value = functional(PointsAtEvents(self._found, self._path))
+        left = abs(functional(PointsAtEvents(self._shifted, self._path)) - value)
         states = [self._found[name].state for name in condensed]
         return UncondensedValue(
             value,
@@ -333,7 +335,3 @@ def _unit(solid: Solid, size: float, scaling: bool) -> tuple[Any, Any]:
     if scaling:
         return PowerLawModulus(1.0, 1.0, solid.modulus.depth_exponent), solid.poisson
     return scaled_modulus(solid.modulus, size), scaled_poisson(solid.poisson, size)
-
-
-def _energy(point: Point) -> float:
-    return point.branch.contact.energy(point.state.y)

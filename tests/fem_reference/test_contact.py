@@ -5,7 +5,7 @@ import pytest
 
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.controls import CentralGap, EdgeGap, EdgeRadius, GapRise, Size
-from fem_reference._contact.events import PathEvents
+from fem_reference._contact.events import PathEvents, energy_lost
 from fem_reference._contact.mesh_choice import MeshChoice
 from fem_reference._contact.mesh_lengths import balance_length
 from fem_reference._contact.newton import newton
@@ -15,7 +15,7 @@ from fem_reference._elastic.compliance import compliance_for
 from fem_reference._elastic.mesh import MeshSpec
 from fem_reference.accuracy import level_for
 from fem_reference.errors import NoSuchEvent, NotConverged
-from fem_reference.laws import LennardJones
+from fem_reference.laws import LennardJones, Mie
 from fem_reference.modulus import PowerLawModulus
 from fem_reference.problem import Problem
 from fem_reference.punch import CustomPunch, PowerPunch, radius_at_height
@@ -123,7 +123,7 @@ def test_hysteresis_is_the_area_between_the_branches():
     """Energy differences at the jumps against the area between the branches, by the trapezoidal rule."""
     events = PathEvents(traced(_contact(E0=0.35)))
     points, jump_in, jump_out = events.points, events.jump_in, events.jump_out
-    energy = events.jump_in_loss + events.jump_out_loss
+    energy = sum(energy_lost(events, jump) for jump in events.jumps)
     approach = [p for p in points if not p.branch.touching and p.parameter > jump_in.parameter] + [jump_in]
     retreat = [jump_out] + [p for p in points if p.edge_radius > jump_out.edge_radius]
     delta = np.linspace(jump_out.state.displacement, jump_in.state.displacement, 400)
@@ -162,6 +162,13 @@ def test_newton_refuses_a_hopeless_start():
     y = np.append(np.zeros(contact.unknowns), [50.0, 1.0])
     with pytest.raises(NotConverged, match="Newton stopped at a residual"):
         newton(contact, y, Size(1.0), CentralGap(-50.0))
+
+
+def test_newton_refuses_a_start_below_the_singular_gap_of_a_law_of_mie():
+    contact = _contact(law=Mie(1.0, 1.0, 12.0, 6.0))
+    y = np.append(np.zeros(contact.unknowns), [50.0, 1.0])
+    with pytest.raises(NotConverged, match="Newton stopped"):
+        newton(contact, y, Size(1.0), CentralGap(-0.5))
 
 
 def test_punch_shapes():

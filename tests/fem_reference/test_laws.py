@@ -48,6 +48,14 @@ def test_slope_energy_and_limits_belong_to_the_traction(law):
     assert float(law.traction(np.array(far))) * far**m == pytest.approx(-C, rel=1e-5)
 
 
+@pytest.mark.parametrize("name", ["traction", "slope", "energy"])
+def test_a_law_of_mie_has_no_value_below_its_singular_gap(name):
+    """A trial state may have such gaps; Newton's method then stops, and nothing is printed."""
+    law = Mie(WORK, RANGE, 12.0, 6.0)
+    gap = RANGE * np.array([-2.5, -1.0, -0.5, 0.0])
+    assert np.isfinite(getattr(law, name)(gap)).tolist() == [False, False, True, True]
+
+
 def test_the_energy_is_the_integral_of_the_traction():
     ends = RANGE * np.array([-0.3, 0.0, 1.0, 18.9, 40.0])
     for a, b in pairwise(ends):

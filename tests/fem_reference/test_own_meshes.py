@@ -68,6 +68,8 @@ def test_a_loss_of_two_edges_is_the_sum_of_both(monkeypatch):
         return {name: _solution(1e-8) for name in rows}
 
     monkeypatch.setattr(solution_module, "_solved_together", solved)
+    two = SimpleNamespace(jumps=(("jump_in", "landing"), ("jump_out", "separated")))
+    monkeypatch.setattr(solution_module, "path_over_meshes", lambda problem, accuracy: two)
     loss = solution_module._summed(GRADED, {"hysteresis_energy": TABLE["hysteresis_energy"]}, "default")
     assert requested == [list(LOSSES)]
     assert (loss["hysteresis_energy"].value, loss["hysteresis_energy"].u_num) == (2.0, 2e-8)

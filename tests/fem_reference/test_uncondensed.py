@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import partial
+from types import SimpleNamespace
 
 import numpy as np
 import pyamg
@@ -13,6 +14,7 @@ from fem_reference._contact.contact import Contact
 from fem_reference._contact.event_equations import EventEquations
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.full_system import FullSystem
+from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference._contact.tracing import traced
 from fem_reference._contact.uncondensed import UncondensedEvents
 from fem_reference._elastic.assembly import assemble_half_space
@@ -233,6 +235,21 @@ def test_the_end_of_a_jump_moves_with_its_beginning(soft_path):
     moved = shifted["jump_in"].y[-2] - beginning.y[-2]
     assert abs(moved) > 1e-8
     assert shifted["landing"].y[-2] - end.y[-2] == pytest.approx(moved, rel=1e-3)
+
+
+def test_the_end_of_a_further_jump_is_kept_on_any_mesh(soft_path):
+    """It begins at an edge for which the mesh is not fine, and is not looked for at its displacement."""
+    end = replace(soft_path.landing, held=True)
+    events = ResolvedEvents(SimpleNamespace(anchor=lambda event: (end, end.displacement_rate)), _soft_contact(1e-3))
+    found = events.at("landing_2")
+    assert found.held
+    assert found.parameter == end.parameter
+    assert found.state.displacement != end.state.displacement
+    equation = EventEquations("landing_2", end)
+    shifted = {"landing_2": equation.copy()}
+    shifted["landing_2"].shift(np.zeros(end.state.y.size - 2), None, shifted, {"landing_2": equation})
+    assert not equation.is_fold
+    assert np.array_equal(shifted["landing_2"].y, equation.y)
 
 
 def test_steps_that_rounding_keeps_from_falling_end_the_iteration(soft_path, soft_system, monkeypatch):

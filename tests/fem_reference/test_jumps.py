@@ -1,0 +1,188 @@
+"""All jumps of a cycle of approach and retreat, where the displacement has several pairs of folds."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicHermiteSpline
+
+import fem_reference.solution as solution_module
+from fem_reference import (
+    Coating,
+    LennardJones,
+    NoSuchEvent,
+    NotConverged,
+    PowerPunch,
+    Problem,
+    Solution,
+    solve_together,
+)
+from fem_reference._contact.events import PathEvents, energy_lost
+from fem_reference._contact.path import Point
+from fem_reference.depth_profiles import ExponentialModulus
+from fem_reference.quantities import LOSSES, TABLE, further_losses
+from tests.fem_reference.profile_solid import ProfileSolid
+
+PAIR = (-1.0, -3.0)
+#: Displacements of the turning points from outside to inside, and where the jumps begin, by these displacements.
+PATHS = {
+    "one pair": (PAIR, [-1.0], [-3.0]),
+    # As on a stiff film: the innermost fold is above the last one, and its jump lands between both.
+    "two jumps on retreat": ((-1.0, -2.0, -1.5, -5.0, -3.5, -4.0), [-1.0], [-4.0, -5.0]),
+    "three jumps on retreat": ((-1.0, -5.0, -2.0, -4.0, -2.5, -3.0), [-1.0], [-3.0, -4.0, -5.0]),
+    "a fold that the retreat passes over": ((-1.0, -3.0, -2.0, -5.0), [-1.0], [-5.0]),
+    "two jumps on approach": ((-3.0, -5.0, -1.0, -4.0), [-3.0, -1.0], [-4.0, -5.0]),
+    "a fold that the approach passes over": ((-1.0, -4.0, -2.0, -3.0), [-1.0], [-3.0, -4.0]),
+}
+
+
+class Branch:
+    """A branch with given turning points of the displacement at 1, 2, ... of the parameter, which is the state."""
+
+    touching = True
+
+    def __init__(self, turns):
+        t = np.arange(len(turns) + 2.0)
+        ends = [min(turns) - 2.0, *turns, max(turns) + 2.0]
+        self.displacement = CubicHermiteSpline(t, ends, [4.0, *np.zeros(len(turns)), 4.0])
+        self.contact = SimpleNamespace(law=SimpleNamespace(z0=1.0), energy=lambda y: self.work(y[0]))
+
+    def largest_step(self, parameter):
+        return math.inf
+
+    def load(self, t):
+        return 0.1 * t**2 - 2.0
+
+    def work(self, t):
+        """Integral of the load over the displacement."""
+        grid = np.linspace(0.0, t, 20001)
+        return float(np.trapezoid(self.load(grid) * self.displacement.derivative()(grid), grid))
+
+    def solve(self, t, y):
+        rate = float(self.displacement.derivative()(t))
+        y = np.array([t, 0.0])
+        state = SimpleNamespace(
+            displacement=float(self.displacement(t)),
+            displacement_rate=rate,
+            load=self.load(t),
+            load_rate=0.2 * t,
+            y=y,
+            rate=np.array([1.0, 0.0]),
+            size=1.0,
+            iterations=1,
+        )
+        return Point(self, float(t), state)
+
+
+def _events(turns):
+    branch = Branch(turns)
+    events = PathEvents([branch.solve(t, None) for t in np.linspace(0.05, len(turns) + 0.95, 9 * len(turns))])
+    # The samples of a spline are as close as they need to be.
+    vars(events)["points"] = events.samples
+    return events
+
+
+def _lost(turns, retreat):
+    """Energy lost by a displacement that falls or rises in small steps over all branches."""
+    branch = Branch(turns)
+    t = np.linspace(0.0, len(turns) + 1.0, 400001)
+    delta, load = branch.displacement(t), branch.load(t)
+    energy = np.concatenate([[0.0], np.cumsum(0.5 * (load[1:] + load[:-1]) * np.diff(delta))])
+    order = slice(None, None, -1) if retreat else slice(None)
+    sign = -1.0 if retreat else 1.0
+    level, energy = sign * delta[order], energy[order]
+    highest = np.maximum.accumulate(level)
+    # The state is where the displacement is beyond all of before; it jumps over the rest.
+    visited = np.flatnonzero(level >= highest)
+    gaps = np.flatnonzero(np.diff(visited) > 1)
+    return sum(float(energy[visited[i]] - energy[visited[i + 1]]) for i in gaps)
+
+
+@pytest.mark.parametrize("name", PATHS)
+def test_a_cycle_has_a_jump_for_each_fold_that_it_reaches(name):
+    turns, approach, retreat = PATHS[name]
+    events = _events(turns)
+    begin = {fold: events.at(fold).state.displacement for fold, _ in events.jumps}
+    assert sorted(begin.values()) == pytest.approx(sorted(approach + retreat))
+    assert (begin["jump_in"], begin["jump_out"]) == pytest.approx((approach[0], retreat[-1]))
+    for fold, end in events.jumps:
+        assert events.at(end).state.displacement == pytest.approx(begin[fold])
+        assert events.at(end).displacement_rate > 0.0
+        assert (events.at(end).parameter > events.at(fold).parameter) == fold.startswith("jump_in")
+
+
+@pytest.mark.parametrize("name", PATHS)
+def test_the_hysteresis_is_the_sum_over_all_jumps(name):
+    turns = PATHS[name][0]
+    events = _events(turns)
+    exact = _lost(turns, retreat=False) + _lost(turns, retreat=True)
+    assert TABLE["hysteresis_energy"].functional(events) == pytest.approx(exact, rel=1e-4)
+    both = energy_lost(events, ("jump_in", "landing")) + energy_lost(events, ("jump_out", "separated"))
+    assert (both == pytest.approx(exact, rel=1e-4)) is (len(events.jumps) == 2)
+
+
+def test_a_jump_that_the_cycle_does_not_have_is_told():
+    with pytest.raises(NoSuchEvent, match="jump_out_2"):
+        _events(PAIR).at("jump_out_2")
+
+
+def test_folds_that_cannot_be_told_apart_are_refused():
+    """On its own mesh the outer fold was lower, where the path has the inner one lower."""
+    events = _events((-1.0, -4.0, -2.0, -4.001))
+    vars(events)["jump_out"] = events.minima("jump_out")[0]
+    with pytest.raises(NotConverged, match="not decided"):
+        _ = events.jumps
+
+
+@pytest.mark.parametrize("error", [0.0, 1e-4])
+def test_the_parts_of_a_further_jump_are_its_loss(error):
+    """Also where the other mesh has the end of the jump at a slightly different displacement."""
+    events = _events(PATHS["two jumps on retreat"][0])
+    rows = further_losses(events)
+    assert {row.events for row in rows.values()} == {("jump_out_2",), ("separated_2",)}
+    end = events.at("separated_2")
+    moved = end.branch.solve(end.parameter + error, None)
+    meshes = {"jump_out_2": events, "separated_2": SimpleNamespace(at=lambda event: moved)}
+    parts = sum(row.functional(meshes[row.events[0]]) for row in rows.values())
+    assert parts == pytest.approx(energy_lost(events, ("jump_out_2", "separated_2")), abs=1e-7 + 10.0 * error**2)
+
+
+def test_two_jumps_have_no_further_parts():
+    assert further_losses(_events(PAIR)) == {}
+
+
+@pytest.mark.parametrize("name", ["one pair", "two jumps on retreat"])
+def test_the_loss_on_meshes_of_their_own_has_every_jump(name, monkeypatch):
+    """With the bounds of all parts."""
+    events, requested = _events(PATHS[name][0]), []
+
+    def solved(problem, rows, accuracy):
+        requested.extend(rows)
+        order = (1.0, 0.8, 0.6)
+        return {
+            row: Solution(quantity.functional(events), 1e-8, 1, 1, 0.0, 1.0, 6.0, 6.0, order, order, {"mesh": 1e-8})
+            for row, quantity in rows.items()
+        }
+
+    monkeypatch.setattr(solution_module, "_solved_together", solved)
+    monkeypatch.setattr(solution_module, "path_over_meshes", lambda problem, accuracy: events)
+    solid = ProfileSolid(ExponentialModulus(3.0, 1.0, 5.0), 0.1)
+    problem = Problem(solid, PowerPunch(2.0, 1.0), LennardJones(1.0, 1.0))
+    row = TABLE["hysteresis_energy"]
+    found = solution_module._summed(problem, {"hysteresis_energy": row}, "default")["hysteresis_energy"]
+    assert requested[:2] == list(LOSSES)
+    assert found.value == pytest.approx(row.functional(events))
+    assert found.u_num == pytest.approx(1e-8 * len(requested))
+    # A further jump has two parts.
+    assert len(requested) == 2 * len(events.jumps) - 2
+
+
+@pytest.mark.heavy
+def test_the_hysteresis_on_a_stiff_film_has_three_jumps():
+    """A film of 1 GPa on 1.5 MPa: the innermost fold is at -122.3 nm, and the jump out of contact at -135.4 nm."""
+    film = Coating(E_coating=1e9, E_substrate=1.5e6, thickness=1e-7, transition=0.0, nu_coating=0.4, nu_substrate=0.49)
+    problem = Problem(film, PowerPunch(2.0, 5e-6), LennardJones(0.05, 4e-10))
+    found = solve_together(problem, ("hysteresis_energy", *LOSSES), "quick")
+    further = found["hysteresis_energy"].value - sum(found[name].value for name in LOSSES)
+    assert further == pytest.approx(1.4542e-16, rel=1e-3)
