@@ -122,15 +122,18 @@ def newton(contact: Contact, y: Array, first: Control, second: Control) -> State
         K[:m] = contact.tangent(y)
         K[m], K[m + 1] = first.gradient(contact, y), second.gradient(contact, y)
         growth = float(np.abs(K[:m, :m]).sum(axis=1).max())
-        factors = linalg.lu_factor(K, overwrite_a=True, check_finite=False)
+        # Not lu_factor, which warns of a singular matrix: Newton stops there.
+        lu, pivots, singular = linalg.lapack.dgetrf(K, overwrite_a=True)
         size = float(np.abs(G[:m]).max()) / law.z0
         largest = float(np.abs(y[:m]).max()) / law.z0
         limit = NEWTON_TOLERANCE * (1.0 + largest)
-        step = linalg.lu_solve(factors, G, check_finite=False)
+        if singular:
+            break
+        step = linalg.lu_solve((lu, pivots), G, check_finite=False)
         settled = np.abs(step[: m + 1]).max() <= STEP_SHARE * limit * law.z0
         if settled and size <= max(limit, AMPLIFIED * largest * growth):
             parameter_rate = second.parameter_rate(contact, y) if isinstance(second, EdgeRadius) else 1.0
-            rate = parameter_rate * linalg.lu_solve(factors, np.eye(m + 2)[-1], check_finite=False)
+            rate = parameter_rate * linalg.lu_solve((lu, pivots), np.eye(m + 2)[-1], check_finite=False)
             slope = float(contact.load_gradient(y) @ rate)
             return State(y, contact.load(y), slope, rate, iteration, size)
         if not np.all(np.isfinite(step)):
