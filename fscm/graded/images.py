@@ -4,11 +4,12 @@ With E* = E/(1-nu^2) at the surface,
 
     D(xi) = xi C(xi) E*/2 = 1 - Re sum_j a_j exp(-xi d_j).
 
-Each exponential is a ring at the depth d_j (`fscm.graded.kernel`).  Depths are real, or complex with an argument of 45
+Each exponential is a ring at the depth d_j (`fscm.graded.kernel`).  Depths are real, or complex with an argument of 55
 degrees.  Real ones alone do not do: a stiff layer on a soft solid bends, D ~ 1/(1 + (xi/xi_0)^3), whose poles at
 xi_0 exp(+-i pi/3) have positive real parts, so that its Laplace transform grows, and strengths of 1e9 cancel.  On rays
-between 30 and 90 degrees the transform decays.  The depths are fixed; the a_j are the least-squares solution at many
-xi.  The error is measured there and in the middles between them.
+between 30 and 90 degrees the transform decays, and between 45 and 90 degrees that of a stiff layer on a thin soft one
+with something stiff below, D ~ xi/(1 + (xi/xi_0)^4).  The depths are fixed; the a_j are the least-squares solution at
+many xi.  The error is measured there and in the middles between them.
 """
 
 from __future__ import annotations
@@ -29,12 +30,16 @@ __all__ = ["Images", "images_of"]
 # Wave numbers of the fit: first and last, in units of the inverse of the deepest and of the shallowest change of the
 # constants, their number for each decade, and the larger one between these factors of the same.
 _LOW, _HIGH, _WAVES, _MANY, _AFTER, _BEFORE = 1e-10, 1e13, 10, 40, 0.01, 500.0
+# Longest wave, in units of the deepest change, and number for each decade at which the largest compliance is sought; at
+# longer ones it is that of the substrate.
+_SOFTEST, _FEW = 1e-6, 4
 # Depths of the images: from _SHALLOW of the inverse of the last wave number to _DEEP of that of the first; so many real
 # ones for each decade, and more from _FROM of the shallowest to _TO of the deepest change, where the complex ones are,
 # from _FROM_COMPLEX of the shallowest on.  Measured: error 1e-11 of D or less on sharp and smooth coatings with
-# contrasts of 1e-4 to 1e4, sums of the strengths below 4 D.
+# contrasts of 1e-4 to 1e4 and on three layers stiff, soft, stiff; 4e-10 on five.  With 45 degrees five layers have
+# 3e-8, with 60 a stiff coating 3e-10.
 _SHALLOW, _DEEP, _SPARSE, _DENSE, _FROM, _TO = 10.0, 10.0, 7, 10, 0.05, 30.0
-_FROM_COMPLEX, _COMPLEX, _RAY = 0.3, 20, cmath.exp(0.25j * math.pi)
+_FROM_COMPLEX, _COMPLEX, _RAY = 0.3, 20, cmath.exp(1j * math.radians(55.0))
 # Errors count relative to D, but not to a smaller one than this, and singular values below this share are left out.
 _RELATIVE, _SINGULAR = 1e-4, 3e-15
 # Longest distance that the images serve, in units of the deepest change, and its product with the first wave number:
@@ -55,11 +60,16 @@ def _spaced(low: float, high: float, density: float) -> Array:
 
 
 def _changes(solid: GradedHalfSpace) -> tuple[float, float]:
-    """Shallowest and deepest place at which the constants change; of a stiff layer the length over which it bends."""
+    """Shallowest and deepest place at which the constants change; of a stiff layer the length over which it bends.
+
+    That length grows with the third root of the largest compliance: at the longest waves on a soft solid, between them
+    and the thickness on a soft layer that has something stiff below.
+    """
     depths = [solid.length, *solid.interfaces]
-    deep = max(depths)
-    softest = 0.5 * contact_modulus(solid) * float(compliance(solid, np.array([_LOW / deep]))[0])
-    return min(depths), deep * max(1.0, softest) ** (1.0 / 3.0)
+    shallow, deep = min(depths), max(depths)
+    waves = np.append(_LOW / deep, _spaced(_SOFTEST / deep, 1.0 / shallow, _FEW))
+    softest = 0.5 * contact_modulus(solid) * float(np.max(compliance(solid, waves)))
+    return shallow, deep * max(1.0, softest) ** (1.0 / 3.0)
 
 
 @dataclass(frozen=True, eq=False)

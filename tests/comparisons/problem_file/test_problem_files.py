@@ -206,7 +206,7 @@ def test_a_coated_solid_by_both_references_on_the_coarsest_mesh(monkeypatch):
 
 def test_what_a_coated_solid_does_not_have_is_not_applicable():
     found = load_problem(EXAMPLES / "coated_solid.toml")
-    refused = evaluate_problem(found, "jkr", "pull_off_force")
+    refused = evaluate_problem(found, "atlas", "pull_off_force")
     assert refused.status == "not-applicable"
     assert "a coating solid" in refused.reason
     critical = evaluate_problem(found, "fscm", "critical_tabor_number")
