@@ -38,9 +38,10 @@ _SECOND_ORDER = 1.1
 _ERROR_STEP, _CURVATURE_STEP = 1e-3, 1e-4
 # Rate of the error of the response per unit of the continuation parameter, in units of the bound of that error.  The
 # error at the scale c is c int eps(xi) K(xi c) d(xi), and its derivative by log c the same integral of -xi eps'(xi):
-# measured worst 7.7 times the bound of eps, over a quarter of a decade, on a smooth coating (test_graded_kernel.py).
+# measured worst 7.7 and 11.3 times the bound of eps on two processors, over a quarter of a decade, on a smooth coating
+# (test_graded_kernel.py).
 # The pressure and the adjoint, which weigh it, change by about their sizes each.
-_KERNEL_RATE = 10.0
+_KERNEL_RATE = 14.0
 # Error that the finer mesh leaves of the difference of two states on one panel, in units of that of one of them times
 # the relative change of the pressure: a value of a power law of the gap, and its derivatives, change by a few times it.
 _CHANGE = 10.0

@@ -197,7 +197,7 @@ def test_an_interrupt_ends_the_cluster_without_a_word_of_it(tmp_path):
     assert process.returncode == 130
     _, safe, last = message.splitlines()
     assert "finished computations are safe" in safe
-    assert last == "fscm-bench: interrupted"
+    assert last == "python -m comparisons: interrupted"
     # The last process of the group to end is one of Python's own.
     while group_is_there(process.pid):
         time.sleep(0.01)
