@@ -1,9 +1,8 @@
 """Baseline: the committed results, as CSV with 17 digits so that every change is visible.
 
-``python -m comparisons.baseline FOLDER`` renews them from the folder of a finished ``fscm-bench run --recompute``,
+``python -m comparisons.baseline FOLDER`` renews them from the folder of a finished ``fscm-bench run``,
 ``fscm-bench paper`` or ``fscm-bench bench``.  A run of the quick tier gives the results, the curves, the largest errors
-and their pictures, and the values of the references that are shipped with the package
-(`comparisons.runs.shipped_values`).  A run of the full tier gives the agreement of the two references, of which the
+and their pictures.  A run of the full tier gives the agreement of the two references, of which the
 quick tier has a few cases only.  ``fscm-bench paper`` gives the figures of the paper, ``fscm-bench bench`` the
 benchmark.
 
@@ -35,31 +34,23 @@ from comparisons.data.file_names import (
 )
 from comparisons.paper import baseline as paper_baseline
 from comparisons.runs.atomic_files import atomic
-from comparisons.runs.code_files import solver_digest
 from comparisons.runs.committed import committed
 from comparisons.runs.csv_format import csv_text, read_csv
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.frames import rows_of
 from comparisons.runs.record import check_files, read_record
 from comparisons.runs.rows import PARAMETERS
-from comparisons.runs.shipped_values import write_shipped
 from comparisons.runs.tables import read_table
 
 __all__ = [
     "BASELINE",
-    "SHIPPED",
     "check",
     "drift",
     "read_baseline",
     "renew",
-    "ship",
 ]
 
 #: Folder of the committed results, in a clone of the repository.
 BASELINE = BASELINE_FOLDER
-
-#: Folder of the values of the references that are shipped with the package, in a clone of the repository.
-SHIPPED = Path("comparisons", "data", "shipped")
 
 _KEY = ["model", "quantity", *PARAMETERS]
 # Without the columns that depend on the machine or on the work done (seconds, iterations, residual).
@@ -91,10 +82,10 @@ def renew(folder: Path, target: Path = BASELINE) -> list[Path]:
     Raises
     ------
     ValueError
-        If it is no finished run, lacks a file, was changed, has other models or cases than the standing ones, or has
-        shipped values; nothing is changed then.
+        If it is no finished run, lacks a file, was changed, or has other models or cases than the standing ones;
+        nothing is changed then.
     """
-    record, tier = _computed_run(folder)
+    record, tier = _standing_run(folder)
     models = record["arguments"]["model"]
     if models is not None:
         raise ValueError(f"{folder} has the models {', '.join(models)} only: the baseline needs a run without --model")
@@ -114,44 +105,13 @@ def renew(folder: Path, target: Path = BASELINE) -> list[Path]:
     return [target / name for name in contents]
 
 
-def ship(folder: Path, target: Path = SHIPPED) -> list[Path]:
-    """Replace the shipped values of the references by those of a run of the quick tier; return the paths of the files.
-
-    Raises
-    ------
-    ValueError
-        As `renew`, and if the run was computed by other solvers than those that run now: its values would not be used.
-    """
-    record, tier = _computed_run(folder)
-    if tier != "quick":
-        raise ValueError(f"{folder} is a run of the {tier} tier; the values that are shipped are of the quick tier")
-    _check_solvers(record, folder)
-    stored = RunFolder(folder)
-    results, curves = (read_table(stored.parquet(stem)) for stem in (stored.results, stored.curves))
-    return write_shipped(record, rows_of(results, curves), target)
-
-
-def _check_solvers(record: dict[str, Any], folder: Path) -> None:
-    """Refuse a run that was computed by other solvers than those that run now."""
-    if record["package"].get("solvers_sha256") != solver_digest():
-        raise ValueError(
-            f"{folder} was computed by other solvers than those that run now (their SHA-256 differ), so that its "
-            "values would not be used: repeat `fscm-bench run --recompute`"
-        )
-
-
-def _computed_run(folder: Path) -> tuple[dict[str, Any], str]:
-    """Return the record of a run that has computed all its results, and its tier."""
+def _standing_run(folder: Path) -> tuple[dict[str, Any], str]:
+    """Return the record of a run of the standing cases, and its tier."""
     record = read_record(RunFolder(folder).record)
     check_files(record, folder)
     tier = record["arguments"].get("tier")
     if tier is None:
         raise ValueError(f"{folder} is not the folder of a run of the standing cases: give one of `fscm-bench run`")
-    if "shipped" in record:
-        raise ValueError(
-            f"{folder} has {record['rows']['shipped']} values that came with the package, so that it does not test the "
-            "solvers: give the folder of `fscm-bench run --recompute`"
-        )
     return record, str(tier)
 
 
@@ -199,7 +159,7 @@ def drift(stored: pd.DataFrame, computed: pd.DataFrame) -> pd.DataFrame:
 
 
 def check(folder: Path) -> pd.DataFrame:
-    """Return the results of a run with ``--recompute`` that differ from the committed ones, as `drift` does.
+    """Return the results of a run that differ from the committed ones, as `drift` does.
 
     A run of the quick tier is compared with `read_baseline`, one of the full tier with the committed agreement of both
     references.
@@ -207,9 +167,9 @@ def check(folder: Path) -> pd.DataFrame:
     Raises
     ------
     ValueError
-        If it is no finished run with ``--recompute``, or a file of it was changed.
+        If it is no finished run, or a file of it was changed.
     """
-    _, tier = _computed_run(folder)
+    _, tier = _standing_run(folder)
     if tier == "quick":
         return drift(read_baseline()[0], read_table(RunFolder(folder).parquet(RunFolder(folder).results)))
     stored, computed = (
@@ -262,11 +222,7 @@ def _task(arguments: Sequence[str]) -> int:
     elif of_paper:
         renewed = f"{len(paper_baseline.renew(args.folder))} files of {paper_baseline.PAPER_BASELINE}"
     else:
-        record, tier = _computed_run(args.folder)
-        if tier == "quick":
-            _check_solvers(record, args.folder)
-        written = renew(args.folder) + (ship(args.folder) if tier == "quick" else [])
-        renewed = ", ".join(map(str, written))
+        renewed = ", ".join(map(str, renew(args.folder)))
     print(f"{args.folder} renewed {renewed}; nothing else was changed.")
     return 0
 

@@ -114,7 +114,6 @@ def methods(record: Mapping[str, Any], references: Mapping[str, float]) -> str:
         if name in models
     ]
     rows = record["rows"]
-    shipped = f", of which {rows['shipped']} are shipped with fscm-bench" if rows.get("shipped") else ""
     dependencies = record["dependencies"]
     libraries = ", ".join(
         f"{name} {dependencies[package]}"
@@ -127,7 +126,7 @@ def methods(record: Mapping[str, Any], references: Mapping[str, float]) -> str:
         f"The reference is {_listed(bounds)}." if bounds else "",
         "Errors are kappa = (model - reference) / |reference|; the bounds on the numerical errors of model and "
         "reference add to the bound on kappa.",
-        f"There are {rows['all']} results{shipped}.",
+        f"There are {rows['all']} results.",
         f"The verdict over all gates is {verdict}." if verdict else "",
         f"The run began on {record['started'][:10]} and used Python {record['python']}, {libraries}.",
     ]

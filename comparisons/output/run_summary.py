@@ -189,7 +189,7 @@ def computations_sentence(counts: Mapping[str, int]) -> str:
     >>> computations_sentence({"all": 12, "resumed": 0, "ok": 8, "not-applicable": 4})
     '12 results: 8 ok, 4 not-applicable'
     """
-    others = ("all", "resumed", "shipped")
+    others = ("all", "resumed")
     statuses = ", ".join(f"{count} {name}" for name, count in counts.items() if name not in others)
     return f"{counts['all']} results: {statuses}" if statuses else "no results"
 

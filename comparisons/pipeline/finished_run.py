@@ -16,7 +16,6 @@ from comparisons.pipeline.inputs import Cases, Gates, RunInputs, names_of_inputs
 from comparisons.pipeline.judgement import Judgement, judge_and_write
 from comparisons.pipeline.record_content import record_content
 from comparisons.pipeline.report_cards import make_cards
-from comparisons.pipeline.results import Results
 from comparisons.pipeline.tables import RunTables, make_tables, write_pictures, write_tables
 from comparisons.registry import ExternalIdentity, create
 from comparisons.runs.atomic_files import atomic
@@ -38,7 +37,7 @@ class FinishedRun:
         With the files of the run.
     tables : RunTables
     counts : dict of str to int
-        Numbers of rows: all, resumed, shipped if there are any, and by status.
+        Numbers of rows: all, resumed, and by status.
     failures : tuple of Row
         The rows of computations that failed.
     judgement : Judgement or None
@@ -58,7 +57,7 @@ class FinishedRun:
 
 
 def write_run(
-    target: RunFolder, inputs: RunInputs, found: Results, arguments: Mapping[str, Any], started: str
+    target: RunFolder, inputs: RunInputs, completed: Completed, arguments: Mapping[str, Any], started: str
 ) -> FinishedRun:
     """Write what follows from the rows of a run into its folder: tables, pictures, verdicts and the record.
 
@@ -66,7 +65,7 @@ def write_run(
     ----------
     target : RunFolder
     inputs : RunInputs
-    found : Results
+    completed : Completed
         The rows.
     arguments : mapping
         How they were computed, as the record holds it beside the inputs.
@@ -75,7 +74,7 @@ def write_run(
     """
     chosen, rules, chosen_models, external = inputs.cases, inputs.gates, inputs.models, inputs.external
     texts = kept_texts(target, chosen, rules)
-    completed, rows = found.completed, found.rows
+    rows = completed.rows
     tables = make_tables(rows, chosen, chosen_models)
     write_tables(tables, target)
     if chosen.tier is not None:
@@ -92,8 +91,7 @@ def write_run(
         judgement = judge_and_write(target, inputs, tables.results, tables.curves, cards)
     stale = {GRID_TEXT} if rules is not None else {GATES_TEXT, *VERDICT_FILES}
     _remove_stale(target, {*stale, *COMPARISON_FILES}, texts)
-    shipped = {"shipped": len(found.shipped)} if found.shipped else {}
-    counts = {"all": len(rows), "resumed": completed.resumed, **shipped, **_statuses(rows)}
+    counts = {"all": len(rows), "resumed": completed.resumed, **_statuses(rows)}
     content = record_content(
         "sweep" if rules is None else "run",
         {
@@ -108,12 +106,10 @@ def write_run(
         started=started,
         parts=completed.parts,
         rows=counts,
-        seconds=_seconds(completed.rows),
+        seconds=_seconds(rows),
         verdicts=judgement.counts if judgement else {},
     )
     content |= _digests(chosen, rules) | _evaluated_again(completed)
-    if found.entry:
-        content["shipped"] = found.entry
     content["models"] = described({task.model for task in inputs.plan()}, external)
     content |= {"domains": {name: domain.as_json() for name, domain in inputs.domains.items()}}
     content |= {"cards": cards} if cards else {}

@@ -15,7 +15,6 @@ from comparisons.model import ComputationFailed
 from comparisons.pipeline.finished_run import FinishedRun, write_run
 from comparisons.pipeline.inputs import RunInputs, stored_cases
 from comparisons.pipeline.record_content import now
-from comparisons.pipeline.results import Results
 from comparisons.pipeline.shard_folders import checked_records, take_rows
 from comparisons.registry import ExternalIdentity
 from comparisons.runs.atomic_files import atomic, prepare_folder
@@ -75,7 +74,7 @@ def merge(folders: Sequence[Path], out: Path) -> FinishedRun:
         )
     completed = Completed(rows, len(rows), parts_of(journal, rows), None)
     arguments = {"jobs": 1, "merged": [str(folder) for folder in records]}
-    return write_run(target, inputs, Results(completed, [], {}), arguments, started)
+    return write_run(target, inputs, completed, arguments, started)
 
 
 def _common(record: Mapping[str, Any]) -> dict[str, Any]:

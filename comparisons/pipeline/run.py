@@ -13,10 +13,9 @@ from comparisons.judging.fresh_cases import FreshCases, draw
 from comparisons.pipeline.finished_run import FinishedRun, kept_texts, write_run
 from comparisons.pipeline.inputs import Cases, Gates, RunInputs, domains_of, load_cases, read_gates
 from comparisons.pipeline.record_content import now
-from comparisons.pipeline.results import results
 from comparisons.registry import identify
 from comparisons.runs.backends import backend_of
-from comparisons.runs.computation import checked_jobs, folder_for
+from comparisons.runs.computation import checked_jobs, complete, folder_for
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.shards import Shard
 
@@ -34,7 +33,6 @@ def run(
     *,
     jobs: int = 1,
     retry_failed: bool = False,
-    recompute: bool = False,
     backend: str = "processes",
     scheduler: str | None = None,
     shard: str | None = None,
@@ -43,8 +41,8 @@ def run(
 ) -> FinishedRun:
     """Compute cases, judge the results, and write tables, verdicts and the record into a folder.
 
-    What the folder holds already is not computed again, and in the standing cases neither is what is shipped with the
-    package.  With models and gates, only the results that the gates need are computed.
+    What the folder holds already is not computed again.  In the standing cases with chosen models or gates, only the
+    results that the gates need are computed, and otherwise all: they are then the purpose.
 
     Parameters
     ----------
@@ -61,8 +59,6 @@ def run(
         Number of processes.  With more than one, a script needs the guard ``if __name__ == "__main__":``.
     retry_failed : bool
         Whether stored failures are computed again.
-    recompute : bool
-        Whether the values of the references are computed although they are shipped.
     backend : str
         Where it is computed: "processes" of this machine, or "dask" for a Dask cluster.
     scheduler : str, optional
@@ -84,7 +80,7 @@ def run(
     ValueError
         If an argument is not admissible, or the folder holds results of other code or files of a user.
     comparisons.model.ComputationFailed
-        If the workers cannot compute, or a shipped value is not confirmed.
+        If the workers cannot compute.
 
     Examples
     --------
@@ -122,15 +118,9 @@ def run(
     kept_texts(target, chosen, rules)
     inputs = RunInputs(chosen, rules, chosen_models, external, domains, fresh)
     tasks = inputs.plan() if part is None else part.of(inputs.plan())
-    found = results(
-        tasks,
-        inputs,
-        target.path,
-        jobs=jobs,
-        retry_failed=retry_failed,
-        recompute=recompute,
-        backend=workers,
-    )
+    by_gates = chosen.tier is not None and (chosen_models is not None or gates is not None)
+    needed = (lambda rows: inputs.needed({row.key: row.status for row in rows})) if by_gates else None
+    completed = complete(tasks, target.path, jobs, retry_failed, workers, needed)
     others: dict[str, str | int | None] = {
         "backend": None if backend == "processes" else backend,
         "scheduler": scheduler,
@@ -139,7 +129,7 @@ def run(
         "seed": fresh.seed if fresh else None,
     }
     arguments = {"jobs": jobs, **{name: value for name, value in others.items() if value is not None}}
-    return write_run(target, inputs, found, arguments, start)
+    return write_run(target, inputs, completed, arguments, start)
 
 
 def _fresh(

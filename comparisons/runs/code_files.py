@@ -1,4 +1,4 @@
-"""Digests of code: of all files that numbers depend on, and of those that the values of the references depend on."""
+"""Files of code that numbers depend on, and their digest."""
 
 from __future__ import annotations
 
@@ -7,29 +7,13 @@ import os
 from collections.abc import Iterable
 from pathlib import Path
 
-__all__ = ["CODE", "NOT_INSTALLED", "SOLVER_MODULES", "code_in", "files_digest", "solver_digest"]
+__all__ = ["CODE", "NOT_INSTALLED", "code_in", "files_digest"]
 
 #: Suffixes of the files that numbers depend on.
 CODE = {".py", ".toml"}
 
-#: Folders of a clone that a wheel has not, or has elsewhere.
+#: Folders that are not installed, or elsewhere.
 NOT_INSTALLED = tuple(Path("comparisons", name) for name in ("build_step", "pytest_entry", "start_entry"))
-
-#: Modules of `comparisons` on which the values of the references depend: what importing their two models loads.
-SOLVER_MODULES = (
-    "model.py",
-    "models/fem_model.py",
-    "models/fscm_model.py",
-    "models/gibson_limit.py",
-    "models/solver.py",
-    "numerics/curve_distance.py",
-    "numerics/grid_convergence.py",
-    "quantities/__init__.py",
-    "quantities/points.py",
-    "quantities/quantity.py",
-)
-#: Folder of the atlas, which is fitted to values of the solver and changes none.
-_ATLAS = Path("fscm", "interpolation")
 
 
 def code_in(folder: Path) -> list[Path]:
@@ -54,21 +38,3 @@ def files_digest(root: Path, paths: Iterable[Path]) -> str:
             digest.update(f"{path.relative_to(root).as_posix()}\0".encode())
             digest.update(path.read_bytes())
     return digest.hexdigest()
-
-
-def solver_digest(root: Path | None = None) -> str:
-    """Return the SHA-256 of the files under `root` (by default, those that run) that fix the references' values.
-
-    These are both solvers without the atlas, and the modules of `comparisons` that pose their problems and scale their
-    results.  The judge and the pages change no value, so that they do not count.  The versions of NumPy and SciPy do
-    not either: with others the values agree within their bounds, of which every run checks a few.
-
-    Examples
-    --------
-    >>> len(solver_digest())
-    64
-    """
-    root = root or Path(__file__).resolve().parents[2]
-    packages = [path for package in ("fscm", "fem_reference") for path in code_in(root / package)]
-    packages = [path for path in packages if path.parent != root / _ATLAS]
-    return files_digest(root, [*packages, *(root / "comparisons" / name for name in SOLVER_MODULES)])

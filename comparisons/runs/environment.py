@@ -24,7 +24,7 @@ from urllib.request import url2pathname
 
 from threadpoolctl import threadpool_info
 
-from comparisons.runs.code_files import NOT_INSTALLED, code_in, files_digest, solver_digest
+from comparisons.runs.code_files import NOT_INSTALLED, code_in, files_digest
 
 __all__ = [
     "code_digest",
@@ -137,7 +137,6 @@ def environment() -> dict[str, Any]:
             "name": DISTRIBUTION,
             "version": package_version(),
             "code_sha256": digest,
-            "solvers_sha256": solver_digest(),
             "fingerprint": fingerprint(digest),
             **_commit(digest),
         },

@@ -21,7 +21,6 @@ from comparisons.registry import MODELS
 from comparisons.runs import environment
 from comparisons.runs.cases import load_grids
 from comparisons.runs.environment import code_digest as code
-from comparisons.runs.environment import solver_digest as solvers
 
 
 class Toy:
@@ -115,7 +114,7 @@ def code_read_once():
 
     A test that gives the package another folder, or the functions of this module other results, has these.
     """
-    running, code_digest, solver_digest = Path(comparisons.__file__).parents[1], cache(code), cache(solvers)
+    running, code_digest = Path(comparisons.__file__).parents[1], cache(code)
     once = cache(environment.environment)
 
     def of_record():
@@ -128,7 +127,6 @@ def code_read_once():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(environment, "version", cache(environment.version))
         patch.setattr(environment, "code_digest", code_of)
-        patch.setattr(environment, "solver_digest", solver_digest)
         patch.setattr(record_content, "environment", of_record)
         yield
 

@@ -7,14 +7,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from comparisons.baseline import BASELINE, SHIPPED, main, renew, ship
+from comparisons.baseline import BASELINE, main, renew
 from comparisons.numerics.bounds import combined
 from comparisons.runs.csv_format import read_csv
 from comparisons.runs.environment import computing_environment, environment
 from comparisons.runs.frames import curve_frame, frame
 from comparisons.runs.record import read_record, write_record
 from comparisons.runs.rows import Row
-from comparisons.runs.shipped_values import load_shipped
 from comparisons.runs.tables import write_curves, write_results
 
 COMMITTED = Path(__file__).parents[2] / BASELINE
@@ -248,60 +247,6 @@ def test_a_run_of_chosen_gates_is_refused(tmp_path, target):
     with pytest.raises(ValueError, match=r"what the gates of mine\.toml need"):
         renew(run, target)
     assert renewed(target) == set()
-
-
-def with_shipped_values(run):
-    """The run, as if one of its values had come with the package."""
-    record = read_record(run / "run.json")
-    record["rows"]["shipped"] = 1
-    record["shipped"] = {
-        "rows": [{"model": "fscm", "quantity": "pull_off_force", "cases": ["n = 2, k = 0.4, mu = 1"]}],
-        "origin": {
-            "solvers_sha256": "0" * 64,
-            "package": {},
-            "parts": record["parts"],
-            "dependencies": {},
-        },
-        "evaluated_again": {"seed": 1, "models": {}},
-    }
-    write_record(record, run / "run.json")
-    return run
-
-
-def test_a_run_with_shipped_values_tests_no_solver(tmp_path, target, capsys):
-    run = with_shipped_values(made_up(tmp_path / "run", "quick"))
-    with pytest.raises(ValueError, match="1 values that came with the package"):
-        renew(run, target)
-    assert renewed(target) == set()
-    assert main(["--check", str(run)]) == 2
-    assert "give the folder of `fscm-bench run --recompute`" in capsys.readouterr().err
-
-
-def test_one_command_ships_the_values_of_a_run(tmp_path, monkeypatch, capsys):
-    run, clone = made_up(tmp_path / "run", "quick"), tmp_path / "clone"
-    clone.mkdir()
-    monkeypatch.chdir(clone)
-    assert main([str(run)]) == 0
-    assert str(SHIPPED / "results.csv") in capsys.readouterr().out
-    shipped = load_shipped(clone / SHIPPED)
-    assert {(row.quantity, row.value) for row in shipped.rows.values()} == {
-        ("pull_off_force", 1.5),
-        ("force_curve", None),
-    }
-
-
-def test_values_of_other_solvers_are_not_shipped(tmp_path, monkeypatch, capsys):
-    run, clone = made_up(tmp_path / "run", "quick"), tmp_path / "clone"
-    monkeypatch.setattr("comparisons.baseline.solver_digest", lambda: "f" * 64)
-    clone.mkdir()
-    monkeypatch.chdir(clone)
-    assert main([str(run)]) == 2
-    assert "computed by other solvers" in capsys.readouterr().err
-    assert list(clone.iterdir()) == []
-    with pytest.raises(ValueError, match="computed by other solvers"):
-        ship(run, clone / SHIPPED)
-    with pytest.raises(ValueError, match="of the quick tier"):
-        ship(made_up(tmp_path / "full", "full"), clone / SHIPPED)
 
 
 # The parser that older versions of pandas take by default is wrong in the last digit, which is much of a difference.

@@ -70,11 +70,6 @@ def add(parser: argparse.ArgumentParser) -> None:
     add_jobs(parser)
     add_out(parser)
     add_retry_failed(parser)
-    parser.add_argument(
-        "--recompute",
-        action="store_true",
-        help="compute the values of fscm and fem that are shipped with this program, too",
-    )
     add_verbose(parser)
     add_quiet(parser)
 
@@ -97,7 +92,6 @@ def call(args: argparse.Namespace) -> int:
                 args.out,
                 jobs=args.jobs,
                 retry_failed=args.retry_failed,
-                recompute=args.recompute,
                 random=args.random,
                 seed=args.seed,
             )

@@ -154,10 +154,8 @@ def _summary(stored: Stored) -> str:
         return f"The folder holds {rows} computations. Models: {', '.join(names) or 'none'}."
     models = stored.record["arguments"]["model"]
     candidates = ", ".join(models if models is not None else sorted(set(stored.summary["candidate"]))) or "none"
-    shipped = stored.record["rows"].get("shipped")
-    of_package = f", {shipped} of them shipped with fscm-bench" if shipped else ""
     tier = stored.record["arguments"]["tier"]
-    size = f"The run{f' of the {tier} tier' if tier else ''} has {rows} results{of_package}."
+    size = f"The run{f' of the {tier} tier' if tier else ''} has {rows} results."
     gates, cases = without_card_gates(stored.summary), without_card_gates(stored.verdicts)
     if gates.empty:
         return f"{size} No gate was evaluated, which is an error and not a pass. Candidates: {candidates}."

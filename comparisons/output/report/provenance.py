@@ -52,28 +52,12 @@ def record_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
         ("BLAS", "; ".join(f"{one['library']} {one['version']}, {one['threads']} threads" for one in record["blas"])),
     ]
     facts += [(f"part {number} of the computations", _pairs(part)) for number, part in enumerate(record["parts"], 1)]
-    if "shipped" in record:
-        facts += _shipped(record["shipped"], record["rows"]["shipped"])
     if "judged_by_other_code" in record:
         facts.append(("judged by other code", record["judged_by_other_code"]))
     if "judged_again" in record:
         again = record["judged_again"]
         facts.append(("judged again", f"by {again['gates']}, SHA-256 {again['gates_sha256']}"))
     return facts
-
-
-def _shipped(shipped: dict[str, Any], count: int) -> list[tuple[str, str]]:
-    """Return the facts about the values that came with the package."""
-    again = shipped["evaluated_again"]
-    tasks = [f"{model} {_pairs(task)}" for model, one in again["models"].items() for task in one["tasks"]]
-    return [
-        ("shipped values", f"{count}, solvers {shipped['origin']['solvers_sha256']}"),
-        *(
-            (f"part {number} of the shipped values", _pairs(part))
-            for number, part in enumerate(shipped["origin"]["parts"], 1)
-        ),
-        (f"shipped values computed again (seed {again['seed']})", "; ".join(tasks)),
-    ]
 
 
 def _pairs(content: dict[str, Any]) -> str:
