@@ -52,5 +52,5 @@ class _OneThread:
                     self._limiter.__exit__(kind, error, at)
 
 
+#: Use as ``with one_thread:`` around a computation.
 one_thread = _OneThread()
-"""Use as ``with one_thread:`` around a computation."""

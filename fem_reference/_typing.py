@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 __all__ = ["Array", "Index"]
 
+#: Of numbers.
 Array = NDArray[np.float64]
-"""Of numbers."""
 
+#: Of positions in another array.
 Index = NDArray[np.intp]
-"""Of positions in another array."""

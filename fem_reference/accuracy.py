@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 __all__ = ["ACCURACIES", "Level", "coarser_accuracy", "finer_levels", "level_for", "relative_error"]
 
+#: Names of accuracies. Measured for n = 2 and the 9-3 law: the pull-off force has these relative errors. The bound
+#: `u_num` is larger: it is the sum of what other meshes show.
 ACCURACIES = {"quick": 1e-6, "default": 1e-7, "fine": 1e-8}
-"""Names of accuracies.  Measured for n = 2 and the 9-3 law: the pull-off force has these relative errors.  The bound
-`u_num` is larger: it is the sum of what other meshes show."""
 
+#: Accuracies are below it: a relative error of one leaves no digit.
 LARGEST = 1.0
-"""Accuracies are below it: a relative error of one leaves no digit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,15 +47,15 @@ def relative_error(accuracy: float | str) -> float:
     1e-06
     """
     finest = min(_LEVELS)
-    known = ", ".join(f"{name!r} ({number:g})" for name, number in ACCURACIES.items())
+    choices = ", ".join(f"{name!r} ({number:g})" for name, number in ACCURACIES.items())
     if isinstance(accuracy, str):
         if accuracy not in ACCURACIES:
-            raise ValueError(f"accuracy {accuracy!r} is unknown; choose one of {known}, or a number")
+            raise ValueError(f"accuracy {accuracy!r} is unknown; choose one of {choices}, or a number")
         return ACCURACIES[accuracy]
     if isinstance(accuracy, bool) or not isinstance(accuracy, (int, float)) or not finest <= accuracy < LARGEST:
         raise ValueError(
             f"accuracy {accuracy!r} is outside [{finest:g}, {LARGEST:g}): it is the relative error asked for, and "
-            f"finer meshes have not been verified; choose such a number, or one of {known}"
+            f"finer meshes have not been verified; choose such a number, or one of {choices}"
         )
     return float(accuracy)
 
@@ -89,8 +89,8 @@ def level_for(accuracy: float | str) -> Level:
     coarse, fine = min(n for n in _LEVELS if n > number), max(n for n in _LEVELS if n < number)
     share = math.log(coarse / number) / math.log(coarse / fine)
     pairs = zip(_LEVELS[coarse].densities, _LEVELS[fine].densities, strict=True)
-    first, second, third = (a * (b / a) ** share for a, b in pairs)
-    return Level(ORDER, (first, second, third))
+    coarsest, medium, finest = (a * (b / a) ** share for a, b in pairs)
+    return Level(ORDER, (coarsest, medium, finest))
 
 
 def coarser_accuracy(accuracy: float | str) -> tuple[float, str] | None:

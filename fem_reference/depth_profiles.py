@@ -17,11 +17,11 @@ from fem_reference.poisson import check_poisson
 
 __all__ = ["ExponentialModulus", "TableModulus", "TablePoisson"]
 
+#: Rows of a table up to which each is a mesh line, where the interpolation has a jump of its second derivative.
 MOST_LINES = 64
-"""Rows of a table up to which each is a mesh line, where the interpolation has a jump of its second derivative."""
 
+#: Ratio of neighbouring moduli of a table from which on elements are as short as the distance of the two rows.
 STEEP = 1.25
-"""Ratio of neighbouring moduli of a table from which on elements are as short as the distance of the two rows."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,12 +31,12 @@ from fem_reference.poisson import poisson_at
 __all__ = ["Field", "contact_field", "draw", "write_vtu"]
 
 
+#: Sample points an element side; stresses are those of the order-6 element, the picture is linear between.
 SAMPLES = 4
-"""Sample points an element side; stresses are those of the order-6 element, the picture is linear between."""
 
+#: Samples keep this share of an element away from its sides: on the axis u_r / r is 0/0, at the surface of a graded
+#: solid the strain u_z,z ~ z^-k is unbounded while the stress is not.
 SURFACE_OFFSET = 1e-6
-"""Samples keep this share of an element away from its sides: on the axis u_r / r is 0/0, at the surface of a
-graded solid the strain u_z,z ~ z^-k is unbounded while the stress is not."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -172,7 +172,7 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
             c * np.stack([s.ravel(), zeta.ravel()], axis=1),
             _cells(body.mesh.nelements),
             np.stack([ur.ravel(), uz.ravel()], axis=1),
-            np.stack([part.ravel() for part in stress], axis=1),
+            np.stack([component.ravel() for component in stress], axis=1),
             E.ravel(),
             gap,
             contact.law.traction(gap),
@@ -182,16 +182,16 @@ def contact_field(solid: Any, spec: MeshSpec, point: Point) -> Field:
 def _at_surface(elements: int, depth: Array) -> NDArray[np.bool_]:
     """Whether a sample is on the side of an element that is part of the surface."""
     side = np.zeros((elements, SAMPLES, SAMPLES), bool)
-    first = np.asarray(depth).reshape(elements, SAMPLES, SAMPLES)
+    depths = np.asarray(depth).reshape(elements, SAMPLES, SAMPLES)
     # The samples of the surface are off it by a share of their element.
-    side[:] = np.abs(first) <= 2.0 * SURFACE_OFFSET * np.ptp(first, axis=(1, 2), keepdims=True)
+    side[:] = np.abs(depths) <= 2.0 * SURFACE_OFFSET * np.ptp(depths, axis=(1, 2), keepdims=True)
     return side.ravel()
 
 
 def _cells(elements: int) -> Index:
     corner = np.arange(SAMPLES * SAMPLES).reshape(SAMPLES, SAMPLES)
-    one = np.stack([corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]], axis=-1).reshape(-1, 4)
-    return (one[None] + (SAMPLES * SAMPLES * np.arange(elements))[:, None, None]).reshape(-1, 4)
+    unit = np.stack([corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]], axis=-1).reshape(-1, 4)
+    return (unit[None] + (SAMPLES * SAMPLES * np.arange(elements))[:, None, None]).reshape(-1, 4)
 
 
 def write_vtu(field: Field, path: str | Path) -> None:

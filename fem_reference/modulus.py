@@ -90,8 +90,8 @@ def interfaces_of(profile: object) -> tuple[Interface, ...]:
     >>> interfaces_of(PowerLawModulus(1.0, 1.0, 0.4))
     ()
     """
-    found: tuple[Interface, ...] = getattr(profile, "interfaces", ())
-    return tuple(sorted(found, key=lambda interface: interface.depth))
+    declared: tuple[Interface, ...] = getattr(profile, "interfaces", ())
+    return tuple(sorted(declared, key=lambda interface: interface.depth))
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,16 +11,16 @@ from fem_reference.modulus import Modulus
 
 __all__ = ["check_exponents", "positive_modulus"]
 
+#: Depths, relative to the one over which E leaves its surface law, between which its exponents are measured.
 SHALLOW, DEEP = (1e-14, 1e-12), (1e6, 1e8)
-"""Depths, relative to the one over which E leaves its surface law, between which its exponents are measured."""
 
+#: Largest difference of the surface exponent from the one measured. The chart of the first layer has z^(1-k) for the
+#: declared k (measured with an exponent that is 1e-3 too small: the pull-off force moves by 1e-8).
 SURFACE_TOLERANCE = 1e-3
-"""Largest difference of the surface exponent from the one measured.  The chart of the first layer has z^(1-k) for the
-declared k (measured with an exponent that is 1e-3 too small: the pull-off force moves by 1e-8)."""
 
+#: Largest difference of the exponent at depth, which many moduli approach slowly. The mesh is extended until the
+#: exterior matters little, whatever its exponent.
 DEPTH_TOLERANCE = 0.02
-"""Largest difference of the exponent at depth, which many moduli approach slowly.  The mesh is extended until the
-exterior matters little, whatever its exponent."""
 
 
 def positive_modulus(modulus: Modulus, z: Array) -> Array:

@@ -16,8 +16,8 @@ __all__ = ["CoatingPoisson", "CustomPoisson", "PoissonRatio", "check_poisson", "
 
 REMEDY = "displacement elements cannot keep the volume; take nu = 0.499 or less"
 
+#: Depths, relative to a length of the solid, between which a ratio is examined, and how many of them.
 DEPTHS = 1e-12, 1e12, 2000
-"""Depths, relative to a length of the solid, between which a ratio is examined, and how many of them."""
 
 
 @runtime_checkable

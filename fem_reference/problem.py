@@ -12,15 +12,15 @@ from fem_reference.solids import Solid
 
 __all__ = ["Problem"]
 
+#: Height, in lengths of the law, at which the growth of the punch is measured.
 FAR = 1e4
-"""Height, in lengths of the law, at which the growth of the punch is measured."""
 
+#: Largest relative difference of a declared growth from the one measured at `FAR`. A shape may still approach its power
+#: there: r^2 + r is off by 1 % at a height of 1e4 of its own units.
 GROWTH_TOLERANCE = 0.05
-"""Largest relative difference of a declared growth from the one measured at `FAR`.  A shape may still approach its
-power there: r^2 + r is off by 1 % at a height of 1e4 of its own units."""
 
+#: The load integral of p ~ r^(-m growth) times r dr converges if m growth exceeds this.
 LOAD_INTEGRAL = 2.0
-"""The load integral of p ~ r^(-m growth) times r dr converges if m growth exceeds this."""
 
 
 @dataclass(frozen=True, slots=True)

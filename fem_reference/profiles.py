@@ -13,8 +13,8 @@ from fem_reference._validation import check_positive
 
 __all__ = ["MeasuredPunch", "PowerSum", "RoundedCone"]
 
+#: Relative change of the slope at a point of a profile below which there is no kink.
 STRAIGHT = 1e-12
-"""Relative change of the slope at a point of a profile below which there is no kink."""
 
 
 def _tuple_of(name: str, values: Sequence[float]) -> tuple[float, ...]:
@@ -193,5 +193,5 @@ class MeasuredPunch:
         """df/dr, shape of `r`; at a kink that of the outer side."""
         x, end = np.asarray(r, float), self.radii[-1]
         slopes = np.append(np.diff(self.heights) / np.diff(self.radii), self.growth * self.heights[-1] / end)
-        part = np.searchsorted(self.radii, x, side="right") - 1
-        return slopes[part] * np.maximum(x / end, 1.0) ** (self.growth - 1.0)
+        segment = np.searchsorted(self.radii, x, side="right") - 1
+        return slopes[segment] * np.maximum(x / end, 1.0) ** (self.growth - 1.0)

@@ -15,18 +15,18 @@ from fem_reference.errors import NotConverged
 
 __all__ = ["CustomPunch", "PowerPunch", "Punch", "check_without_asperities", "kinks_of", "radius_at_height"]
 
+#: Radii in equal ratios at which the shape of a punch is examined: forty in a factor of two over 22 decades.
 RADII = 3000
-"""Radii in equal ratios at which the shape of a punch is examined: forty in a factor of two over 22 decades."""
 
+#: Relative fall of r f' that the rounding of a smooth shape may make.
 FALL = 1e-9
-"""Relative fall of r f' that the rounding of a smooth shape may make."""
 
 
+#: Step of the differences for a slope, relative to the radius.
 DIFFERENCE = 1.0 / 64.0
-"""Step of the differences for a slope, relative to the radius."""
 
+#: Multiples of the step, and their weights in central differences of eighth order.
 DIFFERENCES = ((1, 4 / 5), (2, -1 / 5), (3, 4 / 105), (4, -1 / 280))
-"""Multiples of the step, and their weights in central differences of eighth order."""
 
 
 @runtime_checkable

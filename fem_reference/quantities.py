@@ -22,10 +22,10 @@ __all__ = [
     "quantity_named",
 ]
 
+#: Declared order of the central gap at jump-out, in contact: under the tip of a cone the pressure has a kink, the
+#: displacement a term r^2 log r (r^(2-k) in a graded solid, whose size falls with that of the contact edge), and that
+#: decides it, not the degree of the element.
 GAP_ORDER = 2.0
-"""Declared order of the central gap at jump-out, in contact: under the tip of a cone the pressure has a kink, the
-displacement a term r^2 log r (r^(2-k) in a graded solid, whose size falls with that of the contact edge), and that
-decides it, not the degree of the element."""
 
 
 class Events(Protocol):
@@ -33,31 +33,6 @@ class Events(Protocol):
 
     def at(self, event: str) -> Point:
         """Return the point at an event."""
-        ...
-
-    @property
-    def pull_off(self) -> Point:
-        """The deepest minimum of the load along the path."""
-        ...
-
-    @property
-    def jump_in(self) -> Point:
-        """The first fold on approach."""
-        ...
-
-    @property
-    def jump_out(self) -> Point:
-        """The lowest fold."""
-        ...
-
-    @property
-    def zero_load(self) -> Point:
-        """The point in contact without load."""
-        ...
-
-    @property
-    def cusp(self) -> Point:
-        """The point where the two folds merge, at the modulus at which they do."""
         ...
 
     @property
@@ -91,34 +66,34 @@ class Quantity:
     parts: tuple[str, ...] = ()
 
 
+#: Energies lost by the jump into contact and the jump out of contact. Each needs the contact edge at one radius only,
+#: so that the mesh of a solid that is no power law can be fine there. Their sum is the hysteresis energy, unless the
+#: displacement has more folds at which the cycle jumps: see `further_losses`.
 LOSSES = ("jump_in_energy", "jump_out_energy")
-"""Energies lost by the jump into contact and the jump out of contact.  Each needs the contact edge at one radius only,
-so that the mesh of a solid that is no power law can be fine there.  Their sum is the hysteresis energy, unless the
-displacement has more folds at which the cycle jumps: see `further_losses`."""
 
+#: Quantities by name; pull_off_force is the positive number -min P.
 TABLE = {
-    "pull_off_force": Quantity(("pull_off",), lambda e: -e.pull_off.state.load, "force"),
-    "pull_off_displacement": Quantity(("pull_off",), lambda e: e.pull_off.state.displacement, "length"),
-    "jump_in_displacement": Quantity(("jump_in",), lambda e: e.jump_in.state.displacement, "length"),
-    "jump_in_gap": Quantity(("jump_in",), lambda e: e.jump_in.state.central_gap, "length"),
-    "jump_out_displacement": Quantity(("jump_out",), lambda e: e.jump_out.state.displacement, "length"),
-    "jump_out_gap": Quantity(("jump_out",), lambda e: e.jump_out.state.central_gap, "length", GAP_ORDER),
-    "zero_load_displacement": Quantity(("zero_load",), lambda e: e.zero_load.state.displacement, "length"),
+    "pull_off_force": Quantity(("pull_off",), lambda e: -e.at("pull_off").state.load, "force"),
+    "pull_off_displacement": Quantity(("pull_off",), lambda e: e.at("pull_off").state.displacement, "length"),
+    "jump_in_displacement": Quantity(("jump_in",), lambda e: e.at("jump_in").state.displacement, "length"),
+    "jump_in_gap": Quantity(("jump_in",), lambda e: e.at("jump_in").state.central_gap, "length"),
+    "jump_out_displacement": Quantity(("jump_out",), lambda e: e.at("jump_out").state.displacement, "length"),
+    "jump_out_gap": Quantity(("jump_out",), lambda e: e.at("jump_out").state.central_gap, "length", GAP_ORDER),
+    "zero_load_displacement": Quantity(("zero_load",), lambda e: e.at("zero_load").state.displacement, "length"),
     "hysteresis_energy": Quantity(
         (JUMP_OUT, LANDING), lambda e: math.fsum(energy_lost(e, jump) for jump in e.jumps), "energy", parts=LOSSES
     ),
     "jump_in_energy": Quantity((LANDING,), lambda e: energy_lost(e, (JUMP_IN, LANDING)), "energy"),
     "jump_out_energy": Quantity((JUMP_OUT,), lambda e: energy_lost(e, (JUMP_OUT, SEPARATED)), "energy"),
 }
-"""Quantities by name; pull_off_force is the positive number -min P."""
 
+#: Names of the quantities of a problem; `solve` takes those of `LOSSES` too.
 QUANTITIES = tuple(name for name in TABLE if name not in LOSSES)
-"""Names of the quantities of a problem; `solve` takes those of `LOSSES` too."""
 
 
+#: The modulus E0 below which the contact jumps, at the punch, the law and the solid's other parameters of the problem:
+#: the two folds of the displacement merge there. `solve` takes it too; the modulus of the problem is not used.
 CRITICAL_MODULUS = "critical_modulus"
-"""The modulus E0 below which the contact jumps, at the punch, the law and the solid's other parameters of the problem:
-the two folds of the displacement merge there.  `solve` takes it too; the modulus of the problem is not used."""
 
 
 def critical_quantity(E0: float) -> Quantity:
@@ -129,7 +104,7 @@ def critical_quantity(E0: float) -> Quantity:
     E0 : float
         Modulus of that path.
     """
-    return Quantity(("cusp",), lambda events: E0 * events.cusp.branch.contact.compliance.stiffness, "modulus")
+    return Quantity(("cusp",), lambda events: E0 * events.at("cusp").branch.contact.compliance.stiffness, "modulus")
 
 
 def further_losses(path: Events) -> dict[str, Quantity]:

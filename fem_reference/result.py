@@ -78,7 +78,7 @@ class Solution:
         parts = {**self.parts, name: self.parts.get(name, 0.0) + error}
         return replace(self, u_num=self.u_num + error, parts=parts)
 
-    def plus(self, other: Solution) -> Solution:
+    def plus(self, addend: Solution) -> Solution:
         """Return the sum of two quantities, each on its own meshes of one accuracy, with the sum of their bounds.
 
         Examples
@@ -87,22 +87,22 @@ class Solution:
         >>> solution.plus(solution).value, solution.plus(solution).u_num
         (2.0, 6e-09)
         """
-        (a, b, c), (p, q, r) = self.values, other.values
+        (a, b, c), (p, q, r) = self.values, addend.values
         return replace(
             self,
-            value=self.value + other.value,
-            u_num=self.u_num + other.u_num,
-            size=max(self.size, other.size),
-            iterations=self.iterations + other.iterations,
-            residual=max(self.residual, other.residual),
-            seconds=max(self.seconds, other.seconds),
-            observed_order=min(self.observed_order, other.observed_order),
-            declared_order=min(self.declared_order, other.declared_order),
+            value=self.value + addend.value,
+            u_num=self.u_num + addend.u_num,
+            size=max(self.size, addend.size),
+            iterations=self.iterations + addend.iterations,
+            residual=max(self.residual, addend.residual),
+            seconds=max(self.seconds, addend.seconds),
+            observed_order=min(self.observed_order, addend.observed_order),
+            declared_order=min(self.declared_order, addend.declared_order),
             values=(a + p, b + q, c + r),
-            parts={name: error + other.parts[name] for name, error in self.parts.items()},
+            parts={name: error + addend.parts[name] for name, error in self.parts.items()},
         )
 
-    def with_whole_system(self, whole: UncondensedValue) -> Solution:
+    def with_whole_system(self, uncondensed: UncondensedValue) -> Solution:
         """Return the solution with the value of the whole system, whose algebraic error is added to the bound."""
-        added = self.with_part("algebra", whole.algebra)
-        return replace(added, value=whole.value, iterations=whole.iterations, residual=whole.residual)
+        added = self.with_part("algebra", uncondensed.algebra)
+        return replace(added, value=uncondensed.value, iterations=uncondensed.iterations, residual=uncondensed.residual)

@@ -52,14 +52,35 @@ class Solid(Protocol):
         ...
 
 
-def _one_ratio(nu: Any) -> None:
+def _check_one_ratio(nu: Any) -> None:
     if callable(nu):
         raise ValueError(f"nu = {nu!r} depends on depth; take CustomSolid(E, nu, length) for such a solid")
     check_poisson(nu, 1.0)
 
 
+class _OneRatio:
+    """A solid with one Poisson ratio `nu` at every depth."""
+
+    __slots__ = ()
+    nu: float
+
+    def __post_init__(self) -> None:
+        _check_one_ratio(self.nu)
+        self.modulus  # noqa: B018  (validates the rest)
+
+    @property
+    def modulus(self) -> Modulus:
+        """E(z)."""
+        raise NotImplementedError
+
+    @property
+    def poisson(self) -> float:
+        """The ratio."""
+        return self.nu
+
+
 @dataclass(frozen=True, slots=True)
-class PowerLaw:
+class PowerLaw(_OneRatio):
     """E = E0 (z / c0)^k (Eq. 3 of the paper).
 
     Parameters
@@ -88,23 +109,14 @@ class PowerLaw:
     k: float
     nu: float
 
-    def __post_init__(self) -> None:
-        _one_ratio(self.nu)
-        self.modulus  # noqa: B018  (validates the rest)
-
     @property
     def modulus(self) -> PowerLawModulus:
         """E(z)."""
         return PowerLawModulus(self.E0, self.c0, self.k)
 
-    @property
-    def poisson(self) -> float:
-        """The one ratio."""
-        return self.nu
-
 
 @dataclass(frozen=True, slots=True)
-class Homogeneous:
+class Homogeneous(_OneRatio):
     """One modulus E and one Poisson ratio at every depth.
 
     Examples
@@ -118,21 +130,16 @@ class Homogeneous:
 
     def __post_init__(self) -> None:
         check_positive("modulus E", self.E)
-        _one_ratio(self.nu)
+        _check_one_ratio(self.nu)
 
     @property
     def modulus(self) -> PowerLawModulus:
         """E, as a power law with k = 0, whose c0 has no effect."""
         return PowerLawModulus(self.E, 1.0, 0.0)
 
-    @property
-    def poisson(self) -> float:
-        """The one ratio."""
-        return self.nu
-
 
 @dataclass(frozen=True, slots=True)
-class OffsetPowerLaw:
+class OffsetPowerLaw(_OneRatio):
     """E = E0 ((z + z_s) / c0)^k: a graded solid whose surface modulus does not vanish.
 
     Parameters
@@ -154,23 +161,14 @@ class OffsetPowerLaw:
     z_s: float
     nu: float
 
-    def __post_init__(self) -> None:
-        _one_ratio(self.nu)
-        self.modulus  # noqa: B018  (validates the rest)
-
     @property
     def modulus(self) -> OffsetPowerLawModulus:
         """E(z)."""
         return OffsetPowerLawModulus(self.E0, self.c0, self.k, self.z_s)
 
-    @property
-    def poisson(self) -> float:
-        """The one ratio."""
-        return self.nu
-
 
 @dataclass(frozen=True, slots=True)
-class Exponential:
+class Exponential(_OneRatio):
     """E = E_depth + (E_surface - E_depth) exp(-z / length).
 
     Parameters
@@ -193,19 +191,10 @@ class Exponential:
     length: float
     nu: float
 
-    def __post_init__(self) -> None:
-        _one_ratio(self.nu)
-        self.modulus  # noqa: B018  (validates the rest)
-
     @property
     def modulus(self) -> ExponentialModulus:
         """E(z)."""
         return ExponentialModulus(self.E_surface, self.E_depth, self.length)
-
-    @property
-    def poisson(self) -> float:
-        """The one ratio."""
-        return self.nu
 
 
 @dataclass(frozen=True, slots=True)
@@ -240,9 +229,9 @@ class Coating:
     nu_substrate: float | None = None
 
     def __post_init__(self) -> None:
-        _one_ratio(self.nu_coating)
+        _check_one_ratio(self.nu_coating)
         if self.nu_substrate is not None:
-            _one_ratio(self.nu_substrate)
+            _check_one_ratio(self.nu_substrate)
         self.modulus  # noqa: B018  (validates the rest)
 
     @property
@@ -302,7 +291,7 @@ class Layers:
             for i, value in enumerate(getattr(self, name)):
                 check_positive(f"{name}[{i}]", value)
         for ratio in self.nu:
-            _one_ratio(ratio)
+            _check_one_ratio(ratio)
 
     @property
     def _depths(self) -> tuple[float, ...]:
@@ -358,7 +347,7 @@ class TabulatedModulus:
             nu: float | tuple[float, ...] = tuple(column.ratios)
             poisson = column
         else:
-            _one_ratio(self.nu)
+            _check_one_ratio(self.nu)
             poisson = nu = self.nu
         columns = (tuple(modulus.depths), tuple(modulus.moduli), nu, modulus, poisson)
         for name, value in zip(("depths", "moduli", "nu", "modulus", "poisson"), columns, strict=True):
@@ -406,7 +395,10 @@ class CustomSolid:
     depth_exponent: float = 0.0
 
     def __post_init__(self) -> None:
-        ends = (each if isinstance(each, Interface) else Interface(float(each)) for each in self.interfaces)
+        ends = (
+            interface if isinstance(interface, Interface) else Interface(float(interface))
+            for interface in self.interfaces
+        )
         object.__setattr__(self, "interfaces", tuple(ends))
         check_exponents(self.modulus)
         check_poisson(self.poisson, self.length)

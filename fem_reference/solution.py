@@ -74,10 +74,10 @@ def solve(problem: Problem, quantity: str, accuracy: float | str = "default") ->
     >>> round(solution.value, 3), solution.u_num < 1e-5  # Bradley's 2 pi for a rigid solid
     (6.226, True)
     """
-    found = solve_together(problem, (quantity,), accuracy)[quantity]
-    if isinstance(found, NoSuchEvent):
-        raise found
-    return found
+    result = solve_together(problem, (quantity,), accuracy)[quantity]
+    if isinstance(result, NoSuchEvent):
+        raise result
+    return result
 
 
 def solve_together(
@@ -118,16 +118,16 @@ def solve_together(
     rows = {name: quantity_named(name) for name in quantities}
     if not rows:
         raise ValueError(f"no quantity is named; choose at least one of {', '.join(TABLE)}")
-    found: dict[str, Solution | NoSuchEvent] = {}
+    results: dict[str, Solution | NoSuchEvent] = {}
     with one_thread:
-        given = {name: row for name, row in rows.items() if name != CRITICAL_MODULUS}
-        if given:
-            found |= _no_less_certain(problem, given, accuracy)
+        of_problem = {name: row for name, row in rows.items() if name != CRITICAL_MODULUS}
+        if of_problem:
+            results |= _no_less_certain(problem, of_problem, accuracy)
         if CRITICAL_MODULUS in rows:
-            found[CRITICAL_MODULUS] = _critical_modulus(problem, accuracy)
+            results[CRITICAL_MODULUS] = _critical_modulus(problem, accuracy)
     if not isinstance(accuracy, str):
-        _say_what_is_missed(found, float(accuracy))
-    return {name: found[name] for name in rows}
+        _say_what_is_missed(results, float(accuracy))
+    return {name: results[name] for name in rows}
 
 
 def _say_what_is_missed(solutions: dict[str, Solution | NoSuchEvent], accuracy: float) -> None:
@@ -149,22 +149,22 @@ def _no_less_certain(
 
     On the finer meshes the bound may be larger: it is what three meshes happen to show.
     """
-    found = _summed(problem, rows, accuracy)
+    results = _summed(problem, rows, accuracy)
     coarser = coarser_accuracy(accuracy)
     if coarser is None:
-        return found
-    solved = {name: solution for name, solution in found.items() if isinstance(solution, Solution)}
+        return results
+    solved = {name: solution for name, solution in results.items() if isinstance(solution, Solution)}
     uncertain = [name for name, solution in solved.items() if solution.u_num > coarser[0] * abs(solution.value)]
-    others: dict[str, Solution | NoSuchEvent] = {}
+    at_default: dict[str, Solution | NoSuchEvent] = {}
     if uncertain:
         with suppress(NotConverged):
-            others = _summed(problem, {name: rows[name] for name in uncertain}, coarser[1])
-    for name, other in others.items():
-        if isinstance(other, Solution):
-            seconds = solved[name].seconds + other.seconds
-            best = min(solved[name], other, key=lambda solution: solution.u_num)
-            found[name] = replace(best, seconds=seconds)
-    return found
+            at_default = _summed(problem, {name: rows[name] for name in uncertain}, coarser[1])
+    for name, alternative in at_default.items():
+        if isinstance(alternative, Solution):
+            seconds = solved[name].seconds + alternative.seconds
+            best = min(solved[name], alternative, key=lambda solution: solution.u_num)
+            results[name] = replace(best, seconds=seconds)
+    return results
 
 
 def _summed(problem: Problem, rows: Mapping[str, Quantity], accuracy: float | str) -> dict[str, Solution | NoSuchEvent]:
@@ -173,37 +173,37 @@ def _summed(problem: Problem, rows: Mapping[str, Quantity], accuracy: float | st
         return _solved_together(problem, rows, accuracy)
     single: dict[str, Quantity] = {}
     for name, row in rows.items():
-        single |= {part: quantity_named(part) for part in row.parts} or {name: row}
+        single |= {term: quantity_named(term) for term in row.parts} or {name: row}
     solved = _solved_together(problem, single, accuracy)
-    found = {name: _sum(solved[part] for part in row.parts or (name,)) for name, row in rows.items()}
-    for name, solution in found.items():
+    sums = {name: _sum(solved[term] for term in row.parts or (name,)) for name, row in rows.items()}
+    for name, solution in sums.items():
         if rows[name].parts and isinstance(solution, Solution):
             further = further_losses(path_over_meshes(problem, accuracy))
             if further:
-                found[name] = _sum((solution, *_solved_together(problem, further, accuracy).values()))
-    return found
+                sums[name] = _sum((solution, *_solved_together(problem, further, accuracy).values()))
+    return sums
 
 
 def _sum(terms: Iterable[Solution | NoSuchEvent]) -> Solution | NoSuchEvent:
     """Add quantities, or return why one of them does not exist."""
-    first, *others = terms
-    for other in others:
-        if isinstance(first, NoSuchEvent) or isinstance(other, NoSuchEvent):
-            return first if isinstance(first, NoSuchEvent) else other
-        first = first.plus(other)
-    return first
+    total, *addends = terms
+    for addend in addends:
+        if isinstance(total, NoSuchEvent) or isinstance(addend, NoSuchEvent):
+            return total if isinstance(total, NoSuchEvent) else addend
+        total = total.plus(addend)
+    return total
 
 
 def _critical_modulus(problem: Problem, accuracy: float | str) -> Solution | NoSuchEvent:
     """Compute the critical modulus on the meshes of a slightly stiffer problem."""
     begin = time.perf_counter()
     try:
-        near = stiffer_than_critical(problem, accuracy)
+        stiffer = stiffer_than_critical(problem, accuracy)
     except NoSuchEvent as reason:
         return reason.with_traceback(None)
-    row = critical_quantity(near.E0)
-    found = _solved_together(near.problem, {CRITICAL_MODULUS: row}, accuracy, near.start)[CRITICAL_MODULUS]
-    return replace(found, seconds=time.perf_counter() - begin) if isinstance(found, Solution) else found
+    row = critical_quantity(stiffer.E0)
+    solution = _solved_together(stiffer.problem, {CRITICAL_MODULUS: row}, accuracy, stiffer.start)[CRITICAL_MODULUS]
+    return replace(solution, seconds=time.perf_counter() - begin) if isinstance(solution, Solution) else solution
 
 
 def _solved_together(
@@ -211,41 +211,41 @@ def _solved_together(
 ) -> dict[str, Solution | NoSuchEvent]:
     """Compute quantities whose path is that of the problem, on meshes found from `start`."""
     begin = time.perf_counter()
-    found: dict[str, Solution | NoSuchEvent] = {}
+    results: dict[str, Solution | NoSuchEvent] = {}
     missed: dict[str, NotConverged] = {}
     for name, row in rows.items():
         try:
             choice, spec, size = chosen(problem, row.events, accuracy, partial(_estimated, row), start)
         except NoSuchEvent as reason:
-            found[name] = reason.with_traceback(None)
+            results[name] = reason.with_traceback(None)
         else:
             break
     else:
-        return found
+        return results
     meshes = events_on_meshes(choice, spec, size)
     for name, row in rows.items():
-        if name not in found:
+        if name not in results:
             try:
-                found[name] = _solution(row, meshes, choice.level)
+                results[name] = _solution(row, meshes, choice.level)
             except NoSuchEvent as reason:
-                found[name] = reason.with_traceback(None)
+                results[name] = reason.with_traceback(None)
             except NotConverged as reason:
                 missed[name] = reason
-    solved = {name: solution for name, solution in found.items() if isinstance(solution, Solution)}
-    own = _unresolved(problem, rows, solved, missed, meshes.path)
+    solved = {name: solution for name, solution in results.items() if isinstance(solution, Solution)}
+    unresolved = _unresolved(problem, rows, solved, missed, meshes.path)
     # All events of the whole system are columns of one linear system.
     events = uncondensed_events(choice, replace(spec, density=choice.level.densities[-1]), size)
-    here = [name for name in solved if name not in own]
-    events.prepare(rows[name].functional for name in here)
+    on_mesh = [name for name in solved if name not in unresolved]
+    events.prepare(rows[name].functional for name in on_mesh)
     seconds = time.perf_counter() - begin
-    for name in here:
-        found[name] = replace(solved[name].with_whole_system(events.value(rows[name].functional)), seconds=seconds)
-    if own:
-        found |= _solved_together(problem, own, accuracy)
+    for name in on_mesh:
+        results[name] = replace(solved[name].with_whole_system(events.value(rows[name].functional)), seconds=seconds)
+    if unresolved:
+        results |= _solved_together(problem, unresolved, accuracy)
     for name, failure in missed.items():
-        if name not in found:
+        if name not in results:
             raise failure
-    return found
+    return results
 
 
 def _estimated(row: Quantity, choice: MeshChoice, spec: MeshSpec, size: float) -> None:
@@ -275,9 +275,9 @@ def _unresolved(
     """
     if scales(problem):
         return {}
-    known = [name for name in rows if name in solved or name in missed]
-    others = [name for name in known if rows[name].events[0] != rows[known[0]].events[0]]
-    poor = [name for name in others if name in missed or not edge_is_resolved(path.at(rows[name].events[0]))]
+    candidates = [name for name in rows if name in solved or name in missed]
+    elsewhere = [name for name in candidates if rows[name].events[0] != rows[candidates[0]].events[0]]
+    poor = [name for name in elsewhere if name in missed or not edge_is_resolved(path.at(rows[name].events[0]))]
     return {name: rows[name] for name in sorted(poor, key=lambda name: rows[name].events[0] != "jump_out")}
 
 

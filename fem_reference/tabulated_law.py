@@ -17,18 +17,18 @@ from fem_reference._typing import Array, Index
 
 __all__ = ["TabulatedLaw"]
 
+#: Smallest number of points: a spline of degree five needs six, and wall, well and tail have some each.
 FEWEST = 10
-"""Smallest number of points: a spline of degree five needs six, and wall, well and tail have some each."""
 
+#: Exponent of the wall: that of the repulsion between two half-spaces of atoms.
 WALL = 9.0
-"""Exponent of the wall: that of the repulsion between two half-spaces of atoms."""
 
+#: Smallest number of points to which the tail is fitted; all above half the largest distance from the wall if more.
 FEWEST_IN_TAIL = 4
-"""Smallest number of points to which the tail is fitted; all above half the largest distance from the wall if more."""
 
 
+#: Share of the last interval where a root of the slope is its end: a law of finite range ends with a double root.
 END_SHARE = 1e-3
-"""Share of the last interval where a root of the slope is its end: a law of finite range ends with a double root."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,8 +54,8 @@ class _Power:
         """Integral from low to high; high may be infinite where base is zero."""
         power = 1.0 - self.exponent
         ends = [(H - self.origin) ** power for H in (low, high)]
-        rest = self.base * (high - low) if self.base else 0.0
-        return rest + self.factor * (ends[0] - ends[1]) / (self.exponent - 1.0)
+        constant = self.base * (high - low) if self.base else 0.0
+        return constant + self.factor * (ends[0] - ends[1]) / (self.exponent - 1.0)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -167,29 +167,29 @@ class TabulatedLaw:
     def _parts(self, H: Array) -> tuple[Array, Array, Array, Index]:
         """Gaps of wall, spline and tail, in lengths of the law and moved to the nearest end, and which of the three."""
         h = np.asarray(H, float) / self.z0
-        first, last = self._spline.x[0], self._spline.x[-1]
-        where = np.where(h < first, 0, np.where(h > last, 2, 1))
-        return np.minimum(h, first), np.clip(h, first, last), np.maximum(h, last), where
+        start, end = self._spline.x[0], self._spline.x[-1]
+        where = np.where(h < start, 0, np.where(h > end, 2, 1))
+        return np.minimum(h, start), np.clip(h, start, end), np.maximum(h, end), where
 
     def traction(self, H: Array) -> Array:
         """p(H), shape of `H`."""
-        near, inside, far, where = self._parts(H)
+        compressed, inside, far, where = self._parts(H)
         tail = np.zeros_like(far) if self._tail is None else self._tail.value(far)
-        return self._stress * np.choose(where, [self._wall.value(near), self._spline(inside), tail])
+        return self._stress * np.choose(where, [self._wall.value(compressed), self._spline(inside), tail])
 
     def slope(self, H: Array) -> Array:
         """dp/dH, shape of `H`."""
-        near, inside, far, where = self._parts(H)
+        compressed, inside, far, where = self._parts(H)
         tail = np.zeros_like(far) if self._tail is None else self._tail.slope(far)
-        return self._stress / self.z0 * np.choose(where, [self._wall.slope(near), self._spline(inside, 1), tail])
+        return self._stress / self.z0 * np.choose(where, [self._wall.slope(compressed), self._spline(inside, 1), tail])
 
     def energy(self, H: Array) -> Array:
         """Integral of p from H to infinity, the energy per area of the faces at gap H."""
-        near, inside, far, _ = self._parts(H)
-        first, last = self._spline.x[0], self._spline.x[-1]
+        compressed, inside, far, _ = self._parts(H)
+        start, end = self._spline.x[0], self._spline.x[-1]
         tail = np.zeros_like(far) if self._tail is None else self._tail.integral(far, np.array(math.inf))
-        middle = self._primitive(last) - self._primitive(inside)
-        return np.asarray(self._stress * self.z0 * (tail + middle + self._wall.integral(near, first)))
+        middle = self._primitive(end) - self._primitive(inside)
+        return np.asarray(self._stress * self.z0 * (tail + middle + self._wall.integral(compressed, start)))
 
 
 def _columns(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[Array, Array]:
@@ -272,8 +272,8 @@ def _joined_spline(x: Array, p: Array, wall: _Power, tail: _Power | None) -> PPo
     right = [(1, 0.0), (2, 0.0)]
     if tail is not None:
         right = [(1, float(tail.slope(x[-1]))), (2, float(tail.curvature(x[-1])))]
-    found: BSpline = make_interp_spline(x, p, k=5, bc_type=(left, right))
-    return PPoly.from_spline(found)
+    spline: BSpline = make_interp_spline(x, p, k=5, bc_type=(left, right))
+    return PPoly.from_spline(spline)
 
 
 def _shape(spline: PPoly, x: Array, p: Array) -> tuple[float, float]:

@@ -17,22 +17,22 @@ from fem_reference.errors import NotConverged
 
 __all__ = ["complete_branch", "complete_path", "displacement_range", "displacement_sample", "load_sample"]
 
+#: Change of delta in lengths of the law, and of P in units of its largest tension, below which two turning points are
+#: not told from none: ten times the rounding of a state.
 SMALLEST_CHANGE = 1e-9
-"""Change of delta in lengths of the law, and of P in units of its largest tension, below which two turning points are
-not told from none: ten times the rounding of a state."""
 
+#: Largest number of passes over the path; each halves the intervals that are undecided.
 ROUNDS = 14
-"""Largest number of passes over the path; each halves the intervals that are undecided."""
 
 
 def displacement_sample(point: Point) -> Sample:
     """Displacement and its rate along the path at a point."""
-    return Sample(point.parameter, point.state.displacement, point.sense * point.displacement_rate)
+    return Sample(point.parameter, point.state.displacement, point.orientation * point.displacement_rate)
 
 
 def load_sample(point: Point) -> Sample:
     """Load and its rate along the path at a point."""
-    return Sample(point.parameter, point.state.load, point.sense * point.load_rate)
+    return Sample(point.parameter, point.state.load, point.orientation * point.load_rate)
 
 
 def _intervals(points: Sequence[Point], sample: Callable[[Point], Sample]) -> list[Interval]:
@@ -52,9 +52,11 @@ def displacement_range(points: Sequence[Point]) -> tuple[float, float]:
     points : sequence of Point
         Neighbours, at least one.
     """
-    found = [interval.range() for branch in branches_of(points) for interval in _intervals(branch, displacement_sample)]
+    ranges = [
+        interval.range() for branch in branches_of(points) for interval in _intervals(branch, displacement_sample)
+    ]
     end = points[-1].state.displacement
-    return min([end, *(low for low, _ in found)]), max([end, *(high for _, high in found)])
+    return min([end, *(low for low, _ in ranges)]), max([end, *(high for _, high in ranges)])
 
 
 def _missing(interval: Interval, tolerance: float) -> float | None:
@@ -126,22 +128,22 @@ def complete_branch(
         If that needs more than `ROUNDS` passes.
     """
     for _ in range(ROUNDS):
-        places: dict[int, float] = {}
+        inserted_at: dict[int, float] = {}
         for sample, tolerance in tests:
             for i, interval in enumerate(_intervals(points, sample)):
-                place = _missing(interval, tolerance)
-                if place is not None:
-                    places.setdefault(i, place)
-        if not places:
+                parameter = _missing(interval, tolerance)
+                if parameter is not None:
+                    inserted_at.setdefault(i, parameter)
+        if not inserted_at:
             return points
         refined: list[Point] = []
         for i, point in enumerate(points):
             refined.append(point)
-            if i in places:
-                nearest = min(points[i : i + 2], key=lambda end: abs(end.parameter - places[i]))
-                refined.append(inserted(nearest, places[i]))
+            if i in inserted_at:
+                nearest = min(points[i : i + 2], key=lambda end: abs(end.parameter - inserted_at[i]))
+                refined.append(inserted(nearest, inserted_at[i]))
         points = renewed(refined)
-    at = points[min(places)].state.displacement
+    at = points[min(inserted_at)].state.displacement
     raise NotConverged(
         f"near delta = {at:.6g} it cannot be decided whether the path has a pair of turning points, although "
         f"{len(points)} samples were taken"

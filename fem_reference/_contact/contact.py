@@ -26,8 +26,8 @@ from fem_reference.punch import Punch
 __all__ = ["Contact"]
 
 
+#: Gauss points for the load beyond the mesh in x = R/r: the integrand is close to a power of x.
 TAIL_POINTS = 24
-"""Gauss points for the load beyond the mesh in x = R/r: the integrand is close to a power of x."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -28,21 +28,21 @@ from fem_reference.solids import OffsetPowerLaw, PowerLaw
 
 __all__ = ["NearCritical", "stiffer_than_critical"]
 
+#: Displacement of the solid, in lengths of the law, under its work of adhesion over that length, spread over the radius
+#: where the punch is as high, at the critical modulus (0.4 to 0.7 for powers n = 1 ... 5 and k = 0 ... 0.6).
 SHARE = 0.68
-"""Displacement of the solid, in lengths of the law, under its work of adhesion over that length, spread over the radius
-where the punch is as high, at the critical modulus (0.4 to 0.7 for powers n = 1 ... 5 and k = 0 ... 0.6)."""
 
+#: Ratio of neighbouring moduli of the search.
 FACTOR = 1.25
-"""Ratio of neighbouring moduli of the search."""
 
+#: Largest ratio of a modulus of the search to its estimate, either way.
 WIDEST = 1e3
-"""Largest ratio of a modulus of the search to its estimate, either way."""
 
+#: Largest number of halvings of an interval in which Newton's method does not find the cusp.
 HALVINGS = 8
-"""Largest number of halvings of an interval in which Newton's method does not find the cusp."""
 
+#: Modulus of the problem that is returned, relative to the critical one of the coarse mesh.
 MARGIN = 1.01
-"""Modulus of the problem that is returned, relative to the critical one of the coarse mesh."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,13 +127,17 @@ def _estimate(problem: Problem, solid: PowerLaw | OffsetPowerLaw) -> float:
 
 def _bracket(trial: Callable[[float], _Trial]) -> tuple[_Trial, _Trial]:
     """Two neighbouring moduli, the lower of which has jumps."""
-    first = trial(0.0)
-    step = math.log(FACTOR) * (-1.0 if first.rate > 0.0 else 1.0)
-    while abs(first.log_ratio) < math.log(WIDEST):
-        second = trial(first.log_ratio + step)
-        if (second.rate > 0.0) != (first.rate > 0.0):
-            return (second, first) if second.log_ratio < first.log_ratio else (first, second)
-        first = second
+    trial_before = trial(0.0)
+    step = math.log(FACTOR) * (-1.0 if trial_before.rate > 0.0 else 1.0)
+    while abs(trial_before.log_ratio) < math.log(WIDEST):
+        trial_after = trial(trial_before.log_ratio + step)
+        if (trial_after.rate > 0.0) != (trial_before.rate > 0.0):
+            return (
+                (trial_after, trial_before)
+                if trial_after.log_ratio < trial_before.log_ratio
+                else (trial_before, trial_after)
+            )
+        trial_before = trial_after
     have = "no path has jumps" if step < 0.0 else "every path has jumps"
     raise NoSuchEvent(f"{have} at the moduli up to a factor {WIDEST:g} from the one where jumps are expected to begin")
 

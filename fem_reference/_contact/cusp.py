@@ -25,26 +25,26 @@ from fem_reference.errors import NotConverged
 
 __all__ = ["DisplacementRates", "cusp_from", "displacement_rates", "slowest", "slowest_sample"]
 
+#: Change of y, in lengths of the law, for the derivative of the tangent: its error is 1e-10, as is that of rounding.
 TANGENT_STEP = 1e-5
-"""Change of y, in lengths of the law, for the derivative of the tangent: its error is 1e-10, as is that of rounding."""
 
+#: Change of the central gap, in lengths of the law, for the second derivatives: they are right to as much, and what a
+#: step leaves falls by that factor.
 NEIGHBOUR = 1e-3
-"""Change of the central gap, in lengths of the law, for the second derivatives: they are right to as much, and what a
-step leaves falls by that factor."""
 
+#: Largest change of the central gap, in lengths of the law, and of the logarithm of the modulus in one step.
 LARGEST_STEP, LARGEST_RATIO = 0.3, 0.2
-"""Largest change of the central gap, in lengths of the law, and of the logarithm of the modulus in one step."""
 
+#: Largest number of steps: from a sample of the path five are usual, from another mesh two.
 STEPS = 25
-"""Largest number of steps: from a sample of the path five are usual, from another mesh two."""
 
+#: Samples of a path on either side of the slowest one between which the displacement may be slower still, and the
+#: spacing of the central gap there, in lengths of the law.
 NEARBY, SPACING = 2, 0.08
-"""Samples of a path on either side of the slowest one between which the displacement may be slower still, and the
-spacing of the central gap there, in lengths of the law."""
 
+#: Last step of the logarithm of the modulus, of which a thousandth is left, and of the central gap in lengths of the
+#: law, on which the modulus does not depend to first order.
 TOLERANCE, PLACE_TOLERANCE = 1e-9, 1e-6
-"""Last step of the logarithm of the modulus, of which a thousandth is left, and of the central gap in lengths of the
-law, on which the modulus does not depend to first order."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -119,12 +119,12 @@ def slowest(points: Sequence[Point]) -> Point:
     length = points[0].branch.contact.law.z0
     i = slowest_sample(points)
     point = _by_central_gap(points[max(i - NEARBY, 0)])
-    last = min(points[min(i + NEARBY, len(points) - 1)].state.central_gap, point.parameter)
-    gaps = np.linspace(point.parameter, last, 1 + math.ceil((point.parameter - last) / (SPACING * length)))
-    found = [point]
+    final_gap = min(points[min(i + NEARBY, len(points) - 1)].state.central_gap, point.parameter)
+    gaps = np.linspace(point.parameter, final_gap, 1 + math.ceil((point.parameter - final_gap) / (SPACING * length)))
+    followed = [point]
     for H0 in gaps[1:]:
-        found.append(point_at(found[-1], float(H0)))
-    return max(found, key=lambda point: point.state.displacement_rate)
+        followed.append(point_at(followed[-1], float(H0)))
+    return max(followed, key=lambda point: point.state.displacement_rate)
 
 
 def cusp_from(point: Point) -> Point:
@@ -147,19 +147,19 @@ def cusp_from(point: Point) -> Point:
     """
     point, unit = _by_central_gap(point), point.branch.contact.law.z0
     for _ in range(STEPS):
-        here = displacement_rates(point)
+        rates = displacement_rates(point)
         h = NEIGHBOUR * unit
-        near = displacement_rates(point.branch.solve(point.parameter + h, point.predict(point.parameter + h)))
+        shifted = displacement_rates(point.branch.solve(point.parameter + h, point.predict(point.parameter + h)))
         # The mixed derivative is that of the derivative by the modulus.
         jacobian = np.array(
-            [[here.along, here.modulus], [(near.along - here.along) / h, (near.modulus - here.modulus) / h]]
+            [[rates.along, rates.modulus], [(shifted.along - rates.along) / h, (shifted.modulus - rates.modulus) / h]]
         )
-        step = -np.linalg.solve(jacobian, [here.value, here.along])
+        step = -np.linalg.solve(jacobian, [rates.value, rates.along])
         if not np.all(np.isfinite(step)):
             break
-        place, ratio = np.clip(step, [-LARGEST_STEP * unit, -LARGEST_RATIO], [LARGEST_STEP * unit, LARGEST_RATIO])
-        point = _moved(point, here, float(place), float(ratio))
-        if abs(ratio) <= TOLERANCE and abs(place) <= PLACE_TOLERANCE * unit:
+        shift, ratio = np.clip(step, [-LARGEST_STEP * unit, -LARGEST_RATIO], [LARGEST_STEP * unit, LARGEST_RATIO])
+        point = _moved(point, rates, float(shift), float(ratio))
+        if abs(ratio) <= TOLERANCE and abs(shift) <= PLACE_TOLERANCE * unit:
             return point
     raise NotConverged(
         f"the modulus at which jumps begin was not found near delta = {point.state.displacement:.6g}; take a finer "
@@ -176,12 +176,12 @@ def _by_central_gap(point: Point) -> Point:
     return Branch(contact, fixed, CentralGap, touching=False).solve(point.state.central_gap, y)
 
 
-def _moved(point: Point, rates: DisplacementRates, place: float, ratio: float) -> Point:
+def _moved(point: Point, rates: DisplacementRates, shift: float, ratio: float) -> Point:
     """The point at another parameter and another logarithm of the modulus."""
     contact = point.branch.contact
     stiffer = replace(contact, compliance=contact.compliance.stiffened(math.exp(ratio)))
-    y = point.predict(point.parameter + place) + ratio * rates.change
-    return replace(point.branch, contact=stiffer).solve(point.parameter + place, y)
+    y = point.predict(point.parameter + shift) + ratio * rates.change
+    return replace(point.branch, contact=stiffer).solve(point.parameter + shift, y)
 
 
 def _tangent(branch: Branch, y: Array, parameter: float) -> Array:

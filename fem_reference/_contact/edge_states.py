@@ -35,35 +35,35 @@ from fem_reference.errors import NotConverged
 
 __all__ = ["EdgeStates"]
 
+#: Difference of the logarithms of two radii from which on a state is also looked for by way of one between.
 CLOSE = 0.02
-"""Difference of the logarithms of two radii from which on a state is also looked for by way of one between."""
 
+#: Newton steps after which a state is not taken for the neighbour of the one it was sought from: the iteration has
+#: wandered, and where it ends depends on rounding (measured: 3 to 6 steps to a neighbour; 24 to a state that had none).
 MOST_STEPS = 15
-"""Newton steps after which a state is not taken for the neighbour of the one it was sought from: the iteration has
-wandered, and where it ends depends on rounding (measured: 3 to 6 steps to a neighbour; 24 to a state that had none)."""
 
+#: Ratio of an element at the edge to the resolved edge width up to which the mesh of a neighbour is taken: on those of
+#: the search it leaves 1e-5 of a load.
 SHARED = 2.0
-"""Ratio of an element at the edge to the resolved edge width up to which the mesh of a neighbour is taken: on those of
-the search it leaves 1e-5 of a load."""
 
+#: Largest number of states: 40 are usual where the contact grows to a hundred times the radius at which it begins.
 MOST_STATES = 400
-"""Largest number of states: 40 are usual where the contact grows to a hundred times the radius at which it begins."""
 
+#: Largest number of widths of the edge at one radius.
 WIDTHS = 8
-"""Largest number of widths of the edge at one radius."""
 
+#: Newton steps for the root of a polynomial of degree 3 that is nearly straight.
 POLISHES = 3
-"""Newton steps for the root of a polynomial of degree 3 that is nearly straight."""
 
+#: Largest number of moves of a mesh towards an event; two are usual, from an event that is 0.5 % away.
 MOVES = 12
-"""Largest number of moves of a mesh towards an event; two are usual, from an event that is 0.5 % away."""
 
+#: Largest change of the radius in one of them, relative to it.
 LARGEST_MOVE = 0.1
-"""Largest change of the radius in one of them, relative to it."""
 
+#: Change of the logarithm of the radius between states whose values tell an extremum: the polynomial of degree 4 has it
+#: to 3e-7 for a load of the limit of a short range (by its fifth derivative), which changes the load by 2e-13.
 EXTREMUM_STEP = 0.02
-"""Change of the logarithm of the radius between states whose values tell an extremum: the polynomial of degree 4 has it
-to 3e-7 for a load of the limit of a short range (by its fifth derivative), which changes the load by 2e-13."""
 
 
 class _Meshes(Protocol):
@@ -90,7 +90,7 @@ class EdgeStates:
         Of the elements.
     share : float
         Resolved edge width, as `fem_reference._contact.path.WIDTH_SHARE`.
-    known : dict of float to Point
+    states : dict of float to Point
         States by the radius of their edge.
     """
 
@@ -99,7 +99,7 @@ class EdgeStates:
     degree: int
     density: float
     share: float = WIDTH_SHARE
-    known: dict[float, Point] = field(default_factory=dict)
+    states: dict[float, Point] = field(default_factory=dict)
 
     def at(self, radius: float) -> Point:
         """Return the state with the contact edge at a radius, on any mesh that resolves it.
@@ -109,14 +109,14 @@ class EdgeStates:
         NotConverged
             If it is not found, or there are too many states.
         """
-        if radius not in self.known:
-            if len(self.known) >= MOST_STATES:
+        if radius not in self.states:
+            if len(self.states) >= MOST_STATES:
                 raise NotConverged(
                     f"the path in contact needs more than {MOST_STATES} states with edges between "
-                    f"{min(self.known):.4g} and {max(self.known):.4g}"
+                    f"{min(self.states):.4g} and {max(self.states):.4g}"
                 )
-            self.known[radius] = self._on_known_mesh(radius) or self.own(radius)[1]
-        return self.known[radius]
+            self.states[radius] = self._on_neighbour_mesh(radius) or self.own(radius)[1]
+        return self.states[radius]
 
     def own(self, radius: float) -> tuple[MeshSpec, Point]:
         """Return the mesh that is fine at a radius, and the state with the contact edge there.
@@ -126,8 +126,8 @@ class EdgeStates:
         NotConverged
             If the state is not found, or its edge is narrower than a mesh can resolve.
         """
-        near = self._nearest(radius)
-        width = self.share * edge_width(near) * near.edge_radius / radius
+        nearest = self._nearest(radius)
+        width = self.share * edge_width(nearest) * nearest.edge_radius / radius
         for _ in range(WIDTHS):
             spec = self.meshes.spec_at(width, radius)
             contact = self.meshes.contact(replace(spec, order=self.degree, density=self.density), radius)
@@ -199,46 +199,46 @@ class EdgeStates:
         similar = replace(self.meshes.spec_at(spec.edge_width, radius), order=self.degree, density=self.density)
         return self._reached(self.meshes.contact(similar, radius), radius)
 
-    def _on_known_mesh(self, radius: float) -> Point | None:
+    def _on_neighbour_mesh(self, radius: float) -> Point | None:
         """The state on the mesh of the nearest one, if its elements there are short enough."""
-        near = self._nearest(radius)
-        wide = SHARED * WIDTH_SHARE * edge_width(near) * near.edge_radius
-        if near is self.start or element_length(near, radius) > wide:
+        nearest = self._nearest(radius)
+        wide = SHARED * WIDTH_SHARE * edge_width(nearest) * nearest.edge_radius
+        if nearest is self.start or element_length(nearest, radius) > wide:
             return None
         with suppress(NotConverged):
-            point = near.branch.solve(radius, near.predict(radius))
+            point = nearest.branch.solve(radius, nearest.predict(radius))
             if edge_is_resolved(point, SHARED):
                 return point
         return None
 
     def _nearest(self, radius: float) -> Point:
         """The nearest state known."""
-        if not self.known:
+        if not self.states:
             return self.start
-        return self.known[min(self.known, key=lambda r: abs(math.log(r / radius)))]
+        return self.states[min(self.states, key=lambda r: abs(math.log(r / radius)))]
 
     def _reached(self, contact: Contact, radius: float) -> Point:
         """State on a mesh whose edge is at that radius, by way of states between if it is not found at once."""
         while True:
-            near = self._nearest(radius)
+            nearest = self._nearest(radius)
             try:
-                return _state_from(near, contact, radius)
+                return _state_from(nearest, contact, radius)
             except NotConverged:
-                if abs(math.log(near.edge_radius / radius)) <= CLOSE:
+                if abs(math.log(nearest.edge_radius / radius)) <= CLOSE:
                     raise
-                self.at(math.sqrt(near.edge_radius * radius))
+                self.at(math.sqrt(nearest.edge_radius * radius))
 
 
-def _state_from(near: Point, contact: Contact, radius: float) -> Point:
+def _state_from(nearest: Point, contact: Contact, radius: float) -> Point:
     """The state with the contact edge at a radius where a mesh is fine, from one on another mesh."""
     branch = Branch(contact, Size(radius), lambda r: EdgeRadius(contact.law.peak_gap, r), touching=True)
     for start in (_shifted, _projected):
         with suppress(NotConverged):
-            found = branch.solve(radius, start(near, contact, radius))
-            if found.state.iterations <= MOST_STEPS:
-                return found
+            point = branch.solve(radius, start(nearest, contact, radius))
+            if point.state.iterations <= MOST_STEPS:
+                return point
     raise NotConverged(
-        f"no equilibrium was found with the contact edge at {radius:.6g}, from that at {near.edge_radius:.6g}"
+        f"no equilibrium was found with the contact edge at {radius:.6g}, from that at {nearest.edge_radius:.6g}"
     )
 
 

@@ -41,23 +41,23 @@ from fem_reference.errors import NotConverged
 
 __all__ = ["PARTS", "Estimate", "EventsOnMeshes", "events_on_meshes"]
 
+#: Names of the parts of a bound.
 PARTS = ("mesh", "first layer", "interior and exterior", "edge", "tail", "algebra")
-"""Names of the parts of a bound."""
 
+#: Degrees by which the elements of the meshes that differ in one feature are lower: they cost a third of those of the
+#: full degree, and the difference that a feature makes is larger (measured: 2.4 to 1400 times for five quantities of
+#: ten random problems, n = 1 ... 5.7, k = 0 ... 0.65, mu = 0.06 ... 2).
 FEATURE_DEGREES = 2
-"""Degrees by which the elements of the meshes that differ in one feature are lower: they cost a third of those of the
-full degree, and the difference that a feature makes is larger (measured: 2.4 to 1400 times for five quantities of ten
-random problems, n = 1 ... 5.7, k = 0 ... 0.65, mu = 0.06 ... 2)."""
 
+#: Error of the densities, relative to the quantity, beyond which the lower degree is taken on the finest mesh; and the
+#: difference that a feature makes with the lower degree, beyond which it is found with the full degree. Both are where
+#: the solid does not scale, and ten times the accuracy "default". Two layers taken together may be as thick as the
+#: length in which the modulus changes, and the lower degree then shows its own error there (measured: 2e-6 with degree
+#: 4 and 2e-7 with 6, where a modulus grows tenfold within 0.4 contact radii).
 UNCERTAIN = 1e-6
-"""Error of the densities, relative to the quantity, beyond which the lower degree is taken on the finest mesh; and the
-difference that a feature makes with the lower degree, beyond which it is found with the full degree.  Both are where
-the solid does not scale, and ten times the accuracy "default".  Two layers taken together may be as thick
-as the length in which the modulus changes, and the lower degree then shows its own error there (measured: 2e-6 with
-degree 4 and 2e-7 with 6, where a modulus grows tenfold within 0.4 contact radii)."""
 
+#: Relative rounding of a quantity itself: a few units of its last place.
 ROUNDING = 1e-15
-"""Relative rounding of a quantity itself: a few units of its last place."""
 
 Functional = Callable[[PathEvents | ResolvedEvents], float]
 
@@ -193,17 +193,17 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
     _, middle, finest = choice.level.densities
     medium, fine = replace(spec, density=middle), replace(spec, density=finest)
     coarse = choice.contact(spec, size)
-    other = size
+    lower_size = size
     placements: tuple[float, ...] = (-1.0, 1.0)
     if isinstance(coarse.compliance, FixedCompliance):
         # Another placement of the edge needs another mesh here: that of the other degree.
         r = fine.grid().r
-        other = size * (0.5 + 0.5 * float(r[np.argmin(abs(r - 1.0)) + 1]))
+        lower_size = size * (0.5 + 0.5 * float(r[np.argmin(abs(r - 1.0)) + 1]))
         placements = ()
     plain = replace(spec, order=spec.order - FEATURE_DEGREES)
     middle_contact = choice.contact(medium, size)
-    moved = replace(medium, order=spec.order - 1).moved(other / size)
-    lower_degree = choice.contact(moved, other)
+    moved = replace(medium, order=spec.order - 1).moved(lower_size / size)
+    lower_degree = choice.contact(moved, lower_size)
     base = choice.contact(plain, size)
     features = {feature: choice.contact(variant(plain, feature), size) for feature in FEATURES if feature != EXTENT}
     # The finest mesh is the last: it is used next.
@@ -212,7 +212,9 @@ def events_on_meshes(choice: MeshChoice, spec: MeshSpec, size: float) -> EventsO
 
     @lru_cache(maxsize=1)
     def finest_lower_degree() -> ResolvedEvents:
-        return ResolvedEvents(path, choice.contact(replace(fine, order=spec.order - 1).moved(other / size), other))
+        return ResolvedEvents(
+            path, choice.contact(replace(fine, order=spec.order - 1).moved(lower_size / size), lower_size)
+        )
 
     @lru_cache(maxsize=len(FEATURES))
     def full_degree(feature: str) -> ResolvedEvents:

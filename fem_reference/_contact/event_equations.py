@@ -24,8 +24,8 @@ from fem_reference._typing import Array
 
 __all__ = ["EventEquations"]
 
+#: Change of the parameter, in its largest steps, for the slope of a rate: an error of this size slows Newton only.
 SLOPE_STEP = 1e-4
-"""Change of the parameter, in its largest steps, for the slope of a rate: an error of this size slows Newton only."""
 
 
 class EventEquations:
@@ -71,9 +71,9 @@ class EventEquations:
 
     def copy(self) -> Self:
         """Return equations whose unknowns can be changed without changing these."""
-        made = object.__new__(type(self))
-        made.__dict__.update(self.__dict__)
-        return made
+        duplicate = object.__new__(type(self))
+        duplicate.__dict__.update(self.__dict__)
+        return duplicate
 
     def step(self, w: Array, w_rate: Array | None, events: Mapping[str, EventEquations]) -> float:
         """Take a Newton step.
@@ -94,12 +94,12 @@ class EventEquations:
             (the change of the size to itself).  The defect is the larger: where the law is steep, a small change of the
             gap is a large one of the traction.
         """
-        y, rate, first, second = self.y, self.rate, *self._controls()
-        defect = np.append(y[:-2], [first.value(self.contact, y), second.value(self.contact, y)])
+        y, rate, fixed, family = self.y, self.rate, *self._controls()
+        defect = np.append(y[:-2], [fixed.value(self.contact, y), family.value(self.contact, y)])
         defect_rate = None
         if w_rate is not None:
-            parameter_rate = second.parameter_rate(self.contact, y) if isinstance(second, EdgeRadius) else 1.0
-            rows = first.gradient(self.contact, y) @ rate, second.gradient(self.contact, y) @ rate - parameter_rate
+            parameter_rate = family.parameter_rate(self.contact, y) if isinstance(family, EdgeRadius) else 1.0
+            rows = fixed.gradient(self.contact, y) @ rate, family.gradient(self.contact, y) @ rate - parameter_rate
             defect_rate = np.append(rate[:-2], rows)
         self._correct(defect, defect_rate, w, w_rate, events)
         change = np.abs(self.y - y)
@@ -164,8 +164,8 @@ class EventEquations:
 
     def _tangent(self) -> Array:
         """Derivative of the condensed equations and the controls with respect to y, shape (m + 2, m + 2)."""
-        first, second = self._controls()
-        rows = first.gradient(self.contact, self.y), second.gradient(self.contact, self.y)
+        fixed, family = self._controls()
+        rows = fixed.gradient(self.contact, self.y), family.gradient(self.contact, self.y)
         return np.vstack([self.contact.tangent(self.y), *rows])
 
     def _excess(self, events: Mapping[str, EventEquations]) -> float:
@@ -189,10 +189,10 @@ class EventEquations:
         if self.name == "zero_load":
             return state.load_rate
         step = SLOPE_STEP * self.point.branch.largest_step(self.parameter)
-        near = point_at(self.point, self.parameter + step).state
+        ahead = point_at(self.point, self.parameter + step).state
         if self.name == "pull_off":
-            return (near.load_rate - state.load_rate) / step
-        return (near.displacement_rate - state.displacement_rate) / step
+            return (ahead.load_rate - state.load_rate) / step
+        return (ahead.displacement_rate - state.displacement_rate) / step
 
 
 def _solved(matrix: Array, b: Array) -> Array:

@@ -39,38 +39,38 @@ __all__ = [
     "kind_of",
 ]
 
+#: Relative tolerance of the parameter at an event; P is stationary there and delta moves by as little.
 ROOT_TOLERANCE = 1e-11
-"""Relative tolerance of the parameter at an event; P is stationary there and delta moves by as little."""
 
+#: Events of the path: the deepest minimum of the load, the two folds of displacement control, and the point in contact
+#: where the load changes from tension to compression.
 EVENTS = ("pull_off", "jump_in", "jump_out", "zero_load")
-"""Events of the path: the deepest minimum of the load, the two folds of displacement control, and the point in contact
-where the load changes from tension to compression."""
 
+#: The point at the displacement of the jump into contact, on the next branch inwards: where that jump ends.
 LANDING = "landing"
-"""The point at the displacement of the jump into contact, on the next branch inwards: where that jump ends."""
 
+#: The point out of contact at the displacement of the jump out of contact: where that jump ends.
 SEPARATED = "separated"
-"""The point out of contact at the displacement of the jump out of contact: where that jump ends."""
 
+#: The first fold on approach.
 JUMP_IN = "jump_in"
-"""The first fold on approach."""
 
+#: The last fold on retreat.
 JUMP_OUT = "jump_out"
-"""The last fold on retreat."""
 
 STIFF = "the displacement rises all along the path: this solid is too stiff for jumps"
 
+#: The point where the two folds merge, at the modulus at which they do; its compliance has that modulus.
 CUSP = "cusp"
-"""The point where the two folds merge, at the modulus at which they do; its compliance has that modulus."""
 
+#: Relative change of the parameter for the slope of a rate: an error of this size slows the secant method only.
 SLOPE_STEP = 1e-4
-"""Relative change of the parameter for the slope of a rate: an error of this size slows the secant method only."""
 
 Pair = tuple[Point, Point]
 
+#: Names of the fold where a jump begins and of the point where it ends. Those of a further jump have a number, from 2
+#: on and from outside to inside: "jump_in_2" and "landing_2", "jump_out_2" and "separated_2".
 Jump = tuple[str, str]
-"""Names of the fold where a jump begins and of the point where it ends.  Those of a further jump have a number, from 2
-on and from outside to inside: "jump_in_2" and "landing_2", "jump_out_2" and "separated_2"."""
 
 
 class Events(Protocol):
@@ -209,10 +209,10 @@ class PathEvents:
     @cached_property
     def zero_load(self) -> Point:
         """The point in contact where the load changes from tension to compression."""
-        found = self._rise_through(_neighbours(self.points), _load, _load_rate, 0.0, last=True)
-        if found is None:
+        zero = self._rise_through(_neighbours(self.points), _load, _load_rate, 0.0, outermost=True)
+        if zero is None:
             raise NoSuchEvent("the load does not become compressive on the path")
-        return found
+        return zero
 
     @cached_property
     def landing(self) -> Point:
@@ -255,23 +255,23 @@ class PathEvents:
         """Folds and ends of the jumps but the first on approach and the last on retreat, by their names."""
         maxima = _sign_changes(self.points, _displacement_rate, rising=False)
         minima = _sign_changes(self.points, _displacement_rate, rising=True)
-        found: dict[str, Point] = {}
+        points: dict[str, Point] = {}
         if len(maxima) > 1:
             for number, (fold, end) in zip(count(2), self._later_on_approach(maxima), strict=False):
-                found |= {f"{JUMP_IN}_{number}": fold, f"{LANDING}_{number}": end}
+                points |= {f"{JUMP_IN}_{number}": fold, f"{LANDING}_{number}": end}
         if len(minima) > 1:
             for number, (fold, end) in zip(count(2), reversed(self._earlier_on_retreat(minima)), strict=False):
-                found |= {f"{JUMP_OUT}_{number}": fold, f"{SEPARATED}_{number}": end}
-        return found
+                points |= {f"{JUMP_OUT}_{number}": fold, f"{SEPARATED}_{number}": end}
+        return points
 
     def _later_on_approach(self, maxima: Sequence[Pair]) -> list[Pair]:
         """Fold and end of each jump on approach after the first."""
-        found, end = [], self.landing
-        while inside := [pair for pair in maxima if _place(pair[1]) > _place(end)]:
+        jumps, end = [], self.landing
+        while inside := [pair for pair in maxima if _path_order(pair[1]) > _path_order(end)]:
             fold = self.root(inside[0], _displacement_rate)
             end = self._landing(fold, inwards=True)
-            found.append((fold, end))
-        return found
+            jumps.append((fold, end))
+        return jumps
 
     def _earlier_on_retreat(self, minima: Sequence[Pair]) -> list[Pair]:
         """Fold and end of each jump on retreat before the last.
@@ -281,29 +281,33 @@ class PathEvents:
         NotConverged
             If another fold is as low as the last one, within the error of a path over several meshes.
         """
-        last = min(minima, key=lambda pair: _distance(pair, self.jump_out))
-        found: list[Pair] = []
+        outermost = min(minima, key=lambda pair: _distance(pair, self.jump_out))
+        jumps: list[Pair] = []
         outside = list(minima)
-        while outside and outside[-1] != last:
+        while outside and outside[-1] != outermost:
             fold = self.root(outside[-1], _displacement_rate)
             end = self._landing(fold, inwards=False)
-            found.append((fold, end))
-            outside = [pair for pair in minima if _place(pair[0]) < _place(end)]
+            jumps.append((fold, end))
+            outside = [pair for pair in minima if _path_order(pair[0]) < _path_order(end)]
         if not outside:
             raise NotConverged(
                 f"two folds near delta = {self.jump_out.state.displacement:.6g} are equally low within the error of "
                 "the path: which of them is the last on retreat is not decided"
             )
-        return found
+        return jumps
 
     def _landing(self, fold: Point, inwards: bool) -> Point:
         """Return the nearest point inwards or outwards of a fold where the displacement rises through that of it."""
-        delta, place = fold.state.displacement, _place(fold)
-        pairs = [(a, b) for a, b in _neighbours(self.points) if (_place(a) >= place if inwards else _place(b) <= place)]
-        found = self._rise_through(pairs, _displacement, _displacement_rate, delta, last=not inwards)
-        if found is None:
+        delta, position = fold.state.displacement, _path_order(fold)
+        pairs = [
+            (a, b)
+            for a, b in _neighbours(self.points)
+            if (_path_order(a) >= position if inwards else _path_order(b) <= position)
+        ]
+        landing = self._rise_through(pairs, _displacement, _displacement_rate, delta, outermost=not inwards)
+        if landing is None:
             raise NoSuchEvent(f"the path does not reach the displacement {delta:.6g} on both branches")
-        return found
+        return landing
 
     def _rise_through(
         self,
@@ -311,7 +315,7 @@ class PathEvents:
         value: Callable[[Point], float],
         rate: Callable[[Point], float],
         level: float,
-        last: bool,
+        outermost: bool,
     ) -> Point | None:
         """Find the first or the last point of a part of a complete path where a value rises through a level.
 
@@ -321,15 +325,15 @@ class PathEvents:
         def excess(point: Point) -> float:
             return value(point) - level
 
-        for a, b in reversed(pairs) if last else pairs:
+        for a, b in reversed(pairs) if outermost else pairs:
             before, after = excess(a), excess(b)
             if before < 0 <= after:
                 return self.root((a, b), excess)
-            if last and before >= 0 and after >= 0 and rate(a) < 0 <= rate(b):
+            if outermost and before >= 0 and after >= 0 and rate(a) < 0 <= rate(b):
                 lowest = self.root((a, b), rate)
                 if excess(lowest) < 0:
                     return self.root((lowest, b), excess)
-            if not last and before < 0 and after < 0 and rate(a) > 0 >= rate(b):
+            if not outermost and before < 0 and after < 0 and rate(a) > 0 >= rate(b):
                 highest = self.root((a, b), rate)
                 if excess(highest) >= 0:
                     return self.root((a, highest), excess)
@@ -337,20 +341,20 @@ class PathEvents:
 
     def root(self, pair: Pair, function: Callable[[Point], float]) -> Point:
         """Find the point between two neighbours where the function vanishes."""
-        known = {pair[0].parameter: pair[0], pair[1].parameter: pair[1]}
+        solved = {pair[0].parameter: pair[0], pair[1].parameter: pair[1]}
 
         def value(parameter: float) -> float:
-            if parameter not in known:
-                nearest, second = sorted(known.values(), key=lambda p: abs(p.parameter - parameter))[:2]
-                known[parameter] = self.between(nearest, second, parameter)
-            return function(known[parameter])
+            if parameter not in solved:
+                nearest, second = sorted(solved.values(), key=lambda p: abs(p.parameter - parameter))[:2]
+                solved[parameter] = self.between(nearest, second, parameter)
+            return function(solved[parameter])
 
         scale = max(abs(pair[0].parameter), abs(pair[1].parameter))
         root = float(
             brentq(value, pair[0].parameter, pair[1].parameter, xtol=ROOT_TOLERANCE * scale, rtol=4 * ROOT_TOLERANCE)
         )
         value(root)
-        return known[root]
+        return solved[root]
 
 
 def anchor_of(event: str, point: Point) -> tuple[Point, float]:
@@ -360,9 +364,9 @@ def anchor_of(event: str, point: Point) -> tuple[Point, float]:
     if event == "zero_load":
         return point, point.state.load_rate
     unit = point.parameter if point.branch.touching else point.branch.contact.law.z0
-    near = point_at(point, point.parameter + SLOPE_STEP * unit)
+    ahead = point_at(point, point.parameter + SLOPE_STEP * unit)
     excess = excess_of(event)
-    return point, (excess(near) - excess(point)) / (near.parameter - point.parameter)
+    return point, (excess(ahead) - excess(point)) / (ahead.parameter - point.parameter)
 
 
 def excess_of(event: str, level: float = 0.0) -> Callable[[Point], float]:
@@ -407,15 +411,15 @@ def _displacement_rate(point: Point) -> float:
     return point.displacement_rate
 
 
-def _place(point: Point) -> tuple[bool, float]:
+def _path_order(point: Point) -> tuple[bool, float]:
     """Place along the path: it grows from far away into contact."""
-    return point.branch.touching, point.sense * point.parameter
+    return point.branch.touching, point.orientation * point.parameter
 
 
 def _distance(pair: Pair, point: Point) -> float:
     """How far outside an interval a point is; 0 inside."""
-    (touching, low), (_, high), (at, place) = (_place(each) for each in (*pair, point))
-    return max(low - place, place - high, 0.0) if touching == at else math.inf
+    (touching, low), (_, high), (at, position) = (_path_order(end) for end in (*pair, point))
+    return max(low - position, position - high, 0.0) if touching == at else math.inf
 
 
 def _neighbours(points: Sequence[Point]) -> list[Pair]:

@@ -7,14 +7,14 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Protocol
 
-from fem_reference._contact.carried_events import CarriedEvents
-from fem_reference._contact.carried_path import FARTHER, carried_path
 from fem_reference._contact.completeness import complete_path, displacement_range
 from fem_reference._contact.contact import Contact
 from fem_reference._contact.edge_states import EdgeStates
 from fem_reference._contact.events import JUMP_IN, LANDING, SEPARATED, PathEvents, beginning_of, excess_of
 from fem_reference._contact.jkr_tension import last_turn
 from fem_reference._contact.mesh_lengths import EDGE_PER_BALANCE, WIDEST, check_width, kinks_within, spot_length
+from fem_reference._contact.multimesh_events import MultimeshEvents
+from fem_reference._contact.multimesh_path import FARTHER, multimesh_path
 from fem_reference._contact.path import WIDTH_SHARE, Point, edge_width, equilibrium_points
 from fem_reference._contact.tracing import beginning
 from fem_reference._elastic.compliance import is_scaling
@@ -24,27 +24,27 @@ from fem_reference.problem import Problem
 
 __all__ = ["FollowedPath"]
 
+#: Degrees by which the elements of the path are lower than those of its events: a third of the time.
 SEARCH_DEGREES = 2
-"""Degrees by which the elements of the path are lower than those of its events: a third of the time."""
 
+#: Difference of two minima, relative to the load or in lengths of the law, up to which their own meshes decide.
 TIE = 1e-2
-"""Difference of two minima, relative to the load or in lengths of the law, up to which their own meshes decide."""
 
+#: Resolved edge width of an event, as `fem_reference._contact.path.WIDTH_SHARE`: the edge moves over the elements
+#: there, and the rates have the error of a load divided by the length of an element.
 EVENT_SHARE = 0.07
-"""Resolved edge width of an event, as `fem_reference._contact.path.WIDTH_SHARE`: the edge moves over the elements
-there, and the rates have the error of a load divided by the length of an element."""
 
+#: Density of the mesh for the limit of a short range: an element is at most half as long as its distance.
 SCAN_DENSITY = 0.5
-"""Density of the mesh for the limit of a short range: an element is at most half as long as its distance."""
 
+#: Width of an edge, relative to its radius, below which the rates on one mesh do not tell an extremum: they have the
+#: error of a load divided by the length of an element (measured at a Tabor number of 1000, with a width of 7e-7: they
+#: vanish at a radius 1e-3 too small, where the load is 1.9e-6 above its minimum).
 NARROW_EDGE = 2e-4
-"""Width of an edge, relative to its radius, below which the rates on one mesh do not tell an extremum: they have the
-error of a load divided by the length of an element (measured at a Tabor number of 1000, with a width of 7e-7: they
-vanish at a radius 1e-3 too small, where the load is 1.9e-6 above its minimum)."""
 
+#: Ratio of the width of an edge to the length of balance that it does not exceed where the edge is sharp (measured: 2.2
+#: at the pull-off on a soft layer with a Tabor number of 160).
 WIDEST_EDGE = 5.0
-"""Ratio of the width of an edge to the length of balance that it does not exceed where the edge is sharp (measured: 2.2
-at the pull-off on a soft layer with a Tabor number of 160)."""
 
 
 class _Choice(Protocol):
@@ -72,8 +72,8 @@ class FollowedPath:
         The mesh on which the path begins.
     """
 
-    def __init__(self, choice: _Choice, first: tuple[MeshSpec, float]) -> None:
-        self._choice, self._first = choice, first
+    def __init__(self, choice: _Choice, initial: tuple[MeshSpec, float]) -> None:
+        self._choice, self._first = choice, initial
         self._degree = choice.level.order - SEARCH_DEGREES
 
     @cached_property
@@ -84,8 +84,8 @@ class FollowedPath:
         approach: list[Point] = []
         for point in points:
             if point.branch.touching:
-                *approach, first = complete_path([*approach, point])
-                return approach, first
+                *approach, contact_start = complete_path([*approach, point])
+                return approach, contact_start
             approach.append(point)
         raise AssertionError("a path that does not reach contact raises NotConverged")
 
@@ -103,18 +103,18 @@ class FollowedPath:
         return any(point.displacement_rate <= 0.0 for point in self._approach[0])
 
     @cached_property
-    def _whole(self) -> CarriedEvents:
+    def _whole(self) -> MultimeshEvents:
         problem, turn = self._choice.problem, self._last_turn()
         # Edges beyond reach are refused here, and not after minutes.
         scaling = is_scaling(problem.solid.modulus, problem.solid.poisson, kinks_within(problem))
         ratio = EDGE_PER_BALANCE / FARTHER if scaling else WIDEST_EDGE
         check_width(ratio * WIDTH_SHARE * spot_length(problem, self._first[1]) / turn)
-        approach, first = self._approach
-        states = EdgeStates(self._choice, first, self._degree, self._choice.level.densities[0])
+        approach, contact_start = self._approach
+        states = EdgeStates(self._choice, contact_start, self._degree, self._choice.level.densities[0])
         highest = displacement_range(approach)[1]
-        touching = carried_path(states, first.edge_radius, turn, kinks_within(problem), highest)
+        touching = multimesh_path(states, contact_start.edge_radius, turn, kinks_within(problem), highest)
         before = complete_path([*beginning(approach, touching), *approach])
-        return CarriedEvents(before, touching, states)
+        return MultimeshEvents(before, touching, states)
 
     def _last_turn(self) -> float:
         """Radius beyond which neither load nor displacement turns back."""
@@ -161,15 +161,15 @@ class FollowedPath:
         if beginning is None and event != "zero_load" and edge_width(point) < NARROW_EDGE:
             states = EdgeStates(self._choice, point, order, densities[0], EVENT_SHARE)
             radius, slope = states.extremum(lambda state: _height(event, state))
-            spec, found = EdgeStates(self._choice, states.start, order, densities[-1], EVENT_SHARE).own(radius)
-            return (spec, radius), replace(found, held=True), slope
+            spec, point_there = EdgeStates(self._choice, states.start, order, densities[-1], EVENT_SHARE).own(radius)
+            return (spec, radius), replace(point_there, held=True), slope
         states = EdgeStates(self._choice, point, order, densities[-1], EVENT_SHARE)
         excess = excess_of(event, level)
         spec, radius = states.located(excess, slope)
         if held:
             radius -= excess(states.start) / slope
-            spec, found = states.own(radius)
-            return (spec, radius), replace(found, held=True), slope
+            spec, point_there = states.own(radius)
+            return (spec, radius), replace(point_there, held=True), slope
         return (spec, radius), states.start, slope
 
 

@@ -1,9 +1,8 @@
 """Contact equations that are not condensed to the surface: the whole mesh, with the traction as facet forms.
 
 On a mesh in units of the size c the equations are K u / factor(c) = F(u, delta, c), with K the stiffness and the load
-vector and its tangent assembled by scikit-fem on the surface facets at the gap H = -delta + f(c s) + u_z.  Functions
-inside an element carry no load: they are eliminated from K, and u has zeros in their rows.  Linear systems are solved
-by conjugate gradients and GMRES with the elastic preconditioner, whose coarse level is pyamg's.
+vector assembled by scikit-fem on the surface facets at the gap H = -delta + f(c s) + u_z.  Functions inside an element
+carry no load: they are eliminated from K, and u has zeros in their rows.
 """
 
 from __future__ import annotations
@@ -12,14 +11,12 @@ import math
 from typing import Any
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.linalg import LinearOperator
-from skfem import BilinearForm, FacetBasis, LinearForm
+from skfem import FacetBasis, LinearForm
 from skfem.mapping import MappingIsoparametric
 
 from fem_reference._elastic.assembly import HalfSpace
 from fem_reference._elastic.gauss import unit_gauss
-from fem_reference._linear.linear_solver import relative_residual, solve_cg
+from fem_reference._linear.linear_solver import relative_residual
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._typing import Array
 from fem_reference.laws import SurfaceLaw
@@ -33,11 +30,6 @@ def _pressure(v: Any, w: Any) -> Any:
     return w.pressure * w.x[0] * v
 
 
-@BilinearForm
-def _pressure_change(u: Any, v: Any, w: Any) -> Any:
-    return w.change * w.x[0] * u * v
-
-
 class _RectangleMapping(MappingIsoparametric):
     """Map of rectangles whose inverse is a division.
 
@@ -48,8 +40,8 @@ class _RectangleMapping(MappingIsoparametric):
     def invF(self, x: Array, tind: Any = None, *_: Any, **__: Any) -> Array:
         """Reference coordinates of points in their elements."""
         t = self.mesh.t if tind is None else self.mesh.t[:, tind]
-        corner, first, _, second = self.mesh.p[:, t].transpose(1, 0, 2)
-        sides = np.stack([first - corner, second - corner])
+        corner, along_first, _, along_second = self.mesh.p[:, t].transpose(1, 0, 2)
+        sides = np.stack([along_first - corner, along_second - corner])
         along = np.einsum("kij,ijq->kjq", sides, x - corner[:, :, None])
         return np.clip(along / np.einsum("kij,kij->kj", sides, sides)[:, :, None], 0.0, 1.0)
 
@@ -92,26 +84,6 @@ class FullSystem:
         """H at the facet Gauss points."""
         return -delta + self.punch.height(c * self.s) + np.asarray(self.facets.interpolate(u[1::2]))
 
-    def loads(self, u: Array, delta: float, c: float) -> tuple[Array, sparse.csr_array, Array, Array]:
-        """Load vector, its derivatives with respect to u, delta and c (free rows, scaled)."""
-        H = self.gap(u, delta, c)
-        change = self.law.slope(H)
-        rise = self.s * self.punch.slope(c * self.s)
-        vectors = [
-            np.asarray(_pressure.assemble(self.facets, pressure=values))
-            for values in (self.law.traction(H), -change, change * rise)
-        ]
-        tangent = _pressure_change.assemble(self.facets, change=change).tocoo()
-        size = u.size
-        full = sparse.coo_array((tangent.data, (2 * tangent.row + 1, 2 * tangent.col + 1)), shape=(size, size)).tocsr()
-        free, D = self.half_space.free, sparse.diags_array(self.preconditioner.scale)
-        reduced = []
-        for vector in vectors:
-            full_vector = np.zeros(size)
-            full_vector[1::2] = vector
-            reduced.append(self.preconditioner.scale * full_vector[free])
-        return reduced[0], (D @ full[free][:, free] @ D).tocsr(), reduced[1], reduced[2]
-
     def vector(self, pressure: Array) -> Array:
         """Return the load vector of a pressure at the facet Gauss points, shape (2 N,)."""
         load = np.zeros(self.half_space.elements.size)
@@ -149,21 +121,7 @@ class FullSystem:
         left = self.preconditioner(np.stack([slope, traction], axis=1)).T
         return math.sqrt(abs(float(slope @ left[0])) / abs(float(traction @ left[1])))
 
-    def under_pressure(self, pressure: Array, factor: float) -> Array:
-        """Return the displacement under a pressure at the facet Gauss points, to start Newton from."""
-        return factor * solve_cg(self.half_space, self.vector(pressure), self.preconditioner).solution
-
     def load(self, u: Array, delta: float, c: float) -> float:
         """P on the mesh (compression positive)."""
         p = self.law.traction(self.gap(u, delta, c))
         return 2.0 * math.pi * c**2 * float(np.sum(p * self.s * self.facets.dx))
-
-    def bordered(self, tangent: sparse.csr_array, F_delta: Array, edge_row: Array) -> LinearOperator:
-        """Tangent on the scaled free rows, bordered by one control whose derivative with respect to delta is -1."""
-
-        def apply(x: Array) -> Array:
-            x = np.ravel(x)
-            return np.append(tangent @ x[:-1] - F_delta * x[-1], edge_row @ x[:-1] - x[-1])
-
-        size = F_delta.size + 1
-        return LinearOperator((size, size), apply, dtype=float)

@@ -17,11 +17,11 @@ from fem_reference._typing import Array
 
 __all__ = ["Interval", "Sample"]
 
+#: Factor on the largest fourth difference among the neighbours: the assumption of the test.
 SAFETY = 2.0
-"""Factor on the largest fourth difference among the neighbours: the assumption of the test."""
 
+#: Values of x at which slope and curvature are compared with their errors.
 PLACES = 65
-"""Values of x at which slope and curvature are compared with their errors."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,15 +82,15 @@ class Interval:
     @cached_property
     def _difference(self) -> float:
         """Largest fourth divided difference, in x, that the neighbours show."""
-        found = np.inf
+        difference = np.inf
         for sample in self.neighbours:
             x = (sample.parameter - self.first.parameter) / self._length
             area = x * (x - 1.0)
             value = (sample.value - float(self._cubic(np.array(x)))) / area**2
             rate = (sample.rate * self._length - float(self._slope(np.array(x)))) / (2.0 * area * (2.0 * x - 1.0))
             largest = max(abs(value), abs(rate))
-            found = largest if np.isinf(found) else max(found, largest)
-        return float(found)
+            difference = largest if np.isinf(difference) else max(difference, largest)
+        return float(difference)
 
     def decided(self, tolerance: float) -> bool:
         """Whether the number of turning points is that of the cubic, but for changes of the value below a tolerance."""

@@ -28,9 +28,9 @@ from fem_reference.punch import check_without_asperities, radius_at_height
 
 __all__ = ["MeshChoice", "chosen", "followed_path", "path_over_meshes", "whole_path"]
 
+#: Heights of a punch, in lengths of the law, between which it may have no asperity: below, it is flat to the law, and
+#: above, the tension is 1e-12 of its peak.
 LOWEST, HIGHEST = 1e-8, 1e4
-"""Heights of a punch, in lengths of the law, between which it may have no asperity: below, it is flat to the law, and
-above, the tension is 1e-12 of its peak."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,11 +160,11 @@ def path_over_meshes(problem: Problem, accuracy: float | str) -> PathEvents:
     NotConverged
         If the path cannot be followed on the finest meshes either.
     """
-    *others, last = [MeshChoice(problem, level) for level in finer_levels(accuracy)]
-    for choice in others:
+    *coarser, finest = [MeshChoice(problem, level) for level in finer_levels(accuracy)]
+    for choice in coarser:
         with suppress(NotConverged):
             return followed_path(choice).events()
-    return followed_path(last).events()
+    return followed_path(finest).events()
 
 
 # Several problems are solved in turns where a parameter is varied.
@@ -221,11 +221,11 @@ def chosen(
             usable(*meshes)
         return meshes
 
-    *others, last = [MeshChoice(problem, level) for level in finer_levels(accuracy)]
-    for choice in others:
+    *coarser, finest = [MeshChoice(problem, level) for level in finer_levels(accuracy)]
+    for choice in coarser:
         with suppress(NotConverged):
             return used(choice.adapted(events, start))
-    return used(last.adapted(events, start))
+    return used(finest.adapted(events, start))
 
 
 # The paths of one problem: three densities and the search for the width, on the meshes of two kinds of events.

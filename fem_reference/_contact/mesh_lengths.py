@@ -31,66 +31,65 @@ __all__ = [
     "spot_length",
 ]
 
+#: Radial length resolved at r = 0, relative to the edge radius: a cone then has its pull-off force to 3e-10.
 APEX_WIDTH = 0.05
-"""Radial length resolved at r = 0, relative to the edge radius: a cone then has its pull-off force to
-3e-10."""
 
+#: The same under a pointed punch, whose pressure is singular at the tip: with 0.05 the gap there is right to 1e-2, with
+#: this to 2e-5 (measured on the finest mesh of "quick" under cones at mu = 1.5 ... 3), for a tenth more of the time.
 POINTED_APEX_WIDTH = 5e-5
-"""The same under a pointed punch, whose pressure is singular at the tip: with 0.05 the gap there is right to 1e-2, with
-this to 2e-5 (measured on the finest mesh of "quick" under cones at mu = 1.5 ... 3), for a tenth more of the time."""
 
+#: Ratio of the curvatures of a punch at `APEX_WIDTH` and at the edge beyond which it is pointed.
 POINTED = 2.0
-"""Ratio of the curvatures of a punch at `APEX_WIDTH` and at the edge beyond which it is pointed."""
 
+#: Smallest radial length resolved at r = 0, relative to the edge radius.
 SMALLEST_APEX = 1e-8
-"""Smallest radial length resolved at r = 0, relative to the edge radius."""
 
+#: Depth resolved under the surface relative to the edge width, times min(1, 5 k): the first layer's error is linear in
+#: its thickness for 0 < k < 0.2, where z^(1-k) and z are hard to tell apart.
 LAYER_DEPTH = 0.02
-"""Depth resolved under the surface relative to the edge width, times min(1, 5 k): the first layer's error is
-linear in its thickness for 0 < k < 0.2, where z^(1-k) and z are hard to tell apart."""
 
+#: Relative width of an edge: the smallest that is meshed (it costs an element for each factor of two), and the largest,
+#: which resolves a surface without one.
 NARROWEST, WIDEST = 1e-8, 0.25
-"""Relative width of an edge: the smallest that is meshed (it costs an element for each factor of two), and the
-largest, which resolves a surface without one."""
 
+#: The smallest of a mesh that carries a whole path: it extends far beyond the spot on which contact begins.
 NARROWEST_OF_ONE_MESH = 1e-6
-"""The smallest of a mesh that carries a whole path: it extends far beyond the spot on which contact begins."""
 
+#: Share of the narrowest edge of one mesh below which an edge is refused there: on elements that are longer the edge
+#: has several equilibria. The value is chosen; edges of a hundredth of it are found at k above 0.85 and mu above 5.
 UNRESOLVED = 0.02
-"""Share of the narrowest edge of one mesh below which an edge is refused there: on elements that are longer the edge
-has several equilibria.  The value is chosen; edges of a hundredth of it are found at k above 0.85 and mu above 5."""
 
+#: Ratio of the width of an edge to its length of balance (measured at the pull-off at mu = 160 and 1000, k = 0), and
+#: share of it that is resolved.
 EDGE_PER_BALANCE, WIDTH_SHARE = 2.2, 0.18
-"""Ratio of the width of an edge to its length of balance (measured at the pull-off at mu = 160 and 1000, k = 0), and
-share of it that is resolved."""
 
+#: Ratio of the radii at which the energies of a contact are compared.
 RADIUS_STEP = 1.1
-"""Ratio of the radii at which the energies of a contact are compared."""
 
+#: Height of the punch, in lengths of the law, at the end of the mesh, for a tension that falls as H^-3 or faster (a
+#: power 3/m of it for a slower H^-m): beyond it the traction enters P by a quadrature to infinity, and its displacement
+#: (below 1e-8 z0 even for a cone) is dropped.
 FAR_HEIGHT = 1e4
-"""Height of the punch, in lengths of the law, at the end of the mesh, for a tension that falls as H^-3 or faster (a
-power 3/m of it for a slower H^-m): beyond it the traction enters P by a quadrature to infinity, and its displacement
-(below 1e-8 z0 even for a cone) is dropped."""
 
+#: Height, in lengths of the law, below which the kinks of a punch are mesh lines: the traction beyond is 1e-5 of a
+#: load, and a kink inside an element leaves 1e-3 of that.
 KINK_HEIGHT = 300.0
-"""Height, in lengths of the law, below which the kinks of a punch are mesh lines: the traction beyond is 1e-5 of a
-load, and a kink inside an element leaves 1e-3 of that."""
 
+#: Largest number of kinks in reach of the law; each costs four columns of elements.
 MOST_KINKS = 60
-"""Largest number of kinks in reach of the law; each costs four columns of elements."""
 
+#: Of a mesh, in units of its edge radius. It costs an element for each factor of two.
 LARGEST_EXTENT = 1e8
-"""Of a mesh, in units of its edge radius.  It costs an element for each factor of two."""
 
+#: Bound of the relative error of the displacement from the power law that the exterior takes: half of the accuracy
+#: "default", for all accuracies, because it falls with the square of the extent.
 EXTERIOR_ERROR = 5e-8
-"""Bound of the relative error of the displacement from the power law that the exterior takes: half of the accuracy
-"default", for all accuracies, because it falls with the square of the extent."""
 
+#: Steps to the length of balance: each leaves (1 + k) / 2 of the logarithm, 1e-8 of it at k = 0.9.
 BALANCE_STEPS = 400
-"""Steps to the length of balance: each leaves (1 + k) / 2 of the logarithm, 1e-8 of it at k = 0.9."""
 
+#: Depth, relative to the one resolved under the surface, from which on changes of the modulus are searched for.
 FINEST_SCALE = 1e-3
-"""Depth, relative to the one resolved under the surface, from which on changes of the modulus are searched for."""
 
 
 def mesh_spec(
@@ -164,13 +163,13 @@ def kinks_within(problem: Problem) -> tuple[float, ...]:
     if not kinks:
         return ()
     reach = radius_at_height(problem.punch, KINK_HEIGHT * problem.law.z0)
-    found = tuple(r for r in kinks if r < reach)
-    if len(found) > MOST_KINKS:
+    within = tuple(r for r in kinks if r < reach)
+    if len(within) > MOST_KINKS:
         raise NotConverged(
-            f"the slope of the punch jumps at {len(found)} radii below {reach:.3g}, and the mesh follows at most "
+            f"the slope of the punch jumps at {len(within)} radii below {reach:.3g}, and the mesh follows at most "
             f"{MOST_KINKS}; take fewer points of the profile, or a smooth curve through them as a CustomPunch"
         )
-    return found
+    return within
 
 
 def balance_length(problem: Problem, radius: float) -> float:

@@ -16,29 +16,29 @@ from fem_reference.errors import NotConverged
 __all__ = ["State", "newton"]
 
 
+#: Largest residual, in lengths of the law plus the largest displacement: ten times the rounding of X F, unless the
+#: traction is steep for the solid (`AMPLIFIED`).
 NEWTON_TOLERANCE = 1e-12
-"""Largest residual, in lengths of the law plus the largest displacement: ten times the rounding of X F, unless the
-traction is steep for the solid (`AMPLIFIED`)."""
 
+#: Largest residual, in units of the largest displacement and of its change under a change of the gap: the gap is
+#: rounded by half as much, and where a stiff coating carries a steep traction on a soft substrate the displacement
+#: answers with 1e5 times that (measured: 1e-8 lengths of the law, with steps of 5e-11).
 AMPLIFIED = 2.0**-52
-"""Largest residual, in units of the largest displacement and of its change under a change of the gap: the gap is
-rounded by half as much, and where a stiff coating carries a steep traction on a soft substrate the displacement answers
-with 1e5 times that (measured: 1e-8 lengths of the law, with steps of 5e-11)."""
 
+#: Largest number of damped steps.
 NEWTON_STEPS = 30
-"""Largest number of damped steps."""
 
+#: Largest relative change of the size in a step: it stays positive, and the edge on its fine elements.
 LARGEST_GROWTH = 0.3
-"""Largest relative change of the size in a step: it stays positive, and the edge on its fine elements."""
 
+#: Fraction of a step below which none is sought: an iteration that needs it runs out of steps.
 SMALLEST_DAMPING = 1e-3
-"""Fraction of a step below which none is sought: an iteration that needs it runs out of steps."""
 
+#: Share of the singular gap below which steps are damped, unless the start lies below it.
 FLOOR_SHARE = 0.6
-"""Share of the singular gap below which steps are damped, unless the start lies below it."""
 
+#: Largest last step, in units of the largest residual: what the conditioning of the tangent leaves of it.
 STEP_SHARE = 1e3
-"""Largest last step, in units of the largest residual: what the conditioning of the tangent leaves of it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,7 +89,7 @@ class State:
         return float(self.y[0] - self.y[-2])
 
 
-def newton(contact: Contact, y: Array, first: Control, second: Control) -> State:
+def newton(contact: Contact, y: Array, fixed: Control, varied: Control) -> State:
     """Solve the equilibrium equations under two controls.
 
     Parameters
@@ -118,9 +118,9 @@ def newton(contact: Contact, y: Array, first: Control, second: Control) -> State
     size = math.inf
     for iteration in range(NEWTON_STEPS + 1):
         G[:m] = contact.residual(y)
-        G[m:] = first.value(contact, y), second.value(contact, y)
+        G[m:] = fixed.value(contact, y), varied.value(contact, y)
         K[:m] = contact.tangent(y)
-        K[m], K[m + 1] = first.gradient(contact, y), second.gradient(contact, y)
+        K[m], K[m + 1] = fixed.gradient(contact, y), varied.gradient(contact, y)
         growth = float(np.abs(K[:m, :m]).sum(axis=1).max())
         # Not lu_factor, which warns of a singular matrix: Newton stops there.
         lu, pivots, singular = linalg.lapack.dgetrf(K, overwrite_a=True)
@@ -132,7 +132,7 @@ def newton(contact: Contact, y: Array, first: Control, second: Control) -> State
         step = linalg.lu_solve((lu, pivots), G, check_finite=False)
         settled = np.abs(step[: m + 1]).max() <= STEP_SHARE * limit * law.z0
         if settled and size <= max(limit, AMPLIFIED * largest * growth):
-            parameter_rate = second.parameter_rate(contact, y) if isinstance(second, EdgeRadius) else 1.0
+            parameter_rate = varied.parameter_rate(contact, y) if isinstance(varied, EdgeRadius) else 1.0
             rate = parameter_rate * linalg.lu_solve((lu, pivots), np.eye(m + 2)[-1], check_finite=False)
             slope = float(contact.load_gradient(y) @ rate)
             return State(y, contact.load(y), slope, rate, iteration, size)

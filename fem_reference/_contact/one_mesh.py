@@ -29,24 +29,24 @@ from fem_reference.punch import radius_at_height
 
 __all__ = ["FAR_SHARE", "OneMesh"]
 
+#: Share of the density far beyond the edge, where contact begins on a spot much smaller than the punch and the tension
+#: falls within an element otherwise: on the meshes of "quick" the path of n = 6.2, k = 0.53, mu = 2.9 stops there with
+#: 1, and with 0.5 it is that of 0.3 to 1e-6 (measured).
 FAR_SHARE = 0.5
-"""Share of the density far beyond the edge, where contact begins on a spot much smaller than the punch and the tension
-falls within an element otherwise: on the meshes of "quick" the path of n = 6.2, k = 0.53, mu = 2.9 stops there with 1,
-and with 0.5 it is that of 0.3 to 1e-6 (measured)."""
 
+#: Smallest radius of the contact, relative to that where the punch rises by `EDGE_RISE`, below which it is small.
 SMALL_SPOT = 0.25
-"""Smallest radius of the contact, relative to that where the punch rises by `EDGE_RISE`, below which it is small."""
 
+#: Meshes in a row on which a path cannot be traced, after which meshes of a finer accuracy are tried: a narrower edge
+#: does not help then.
 FAILURES = 3
-"""Meshes in a row on which a path cannot be traced, after which meshes of a finer accuracy are tried: a narrower edge
-does not help then."""
 
-BLIND = 4
-"""Meshes too coarse to tell the width of the edge, after which the narrowest one is taken to tell it: at k = 0.88 and
-mu = 1.2 under a cone the edge is 1e-5 of its radius wide."""
+#: Meshes too coarse to tell the width of the edge, after which the narrowest one is taken to tell it: at k = 0.88 and
+#: mu = 1.2 under a cone the edge is 1e-5 of its radius wide.
+MOST_UNRESOLVED = 4
 
+#: Largest number of meshes tried to find the width of the edge.
 REFINEMENTS = 10
-"""Largest number of meshes tried to find the width of the edge."""
 
 
 class _Choice(Protocol):
@@ -81,7 +81,7 @@ class OneMesh:
     apex: float = math.inf
     far_share: float = 1.0
     failures: int = 0
-    blind: int = 0
+    unresolved: int = 0
 
     def found(self, start: tuple[MeshSpec, float] | None = None) -> tuple[MeshSpec, float]:
         """Return the mesh, at the coarsest density of the accuracy, and the radius of its edge.
@@ -140,7 +140,7 @@ class OneMesh:
         and the law allow, far from elements that lose the rest of the punch.
         """
         self.failures += 1
-        self.blind += 1
+        self.unresolved += 1
         balance = balance_length(self.choice.problem, size)
         if self.choice.scaling:
             self.smallest, self.far_share = min(self.smallest, balance), FAR_SHARE * self.far_share
@@ -161,15 +161,15 @@ class OneMesh:
         narrowest = min((edge_width(point) for point in points if point.branch.touching), default=1.0)
         if narrowest <= 0.0:
             # The gap falls at the edge of a mesh that is too coarse to tell the width.
-            self.blind += 1
-            width = NARROWEST_OF_ONE_MESH if self.blind >= BLIND else NARROWER * spec.edge_width
+            self.unresolved += 1
+            width = NARROWEST_OF_ONE_MESH if self.unresolved >= MOST_UNRESOLVED else NARROWER * spec.edge_width
             return self._spec(min(width, spec.edge_width), size)
         width = WIDTH_SHARE * narrowest
         check_width(width, UNRESOLVED * NARROWEST_OF_ONE_MESH)
         needed = self._spec(width, size)
-        if self.blind >= BLIND:
+        if self.unresolved >= MOST_UNRESOLVED:
             # The narrowest mesh has told the width.
-            self.blind = 0
+            self.unresolved = 0
             return needed if needed != spec else None
         resolved = needed.edge_width >= spec.edge_width and needed.extent <= spec.extent
         if resolved and self.far_share >= spec.far_share:

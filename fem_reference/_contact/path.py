@@ -49,38 +49,38 @@ __all__ = [
 ]
 
 
+#: Central gap where a path begins, in lengths of the law: the tension there is 1e-3 of its peak, Newton starts from no
+#: load. A very soft solid has no equilibrium there that Newton reaches (measured: from a Tabor number of 2e4 on).
 FARTHEST_GAP = 12.0
-"""Central gap where a path begins, in lengths of the law: the tension there is 1e-3 of its peak, Newton starts from no
-load.  A very soft solid has no equilibrium there that Newton reaches (measured: from a Tabor number of 2e4 on)."""
 
+#: Ratio of one central gap to the next at which a path is begun, and the largest of them in lengths of the law: a few
+#: Tabor numbers are enough, and those of 1e5 have edges that no mesh resolves.
 FARTHER_START, FARTHEST_START = 4.0, 1e6
-"""Ratio of one central gap to the next at which a path is begun, and the largest of them in lengths of the law: a few
-Tabor numbers are enough, and those of 1e5 have edges that no mesh resolves."""
 
+#: Gap at the node s = 1 above the central gap before contact, in lengths of the law: small, so that the edge is the
+#: parameter before any pull-off (a flat punch, n = 5 and more, pulls off 0.1 z0 below the gap of peak tension).
 EDGE_RISE = 0.05
-"""Gap at the node s = 1 above the central gap before contact, in lengths of the law: small, so that the edge is the
-parameter before any pull-off (a flat punch, n = 5 and more, pulls off 0.1 z0 below the gap of peak tension)."""
 
+#: Largest step of the central gap, relative to the length of the law plus H0.
 GAP_STEP = 0.2
-"""Largest step of the central gap, relative to the length of the law plus H0."""
 
+#: Largest relative step of the edge radius: P and delta change by a few per cent of their range.
 SIZE_STEP = 0.1
-"""Largest relative step of the edge radius: P and delta change by a few per cent of their range."""
 
+#: Distance from a kink of the punch, relative to its radius, at which a branch ends and the next begins.
 BESIDE = 1e-9
-"""Distance from a kink of the punch, relative to its radius, at which a branch ends and the next begins."""
 
+#: Resolved edge width relative to the length over which the gap rises by the length of the law at the edge.
 WIDTH_SHARE = 0.18
-"""Resolved edge width relative to the length over which the gap rises by the length of the law at the edge."""
 
+#: Ratio of edge widths from one mesh to the next where the width is not known.
 NARROWER = 0.25
-"""Ratio of edge widths from one mesh to the next where the width is not known."""
 
+#: Ratio of the steepest slope of the gap to that at peak tension which the meshes of an edge resolve as they are.
 STEEPER = 4.0
-"""Ratio of the steepest slope of the gap to that at peak tension which the meshes of an edge resolve as they are."""
 
+#: Step, relative to the largest, below which the path ends with NotConverged.
 SMALLEST_STEP = 1e-6
-"""Step, relative to the largest, below which the path ends with NotConverged."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -136,19 +136,19 @@ class Point:
         return self.parameter if self.branch.touching else 0.0
 
     @property
-    def sense(self) -> float:
+    def orientation(self) -> float:
         """Sign of the parameter's change along the path."""
         return 1.0 if self.branch.touching else -1.0
 
     @property
     def load_rate(self) -> float:
         """Change of P along the path, per unit of the parameter's change."""
-        return self.sense * self.state.load_rate if self.rates is None else self.rates[0]
+        return self.orientation * self.state.load_rate if self.rates is None else self.rates[0]
 
     @property
     def displacement_rate(self) -> float:
         """Change of delta along the path, per unit of the parameter's change."""
-        return self.sense * self.state.displacement_rate if self.rates is None else self.rates[1]
+        return self.orientation * self.state.displacement_rate if self.rates is None else self.rates[1]
 
 
 def continuation(point: Point, step: float, stop: float) -> Iterator[Point]:
@@ -220,18 +220,18 @@ def _farthest(branch: Branch, size: float) -> Point:
                 ) from error
 
 
-def contact_branch(last: Point, largest: float) -> Iterator[Point]:
+def contact_branch(separate: Point, largest: float) -> Iterator[Point]:
     """Trace the branch of the contact edge from the last point before contact out to the radius `largest`."""
-    contact = last.branch.contact
+    contact = separate.branch.contact
     peak = contact.law.peak_gap
     if not isinstance(contact.compliance, FixedCompliance):
-        point = Branch(contact, EdgeGap(peak), Size, touching=True).solve(last.state.size, last.state.y)
+        point = Branch(contact, EdgeGap(peak), Size, touching=True).solve(separate.state.size, separate.state.y)
         yield point
         yield from continuation(point, 0.05 * point.parameter, largest)
         return
     size = contact.compliance.size
     largest = min(largest, 0.5 * contact.compliance.trace.extent * size)
-    radius, y = first_edge_radius(last), last.state.y
+    radius, y = first_edge_radius(separate), separate.state.y
     # The path is smooth, but its derivatives with respect to the radius of the edge jump at a kink.
     kinks = [r for r in kinks_of(contact.punch) if radius * (1.0 + 2.0 * BESIDE) < r < largest]
     for end in (*kinks, math.inf):
@@ -278,8 +278,8 @@ def edge_width(point: Point) -> float:
     radius, length, peak = point.edge_radius, contact.law.z0, contact.law.peak_gap
     slope = -EdgeRadius(peak, radius).parameter_rate(contact, y)
     s, gap = contact.compliance.trace.s, contact.gap(y)
-    near = (gap > peak) & (gap < peak + length) & (y[-1] * s < 2.0 * radius)
-    pairs = near[:-1] & near[1:]
+    at_edge = (gap > peak) & (gap < peak + length) & (y[-1] * s < 2.0 * radius)
+    pairs = at_edge[:-1] & at_edge[1:]
     steepest = float(np.max(np.diff(gap)[pairs] / np.diff(s)[pairs], initial=0.0)) / float(y[-1])
     return length / (radius * (max(slope, steepest / STEEPER) if slope > 0.0 else slope))
 

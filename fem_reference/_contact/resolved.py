@@ -24,24 +24,24 @@ from fem_reference.errors import NotConverged
 
 __all__ = ["ResolvedEvents", "projected"]
 
+#: Largest number of secant steps; two are usual, from an event that differs by 1e-6.
 SECANT_STEPS = 12
-"""Largest number of secant steps; two are usual, from an event that differs by 1e-6."""
 
+#: Relative change of the parameter at which the secant method ends: the last step is linear in what is left, 1e-12.
 SECANT_TOLERANCE = 1e-9
-"""Relative change of the parameter at which the secant method ends: the last step is linear in what is left, 1e-12."""
 
+#: Relative change of the parameter, and ratio of it to the one before, from which on rounding keeps the steps from
+#: falling: they fall by 1e2 or more (measured: 1e-7 under a coating of 1 GPa on 1.5 MPa, 1e-13 of the load there).
 ROUNDING_STEP, SLOWEST = 1e-6, 0.5
-"""Relative change of the parameter, and ratio of it to the one before, from which on rounding keeps the steps from
-falling: they fall by 1e2 or more (measured: 1e-7 under a coating of 1 GPa on 1.5 MPa, 1e-13 of the load there)."""
 
+#: Distance from the event of the finest mesh, in resolved edge widths, within which that of another mesh is sought.
 RESOLVED_SHIFTS = 0.5
-"""Distance from the event of the finest mesh, in resolved edge widths, within which that of another mesh is sought."""
 
+#: Share of the resolved edge width within which an event on a coarser mesh is where its rate says it is.
 ELEMENT_SHARE = 0.5
-"""Share of the resolved edge width within which an event on a coarser mesh is where its rate says it is."""
 
+#: Largest relative change of the parameter, or of the central gap in lengths of the law, in one secant step.
 LARGEST_SHIFT = 0.3
-"""Largest relative change of the parameter, or of the central gap in lengths of the law, in one secant step."""
 
 
 class ResolvedEvents:
@@ -60,7 +60,7 @@ class ResolvedEvents:
 
     def __init__(self, path: PathEvents | ResolvedEvents, contact: Contact, placement: float = 0.0) -> None:
         self._path, self.contact, self._placement = path, contact, placement
-        self._found: dict[str, Point] = {}
+        self._points: dict[str, Point] = {}
 
     def at(self, event: str) -> Point:
         """Return the state at an event of the path.
@@ -72,44 +72,19 @@ class ResolvedEvents:
         NotConverged
             If the event cannot be found on this mesh.
         """
-        if event not in self._found:
+        if event not in self._points:
             if event == CUSP:
-                return self._found.setdefault(event, self._cusp())
+                return self._points.setdefault(event, self._cusp())
             original, slope = self._path.anchor(event)
             beginning = None if original.held else beginning_of(event)
             level = 0.0 if beginning is None else self.at(beginning).state.displacement
-            self._found[event] = self._solved(original, slope, excess_of(event, level))
-        return self._found[event]
+            self._points[event] = self._solved(original, slope, excess_of(event, level))
+        return self._points[event]
 
     def anchor(self, event: str) -> tuple[Point, float]:
         """Return the state at an event, and the slope there of the function that vanishes (see `excess_of`)."""
         point = self.at(event)
         return (point, self._path.anchor(event)[1]) if point.held else anchor_of(event, point)
-
-    @property
-    def pull_off(self) -> Point:
-        """The deepest minimum of the load along the path."""
-        return self.at("pull_off")
-
-    @property
-    def jump_in(self) -> Point:
-        """The first fold on approach."""
-        return self.at("jump_in")
-
-    @property
-    def jump_out(self) -> Point:
-        """The lowest fold."""
-        return self.at("jump_out")
-
-    @property
-    def zero_load(self) -> Point:
-        """The point in contact without load."""
-        return self.at("zero_load")
-
-    @property
-    def cusp(self) -> Point:
-        """The point where the two folds merge, at the modulus at which they do."""
-        return self.at(CUSP)
 
     @property
     def jumps(self) -> tuple[Jump, ...]:

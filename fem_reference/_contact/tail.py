@@ -20,8 +20,8 @@ from fem_reference._typing import Array
 
 __all__ = ["TailContact"]
 
+#: Gauss points in t, with r = R / t^4: powers of r that are no integers are integrated to 1e-12 of themselves.
 POINTS = 96
-"""Gauss points in t, with r = R / t^4: powers of r that are no integers are integrated to 1e-12 of themselves."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

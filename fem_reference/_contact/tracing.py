@@ -10,8 +10,8 @@ from fem_reference._contact.path import Point, continuation, equilibrium_points
 
 __all__ = ["beginning", "traced"]
 
+#: Lengths of the law by which a path begins below the displacement of its jump out of contact.
 FARTHER = 2.0
-"""Lengths of the law by which a path begins below the displacement of its jump out of contact."""
 
 
 def traced(contact: Contact) -> list[Point]:
@@ -46,18 +46,18 @@ def traced(contact: Contact) -> list[Point]:
 def _highest_fold(approach: Sequence[Point], touching: Sequence[Point]) -> float:
     """Bound of the displacements at which it turns from rising to falling."""
     falling = [i for i, point in enumerate(touching) if point.displacement_rate < 0]
-    part = touching[: falling[-1] + 1] if falling else touching[:1]
-    return max(displacement_range(approach)[1], displacement_range(part)[1])
+    to_last_fold = touching[: falling[-1] + 1] if falling else touching[:1]
+    return max(displacement_range(approach)[1], displacement_range(to_last_fold)[1])
 
 
 def beginning(approach: Sequence[Point], touching: Sequence[Point]) -> list[Point]:
     """Points before the first, out to the displacement where a jump out of contact ends."""
-    first, length = approach[0], approach[0].branch.contact.law.z0
+    outermost, length = approach[0], approach[0].branch.contact.law.z0
     falling = [i for i, point in enumerate(approach) if point.displacement_rate < 0]
-    parts = (approach[falling[0] :] if falling else approach[-1:], touching)
-    lowest = min(displacement_range(part)[0] for part in parts if part)
-    if lowest > first.state.displacement:
+    segments = (approach[falling[0] :] if falling else approach[-1:], touching)
+    lowest = min(displacement_range(segment)[0] for segment in segments if segment)
+    if lowest > outermost.state.displacement:
         return []
     # The solid rises under tension: the displacement is below -H0.
     farthest = FARTHER * length - lowest
-    return list(continuation(first, farthest - first.parameter, farthest))[::-1]
+    return list(continuation(outermost, farthest - outermost.parameter, farthest))[::-1]

@@ -11,11 +11,11 @@ from fem_reference._contact.path import Point, joined
 
 __all__ = ["turning_slowly"]
 
+#: Largest number of times that an interval is halved.
 HALVINGS = 6
-"""Largest number of times that an interval is halved."""
 
+#: The part of the path that is drawn: up to this compression, and from this tension on, relative to the largest one.
 SHOWN_COMPRESSION, SHOWN_TENSION = 0.5, 0.05
-"""The part of the path that is drawn: up to this compression, and from this tension on, relative to the largest one."""
 
 
 def turning_slowly(path: PathEvents, degrees: float) -> list[Point]:
@@ -34,19 +34,19 @@ def turning_slowly(path: PathEvents, degrees: float) -> list[Point]:
     """
     points = path.points
     units = _ranges(points)
-    found = [points[0]]
+    denser = [points[0]]
     for a, b in pairwise(points):
         if joined(a, b):
-            found += _inside(path, a, b, math.radians(degrees), units, HALVINGS)
-        found.append(b)
-    return found
+            denser += _inside(path, a, b, math.radians(degrees), units, HALVINGS)
+        denser.append(b)
+    return denser
 
 
 def _ranges(points: Sequence[Point]) -> tuple[float, float]:
     """Lengths of the axes of the picture."""
     depth = -min(p.state.load for p in points)
-    shown = [p for p in points if abs(p.state.load) > SHOWN_TENSION * depth > 0.0]
-    displacements = [p.state.displacement for p in shown if p.state.load < SHOWN_COMPRESSION * depth]
+    drawn = [p for p in points if abs(p.state.load) > SHOWN_TENSION * depth > 0.0]
+    displacements = [p.state.displacement for p in drawn if p.state.load < SHOWN_COMPRESSION * depth]
     return (max(displacements) - min(displacements)) or 1.0, (1.0 + SHOWN_COMPRESSION) * depth
 
 

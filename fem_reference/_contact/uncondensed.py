@@ -36,42 +36,42 @@ from fem_reference.solids import Solid
 
 __all__ = ["PointsAtEvents", "UncondensedEvents", "UncondensedValue", "uncondensed_events"]
 
+#: Residual of the displacements, about their relative error in energy. Weighted with the adjoint of the event, that is
+#: through the tangent and the slope of its condition, it leaves less of a value than the last step of the iteration
+#: does, which is a part of the bound (measured: 1e-11 to 1e-9, of bounds of 1e-7): no tighter one is needed.
 LINEAR_TOLERANCE = 1e-11
-"""Residual of the displacements, about their relative error in energy.  Weighted with the adjoint of the event, that is
-through the tangent and the slope of its condition, it leaves less of a value than the last step of the iteration does,
-which is a part of the bound (measured: 1e-11 to 1e-9, of bounds of 1e-7): no tighter one is needed."""
 
+#: Residual that rounding may leave of the displacements: what it leaves of a value is a part of the bound (measured:
+#: 3e-9 under a coating of 10 GPa and 30 nm on 1.5 MPa, 4e-10 of the force).
 LINEAR_ROUNDING = 1e-6
-"""Residual that rounding may leave of the displacements: what it leaves of a value is a part of the bound (measured:
-3e-9 under a coating of 10 GPa and 30 nm on 1.5 MPa, 4e-10 of the force)."""
 
+#: Largest last step and defect, relative to the displacement. The condensed compliance is then right to as much for
+#: this traction, and the next step would be smaller by that factor.
 NEWTON_TOLERANCE = 1e-9
-"""Largest last step and defect, relative to the displacement.  The condensed compliance is then right to as much for
-this traction, and the next step would be smaller by that factor."""
 
+#: Step, relative to the displacement, that says that there is no equilibrium near the condensed one.
 LARGEST_STEP = 0.1
-"""Step, relative to the displacement, that says that there is no equilibrium near the condensed one."""
 
+#: Largest last step if rounding keeps the steps above the Newton tolerance (measured: 7e-10 under a cone, 1.4e-8 on
+#: elements of a millionth of the radius, k = 0.69, mu = 7, and 2e-7 under a coating 700 times as stiff as the solid).
+#: What it changes is in the distance from the condensed value, a part of the bound.
 ROUNDING_STEP = 1e-5
-"""Largest last step if rounding keeps the steps above the Newton tolerance (measured: 7e-10 under a cone, 1.4e-8 on
-elements of a millionth of the radius, k = 0.69, mu = 7, and 2e-7 under a coating 700 times as stiff as the solid).
-What it changes is in the distance from the condensed value, a part of the bound."""
 
+#: Ratio of a step to the one before from which on rounding keeps the steps from falling: they fall by 1e3 or more.
 SLOWEST = 0.5
-"""Ratio of a step to the one before from which on rounding keeps the steps from falling: they fall by 1e3 or more."""
 
+#: Steps before giving up: the start is an equilibrium of the same mesh, and one step is usual.
 NEWTON_STEPS = 6
-"""Steps before giving up: the start is an equilibrium of the same mesh, and one step is usual."""
 
+#: Largest residual of the whole nonlinear system before the last step, relative to the traction, where the displacement
+#: is up to one length of the law; it grows with the displacement, and with the last step where rounding keeps that
+#: above the Newton tolerance. It is the Newton tolerance times the slope of the traction, some hundred tractions in a
+#: length of the law.
 RESIDUAL_TOLERANCE = 1e-6
-"""Largest residual of the whole nonlinear system before the last step, relative to the traction, where the displacement
-is up to one length of the law; it grows with the displacement, and with the last step where rounding keeps that above
-the Newton tolerance.  It is the Newton tolerance times the slope of the traction, some hundred tractions in a length of
-the law."""
 
+#: Tractions in a length of the law up to which the slope of the traction is that of the tolerance of the residual. It
+#: is in proportion to a larger one (measured at a Tabor number of 1000: 2e4, and a residual of 0.05 of 0.067).
 STEEPNESS = 1e3
-"""Tractions in a length of the law up to which the slope of the traction is that of the tolerance of the residual.
-It is in proportion to a larger one (measured at a Tabor number of 1000: 2e4, and a residual of 0.05 of 0.067)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,31 +120,6 @@ class PointsAtEvents:
         """The jumps of the path."""
         return self._path.jumps
 
-    @property
-    def pull_off(self) -> Point:
-        """The deepest minimum of the load along the path."""
-        return self.points["pull_off"]
-
-    @property
-    def jump_in(self) -> Point:
-        """The first fold on approach."""
-        return self.points["jump_in"]
-
-    @property
-    def jump_out(self) -> Point:
-        """The lowest fold."""
-        return self.points["jump_out"]
-
-    @property
-    def zero_load(self) -> Point:
-        """The point in contact where the load changes from tension to compression."""
-        return self.points["zero_load"]
-
-    @property
-    def cusp(self) -> Point:
-        """The point where the two folds merge, at the modulus at which they do."""
-        return self.points["cusp"]
-
 
 Functional = Callable[[PointsAtEvents], float]
 
@@ -173,7 +148,7 @@ class UncondensedEvents:
 
     def __init__(self, path: PathEvents | ResolvedEvents, system: Callable[[], FullSystem]) -> None:
         self._path, self._system = path, system
-        self._found: dict[str, Point] = {}
+        self._points: dict[str, Point] = {}
         self._shifted: dict[str, Point] = {}
 
     def prepare(self, functionals: Iterable[Functional]) -> None:
@@ -189,7 +164,7 @@ class UncondensedEvents:
         condensed = _Condensed(self._path)
         for functional in functionals:
             functional(PointsAtEvents(condensed, self._path))
-        missing = {name: point for name, point in condensed.items() if name not in self._found}
+        missing = {name: point for name, point in condensed.items() if name not in self._points}
         if missing:
             # A jump ends at the displacement where it begins, which therefore comes first.
             for end in sorted(missing):
@@ -209,9 +184,9 @@ class UncondensedEvents:
         self.prepare((functional,))
         condensed = _Condensed(self._path)
         difference = functional(PointsAtEvents(condensed, self._path))
-        value = functional(PointsAtEvents(self._found, self._path))
+        value = functional(PointsAtEvents(self._points, self._path))
         left = abs(functional(PointsAtEvents(self._shifted, self._path)) - value)
-        states = [self._found[name].state for name in condensed]
+        states = [self._points[name].state for name in condensed]
         return UncondensedValue(
             value,
             abs(value - difference) + left,
@@ -228,7 +203,7 @@ class UncondensedEvents:
             As `prepare`.
         """
         self.prepare((lambda points: points.points[event].state.load,))
-        return self._found[event]
+        return self._points[event]
 
     def _solve(self, condensed: Mapping[str, Point]) -> None:
         """Take the last Newton steps at events, all at once."""
@@ -285,7 +260,7 @@ class UncondensedEvents:
                     f"the whole nonlinear system is left with a residual of {residual:.1e} of the traction, not "
                     f"{limit:.0e}; take a finer accuracy"
                 )
-            self._found[name] = equation.point_of(system, iterations, residual)
+            self._points[name] = equation.point_of(system, iterations, residual)
             self._shifted[name] = shifted[name].point_of(system, iterations, residual)
 
 

@@ -89,9 +89,9 @@ def assemble_half_space(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, 
     HalfSpace
     """
     mesh = grid.quads()
-    first = float(grid.z[1])
-    body = Body(mesh, InteriorChart(first, modulus.surface_exponent), modulus, nu, order)
-    touching = np.flatnonzero(mesh.p[1][mesh.t].max(axis=0) <= first)
+    layer = float(grid.z[1])
+    body = Body(mesh, InteriorChart(layer, modulus.surface_exponent), modulus, nu, order)
+    touching = np.flatnonzero(mesh.p[1][mesh.t].max(axis=0) <= layer)
     elements, basis = condensed_stiffness(body, touching)
     side = line_unknowns(basis, 0, grid.extent)
     bottom = line_unknowns(basis, 1, grid.extent, reverse=True)
@@ -122,10 +122,10 @@ def half_space_of(modulus: Modulus, nu: float | PoissonRatio, spec: MeshSpec) ->
     -------
     HalfSpace
     """
-    return _kept(cast(Hashable, modulus), cast(Hashable, nu), spec)
+    return _assembled(cast(Hashable, modulus), cast(Hashable, nu), spec)
 
 
 # Two: the mesh of the last path, whose events are solved next, and one before it; each holds some 100 MB.
 @lru_cache(maxsize=2)
-def _kept(modulus: Any, nu: Any, spec: MeshSpec) -> HalfSpace:
+def _assembled(modulus: Any, nu: Any, spec: MeshSpec) -> HalfSpace:
     return assemble_half_space(spec.grid(), modulus, nu, spec.order)

@@ -148,15 +148,15 @@ def _unit_compliance(k: float, nu: float, spec: MeshSpec) -> tuple[Trace, Array,
     return trace_of(grid, spec.order), *_inverse(*condensed(half_space)), half_space.unknowns
 
 
+#: Largest change of the compliance by rounding, relative to its largest entry. What it changes of an event is a part of
+#: the bound (measured: 2.4e-7 under a coating 1e4 times as stiff as the solid, and 1e-10 of its pull-off force).
 LARGEST_ROUNDING = 1e-6
-"""Largest change of the compliance by rounding, relative to its largest entry.  What it changes of an event is a part
-of the bound (measured: 2.4e-7 under a coating 1e4 times as stiff as the solid, and 1e-10 of its pull-off force)."""
 
 
+#: Thickness of an element, relative to its depth, from which on rounding is no reason that a stiffness is refused
+#: (measured under a fall of the modulus between two rows of a table: by a thousand, refused up to 1.3e-6; by a hundred,
+#: up to 2e-8; by ten, up to 2e-9; under a rise by a hundred not down to 4e-12).
 SAFE_THICKNESS = 1e-5
-"""Thickness of an element, relative to its depth, from which on rounding is no reason that a stiffness is refused
-(measured under a fall of the modulus between two rows of a table: by a thousand, refused up to 1.3e-6; by a hundred,
-up to 2e-8; by ten, up to 2e-9; under a rise by a hundred not down to 4e-12)."""
 
 
 def _inverse(S: Array, rounding: Array) -> tuple[Array, Array]:

@@ -56,11 +56,11 @@ def condensed(half_space: HalfSpace) -> tuple[Array, Array]:
     surface, boundary = half_space.surface, half_space.boundary
     # The last vertex of the surface is on the boundary, and a row of the boundary is fixed: that on the axis.
     present = np.isin(boundary, half_space.free)
-    others = np.setdiff1d(boundary[present], surface)
-    kept = np.concatenate([surface, others])
-    K = condensed_on(kept, half_space.elements, element_places(half_space.basis.mesh), half_space.free)
-    order = np.argsort(kept)
-    local = order[np.searchsorted(kept[order], boundary[present])]
+    exterior_rows = np.setdiff1d(boundary[present], surface)
+    rows = np.concatenate([surface, exterior_rows])
+    K = condensed_on(rows, half_space.elements, element_places(half_space.basis.mesh), half_space.free)
+    order = np.argsort(rows)
+    local = order[np.searchsorted(rows[order], boundary[present])]
     K[np.ix_(local, local)] += half_space.exterior[np.ix_(present, present)]
     scale = unit_scaling(np.diagonal(K))
     S = schur_complement(scale[:, None] * K * scale, surface.size)

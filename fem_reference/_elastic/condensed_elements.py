@@ -42,8 +42,8 @@ class CondensedElements:
     sides: Index
     stiffness: Array
     inside: Index
-    roots: Array
-    halves: Array
+    cholesky: Array
+    coupling: Array
     size: int
 
     def assembled(self) -> sparse.csr_array:
@@ -55,10 +55,10 @@ class CondensedElements:
 
     def completed(self, u: Array) -> Array:
         """Fill in the displacement inside every element, under that of the sides; shape (size,)."""
-        whole = u.copy()
-        pulled = self.halves @ u[self.sides][:, :, None]
-        whole[self.inside] = -np.linalg.solve(np.swapaxes(self.roots, 1, 2), pulled)[:, :, 0]
-        return whole
+        complete = u.copy()
+        pulled = self.coupling @ u[self.sides][:, :, None]
+        complete[self.inside] = -np.linalg.solve(np.swapaxes(self.cholesky, 1, 2), pulled)[:, :, 0]
+        return complete
 
 
 def condensed_elements(
@@ -90,11 +90,11 @@ def condensed_elements(
     >>> element.stiffness.tolist(), element.completed(np.array([3.0, 0.0])).tolist()
     ([[[1.0]]], [3.0, 3.0])
     """
-    found: CondensedElements | None = None
+    result: CondensedElements | None = None
     for which, rows, K in parts:
         sides = rows.shape[1] - count
-        if found is None:
-            found = CondensedElements(
+        if result is None:
+            result = CondensedElements(
                 np.empty((elements, sides), np.intp),
                 np.empty((elements, sides, sides)),
                 np.empty((elements, count), np.intp),
@@ -105,21 +105,21 @@ def condensed_elements(
         # The stiffness across a thin element is larger by many powers of ten than that along it.
         scale = unit_scaling(np.einsum("eii->ei", K)[:, sides:, None])
         block = scale * K[:, sides:, sides:] * np.swapaxes(scale, 1, 2)
-        root, half = _halves(block, scale * K[:, sides:, :sides])
+        root, half = _eliminated(block, scale * K[:, sides:, :sides])
         # The upper triangle has another order of elimination, so that its rounding is another.
-        _, other = _halves(
+        _, reversed_coupling = _eliminated(
             np.swapaxes(block, 1, 2)[:, ::-1, ::-1], (scale * np.swapaxes(K[:, :sides, sides:], 1, 2))[:, ::-1]
         )
-        found.sides[which], found.inside[which] = rows[:, :sides], rows[:, sides:]
-        found.roots[which], found.halves[which] = root / scale, half
-        lower, upper = np.swapaxes(half, 1, 2) @ half, np.swapaxes(other, 1, 2) @ other
-        found.stiffness[which] = K[:, :sides, :sides] - np.tril(lower) - np.triu(upper, 1)
-    if found is None:
+        result.sides[which], result.inside[which] = rows[:, :sides], rows[:, sides:]
+        result.cholesky[which], result.coupling[which] = root / scale, half
+        lower, upper = np.swapaxes(half, 1, 2) @ half, np.swapaxes(reversed_coupling, 1, 2) @ reversed_coupling
+        result.stiffness[which] = K[:, :sides, :sides] - np.tril(lower) - np.triu(upper, 1)
+    if result is None:
         raise ValueError("there is no element to condense")
-    return found
+    return result
 
 
-def _halves(blocks: Array, couplings: Array) -> tuple[Array, Array]:
+def _eliminated(blocks: Array, couplings: Array) -> tuple[Array, Array]:
     """L of B = L L' and Y of L Y = C, so that C' B^-1 C is Y' Y: formed with B^-1 C it would lose ten times as much."""
     try:
         roots = np.linalg.cholesky(blocks)

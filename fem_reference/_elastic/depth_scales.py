@@ -26,26 +26,26 @@ from fem_reference.poisson import PoissonRatio, poisson_at
 
 __all__ = ["DepthScales", "depth_scales"]
 
+#: Degree of the polynomials: that of the elements, in which the displacement of a modulus resolved so is resolved.
 DEGREE = 6
-"""Degree of the polynomials: that of the elements, in which the displacement of a modulus resolved so is resolved."""
 
+#: Error of a polynomial on a part, relative to the largest E, or 1/E, there. An element of that length and degree has
+#: the displacement to about as much, and the energy to the square of it, weighted with the share of the part in the
+#: depth.
 RESOLVED = 1e-3
-"""Error of a polynomial on a part, relative to the largest E, or 1/E, there.  An element of that length and degree has
-the displacement to about as much, and the energy to the square of it, weighted with the share of the part in the
-depth."""
 
+#: Points a part: enough to see a change on a part from its inside and from both ends.
 SAMPLES = 32
-"""Points a part: enough to see a change on a part from its inside and from both ends."""
 
+#: Length of a part relative to its depth below which a modulus that is not resolved has a jump.
 JUMP = 2.0**-40
-"""Length of a part relative to its depth below which a modulus that is not resolved has a jump."""
 
+#: One end of an octave; the others are its multiples by powers of 2. A jump at an end or at a middle is not seen, and
+#: interfaces are at round depths.
 FIRST_END = 1.0737
-"""One end of an octave; the others are its multiples by powers of 2.  A jump at an end or at a middle is not seen, and
-interfaces are at round depths."""
 
+#: Jumps in one octave beyond which the modulus is refused: it is noise and not layers.
 MOST_JUMPS = 64
-"""Jumps in one octave beyond which the modulus is refused: it is noise and not layers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,9 +107,9 @@ def depth_scales(modulus: Modulus, low: float, high: float, nu: float | PoissonR
     if isinstance(nu, PoissonRatio):
         profiles.append(_UniaxialModulus(nu))
     for profile in profiles:
-        found = _scales_of(profile, low, high)
-        lines.update(found.lines)
-        parts.update(found.parts)
+        scales = _scales_of(profile, low, high)
+        lines.update(scales.lines)
+        parts.update(scales.parts)
     return DepthScales(tuple(sorted(lines)), tuple(sorted(parts)))
 
 
@@ -137,9 +137,9 @@ def _scales_of(modulus: Modulus, low: float, high: float) -> DepthScales:
     lines = {i.depth for i in declared}
     parts = {_around(i) for i in declared if i.transition > 0}
     for octave in range(math.floor(math.log2(low / FIRST_END)), math.ceil(math.log2(high / FIRST_END))):
-        found = _octave(cast(Hashable, modulus), octave)
-        lines.update(z for z in found.lines if low < z < high)
-        parts.update(part for part in found.parts if part[1] > low and part[0] < high)
+        scales = _octave(cast(Hashable, modulus), octave)
+        lines.update(z for z in scales.lines if low < z < high)
+        parts.update(interval for interval in scales.parts if interval[1] > low and interval[0] < high)
     return DepthScales(tuple(sorted(lines)), tuple(sorted(parts)))
 
 
@@ -170,7 +170,7 @@ def _octave(modulus: Modulus, octave: int) -> DepthScales:
                 )
             pending += [(a, resolved), (resolved, b)]
         else:
-            parts += [part for part in resolved if part[1] - part[0] < b - a]
+            parts += [interval for interval in resolved if interval[1] - interval[0] < b - a]
     return DepthScales(tuple(jumps), tuple(parts))
 
 

@@ -31,20 +31,20 @@ from fem_reference.poisson import PoissonRatio, poisson_at
 __all__ = ["exterior_error", "exterior_stiffness"]
 
 
+#: Scale ratio of one shell; at order 4 its radial error is below 1e-9 of the far field, itself 1/extent.
 SHELL_RATIO = 1.3
-"""Scale ratio of one shell; at order 4 its radial error is below 1e-9 of the far field, itself 1/extent."""
 
+#: Side of the square over the radius within which its bottom is one element for the exterior. The field there is as
+#: smooth as the square is far, while the elements are those of the contact. The compliance changes by 2e-15 at most at
+#: degree 6, by 1e-12 at degree 4 (measured for k = 0, 0.6, 0.9 and a side of 16 and 64 radii; at half of this ratio by
+#: 2e-14 and 8e-11).
 BOTTOM_RATIO = 8.0
-"""Side of the square over the radius within which its bottom is one element for the exterior.  The field there is as
-smooth as the square is far, while the elements are those of the contact.  The compliance changes by 2e-15 at most at
-degree 6, by 1e-12 at degree 4 (measured for k = 0, 0.6, 0.9 and a side of 16 and 64 radii; at half of this ratio by
-2e-14 and 8e-11)."""
 
+#: Ratio 1.3^4096 at most: the remaining coupling is zero in double precision long before.
 DOUBLINGS = 12
-"""Ratio 1.3^4096 at most: the remaining coupling is zero in double precision long before."""
 
+#: Doubling stops when the update of A, relative to A, is below rounding.
 COUPLING_TOLERANCE = 1e-15
-"""Doubling stops when the update of A, relative to A, is below rounding."""
 
 
 def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, order: int) -> Array:
@@ -79,12 +79,12 @@ def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, o
     value = float(modulus(np.array(a)))
     law = modulus if isinstance(modulus, PowerLawModulus) else PowerLawModulus(value, a, k)
     # Along the side down, then along the bottom to the axis.
-    kept = _kept_nodes(grid)
-    fine, t = (np.concatenate([grid.z, a + (a - r[::-1][1:])]) for r in (grid.r, grid.r[kept]))
+    retained = _exterior_nodes(grid)
+    fine, t = (np.concatenate([grid.z, a + (a - r[::-1][1:])]) for r in (grid.r, grid.r[retained]))
     mesh = MeshQuad.init_tensor(t, np.array([1.0, SHELL_RATIO]))
-    first = float(grid.z[1])
-    body = Body(mesh, ShellChart(a, first, k), law, float(poisson_at(nu, np.array(a))), order)
-    touching = np.flatnonzero(mesh.p[0][mesh.t].max(axis=0) <= first * (1 + 1e-12))
+    layer = float(grid.z[1])
+    body = Body(mesh, ShellChart(a, layer, k), law, float(poisson_at(nu, np.array(a))), order)
+    touching = np.flatnonzero(mesh.p[0][mesh.t].max(axis=0) <= layer * (1 + 1e-12))
     elements, basis = condensed_stiffness(body, touching, depth_axis=0)
     inner = both_components(line_unknowns(basis, 1, 1.0))
     outer = both_components(line_unknowns(basis, 1, SHELL_RATIO))
@@ -99,7 +99,7 @@ def exterior_stiffness(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, o
     return np.asarray(projection.T @ A @ projection)
 
 
-def _kept_nodes(grid: Grid) -> Index:
+def _exterior_nodes(grid: Grid) -> Index:
     """Radii of the bottom that the exterior has: all in its outer part, and the axis."""
     outer = np.flatnonzero(grid.r >= grid.extent / BOTTOM_RATIO)
     return np.append(0, outer[outer > 0])
@@ -127,16 +127,16 @@ def _double(A: Array, B: Array, D: Array, factor: float) -> Array:
     raise NotConverged("the exterior shells did not converge by doubling; reduce the number of boundary elements")
 
 
+#: Octaves of depth above and below the end of the mesh where the modulus is compared with that of the exterior.
 OCTAVES_UP = 40
-"""Octaves of depth above and below the end of the mesh where the modulus is compared with that of the exterior."""
 
+#: Gauss points an octave: the estimate is needed to a few per cent.
 POINTS = 16
-"""Gauss points an octave: the estimate is needed to a few per cent."""
 
+#: Largest change of the displacement relative to the product of the integrals (measured with meshes of 2^6 to 2^16
+#: under a Gaussian load, for 15 moduli: coatings 100:1 to 1:100, offset power laws, exponentials: 0.02 to 0.39 for nu =
+#: 0, 0.05 to 0.08 for nu = 0.3; a point load on a homogeneous solid stretches its surface by 1 - 2 nu).
 SKIN_SHARE = 0.4
-"""Largest change of the displacement relative to the product of the integrals (measured with meshes of 2^6 to 2^16
-under a Gaussian load, for 15 moduli: coatings 100:1 to 1:100, offset power laws, exponentials: 0.02 to 0.39 for
-nu = 0, 0.05 to 0.08 for nu = 0.3; a point load on a homogeneous solid stretches its surface by 1 - 2 nu)."""
 
 
 def exterior_error(modulus: Modulus, extent: float, nu: float | PoissonRatio = 0.0) -> float:
@@ -173,8 +173,12 @@ def exterior_error(modulus: Modulus, extent: float, nu: float | PoissonRatio = 0
     law = at_end * (z / extent) ** modulus.depth_exponent
     E = positive_modulus(modulus, z)
     # Relative to those of the power law; both are E/law where Poisson's ratio is one number.
-    here, there = poisson_at(nu, z), poisson_at(nu, np.array(extent))
-    ratios = E / law * np.array([np.ones_like(z), (1.0 - there**2) / (1.0 - here**2), (1.0 + there) / (1.0 + here)])
+    ratio, ratio_at_end = poisson_at(nu, z), poisson_at(nu, np.array(extent))
+    ratios = (
+        E
+        / law
+        * np.array([np.ones_like(z), (1.0 - ratio_at_end**2) / (1.0 - ratio**2), (1.0 + ratio_at_end) / (1.0 + ratio)])
+    )
     above = z < extent
     skin = float(np.sum((weight * law * np.abs(ratios - 1.0).max(axis=0))[above])) / (at_end * extent)
     below = float(np.max((np.maximum(ratios, 1.0 / ratios).max(axis=0) - 1.0)[~above] * extent / z[~above]))

@@ -45,7 +45,7 @@ def line_slopes(nodes: Array, order: int, s: Array) -> Array:
     return slopes
 
 
-def line_projection(nodes: Array, kept: Index, order: int) -> Array:
+def line_projection(nodes: Array, retained: Index, order: int) -> Array:
     """Projection of the functions on a line to those of longer elements: equal at the nodes, nearest in slope between.
 
     What it loses of a function is orthogonal to polynomials of degree p - 2 on each longer element.
@@ -75,10 +75,10 @@ def line_projection(nodes: Array, kept: Index, order: int) -> Array:
     h = np.diff(nodes)[:, None]
     s = (nodes[:-1, None] + h * x).ravel()
     weight = (h * w).ravel()
-    longer = nodes[kept]
+    longer = nodes[retained]
     short, long = line_slopes(nodes, order, s), line_slopes(longer, order, s)
     # The slopes of the functions inside an element of length h are orthogonal, of the norm 2/h.
-    scale = np.concatenate([np.zeros(kept.size), np.repeat(0.5 * np.diff(longer), order - 1)])
+    scale = np.concatenate([np.zeros(retained.size), np.repeat(0.5 * np.diff(longer), order - 1)])
     projection = scale[:, None] * (long.T @ (weight[:, None] * short))
-    projection[np.arange(kept.size), kept] = 1.0
+    projection[np.arange(retained.size), retained] = 1.0
     return np.asarray(projection)

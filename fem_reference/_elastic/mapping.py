@@ -132,9 +132,9 @@ class ChartMapping(Mapping):
 
     def invDF(self, X: Array, tind: Any = None) -> Array:
         """Inverse of the Jacobian, kept for the next function of the element at the same points."""
-        known = self._inverse
-        if known is None or known[0] is not X or known[1] is not tind:
+        cached = self._inverse
+        if cached is None or cached[0] is not X or cached[1] is not tind:
             J = self.DF(X, tind)
             inverse = np.array([[J[1, 1], -J[0, 1]], [-J[1, 0], J[0, 0]]]) / (J[0, 0] * J[1, 1] - J[0, 1] * J[1, 0])
-            known = self._inverse = (X, tind, inverse)
-        return known[2]
+            cached = self._inverse = (X, tind, inverse)
+        return cached[2]

@@ -26,25 +26,25 @@ def outer_nodes(edge: float, width: float, length: float, density: float, far_sh
     """0 ... length, spaced as `sinh_nodes` up to the distance `edge`, and at equal ratios of radii beyond."""
     if far_share == 1.0 or length <= edge:
         return sinh_nodes(width, length, density)
-    near, reach = sinh_nodes(width, edge, density), math.log((edge + length) / (2.0 * edge))
+    inner, reach = sinh_nodes(width, edge, density), math.log((edge + length) / (2.0 * edge))
     count = math.ceil(reach / (far_share * density))
     far = 2.0 * edge * np.exp(np.linspace(0.0, reach, count + 1)) - edge
     far[-1] = length
-    return np.concatenate([near, far[1:]])
+    return np.concatenate([inner, far[1:]])
 
 
+#: Length of the elements at a kink of the punch, relative to the distance of the next one, at the density 1. A kink
+#: that is as near to the contact edge as this share of the edge replaces the mesh line there.
 KINK_SHARE = 0.5
-"""Length of the elements at a kink of the punch, relative to the distance of the next one, at the density 1.  A kink
-that is as near to the contact edge as this share of the edge replaces the mesh line there."""
 
+#: Points for the integral of the node density, for each length that it has to follow.
 CURVE_POINTS = 400
-"""Points for the integral of the node density, for each length that it has to follow."""
 
 
 def depth_nodes(width: float, length: float, density: float, scales: DepthScales) -> Array:
     """0 ... length, spaced as `sinh_nodes` and as the modulus asks for, with its lines among them."""
     lines = [z for z in scales.lines if 0 < z < length]
-    parts = np.array([part for part in scales.parts if part[0] < length]).reshape(-1, 2)
+    parts = np.array([interval for interval in scales.parts if interval[0] < length]).reshape(-1, 2)
     if not lines and not parts.size:
         return sinh_nodes(width, length, density)
     curves = [width * np.sinh(np.linspace(0.0, math.asinh(length / width), 4 * CURVE_POINTS)), np.array(lines)]
@@ -90,8 +90,8 @@ def _counted_nodes(x: Array, longest: Array, lines: list[float], density: float)
     z, ends = x, np.array([0.0, *lines, x[-1]])
     nodes = [np.zeros(1)]
     for low, high in pairwise(ends):
-        first, last = np.interp([low, high], z, count)
-        elements = max(1, math.ceil(last - first))
-        inside = np.interp(np.linspace(first, last, elements + 1)[1:-1], count, z)
+        start, stop = np.interp([low, high], z, count)
+        elements = max(1, math.ceil(stop - start))
+        inside = np.interp(np.linspace(start, stop, elements + 1)[1:-1], count, z)
         nodes += [inside, np.array([high])]
     return np.concatenate(nodes)

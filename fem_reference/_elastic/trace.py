@@ -87,7 +87,7 @@ def trace_of(grid: Grid, order: int) -> Trace:
     weight = (h * w).ravel()
     phi = line_functions(nodes, order, s)
     e = nodes.size - 1
-    first = np.arange(e)[:, None]
-    functions = np.hstack([first, first + 1, e + 1 + first * (order - 1) + np.arange(order - 1)])
+    element = np.arange(e)[:, None]
+    functions = np.hstack([element, element + 1, e + 1 + element * (order - 1) + np.arange(order - 1)])
     local = np.take_along_axis(phi.reshape(e, -1, phi.shape[1]), functions[:, None, :], axis=2)
     return Trace(nodes, s, weight, phi, functions, local, int(np.argmin(abs(nodes - 1.0))), order)

@@ -16,15 +16,15 @@ from fem_reference._typing import Array
 __all__ = ["EXTENT", "FEATURES", "VariantSpec", "variant"]
 
 EXTENT = "extent"
+#: What a variant makes coarser: the first layer takes in the second, the mesh ends earlier, or the innermost element
+#: takes in its neighbour.
 FEATURES = ("first layer", EXTENT, "apex")
-"""What a variant makes coarser: the first layer takes in the second, the mesh ends earlier, or the innermost element
-takes in its neighbour."""
 
+#: Smallest ratio of the extent to that of a variant.
 SHRINKAGE = 2.0
-"""Smallest ratio of the extent to that of a variant."""
 
+#: Smallest ratio of the last depth to the one before it, where a mesh has been shortened.
 CLEARANCE = 1.5
-"""Smallest ratio of the last depth to the one before it, where a mesh has been shortened."""
 
 
 @dataclass(frozen=True, slots=True)

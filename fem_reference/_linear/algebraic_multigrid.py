@@ -18,7 +18,7 @@ _APPENDING = ("pyamg", "pyamg.util")
 
 def _import_without_docstrings() -> None:
     """Execute pyamg with empty docstrings in place of None."""
-    made: list[ModuleType] = []
+    modules: list[ModuleType] = []
     for name in _APPENDING:
         spec = find_spec(name)
         if spec is None or spec.loader is None:
@@ -26,10 +26,10 @@ def _import_without_docstrings() -> None:
         module = module_from_spec(spec)
         module.__doc__ = ""
         sys.modules[name] = module
-        made.append(module)
-    for module in reversed(made):
+        modules.append(module)
+    for module in reversed(modules):
         module.__spec__.loader.exec_module(module)  # type: ignore[union-attr]
-    made[0].util = made[1]  # type: ignore[attr-defined]
+    modules[0].util = modules[1]  # type: ignore[attr-defined]
 
 
 if sys.flags.optimize >= 2 and "pyamg" not in sys.modules:

@@ -21,11 +21,11 @@ from fem_reference._typing import Array, Index
 
 __all__ = ["hierarchy_bytes", "vertex_hierarchy"]
 
+#: Unknowns pyamg solves directly.
 COARSEST = 300
-"""Unknowns pyamg solves directly."""
 
 
-def vertex_hierarchy(matrix: Any, candidates: Array, places: Sequence[Index]) -> pyamg.MultilevelSolver:
+def vertex_hierarchy(matrix: Any, candidates: Array, positions: Sequence[Index]) -> pyamg.MultilevelSolver:
     """Return the hierarchy of a matrix on the vertices of a tensor-product mesh, two unknowns a vertex.
 
     Parameters
@@ -43,7 +43,7 @@ def vertex_hierarchy(matrix: Any, candidates: Array, places: Sequence[Index]) ->
         If a strip of the mesh is singular.
     """
     with _same_numbers():
-        return _hierarchy(matrix, candidates, places)
+        return _hierarchy(matrix, candidates, positions)
 
 
 @contextmanager
@@ -60,7 +60,7 @@ def _same_numbers() -> Iterator[None]:
         np.random.set_state(before)  # noqa: NPY002
 
 
-def _hierarchy(matrix: Any, candidates: Array, places: Sequence[Index]) -> pyamg.MultilevelSolver:
+def _hierarchy(matrix: Any, candidates: Array, positions: Sequence[Index]) -> pyamg.MultilevelSolver:
     below = ("block_gauss_seidel", {"sweep": "symmetric", "iterations": 1})
     hierarchy = pyamg.smoothed_aggregation_solver(
         sparse.bsr_matrix(sparse.csr_matrix(matrix), blocksize=(2, 2)),
@@ -73,7 +73,7 @@ def _hierarchy(matrix: Any, candidates: Array, places: Sequence[Index]) -> pyamg
     )
     if len(hierarchy.levels) > 1:
         finest = hierarchy.levels[0]
-        smoother = StripSmoother(strips_of(sparse.csr_array(matrix), [np.repeat(place, 2) for place in places]))
+        smoother = StripSmoother(strips_of(sparse.csr_array(matrix), [np.repeat(index, 2) for index in positions]))
         finest.presmoother, finest.postsmoother = smoother, smoother.reversed()
     return hierarchy
 

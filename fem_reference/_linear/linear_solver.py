@@ -1,4 +1,4 @@
-"""Linear solvers of the half-space: conjugate gradients, a direct solve, and GMRES for a bordered tangent.
+"""Linear solvers of the half-space: conjugate gradients and a direct solve.
 
 Each returns a solution whose residual was recomputed at the end, or raises.
 """
@@ -10,32 +10,27 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import LinearOperator
 
 from fem_reference._elastic.assembly import HalfSpace
 from fem_reference._elastic.scaling import unit_scaling
-from fem_reference._linear.algebraic_multigrid import pyamg
 from fem_reference._linear.preconditioner import ElasticPreconditioner
 from fem_reference._linear.strips import factorise
 from fem_reference._typing import Array
 from fem_reference.errors import NotConverged
 
-__all__ = ["LinearResult", "relative_residual", "solve_bordered", "solve_cg", "solve_direct"]
+__all__ = ["LinearResult", "relative_residual", "solve_cg", "solve_direct"]
 
 
+#: Relative residual: the displacement is then good to 1e-9, below the discretisation of any fine mesh.
 TOLERANCE = 1e-10
-"""Relative residual: the displacement is then good to 1e-9, below the discretisation of any fine mesh."""
 
+#: Residual that rounding of the displacement leaves, whatever the tolerance: measured 2e-10 for 5e5 unknowns; a
+#: factorisation leaves 2e-10 for 1e5. Steep cones on graded solids have elements so thin that a machine without
+#: extended precision leaves 1e-7, which is refused.
 ROUNDING = 1e-9
-"""Residual that rounding of the displacement leaves, whatever the tolerance: measured 2e-10 for 5e5 unknowns; a
-factorisation leaves 2e-10 for 1e5.  Steep cones on graded solids have elements so thin that a machine without extended
-precision leaves 1e-7, which is refused."""
 
+#: Five times the most ever needed; more means that the preconditioner does not fit the matrix.
 ITERATIONS = 60
-"""Five times the most ever needed; more means that the preconditioner does not fit the matrix."""
-
-DIRECTIONS = 150
-"""Krylov directions for an indefinite tangent: each negative direction of the surface law costs a few."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -216,53 +211,6 @@ def solve_direct(half_space: HalfSpace, load: Array) -> LinearResult:
         )
     storage = 12 * factors.nnz
     return LinearResult(_expand(half_space, scale * x), np.zeros_like(load), 0, residual, seconds, storage)
-
-
-def solve_bordered(
-    matrix: LinearOperator,
-    b: Array,
-    preconditioner: ElasticPreconditioner,
-    factor: float,
-    tolerance: float = TOLERANCE,
-) -> tuple[Array, int]:
-    """Solve an indefinite bordered system by GMRES with the elastic preconditioner on its leading block.
-
-    Parameters
-    ----------
-    matrix : LinearOperator, shape (f + 1, f + 1)
-        Tangent on the scaled free rows, bordered by one control.
-    b : ndarray, shape (f + 1,)
-        Right-hand side.
-    preconditioner : ElasticPreconditioner
-        Approximate inverse of the elastic part.
-    factor : float
-        The elastic part of the leading block is the scaled stiffness divided by this factor.
-    tolerance : float
-        Relative residual to reach.
-
-    Returns
-    -------
-    solution : ndarray, shape (f + 1,)
-    iterations : int
-
-    Raises
-    ------
-    NotConverged
-        If the residual is not reached within `DIRECTIONS` steps.
-    """
-
-    def apply(v: Array) -> Array:
-        return np.append(factor * preconditioner(v[:-1]), v[-1])
-
-    history: list[float] = []
-    operator = LinearOperator(matrix.shape, apply, dtype=float)
-    # Flexible GMRES preconditions from the right: its residual is the true one.
-    x, _ = pyamg.krylov.fgmres(matrix, b, tol=0.5 * tolerance, maxiter=DIRECTIONS, M=operator, residuals=history)
-    count = len(history)
-    residual = float(np.linalg.norm(b - matrix @ x)) / max(float(np.linalg.norm(b)), 1e-300)
-    if not residual <= tolerance:
-        raise NotConverged(f"GMRES reached a residual of {residual:.1e} in {count} steps, not {tolerance:.1e}")
-    return x, count
 
 
 def _expand(half_space: HalfSpace, x: Array) -> Array:

@@ -15,7 +15,6 @@ from functools import cached_property
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import LinearOperator
 
 from fem_reference._elastic.assembly import HalfSpace
 from fem_reference._elastic.scaling import unit_scaling
@@ -27,9 +26,9 @@ from fem_reference._typing import Array, Index
 __all__ = ["ElasticPreconditioner"]
 
 
+#: W-cycles of smoothed aggregation a correction, each a twentieth of the work: with fewer, or with V-cycles, the outer
+#: iterations grow with the mesh (measured for 2e5 unknowns: 7; 9 with three, 10 with four V-cycles).
 COARSE_CYCLES = 4
-"""W-cycles of smoothed aggregation a correction, each a twentieth of the work: with fewer, or with V-cycles, the outer
-iterations grow with the mesh (measured for 2e5 unknowns: 7; 9 with three, 10 with four V-cycles)."""
 
 
 def _grid_positions(half_space: HalfSpace) -> tuple[Index, Index]:
@@ -72,7 +71,7 @@ class ElasticPreconditioner:
         D = sparse.diags_array(self.scale)
         self.matrix: sparse.csr_array = (D @ A @ D).tocsr()
         columns, rows = _grid_positions(half_space)
-        self._strips = strips_of(self.matrix, [np.repeat(place, 2)[free] for place in (columns, rows)])
+        self._strips = strips_of(self.matrix, [np.repeat(index, 2)[free] for index in (columns, rows)])
         self._vertices, self._coarse = self._build_coarse(half_space)
         self._vertex_columns = self.matrix[:, self._vertices[self._vertices >= 0]].tocsr()
 
@@ -84,20 +83,21 @@ class ElasticPreconditioner:
         position[free] = np.arange(free.size)
         vertices = position[rows.ravel()]
         present = vertices >= 0
-        kept = vertices[present]
+        free_vertices = vertices[present]
         size = vertices.size
         # A vertex on the axis has no u_r: a unit row keeps the blocks whole.
         injection = sparse.csr_array(
-            (np.ones(kept.size), (np.flatnonzero(present), np.arange(kept.size))), (size, kept.size)
+            (np.ones(free_vertices.size), (np.flatnonzero(present), np.arange(free_vertices.size))),
+            (size, free_vertices.size),
         )
         padding = sparse.diags_array((~present).astype(float))
-        coarse = injection @ self.matrix[kept][:, kept] @ injection.T + padding
+        coarse = injection @ self.matrix[free_vertices][:, free_vertices] @ injection.T + padding
         unit = np.zeros(size)
-        unit[present] = 1.0 / self.scale[kept]
+        unit[present] = 1.0 / self.scale[free_vertices]
         candidates = np.zeros((size, 2))
         candidates[0::2, 0], candidates[1::2, 1] = unit[0::2], unit[1::2]
         # Grid lines have even positions.
-        places = [place[basis.nodal_dofs[0]] // 2 for place in _grid_positions(half_space)]
+        places = [index[basis.nodal_dofs[0]] // 2 for index in _grid_positions(half_space)]
         return vertices, vertex_hierarchy(coarse, candidates, places)
 
     def __call__(self, b: Array) -> Array:
@@ -134,9 +134,5 @@ class ElasticPreconditioner:
     @property
     def storage(self) -> int:
         """Bytes of the scaled matrix, of the strips with their factors, and of pyamg's hierarchy."""
-        own = sparse_bytes(self.matrix) + sparse_bytes(self._vertex_columns) + self._vertices.nbytes
-        return own + sum(strips.storage for strips in self._strips) + hierarchy_bytes(self._coarse)
-
-    def operator(self) -> LinearOperator:
-        """Return the preconditioner as a scipy operator."""
-        return LinearOperator(self.matrix.shape, self.__call__, dtype=float)
+        matrices = sparse_bytes(self.matrix) + sparse_bytes(self._vertex_columns) + self._vertices.nbytes
+        return matrices + sum(strips.storage for strips in self._strips) + hierarchy_bytes(self._coarse)

@@ -21,8 +21,8 @@ from fem_reference.errors import NotConverged
 
 __all__ = ["StripSmoother", "Strips", "factorise", "sparse_bytes", "strips_of"]
 
+#: Positions from one strip to the next that is solved with it: strips of three positions, a line between two.
 PERIOD = 4
-"""Positions from one strip to the next that is solved with it: strips of three positions, a line between two."""
 
 
 def factorise(matrix: Any) -> SuperLU:
@@ -79,7 +79,7 @@ class Strips:
         return int(self.inside.nbytes + self.lines.nbytes + 12 * self.factors.nnz + sparse_bytes(self.coupling))
 
 
-def strips_of(matrix: sparse.csr_array, places: Iterable[Index]) -> list[Strips]:
+def strips_of(matrix: sparse.csr_array, positions: Iterable[Index]) -> list[Strips]:
     """Return both halves of the strips, for each numbering of the grid lines.
 
     Parameters
@@ -100,18 +100,18 @@ def strips_of(matrix: sparse.csr_array, places: Iterable[Index]) -> list[Strips]
     >>> [strips.lines.tolist() for strips in strips_of(chain, [np.arange(8)])]
     [[2, 6], [0, 4]]
     """
-    found = []
-    for place in places:
+    strips = []
+    for position in positions:
         for dropped in (PERIOD // 2, 0):
-            between = place % PERIOD == dropped
+            between = position % PERIOD == dropped
             inside, lines = np.flatnonzero(~between), np.flatnonzero(between)
             columns = matrix[:, inside].tocsr()
             try:
                 factors = factorise(columns[inside])
             except RuntimeError as error:
                 raise NotConverged(f"a strip of the mesh is singular ({error}); check modulus and mesh") from error
-            found.append(Strips(inside, lines, factors, columns[lines]))
-    return found
+            strips.append(Strips(inside, lines, factors, columns[lines]))
+    return strips
 
 
 class StripSmoother:

@@ -18,8 +18,8 @@ __all__ = ["disc_load", "ring_load", "smooth_load"]
 
 Load = Callable[[Trace], Array]
 
+#: Gauss points an element of the disc, fourth-power clustered in the last: integrands down to q^(-1/2) are exact.
 DISC_POINTS = 30
-"""Gauss points an element of the disc, fourth-power clustered in the last: integrands down to q^(-1/2) are exact."""
 
 
 def smooth_load(pressure: Callable[[Array], Array]) -> Load:
@@ -36,9 +36,9 @@ def disc_load(pressure: Callable[[Array], Array]) -> Load:
         total = np.zeros(trace.phi.shape[1])
         for left, right in pairwise(nodes):
             h = right - left
-            last = right == nodes[-1]
-            gap = h * (x**4 if last else 1.0 - x)
-            weight = h * w * (4.0 * x**3 if last else 1.0)
+            end = right == nodes[-1]
+            gap = h * (x**4 if end else 1.0 - x)
+            weight = h * w * (4.0 * x**3 if end else 1.0)
             s = right - gap
             # 1 - s from the distance to the node, not from s: the pressure may be singular there.
             below = (1.0 - right) + gap

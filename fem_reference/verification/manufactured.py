@@ -24,8 +24,8 @@ from fem_reference.modulus import Modulus
 __all__ = ["BIAXIAL", "SMOOTH", "Field", "column", "manufactured_error"]
 
 
+#: Gauss points a direction for loads and errors: the fields are no polynomials (more change nothing).
 POINTS = 14
-"""Gauss points a direction for loads and errors: the fields are no polynomials (more change nothing)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +44,7 @@ class Field:
     gradient: Callable[[Array, Array], tuple[Array, Array, Array, Array]]
 
 
+#: Every strain at work, none of them a polynomial: it shows the order of the element.
 SMOOTH = Field(
     lambda r, z: (r * np.exp(-z) * np.cos(r), np.sin(2.0 * z + 0.3) * np.exp(-(r**2))),
     lambda r, z: (
@@ -53,13 +54,12 @@ SMOOTH = Field(
         2.0 * np.cos(2.0 * z + 0.3) * np.exp(-(r**2)),
     ),
 )
-"""Every strain at work, none of them a polynomial: it shows the order of the element."""
 
+#: Uniform strain with a rigid translation, the patch test of a homogeneous solid.
 BIAXIAL = Field(
     lambda r, z: (0.2 * r, 1.0 - 0.3 * z),
     lambda r, z: (0.2 + 0.0 * r, 0.0 * r, 0.0 * r, -0.3 + 0.0 * r),
 )
-"""Uniform strain with a rigid translation, the patch test of a homogeneous solid."""
 
 
 def column(k: float) -> Field:
@@ -94,9 +94,9 @@ def manufactured_error(grid: Grid, modulus: Modulus, nu: float, order: int, fiel
         L2 norm of the error relative to that of the displacement.
     """
     mesh = grid.quads()
-    first = float(grid.z[1])
-    body = Body(mesh, InteriorChart(first, modulus.surface_exponent), modulus, nu, order)
-    matrix, _ = stiffness(body, np.flatnonzero(mesh.p[1][mesh.t].max(axis=0) <= first))
+    layer = float(grid.z[1])
+    body = Body(mesh, InteriorChart(layer, modulus.surface_exponent), modulus, nu, order)
+    matrix, _ = stiffness(body, np.flatnonzero(mesh.p[1][mesh.t].max(axis=0) <= layer))
     # Gauss points clustered towards the surface in every layer; the first reference axis of a tensor mesh is z.
     points, weights = gauss_product(POINTS, POINTS, 3)
     basis = Basis(mesh, ElementQuadP(order), ChartMapping(mesh, body.chart), quadrature=(points[::-1], weights))

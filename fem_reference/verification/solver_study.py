@@ -19,8 +19,8 @@ from fem_reference.verification.load_vectors import smooth_load
 
 __all__ = ["FULL_STUDY", "QUICK_STUDY", "SolverCase", "SolverRow", "solver_table"]
 
+#: The load is p = exp(-(r / 0.3)^2), well inside the refined edge at r = 1.
 LOAD_RADIUS = 0.3
-"""The load is p = exp(-(r / 0.3)^2), well inside the refined edge at r = 1."""
 
 
 _LOAD = smooth_load(lambda r: np.exp(-((r / LOAD_RADIUS) ** 2)))
@@ -67,18 +67,18 @@ def _cases(
     return [SolverCase(MeshSpec(*shape, density, 4), k, nu) for density in densities for k, nu in pairs]
 
 
+#: Four systems of about 1e4 unknowns.
 QUICK_STUDY = _cases(_SMOOTH, (0.45,), ((0.0, 0.25), (0.8, 0.45))) + _cases(_EDGE, (0.9,), ((0.0, 0.25), (0.8, 0.45)))
-"""Four systems of about 1e4 unknowns."""
 
 _CORNERS = ((0.0, 0.0), (0.4, 0.25), (0.8, 0.45))
 
+#: 1e4 to 3e5 unknowns, with and without an edge a thousandth of its radius wide.
 FULL_STUDY = [
     *_cases(_SMOOTH, (0.42,), ((0.0, 0.0), (0.0, 0.45), (0.4, 0.25), (0.8, 0.0), (0.8, 0.45))),
     *_cases(_SMOOTH, (0.22, 0.12), _CORNERS),
     *_cases(_EDGE, (0.9,), ((0.0, 0.0), (0.0, 0.45), (0.4, 0.25), (0.8, 0.0), (0.8, 0.45))),
     *_cases(_EDGE, (0.45, 0.18), _CORNERS),
 ]
-"""1e4 to 3e5 unknowns, with and without an edge a thousandth of its radius wide."""
 
 
 def solver_table(cases: Iterable[SolverCase] = QUICK_STUDY) -> list[SolverRow]:

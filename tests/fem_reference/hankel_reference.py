@@ -16,14 +16,14 @@ from scipy import linalg, special
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+#: Gauss points a panel.
 POINTS = 16
-"""Gauss points a panel."""
 
+#: Depth times xi where the integration starts: the solution has decayed by exp(-40).
 DECADES_OF_DECAY = 40.0
-"""Depth times xi where the integration starts: the solution has decayed by exp(-40)."""
 
+#: Of the integration, relative to its length in log depth: no transition fits between two steps.
 LARGEST_STEP = 1 / 300
-"""Of the integration, relative to its length in log depth: no transition fits between two steps."""
 
 
 def _gauss(ends: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:

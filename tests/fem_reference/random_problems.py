@@ -14,22 +14,22 @@ from pathlib import Path
 
 import numpy as np
 
-from fem_reference import LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, Solution, solve_together
+from fem_reference import NotConverged, Solution, solve_together
 from fem_reference._contact.error_parts import events_on_meshes
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.resolved import ResolvedEvents
 from fem_reference.quantities import TABLE as QUANTITIES
-from fem_reference.verification.reference_solutions import surface_constant
+from tests.fem_reference.solved_together import problem_with
 
 SEED, COUNT = 20261122, 60
 TABLE = Path(__file__).with_suffix(".csv")
 COLUMNS = ("seed", "number", "n", "k", "mu", "nu", "quantity", "status", "value", "u_num", "error")
 
+#: Relative error below which the ratio of bound to error is that of rounding.
 ROUNDING = 1e-11
-"""Relative error below which the ratio of bound to error is that of rounding."""
 
+#: All quantities; the first gives a mesh that is fine enough for the others.
 NAMES = ("zero_load_displacement", *(name for name in QUANTITIES if name != "zero_load_displacement"))
-"""All quantities; the first gives a mesh that is fine enough for the others."""
 
 Parameters = tuple[float, float, float, float]
 
@@ -53,16 +53,11 @@ def problems(count: int = COUNT) -> list[Parameters]:
     return found
 
 
-def problem_of(n: float, k: float, mu: float, nu: float) -> Problem:
-    """Problem of Tabor's number mu whose lengths, forces and energies are those of Q = c0 = w = z0 = 1."""
-    E_star = surface_constant(k, nu) / (1 - k) / mu ** ((2 * n + k - 1) / n)
-    return Problem(PowerLaw(E_star * (1 - nu**2), 1.0, k, nu), PowerPunch(n, 1.0), LennardJones(1.0, 1.0))
-
-
 def rows(number: int, accuracy: str = "quick") -> list[dict[str, object]]:
     """Rows of one problem: the error is that against another degree, and every feature finer."""
     parameters = problems(number + 1)[number]
-    problem = problem_of(*parameters)
+    n, k, mu, nu = parameters
+    problem = problem_with(k, mu, n, nu)
     head = {"seed": SEED, "number": number, **dict(zip(("n", "k", "mu", "nu"), parameters, strict=True))}
     try:
         found = solve_together(problem, NAMES, accuracy)

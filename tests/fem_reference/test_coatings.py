@@ -27,9 +27,9 @@ NU = 0.3
 LAW = LennardJones(1.0, 1.0)
 FORCE, DISPLACEMENT = "pull_off_force", "pull_off_displacement"
 
+#: Error of the Hankel transforms: other panels or another largest wave move force and displacement by less than 1e-10,
+#: panels that end at 22 instead of 16 by 1.2e-7 (the displacement of the stiff coating) and 3e-8 (its force).
 HANKEL_ERROR = 1e-7
-"""Error of the Hankel transforms: other panels or another largest wave move force and displacement by less than 1e-10,
-panels that end at 22 instead of 16 by 1.2e-7 (the displacement of the stiff coating) and 3e-8 (its force)."""
 
 
 def _exponential(z):
@@ -41,11 +41,11 @@ STIFF, SOFT = CoatingModulus(10.0, 1.0, thickness=1.0), CoatingModulus(1.0, 10.0
 SMOOTH = CoatingModulus(10.0, 1.0, thickness=1.0, transition=0.02)
 
 
+#: Above the depth 3 a cubic that falls with the slope -3.75: 1/E doubles within 0.13.
 FALLING = TableModulus((0.0, 0.5, 1.0, 3.0), (2.0, 1.0, 3.0, 0.5))
-"""Above the depth 3 a cubic that falls with the slope -3.75: 1/E doubles within 0.13."""
 
+#: Relative error of the displacement of `FALLING` on the finest mesh of "default": 1.5e-9 measured.
 ELASTIC_ERROR = 1e-8
-"""Relative error of the displacement of `FALLING` on the finest mesh of "default": 1.5e-9 measured."""
 
 
 def _problem(modulus, n=2.0):
@@ -113,7 +113,9 @@ def test_displacement_does_not_depend_on_the_extent():
     """It moved by 5e-5, because the skin was left out of the solid beyond the mesh."""
     choice, spec, size = chosen(_problem(EXPONENTIAL, 5.0), ("pull_off",), "quick")
     spec = replace(spec, density=choice.level.densities[-1])
-    near, far = (choice.traced(replace(spec, extent=scale * spec.extent), size).pull_off.state for scale in (1, 8))
+    near, far = (
+        choice.traced(replace(spec, extent=scale * spec.extent), size).at("pull_off").state for scale in (1, 8)
+    )
     assert abs(far.displacement - near.displacement) <= 3e-7
     assert far.load == pytest.approx(near.load, rel=1e-7)
 
@@ -143,14 +145,6 @@ def test_displacement_of_a_table_that_falls_to_a_small_modulus():
     trace = solid.trace
     load = trace.phi.T @ (np.exp(-(trace.s**2)) * trace.s * trace.weight)
     assert trace.evaluate(radii) @ solid.matrix @ load == pytest.approx(exact, rel=ELASTIC_ERROR)
-
-
-@pytest.mark.heavy
-@pytest.mark.parametrize("modulus", [STIFF, SMOOTH])
-def test_finer_meshes_are_more_certain(modulus):
-    quick, default, fine = (solve(_problem(modulus), FORCE, name) for name in ("quick", "default", "fine"))
-    assert fine.u_num <= default.u_num <= quick.u_num
-    assert abs(default.value - fine.value) <= default.u_num
 
 
 @pytest.mark.parametrize("depth", [1.0, 0.75, FIRST_END * 1.5, 7.3e-4, 2.0**20])

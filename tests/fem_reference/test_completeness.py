@@ -8,15 +8,14 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from fem_reference import LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve_together, trace
+from fem_reference import LennardJones, NotConverged, Problem, solve_together, trace
 from fem_reference._contact import completeness, path
 from fem_reference._contact.completeness import complete_path, displacement_range
 from fem_reference._contact.events import PathEvents
 from fem_reference._contact.hermite import Interval, Sample
 from fem_reference._contact.mesh_choice import chosen
 from fem_reference._contact.path import Point
-from fem_reference.quantities import TABLE
-from fem_reference.verification.reference_solutions import surface_constant
+from tests.fem_reference.solved_together import problem_with
 
 
 class AnalyticBranch:
@@ -44,12 +43,6 @@ class AnalyticBranch:
 
     def points(self, parameters):
         return [self.solve(t, None) for t in parameters]
-
-
-def _problem(n, k, mu):
-    nu = 0.3
-    modulus = surface_constant(k, nu) / (1 - k) / mu ** ((2 * n + k - 1) / n)
-    return Problem(PowerLaw(modulus * (1 - nu**2), 1.0, k, nu), PowerPunch(n, 1.0), LennardJones(1.0, 1.0))
 
 
 @pytest.mark.parametrize("shift", [0.0, 0.013, 0.4])
@@ -113,7 +106,7 @@ def test_a_level_reached_only_at_a_turning_point_between_samples_counts():
 @pytest.fixture(scope="module")
 def folded():
     """Three folds before the contact edge is formed; two are within one step of the central gap."""
-    return _problem(3.3, 0.7, 1.5)
+    return problem_with(0.7, 1.5, 3.3)
 
 
 #: Values of the integral equation, solved with 85 points of an arc length.
@@ -136,16 +129,8 @@ def test_the_jump_into_contact_is_the_first_fold(folded):
 def _with_steps(monkeypatch, step):
     """The problem of three folds, whose path is traced with these steps of the gap: it has a key of its own."""
     monkeypatch.setattr(path, "GAP_STEP", step)
-    problem = _problem(3.3, 0.7, 1.5)
+    problem = problem_with(0.7, 1.5, 3.3)
     return Problem(problem.solid, problem.punch, LennardJones(1.0 + step * 1e-12, 1.0))
-
-
-@pytest.mark.heavy
-def test_the_step_of_one_path_does_not_choose_the_fold(monkeypatch):
-    """Twice as large; on the coarsest mesh of the choice alone."""
-    choice, spec, size = chosen(_with_steps(monkeypatch, 0.4), ("jump_in",), "quick")
-    gap = TABLE["jump_in_gap"].functional(choice.traced(spec, size))
-    assert gap == pytest.approx(FOLDED["jump_in_gap"], abs=2e-5)
 
 
 @pytest.mark.heavy
@@ -161,14 +146,14 @@ def test_the_path_begins_beyond_the_jump_out_of_contact():
 
     On the coarsest mesh of the choice alone.
     """
-    choice, spec, size = chosen(_problem(2.0, 0.0, 8.0), ("zero_load",), "quick")
+    choice, spec, size = chosen(problem_with(0.0, 8.0), ("zero_load",), "quick")
     points = choice.traced(spec, size).points
     assert points[0].state.displacement < min(p.state.displacement for p in points if p.branch.touching) < -12.0
 
 
 @pytest.mark.heavy
 def test_the_path_begins_where_the_jump_out_of_contact_ends():
-    problem = _problem(2.0, 0.0, 8.0)
+    problem = problem_with(0.0, 8.0)
     found = solve_together(problem, ("jump_out_displacement", "hysteresis_energy"), "quick")
     energy = found["hysteresis_energy"]
     assert abs(energy.value / math.pi - 10.280270542) <= energy.u_num / math.pi <= 1e-4

@@ -136,7 +136,7 @@ def test_a_coated_solid_on_a_larger_interior_stays_within_its_part():
     solution = solve(problem, "pull_off_displacement", "quick")
     choice, spec, size = chosen(problem, ("pull_off",), "quick")
     larger = replace(spec, density=choice.level.densities[-1], extent=4.0 * spec.extent)
-    reference = ResolvedEvents(events_on_meshes(choice, spec, size).path, choice.contact(larger, size)).pull_off
+    reference = ResolvedEvents(events_on_meshes(choice, spec, size).path, choice.contact(larger, size)).at("pull_off")
     change = abs(reference.state.displacement - solution.value)
     mesh = solution.parts["mesh"] + solution.parts["first layer"]
     assert change <= solution.parts["interior and exterior"] + mesh
@@ -222,8 +222,8 @@ def test_variant_changes_one_feature(feature):
 
 def test_placement_moves_the_edge_over_the_mesh():
     meshes = _meshes()
-    inward, outward = (events.pull_off for events in meshes.placements)
-    plain = meshes.path.pull_off
+    inward, outward = (events.at("pull_off") for events in meshes.placements)
+    plain = meshes.path.at("pull_off")
     assert inward.state.size < plain.state.size < outward.state.size
     for moved in (inward, outward):
         assert moved.state.load == pytest.approx(plain.state.load, rel=1e-6)

@@ -12,7 +12,6 @@ import pytest
 from fem_reference._elastic.assembly import assemble_half_space
 from fem_reference._elastic.condensation import surface_stiffness
 from fem_reference._elastic.mesh import Grid, MeshSpec, graded_grid
-from fem_reference._linear import preconditioner as preconditioner_module
 from fem_reference._linear.hierarchy import hierarchy_bytes
 from fem_reference._linear.linear_solver import solve_cg, solve_direct
 from fem_reference._linear.preconditioner import ElasticPreconditioner
@@ -20,18 +19,18 @@ from fem_reference.errors import NotConverged
 from fem_reference.modulus import PowerLawModulus
 from fem_reference.verification.solver_study import FULL_STUDY, QUICK_STUDY, solver_table
 
+#: Measured 6 to 9 for 1e4 to 5e5 unknowns.
 ITERATIONS = 10
-"""Measured 6 to 9 for 1e4 to 5e5 unknowns."""
 
+#: Iterations with the most unknowns over those with the fewest of one material: measured 1.2 at most.
 GROWTH = 1.5
-"""Iterations with the most unknowns over those with the fewest of one material: measured 1.2 at most."""
 
+#: Error that a cycle of the vertex hierarchy leaves: measured 0.5 to 0.7. With pyamg's smoother, which changes one
+#: vertex at a time, it was 0.96 to 0.999.
 REDUCTION = 0.8
-"""Error that a cycle of the vertex hierarchy leaves: measured 0.5 to 0.7.  With pyamg's smoother, which changes one
-vertex at a time, it was 0.96 to 0.999."""
 
+#: Residual 1e-10 times the condition number left by the preconditioner: measured 7e-12.
 AGREEMENT = 1e-8
-"""Residual 1e-10 times the condition number left by the preconditioner: measured 7e-12."""
 
 
 @pytest.fixture(scope="module")
@@ -138,15 +137,6 @@ def test_the_hierarchy_is_as_large_as_what_the_allocator_gave_for_it():
     finally:
         tracemalloc.stop()
     assert 0.8 * allocated <= hierarchy_bytes(hierarchy) <= allocated
-
-
-def test_the_storage_of_the_preconditioner_includes_the_hierarchy(half_space, monkeypatch):
-    preconditioner = ElasticPreconditioner(half_space)
-    whole = preconditioner.storage
-    monkeypatch.setattr(preconditioner_module, "hierarchy_bytes", lambda hierarchy: 0)
-    vertices = half_space.basis.mesh.p.shape[1]
-    # On the finest level alone there are nine 2 x 2 blocks of doubles a vertex, but for those at the boundary.
-    assert whole - preconditioner.storage >= 8 * 36 * vertices * 0.8
 
 
 def test_too_few_iterations_raise(half_space):

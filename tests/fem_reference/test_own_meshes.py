@@ -19,8 +19,8 @@ FORCE, JUMP_IN, JUMP_OUT = NAMES = ("pull_off_force", "jump_in_displacement", "j
 ROWS = {name: TABLE[name] for name in NAMES}
 LAW = LennardJones(1.0, 1.0)
 GRADED = Problem(ProfileSolid(ExponentialModulus(3.0, 1.0, 5.0), 0.1), PowerPunch(2.0, 1.0), LAW)
+#: Of a power punch, n = 5, on a solid that softens: by both references, all digits shown.
 ZERO_LOAD = 0.42243083
-"""Of a power punch, n = 5, on a solid that softens: by both references, all digits shown."""
 CONE = replace(GRADED, solid=ProfileSolid(ExponentialModulus(0.9, 0.3, 5.0), 0.1), punch=PowerPunch(1.0, 1.0))
 
 

@@ -25,30 +25,6 @@ def two_threads():
         yield
 
 
-@pytest.mark.parametrize(
-    "compute",
-    [
-        # Each enters the same context; that it does so is in the test of an exception below.
-        pytest.param(lambda problem: solve(problem, "pull_off_force", "quick"), id="solve", marks=pytest.mark.heavy),
-        pytest.param(lambda problem: trace(problem, "quick"), id="trace", marks=pytest.mark.heavy),
-        pytest.param(lambda problem: profile(problem, accuracy="quick"), id="profile", marks=pytest.mark.heavy),
-    ],
-)
-def test_a_computation_has_one_thread(compute):
-    seen = set()
-
-    def height(r):
-        seen.update(blas_threads())
-        return r**2 / 2
-
-    problem = Problem(SOLID, CustomPunch(height, 2.0, lambda r: r), LAW)
-    seen.clear()
-    assert blas_threads() == {2}
-    compute(problem)
-    assert seen == {1}
-    assert blas_threads() == {2}
-
-
 def test_the_solver_study_has_one_thread(monkeypatch):
     seen = set()
     exact = np.exp

@@ -28,9 +28,8 @@ from fem_reference.verification.reference_solutions import (
     surface_constant,
 )
 
+#: scipy.integrate.quad with the logarithmic or power singularity at t = r as a break point: measured 1e-10.
 QUADRATURE_TOLERANCE = 1e-8
-"""scipy.integrate.quad with the logarithmic or power singularity at t = r as a break point: measured
-1e-10."""
 
 
 def _assert_all_pass(checks):

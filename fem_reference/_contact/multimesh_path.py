@@ -21,27 +21,27 @@ from fem_reference._contact.hermite import Sample
 from fem_reference._contact.path import BESIDE, Point, branches_of
 from fem_reference._typing import Array
 
-__all__ = ["carried_path", "log_displacement_sample", "log_load_sample", "with_rates"]
+__all__ = ["log_displacement_sample", "log_load_sample", "multimesh_path", "with_rates"]
 
-CARRIED_STEP = 0.2
-"""Change of the logarithm of the radius from one state to the next.  The test of turning points asks for none between
-on cones at mu = 3 whose modulus falls to a fifth below the surface, and each state is found from the last."""
+#: Change of the logarithm of the radius from one state to the next. The test of turning points asks for none between on
+#: cones at mu = 3 whose modulus falls to a fifth below the surface, and each state is found from the last.
+LOG_STEP = 0.2
 
+#: Change of delta in lengths of the law, and of P relative to the largest tension, below which two turning points are
+#: not told from none. It is above what the meshes of the search leave of a state: at most 6e-5 of the largest tension
+#: (measured between the degrees 4 and 6 under a cone at mu = 3 on a solid whose modulus falls to a third).
 LARGEST_CHANGE = 1e-4
-"""Change of delta in lengths of the law, and of P relative to the largest tension, below which two turning points are
-not told from none.  It is above what the meshes of the search leave of a state: at most 6e-5 of the largest tension
-(measured between the degrees 4 and 6 under a cone at mu = 3 on a solid whose modulus falls to a third)."""
 
+#: States that give the rate of one of them: the polynomial through five at a step of 0.2 has it to 4e-3 of the largest
+#: tension (measured as for `with_rates`).
 RATE_POINTS = 5
-"""States that give the rate of one of them: the polynomial through five at a step of 0.2 has it to 4e-3 of the largest
-tension (measured as for `with_rates`)."""
 
+#: Ratio of the last radius to that beyond which neither load nor displacement turns back in the limit of a short range
+#: of the law: its elements are a third of it long, and the range of the law moves the extremes by less.
 FARTHER = 1.5
-"""Ratio of the last radius to that beyond which neither load nor displacement turns back in the limit of a short range
-of the law: its elements are a third of it long, and the range of the law moves the extremes by less."""
 
 
-def carried_path(
+def multimesh_path(
     states: EdgeStates, inner: float, last_turn: float, kinks: Sequence[float], highest: float
 ) -> list[Point]:
     """Return states in contact, so close that no pair of turning points is between two.
@@ -99,13 +99,13 @@ def with_rates(points: list[Point]) -> list[Point]:
     """
     x = np.log([point.parameter for point in points])
     values = np.array([[point.state.load, point.state.displacement] for point in points])
-    made = []
+    renewed = []
     for i, point in enumerate(points):
-        first = min(max(i - RATE_POINTS // 2, 0), max(len(points) - RATE_POINTS, 0))
-        near = slice(first, first + RATE_POINTS)
-        rates = _derivative_weights(x[near], x[i]) @ values[near] / point.parameter
-        made.append(replace(point, rates=(float(rates[0]), float(rates[1]))))
-    return made
+        start = min(max(i - RATE_POINTS // 2, 0), max(len(points) - RATE_POINTS, 0))
+        stencil = slice(start, start + RATE_POINTS)
+        rates = _derivative_weights(x[stencil], x[i]) @ values[stencil] / point.parameter
+        renewed.append(replace(point, rates=(float(rates[0]), float(rates[1]))))
+    return renewed
 
 
 def _derivative_weights(x: Array, at: float) -> Array:
@@ -120,7 +120,7 @@ def _radii(inner: float, kinks: Sequence[float]) -> Iterator[float]:
     radius = inner
     while True:
         yield radius
-        following = radius * math.exp(CARRIED_STEP)
+        following = radius * math.exp(LOG_STEP)
         for kink in sorted(kink for kink in kinks if radius * (1.0 + 2.0 * BESIDE) < kink < following):
             yield kink * (1.0 - BESIDE)
             yield kink * (1.0 + BESIDE)
@@ -129,7 +129,7 @@ def _radii(inner: float, kinks: Sequence[float]) -> Iterator[float]:
 
 def _settled(points: Sequence[Point], highest: float) -> bool:
     """Whether the load is compressive, and load and displacement have risen beyond every fold."""
-    before, last = points[-2].state, points[-1].state
-    rising = last.load > max(before.load, 0.0) and last.displacement > before.displacement
+    previous, newest = points[-2].state, points[-1].state
+    rising = newest.load > max(previous.load, 0.0) and newest.displacement > previous.displacement
     folds = [a.state.displacement for a, b in pairwise(points) if b.state.displacement < a.state.displacement]
-    return rising and last.displacement >= max(highest, *folds, before.displacement)
+    return rising and newest.displacement >= max(highest, *folds, previous.displacement)

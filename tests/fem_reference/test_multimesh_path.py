@@ -1,4 +1,4 @@
-"""Paths whose states are carried from mesh to mesh."""
+"""Paths whose states are continued over meshes."""
 
 import math
 from dataclasses import dataclass, replace
@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from fem_reference import LennardJones, NotConverged, PowerLaw, PowerPunch, Problem, solve, trace
-from fem_reference._contact import carried_path as carried_path_module
 from fem_reference._contact import edge_states
-from fem_reference._contact.carried_path import carried_path, with_rates
+from fem_reference._contact import multimesh_path as multimesh_path_module
 from fem_reference._contact.edge_states import EdgeStates
 from fem_reference._contact.jkr_tension import jkr_curve
 from fem_reference._contact.mesh_choice import MeshChoice, followed_path
+from fem_reference._contact.multimesh_path import multimesh_path, with_rates
 from fem_reference._contact.path import equilibrium_points
 from fem_reference.accuracy import level_for
 from fem_reference.coating import CoatingModulus
@@ -40,8 +40,8 @@ def soft_coating(E_coating):
     return Problem(solid, PowerPunch(2.0, 3400.0), LennardJones(10.6, 0.404))
 
 
+#: Two minima of the load under 1 GPa and 100 nm in the limit of a short range, at 76.64 nm and 765.1 nm (Hankel).
 LAYERED_JKR = (320.94451e3, 660.03700e3)
-"""Two minima of the load under 1 GPa and 100 nm in the limit of a short range, at 76.64 nm and 765.1 nm (Hankel)."""
 
 STEP = 0.2
 # Load and displacement in x = log r: the load has two minima that are closer to each other than two meshes at first.
@@ -61,7 +61,7 @@ class _Point:
     state: SimpleNamespace
     branch: SimpleNamespace
     rates: tuple[float, float] | None = None
-    sense: float = 1.0
+    orientation: float = 1.0
 
     edge_radius = property(lambda self: self.parameter)
     load_rate = property(lambda self: self.rates[0])
@@ -85,12 +85,12 @@ def _minima(points):
     return sum(a.load_rate < 0.0 <= b.load_rate for a, b in pairwise(points))
 
 
-def _carried(height, inner=0.5, last_turn=0.0, kinks=(), highest=0.0):
-    return carried_path(_States(height), inner, last_turn, kinks, highest)
+def _path(height, inner=0.5, last_turn=0.0, kinks=(), highest=0.0):
+    return multimesh_path(_States(height), inner, last_turn, kinks, highest)
 
 
-def test_a_carried_path_goes_from_the_first_edge_into_compression():
-    points = _carried(0.0)
+def test_a_multimesh_path_goes_from_the_first_edge_into_compression():
+    points = _path(0.0)
     radii = [point.edge_radius for point in points]
     assert radii == sorted(radii)
     assert radii[0] == 0.5
@@ -99,16 +99,16 @@ def test_a_carried_path_goes_from_the_first_edge_into_compression():
     assert _minima(points) == 1
 
 
-def test_a_carried_path_goes_on_while_tension_can_return():
-    end = _carried(0.0)[-1]
-    farther = _carried(0.0, last_turn=2.0 * end.edge_radius)[-1]
-    assert farther.edge_radius >= 2.0 * carried_path_module.FARTHER * end.edge_radius
-    higher = _carried(0.0, highest=end.state.displacement + 1.0)[-1]
+def test_a_multimesh_path_goes_on_while_tension_can_return():
+    end = _path(0.0)[-1]
+    farther = _path(0.0, last_turn=2.0 * end.edge_radius)[-1]
+    assert farther.edge_radius >= 2.0 * multimesh_path_module.FARTHER * end.edge_radius
+    higher = _path(0.0, highest=end.state.displacement + 1.0)[-1]
     assert higher.state.displacement >= end.state.displacement + 1.0
 
 
 def test_a_second_minimum_is_found_between_states():
-    assert _minima(_carried(0.3)) == 2
+    assert _minima(_path(0.3)) == 2
 
 
 def test_the_rates_follow_from_the_states():
@@ -127,8 +127,8 @@ def test_an_extremum_follows_from_the_values_of_its_neighbours(monkeypatch):
     assert bend == pytest.approx(0.5 / radius**2, rel=1e-6)
 
 
+#: Tabor number, and pull-off force in pi R w at k = 0 by the integral equation; all digits shown.
 SHORT_RANGE = (1000.0, 1.50000328331)
-"""Tabor number, and pull-off force in pi R w at k = 0 by the integral equation; all digits shown."""
 
 
 @pytest.mark.heavy
@@ -141,7 +141,7 @@ def test_a_large_tabor_number_has_a_mesh_for_each_radius():
 
 
 def test_both_sides_of_a_kink_are_on_the_path():
-    radii = [point.edge_radius for point in _carried(0.0, kinks=(2.0,))]
+    radii = [point.edge_radius for point in _path(0.0, kinks=(2.0,))]
     assert sum(abs(radius / 2.0 - 1.0) < 1e-8 for radius in radii) == 2
 
 
@@ -164,15 +164,15 @@ def _from_near(near, contact, radius):
 def test_a_state_that_is_not_found_at_once_is_reached_by_way_of_others(monkeypatch):
     monkeypatch.setattr(edge_states, "_state_from", _from_near)
     monkeypatch.setattr(edge_states, "edge_width", lambda point: 1.0)
-    monkeypatch.setattr(EdgeStates, "_on_known_mesh", lambda states, radius: None)
+    monkeypatch.setattr(EdgeStates, "_on_neighbour_mesh", lambda states, radius: None)
     meshes = SimpleNamespace(
         spec_at=lambda width, radius: MeshChoice(HOMOGENEOUS, level_for("quick")).spec_at(width, radius),
         contact=lambda spec, size: size,
     )
     states = EdgeStates(meshes, _States(0.0).at(1.0), 4, 1.4)
     assert states.at(1.1).edge_radius == 1.1
-    assert len(states.known) > 4
-    monkeypatch.setattr(edge_states, "MOST_STATES", len(states.known))
+    assert len(states.states) > 4
+    monkeypatch.setattr(edge_states, "MOST_STATES", len(states.states))
     with pytest.raises(NotConverged, match="states with edges between"):
         states.at(1.4)
 
@@ -186,8 +186,8 @@ def test_a_stiff_coating_has_two_minima_of_the_load():
     assert events.points[-1].state.load > 0.0
 
 
+#: Modulus and thickness, and pull-off force by the integral equation (relative bound 2e-8).
 STIFF_COATINGS = ((1000.0, 100.0, 663.18121e3), (10000.0, 30.0, None))
-"""Modulus and thickness, and pull-off force by the integral equation (relative bound 2e-8)."""
 
 
 @pytest.mark.heavy

@@ -8,19 +8,19 @@ from dataclasses import replace
 
 from scipy.optimize import brentq
 
-from fem_reference._contact.carried_path import log_displacement_sample, log_load_sample
 from fem_reference._contact.edge_states import EdgeStates
 from fem_reference._contact.events import Pair, PathEvents, anchor_of, kind_of
 from fem_reference._contact.hermite import Interval
+from fem_reference._contact.multimesh_path import log_displacement_sample, log_load_sample
 from fem_reference._contact.path import Point
 
-__all__ = ["CarriedEvents"]
+__all__ = ["MultimeshEvents"]
 
+#: Change of the logarithm of the radius for the slope of an interpolated function: it slows the secant method only.
 SLOPE_STEP = 1e-3
-"""Change of the logarithm of the radius for the slope of an interpolated function: it slows the secant method only."""
 
 
-class CarriedEvents(PathEvents):
+class MultimeshEvents(PathEvents):
     """The events of a path, in contact those of the cubic through two neighbours and their rates.
 
     Parameters
@@ -28,7 +28,7 @@ class CarriedEvents(PathEvents):
     approach : sequence of Point
         The complete path before contact, on one mesh.
     touching : sequence of Point
-        As `fem_reference._contact.carried_path.carried_path` returns them.
+        As `fem_reference._contact.multimesh_path.multimesh_path` returns them.
     states : EdgeStates
         What solves on a mesh for each radius.
     """
