@@ -1,4 +1,4 @@
-"""Fit of the panel mesh to the pressure: split where it is unresolved, merge where it is over-resolved.
+"""Adaption of the panel mesh to the pressure: panels are split where it is unresolved, merged where over-resolved.
 
 A panel is resolved when the last Legendre coefficients e of the pressure on it are too small to matter: the
 load moves by 2 c^2 s h e, the work of adhesion (which fixes the edge, as in fracture) by e times the change
@@ -39,28 +39,28 @@ __all__ = [
 _MERGE_MARGIN = 0.02
 # Merged panels reach at most this many times as far from the axis as they start.
 _LARGEST_RATIO = 8.0
-# Share of a jump of the pressure between two panels that is counted as a last coefficient.  On a resolved mesh a jump
-# is about ten coefficients, and this is a fifth of one; it is large where a panel holds what no node of it sees.
+# Share of a jump of the pressure between two panels that counts as a last coefficient.  On a resolved mesh a jump is
+# about ten coefficients, and this is a fifth of one; it is large where no node of a panel samples a feature on it.
 # (Gaps of 25 to 6e4 z0 were once on one panel, n = 2, k = 0, mu = 1e5: the pull-off force was wrong by 2e-3.)
 _JUMP = 0.02
 # Ends of the first panels of all meshes, in units of the radius at s = 1; farther out they grow by factors of four.
 _FIRST_ENDS = np.array([0.0, 0.5, 1.0, 2.0])
 # On a steep punch the gap rises by at most this factor over a panel of the first mesh.
 _RISE = 64.0
-# With so many panels, as at a very narrow edge, fewer panels gain more than known ones.
+# Above this number of panels, as at a very narrow edge, merging saves more than reusing the stored response does.
 _MANY = 40
 # On a graded mesh neighbours differ by at most this factor in length: the pressure on a longer panel is no polynomial
 # next to a narrow edge, which its last coefficients do not show.  Without it, bounds at accuracy 1e-6 were up to 0.3
 # of the pull-off force (n = 2.1, k = 0.85, mu = 19).
 _GRADING = 8.0
-# Share of superfluous breaks from which a mesh is made anew for their sake.
+# A mesh is rebuilt to merge panels only if at least this share of its breaks is superfluous.
 _WORTH_MERGING = 0.2
-# Newton error beside the error of the mesh.
+# Newton error relative to the error of the mesh.
 _NEWTON_MARGIN = 0.01
 _MAX_ROUNDS = 60
 # Rounds of splitting for known gaps between two solves; for the gaps of a guess.
 _KNOWN_ROUNDS, _GUESS_ROUNDS = 6, 2
-# A break belongs to a kink that is nearer than this share of its panels; a panel is thicker than _SLIVER.
+# A break belongs to a kink that is closer than this share of its panels; a panel is wider than _SLIVER.
 _NEAR_KINK, _SLIVER = 0.3, 1e-7
 # Largest distance of a kink to its break, in units of the root of the tolerance: its effect is of second order.
 _OFF_KINK = 0.1
@@ -82,7 +82,7 @@ def end_radius(problem: Problem, end_height: float) -> float:
 
 
 def _extended(offsets: Array, origin: float, end: float) -> Array:
-    """Panel ends less the origin, cut or continued by factors of four to reach the radius `end`."""
+    """Panel ends relative to the origin, truncated or extended by factors of four to reach the radius `end`."""
     inside = offsets[offsets < end - origin]
     outer = [origin + inside[-1] if len(inside) else 0.0]
     while outer[-1] < end:
@@ -104,7 +104,7 @@ def initial_mesh(problem: Problem, order: int, end_height: float) -> PanelMesh:
 
 
 def at_kinks(problem: Problem, mesh: PanelMesh, old_scale: float, new_scale: float) -> PanelMesh:
-    """Mesh whose ends at the kinks of the punch at one scale are moved to those at another, or put there."""
+    """Mesh with panel ends at the kinks of the punch: moved from their radii at the old scale, or inserted."""
     kinks = np.array(kinks_of(problem.punch))
     if not kinks.size:
         return mesh
@@ -118,14 +118,14 @@ def at_kinks(problem: Problem, mesh: PanelMesh, old_scale: float, new_scale: flo
     new = kinks / new_scale - mesh.origin
     fixed = np.array([ends[0], edge, ends[-1]])
     new = new[(new < ends[-1]) & (np.min(np.abs(new[:, None] - fixed), axis=1) > _SLIVER)]
-    # What is left next to a kink would make a panel that is thinner than it has to be.
+    # A remaining break next to a kink would make an unnecessarily narrow panel.
     distance = np.min(np.abs(ends[:, None] - new), axis=1) if new.size else np.full(len(ends), np.inf)
     keep = (distance > _SLIVER) | np.isin(ends, fixed)
     return replace(mesh, offsets=np.union1d(ends[keep], new))
 
 
 def _off_kinks(state: State) -> float:
-    """Largest distance of a kink in the mesh to the next break."""
+    """Largest distance from a kink inside the mesh to the closest break."""
     kinks = np.array(kinks_of(state.disc.problem.punch)) / state.scale
     breaks = state.disc.mesh.breaks
     kinks = kinks[kinks < breaks[-1]]
@@ -133,26 +133,26 @@ def _off_kinks(state: State) -> float:
 
 
 def _halves(mesh: PanelMesh) -> NDArray[np.bool_]:
-    """Whether neighbouring panels are the halves of one that came before, whose response is then known."""
-    first = _extended(_FIRST_ENDS, 0.0, float(mesh.breaks[-1])) - mesh.origin
+    """Whether neighbouring panels are the halves of an earlier one, whose response is stored."""
+    initial_ends = _extended(_FIRST_ENDS, 0.0, float(mesh.breaks[-1])) - mesh.origin
     starts, lengths = mesh.offsets[:-2], mesh.lengths
-    whole = first[np.searchsorted(first, starts, side="right") - 1]
-    number = (starts - whole) / lengths[:-1]
-    found: NDArray[np.bool_] = (lengths[:-1] == lengths[1:]) & (number % 2.0 == 0.0)
-    return found
+    ancestor = initial_ends[np.searchsorted(initial_ends, starts, side="right") - 1]
+    number = (starts - ancestor) / lengths[:-1]
+    siblings: NDArray[np.bool_] = (lengths[:-1] == lengths[1:]) & (number % 2.0 == 0.0)
+    return siblings
 
 
 def edge_mesh(problem: Problem, order: int, scale: float, end_height: float) -> PanelMesh:
-    """A coarse mesh that follows the edge, with exact distances from it: to be split where the edge is.
+    """A coarse mesh with its origin at the edge, to be split there.
 
-    Its ends are the same for all problems, so that their response is known (see `fscm._response_store`).
+    Its ends are the same for all problems, so that their response is stored (see `fscm._response_store`).
     """
     ends = _extended(np.array([-1.0, -0.5, 0.0, 1.0]), 1.0, max(end_radius(problem, end_height) / scale, 4.0))
     return at_kinks(problem, PanelMesh(ends, order, 1.0), scale, scale)
 
 
 class _Field:
-    """Gap and pressure on a mesh at one scale: what decides whether the mesh resolves them."""
+    """Gap and pressure on a mesh at one scale, from which the indicator is computed."""
 
     def __init__(
         self, state: State, mesh: PanelMesh | None = None, gap: Array | None = None, scale: float | None = None
@@ -166,11 +166,11 @@ class _Field:
 
 
 def _weights(field: _Field, starts: Array, lengths: Array) -> Array:
-    """Effect of a unit pressure error on a panel, which starts at a radius less the origin, on the three results."""
+    """Largest effect of a unit pressure error on a panel (start relative to the origin, length) on the results."""
     mesh, c = field.mesh, field.scale
     ends = starts + lengths
     load = 2.0 * c * c * (mesh.origin + ends) * lengths / max(1.0, abs(field.load))
-    gap = np.interp(np.append(starts, ends), mesh.places, field.gap).reshape(2, -1)
+    gap = np.interp(np.append(starts, ends), mesh.node_offsets, field.gap).reshape(2, -1)
     central = _ALGEBRAIC * field.stiffness * lengths ** (1.0 - field.problem.k)
     central = np.where(starts == -mesh.origin, central, 0.0)
     return np.maximum(np.maximum(load, np.abs(gap[1] - gap[0])), central)
@@ -196,8 +196,8 @@ def _indicator(field: _Field, jumps_count: bool = True) -> Array:
     modes = mesh.modes(field.pressure)
     jump = np.zeros(len(mesh.lengths))
     if jumps_count:
-        first, last = _ends(modes)
-        jumps = np.abs(first[1:] - last[:-1])
+        at_start, at_end = _ends(modes)
+        jumps = np.abs(at_start[1:] - at_end[:-1])
         jump = np.maximum(np.append(0.0, jumps), np.append(jumps, 0.0))
     return _unseen(modes, jump) * _weights(field, mesh.offsets[:-1], mesh.lengths)
 
@@ -210,21 +210,21 @@ def resolving(
     rounds: int = _KNOWN_ROUNDS,
     scale: float | None = None,
 ) -> PanelMesh:
-    """The mesh with panels split until each resolves the pressure of known gaps; nothing is solved.
+    """The mesh with panels split until each resolves the pressure of the given gaps; nothing is solved.
 
     Parameters
     ----------
     state : State
-        Whose load is taken, and whose scale unless there is another one.
+        Gives the load, and the scale by default.
     mesh : PanelMesh
     tolerance : float
-        Of the indicator, without jumps between panels: known gaps may jump where the mesh they come from is too coarse.
+        Of the indicator, without jumps between panels: the gaps may jump where the mesh they come from is too coarse.
     gap_on : callable
         Mesh -> gaps at its nodes.
     rounds : int
-        How many times panels are split at most: gaps that are not in equilibrium may be unresolvable.
+        Largest number of splits of a panel: gaps that are not in equilibrium may be unresolvable.
     scale : float, optional
-        Of the new mesh, when it is another one than that of the state.
+        Of the new mesh, when it differs from that of the state.
     """
     for _ in range(rounds):
         field = _Field(state, mesh, gap_on(mesh), scale)
@@ -248,7 +248,7 @@ def graded(mesh: PanelMesh) -> PanelMesh:
 
 
 def _unresolved(state: State, tolerance: float) -> Array:
-    """Middles, less the origin, of the panels that have to be split."""
+    """Middles, relative to the origin, of the panels that have to be split."""
     mesh = state.disc.mesh
     bad = indicator(state) > tolerance
     return mesh.middles[bad]
@@ -260,41 +260,41 @@ def _superfluous(state: State, tolerance: float) -> NDArray[np.intp]:
     starts, lengths = mesh.offsets[:-2], mesh.lengths[:-1] + mesh.lengths[1:]
     rule = mesh.rule
     nodes = starts[:, None] + lengths[:, None] * rule.nodes
-    pressure = mesh.evaluate_places(state.pressure, nodes.ravel()).reshape(nodes.shape)
+    pressure = mesh.evaluate_at_offsets(state.pressure, nodes.ravel()).reshape(nodes.shape)
     modes = pressure @ rule.to_modes.T
-    (first, last), (new_first, new_last) = _ends(mesh.modes(state.pressure)), _ends(modes)
-    jump = np.maximum(np.abs(new_first - first[:-1]), np.abs(new_last - last[1:]))
+    (at_start, at_end), (new_start, new_end) = _ends(mesh.modes(state.pressure)), _ends(modes)
+    jump = np.maximum(np.abs(new_start - at_start[:-1]), np.abs(new_end - at_end[1:]))
     effect = _unseen(modes, jump) * _weights(_Field(state), starts, lengths)
     keeps_edge = mesh.offsets[1:-1] != 1.0 - mesh.origin
     not_too_long = lengths <= (_LARGEST_RATIO - 1.0) * mesh.starts[:-1]
     removable = (effect < _MERGE_MARGIN * tolerance) & keeps_edge & not_too_long
     if len(mesh.lengths) < _MANY and not kinks_of(state.disc.problem.punch):
         removable &= _halves(mesh)
-    chosen: list[int] = []
+    indices: list[int] = []
     for i in np.flatnonzero(removable) + 1:
-        if not chosen or i > chosen[-1] + 1:
-            chosen.append(int(i))
-    return np.array(chosen, np.intp)
+        if not indices or i > indices[-1] + 1:
+            indices.append(int(i))
+    return np.array(indices, np.intp)
 
 
-def _known_on(state: State, mesh: PanelMesh) -> Array:
+def _unknowns_on(state: State, mesh: PanelMesh) -> Array:
     """The unknowns of a state on another mesh at the same scale: gaps, or deformations of a steep punch.
 
-    Where a polynomial falls below the singular gap, at which the traction ends, the gap is linear between the nodes.
+    Where the polynomial falls below the singular gap, linear interpolation between the nodes replaces it.
     """
-    own, problem = state.disc.mesh, state.disc.problem
+    old, problem = state.disc.mesh, state.disc.problem
     if state.lift is not None:
-        known = own.transfer(state.lift, mesh)
-        gap = _lifted_gap(state, mesh, known)
+        unknowns = old.transfer(state.lift, mesh)
+        gap = _lifted_gap(state, mesh, unknowns)
     elif kinks_of(problem.punch):  # the deformation is smooth where the shape is not resolved
         shape = problem.punch.height
-        gap = known = own.transfer(state.gap - shape(state.radius), mesh) + shape(state.scale * mesh.nodes)
+        gap = unknowns = old.transfer(state.gap - shape(state.radius), mesh) + shape(state.scale * mesh.nodes)
     else:
-        gap = known = own.transfer(state.gap, mesh)
+        gap = unknowns = old.transfer(state.gap, mesh)
     below = gap <= problem.law.singular_gap
     if np.any(below):
-        known = np.where(below, known + np.interp(mesh.nodes, own.nodes, state.gap) - gap, known)
-    return known
+        unknowns = np.where(below, unknowns + np.interp(mesh.nodes, old.nodes, state.gap) - gap, unknowns)
+    return unknowns
 
 
 def _lifted_gap(state: State, mesh: PanelMesh, lift: Array) -> Array:
@@ -302,25 +302,25 @@ def _lifted_gap(state: State, mesh: PanelMesh, lift: Array) -> Array:
 
 
 def _gap_on(state: State, mesh: PanelMesh) -> Array:
-    known = _known_on(state, mesh)
-    return known if state.lift is None else _lifted_gap(state, mesh, known)
+    unknowns = _unknowns_on(state, mesh)
+    return unknowns if state.lift is None else _lifted_gap(state, mesh, unknowns)
 
 
 def on_mesh(state: State, mesh: PanelMesh) -> State:
     """The state interpolated to another mesh at the same scale: a guess, not an equilibrium."""
     disc = Discretisation(state.disc.problem, mesh, state.disc)
-    state.disc.factor = None  # they are not used again, as a rule, and take as much memory as the response
-    known = _known_on(state, mesh)
+    state.disc.factor = None  # rarely used again, and as large as the response
+    unknowns = _unknowns_on(state, mesh)
     if state.lift is not None:
-        fixed = state.scale, known, state.displacement, state.follows_edge, state.edge_gap, state.turned
-        return State.lifted(disc, *fixed)
-    return replace(state, disc=disc, gap=known, iterations=0, residual=0.0)
+        arguments = state.scale, unknowns, state.displacement, state.follows_edge, state.edge_gap, state.turned
+        return State.lifted(disc, *arguments)
+    return replace(state, disc=disc, gap=unknowns, iterations=0, residual=0.0)
 
 
 def lengthened(state: State, end_height: float) -> State:
-    """The state on panels that reach the end height, where its own end nearer: a guess, without a new response.
+    """The state on a mesh extended to the end height: a guess, for which no response is computed.
 
-    Behind its own end, the deformation falls like that of a load at the center, r^-(1 + k).
+    Beyond the old end the deformation decays like that of a load at the center, r^-(1 + k).
     """
     mesh, problem = state.disc.mesh, state.disc.problem
     end = end_radius(problem, end_height) / state.scale
@@ -335,7 +335,7 @@ def lengthened(state: State, end_height: float) -> State:
 
 
 def resolved(guess: State, tolerance: float) -> State:
-    """The guess on a mesh that resolves its pressure, with panels split as `fit` would; nothing is solved."""
+    """The guess on a mesh that resolves its pressure, split as by `fit`; nothing is solved."""
     mesh = resolving(guess, guess.disc.mesh, tolerance, partial(_gap_on, guess), _GUESS_ROUNDS)
     return guess if mesh is guess.disc.mesh else on_mesh(guess, mesh)
 
@@ -354,13 +354,13 @@ def fit(
     state : State
         In equilibrium on its own mesh.
     control : Control
-        Kept on all meshes.
+        The same on all meshes.
     tolerance : float
         Of the indicator, dimensionless.
     coarsen : bool
-        Merge panels that have become superfluous, in the first round.
+        Merge superfluous panels in the first round.
     step_tolerance : float, optional
-        Of Newton's method; by default so small that its error is negligible beside that of the mesh.
+        Of Newton's method; by default its error is negligible relative to that of the mesh.
 
     Raises
     ------
@@ -373,7 +373,7 @@ def fit(
     for attempt in range(_MAX_ROUNDS):
         mesh, middles = state.disc.mesh, _unresolved(state, tolerance)
         drop = _superfluous(state, tolerance) if coarsen and attempt == 0 else np.empty(0, np.intp)
-        # A new mesh costs a solve: it is worth that for panels that lack, or for many that are too many.
+        # A new mesh costs a solve: worth it for missing panels, or for many superfluous ones.
         moved = _off_kinks(state) > _OFF_KINK * tolerance**0.5
         if not (middles.size or moved) and drop.size < _WORTH_MERGING * len(mesh.offsets):
             return replace(state, iterations=iterations)

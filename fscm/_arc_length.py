@@ -13,7 +13,7 @@ __all__ = ["ArcLength", "Point", "parameter_control", "parameter_of", "rate_of",
 # Share of a large displacement or compressive load that is its unit.
 _SHARE = 0.1
 # The unit of the load is at least this share of the load: near n = 2/3 the tail alone carries loads of 1e3 and more,
-# on which steps in the unit of the contact are lost.
+# relative to which steps in the unit of the contact are negligible.
 _SHARE_OF_LOAD = 0.05
 # Attribute of each continuation parameter in a state (but log c) and in its rates.
 _NAMES = {"gap": "central_gap", "log_scale": "log_scale", "displacement": "displacement", "load": "load"}
@@ -23,12 +23,12 @@ _NAMES = {"gap": "central_gap", "log_scale": "log_scale", "displacement": "displ
 class Point:
     """A state on the path and its unit tangent in arc length, oriented from separation into contact.
 
-    The points of one `stretch` share the continuation parameter and the place to which the mesh is fixed.
+    The points of one `segment` share the continuation parameter and the anchor of the mesh.
     """
 
     state: State
     rates: Rates
-    stretch: int = 0
+    segment: int = 0
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class ArcLength:
         return max(self.load_in_contact, _SHARE * state.load, _SHARE_OF_LOAD * abs(state.load))
 
     def units(self, state: State) -> dict[str, float]:
-        """Units of all that enters the arc length, by the name of the continuation parameter."""
+        """Units of all quantities that enter the arc length, by name."""
         units = {"log_scale" if state.follows_edge else "gap": self.parameter_unit(state)}
         units |= {"displacement": self.displacement_unit(state), "load": self.load_unit(state)}
         if state.follows_edge and state.central_gap > state.gap_at_edge:
@@ -70,16 +70,16 @@ class ArcLength:
         shares = _shares(self.units(state), rates)
         if not state.turned:
             shares[state.parameter] = 1.0 / self.parameter_unit(state)
-        return rates.scaled(state.sense / math.hypot(*shares.values()))
+        return rates.scaled(state.orientation / math.hypot(*shares.values()))
 
     def shares(self, point: Point) -> dict[str, float]:
-        """Components of the unit tangent, by the name of the continuation parameter."""
+        """Components of the unit tangent, by name."""
         return _shares(self.units(point.state), point.rates)
 
     def turn(self, a: Point, b: Point) -> float:
-        """Cosine of the angle between the tangents at two points of one stretch."""
-        first, last = self.shares(a), self.shares(b)
-        return float(sum(first[name] * last[name] for name in first if name in last))
+        """Cosine of the angle between the tangents at two points of one segment."""
+        shares_a, shares_b = self.shares(a), self.shares(b)
+        return float(sum(shares_a[name] * shares_b[name] for name in shares_a if name in shares_b))
 
     def control(self, state: State, tangent: Rates, step: float) -> Control:
         """The condition that the projection of the move on the tangent is `step`."""
@@ -88,7 +88,7 @@ class ArcLength:
 
 
 def parameter_of(state: State) -> float:
-    """The continuation parameter: log c when the mesh follows the edge, else the central gap, unless it has turned."""
+    """The continuation parameter: log c when the mesh follows the edge, else the central gap, unless overridden."""
     return _value(state, state.parameter)
 
 

@@ -101,5 +101,5 @@ def _times_quarter_of_rest(series: list[mpmath.mpf]) -> list[mpmath.mpf]:
 
 @lru_cache(maxsize=64)
 def azimuthal_kernel(k: float, m: int) -> AzimuthalKernel:
-    """The kernel of an exponent and a number of waves, made once."""
+    """The kernel of an exponent and a number of waves, cached."""
     return AzimuthalKernel(k, m)

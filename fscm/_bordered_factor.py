@@ -1,4 +1,4 @@
-"""LU factors of the bordered tangent, used again for other controls and for states nearby."""
+"""LU factors of the bordered tangent, reused for other controls and for neighbouring states."""
 
 from __future__ import annotations
 
@@ -31,37 +31,35 @@ class BorderedFactor:
 
     def __init__(self, matrix: Array, stiffness_slope: Array) -> None:
         self.stiffness_slope = stiffness_slope
-        # dgetrf directly: the rows differ by many orders of magnitude on purpose, which partial pivoting does
-        # not mind, while the condition estimate of the wrapper does.
+        # dgetrf directly: the rows differ by many orders of magnitude, which does not harm partial pivoting but makes
+        # the condition estimate of the wrapper warn.
         self._lu, self._pivots, info = scipy.linalg.lapack.dgetrf(matrix, overwrite_a=1)
         if info != 0:
             raise NotConverged("Newton met a singular tangent; use another control")
 
     def _back(self, right: Array) -> Array:
-        found: Array = scipy.linalg.lapack.dgetrs(self._lu, self._pivots, right, overwrite_b=1)[0]
-        return found
+        solution: Array = scipy.linalg.lapack.dgetrs(self._lu, self._pivots, right, overwrite_b=1)[0]
+        return solution
 
     @cached_property
     def tangent(self) -> Array:
-        """The direction that all rows but the last map to zero, and the last one to 1."""
+        """Solution of the system whose right side is the last unit vector."""
         right = np.zeros(len(self.stiffness_slope) + 2)
         right[-1] = 1.0
         return self._back(right)
 
     def solve(self, right: Array, row: Array) -> Array:
-        """Solution with another last row.
+        """Solution with the last row of the matrix replaced.
 
         Parameters
         ----------
-        right : ndarray, shape (N + 2,)
-        row : ndarray, shape (N + 2,)
-            In place of the last row of the matrix.
+        right, row : ndarray, shape (N + 2,)
         """
         top = right.copy()
         top[-1] = 0.0
-        found = self._back(top)
+        solution = self._back(top)
         along = float(row @ self.tangent)
         if along == 0.0:
             raise NotConverged("Newton met a singular tangent; use another control")
-        found += (float(right[-1]) - float(row @ found)) / along * self.tangent
-        return found
+        solution += (float(right[-1]) - float(row @ solution)) / along * self.tangent
+        return solution

@@ -1,8 +1,8 @@
 """Error bounds of the values at events, in parts.
 
-A value at a prescribed load, displacement or gap has the error at a fixed value of that control; a value at its own
-extreme has, to first order, the error at a fixed continuation parameter.  Any other value at an extreme also moves with
-the place of the extreme: by (rate of the error of the extremal functional) / (curvature of that functional).
+A value at a prescribed load, displacement or gap has the error at a fixed value of that control.  A value at its own
+extreme has, to first order, the error at a fixed continuation parameter.  Any other value at an extreme also changes
+with its location, by (rate of the error of the extremal functional) / (curvature of that functional).
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ from fscm.solution import Parts
 
 __all__ = ["EventErrors", "bounds", "root_shift"]
 
-# Share of the error that the finer mesh may leave: measured at most 0.02 over 60 problems (n = 0.8 to 10, k = 0 to 0.9,
-# mu = 0.005 to 20, seed 712; `sample` of tests/fscm/test_honesty.py), against meshes of order 18.
+# Share of the error that the finer mesh may not see: measured at most 0.02 over 60 problems (n = 0.8 to 10, k = 0 to
+# 0.9, mu = 0.005 to 20, seed 712; `wide_sample` of tests/fscm/test_honesty.py), against meshes of order 18.
 _LEFT = 0.5
-# The tail's error is computed to first order of itself: its square is what is left.
+# The error of the tail is computed to first order: its square remains.
 _SECOND_ORDER = 1.1
 # Steps of the continuation parameter, relative to its unit: for the rate of an error, and for the curvature at an
-# extreme, which varies fast near a critical Tabor number.  A step of 1e-2 gave a rate that was 7 times too small where
-# contact begins as a nucleus (n = 3.75, k = 0.82, mu = 1.9); 1e-3 and 1e-4 give the same.
+# extreme, which varies fast near a critical Tabor number.  A step of 1e-2 gave a rate that was 7 times too small at
+# contact initiation (n = 3.75, k = 0.82, mu = 1.9); 1e-3 and 1e-4 agree.
 _ERROR_STEP, _CURVATURE_STEP = 1e-3, 1e-4
 # Rate of the error of the response per unit of the continuation parameter, in units of the bound of that error.  The
 # error at the scale c is c int eps(xi) K(xi c) d(xi), and its derivative by log c the same integral of -xi eps'(xi):
@@ -67,12 +67,12 @@ def root_shift(error: float, slope: float, curvature: float) -> float:
     slope, curvature = abs(slope), abs(curvature)
     if 2.0 * curvature * error <= slope * slope:
         return 2.0 * error / (slope + math.sqrt(slope * slope - 2.0 * curvature * error)) if error else 0.0
-    # The other root, or none, may be in reach.
+    # The error may move the function to its other root, or leave it without one.
     return (slope + math.sqrt(slope * slope + 2.0 * curvature * error)) / curvature
 
 
 def bounds(errors: Errors, amplified: float = 1.0) -> Parts:
-    """Sizes of the contributions, added up by cause; `amplified` is a factor for all of them."""
+    """Sums of the sizes of the contributions by cause, all multiplied by `amplified`."""
     mesh, tail, domain = (amplified * float(abs(signed).sum()) for signed in (errors.mesh, errors.tail, errors.domain))
     unsigned = {"rounding": amplified * errors.rounding, "kernel": amplified * errors.kernel}
     return Parts(mesh / (1.0 - _LEFT), _SECOND_ORDER * tail, domain, **unsigned)
@@ -100,15 +100,17 @@ class EventErrors:
         return finer(self.state.disc)
 
     @cached_property
-    def _here(self) -> Defect:
+    def _defect(self) -> Defect:
         return Defect(self.state, self._fine)
 
     @cached_property
-    def _beside(self) -> tuple[Defect, Defect]:
+    def _defects_beside(self) -> tuple[Defect, Defect]:
         states = [self._at(step)[0] for step in (-_ERROR_STEP, _ERROR_STEP)]
         # The mesh of a punch with kinks moves with them.
-        first, last = (self._fine if state.disc is self.state.disc else finer(state.disc) for state in states)
-        return Defect(states[0], first), Defect(states[1], last)
+        fine_before, fine_after = (
+            self._fine if state.disc is self.state.disc else finer(state.disc) for state in states
+        )
+        return Defect(states[0], fine_before), Defect(states[1], fine_after)
 
     @cached_property
     def rates(self) -> Rates:
@@ -120,29 +122,29 @@ class EventErrors:
         return state, rates_of(state)
 
     @cached_property
-    def _near(self) -> tuple[tuple[dict[str, float], Rates], tuple[dict[str, float], Rates]]:
-        """Values and rates of the functionals on both sides, without the matrices of the states."""
-        found = [self._at(step) for step in (-_CURVATURE_STEP, _CURVATURE_STEP)]
-        first, last = (({name: getattr(state, name) for name in _FUNCTIONALS}, rates) for state, rates in found)
-        return first, last
+    def _neighbours(self) -> tuple[tuple[dict[str, float], Rates], tuple[dict[str, float], Rates]]:
+        """Values and rates of the functionals at the neighbouring states, whose matrices are not kept."""
+        neighbours = [self._at(step) for step in (-_CURVATURE_STEP, _CURVATURE_STEP)]
+        before, after = (({name: getattr(state, name) for name in _FUNCTIONALS}, rates) for state, rates in neighbours)
+        return before, after
 
     def controlled(self, functional: str, control: str, value: float | None = None) -> Errors:
-        """Errors at a value of a control, or of the continuation parameter; None for the value the state has."""
+        """Errors at a fixed control or continuation parameter; `value` is the prescribed one, if any."""
         missed = 0.0 if value is None else getattr(self.state, control) - value
-        return self._here.errors(functional, control, missed)
+        return self._defect.errors(functional, control, missed)
 
     def derivatives(self, functional: str) -> tuple[float, float, float]:
         """First three derivatives of a functional by the continuation parameter."""
-        before, after = (getattr(rates, functional) for _, rates in self._near)
-        here, step = getattr(self.rates, functional), _CURVATURE_STEP * self._unit
-        return here, (after - before) / (2.0 * step), (after - 2.0 * here + before) / step**2
+        before, after = (getattr(rates, functional) for _, rates in self._neighbours)
+        rate, step = getattr(self.rates, functional), _CURVATURE_STEP * self._unit
+        return rate, (after - before) / (2.0 * step), (after - 2.0 * rate + before) / step**2
 
     def rate(self, functional: str) -> Errors:
         """Errors of the derivative of a functional by the continuation parameter."""
         step = 2.0 * _ERROR_STEP * self._unit
-        before, after = (defect.errors(functional, self.parameter) for defect in self._beside)
+        before, after = (defect.errors(functional, self.parameter) for defect in self._defects_beside)
         change = after.plus(before, -1.0)
-        rounding = self._here.rate_rounding(functional, self.parameter)
+        rounding = self._defect.rate_rounding(functional, self.parameter)
         mesh = change.mesh / step
         if kinks_of(self.state.disc.problem.punch):
             mesh = np.append(mesh, self._moving(functional))
@@ -151,9 +153,9 @@ class EventErrors:
         return Errors(mesh, change.tail / step, change.domain / step, rounding, kernel)
 
     def _moving(self, functional: str) -> float:
-        """Mean rate of a functional on meshes that move with the kinks, less the exact rate on fixed ones (Simpson)."""
-        (first, rate_before), (last, rate_after) = self._near
-        change = last[functional] - first[functional]
+        """Mean rate of a functional on meshes that move with the kinks minus that on fixed ones (Simpson)."""
+        (before, rate_before), (after, rate_after) = self._neighbours
+        change = after[functional] - before[functional]
         rates = [getattr(rates, functional) for rates in (rate_before, self.rates, rate_after)]
         return float(change / (2.0 * _CURVATURE_STEP * self._unit) - (rates[0] + 4.0 * rates[1] + rates[2]) / 6.0)
 
@@ -172,10 +174,10 @@ class EventErrors:
         rate = self.rate(extremal)
         size = bounds(rate).total
         factor = root_shift(size, curvature, third) * abs(curvature) / size if size else 1.0
-        here = self.controlled(functional, self.parameter)
-        # What the root of the rate has missed moves the functional, too.
+        at_parameter = self.controlled(functional, self.parameter)
+        # The remaining rate at the located extreme changes the functional, too.
         left = Parts(rounding=abs(getattr(self.rates, extremal) * getattr(self.rates, functional) / curvature))
-        return bounds(here.plus(rate, -getattr(self.rates, functional) / curvature), factor).plus(left)
+        return bounds(at_parameter.plus(rate, -getattr(self.rates, functional) / curvature), factor).plus(left)
 
     def prescribed(self, functional: str, control: str, value: float) -> Parts:
         """Bounds on the error of a functional at a prescribed value of a control, also next to its extreme."""
@@ -186,10 +188,10 @@ class EventErrors:
             return bounds(self.controlled(functional, control, value), factor)
         # The error of the control reaches its extreme: the square root of it moves the state.
         shift = root_shift(free.total, slope, curvature)
-        first, second, _ = self.derivatives(functional)
-        effect = (abs(first) * shift + 0.5 * abs(second) * shift**2) / free.total
-        here = self.on_path(functional)
-        return here.plus(Parts(*(effect * part for part in free.values())))
+        functional_rate, functional_curvature, _ = self.derivatives(functional)
+        effect = (abs(functional_rate) * shift + 0.5 * abs(functional_curvature) * shift**2) / free.total
+        at_parameter = self.on_path(functional)
+        return at_parameter.plus(Parts(*(effect * bound for bound in free.values())))
 
     def at_fold(self) -> tuple[Errors, Errors]:
         """Errors of energy and displacement at a fold of the displacement, where both are extreme: dE = P d(delta)."""
@@ -197,10 +199,10 @@ class EventErrors:
 
 
 def energy_of_jump(energy: Errors, displacement: Errors, fold: State, landing: State) -> Parts:
-    """Bounds on the error of the energy that is lost in a jump from a fold.
+    """Bounds on the error of the energy lost in a jump from a fold.
 
-    The error of a panel that both meshes have is the same for what both states have in common, and cancels; what
-    the finer mesh leaves of it cancels by as much as the pressures are the same.
+    The errors of both states on a panel that their meshes share cancel as far as their pressures agree, and so does
+    the part of them that the finer mesh does not see.
 
     Parameters
     ----------
@@ -208,14 +210,16 @@ def energy_of_jump(energy: Errors, displacement: Errors, fold: State, landing: S
         Of the fold (`EventErrors.at_fold`).
     fold : State
     landing : State
-        At the displacement of the fold, so that the error of that displacement moves its energy by P.
+        At the displacement of the fold: an error of that displacement changes its energy by P times as much.
     """
     left = energy.plus(displacement, -landing.load)
     right = EventErrors(landing).controlled("energy", "displacement")
     of_fold, of_landing, change = _common_panels(fold, landing)
-    first, last = left.mesh[of_fold], right.mesh[of_landing]
-    unseen = _LEFT * np.minimum(1.0, _CHANGE * change) * (abs(first) + abs(last))
-    mesh = np.concatenate([np.delete(left.mesh, of_fold), np.delete(right.mesh, of_landing), first - last, unseen])
+    fold_errors, landing_errors = left.mesh[of_fold], right.mesh[of_landing]
+    unseen = _LEFT * np.minimum(1.0, _CHANGE * change) * (abs(fold_errors) + abs(landing_errors))
+    mesh = np.concatenate(
+        [np.delete(left.mesh, of_fold), np.delete(right.mesh, of_landing), fold_errors - landing_errors, unseen]
+    )
     return bounds(replace(left.beside(right), mesh=mesh))
 
 
@@ -225,8 +229,10 @@ def _common_panels(a: State, b: State) -> tuple[NDArray[np.intp], NDArray[np.int
     panels = [{(start, stop): i for i, (start, stop) in enumerate(pairwise(radii))} for radii in ends]
     shared = sorted(panels[0].keys() & panels[1].keys())
     indices = [np.array([of_state[panel] for panel in shared], np.intp) for of_state in panels]
-    first, last = (
+    pressure_a, pressure_b = (
         state.pressure.reshape(-1, state.disc.mesh.order)[index] for state, index in zip((a, b), indices, strict=True)
     )
-    change = np.max(abs(first - last), axis=1) / np.maximum(np.max(abs(first), axis=1), np.finfo(float).tiny)
+    change = np.max(abs(pressure_a - pressure_b), axis=1) / np.maximum(
+        np.max(abs(pressure_a), axis=1), np.finfo(float).tiny
+    )
     return indices[0], indices[1], change

@@ -1,4 +1,4 @@
-"""Predicted states, change of the edge that the mesh follows, and change of the continuation parameter."""
+"""Predictor, change of the edge that the mesh follows, and change of the continuation parameter."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from fscm._typing import Array
 from fscm.errors import NotConverged
 from fscm.punch import PowerPunch, kinks_of
 
-__all__ = ["SURPRISE", "checked_sense", "edge_elsewhere", "follow_edge", "joined", "predicted", "turned"]
+__all__ = ["LARGEST_DEVIATION", "checked_orientation", "edge_elsewhere", "follow_edge", "joined", "predicted", "turned"]
 
-# Largest deviation from the trapezoidal rule, relative to the distance of a gap to the singular gap.
-SURPRISE = 0.5
-# The gaps within this multiple of the edge radius tell the sense of the path.
+#: Largest deviation from the trapezoidal rule, relative to the distance of a gap to the singular gap.
+LARGEST_DEVIATION = 0.5
+# The gaps within this multiple of the edge radius determine the orientation of the path.
 _NEAR_EDGE = 2.0
 # Times that the panels of a new mesh are split at the edge: it may be 1e-22 of the contact radius.
 _HAND_OVER_ROUNDS = 80
@@ -37,37 +37,37 @@ def predicted(state: State, rates: Rates, step: float) -> State:
 
 
 def follow_edge(state: State, end_height: float, tolerance: float, edge_gap: float | None = None) -> State:
-    """Guess on a mesh scaled so that the outermost edge gap, by default that of largest tension, sits at s = 1."""
+    """Guess on a mesh scaled so that the outermost edge gap, by default that of largest tension, is at s = 1."""
     problem, mesh = state.disc.problem, state.disc.mesh
     target = problem.law.peak_gap if edge_gap is None else edge_gap
     outer = int(np.flatnonzero(state.gap < target)[-1]) if np.any(state.gap < target) else -1
-    low = -mesh.origin if outer < 0 else float(mesh.places[outer])
-    place = scipy.optimize.brentq(
-        lambda s: mesh.evaluate_places(state.gap, np.array([s]))[0] - target, low, mesh.places[outer + 1]
+    low = -mesh.origin if outer < 0 else float(mesh.node_offsets[outer])
+    offset = scipy.optimize.brentq(
+        lambda s: mesh.evaluate_at_offsets(state.gap, np.array([s]))[0] - target, low, mesh.node_offsets[outer + 1]
     )
-    ratio = mesh.origin + place
+    ratio = mesh.origin + offset
     scale, shape = state.scale * ratio, problem.punch.height
     kinked = bool(kinks_of(problem.punch))
 
-    def known_on(new: PanelMesh) -> Array:
+    def unknowns_on(new: PanelMesh) -> Array:
         """Gaps, or deformations of a steep punch, at the nodes of a mesh that follows the edge."""
-        known = np.minimum(new.nodes * ratio, mesh.breaks[-1])
+        radii = np.minimum(new.nodes * ratio, mesh.breaks[-1])
         if state.lift is not None:
-            return mesh.evaluate(state.lift, known)
+            return mesh.evaluate(state.lift, radii)
         if kinked:
-            return mesh.evaluate(state.gap - shape(state.radius), known) + shape(scale * new.nodes)
-        return mesh.evaluate(state.gap, known) + (shape(scale * new.nodes) - shape(state.scale * known))
+            return mesh.evaluate(state.gap - shape(state.radius), radii) + shape(scale * new.nodes)
+        return mesh.evaluate(state.gap, radii) + (shape(scale * new.nodes) - shape(state.scale * radii))
 
     def gap_on(new: PanelMesh) -> Array:
-        known = known_on(new)
-        return known if state.lift is None else state.disc.height(scale * new.nodes) - state.displacement + known
+        unknowns = unknowns_on(new)
+        return unknowns if state.lift is None else state.disc.height(scale * new.nodes) - state.displacement + unknowns
 
     new = edge_mesh(problem, mesh.order, scale, end_height)
     new = resolving(state, new, tolerance, gap_on, _HAND_OVER_ROUNDS, scale)
     disc = Discretisation(problem, new)
     if state.lift is not None:
-        return State.lifted(disc, scale, known_on(new), state.displacement, True, edge_gap)
-    return State(disc, scale, known_on(new), state.displacement, True, edge_gap=edge_gap)
+        return State.lifted(disc, scale, unknowns_on(new), state.displacement, True, edge_gap)
+    return State(disc, scale, unknowns_on(new), state.displacement, True, edge_gap=edge_gap)
 
 
 def edge_elsewhere(state: State, hand_over: float) -> bool:
@@ -78,20 +78,20 @@ def edge_elsewhere(state: State, hand_over: float) -> bool:
 
 
 def turned(arc: ArcLength, point: Point, name: str | None = None) -> Point:
-    """The same state, from which the path goes on in the named parameter, or in the other one that changes most."""
+    """The same state with another continuation parameter: the named one, or the one that changes most."""
     shares = {name: share for name, share in arc.shares(point).items() if name != point.state.parameter}
-    name = name or max(shares, key=lambda other: abs(shares[other]))
+    name = name or max(shares, key=lambda candidate: abs(shares[candidate]))
     state = replace(point.state, turned=(name, math.copysign(1.0, shares[name])))
-    return Point(state, arc.tangent(state), point.stretch + 1)
+    return Point(state, arc.tangent(state), point.segment + 1)
 
 
 def joined(arc: ArcLength, before: Point, state: State) -> Point:
-    """The state that follows another edge, with load and displacement changing in the same sense as before.
+    """The state that follows another edge, with the orientation of the path preserved.
 
-    Under a power-law punch, contact begins at the center: there its gap changes in the same sense.  Load and
-    displacement do not tell it: the nucleus is so small that they stay the same to the error of the mesh.
+    It is that of load and displacement.  Under a power-law punch it is that of the central gap, where contact begins:
+    the first contact is so small that load and displacement do not change within the error of the mesh.
     """
-    point = Point(state, arc.tangent(state), before.stretch + 1)
+    point = Point(state, arc.tangent(state), before.segment + 1)
     if isinstance(state.disc.problem.punch, PowerPunch):
         same = before.rates.central_gap * point.rates.central_gap >= 0.0
     else:
@@ -100,11 +100,11 @@ def joined(arc: ArcLength, before: Point, state: State) -> Point:
     if same:
         return point
     state = replace(state, turned=("log_scale", -1.0))
-    return Point(state, arc.tangent(state), before.stretch + 1)
+    return Point(state, arc.tangent(state), before.segment + 1)
 
 
 def _moving(state: State) -> Array:
-    """Gaps; of a steep punch without its height, which is no linear function of log c within a step."""
+    """Gaps; of a steep punch without its height, which is not linear in log c within a step."""
     return state.gap if state.lift is None else state.lift - state.displacement
 
 
@@ -113,21 +113,25 @@ def _moving_rates(point: Point) -> Array:
     return rates.gap if point.state.lift is None else rates.gap - rates.displacement
 
 
-def checked_sense(a: Point, b: Point, step: float, same: bool | None, largest: float = SURPRISE) -> bool:
-    """Whether the gaps go on changing in the same sense; NotConverged when b is on another branch.
+def checked_orientation(a: Point, b: Point, step: float, same: bool | None, largest: float = LARGEST_DEVIATION) -> bool:
+    """Whether b has the orientation of a.  Raises NotConverged if b lies on another branch.
 
-    Near a sharp turn of the path, the gaps inside the contact tell its sense when load and displacement do not.
+    Near a sharp turn of the path, where load and displacement are undecided (`same` is None), it is that of the gaps
+    inside the contact.
     """
-    mesh, other = a.state.disc.mesh, b.state.disc.mesh
-    known = np.minimum(other.seen_from(mesh.origin), mesh.offsets[-1])
-    before, rate = mesh.evaluate_places(_moving(a.state), known), mesh.evaluate_places(_moving_rates(a), known)
+    old_mesh, new_mesh = a.state.disc.mesh, b.state.disc.mesh
+    offsets = np.minimum(new_mesh.seen_from(old_mesh.origin), old_mesh.offsets[-1])
+    before, rate = (
+        old_mesh.evaluate_at_offsets(_moving(a.state), offsets),
+        old_mesh.evaluate_at_offsets(_moving_rates(a), offsets),
+    )
     after, new_rate = _moving(b.state), _moving_rates(b)
     clearance = b.state.gap - a.state.disc.problem.law.singular_gap
-    near = other.nodes < _NEAR_EDGE
-    product = other.weights * other.nodes * rate * new_rate / clearance**2
+    near_edge = new_mesh.nodes < _NEAR_EDGE
+    product = new_mesh.weights * new_mesh.nodes * rate * new_rate / clearance**2
     if same is None:
-        same = bool(np.sum(product[near]) >= 0.0)
-    surprise = after - before - 0.5 * step * (rate + (1.0 if same else -1.0) * new_rate)
-    if np.max(np.abs(surprise) / clearance) > largest:
-        raise NotConverged("Newton converged to a state that the tangent does not lead to")
+        same = bool(np.sum(product[near_edge]) >= 0.0)
+    deviation = after - before - 0.5 * step * (rate + (1.0 if same else -1.0) * new_rate)
+    if np.max(np.abs(deviation) / clearance) > largest:
+        raise NotConverged("Newton converged to a state on another branch of the path")
     return same

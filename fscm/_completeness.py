@@ -1,9 +1,9 @@
-r"""Test whether turning points of load or displacement can hide between neighbouring points of the path.
+r"""Test whether turning points of load or displacement may be missed between neighbouring points of the path.
 
 At both points the value f (load or displacement) and its exact rate by the continuation parameter x are known.  They
-fix a cubic, whose rate is the straight line between the two rates plus a bulge 4 B t (1 - t), t from 0 to 1.  What is
-assumed: the rate lies within twice the bulge of that line.  When a rate inside that band has more turning points than
-the signs at its ends tell, both states are solved again on one mesh, and points are put between them until none has.
+define a cubic, whose rate is the straight line between the two rates plus a bulge 4 B t (1 - t), t from 0 to 1.  The
+rate is assumed to lie within twice the bulge of that line.  If a rate inside that band can have more zeros than the
+signs at its ends imply, both states are solved again on one mesh, and points are inserted until no rate can.
 """
 
 from __future__ import annotations
@@ -28,20 +28,19 @@ __all__ = ["completed", "least_loads", "may_hide"]
 
 # The bulge of the cubic is wrong by the fourth derivative of f, which the factor stands for.
 _MARGIN = 2.0
-# Times that an interval is halved, and the change of load or displacement that may then hide in it, relative to
-# 1 + |f|: below the error of the meshes of the path.
+# Largest number of halvings of an interval, and the change of load or displacement that may then be missed in it,
+# relative to 1 + |f|: below the error of the meshes of the path.
 _HALVINGS, _NEGLIGIBLE = 12, 1e-7
 # Places between two points where the load is bounded from below.
 _PLACES = 65
-# A change of that size cannot be told from rounding: measured up to 2e-16 relative to 1 + |f| while the nucleus of
-# contact forms (n = 2, k = 0.98, mu = 1), where load and displacement stay the same to 1e-14.
+# A change below this is rounding: measured up to 2e-16 relative to 1 + |f| at contact initiation (n = 2, k = 0.98,
+# mu = 1), where load and displacement stay the same to 1e-14.
 _ROUNDING = 1e-14
 # Resolution of the pressure on a punch with kinks, to which a mesh has to move with the edge.
 _FINE = 1e-8
-# Newton error beside the error of the mesh, and the smallest step to a middle, in units of its distance.
+# Newton error relative to the error of the mesh, and the smallest step towards a midpoint, in units of its distance.
 _NEWTON_MARGIN, _SMALLEST = 0.01, 1e-3
-# Last step of Newton's method where the least load alone is looked for; the error that is left is about its square, far
-# below what may hide.
+# Last step of Newton's method where only the least load is sought; the remaining error is about its square.
 _SHARP = 1e-5
 
 _RATES = ("load", "displacement")
@@ -49,7 +48,7 @@ _RATES = ("load", "displacement")
 
 @dataclass(frozen=True)
 class _Test:
-    """Arc length, resolution of the pressure on the path, what may turn, and the tolerance of Newton's method."""
+    """Arc length, resolution of the pressure, functionals that may turn, and tolerance of Newton's method."""
 
     arc: ArcLength
     tolerance: float
@@ -60,7 +59,7 @@ class _Test:
 def completed(
     points: list[Point], tolerance: float, below: float = math.inf, names: tuple[str, ...] = _RATES
 ) -> list[Point]:
-    """The points of a path, with others between those that hide turning points of load or displacement.
+    """The path with points inserted wherever turning points of load or displacement may be missed.
 
     Parameters
     ----------
@@ -68,27 +67,26 @@ def completed(
     tolerance : float
         Resolution of the pressure on the path (see `fscm._adaptivity`).
     below : float
-        Only between points that may hide a load below this one, and below their own: an extreme that is not deeper than
-        a point of the path is not the least load.
+        Only where the load may fall below this value, and below that of both points: another minimum is not the least.
     names : tuple of str
-        What may turn: "load", "displacement" or both.
+        Functionals that may turn: "load", "displacement" or both.
 
     Raises
     ------
     NotConverged
-        When it stays undecided whether turning points hide.
+        When it remains undecided whether turning points are missed.
     """
     newton_step = STEP_TOLERANCE if below == math.inf else _SHARP
     test = _Test(ArcLength.of(points[0].state.disc.problem), tolerance, names, newton_step)
-    found = [points[0]]
+    complete = [points[0]]
     for a, b in pairwise(points):
-        if a.stretch == b.stretch and _may_hide_any(a, b, names) and _may_be_below(a, b, below):
-            between = _parts(*_on_common_mesh(a, b, test), test, _HALVINGS)
+        if a.segment == b.segment and _may_hide_any(a, b, names) and _may_be_below(a, b, below):
+            between = _subdivided(*_on_common_mesh(a, b, test), test, _HALVINGS)
             counts = [sum(_turns(p, q, name) for p, q in pairwise(between)) for name in names]
             if counts != [_turns(a, b, name) for name in names]:
-                found += between[1:-1]
-        found.append(b)
-    return found
+                complete += between[1:-1]
+        complete.append(b)
+    return complete
 
 
 def _may_be_below(a: Point, b: Point, below: float) -> bool:
@@ -112,8 +110,8 @@ def _turns(a: Point, b: Point, name: str) -> bool:
     return _rate(a, name) * _rate(b, name) < 0.0
 
 
-def may_hide(length: float, change: float, first: float, last: float) -> bool:
-    """Whether more turning points than the signs of the two rates tell may lie between two points.
+def may_hide(length: float, change: float, rate_a: float, rate_b: float) -> bool:
+    """Whether there may be more turning points between two points than the signs of the two rates imply.
 
     Parameters
     ----------
@@ -121,7 +119,7 @@ def may_hide(length: float, change: float, first: float, last: float) -> bool:
         Of the interval of the continuation parameter, with its sign.
     change : float
         Of load or displacement.
-    first, last : float
+    rate_a, rate_b : float
         Rates at the two points.
 
     Examples
@@ -131,10 +129,10 @@ def may_hide(length: float, change: float, first: float, last: float) -> bool:
     >>> may_hide(1.0, 1.0, 1.0, 1.0), may_hide(2.0, 1.8, 2.9, 2.9)
     (False, True)
     """
-    bulge = 4.0 * _MARGIN * 1.5 * abs(change / length - 0.5 * (first + last))
-    if first * last <= 0.0:
-        return abs(last - first) < bulge
-    a, b = abs(first), abs(last)
+    bulge = 4.0 * _MARGIN * 1.5 * abs(change / length - 0.5 * (rate_a + rate_b))
+    if rate_a * rate_b <= 0.0:
+        return abs(rate_b - rate_a) < bulge
+    a, b = abs(rate_a), abs(rate_b)
     if abs(b - a) >= bulge:
         return False
     t = 0.5 * (1.0 - (b - a) / bulge)
@@ -142,15 +140,15 @@ def may_hide(length: float, change: float, first: float, last: float) -> bool:
 
 
 def least_loads(a: Point, b: Point) -> float:
-    """Lower bound of the load between two points, from all rates inside the band."""
-    if a.stretch != b.stretch:
+    """Lower bound of the load between two points, over all rates inside the band."""
+    if a.segment != b.segment:
         return min(a.state.load, b.state.load)
     x = _length(a, b)
-    first, last = x * _rate(a, "load"), x * _rate(b, "load")
-    bulge = 4.0 * _MARGIN * 1.5 * abs(_change(a, b, "load") - 0.5 * (first + last))
+    rate_a, rate_b = x * _rate(a, "load"), x * _rate(b, "load")
+    bulge = 4.0 * _MARGIN * 1.5 * abs(_change(a, b, "load") - 0.5 * (rate_a + rate_b))
     # Integrals of the lower and of the upper rate from the first point, and to the last one.
     t = np.linspace(0.0, 1.0, _PLACES)
-    line, more = first * t + 0.5 * (last - first) * t**2, bulge * t**2 * (0.5 - t / 3.0)
+    line, more = rate_a * t + 0.5 * (rate_b - rate_a) * t**2, bulge * t**2 * (0.5 - t / 3.0)
     after = a.state.load + line - more
     before = b.state.load - (line[-1] - line) - (more[-1] - more)
     return float(np.min(np.maximum(after, before))) - _ROUNDING * (1.0 + abs(a.state.load))
@@ -175,25 +173,25 @@ def _may_hide(a: Point, b: Point, name: str) -> bool:
 
 
 def _hidden(a: Point, b: Point, name: str) -> float:
-    """Change of load or displacement that may hide between two points, relative to 1 + |f|."""
+    """Change of load or displacement that may be missed between two points, relative to 1 + |f|."""
     change = abs(_change(a, b, name) - 0.5 * _length(a, b) * (_rate(a, name) + _rate(b, name)))
     return float(1.5 * _MARGIN * change / (1.0 + abs(getattr(a.state, name))))
 
 
 def _on_common_mesh(a: Point, b: Point, test: _Test) -> tuple[Point, Point]:
-    """The two points on the mesh with the breaks of both, so that their difference is free of mesh errors.
+    """The two points on the mesh with the breaks of both, so that mesh errors cancel in their difference.
 
-    With kinks there is no such mesh; each point is then resolved on its own until the errors are negligible.
+    With kinks there is no such mesh; each point is then resolved until its mesh error is negligible.
     """
     if _kinked(a):
         return _resolved(a, test), _resolved(b, test)
-    old, other = a.state.disc.mesh, b.state.disc.mesh
+    mesh_a, mesh_b = a.state.disc.mesh, b.state.disc.mesh
     if a.state.disc is b.state.disc:
         return _sharp(a, test), _sharp(b, test)
-    ends = np.union1d(old.offsets, other.offsets + (other.origin - old.origin))
-    mesh = PanelMesh(ends, old.order, old.origin)
-    first = on_mesh(a.state, mesh)
-    states = first, replace(on_mesh(b.state, mesh), disc=first.disc)
+    ends = np.union1d(mesh_a.offsets, mesh_b.offsets + (mesh_b.origin - mesh_a.origin))
+    mesh = PanelMesh(ends, mesh_a.order, mesh_a.origin)
+    guess_a = on_mesh(a.state, mesh)
+    states = guess_a, replace(on_mesh(b.state, mesh), disc=guess_a.disc)
     solved = [newton(state, parameter_control(state, parameter_of(state)), test.newton) for state in states]
     return _point(solved[0], a, test), _point(solved[1], a, test)
 
@@ -213,17 +211,17 @@ def _resolved(point: Point, test: _Test) -> Point:
 
 
 def _point(state: State, like: Point, test: _Test) -> Point:
-    return Point(state, test.arc.tangent(state), like.stretch)
+    return Point(state, test.arc.tangent(state), like.segment)
 
 
 def _middle(a: Point, b: Point, test: _Test) -> Point:
-    """The state halfway in the continuation parameter, from the cubic through both ends."""
+    """The state halfway in the continuation parameter, from the Hermite cubic as a guess."""
     x = _length(a, b)
 
-    first, last = (1.0 / _parameter_rate(point) for point in (a, b))
+    factor_a, factor_b = (1.0 / _parameter_rate(point) for point in (a, b))
 
     def middle(start: Any, end: Any, start_rate: Any, end_rate: Any) -> Any:
-        return 0.5 * (start + end) + x / 8.0 * (first * start_rate - last * end_rate)
+        return 0.5 * (start + end) + x / 8.0 * (factor_a * start_rate - factor_b * end_rate)
 
     scale = math.sqrt(a.state.scale * b.state.scale)
     displacement = middle(a.state.displacement, b.state.displacement, a.rates.displacement, b.rates.displacement)
@@ -232,18 +230,18 @@ def _middle(a: Point, b: Point, test: _Test) -> Point:
         guess = replace(a.state, scale=scale, gap=gap, displacement=displacement)
     else:
         lift = middle(a.state.lift, b.state.lift, a.rates.gap, b.rates.gap)
-        if a.state.follows_edge:  # the gap at the edge, which the punch of the mean log c does not leave in place
+        if a.state.follows_edge:  # restores the gap at the edge, which the height at the mean log c has changed
             disc = a.state.disc
             edge = float(disc.height(np.array([scale]))[0] + disc.edge @ lift)
             displacement = edge - a.state.gap_at_edge
-        known = a.state.follows_edge, a.state.edge_gap, a.state.turned
-        guess = State.lifted(a.state.disc, scale, lift, displacement, *known)
+        anchor = a.state.follows_edge, a.state.edge_gap, a.state.turned
+        guess = State.lifted(a.state.disc, scale, lift, displacement, *anchor)
     parameter = 0.5 * (parameter_of(a.state) + parameter_of(b.state))
     return _point(newton(guess, parameter_control(guess, parameter), test.newton), a, test)
 
 
 def _reached_middle(a: Point, b: Point, test: _Test, tolerance: float) -> Point:
-    """The state halfway, in steps from the first point with the mesh refined on the way."""
+    """The state halfway, reached in steps from the first point with the mesh refined at each."""
     state, rates = a.state, a.rates.scaled(1.0 / _parameter_rate(a))
     middle = 0.5 * (parameter_of(a.state) + parameter_of(b.state))
     step = middle - parameter_of(state)
@@ -265,7 +263,7 @@ def _reached_middle(a: Point, b: Point, test: _Test, tolerance: float) -> Point:
 
 
 def _resolved_middle(a: Point, b: Point, test: _Test) -> Point:
-    """The state halfway, on the mesh of the ends when that resolves it, else on a finer one."""
+    """The state halfway, on the mesh of the ends if that resolves it, else on a finer one."""
     if _kinked(a):
         return _reached_middle(a, b, test, _FINE)
     try:
@@ -276,8 +274,8 @@ def _resolved_middle(a: Point, b: Point, test: _Test) -> Point:
     return _point(state, a, test)
 
 
-def _parts(a: Point, b: Point, test: _Test, halvings: int) -> list[Point]:
-    """Points from a to b between which nothing can hide."""
+def _subdivided(a: Point, b: Point, test: _Test, halvings: int) -> list[Point]:
+    """Points from a to b between which no turning point can be missed."""
     if not _may_hide_any(a, b, test.names):
         return [a, b]
     if halvings == 0:
@@ -291,7 +289,7 @@ def _parts(a: Point, b: Point, test: _Test, halvings: int) -> list[Point]:
     middle = _resolved_middle(a, b, test)
     halves = (a, middle), (middle, b)
     if middle.state.disc is not a.state.disc and not _kinked(a):
-        # The mesh of the two ends does not resolve the edge between them; it would pin the edge, and turn falsely.
+        # The mesh of the two ends does not resolve the edge between them: it would pin it, and make false folds.
         halves = _on_common_mesh(a, middle, test), _on_common_mesh(middle, b, test)
-    first, last = (_parts(*half, test, halvings - 1) for half in halves)
-    return [*first[:-1], *last]
+    left, right = (_subdivided(*half, test, halvings - 1) for half in halves)
+    return [*left[:-1], *right]

@@ -8,12 +8,11 @@ from fscm._equilibrium import Rates, State
 
 __all__ = ["gap_at_first_contact"]
 
-# Above this k a contact begins many decades smaller than the punch, whose own gap is above the gap of largest tension
-# until the contact has grown: its edge is followed from where it grows.  Below, the first contact passes within the 80
-# points of a path.
+# Above this k contact begins at a radius many decades smaller than that of the punch, with a gap at its edge above that
+# of largest tension until it has grown: this edge is followed.  Below, contact initiation takes few points of a path.
 _NARROW = 0.8
-# The first contact lies within a part of the radius at which the punch is this high, its gap is below the one there by
-# this share of its distance to the singular gap, and its radius grows at this rate of log c per arc length.
+# The first contact is inside the share _SMALL of the radius at which the punch has the height _FLAT_HEIGHT; its gap is
+# below the gap there by the share _DEEP of its distance to the singular gap; log c grows at least by _GROWING.
 _FLAT_HEIGHT, _SMALL, _DEEP, _GROWING = 0.02, 0.05, 0.2, 0.3
 
 
@@ -33,8 +32,7 @@ def gap_at_first_contact(state: State, rates: Rates) -> float | None:
     if mesh.nodes[i + 1] > _SMALL * mesh.nodes[flat]:
         return None
     front = 0.5 * float(gap[i] + gap[i + 1])
-    # Growth at a fixed share of the depth: the radius of a fixed gap grows as well when the contact forms, and shrinks
-    # later.
+    # Growth at a fixed share of the depth: the radius of a fixed gap also grows while the contact forms.
     share = (front - inner) / (float(gap[flat]) - inner)
     change = (1.0 - share) * rates.central_gap + share * rates.gap[flat] - 0.5 * (rates.gap[i] + rates.gap[i + 1])
     return front if change > _GROWING * slopes[i] else None

@@ -1,10 +1,10 @@
 """The equilibrium path from far separation through all folds into contact.
 
-The path has two segments or more.  While the punch is apart the scale is fixed and the central gap is the continuation
-parameter.  Once the central gap has passed the gap of largest tension, the mesh is scaled so that this gap sits at
-s = 1: the mesh follows the edge, and log c is the parameter.  On both, steps are taken in arc length in the space of
-the parameter, delta and P, so folds in any of them are passed.  In the moving mesh the solution changes slowly
-however sharp the edge is.  When the gap farther out falls below the gap of largest tension as well, as around a tall
+The path has two or more segments.  Before contact the scale is fixed, and the central gap is the continuation
+parameter.  Once the central gap is below the gap of largest tension, the mesh is scaled so that this gap is at s = 1:
+the mesh follows the edge, and log c is the parameter.  On both, steps are taken in arc length in the space of the
+parameter, delta and P, so that folds in any of them are passed.  On the moving mesh the solution changes slowly,
+however sharp the edge is.  If the gap farther out also falls below the gap of largest tension, as around a tall
 asperity, another segment begins, which follows that edge.
 """
 
@@ -18,7 +18,15 @@ import numpy as np
 
 from fscm._adaptivity import end_radius, fit, initial_mesh, resolved
 from fscm._arc_length import ArcLength, Point, parameter_control, parameter_of, rate_of
-from fscm._branches import SURPRISE, checked_sense, edge_elsewhere, follow_edge, joined, predicted, turned
+from fscm._branches import (
+    LARGEST_DEVIATION,
+    checked_orientation,
+    edge_elsewhere,
+    follow_edge,
+    joined,
+    predicted,
+    turned,
+)
 from fscm._contact_initiation import gap_at_first_contact
 from fscm._edge_width import check_edge
 from fscm._equilibrium import Control, Discretisation, Rates, State
@@ -36,63 +44,61 @@ _FIRST_STEP = 0.5
 _SMALLEST_STEP = 1e-6
 # Newton iterations after which the next step is longer or shorter.
 _EASY, _HARD = 6, 10
-# Iterations of a step of the path after which a shorter one is taken.
+# Largest number of iterations of a step of the path.
 _MOST_ITERATIONS = 14
-_NEWTON_MARGIN = 0.01  # Newton error beside the error of the mesh
+_NEWTON_MARGIN = 0.01  # Newton error relative to the error of the mesh
 _LONGER, _SHORTER, _RETRY = 2.0, 0.7, 0.4
-# A step over which the tangent turns by more than this cosine is taken again, shorter: a fold pair turns
-# the path twice and must not be stepped over.  Steps below _BLIND_STEP are taken whatever the turn.
-_LARGEST_TURN, _BLIND_STEP = 0.85, 0.02
-# The same for any punch but a power law: a cavity that snaps shut turns the path within 0.01 (measured).
-_BLIND_STEP_OF_ASPERITIES = 0.002
-# Before contact, once the displacement makes up less than this share of the tangent, steps are at most this long:
-# the path may then run flat through several shallow folds, over which the tangent hardly turns.  Measured: n = 2,
-# k = 0.6, mu = 3 has three folds within 0.015 of displacement, and steps of 0.5 missed the first two.
+# A step over which the tangent turns by more than this cosine is repeated with a shorter length: a fold pair turns the
+# path twice and must not be stepped over.  The turn of steps below _UNCHECKED_STEP is not checked.
+_LARGEST_TURN, _UNCHECKED_STEP = 0.85, 0.02
+# The same for any other punch than a power law: a cavity that snaps shut turns the path within 0.01 (measured).
+_UNCHECKED_STEP_OF_ASPERITIES = 0.002
+# Before contact, where the displacement makes up less than this share of the tangent, steps have this largest length:
+# the tangent hardly turns over several shallow folds.  Measured: n = 2, k = 0.6, mu = 3 has three folds within 0.015 of
+# displacement, and steps of 0.5 missed the first two.
 _FLAT_SHARE, _FLAT_STEP = 0.5, 0.2
-# Where its parameter turns, the path goes on in another one, until that one makes up less than this share of the
-# tangent.
+# At a fold of its parameter the path continues in another one, as long as that makes up this share of the tangent.
 _LEAST_SHARE = 0.3
-# Share of the tangent from which on it is prescribed, not the arc length, where the mesh moves with kinks.
+# If the mesh moves with kinks, the parameter is prescribed instead of the arc length above this share of the tangent.
 _GIVEN_SHARE = 0.05
-# The edge is followed from where the central gap has fallen below the gap of largest tension by this fraction
-# of that gap's distance to the singular gap: nearer to it the edge radius is a poor variable (it starts as a
-# root).
+# The edge is followed once the central gap is below the gap of largest tension by this share of its distance to the
+# singular gap: before, the edge radius is a poor variable, since it starts as a square root.
 _HAND_OVER = 0.05
-# Beyond the last kink by this factor of its radius, the edge is followed: a fixed mesh allows steps of its width only.
-# Measured: 800 points in place of over 1800 where the path has to go on to a displacement of 91 (random punch 24).
+# The edge is followed beyond this multiple of the radius of the last kink: a fixed mesh allows steps of the width of
+# the edge only.  Measured: 800 points in place of over 1800 up to a displacement of 91 (random punch 24).
 _BEYOND_KINKS = 1.2
-# A path that comes back to the central gap of its first state and this much more has turned round.
+# A path whose central gap exceeds that of its first state by this much runs backwards.
 _RETURNED = 1.0
-# Changes of the parameter without a step between them, after which the path is at its end.
+# Largest number of successive changes of the parameter without a step between them.
 _MOST_TURNS = 6
 
 
 @dataclass(frozen=True)
 class Tracking:
-    """How a path is tracked.
+    """Options of the continuation.
 
     Attributes
     ----------
     follow : bool
         Whether the mesh follows the contact edge; if not, its scale stays fixed.
-    surprise : float
+    largest_deviation : float
         Largest deviation of a step from the trapezoidal rule, relative to the distance of a gap to the singular gap.
     longest_step : float
         Of the arc length.
     newton : float, optional
-        Tolerance of Newton's method; by default so small that its error is negligible beside that of the mesh.
+        Tolerance of Newton's method; by default its error is negligible relative to that of the mesh.
     largest_turn : float
-        Cosine of the angle of two tangents below which a step is taken again, shorter.
-    given : bool
-        Whether a step prescribes the continuation parameter in place of the arc length, unless that hardly changes.
+        Cosine of the angle between two tangents below which a step is repeated with a shorter length.
+    prescribed : bool
+        Whether a step prescribes the continuation parameter instead of the arc length, unless it hardly changes.
     """
 
     follow: bool = True
-    surprise: float = SURPRISE
+    largest_deviation: float = LARGEST_DEVIATION
     longest_step: float = math.inf
     newton: float | None = None
     largest_turn: float = _LARGEST_TURN
-    given: bool = False
+    prescribed: bool = False
 
 
 def moved(state: State, rates: Rates, value: float, tolerance: float = STEP_TOLERANCE) -> State:
@@ -128,7 +134,7 @@ def usual_start(problem: Problem) -> float:
 
 
 class _Tracer:
-    """Steps along the path of one problem; the length of the next step is its state."""
+    """Continuation of the path of one problem with an adaptive step length."""
 
     def __init__(
         self, problem: Problem, tolerance: float, longest_step: float, end_height: float, tracking: Tracking
@@ -144,7 +150,7 @@ class _Tracer:
         self._kinked, self._power = bool(kinks_of(problem.punch)), isinstance(problem.punch, PowerPunch)
 
     def points(self, state: State) -> Iterator[Point]:
-        """All points from a first state on."""
+        """All points from an initial state on."""
         point = Point(state, self._arc.tangent(state))
         farthest = _RETURNED + state.central_gap
         while True:
@@ -161,7 +167,7 @@ class _Tracer:
             point = self._next(point)
 
     def _check(self, state: State, farthest: float) -> None:
-        """Raise NotConverged where the path goes round in circles, or the surface comes into contact in rings."""
+        """Raise NotConverged if the path runs backwards or does not advance, or if contact begins in rings."""
         if self._rings is not None:
             check_rings(state, self._rings)
         if state.central_gap > farthest:
@@ -171,12 +177,12 @@ class _Tracer:
         if self._turns > _MOST_TURNS:
             raise NotConverged(
                 f"the path of {self._problem} ends at delta = {state.displacement:.6g}, P = {state.load:.6g}: "
-                f"in none of its parameters a step goes on"
+                f"no continuation parameter allows another step"
             )
 
     def _following_edge(self, point: Point) -> Point | None:
-        """The same state on a mesh that follows the outermost edge; None where the mesh does so, or need not."""
-        state, own = point.state, self._tracking.newton
+        """The same state on a mesh that follows the outermost edge; None if the mesh does so already, or need not."""
+        state, tolerance = point.state, self._tracking.newton
         if not (self._tracking.follow or (self._kinked and _beyond_kinks(state, self._hand_over))):
             return None
         edge_gap = gap_at_first_contact(state, point.rates)
@@ -184,19 +190,19 @@ class _Tracer:
             return None
         guess = follow_edge(state, self._end_height, self._tolerance, edge_gap)
         control = parameter_control(guess, parameter_of(guess))
-        if edge_gap is not None:  # it grows slowly at first: its gap tells states apart better than its radius
+        if edge_gap is not None:  # the contact grows slowly at first: its gap identifies the state, not its radius
             control = Control(state.central_gap, gap=1.0)
-        state = newton(guess, control, own or STEP_TOLERANCE)
-        state = fit(state, control, self._tolerance, step_tolerance=own)
+        state = newton(guess, control, tolerance or STEP_TOLERANCE)
+        state = fit(state, control, self._tolerance, step_tolerance=tolerance)
         return joined(self._arc, point, state)
 
     def _in_usual_parameter(self, point: Point) -> Point | None:
-        """The same state in its usual parameter again, or in another one; None where its parameter does."""
+        """The same state in its usual parameter, or in another one; None if its parameter need not change."""
         state, shares = point.state, self._arc.shares(point)
         if not state.turned:
             return None
         usual = _usual_parameter(state)
-        # With the scale given, no node passes a kink during an iteration.
+        # With a prescribed scale no node passes a kink during an iteration.
         wanted = usual if self._kinked and abs(shares[usual]) > _GIVEN_SHARE else state.parameter
         if wanted != state.parameter:
             return turned(self._arc, point, wanted)
@@ -230,27 +236,27 @@ class _Tracer:
             return after
 
     def _attempt(self, point: Point) -> tuple[Point | None, int]:
-        """The point after a step, None where the tangent turns too much over it, and the iterations it took."""
+        """The point after a step, None if the tangent turns too much over it, and the number of iterations."""
         guess = resolved(predicted(point.state, point.rates, self._step), self._tolerance)
         control = self._control(point, guess)
         new = newton(guess, control, self._newton, _MOST_ITERATIONS)
         fitted = fit(new, control, self._tolerance, True, self._tracking.newton)
-        after = Point(fitted, self._arc.tangent(fitted), point.stretch)
+        after = Point(fitted, self._arc.tangent(fitted), point.segment)
         turn = self._arc.turn(point, after)
-        shortest = _BLIND_STEP if self._power else _BLIND_STEP_OF_ASPERITIES
+        shortest = _UNCHECKED_STEP if self._power else _UNCHECKED_STEP_OF_ASPERITIES
         if (turn if self._power else abs(turn)) < self._tracking.largest_turn and self._step > shortest:
             return None, new.iterations
         if self._same_orientation(point, after, turn):
             self._turns = 0
             return after, new.iterations
-        # The path goes on, but its parameter turns.
+        # A fold of the parameter.
         self._turns += 1
         return turned(self._arc, point), new.iterations
 
     def _control(self, point: Point, guess: State) -> Control:
-        """The condition of a step: its arc length, or its continuation parameter where that is prescribed."""
+        """The condition of a step: on its arc length, or on the continuation parameter where that is prescribed."""
         state = point.state
-        if (self._tracking.given or self._kinked) and state.parameter == _usual_parameter(state):
+        if (self._tracking.prescribed or self._kinked) and state.parameter == _usual_parameter(state):
             share = self._arc.shares(point)[state.parameter]
             if abs(share) > _GIVEN_SHARE:
                 value = parameter_of(state) + self._step * rate_of(point.rates, state.parameter)
@@ -258,11 +264,11 @@ class _Tracer:
         return self._arc.control(state, point.rates, self._step)
 
     def _same_orientation(self, point: Point, after: Point, turn: float) -> bool:
-        """Whether the path goes on as its parameter does.  Raises NotConverged where `after` is on another branch."""
+        """Whether `after` has the orientation of `point`.  Raises NotConverged if it lies on another branch."""
         if self._power:
             return turn >= 0.0
-        known = turn >= 0.0 if abs(turn) >= self._tracking.largest_turn else None
-        return checked_sense(point, after, self._step, known, self._tracking.surprise)
+        same = turn >= 0.0 if abs(turn) >= self._tracking.largest_turn else None
+        return checked_orientation(point, after, self._step, same, self._tracking.largest_deviation)
 
 
 def _usual_parameter(state: State) -> str:
@@ -278,7 +284,7 @@ def equilibrium_path(
     end_height: float = Meshes.end_height,
     tracking: Tracking | None = None,
 ) -> Iterator[Point]:
-    """Yield the path, one converged state after another, without end: the caller stops.
+    """Yield the converged states of the path without end: the caller stops.
 
     Parameters
     ----------
@@ -299,12 +305,12 @@ def equilibrium_path(
     Yields
     ------
     Point
-        At the change of segment the same state is given twice, before and after.
+        At a change of segment the same state comes twice, before and after.
 
     Raises
     ------
     NotConverged
-        When the step becomes too small, or the path turns back.
+        When the step becomes too small, or the path runs backwards.
     """
     check_edge(problem)
     tracer = _Tracer(problem, tolerance, longest_step, end_height, tracking or Tracking())

@@ -1,12 +1,12 @@
 r"""Errors of a discrete state from its residual on a finer mesh, weighed by adjoint solutions.
 
-A state u on its mesh is put on a finer one, where the operator is R.  The state u* of the finer mesh fulfils R(u*) = 0
-and has the same value of a control C.  For a functional J, to first order in u - u*,
+A state u is interpolated to a finer mesh, whose residual is R.  The state u* of the finer mesh satisfies R(u*) = 0 and
+has the same value of a control C.  For a functional J, to first order in u - u*,
 
     J(u) - J(u*) = y . (R(u), anchor(u), C(u) - C) + J_coarse(u) - J_fine(u),   B^T y = dJ/du,
 
-with the bordered matrix B of the finer mesh.  The right side is a sum of contributions, one for each place of the
-error: a panel, the closed tail, the kernel behind the mesh.
+with the bordered matrix B of the finer mesh.  The right side is a sum of contributions, one for each source of error:
+a panel, the closed tail, the kernel beyond the mesh.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ from fscm._typing import Array
 
 __all__ = ["Defect", "Errors", "finer"]
 
-# The finer mesh: nodes a panel more, and the innermost panel cut at this share of its length, because the pressure is
-# no polynomial at the tip (it follows r^n): there the error falls with the length, on all other panels with the order.
+# The finer mesh has more nodes a panel, and its innermost panel is cut at this share of its length: at the tip the
+# pressure follows r^n, so that its error falls with the length, on all other panels with the order.
 _MORE_NODES, _TIP = 4, 0.125
-# A panel that is longer than this many times its neighbour is cut there, in panels that grow by this factor: its own
-# nodes are too far from that end to see the pressure there.
+# A panel longer than this many times its neighbour is cut at their common end into panels that grow by this factor: its
+# own nodes are too far from that end to sample the pressure there.
 _GROWTH = 16.0
-# Relative error of a number that a few operations make, four roundings; and the relative errors, in units of it, of an
-# entry of the response matrix (kernel and sums of products) and of a pressure times an area.
+# Relative rounding of a few operations; in units of it, those of an entry of the response matrix (kernel and sums of
+# products) and of a pressure times an area.
 _ROUNDOFF = 2.0**-51
 _ENTRY, _WEIGHT = 8.0, 4.0
 # Relative step of the derivatives of the tail's energy.
@@ -42,13 +42,14 @@ _STEP = 1e-5
 
 @dataclass(frozen=True)
 class Errors:
-    """Contributions to the error of one number; those of one cause are signed and belong to fixed places.
+    """Contributions to the error of one number, by cause.
 
     Attributes
     ----------
     mesh, tail, domain : ndarray
+        Signed, one entry for each source.
     rounding, kernel : float
-        Bounds: rounding has no sign, and that of the error of the response is not known.
+        Bounds.
     """
 
     mesh: Array
@@ -58,7 +59,7 @@ class Errors:
     kernel: float = 0.0
 
     def plus(self, other: Errors, factor: float) -> Errors:
-        """Contributions of self + factor * other; when their places are not the same, the sizes add up."""
+        """Contributions of self + factor * other; if their sources differ, the sizes add up."""
         if self.mesh.shape != other.mesh.shape:
             size = abs(factor)
             signed = size * other.mesh, size * other.tail, size * other.domain
@@ -72,7 +73,7 @@ class Errors:
         )
 
     def beside(self, other: Errors) -> Errors:
-        """Contributions of two meshes: their sizes add up."""
+        """Contributions of two independent sets of sources: their sizes add up."""
         return Errors(
             np.concatenate([self.mesh, other.mesh]),
             np.concatenate([self.tail, other.tail]),
@@ -83,7 +84,7 @@ class Errors:
 
 
 def finer(disc: Discretisation) -> Discretisation:
-    """The same problem on the mesh on which residuals are taken."""
+    """The same problem on the finer mesh on which residuals are evaluated."""
     mesh, ends = disc.mesh, disc.mesh.offsets
     added = [ends[0] + _TIP * mesh.lengths[0]]
     for end, shorter, longer, sign in _uneven(mesh):
@@ -119,26 +120,26 @@ class Defect:
 
     def __init__(self, state: State, fine: Discretisation) -> None:
         self.coarse = state
-        own, mesh = state.disc.mesh, fine.mesh
+        coarse, mesh = state.disc.mesh, fine.mesh
         height = fine.height(state.scale * mesh.nodes)
         # The deformation is smoother than the gap.
         lift = state.gap - fine.height(state.radius) + state.displacement if state.lift is None else state.lift
-        lift = own.transfer(lift, mesh)
-        known = state.scale, lift, state.displacement, state.follows_edge, state.edge_gap
-        self.fine = f = State.lifted(fine, *known) if fine.steep else _from_gap(fine, *known)
+        lift = coarse.transfer(lift, mesh)
+        unknowns = state.scale, lift, state.displacement, state.follows_edge, state.edge_gap
+        self.fine = f = State.lifted(fine, *unknowns) if fine.steep else _from_gap(fine, *unknowns)
         self._system = Linearisation(f)
         self._stiffness = fine.stiffness_scale(state.scale)
         self._area = 2.0 * state.scale**2 * mesh.weights * mesh.nodes
-        polynomial = own.transfer(state.pressure, mesh)
-        # The error of the pressure in its own place, and that of the deformation between the nodes.
+        polynomial = coarse.transfer(state.pressure, mesh)
+        # Errors of the interpolated pressure, and of the deformation between the nodes.
         self._pressure_error = f.pressure - polynomial
         deformation = self._stiffness * (fine.response(state.scale) @ polynomial) + f.tail.displacement
         self._gap_error = lift - deformation if fine.steep else f.gap + state.displacement - height - deformation
         axis = (d.axis_response(state.scale) @ p for d, p in ((fine, polynomial), (state.disc, state.pressure)))
         self._axis_error = self._stiffness * float(next(axis) - next(axis))
-        self._owner = np.repeat(own.locate(mesh.middles), mesh.order)
-        self._panels = len(own.lengths)
-        self._edge = max(int(np.searchsorted(own.offsets, 1.0 - own.origin)) - 1, 0)
+        self._owner = np.repeat(coarse.locate(mesh.middles), mesh.order)
+        self._panels = len(coarse.lengths)
+        self._edge = max(int(np.searchsorted(coarse.offsets, 1.0 - coarse.origin)) - 1, 0)
 
     def errors(self, functional: str, control: str, missed: float = 0.0) -> Errors:
         """Errors of "load", "displacement", "central_gap" or "energy" at a fixed value of a control.
@@ -148,7 +149,7 @@ class Defect:
         functional, control : str
             The control may also be "log_scale".
         missed : float
-            The state's value of the control less the prescribed one, which rounding leaves.
+            Value of the control minus the prescribed one, by rounding.
         """
         y = scipy.linalg.lu_solve(self._factor(control), self._gradient(functional), trans=1, check_finite=False)
         N = self.fine.disc.mesh.size
@@ -199,8 +200,8 @@ class Defect:
         slope = law.slope(f.gap)
         row = self._area * (0.5 * slope * f.deformation - f.pressure) + 0.5 * slope * self._backwards(weighed)
 
-        def behind(stretch: float, shift: float) -> float:
-            return tail_energy(f.disc.problem, f.end * (1.0 + stretch), f.displacement + shift)
+        def behind(relative: float, shift: float) -> float:
+            return tail_energy(f.disc.problem, f.end * (1.0 + relative), f.displacement + shift)
 
         pressure = 0.5 * float(np.sum(weighed))
         surface = self._area @ (0.5 * f.pressure * f.deformation + law.energy(f.gap))
@@ -218,18 +219,18 @@ class Defect:
         return np.concatenate([row, [by_displacement, by_scale]])
 
     def _difference(self, name: str) -> Array:
-        """A functional of this state on the finer mesh less that on its own, by panel."""
+        """A functional on the finer mesh minus that on the coarse one, by panel."""
         if name == "load":
             return self._by_panel(self._area * self._pressure_error)
         if name == "central_gap":
-            found = self._by_panel(
+            by_panel = self._by_panel(
                 self._stiffness * self.fine.disc.axis_response(self.fine.scale) * self._pressure_error
             )
-            found[0] += self._axis_error
-            return found
+            by_panel[0] += self._axis_error
+            return by_panel
         if name == "energy":
-            own = self._energy_density(self.coarse).reshape(self._panels, -1)
-            return self._by_panel(self._energy_density(self.fine)) - own.sum(axis=1)
+            coarse = self._energy_density(self.coarse).reshape(self._panels, -1)
+            return self._by_panel(self._energy_density(self.fine)) - coarse.sum(axis=1)
         return np.zeros(self._panels)
 
     def _energy_density(self, state: State) -> Array:
@@ -238,20 +239,20 @@ class Defect:
         return 2.0 * state.scale**2 * mesh.weights * mesh.nodes * density
 
     def _explicit(self, name: str) -> Array:
-        """Derivatives of a functional by the tail's load, displacement and energy, the unknowns being fixed."""
+        """Derivatives of a functional by load, displacement and energy of the tail, at fixed unknowns."""
         by_displacement = {"central_gap": 1.0, "energy": 0.5 * float(self._area @ self.fine.pressure)}
         return np.array([float(name == "load"), by_displacement.get(name, 0.0), float(name == "energy")])
 
     def _behind(self, adjoint: Array, border: float, functional: str, control: str) -> tuple[Array, Array]:
-        """Contributions of the closed tail, and of what is neglected behind the mesh."""
+        """Contributions of the closed tail, and of what is neglected beyond the mesh."""
         f = self.fine
         problem, tail = f.disc.problem, f.tail
         effect = border * self._explicit(control) - self._explicit(functional)
         effect[1] -= float(np.sum(adjoint))
-        known, remainder = tail_errors(problem, f.end, f.displacement)
-        # The closed tail is too large by `known`, the model lacks minus that.
-        of_tail = np.concatenate([-effect * known, effect * remainder])
-        # The tail takes the gap without w, which falls outwards from the last node on.
+        computed, remainder = tail_errors(problem, f.end, f.displacement)
+        # The closed tail is too large by `computed`.
+        of_tail = np.concatenate([-effect * computed, effect * remainder])
+        # The tail neglects w, which decreases outwards from the last node on.
         w = abs(float(f.deformation[-1]))
         neglected = effect * np.array([tail.load_slope * w, tail.displacement_slope * w, tail.load * w])
         elastic = float(functional == "energy") * 0.5 * tail.load * w
@@ -285,8 +286,8 @@ class Defect:
         else:  # the height is rounded in the gap, not in the equation
             product += float(backwards @ np.abs(f.disc.problem.law.slope(f.gap) * size)) / _ENTRY
             size = np.abs(f.lift)
-        own = self._functional_rounding(functional) + abs(border) * self._functional_rounding(control)
-        return _ROUNDOFF * (float(row @ size) + _ENTRY * product + own)
+        functionals = self._functional_rounding(functional) + abs(border) * self._functional_rounding(control)
+        return _ROUNDOFF * (float(row @ size) + _ENTRY * product + functionals)
 
     def _functional_rounding(self, name: str) -> float:
         """Sizes of the terms of a functional, in units of the roundoff."""

@@ -22,8 +22,8 @@ from fscm._typing import Array
 
 __all__ = ["Pieces", "axis_row", "moments", "response_blocks", "response_matrix"]
 
-# A panel is near when it is closer than its own length: then the Gauss rule of q nodes leaves at most
-# (3 + sqrt 8)^-2q times the strength of a weak singularity.
+# A panel is near when it is closer than its own length.  Farther away the error of the Gauss rule of q nodes is at most
+# (3 + sqrt 8)^-2q times the strength of the singularity.
 _NEAR = 1.0
 # Nodes of the rule on a piece; exact for the panel polynomial (degree q-1) times a factor that is analytic
 # to one piece length on either side, whose coefficients fall like 5.8^-m.
@@ -54,39 +54,39 @@ def _singular_rule(order: int, k: float) -> tuple[Array, Array, Array]:
 class Pieces:
     """Sub-intervals of near (target, panel) pairs, as flat arrays of one length.
 
-    A point of a piece lies at distance `near + L u` from its target on side `sign` and at local coordinate
-    `xi + sign L u / h` of its panel.
+    A point of a piece lies at the distance `start + length u` from its target on the side `sign`, and at the local
+    coordinate `xi + sign length u / h` of its panel.
     """
 
     pair: NDArray[np.intp]
     sign: Array
-    near: Array
+    start: Array
     length: Array
     xi: Array
 
     @staticmethod
     def join(parts: list[Pieces]) -> Pieces:
         return Pieces(
-            *(np.concatenate([getattr(p, f) for p in parts]) for f in ("pair", "sign", "near", "length", "xi"))
+            *(np.concatenate([getattr(p, f) for p in parts]) for f in ("pair", "sign", "start", "length", "xi"))
         )
 
-    def part(self, chosen: NDArray[np.bool_]) -> Pieces:
-        """Those that are chosen."""
-        return Pieces(self.pair[chosen], self.sign[chosen], self.near[chosen], self.length[chosen], self.xi[chosen])
+    def subset(self, mask: NDArray[np.bool_]) -> Pieces:
+        """Those for which the mask holds."""
+        return Pieces(self.pair[mask], self.sign[mask], self.start[mask], self.length[mask], self.xi[mask])
 
 
 def _doubling_pieces(
-    pair: NDArray[np.intp], sign: Array, near: Array, extent: Array, xi: Array, h: Array
+    pair: NDArray[np.intp], sign: Array, start: Array, extent: Array, xi: Array, h: Array
 ) -> list[Pieces]:
-    """Cover distances near ... near + extent by pieces no longer than their distance from the target."""
+    """Cover the distances start ... start + extent by pieces no longer than their distance from the target."""
     parts = []
     active = np.flatnonzero(extent > 0.0)
-    near, extent, xi = near.copy(), extent.copy(), xi.copy()
+    start, extent, xi = start.copy(), extent.copy(), xi.copy()
     while active.size:
         # The last piece takes the whole remainder when it is within 1.5 of the allowed length.
-        length = np.where(extent[active] <= 1.5 * near[active], extent[active], near[active])
-        parts.append(Pieces(pair[active], sign[active], near[active], length, xi[active]))
-        near[active] += length
+        length = np.where(extent[active] <= 1.5 * start[active], extent[active], start[active])
+        parts.append(Pieces(pair[active], sign[active], start[active], length, xi[active]))
+        start[active] += length
         extent[active] -= length
         xi[active] += sign[active] * length / h[active]
         active = active[extent[active] > 0.0]
@@ -119,15 +119,15 @@ def moments(pieces: Pieces, values: Array, u: Array, h: Array, order: int, count
 
 
 def _near_rows(
-    kernel: Kernel, r: Array, gap: Array, side: Array, own: NDArray[np.bool_], v: Array, h: Array, order: int
+    kernel: Kernel, r: Array, gap: Array, side: Array, inside: NDArray[np.bool_], v: Array, h: Array, order: int
 ) -> Array:
     """Rows, shape (pairs, order), of nodal weights for near pairs.
 
     Parameters
     ----------
-    r : target radii.  gap : distance to the nearest panel end (0 for own panels).  side : +1 when the panel
-    is to the right of the target, -1 to the left.  own : target inside the panel.  v : its local coordinate
-    there. h : panel lengths.  All of shape (pairs,).
+    r : target radii.  gap : distance to the closest panel end (0 inside the panel).  side : +1 when the panel is to the
+    right of the target, -1 to the left.  inside : target inside the panel.  v : its local coordinate there.
+    h : panel lengths.  All of shape (pairs,).
     """
     count = len(r)
     index = np.arange(count)
@@ -135,27 +135,27 @@ def _near_rows(
     u = rule.nodes
     smooth: list[Pieces] = []
     singular: list[Pieces] = []
-    out = index[~own]
+    out = index[~inside]
     if out.size:
         xi = np.where(side[out] > 0, 0.0, 1.0)
         smooth += _doubling_pieces(out, side[out], gap[out], h[out], xi, h[out])
-    mine = index[own]
+    mine = index[inside]
     if mine.size:
         # The kernel is also singular, in its parts, at t = 0: pieces that touch r stay within [r/2, 2r].
         for sign, available, limit in ((-1.0, v * h, 0.5 * r), (1.0, (1.0 - v) * h, r)):
             s = np.full(mine.size, sign)
             touch = np.minimum(available[mine], limit[mine])
             singular.append(Pieces(mine, s, np.zeros(mine.size), touch, v[mine]))
-            rest = available[mine] - touch
-            smooth += _doubling_pieces(mine, s, touch, rest, v[mine] + sign * touch / h[mine], h[mine])
-    found = np.zeros((count, order))
+            remaining = available[mine] - touch
+            smooth += _doubling_pieces(mine, s, touch, remaining, v[mine] + sign * touch / h[mine], h[mine])
+    total = np.zeros((count, order))
     if smooth:
         p = Pieces.join(smooth)
-        distance = p.near[:, None] + p.length[:, None] * u
+        distance = p.start[:, None] + p.length[:, None] * u
         radius = np.broadcast_to(r[p.pair][:, None], distance.shape)
         t = radius + p.sign[:, None] * distance
         values = kernel.response(radius, t, distance) * (p.length[:, None] * rule.weights)
-        found += moments(p, values, u, h, order, count)
+        total += moments(p, values, u, h, order, count)
     if singular:
         p = Pieces.join(singular)
         distance = p.length[:, None] * u
@@ -166,9 +166,9 @@ def _near_rows(
         # L(distance/(r+t)) with distance = L u splits into u^-k L(g) + (u^-k - 1)/k, g = L/(r+t).
         smooth_log = box_cox(np.log(p.length[:, None] / (radius + t)), kernel.k)
         values = p.length[:, None] * (plain * S + C * (power * smooth_log + difference))
-        found += moments(p, values, u, h, order, count)
-    # A product by BLAS rounds a row by how many there are: what was computed before would show in the last bit.
-    return np.einsum("ij,jk->ik", found, gauss_rule(order).to_modes)
+        total += moments(p, values, u, h, order, count)
+    # Not by BLAS, whose rounding of a row depends on their number: stored blocks would change the last bit.
+    return np.einsum("ij,jk->ik", total, gauss_rule(order).to_modes)
 
 
 def response_blocks(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], sources: NDArray[np.intp]) -> Array:
@@ -186,7 +186,7 @@ def response_blocks(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], 
     """
     q = mesh.order
     v, w = mesh.rule.nodes, mesh.rule.weights
-    # Less the origin: clearances come from exact differences.
+    # Relative to the origin: clearances come from exact differences.
     a, b, h = mesh.offsets[:-1], mesh.offsets[1:], mesh.lengths
     # Clearance of each target node from the source panel, shape (p, q).
     is_left = a[targets] >= b[sources]  # the panel is to the left of the node
@@ -194,18 +194,18 @@ def response_blocks(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], 
     right = (a[sources] - b[targets])[:, None] + h[targets, None] * v[::-1]
     gap = np.where(is_left[:, None], left, right)
     gap[targets == sources] = 0.0
-    near = gap < _NEAR * h[sources, None]
+    is_near = gap < _NEAR * h[sources, None]
     nodes = mesh.nodes.reshape(-1, q)
     blocks = np.empty((len(targets), q, q))
 
-    pair, node = np.nonzero(~near)
+    pair, node = np.nonzero(~is_near)
     if pair.size:
         panel = sources[pair]
         distance = gap[pair, node, None] + h[panel, None] * np.where(is_left[pair, None], v[::-1], v)
         radius = np.broadcast_to(nodes[targets[pair], node][:, None], distance.shape)
         blocks[pair, node] = kernel.response(radius, nodes[panel], distance) * (h[panel, None] * w)
 
-    pair, node = np.nonzero(near)
+    pair, node = np.nonzero(is_near)
     if pair.size:
         panel = sources[pair]
         blocks[pair, node] = _near_rows(
@@ -222,23 +222,23 @@ def response_blocks(kernel: Kernel, mesh: PanelMesh, targets: NDArray[np.intp], 
 
 
 def response_matrix(kernel: Kernel, mesh: PanelMesh, previous: tuple[PanelMesh, Array] | None = None) -> Array:
-    """The whole matrix W, shape (m q, m q); blocks that are known, here or from `previous`, are used again."""
+    """The whole matrix W, shape (m q, m q); stored blocks, and those of `previous`, are reused."""
     count, q = len(mesh.lengths), mesh.order
     blocks = known_blocks(kernel, mesh, partial(response_blocks, kernel))
     if blocks is None:
         blocks = np.empty((count, count, q, q))
-        known = np.zeros((count, count), bool)
+        computed = np.zeros((count, count), bool)
         if previous is not None and (previous[0].order, previous[0].origin) == (q, mesh.origin):
             old, old_matrix = previous
             where = {edges: i for i, edges in enumerate(pairwise(old.offsets.tolist()))}
             match = np.array([where.get(edges, -1) for edges in pairwise(mesh.offsets.tolist())])
-            kept, panels = np.flatnonzero(match >= 0), len(old.lengths)
+            reused, panels = np.flatnonzero(match >= 0), len(old.lengths)
             old_blocks = old_matrix.reshape(panels, q, panels, q).transpose(0, 2, 1, 3)
-            blocks[np.ix_(kept, kept)] = old_blocks[np.ix_(match[kept], match[kept])]
-            known[np.ix_(kept, kept)] = True
-        lacking = np.nonzero(~known)
+            blocks[np.ix_(reused, reused)] = old_blocks[np.ix_(match[reused], match[reused])]
+            computed[np.ix_(reused, reused)] = True
+        lacking = np.nonzero(~computed)
         blocks[lacking] = response_blocks(kernel, mesh, *lacking)
-    # In Fortran order, like the tangent that is made of it.
+    # In Fortran order, like the tangent.
     return blocks.transpose(1, 3, 0, 2).reshape(count * q, count * q).T
 
 
@@ -254,7 +254,7 @@ def axis_row(kernel: Kernel, mesh: PanelMesh) -> Array:
 
 @lru_cache(maxsize=4096)
 def _near_axis_row(kernel: Kernel, start: float, length: float, order: int) -> Array:
-    """Weights, shape (order,), of the displacement on the axis for a panel that is longer than its distance to it."""
-    one, zero = np.ones(1), np.zeros(1)
+    """Weights, shape (order,), of the displacement on the axis for a panel longer than its distance from the axis."""
+    unit, zero = np.ones(1), np.zeros(1)
     none = np.zeros(1, bool)
-    return _near_rows(kernel, zero, start * one, one, none, zero, length * one, order)[0]
+    return _near_rows(kernel, zero, start * unit, unit, none, zero, length * unit, order)[0]

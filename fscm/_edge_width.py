@@ -1,4 +1,4 @@
-"""Width of the cohesive edge, and the narrowest one that is computed."""
+"""Width of the cohesive edge, and the narrowest one that can be computed."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def _log_width(problem: Problem, log_mu: float) -> float:
 
 
 def check_edge(problem: Problem) -> None:
-    """Refuse a cohesive edge that needs too many panels."""
+    """Raise NotConverged for a cohesive edge that needs too many panels."""
     log_mu = math.log10(problem.mu)
     if _log_width(problem, log_mu) < _NARROWEST:
         largest = scipy.optimize.brentq(lambda x: _log_width(problem, x) - _NARROWEST, -400.0, log_mu)

@@ -30,18 +30,18 @@ from fscm.problem import Problem
 
 __all__ = ["STEEP", "Control", "Discretisation", "Linearisation", "Rates", "State"]
 
-# Growth of a punch above which its height is no linear function of log c within a step, and too large beside the
-# deformation to be subtracted from the gap again: the unknowns are then the deformations w in place of the gaps.
+#: Growth of a punch above which its height is not linear in log c within a step, and so much larger than the
+#: deformation that their difference loses digits: the unknowns are then the deformations w instead of the gaps.
 STEEP = 10.0
-# Heights of a steep punch above this one count as this one: its tension, 1e-180 for the 9-3 law, is zero anyway.
+# Bound on the heights of a steep punch: the tension there is negligible, 1e-180 for the 9-3 law.
 _HIGHEST = 1e60
-# Largest sum of a row of the difference of two tangents, of which one can stand for the other.
+# Largest row sum of the difference of two tangents for which the factors of one serve the other.
 _NEAR = 0.1
-# Four roundings, which a few operations make, and those of an entry of the response in units of them (see `_defect`).
+# Rounding of a few operations, and that of an entry of the response in units of it (see `_defect`).
 _ROUNDOFF, _ENTRY = 2.0**-51, 8.0
-# A tangent from the factors of a state nearby is corrected as long as each correction is smaller than the one before by
-# the first number; it is at rounding when the last correction is below the second, relative to its largest
-# component (of gaps relative to 1 + |H|).
+# A tangent from the factors of a neighbouring state is corrected as long as each correction is smaller than the one
+# before by _CONVERGING; it is exact to rounding when the last one is below _ROUNDED, relative to its largest component
+# (of gaps relative to 1 + |H|).
 _CONVERGING, _ROUNDED, _CORRECTIONS = 0.1, 1e-14, 12
 
 
@@ -71,25 +71,27 @@ class Discretisation:
     def __init__(self, problem: Problem, mesh: PanelMesh, previous: Discretisation | None = None) -> None:
         self.problem, self.mesh = problem, mesh
         kernel = kernel_of(problem.k)
-        known = (previous.mesh, previous.matrix) if previous is not None and previous.problem.k == problem.k else None
-        self.matrix: Array = response_matrix(kernel, mesh, known)
+        reusable = (
+            (previous.mesh, previous.matrix) if previous is not None and previous.problem.k == problem.k else None
+        )
+        self.matrix: Array = response_matrix(kernel, mesh, reusable)
         self.axis = axis_row(kernel, mesh)
         self._at: tuple[float, Any, Array] | None = None
-        # On the mesh before this one: its panels are kept where this one has them, at the same scale.
+        # On the previous mesh, at the same scale: reused for common panels.
         self._before: tuple[PanelMesh, float, Any] | None = None
         if previous is not None and previous._at is not None and previous.problem.response is problem.response:
             if previous.mesh is mesh:
                 self._at = previous._at
             else:
                 self._before = previous.mesh, *previous._at[:2]
-        #: The last factors of a tangent on this mesh: they serve states nearby.
+        #: The latest factors of a tangent on this mesh, which serve neighbouring states.
         self.factor: BorderedFactor | None = None
         edge = int(np.searchsorted(mesh.offsets, 1.0 - mesh.origin))
         self.edge = mesh.row_at_end(max(edge - 1, 0), 1.0)
 
     @property
     def steep(self) -> bool:
-        """Whether the deformations are the unknowns, in place of the gaps."""
+        """Whether the unknowns are the deformations instead of the gaps."""
         return self.problem.punch.growth > STEEP
 
     def height(self, radius: Array) -> Array:
@@ -101,21 +103,21 @@ class Discretisation:
         """r df/dr, the change of the height with log c."""
         if self.steep:
             # Where the height is bounded it does not change.
-            near = self.problem.punch.height(radius) < _HIGHEST
-            return np.where(near, radius * self.problem.punch.slope(np.where(near, radius, 0.0)), 0.0)
+            below_bound = self.problem.punch.height(radius) < _HIGHEST
+            return np.where(below_bound, radius * self.problem.punch.slope(np.where(below_bound, radius, 0.0)), 0.0)
         return radius * self.problem.punch.slope(radius)
 
     def _remainder(self, c: float) -> tuple[Any, Array]:
-        """What the images of a graded solid take from the response at a scale, and what is left of it."""
+        """Response of the images of a graded solid at a scale, and the response without it."""
         if self._at is None or self._at[0] != c:
-            self._at = None  # its memory is free before the new one is made
-            found = self.problem.response.remainder(self.mesh, c, self._before)
+            self._at = None  # frees its memory first
+            remainder = self.problem.response.remainder(self.mesh, c, self._before)
             self._before = None
-            self._at = c, found, self.matrix - found.matrix
+            self._at = c, remainder, self.matrix - remainder.matrix
         return self._at[1:]
 
     def response(self, c: float) -> Array:
-        """The matrix W at a scale; of a power law it is the same at each."""
+        """The matrix W at a scale; it does not depend on it for a power law."""
         return self.matrix if self.problem.response is None else self._remainder(c)[1]
 
     def axis_response(self, c: float) -> Array:
@@ -123,11 +125,11 @@ class Discretisation:
         return self.axis if self.problem.response is None else self.axis - self._remainder(c)[0].axis
 
     def growth(self, c: float, pressure: Array) -> tuple[Array | float, float]:
-        """Derivative of W p by log c at the nodes and on the axis, besides that of the factor of W."""
+        """Derivative of W p by log c at the nodes and on the axis, without that of the factor of W."""
         if self.problem.response is None:
             return 0.0, 0.0
-        found = self._remainder(c)[0]
-        return -(found.rate @ pressure), -float(found.axis_rate @ pressure)
+        remainder = self._remainder(c)[0]
+        return -(remainder.rate @ pressure), -float(remainder.axis_rate @ pressure)
 
     def stiffness_scale(self, c: float) -> float:
         """M (1-k) c^{1-k}, the factor of W."""
@@ -157,8 +159,8 @@ class State:
     edge_gap : float, optional
         Gap at s = 1 when the mesh follows the edge; by default the one of largest tension.
     turned : tuple of str and float, optional
-        Continuation parameter and its sign along the path, where they are not the usual ones: log c rising when the
-        mesh follows the edge, else the central gap falling.
+        Continuation parameter and its orientation along the path, if they are not the usual ones: log c, rising, when
+        the mesh follows the edge, else the central gap, falling.
     """
 
     disc: Discretisation
@@ -193,7 +195,7 @@ class State:
         return self.turned[0] if self.turned else "log_scale" if self.follows_edge else "gap"
 
     @property
-    def sense(self) -> float:
+    def orientation(self) -> float:
         """Whether the continuation parameter rises (1) or falls (-1) along the path."""
         return self.turned[1] if self.turned else 1.0 if self.follows_edge else -1.0
 
@@ -262,14 +264,14 @@ class State:
 
     def rates(self, follow: str = "log_scale") -> Rates:
         """Exact derivatives along the path, per unit of `follow` ("log_scale" or "gap")."""
-        if follow not in self._rates:  # kept in place of the tangent, which takes as much memory as the response
+        if follow not in self._rates:  # stored instead of the tangent, which is as large as the response
             self._rates[follow] = Linearisation(self).rates(Control(0.0, **{follow: 1.0}))
         return self._rates[follow]
 
 
 @dataclass(frozen=True)
 class Rates:
-    """Derivatives along the equilibrium path; of a steep punch `gap` holds those of the deformation."""
+    """Derivatives along the equilibrium path; `gap` has those of the deformation if the punch is steep."""
 
     gap: Array
     displacement: float
@@ -289,7 +291,7 @@ class Rates:
 
 
 class Linearisation:
-    """Residual, tangent and functionals at a state (which need not be in equilibrium); no matrix is made for it."""
+    """Residual, tangent and functionals at a state, which need not be in equilibrium."""
 
     def __init__(self, state: State) -> None:
         self.state = s = state
@@ -307,7 +309,7 @@ class Linearisation:
         elastic = s.deformation - s.tail.displacement
         self._stiffness_slope = K * slope
         self._displacement_column: float | Array = 1.0 - s.tail.displacement_slope
-        growth, axis_growth = (K * one for one in d.growth(s.scale, s.pressure))
+        growth, axis_growth = (K * rate for rate in d.growth(s.scale, s.pressure))
         self.scale_column = -(rise + (1.0 - k) * elastic + growth + s.tail.displacement_rate)
         # Derivatives of the anchor by delta and log c.
         self._anchor_ends = 0.0, 0.0 if s.follows_edge else 1.0
@@ -326,7 +328,7 @@ class Linearisation:
             self._unknown_is_lift(s.lift, K * slope, rise, (1.0 - k) * elastic + growth)
 
     def _unknown_is_lift(self, lift: Array, stiffness: Array, rise: Array, elastic: Array) -> None:
-        """Columns for the unknowns (w, delta, log c), H = f(c s) - delta + w, without the large heights."""
+        """Columns for the unknowns (w, delta, log c), H = f(c s) - delta + w."""
         s, d = self.state, self.state.disc
         W = d.response(s.scale)
         self._displacement_column = W @ stiffness - s.tail.displacement_slope
@@ -341,7 +343,7 @@ class Linearisation:
         self.axis_gap_scale += float(self.axis_gap_row @ rise)
 
     def bordered(self) -> Array:
-        """The bordered matrix, in Fortran order, shape (N + 2, N + 2); its last row is left to the control."""
+        """The bordered matrix in Fortran order, shape (N + 2, N + 2); its last row is not set."""
         d = self.state.disc
         N = d.mesh.size
         matrix = np.empty((N + 2, N + 2), order="F")
@@ -365,7 +367,7 @@ class Linearisation:
         return np.asarray(_ROUNDOFF * (size + _ENTRY * product))
 
     def near(self, factor: BorderedFactor) -> bool:
-        """Whether factors of another state's tangent are good enough here."""
+        """Whether the factors of another state's tangent serve this one."""
         change = np.abs(self._stiffness_slope - factor.stiffness_slope)
         return bool(np.max(self.state.disc.response(self.state.scale) @ change) < _NEAR)
 
@@ -390,13 +392,13 @@ class Linearisation:
         return row
 
     def factor(self, control: Control) -> BorderedFactor:
-        """Factors of the bordered matrix with a control, kept for states nearby on the same mesh."""
+        """Factors of the bordered matrix with a control, stored for neighbouring states on the same mesh."""
         return self._factored(self.row(control))
 
     def _factored(self, row: Array) -> BorderedFactor:
         matrix = self.bordered()
         matrix[-1] = row
-        self.state.disc.factor = None  # its memory is free before the new one is made
+        self.state.disc.factor = None  # frees its memory first
         self.state.disc.factor = BorderedFactor(matrix, self._stiffness_slope)
         return self.state.disc.factor
 
@@ -425,19 +427,19 @@ class Linearisation:
         )
 
     def _tangent(self, row: Array) -> Array:
-        """Tangent of unit product with a row: from the factors of a state nearby, corrected, or from new ones."""
-        known = self.state.disc.factor
-        if known is not None and self.near(known):
-            x, last = known.tangent, np.inf
-            # Far out the gaps, and their rates, are larger by many decades than near the edge.
+        """Tangent with unit product with a row, by the factors of a neighbouring state and corrections, or new ones."""
+        factor = self.state.disc.factor
+        if factor is not None and self.near(factor):
+            x, last_change = factor.tangent, np.inf
+            # Gaps and their rates are many decades larger far out than near the edge.
             size = np.append(1.0 + np.abs(self.state.gap), [1.0, 1.0])
             for _ in range(_CORRECTIONS):
                 x = x / float(row @ x)
-                correction = known.solve(np.append(self.times(x), 0.0), row)
+                correction = factor.solve(np.append(self.times(x), 0.0), row)
                 change = float(np.max(np.abs(correction) / size) / np.max(np.abs(x) / size))
-                if not change < _CONVERGING * last:
-                    if last < _ROUNDED:
+                if not change < _CONVERGING * last_change:
+                    if last_change < _ROUNDED:
                         return x
                     break
-                x, last = x - correction, change
+                x, last_change = x - correction, change
         return self._factored(row).tangent

@@ -1,4 +1,4 @@
-r"""Changes of a value at an event with the problem, by the adjoint of the equilibrium.
+r"""Change of a value at an event with the parameters of the problem, by the adjoint of the equilibrium.
 
 The discrete equilibrium with a control is F(y, p) = 0, and J(y, p) is a value at its solution.  With B = dF/dy and
 B^T a = dJ/dy,
@@ -7,7 +7,7 @@ B^T a = dJ/dy,
 
 where J_p and F_p are taken at the fixed state y: one more linear solution serves every parameter, and F_p needs no
 equilibrium.  At its own extreme a value does not change along the path, so that any control will do.  Another value
-also moves with the place s of the extreme, by J_s ds = -J_s d(L_s)/L_ss with the functional L that is extreme.
+also changes with the location s of the extreme, by J_s ds = -J_s d(L_s)/L_ss with the extremal functional L.
 """
 
 from __future__ import annotations
@@ -28,8 +28,7 @@ from fscm.punch import kinks_of
 
 __all__ = ["Adjoint", "AtExtreme", "parameter"]
 
-# Step of the continuation parameter for the rate of a change, relative to its unit: between two states whose rounding
-# is 1e-13.
+# Step of the continuation parameter for the rate of a change, relative to its unit; both states are exact to 1e-13.
 _PATH_STEP = 1e-4
 
 
@@ -61,8 +60,8 @@ class Adjoint:
 
     def change(self, problem: Problem) -> float:
         """The change from the problem of the state to another one, on the same mesh."""
-        known = self._state.disc
-        state = _at_fixed_unknowns(self._state, Discretisation(problem, known.mesh, known))
+        disc = self._state.disc
+        state = _at_fixed_unknowns(self._state, Discretisation(problem, disc.mesh, disc))
         left = self._left_sides(state, Linearisation(state))
         return float(getattr(state, self._functional) - self._value - self._adjoint @ (left - self._left))
 
@@ -72,12 +71,12 @@ def _unit(name: str) -> Control:
 
 
 def _at_fixed_unknowns(state: State, disc: Discretisation) -> State:
-    """The state with the same unknowns, but for a punch with kinks: the mesh has breaks there and follows them.
+    """The state with the same unknowns; with kinks the scale changes, because the breaks of the mesh follow them.
 
     To first order a change does not depend on the unknowns at which the equations of the other problem are evaluated.
     """
-    known, new = kinks_of(state.disc.problem.punch), kinks_of(disc.problem.punch)
-    scale = state.scale * new[0] / known[0] if known and len(new) == len(known) else state.scale
+    old_kinks, new_kinks = kinks_of(state.disc.problem.punch), kinks_of(disc.problem.punch)
+    scale = state.scale * new_kinks[0] / old_kinks[0] if old_kinks and len(new_kinks) == len(old_kinks) else state.scale
     if state.lift is not None:
         return State.lifted(
             disc, scale, state.lift, state.displacement, state.follows_edge, state.edge_gap, state.turned
@@ -89,7 +88,7 @@ def _at_fixed_unknowns(state: State, disc: Discretisation) -> State:
 
 
 class AtExtreme:
-    """Change of a functional at the extreme of another one, to first order: it moves with the place of the extreme.
+    """Change of a functional at the extreme of another one, to first order, with the shift of the extreme.
 
     Parameters
     ----------
@@ -102,17 +101,17 @@ class AtExtreme:
     def __init__(self, state: State, functional: str, extremal: str) -> None:
         control, unit = parameter(state)
         rates, step = rates_of(state), _PATH_STEP * unit
-        near = [moved(state, rates, parameter_of(state) + side * step) for side in (-1.0, 1.0)]
-        before, after = (getattr(rates_of(one), extremal) for one in near)
-        # s moves by -d(L_s)/L_ss; both derivatives by s are differences over the same steps.
+        neighbours = [moved(state, rates, parameter_of(state) + side * step) for side in (-1.0, 1.0)]
+        before, after = (getattr(rates_of(neighbour), extremal) for neighbour in neighbours)
+        # s shifts by -d(L_s)/L_ss; both derivatives by s are differences over the same steps.
         self._factor = -getattr(rates, functional) / (after - before)
-        self._here = Adjoint(state, functional, control)
-        self._beside = [Adjoint(one, extremal, control) for one in near]
+        self._adjoint = Adjoint(state, functional, control)
+        self._adjoints_beside = [Adjoint(neighbour, extremal, control) for neighbour in neighbours]
 
     def change(self, problem: Problem) -> float:
         """The change from the problem of the state to another one."""
-        before, after = (one.change(problem) for one in self._beside)
-        return self._here.change(problem) + self._factor * (after - before)
+        before, after = (adjoint.change(problem) for adjoint in self._adjoints_beside)
+        return self._adjoint.change(problem) + self._factor * (after - before)
 
 
 def parameter(state: State) -> tuple[str, float]:

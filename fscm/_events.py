@@ -1,7 +1,7 @@
 """Events of the equilibrium path, found as roots of exact derivatives.
 
-The coarse path brackets an event; inside the bracket the continuation parameter is solved for on the coarse mesh
-and then, from that root, on finer meshes.
+The coarse path brackets an event; its continuation parameter is found on the coarse mesh and, from there, on finer
+meshes.
 """
 
 from __future__ import annotations
@@ -40,29 +40,29 @@ Condition = Callable[[State, Rates], float]
 Bracket = tuple[Point, Point]
 
 # The secant method ends with a step of the continuation parameter below this share of the tolerance of the mesh, within
-# these limits: what is left is the product of the last two steps.  Unless the condition is the rate at an extreme, one
-# step follows: without it the displacement at zero load was wrong by 1.5e-11 (n = 3.2, k = 0.06, mu = 6.6).
+# these limits: the remaining error is the product of the last two steps.  Unless the condition is the rate at an
+# extreme, one step follows: without it the displacement at zero load was off by 1.5e-11 (n = 3.2, k = 0.06, mu = 6.6).
 _PARAMETER_SHARE, _LEAST_PARAMETER, _LARGEST_PARAMETER = 0.1, 1e-9, 1e-6
 _SECANT_STEPS = 20
-#: An extreme is left when the functional is above it by less than this share of 1 + its size; four roundings.  The step
-#: alone does not tell: under a flat end with a rounded edge the load has a curvature of 2e5, and was wrong by 4e-12.
+#: An extreme is reached when the functional differs from it by less than this share of 1 + its size; four roundings.  A
+#: small step does not suffice: under a flat end with a rounded edge the load, of curvature 2e5, was wrong by 4e-12.
 MISSED_EXTREME = 2.0**-51
 # First step of the secant method: large against rounding of the derivative, small against its curvature.
 _FIRST_SECANT_STEP = 1e-4
 _COARSE_PARAMETER_TOLERANCE = 1e-6
-# The mesh is refined again when the pressure at the root is unresolved by this factor, at most so often.  Measured:
-# once at n = 300, k = 0, where the force was wrong by 4e-8.
+# The mesh is refined again when the indicator at the root exceeds the tolerance by this factor, at most _REFITS times.
+# Measured: once at n = 300, k = 0, where the force was wrong by 4e-8.
 _UNRESOLVED, _REFITS = 10.0, 4
-# Above this tolerance the indicator does not see what a panel next to a much shorter one lacks: meshes are graded.
-# The same at any tolerance at edges narrower than this, in units of their radius (n = 2, k = 0.98, mu = 1).
+# Above this tolerance the indicator underestimates the error of a panel next to a much shorter one: meshes are graded.
+# So they are at any tolerance for edges narrower than _NARROW, relative to their radius (n = 2, k = 0.98, mu = 1).
 _SEEN, _NARROW = 1e-6, 1e-9
-# Tolerance where the root on the coarse mesh is a start only.
+# Tolerance of the root on the coarse mesh that is only a starting point.
 _ROUGH = 1e-2
-# An end of a bracket is a start where the condition is below this share of the one at the other end.
+# An end of a bracket is the starting point if the condition is below this share of that at the other end.
 _CLOSE = 0.02
 # Largest first step of the secant method that is Newton's with an estimated derivative.
 _LARGEST_FIRST = 0.1
-# Step of the continuation parameter after which the mesh is refined again, where the pressure is not resolved.
+# Step of the continuation parameter after which the mesh is adapted again.
 _FAR = 1e-3
 
 
@@ -87,14 +87,14 @@ _FUNCTIONALS: dict[Condition, str] = {load_fold: "load", displacement_fold: "dis
 
 def brackets(points: Sequence[Point], condition: Condition, rising: bool) -> list[Bracket]:
     """Neighbouring points between which the condition turns positive (`rising`) or negative."""
-    found = []
+    pairs = []
     for a, b in pairwise(points):
-        if a.stretch != b.stretch:
+        if a.segment != b.segment:
             continue  # the same state on two meshes
         before, after = condition(a.state, a.rates), condition(b.state, b.rates)
         if (before < 0.0 <= after) if rising else (before >= 0.0 > after):
-            found.append((a, b))
-    return found
+            pairs.append((a, b))
+    return pairs
 
 
 def crossings(points: Sequence[Point], condition: Condition, fold: Condition) -> list[Bracket]:
@@ -109,21 +109,21 @@ def crossings(points: Sequence[Point], condition: Condition, fold: Condition) ->
     fold : callable
         Its derivative: zero at an extreme.
     """
-    found: list[Bracket] = []
+    pairs: list[Bracket] = []
     for a, b in pairwise(points):
-        if a.stretch != b.stretch:
+        if a.segment != b.segment:
             continue
         before, after = condition(a.state, a.rates), condition(b.state, b.rates)
         if (before < 0.0) != (after < 0.0):
-            found.append((a, b))
+            pairs.append((a, b))
         elif before * fold(a.state, a.rates) < 0.0 and before * fold(b.state, b.rates) > 0.0:
-            # The condition tends to zero from both ends: its extreme decides.
+            # The condition approaches zero from both ends: its extreme decides.
             extreme = locate(a, b, fold)
             rates = rates_of(extreme)
             if (condition(extreme, rates) < 0.0) != (before < 0.0):
-                at = Point(extreme, rates, a.stretch)
-                found += [(a, at), (at, b)]
-    return found
+                at = Point(extreme, rates, a.segment)
+                pairs += [(a, at), (at, b)]
+    return pairs
 
 
 class Between:
@@ -165,65 +165,65 @@ def locate(a: Point, b: Point, condition: Condition, tolerance: float = _COARSE_
 
 
 def extreme(a: Point, b: Point, condition: Condition) -> State | None:
-    """About where a functional is extreme between two points, from the cubic through its values and rates."""
+    """Approximate extreme of a functional between two points, from the cubic through its values and rates."""
     name = _FUNCTIONALS.get(condition)
     if name is None:
         return None
     start, length = parameter_of(a.state), parameter_of(b.state) - parameter_of(a.state)
     change = getattr(b.state, name) - getattr(a.state, name)
-    first, last = (length * getattr(rates_of(point.state), name) for point in (a, b))
+    rate_a, rate_b = (length * getattr(rates_of(point.state), name) for point in (a, b))
     # The rate is the line between both rates plus a bulge that accounts for the change.
-    bulge = 6.0 * (change - 0.5 * (first + last))
-    roots = np.roots([-bulge, last - first + bulge, first])
+    bulge = 6.0 * (change - 0.5 * (rate_a + rate_b))
+    roots = np.roots([-bulge, rate_b - rate_a + bulge, rate_a])
     inside = [float(t.real) for t in roots if abs(t.imag) == 0.0 and 0.0 <= t.real <= 1.0]
     if len(inside) == 1:
-        place = inside[0]
-    elif first * last < 0.0:  # the cubic does not tell
-        place = first / (first - last)
+        share = inside[0]
+    elif rate_a * rate_b < 0.0:  # the cubic does not decide
+        share = rate_a / (rate_a - rate_b)
     else:
         return None
-    near, far = (a, b) if place < 0.5 else (b, a)
-    for point in (near, far):
+    nearer, farther = (a, b) if share < 0.5 else (b, a)
+    for point in (nearer, farther):
         try:
-            return moved(point.state, rates_of(point.state), start + place * length, _COARSE_PARAMETER_TOLERANCE)
+            return moved(point.state, rates_of(point.state), start + share * length, _COARSE_PARAMETER_TOLERANCE)
         except NotConverged:
             continue
     return None
 
 
 def with_minima(points: Sequence[Point]) -> list[Point]:
-    """The points, and between them about the minima of the load."""
+    """The points, with approximate minima of the load inserted."""
     minima = {id(a): extreme(a, b, load_fold) for a, b in brackets(points, load_fold, rising=True)}
-    found = []
+    extended = []
     for point in points:
-        found.append(point)
+        extended.append(point)
         state = minima.get(id(point))
         if state is not None:
-            found.append(Point(state, rates_of(state).scaled(state.sense), point.stretch))
-    return found
+            extended.append(Point(state, rates_of(state).scaled(state.orientation), point.segment))
+    return extended
 
 
 def slowest(points: Sequence[Point]) -> tuple[Point, Point, Point, float]:
-    """Where along the path the displacement rises most slowly, or falls.
+    """The point of the path with the least rate of displacement, which is negative between two folds.
 
     Returns
     -------
     before, at, after : Point
-        The place and its neighbours on the same stretch.
+        The point and its neighbours on the same segment.
     rate : float
-        Rate of the displacement there, per unit of the continuation parameter, oriented into contact.
+        Per unit of the continuation parameter, oriented into contact.
     """
     i = min(range(1, len(points) - 1), key=lambda j: points[j].rates.displacement)
-    # Two steps to either side, on each stretch of its own when the mesh changes among them.
-    near = points[max(i - 2, 0) : i + 3]
-    stretches = [[p for p in near if p.stretch == one] for one in sorted({p.stretch for p in near})]
-    found = [_least_rate(part[0], part[-1]) for part in stretches if len(part) > 1]
-    return min(found, key=lambda result: result[3])
+    # Two steps to either side, separately on each segment.
+    around = points[max(i - 2, 0) : i + 3]
+    segments = [[p for p in around if p.segment == segment] for segment in sorted({p.segment for p in around})]
+    candidates = [_least_rate(segment[0], segment[-1]) for segment in segments if len(segment) > 1]
+    return min(candidates, key=lambda result: result[3])
 
 
 def _least_rate(a: Point, b: Point) -> tuple[Point, Point, Point, float]:
     between = Between(a, b)
-    orientation = a.state.sense
+    orientation = a.state.orientation
     best = scipy.optimize.minimize_scalar(
         lambda x: orientation * between(x)[1].displacement,
         bounds=(between.low, between.high),
@@ -231,7 +231,7 @@ def _least_rate(a: Point, b: Point) -> tuple[Point, Point, Point, float]:
         options={"xatol": 1e-5 * (between.high - between.low)},
     )
     state, rates = between(float(best.x))
-    return a, Point(state, rates.scaled(orientation), a.stretch), b, float(best.fun)
+    return a, Point(state, rates.scaled(orientation), a.segment), b, float(best.fun)
 
 
 def refined(state: State, order: int, tolerance: float, end_height: float | None = None) -> State:
@@ -243,7 +243,7 @@ def refined(state: State, order: int, tolerance: float, end_height: float | None
     order, tolerance
         See `fscm._adaptivity`.
     end_height : float, optional
-        Height of the punch that the mesh reaches at least.
+        Least height of the punch at the end of the mesh.
     """
     if end_height is not None:
         state = lengthened(state, end_height)
@@ -265,20 +265,20 @@ def sharpened(
     """
     try:
         rough = _rough(bracket, condition)
-        found, slope = _sharpen(rough, condition, order, tolerance, end_height, _slope(bracket, rough, condition))
-        if _belongs(found, slope, bracket, condition):
-            return found
+        root, slope = _sharpen(rough, condition, order, tolerance, end_height, _slope(bracket, rough, condition))
+        if _belongs(root, slope, bracket, condition):
+            return root
     except NotConverged:
         pass
     # From a better root on the coarse mesh.
-    found, slope = _sharpen(locate(*bracket, condition), condition, order, tolerance, end_height)
-    if not _belongs(found, slope, bracket, condition):
+    root, slope = _sharpen(locate(*bracket, condition), condition, order, tolerance, end_height)
+    if not _belongs(root, slope, bracket, condition):
         raise NotConverged("the secant method left the bracket of an event for another one")
-    return found
+    return root
 
 
 def _rough(bracket: Bracket, condition: Condition) -> State:
-    """About the root of a condition in a bracket, on a coarse mesh."""
+    """Approximate root of a condition in a bracket, on a coarse mesh."""
     sizes = [abs(condition(point.state, rates_of(point.state))) for point in bracket]
     if min(sizes) < _CLOSE * max(sizes):
         return bracket[int(np.argmin(sizes))].state
@@ -287,27 +287,27 @@ def _rough(bracket: Bracket, condition: Condition) -> State:
 
 
 def _slope(bracket: Bracket, state: State, condition: Condition) -> float:
-    """Derivative of the condition at a state, from the parabola through its values there and at the bracket's ends."""
-    states = sorted((bracket[0].state, state, bracket[1].state), key=parameter_of)
-    x = [parameter_of(one) for one in states]
-    y = [condition(one, rates_of(one)) for one in states]
-    whole = (y[2] - y[0]) / (x[2] - x[0])
+    """Derivative of the condition at a state, from the parabola through its values there and at both ends."""
+    samples = sorted((bracket[0].state, state, bracket[1].state), key=parameter_of)
+    x = [parameter_of(sample) for sample in samples]
+    y = [condition(sample, rates_of(sample)) for sample in samples]
+    secant = (y[2] - y[0]) / (x[2] - x[0])
     if min(x[1] - x[0], x[2] - x[1]) <= 0.0:  # the state is an end
-        return whole
-    return (y[1] - y[0]) / (x[1] - x[0]) + (y[2] - y[1]) / (x[2] - x[1]) - whole
+        return secant
+    return (y[1] - y[0]) / (x[1] - x[0]) + (y[2] - y[1]) / (x[2] - x[1]) - secant
 
 
 def _belongs(state: State, slope: float, bracket: Bracket, condition: Condition) -> bool:
-    """Whether a root is the one in a bracket: it is inside, or the condition changes in the same sense there.
+    """Whether a root belongs to a bracket: it lies inside, or its slope has the sign of the change over the bracket.
 
-    The bracket is of a coarser mesh, so that its root may be outside by the error of that mesh.
+    The bracket is of a coarser mesh, whose error may move the root outside.
     """
-    first, last = (parameter_of(point.state) for point in bracket)
-    here = parameter_of(state)
-    if min(first, last) <= here <= max(first, last):
+    x_a, x_b = (parameter_of(point.state) for point in bracket)
+    x = parameter_of(state)
+    if min(x_a, x_b) <= x <= max(x_a, x_b):
         return True
     before, after = (condition(point.state, rates_of(point.state)) for point in bracket)
-    return slope * (after - before) * (last - first) > 0.0
+    return slope * (after - before) * (x_b - x_a) > 0.0
 
 
 def sharpen(state: State, condition: Condition, order: int, tolerance: float, end_height: float | None = None) -> State:
@@ -329,21 +329,21 @@ def _sharpen(
     end_height: float | None,
     slope: float | None = None,
 ) -> tuple[State, float]:
-    """The root, and the derivative of the condition there."""
+    """Root of the condition near a state, and its derivative there."""
     state = refined(state, order, tolerance, end_height)
     for _ in range(_REFITS):
         state, slope = _root(state, condition, tolerance, slope)
         if np.max(indicator(state)) <= _UNRESOLVED * tolerance:
             return state, slope
-        # The steep rise of a flat punch has left the panels that resolved it.
+        # The steep rise of a flat punch has moved off the panels that resolve it.
         state = refined(state, order, tolerance)
     raise NotConverged("the mesh at an event does not resolve the pressure; the event moves with the mesh")
 
 
 def _root(state: State, condition: Condition, tolerance: float, slope: float | None) -> tuple[State, float]:
-    """Root of the condition on the mesh of a state by the secant method, and the derivative of the condition there.
+    """Root of the condition on the mesh of a state by the secant method, and its derivative there.
 
-    The first step is Newton's with the `slope`, if there is one.
+    The first step is Newton's if there is a `slope`.
     """
     iterations = state.iterations
     rates = rates_of(state)
@@ -363,7 +363,7 @@ def _root(state: State, condition: Condition, tolerance: float, slope: float | N
             return state, slope
     for _ in range(_SECANT_STEPS):
         new = moved(state, rates, parameter_of(state) + step)
-        if abs(step) > _FAR:  # the mesh was refined at another place
+        if abs(step) > _FAR:
             new = fit(new, parameter_control(new, parameter_of(new)), tolerance)
         new_rates = rates_of(new)
         new_value = condition(new, new_rates)

@@ -14,7 +14,7 @@ __all__ = ["Branch", "jumps_between"]
 
 @dataclass(frozen=True)
 class Branch:
-    """A part of the path that is stable under prescribed displacement; along it the displacement rises.
+    """A section of the path that is stable under prescribed displacement; along it the displacement rises.
 
     Attributes
     ----------
@@ -31,10 +31,10 @@ class Branch:
 
 
 def jumps_between(branches: Sequence[Branch], inward: bool) -> list[tuple[Bracket, Branch]]:
-    """The folds that an approach (`inward`) or a retreat leaves in its jumps, and the branches on which these land.
+    """The jumps of an approach (`inward`) or a retreat: from which fold, and to which branch.
 
-    A branch is followed to the fold at its end.  The jump lands on the next branch that has the displacement of the
-    fold; branches that do not have it are passed over.
+    A branch is followed to the fold at its end.  The jump lands on the next branch that contains the displacement of
+    the fold; other branches are passed over.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def jumps_between(branches: Sequence[Branch], inward: bool) -> list[tuple[Bracke
     Raises
     ------
     NotConverged
-        When no branch has the displacement of a fold.
+        When no branch contains the displacement of a fold.
 
     Examples
     --------
@@ -61,19 +61,19 @@ def jumps_between(branches: Sequence[Branch], inward: bool) -> list[tuple[Bracke
     >>> jumps_between([outer, middle, inner], inward=False) == [("D", middle), ("B", outer)]
     True
     """
-    # A retreat is an approach with the sign of the displacement changed.
+    # A retreat is an approach with the opposite sign of the displacement.
     order = branches if inward else branches[::-1]
-    starts = [one.least if inward else -one.largest for one in order]
-    ends = [one.largest if inward else -one.least for one in order]
-    folds = [one.high if inward else one.low for one in order]
-    found, here = [], 0
-    while (fold := folds[here]) is not None:
-        level, later = ends[here], range(here + 1, len(order))
-        here = next((i for i in later if starts[i] <= level < ends[i]), -1)
-        if here < 0:
+    starts = [branch.least if inward else -branch.largest for branch in order]
+    ends = [branch.largest if inward else -branch.least for branch in order]
+    folds = [branch.high if inward else branch.low for branch in order]
+    jumps, index = [], 0
+    while (fold := folds[index]) is not None:
+        level, later = ends[index], range(index + 1, len(order))
+        index = next((i for i in later if starts[i] <= level < ends[i]), -1)
+        if index < 0:
             raise NotConverged(
                 f"no other stable branch of the path has the displacement {level if inward else -level:.6g}, "
                 f"at which a jump-{'in' if inward else 'out'} begins"
             )
-        found.append((fold, order[here]))
-    return found
+        jumps.append((fold, order[index]))
+    return jumps

@@ -128,7 +128,7 @@ class Kernel:
             self._near_C = _polynomial([x * q / 2 for x in B], _NEAR_LIMIT)
             self._far = np.array([float(c) for c in _gauss_series(a, a, mpmath.mpf(1), 12)])
 
-    def _made(self, less: int, c: int) -> _Primitive:
+    def _primitive_series(self, less: int, c: int) -> _Primitive:
         with mpmath.workdps(_DIGITS):
             q = mpmath.mpf(self.k) if self.k > 0 else mpmath.mpf(_ZERO_K)
             a = (1 + q) / 2
@@ -136,13 +136,13 @@ class Kernel:
 
     @cached_property
     def _inner(self) -> _Primitive:
-        """F of Phi within the ring; the primitives take as long as the rest, and the panels do not need them."""
-        return self._made(0, 2)
+        """F of Phi within the ring, computed on demand: the panels do not need the primitives."""
+        return self._primitive_series(0, 2)
 
     @cached_property
     def _outer(self) -> _Primitive:
         """F of Phi beyond the ring."""
-        return self._made(1, 1)
+        return self._primitive_series(1, 1)
 
     def near_parts(self, r: Array, t: Array, distance: Array) -> tuple[Array, Array]:
         """Factors (S, C) of G = S + C L_k(distance / (r + t)), smooth in t across t = r.
@@ -164,13 +164,13 @@ class Kernel:
         All arguments are arrays of one shape; r may be 0.
         """
         out = np.empty(np.shape(distance))
-        near = distance <= math.sqrt(_NEAR_LIMIT) * (r + t)
-        rn, tn, dn = r[near], t[near], distance[near]
+        is_near = distance <= math.sqrt(_NEAR_LIMIT) * (r + t)
+        rn, tn, dn = r[is_near], t[is_near], distance[is_near]
         S, C = self.near_parts(rn, tn, dn)
         with np.errstate(divide="ignore"):
             C *= box_cox(np.log(dn / (rn + tn)), self.k)
-        out[near] = S + C
-        far = ~near
+        out[is_near] = S + C
+        far = ~is_near
         rf, tf = r[far], t[far]
         larger = np.maximum(rf, tf)
         x = np.minimum(rf, tf) / larger
@@ -239,22 +239,24 @@ class _Primitive:
     def value(self, x: Array, y: Array, minus_one: bool = False) -> Array:
         """F(x^2), or F - 1; `y` is 1 - x^2 to full relative accuracy."""
         out = np.empty_like(x)
-        near = y <= _NEAR_LIMIT
-        yn = y[near]
+        is_near = y <= _NEAR_LIMIT
+        yn = y[is_near]
         u = yn * (2.0 / _NEAR_LIMIT) - 1.0
         # y = 0 is the value at one; the smallest float stands in for it under the logarithm.
         L = box_cox(np.log(np.maximum(yn, np.finfo(float).tiny)), self._k)
         start = self._at_one_minus_one if minus_one else self._at_one
         # y L first: near k = 1 either factor alone is at the end of the range of numbers.
-        out[near] = start + yn * _horner(self._D, u) + _horner(self._C, u) * (yn * L)
-        x2 = x[~near] ** 2
-        out[~near] = x2 * _horner(self._taylor_minus_one, x2 * (2.0 / _NEAR_LIMIT) - 1.0) + (0.0 if minus_one else 1.0)
+        out[is_near] = start + yn * _horner(self._D, u) + _horner(self._C, u) * (yn * L)
+        x2 = x[~is_near] ** 2
+        out[~is_near] = x2 * _horner(self._taylor_minus_one, x2 * (2.0 / _NEAR_LIMIT) - 1.0) + (
+            0.0 if minus_one else 1.0
+        )
         return out
 
 
 @lru_cache(maxsize=64)
 def kernel_of(k: float) -> Kernel:
-    """The kernel of an exponent, made once."""
+    """The kernel of an exponent, cached."""
     return Kernel(k)
 
 

@@ -1,4 +1,4 @@
-"""Meshes of a computation, chosen by the relative error that is requested."""
+"""Meshes of a computation, by the requested relative error."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from fscm._validation import real_number
 
 __all__ = ["ACCURACIES", "Accuracy", "Mesh", "Meshes"]
 
-#: Names of relative errors.
+#: Relative errors by name.
 ACCURACIES = {"quick": 1e-6, "default": 1e-8, "fine": 1e-10}
-# Coarser meshes do not bracket the events of a soft solid; on finer ones rounding stops the refinement.
+# Coarser meshes may miss the events of a soft solid; on finer ones rounding stops the refinement.
 _FINEST, _COARSEST = 1e-10, 1e-4
 
 
@@ -26,31 +26,30 @@ class Mesh(NamedTuple):
 # Meshes of the accuracy "default".
 _PATH, _CHECK, _VALUE = Mesh(8, 3e-3), Mesh(10, 3e-7), Mesh(12, 1e-7)
 _CURVE = Mesh(10, 1e-6)
-# Meshes of events below that accuracy: two nodes fewer for each digit down to the order of the path, and a tolerance
-# that grows with this power, up to the largest.  Measured over 19 random problems at 1e-6 (order 8, tolerance 1e-4):
-# bounds of the pull-off force from 1e-13 to 3e-7 of it, in the median 6e-10.
+# Meshes of events at a lower accuracy: two nodes fewer for each digit down to the order of the path, and a tolerance
+# that grows with the power _POWER.  Measured over 19 random problems at 1e-6 (order 8, tolerance 1e-4): bounds of the
+# pull-off force from 1e-13 to 3e-7 of it, in the median 6e-10.
 _FEWER, _POWER, _LARGEST_TOLERANCE = 2, 1.5, 1e-3
 
 
 @dataclass(frozen=True)
 class Meshes:
-    """Meshes of the two values that are compared, and of the paths.
+    """Meshes of paths and of states at events.
 
     Attributes
     ----------
     path : Mesh
         Of the path that brackets the events: its digits are not used.
     check, value : Mesh
-        Of a value and of its check; close enough to each other that their difference is not much larger than the error
-        of the better one.
+        Of a state at an event, and of the same state again, which bounds the error of its fields.
     curve : Mesh
         Of a path that is drawn and integrated.
     end_height : float
-        The mesh ends where the undeformed gap is this large.  The closed tail behind it is wrong by (1/F)^2 relative.
-    requested : float
-        Relative error above which a value is computed again on the default meshes; infinite for the default and below.
-    asked : float
-        Relative error that was asked for as a number; infinite for a name, which selects meshes.
+        Undeformed gap F at the end of the mesh.  The closed tail beyond has the relative error (1/F)^2.
+    recompute_above : float
+        Relative bound above which a value is computed again on the default meshes; infinite for the default and below.
+    warn_above : float
+        Relative bound above which there is a warning: the requested error if it is a number, infinite for a name.
     """
 
     path: Mesh = _PATH
@@ -58,14 +57,14 @@ class Meshes:
     value: Mesh = _VALUE
     curve: Mesh = _CURVE
     end_height: float = 1e6
-    requested: float = math.inf
-    asked: float = math.inf
+    recompute_above: float = math.inf
+    warn_above: float = math.inf
 
     @classmethod
     def of(cls, accuracy: Accuracy) -> Meshes:
-        """Meshes for a relative error: tolerances in proportion to it, one node a panel more for each digit more.
+        """Meshes for a relative error: tolerances in proportion to it, and one more node a panel for each digit.
 
-        Errors above the default one allow much coarser meshes at the events, because the default exceeds its request.
+        Errors above the default allow much coarser meshes at the events, because the default exceeds its request.
 
         Raises
         ------
@@ -74,7 +73,7 @@ class Meshes:
         """
         if isinstance(accuracy, Meshes):
             return accuracy
-        asked = math.inf if isinstance(accuracy, str) else accuracy
+        warn_above = math.inf if isinstance(accuracy, str) else accuracy
         if isinstance(accuracy, str):
             if accuracy not in ACCURACIES:
                 raise ValueError(
@@ -101,8 +100,8 @@ class Meshes:
             check=at_event(_CHECK),
             value=at_event(_VALUE),
             curve=scaled(_CURVE),
-            requested=accuracy if fewer else math.inf,
-            asked=asked,
+            recompute_above=accuracy if fewer else math.inf,
+            warn_above=warn_above,
         )
 
 

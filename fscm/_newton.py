@@ -16,32 +16,32 @@ from fscm.punch import kinks_of
 
 __all__ = ["STEP_TOLERANCE", "newton", "shifted"]
 
-# Newton stops when the last step changes no gap by more than this, relative to 1 + |H|; the step after it
-# would be at rounding level, since convergence is quadratic.
+#: Newton's method ends when a step changes no gap by more than this, relative to 1 + |H|; the next step would be at the
+#: level of rounding, since convergence is quadratic.
 STEP_TOLERANCE = 1e-9
-_MAX_ITERATIONS = 80  # steps with old factors among them; measured: 41 at n = 2, k = 0.98, mu = 1
-# After a step below _CHORD the factors are kept, as long as each step is smaller than the one before by _CONTRACTION;
-# such steps end when what is left is below this power of the tolerance; after a Newton step it is its square.
+_MAX_ITERATIONS = 80  # with old or new factors; measured: 41 at n = 2, k = 0.98, mu = 1
+# After a step below _CHORD the factors are reused, as long as each step is smaller than the one before by _CONTRACTION;
+# such steps end when the remaining error is below this power of the tolerance (its square after a Newton step).
 _CHORD, _CONTRACTION, _REMAINDER = 0.5, 0.1, 1.8
-# A gap may fall to this fraction of its distance to the singular gap in one iteration, and not below
-# _LOWEST of it: at a quarter of the distance the 9-3 law reaches 7e5 times its strength.
+# In one iteration a gap may fall to this fraction of its distance to the singular gap, but not below _LOWEST times the
+# singular gap: there the 9-3 law reaches 7e5 times its strength.
 _SHRINK = 0.4
 _LOWEST = 0.25
 # Largest change of the logarithm of the scale in one iteration: a factor of two.
 _LARGEST_GROWTH = 0.7
-# Bound on any change of log c, against overflow in what Newton's iteration will refuse.
+# Bound on any change of log c, against overflow of iterates that Newton's method rejects.
 _LARGEST_CHANGE = 50.0
-# Below this fraction of a step the iterations allowed parameter nowhere.
+# Least fraction of a step.
 _SMALLEST_DAMPING = 1e-3
-# A full step that falls by less than this factor, from a residual of mere rounding, is rounding itself: at large Tabor
-# numbers it is above the tolerance (2.7e-9 at n = 2, k = 0, mu = 5e5).
+# A full step that is smaller than the one before by less than this factor, from residuals at the level of rounding, is
+# rounding: at large Tabor numbers it exceeds the tolerance (2.7e-9 at n = 2, k = 0, mu = 5e5).
 _STALLED = 4.0
-# A step that changes a gap by this factor is no correction any more, and the next ones would overflow.
+# Change of a gap by a step, relative to 1 + |H|, above which the iteration diverges.
 _DIVERGED = 1e6
 
 
 def _moved_scale(state: State, log_scale: float) -> float:
-    """The scale after a linear change of log c; for a steep punch of z = log c + f(c), in which its edge is linear."""
+    """The scale after a linear change of log c, or for a steep punch of log c + f(c), in which its edge is linear."""
     if state.lift is None or kinks_of(state.disc.problem.punch):
         return state.scale * math.exp(log_scale)
     if log_scale == 0.0:
@@ -53,7 +53,7 @@ def _moved_scale(state: State, log_scale: float) -> float:
 
     start, aim = math.log(state.scale), 0.0
     aim = beyond(start) + log_scale * (1.0 + float(state.disc.rise(np.array([state.scale]))[0]))
-    # f is convex in log c: the tangent leads too far up, or not far enough down.
+    # f is convex in log c: the tangent overshoots upwards, and undershoots downwards.
     high = start + log_scale
     low = start if log_scale > 0.0 else high - beyond(high)
     if beyond(low) >= 0.0 or beyond(high) <= 0.0:  # the same to rounding
@@ -62,16 +62,16 @@ def _moved_scale(state: State, log_scale: float) -> float:
 
 
 def shifted(state: State, gap: Array, displacement: float, log_scale: float, factor: float = 1.0) -> State:
-    """The state after a part of a linear change of its unknowns: gaps (deformations of a steep punch), delta, log c.
+    """The state after `factor` times a change of its unknowns: gaps (deformations of a steep punch), delta, log c.
 
-    A punch with kinks moves by its exact change of height: that is no linear function of log c within a step.
+    The height of a punch with kinks changes exactly, since it is not linear in log c within a step.
     """
     scale = _moved_scale(state, factor * log_scale)
     displacement = state.displacement + factor * displacement
     if state.lift is not None:
         lift = state.lift + factor * gap
-        known = state.follows_edge, state.edge_gap, state.turned
-        return State.lifted(state.disc, scale, lift, displacement, *known)
+        anchor = state.follows_edge, state.edge_gap, state.turned
+        return State.lifted(state.disc, scale, lift, displacement, *anchor)
     moved, disc, r = state.gap + factor * gap, state.disc, state.radius
     if log_scale != 0.0 and kinks_of(disc.problem.punch):
         moved += disc.height(scale * disc.mesh.nodes) - disc.height(r) - disc.rise(r) * (factor * log_scale)
@@ -79,7 +79,7 @@ def shifted(state: State, gap: Array, displacement: float, log_scale: float, fac
 
 
 def _largest_damping(state: State, step: Array) -> float:
-    """Largest part of a step, at most 1, that keeps the gaps away from the singular one."""
+    """Largest fraction of a step that keeps the gaps away from the singular one."""
     floor = state.disc.problem.law.singular_gap
     clearance = state.gap - floor
     least = np.maximum(_SHRINK * clearance, _LOWEST * -floor)
@@ -104,7 +104,7 @@ def _change_of_gap(state: State, step: Array) -> Array:
 
 
 def _step(state: State, factor: BorderedFactor, rhs: Array, row: Array) -> tuple[Array, float]:
-    """The step from some factors, and its largest change of a gap relative to 1 + |H|."""
+    """Step by the given factors, and its largest change of a gap relative to 1 + |H|."""
     step = -factor.solve(rhs, row)
     return step, float(np.max(np.abs(_change_of_gap(state, step)) / (1.0 + np.abs(state.gap))))
 
@@ -120,7 +120,7 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE, mo
     tolerance : float
         Largest change of a gap in the last step, relative to 1 + |H|.
     most : int
-        Iterations after which it is given up.
+        Largest number of iterations.
 
     Returns
     -------
@@ -130,10 +130,10 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE, mo
     Raises
     ------
     NotConverged
-        After too many iterations, or when a gap is driven towards the singular gap.
+        After too many iterations, or when a gap approaches the singular gap.
     """
     state = guess
-    factor, last, full = state.disc.factor, math.inf, math.inf
+    factor, last_change, full = state.disc.factor, math.inf, math.inf
     for iteration in range(1, most + 1):
         system = Linearisation(state)
         row = system.row(control)
@@ -143,8 +143,8 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE, mo
         if iteration == 1 and factor is not None and not system.near(factor):
             factor = None
         step, change = _step(state, factor, rhs, row) if factor is not None else (rhs, math.inf)
-        kept = factor is not None and change < _CONTRACTION * last
-        if not kept:
+        reused = factor is not None and change < _CONTRACTION * last_change
+        if not reused:
             factor = system.factor(control)
             step, change = _step(state, factor, rhs, row)
         damping = _largest_damping(state, step)
@@ -161,16 +161,16 @@ def newton(guess: State, control: Control, tolerance: float = STEP_TOLERANCE, mo
         if not math.isfinite(change) or change > _DIVERGED:
             raise NotConverged("Newton diverged; take a smaller step")
         if damping == 1.0:
-            if change < tolerance and not kept:
+            if change < tolerance and not reused:
                 return state
-            # With old factors the error falls from step to step by the same factor.
-            ahead = change * min(1.0, change / last if math.isfinite(last) else 1.0)
-            if kept and change < tolerance and ahead < tolerance**_REMAINDER:
+            # With old factors convergence is linear.
+            ahead = change * min(1.0, change / last_change if math.isfinite(last_change) else 1.0)
+            if reused and change < tolerance and ahead < tolerance**_REMAINDER:
                 return state
-            if not kept and full <= _STALLED * change and np.all(np.abs(system.residual) <= system.rounding()):
+            if not reused and full <= _STALLED * change and np.all(np.abs(system.residual) <= system.rounding()):
                 return state
-        last = change
-        full = change if damping == 1.0 and not kept else math.inf
+        last_change = change
+        full = change if damping == 1.0 and not reused else math.inf
         if damping < 1.0 or change > _CHORD:
-            factor, last = None, math.inf
+            factor, last_change = None, math.inf
     raise NotConverged(f"Newton did not converge in {most} iterations (last change {change:.1e})")

@@ -1,8 +1,8 @@
 """The panel mesh: consecutive intervals of the radius, each with the same Gauss-Legendre nodes.
 
-A function on the mesh is the vector of its values at all nodes, panel by panel; on each panel it is the
-polynomial of degree q-1 through them.  Panel ends are kept as exact distances from an origin, the axis or the
-cohesive edge, because the edge is narrower than the rounding of its radius when k or mu is large.
+A function on the mesh is the vector of its values at all nodes, panel by panel; on each panel it is the polynomial of
+degree q-1 through them.  Panel ends are stored relative to an origin, the axis or the cohesive edge, because the edge
+is narrower than the rounding of its radius when k or mu is large.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ __all__ = ["GaussRule", "PanelMesh", "gauss_rule"]
 
 # Binary digits with which Gauss rules are computed before they are rounded.
 _BITS = 120
-# Distance of a place from a node that stands for zero.
+# Stands for a distance of zero from a node.
 _ZERO = 1e-200
 
 
@@ -51,7 +51,7 @@ class GaussRule:
 
     def interpolation(self, u: Array) -> Array:
         """Matrix, shape (len(u), q), from values at the nodes to values at local coordinates `u`."""
-        # The barycentric formula; next to the smallest distance, which stands for zero, all others vanish.
+        # The barycentric formula: at a node, all other terms vanish beside that of the distance _ZERO.
         distance = np.asarray(u, float)[:, None] - self.nodes
         distance[distance == 0.0] = _ZERO
         rows: Array = np.divide(self.barycentric, distance, out=distance)
@@ -64,19 +64,19 @@ def _gauss(order: int) -> tuple[Array, Array]:
 
     Newton's method in integers, units of 2^-_BITS, from numpy's nodes.
     """
-    one = 1 << _BITS
+    unit = 1 << _BITS
     nodes, weights = [], []
     for guess in legendre.leggauss(order)[0]:
-        x = int(Fraction(float(guess)) * one)
+        x = int(Fraction(float(guess)) * unit)
         for _ in range(2):
-            before, last = one, x
+            before, current = unit, x
             for m in range(1, order):
-                before, last = last, ((2 * m + 1) * (x * last >> _BITS) - m * before) // (m + 1)
-            away = one - (x * x >> _BITS)
+                before, current = current, ((2 * m + 1) * (x * current >> _BITS) - m * before) // (m + 1)
+            away = unit - (x * x >> _BITS)
             # (1 - x^2) P' = n (P_{n-1} - x P_n)
-            x -= last * away // (order * (before - (x * last >> _BITS)))
-        nodes.append(x / one)
-        weights.append(2 * away * one / (order * before) ** 2)
+            x -= current * away // (order * (before - (x * current >> _BITS)))
+        nodes.append(x / unit)
+        weights.append(2 * away * unit / (order * before) ** 2)
     return np.array(nodes), np.array(weights)
 
 
@@ -96,11 +96,11 @@ class PanelMesh:
     Parameters
     ----------
     offsets : ndarray, shape (m + 1,)
-        Panel ends less the origin, in a radius of any unit; they ascend strictly from the axis.
+        Panel ends relative to the origin, in any unit of radii; they ascend strictly from the axis.
     order : int
         Nodes a panel, q.
     origin : float
-        Radius from which the offsets count, 0 by default.  Distances near it are exact to full relative accuracy.
+        Radius to which the offsets are relative, 0 by default; distances near it have full relative accuracy.
 
     Raises
     ------
@@ -133,7 +133,7 @@ class PanelMesh:
 
     @cached_property
     def middles(self) -> Array:
-        """Middles of the panels less the origin, shape (m,)."""
+        """Middles of the panels relative to the origin, shape (m,)."""
         return self.offsets[:-1] + 0.5 * self.lengths
 
     @property
@@ -147,14 +147,14 @@ class PanelMesh:
         return len(self.lengths) * self.order
 
     @cached_property
-    def places(self) -> Array:
-        """Nodes less the origin, shape (m q,)."""
+    def node_offsets(self) -> Array:
+        """Nodes relative to the origin, shape (m q,)."""
         return (self.offsets[:-1, None] + self.lengths[:, None] * self.rule.nodes).ravel()
 
     @cached_property
     def nodes(self) -> Array:
         """Radii of the nodes, shape (m q,), rounded."""
-        # Not the origin plus the places: the starts near the axis are exact.
+        # Not the origin plus the offsets: the starts near the axis are exact.
         return (self.starts[:, None] + self.lengths[:, None] * self.rule.nodes).ravel()
 
     @cached_property
@@ -166,22 +166,22 @@ class PanelMesh:
         """Legendre coefficients panel by panel, shape (m, q), of nodal `values`, shape (m q,)."""
         return values.reshape(-1, self.order) @ self.rule.to_modes.T
 
-    def locate(self, places: Array) -> NDArray[np.intp]:
-        """Index of the panel that holds each radius less the origin; what is farther out goes to the last panel."""
-        return np.clip(np.searchsorted(self.offsets, places, side="right") - 1, 0, len(self.lengths) - 1)
+    def locate(self, offsets: Array) -> NDArray[np.intp]:
+        """Index of the panel of each radius, relative to the origin; that of the last panel farther out."""
+        return np.clip(np.searchsorted(self.offsets, offsets, side="right") - 1, 0, len(self.lengths) - 1)
 
     def seen_from(self, origin: float) -> Array:
-        """Nodes less another origin, shape (m q,)."""
-        return self.places + (self.origin - origin)
+        """Nodes relative to another origin, shape (m q,)."""
+        return self.node_offsets + (self.origin - origin)
 
     def evaluate(self, values: Array, radii: Array) -> Array:
         """Values at `radii`, shape (p,), of the piecewise polynomial with nodal `values`."""
-        return self.evaluate_places(values, radii - self.origin)
+        return self.evaluate_at_offsets(values, radii - self.origin)
 
-    def evaluate_places(self, values: Array, places: Array) -> Array:
-        """Values of the piecewise polynomial with nodal `values` at radii less the origin, shape (p,)."""
-        panel = self.locate(places)
-        u = (places - self.offsets[panel]) / self.lengths[panel]
+    def evaluate_at_offsets(self, values: Array, offsets: Array) -> Array:
+        """Values of the piecewise polynomial with nodal `values` at radii relative to the origin, shape (p,)."""
+        panel = self.locate(offsets)
+        u = (offsets - self.offsets[panel]) / self.lengths[panel]
         rows = self.rule.interpolation(u)
         return np.einsum("ij,ij->i", rows, values.reshape(-1, self.order)[panel])
 
@@ -191,31 +191,31 @@ class PanelMesh:
         row[panel * self.order : (panel + 1) * self.order] = self.rule.interpolation(np.array([end]))[0]
         return row
 
-    def transfer(self, values: Array, other: PanelMesh) -> Array:
-        """Nodal values on `other` of the function with nodal `values` here.
+    def transfer(self, values: Array, target: PanelMesh) -> Array:
+        """Nodal values on the mesh `target` of the function with nodal `values` on this one.
 
-        Local coordinates come from offsets to the panel starts, so panels far below the rounding of the
-        radius are handled to full relative accuracy.
+        Local coordinates come from offsets, so that panels far below the rounding of the radius keep full relative
+        accuracy.
         """
-        q, shift = other.order, other.origin - self.origin
-        own = values.reshape(-1, self.order)
-        panel = self.locate(other.middles + shift)
+        q, shift = target.order, target.origin - self.origin
+        by_panel = values.reshape(-1, self.order)
+        panel = self.locate(target.middles + shift)
         out = np.empty((len(panel), q))
-        kept = np.zeros(len(panel), bool)
+        unchanged = np.zeros(len(panel), bool)
         if q == self.order and shift == 0.0:
-            kept = (self.offsets[panel] == other.offsets[:-1]) & (self.offsets[panel + 1] == other.offsets[1:])
-            out[kept] = own[panel[kept]]
-        new = np.flatnonzero(~kept)
+            unchanged = (self.offsets[panel] == target.offsets[:-1]) & (self.offsets[panel + 1] == target.offsets[1:])
+            out[unchanged] = by_panel[panel[unchanged]]
+        new = np.flatnonzero(~unchanged)
         if not new.size:
             return out.ravel()
         panel = panel[new]
-        start = other.offsets[new] + shift - self.offsets[panel]
-        u = (start[:, None] + other.lengths[new, None] * other.rule.nodes) / self.lengths[panel, None]
+        start = target.offsets[new] + shift - self.offsets[panel]
+        u = (start[:, None] + target.lengths[new, None] * target.rule.nodes) / self.lengths[panel, None]
         rows = self.rule.interpolation(u.ravel()).reshape(len(new), q, self.order)
-        out[new] = (rows @ own[panel][:, :, None])[:, :, 0]
+        out[new] = (rows @ by_panel[panel][:, :, None])[:, :, 0]
         outside = ((u < 0.0) | (u > 1.0)).any(axis=1)
-        if outside.any():  # `other` merged panels: its nodes fall into several of ours
+        if outside.any():  # merged panels, whose nodes lie in several panels of this mesh
             merged = new[outside]
-            places = other.seen_from(self.origin).reshape(-1, q)[merged]
-            out[merged] = self.evaluate_places(values, places.ravel()).reshape(-1, q)
+            offsets = target.seen_from(self.origin).reshape(-1, q)[merged]
+            out[merged] = self.evaluate_at_offsets(values, offsets.ravel()).reshape(-1, q)
         return out.ravel()

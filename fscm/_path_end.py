@@ -1,25 +1,24 @@
-r"""End of the equilibrium path: where no later state can carry tension.
+r"""End of the equilibrium path, beyond which no state carries tension.
 
-On a homogeneous or power-law solid a punch without asperities, such as a power law, has one minimum of the load on its
-contact branch, and its path ends at the first compressive load.  It is one on which r f' does not decrease.
+A punch without asperities is one for which r f' does not decrease, such as a power law.  On a homogeneous or power-law
+solid its load has one minimum on the contact branch, and the path ends at the first compressive load.
 
-On any other solid the load may have a minimum for each layer.  In contact on a radius a, with the modulus E_a that the
-solid shows at the wavelength a, the load is P_1 - P_2 with the pressing part P_1 ~ E_a a^2 f'(a) and the adhesive part
-P_2 ~ (w E_a a^3)^(1/2), so that (P_1/P_2)^2 grows like g(a) = E_a a f'(a)^2.  Only where E_a falls faster than that,
-under a stiff layer that bends, tension comes back.  The path ends where g never again falls by more than the square of
-P_1/P_2.  That ratio follows from the load and the tension of the state: JKR's edge carries the share (P_2/P_1)^(1/2) of
-P_2 as tension.
+On any other solid the load may have a minimum for each layer.  In a contact of radius a, with the modulus E_a of the
+solid at the wavelength a, the load is P_1 - P_2 with the compressive part P_1 ~ E_a a^2 f'(a) and the adhesive part
+P_2 ~ (w E_a a^3)^(1/2), so that (P_1/P_2)^2 grows like g(a) = E_a a f'(a)^2.  Only if g decreases, under a stiff layer
+that bends, can tension return.  The path ends where g does not decrease again by more than the square of P_1/P_2.  That
+ratio follows from the load and the tension of the state: JKR's edge carries the share (P_2/P_1)^(1/2) of P_2.
 
-Any other punch may have asperities.  There the load of every state of displacement delta has a lower bound.  Let q be
-the pressure of a flat punch of radius a that is pressed in by one length.  It lifts the surface by 1 below the flat
-punch and by phi < 1 outside.  With the reciprocity of q and p, H > s (the singular gap) and Eq. 4,
+Any other punch may have asperities.  Then the load of every state of displacement delta has a lower bound.  Let q be
+the pressure of a flat punch of radius a for a unit indentation.  The surface moves by 1 below the flat punch and by
+phi < 1 outside.  With the reciprocity of q and p, H > s (the singular gap) and Eq. 4,
 
     P >= C_a (delta + s - <f>) - int_a^oo t(f - delta - W) (1 - phi) 2 r dr       for every a.
 
-C_a is the load of the flat punch, <f> the mean of f with the weight q, and t(H) the largest tension at the gap H or a
-larger one.  W bounds the part of the deformation that the tension causes: it is the largest W that does not exceed the
-deformation by the tension t(f - delta - W).  Nothing is assumed of the state.  What is assumed of the path: once it has
-reached a displacement from which on the bound is positive, it does not come back to a smaller one.
+C_a is the load of the flat punch, <f> the mean of f with the weight q, and t(H) the largest tension at any gap of at
+least H.  W bounds the deformation by tension: it is the largest W that does not exceed the deformation by the tension
+t(f - delta - W).  Nothing is assumed of the state.  The path is assumed not to return to a smaller displacement once it
+has reached one above which the bound is positive.
 """
 
 from __future__ import annotations
@@ -40,34 +39,34 @@ from fscm.punch import PowerPunch
 
 __all__ = ["LeastLoad", "PathEnd", "depth", "displacement_of_compression"]
 
-# Radii at which the shape is evaluated, and every so many of them the radius of a flat punch.
+# Number of radii at which the shape is evaluated; every _EVERY-th is the radius of a flat punch.
 _RADII, _EVERY = 3000, 24
-# The first radius, in units of the last: features below it carry less than 1e-9 of any load.
+# Smallest radius, in units of the largest: features below it carry less than 1e-9 of any load.
 _FIRST_RADIUS = 1e-7
-# Largest displacement, in units of the height of the punch at the last radius: far enough from it for the closed tail.
+# Largest displacement, in units of the height of the punch at the largest radius: small enough for the closed tail.
 _LARGEST = 1e-2
-# Relative decrease of r f' that is rounding: a slope by differences has an error of 1e-11 of f / r.
+# Relative decrease of r f' that counts as rounding: a slope by differences has an error of 1e-11 of f / r.
 _LEVEL = 1e-6
-# Ratio of the displacements that are tried.
+# Ratio of successive displacements in the search.
 _RATIO = 1.05
-# Iterations for the deformation by tension; it decreases from one to the next, so that each of them is a bound.
+# Iterations for the deformation by tension: they decrease, so that each is a bound.
 _ITERATIONS = 60
-# A contact on a radius a feels the modulus at the wave numbers from 1/a over this factor to 1/a times it; points there.
+# The modulus for a contact of radius a is that at wave numbers around 1/a, within this factor; number of points there.
 _WINDOW, _IN_WINDOW = 3.0, 25
-# Change of log D that counts as none; radii up to this multiple of the deepest change, and their number.
+# Change of log D that is negligible; largest radius, in units of the deepest change, and number of radii.
 _UNCHANGED, _LAYERS, _LATER = 0.02, 10.0, 200
-# Beyond the last radius, H is less than f by less than this factor to the power of the decay of the law.
+# Factor for the tension beyond the largest radius, where H is smaller than f.
 _TAIL_MARGIN = 1.5
 
 
 @dataclass
 class PathEnd:
-    """Condition that ends a path: compressed, beyond all asperities and layers, at the largest displacement so far.
+    """Condition that ends a path: a compressive load beyond all asperities and layers, at the largest displacement.
 
     Attributes
     ----------
     displacement : float
-        Displacement from which on every load is compressive (see `displacement_of_compression`).
+        Displacement above which every load is compressive (see `displacement_of_compression`).
     load : float
         The load has to exceed this as well.
     farthest : float
@@ -86,7 +85,7 @@ class PathEnd:
 
 
 def beyond_layers(state: State) -> bool:
-    """Whether no layer of the solid brings tension back once the load is compressive."""
+    """Whether no layer of the solid makes the load tensile again once it is compressive."""
     response, punch = state.disc.problem.response, state.disc.problem.punch
     if response is None:
         return True
@@ -95,14 +94,14 @@ def beyond_layers(state: State) -> bool:
     a = max(float(touching[-1]) if touching.size else 0.0, float(state.radius[0]))
     later = np.geomspace(a, max(a, stiffness.deepest) * _LAYERS, _LATER)
     least = float(np.min(stiffness.least(later) * later * punch.slope(later) ** 2))
-    here = float(stiffness.largest(np.array([a]))[0] * a * punch.slope(np.array([a]))[0] ** 2)
+    present = float(stiffness.largest(np.array([a]))[0] * a * punch.slope(np.array([a]))[0] ** 2)
     area = 2.0 * state.scale**2 * state.disc.mesh.weights * state.disc.mesh.nodes
     tension = -float(area @ np.minimum(state.pressure, 0.0))
-    return (1.0 + max(state.load, 0.0) / tension) ** (4.0 / 3.0) * least >= here
+    return (1.0 + max(state.load, 0.0) / tension) ** (4.0 / 3.0) * least >= present
 
 
 class _Stiffness:
-    """Smallest and largest modulus, in units of that of the surface, that a solid shows around a wavelength."""
+    """Smallest and largest modulus of a solid around a wavelength, in units of that of the surface."""
 
     def __init__(self, images: Images) -> None:
         self._log_waves, self._log_D = np.log(images.waves), np.log(images.values)
@@ -141,7 +140,7 @@ def _has_asperities(problem: Problem, end: float) -> bool:
 
 
 def displacement_of_compression(problem: Problem, end: float) -> float:
-    """Displacement from which on no state carries tension; -inf without asperities, where no such bound is needed.
+    """Displacement above which no state carries tension; -inf without asperities, where no bound is needed.
 
     Parameters
     ----------
@@ -152,20 +151,20 @@ def displacement_of_compression(problem: Problem, end: float) -> float:
     Returns
     -------
     float
-        Infinite when the bound is not positive at the largest displacement that is examined.
+        Infinite if the bound is not positive at the largest displacement examined.
     """
     if isinstance(problem.punch, PowerPunch) or not _has_asperities(problem, end):
         return -math.inf
     if problem.response is not None:
         raise NotConverged(
-            f"the punch of {problem} has asperities: where its path ends is known for a power-law modulus only"
+            f"the punch of {problem} has asperities: the end of its path is known for a power-law modulus only"
         )
     bound = LeastLoad(problem, end)
     largest = _LARGEST * float(problem.punch.height(np.array([end]))[0])
-    found, displacement = math.inf, largest
+    smallest, displacement = math.inf, largest
     while displacement > largest * _FIRST_RADIUS and bound(displacement) > 0.0:
-        found, displacement = displacement, displacement / _RATIO
-    return found
+        smallest, displacement = displacement, displacement / _RATIO
+    return smallest
 
 
 class LeastLoad:
@@ -175,14 +174,14 @@ class LeastLoad:
     ----------
     problem : Problem
     end : float
-        Largest radius that is examined; the punch is taken for a power of the radius beyond it.
+        Largest radius examined; the punch is taken for a power of the radius beyond.
     """
 
     def __init__(self, problem: Problem, end: float) -> None:
         self.problem = problem
         self.radii = _radii(end)
         self.heights = problem.punch.height(self.radii)
-        # The largest function below f that does not decrease: its tension lifts the surface most at the center.
+        # The largest non-decreasing function below f: its tension lifts the surface most at the center.
         self._rising = np.minimum.accumulate(self.heights[::-1])[::-1]
 
     def __call__(self, displacement: float) -> float:
@@ -195,14 +194,14 @@ class LeastLoad:
     def deformation(self, displacement: float) -> float:
         """Bound of the deformation by tension, W."""
         k = self.problem.k
-        found = 1.0
-        while (lifted := self._lifted(displacement + found)) > found:
-            found = 2.0 * lifted
+        bound = 1.0
+        while (lifted := self._lifted(displacement + bound)) > bound:
+            bound = 2.0 * lifted
         for _ in range(_ITERATIONS):
-            found, last = self._lifted(displacement + found), found
-            if last - found < 1e-3 * (1.0 - k) * found:
+            bound, previous = self._lifted(displacement + bound), bound
+            if previous - bound < 1e-3 * (1.0 - k) * bound:
                 break
-        return found
+        return bound
 
     def _lifted(self, approach: float) -> float:
         """Deformation at the center by the tension at the gaps f - approach."""
@@ -225,7 +224,7 @@ class LeastLoad:
 
     @cached_property
     def _flat_punches(self) -> tuple[Array, Array, Array]:
-        """C_a, <f> and the weights (1 - phi) 2 r dr of the radii outside, for some radii a."""
+        """C_a, <f> and the weights (1 - phi) 2 r dr outside, for the radii a."""
         k, squares = self.problem.k, self.radii**2
         a = self.radii[_EVERY::_EVERY]
         C = 4.0 * math.cos(0.5 * math.pi * k) / (math.pi * self.problem.compliance * (1.0 - k * k))

@@ -1,13 +1,13 @@
-r"""Short path under a power-law punch, on which the load is least: for a pull-off alone.
+r"""Short section of the path of a power-law punch that contains the least load, for a pull-off force alone.
 
-It begins where the punch is so far away that no state farther out carries as much tension, and ends on the contact
-branch behind the minimum of the load.  While the punch is apart, the tension falls outwards and lifts the surface most
-at the center: H(r) >= f(r) + H_0.  With the largest tension t(H) at a gap H or a larger one,
+It begins at a central gap above which no state carries as much tension, and ends on the contact branch beyond the
+minimum of the load.  Before contact the tension decreases outwards and lifts the surface most at the center, so that
+H(r) >= f(r) + H_0.  With the largest tension t(H) at any gap of at least H,
 
     -P <= int_0^oo t(f + H_0) 2 r dr,
 
-the load of the rigid solid, which falls with H_0.  As on any path, it is assumed that the states apart are told by
-their central gap, and that the load has one minimum once the center is compressed (see `fscm._path_end`).
+the load of the rigid solid, which decreases with H_0.  As for any path, states before contact are assumed to be
+determined by their central gap, and the load to have one minimum once the center is compressed (see `fscm._path_end`).
 """
 
 from __future__ import annotations
@@ -31,28 +31,28 @@ from fscm.punch import PowerPunch
 
 __all__ = ["PullOffEnd", "pull_off_path", "rigid_tension"]
 
-# Heights of the punch at which the tension is evaluated: first, last, number.
+# Heights of the punch at which the tension is evaluated: least, largest, number.
 _LOWEST, _HIGHEST, _HEIGHTS = 1e-4, 1e6, 500
-# Share of the tension of the rigid solid in contact that no pull-off is expected to fall below: up to n = 2 it falls
-# to the (3 + k)/4 of JKR, for flatter punches on soft solids to less.  Where it does, the whole path is followed.
+# Share of the tension of the rigid solid in contact above which the pull-off is expected: up to n = 2 it is at least
+# the (3 + k)/4 of JKR, for flatter punches on soft solids less.  If it is below, the whole path is followed.
 _SHARE, _SHARE_OF_FLAT = 0.6, 0.3
-# Newton's method starts from the rigid solid where the deformation is at most this share of the gap's distance to the
-# singular gap.  Measured over 440 states: it never fails below 1, and in 8 of 35 between 2 and 5.
+# Newton's method starts from the rigid solid where the deformation is at most this multiple of the gap's distance to
+# the singular gap.  Measured over 440 states: it never fails below 1, and in 8 of 35 between 2 and 5.
 _NEAR = 1.0
-# Ratio of one central gap that is tried to the last one.
+# Ratio of successive central gaps in the search.
 _RATIO = 1.2
-# A smaller rise of the load is none: the error that Newton's method leaves, also between two meshes at one state.
+# A smaller rise of the load is the error of Newton's method, or of two meshes at one state.
 _RISE = 1e-6
-# The mesh ends at this height: the error of the closed tail behind it, 1e-6 of the tail, does not move a bracket.
+# Height at which the mesh ends: the error of the closed tail beyond, 1e-6 of the tail, does not affect a bracket.
 _END = 1e3
-# A step is refused for a turn of the tangent above 60 degrees only, because `completed` finds what hides between two
-# points.  The last step of Newton's method is below 1e-3 of the gaps, the error that is left about its square.
-_TRACKING = Tracking(newton=1e-3, largest_turn=0.5, given=True)
+# A step is rejected only if the tangent turns by more than 60 degrees, because `completed` finds folds between points.
+# The last step of Newton's method is below 1e-3 of the gaps, the remaining error about its square.
+_TRACKING = Tracking(newton=1e-3, largest_turn=0.5, prescribed=True)
 
 
 @dataclass
 class PullOffEnd:
-    """Condition that ends the path: the center is compressed and the load is larger than that before."""
+    """Condition that ends the path: the center is compressed and the load has risen."""
 
     load: float = math.inf
 
@@ -63,7 +63,7 @@ class PullOffEnd:
 
 
 class _RigidSolid:
-    """Load and deformation by the tension of a rigid solid, at heights that are evaluated once."""
+    """Load and deformation by the tension on a rigid solid."""
 
     def __init__(self, problem: Problem) -> None:
         n, law = problem.n, problem.law
@@ -75,21 +75,21 @@ class _RigidSolid:
         self._behind = 2.0 * C * _HIGHEST**-m * float(r[-1]) ** 2 / (m * n - 2.0)
 
     def _tension(self, central_gap: float) -> Array:
-        """The largest tension behind each radius but the last."""
+        """The largest tension beyond each radius but the last."""
         gap = np.maximum(self._heights[:-1] + central_gap, self._law.peak_gap)
         return -self._law.traction(gap)
 
     def load(self, central_gap: float) -> float:
-        """Upper bound of -P of all states apart with at least this central gap."""
+        """Upper bound of -P of all states before contact with at least this central gap."""
         return float(self._tension(central_gap) @ self._areas) + self._behind
 
     def lift(self, central_gap: float) -> float:
-        """About the deformation at the center by the tension."""
+        """Approximate deformation at the center by the tension."""
         return self._compliance * float(self._tension(central_gap) @ self._lengths)
 
 
 def rigid_tension(problem: Problem, central_gap: float) -> float:
-    """Upper bound of -P of all states apart with at least this central gap.
+    """Upper bound of -P of all states before contact with at least this central gap.
 
     Examples
     --------
@@ -101,7 +101,7 @@ def rigid_tension(problem: Problem, central_gap: float) -> float:
 
 
 def _start(problem: Problem) -> float | None:
-    """Central gap of the first state; None where the whole path begins nearer."""
+    """Central gap of the initial state; None if the whole path begins at a smaller one."""
     gap, singular, rigid = problem.law.peak_gap, problem.law.singular_gap, _RigidSolid(problem)
     stiff = rigid.lift(gap) < _NEAR * (gap - singular)
     enough = (_SHARE if problem.n <= 2.0 or stiff else _SHARE_OF_FLAT) * rigid.load(0.0)
@@ -113,13 +113,13 @@ def _start(problem: Problem) -> float | None:
 
 
 def pull_off_path(problem: Problem, meshes: Meshes) -> list[Point] | None:
-    """Points of the short path, the minimum of the load among them; between them turning points may hide.
+    """Points of the short path with the minimum of the load; turning points may be missed between them.
 
     Returns
     -------
     list of Point, or None
-        None where the whole path is needed: for any other punch, a layered solid or a tabulated law, on which the load
-        may have several minima, and where the load found does not exceed that of the rigid solid farther out.
+        None if the whole path is needed: for any other punch, a layered solid or a tabulated law, for which the load
+        may have several minima, and if the tension does not exceed that of the rigid solid farther out.
     """
     if not isinstance(problem.punch, PowerPunch) or problem.response is not None:
         return None
@@ -142,5 +142,5 @@ def pull_off_path(problem: Problem, meshes: Meshes) -> list[Point] | None:
         return None
     points = with_minima(points)
     least = min(point.state.load for point in points)
-    found = brackets(points, load_fold, rising=True)
-    return points if found and -least > rigid_tension(problem, start) else None
+    minima = brackets(points, load_fold, rising=True)
+    return points if minima and -least > rigid_tension(problem, start) else None

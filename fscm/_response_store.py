@@ -1,7 +1,7 @@
-"""Blocks of the response that were computed before, kept for later meshes and problems of the same gradient exponent.
+"""Cache of blocks of the response, for later meshes and problems of the same gradient exponent.
 
 A block is the response of one panel to the pressure on another.  It depends on the two panels, the kernel and the order
-alone.  The panels of most meshes are halves of halves of a few first panels, the same for all problems.
+only.  The panels of most meshes come from a few initial panels by halving, the same for all problems.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from fscm._typing import Array
 
 __all__ = ["BLOCKS_MEMORY", "ResponseBlocks", "clear", "known_blocks", "memory"]
 
-#: Most memory for all blocks that are kept, in bytes; for a moment, while a table grows, one half more.
+#: Largest memory of all stored blocks, in bytes; temporarily, while a table grows, one half more.
 BLOCKS_MEMORY = 96_000_000
-# Largest table, in percent of it.
+# Largest table, in percent of that.
 _TABLE_SHARE = 50
-# Panels for which a table is made at first.
+# Number of panels in a new table.
 _FIRST = 32
-# Ends with more binary digits are no halves of the first panels: their panels do not come back.
+# Ends with more binary digits do not come from the initial panels: their blocks are not stored.
 _DIGITS = 40
 
 Compute = Callable[[PanelMesh, NDArray[np.intp], NDArray[np.intp]], Array]
@@ -55,7 +55,7 @@ class ResponseBlocks:
         return self._blocks.nbytes + self._known.nbytes
 
     def of(self, mesh: PanelMesh) -> Array:
-        """Blocks between all panels of a mesh, shape (m, m, q, q); those that lack are computed and kept."""
+        """Blocks between all panels of a mesh, shape (m, m, q, q); missing ones are computed and stored."""
         with self._lock:
             panels = list(pairwise(mesh.offsets.tolist()))
             new = [panel for panel in panels if panel not in self._places]
@@ -76,18 +76,18 @@ class ResponseBlocks:
                 targets, sources = places[lacking[0]], places[lacking[1]]
                 self._blocks[targets, sources] = self._compute(mesh, *lacking)
                 self._known[targets, sources] = True
-            found: Array = self._blocks[both]
-            return found
+            blocks: Array = self._blocks[both]
+            return blocks
 
     def _grow(self, count: int, order: int, most: int) -> None:
         old = len(self._known)
         if count <= old:
             return
         size = min(max(_FIRST, count + count // 2), most)
-        known, blocks = np.zeros((size, size), bool), np.empty((size, size, order, order))
+        computed, blocks = np.zeros((size, size), bool), np.empty((size, size, order, order))
         if old:
-            known[:old, :old], blocks[:old, :old] = self._known, self._blocks
-        self._known, self._blocks = known, blocks
+            computed[:old, :old], blocks[:old, :old] = self._known, self._blocks
+        self._known, self._blocks = computed, blocks
 
 
 _STORES: OrderedDict[Any, ResponseBlocks] = OrderedDict()
@@ -95,9 +95,9 @@ _LOCK = threading.Lock()
 
 
 def known_blocks(kernel: object, mesh: PanelMesh, compute: Compute) -> Array | None:
-    """Blocks between all panels of a mesh, shape (m, m, q, q); None for a mesh whose panels do not come back.
+    """Blocks between all panels of a mesh, shape (m, m, q, q); None if its panels do not come from the initial ones.
 
-    Afterwards all tables together take at most `BLOCKS_MEMORY`; the one that was not used for longest goes first.
+    Afterwards all tables together take at most `BLOCKS_MEMORY`; the least recently used is dropped first.
     """
     fraction = np.frexp(mesh.offsets)[0] * 2.0**_DIGITS
     if np.any(fraction != np.rint(fraction)):
@@ -106,11 +106,11 @@ def known_blocks(kernel: object, mesh: PanelMesh, compute: Compute) -> Array | N
     with _LOCK:
         store = _STORES.setdefault(key, ResponseBlocks(compute))
         _STORES.move_to_end(key)
-    found = store.of(mesh)
+    blocks = store.of(mesh)
     with _LOCK:
         while memory() > BLOCKS_MEMORY:
             _STORES.popitem(last=False)
-    return found
+    return blocks
 
 
 def memory() -> int:
@@ -119,6 +119,6 @@ def memory() -> int:
 
 
 def clear() -> None:
-    """Forget all blocks."""
+    """Drop all blocks."""
     with _LOCK:
         _STORES.clear()

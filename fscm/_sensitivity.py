@@ -24,22 +24,22 @@ __all__ = ["SENSITIVE", "ValueSensitivity", "sensitivity"]
 #: Quantities that have a sensitivity: those that are functionals of the state at one event.
 SENSITIVE = tuple(name for name, row in TABLE.items() if isinstance(row, AtEvent))
 
-# Steps of a parameter, relative to its unit, and places of the differences in steps.  The error of the first rule is of
-# the fourth order; a new solid costs a new kernel, so that two places have to do: their error is 1e-7 of the third
-# derivative, and that of the fit of the kernel, 1e-10, counts 1e-7.
+# Step of a parameter, relative to its unit, and points of the differences in steps.  The rule _MANY is of fourth order.
+# A new solid needs a new kernel, for which there are two points only: their error is 1e-7 of the third derivative, and
+# that of the fit of the kernel, 1e-10, contributes 1e-7.
 _STEP, _MANY, _FEW = 1e-3, (-2.0, -1.0, 1.0, 2.0), (-1.0, 1.0)
 _MANY_ONE_SIDED, _FEW_ONE_SIDED = (1.0, 2.0, 3.0, 4.0), (1.0, 2.0)
 
 
-def difference_rule(places: tuple[float, ...]) -> Array:
-    """Weights of the values at some places, in units of the step, for the derivative at 0; the value there is the last.
+def difference_rule(positions: tuple[float, ...]) -> Array:
+    """Weights for the derivative at 0 of the values at these positions, in steps, and at 0.
 
     Examples
     --------
     >>> difference_rule((-1.0, 1.0)).round(12) + 0.0
     array([-0.5,  0.5,  0. ])
     """
-    x = np.append(places, 0.0)
+    x = np.append(positions, 0.0)
     derivative = np.zeros(len(x))
     derivative[1] = 1.0
     return np.asarray(np.linalg.solve(np.vander(x, increasing=True).T, derivative), float)
@@ -113,12 +113,12 @@ class ValueSensitivity:
         if (problem.k == 1.0) != (self.problem.k == 1.0):
             raise ValueError("a solid of k < 1 and that of k = 1 are no neighbours: their equations differ")
         if problem.k == 1.0:
-            # Its equations are local: a value is solved to rounding in no time.
+            # Its equations are local: a value exact to rounding takes no time.
             return GibsonSolid(problem).solution(self._quantity).value - self._core.value
         return self._sign * self._rule.change(problem)
 
     def _new_solid(self, problem: Problem) -> bool:
-        """Whether a problem needs another kernel that costs time."""
+        """Whether a problem needs another kernel, which costs time."""
         return problem.dimensionless.graded != self.problem.dimensionless.graded
 
     def derivative(
@@ -138,7 +138,7 @@ class ValueSensitivity:
         at : float
             The parameter of the present problem.
         unit : float
-            Over which the problem changes by its own size; differences are taken over a thousandth of it.
+            Change of the parameter that changes the problem by its own size; differences use a thousandth of it.
         low, high : float
             Range of the parameter; at its end the differences are one-sided.
 
@@ -157,15 +157,15 @@ class ValueSensitivity:
         """
         step = _STEP * unit
         few = self._new_solid(vary(at + step if at + step < high else at - step))
-        places: tuple[float, ...] = _FEW if few else _MANY
-        if not low < at + places[0] * step or not at + places[-1] * step < high:
-            places = _FEW_ONE_SIDED if few else _MANY_ONE_SIDED
-            if not at + places[-1] * step < high:
-                places = tuple(-place for place in places)
-        weights = difference_rule(places)
+        positions: tuple[float, ...] = _FEW if few else _MANY
+        if not low < at + positions[0] * step or not at + positions[-1] * step < high:
+            positions = _FEW_ONE_SIDED if few else _MANY_ONE_SIDED
+            if not at + positions[-1] * step < high:
+                positions = tuple(-position for position in positions)
+        weights = difference_rule(positions)
         total = weights[-1] * self._core.value * vary(at).units[self._kind]
-        for place, weight in zip(places, weights[:-1], strict=True):
-            problem = vary(at + place * step)
+        for position, weight in zip(positions, weights[:-1], strict=True):
+            problem = vary(at + position * step)
             change = self._dimensionless_change(problem.dimensionless)
             total += weight * (self._core.value + change) * problem.units[self._kind]
         return float(total / step)
@@ -181,19 +181,19 @@ class ValueSensitivity:
         {'mu': -0.0996, 'k': 0.3184, 'n': -0.8187}
         """
         p = self.problem.dimensionless
-        found = {"mu": self.derivative(lambda mu: replace(p, mu=mu), p.mu, p.mu)}
+        gradient = {"mu": self.derivative(lambda mu: replace(p, mu=mu), p.mu, p.mu)}
         if p.response is None and p.k < 1.0:
-            found["k"] = self.derivative(lambda k: replace(p, k=k), p.k, 1.0, low=0.0, high=1.0)
+            gradient["k"] = self.derivative(lambda k: replace(p, k=k), p.k, 1.0, low=0.0, high=1.0)
         if isinstance(p.punch, PowerPunch):
-            found["n"] = self.derivative(
+            gradient["n"] = self.derivative(
                 lambda n: replace(p, n=n, punch=PowerPunch(n)), p.n, p.n, low=0.5 * (1.0 - p.k), high=300.0
             )
-        return found
+        return gradient
 
 
 @one_thread()
 def sensitivity(problem: Problem, quantity: str, accuracy: Accuracy = "default") -> ValueSensitivity:
-    """Compute a value at an event and prepare its derivatives: one more linear solution, with the adjoint.
+    """Compute a value at an event and prepare its derivatives, by one more linear solution.
 
     Parameters
     ----------

@@ -1,15 +1,15 @@
-r"""Rings on a soft film: where the surface jumps into contact ring by ring, and the path is not traced.
+r"""Rings on a soft film: a surface that comes into contact ring by ring, whose path is not traced.
 
 A wave of the surface with the wave number q meets the stiffness K(q) = q / (M D(q)) (D: `fscm.graded.images`).  On a
-half-space K rises with q: the longest wave is the softest, and contact begins at one place.  A film whose material
-moves sideways (nu > 1/4) on a stiffer substrate is softest to waves of two to three of its thicknesses.  Where the
+half-space K rises with q: the longest wave is the softest, and contact begins at one radius.  A film whose material
+moves sideways (nu > 1/4) on a stiffer substrate is softest to waves of two to three times its thickness.  If the
 tension falls with the gap more steeply than that K, a flat surface is unstable to them (V. Shenoy and A. Sharma,
 Phys. Rev. Lett. 86, 119 (2001)): it comes into contact in rings at about that distance.
 
-These rings are in the exact solution and not of the mesh.  Measured on a film of nu = 0.46, 1.07 z0 thick (mu = 32,
-limit 24.8): at one displacement a contact without rings, with one and with two outside carry loads of -1.83805,
--1.83776 and -1.83708, the same to 1e-6 on meshes of tolerances 1e-4 and 1e-6.  The path visits such states with folds
-for each ring, and each ring has two edges of its own, so that it needs too many points on too many panels; without it
+The rings belong to the exact solution, not to the mesh.  Measured on a film of nu = 0.46, 1.07 z0 thick (mu = 32,
+limit 24.8): at one displacement a contact without rings, with one and with two of them outside has the load -1.83805,
+-1.83776 and -1.83708, the same to 1e-6 on meshes of tolerances 1e-4 and 1e-6.  The path visits such states through
+folds for each ring, and each ring has two edges, so that it needs too many points on too many panels; without it
 nothing proves which of these states carries the least load.
 
 K is proportional to mu^-((2n-1)/n), so that there is a largest Tabor number below which no surface is unstable.
@@ -30,19 +30,19 @@ __all__ = ["RingLimit", "RingsForm", "check_rings", "ring_limit"]
 # Gaps at which the slope of the law is evaluated: distances from the gap of largest tension, in units of its distance
 # to the singular gap.
 _GAPS = np.concatenate([[0.0], np.geomspace(1e-3, 1e2, 2000)])
-# Stiffness of the softest wave over that of a longer one, above which contact begins at one place all the same.
+# Stiffness of the softest wave over that of a longer one, above which contact begins at one radius nevertheless.
 # Measured: sharp films of nu = 0.3 and 0.35 have 0.991 and 0.929 and are, and are not, traced (mu = 100).
 _SOFTER = 0.97
-# The wave is at most this share of the radius at which the punch is as high as the unstable gaps are wide; a longer one
-# has no room for rings.  Measured: 0.04 and less on films that are not traced, 0.7 on one that is.
+# Rings need a wave of at most this share of the radius at which the height of the punch is the range of the unstable
+# gaps.  Measured: 0.04 and less on films that are not traced, 0.7 on one that is.
 _ROOM = 0.25
-# The gap falls outwards by so much, in z0, towards a ring.  Measured: up to 0.09, the dent of the surface beside the
+# Decrease of the gap outwards, in z0, that indicates a ring.  Measured: up to 0.09, the dent of the surface beside the
 # contact, on paths that were traced to their end; 0.1 to 0.8 on those that were not.
 _FALL = 0.2
 
 
 class RingsForm(NotConverged):
-    """The surface comes into contact in rings: a finer mesh does not help."""
+    """The surface comes into contact in rings; a finer mesh does not help."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class RingLimit:
     Attributes
     ----------
     length : float
-        That of the softest wave, in the unit of the radii.
+        Length of the softest wave, in the unit of the radii.
     stiffness, steepest : float
         K of that wave and the steepest fall of the tension, in dgamma / z0^2.
     farthest : float
@@ -68,7 +68,7 @@ class RingLimit:
     mu: float
 
     def refusal(self, problem: Problem) -> RingsForm:
-        """The exception for a problem."""
+        """The exception to raise for a problem."""
         return RingsForm(
             f"the surface of {problem} comes into contact in rings, whose path has too many folds: waves of the length "
             f"{self.length:.3g} (Q z0)^(1/n) are softer than longer ones, and their stiffness {self.stiffness:.3g} "
@@ -100,7 +100,7 @@ def ring_limit(problem: Problem) -> RingLimit | None:
     if not unstable.size:
         return None
     length, steepest, farthest = 2.0 * np.pi / float(images.waves[i]), float(np.max(slopes)), float(unstable[-1])
-    # Within the length over its share the punch is lower than the unstable gaps are wide: there is room for rings.
+    # Room for rings: see _ROOM.
     if float(problem.punch.height(np.array([length / _ROOM]))[0]) > farthest - law.singular_gap:
         return None
     mu = problem.mu * (float(stiffness[i]) / steepest) ** (problem.n / (2.0 * problem.n - 1.0))
@@ -108,7 +108,7 @@ def ring_limit(problem: Problem) -> RingLimit | None:
 
 
 def check_rings(state: State, limit: RingLimit) -> None:
-    """Raise `RingsForm` where the gap falls outwards, from one that tension opens to one at which a ring jumps in."""
+    """Raise `RingsForm` if the gap decreases outwards from above the gap of largest tension to an unstable one."""
     least_outside = np.minimum.accumulate(state.gap[::-1])[::-1]
     ring = (state.gap > state.disc.problem.law.peak_gap) & (least_outside <= limit.farthest)
     if np.any(state.gap[ring] - least_outside[ring] > _FALL):

@@ -19,13 +19,13 @@ __all__ = ["Tail", "tail_energy", "tail_errors", "tail_of"]
 # Quadrature behind the mesh: pieces on which the radius grows by _FARTHER (less for steep punches), nodes of each.
 _FARTHER, _PIECES = 4.0, 3
 _GAUSS = np.polynomial.legendre.leggauss(20)
-# A steeper punch overflows at _FARTHER times the radius; its tail is zero to all digits.
+# A steeper punch overflows at _FARTHER times the radius; its tail is negligible.
 _STEEPEST = 150.0
-# A length in pieces that rounding makes larger by less is the same.
+# Rounding of a number of pieces.
 _SAME = 1e-9
-# Height, to a factor, of the punch where the energy takes it for a power of the radius; a rounded cone is one to 1e-12.
+# Approximate height above which the energy takes the punch for a power of the radius; a rounded cone is one to 1e-12.
 _FARTHEST = 1e12
-# Height from which on the tail is zero: the tension there is below 1e-60 for m > 1.
+# Height above which the tail is neglected: the tension there is below 1e-60 for m > 1.
 _ZERO = 1e60
 
 
@@ -50,7 +50,7 @@ class Tail:
 
 
 def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
-    """Tail from the radius T on, at the approach delta.
+    """Tail beyond the radius T, at the displacement delta.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
     T : float
         End of the mesh, in (Q z0)^(1/n).
     displacement : float
-        delta, in z0; w is neglected there beside it.
+        delta, in z0; w is neglected.
     """
     C, m = problem.law.decay
     F = _height(problem, T)
@@ -70,9 +70,9 @@ def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
 
     def powers(power: float) -> tuple[float, float, float]:
         """-int of t^(power-1) p from T on, over C F^-m T^power; its derivatives by log T and by delta."""
-        first, second = 1.0 / (m * g - power), m / ((m + 1.0) * g - power)
+        leading, following = 1.0 / (m * g - power), m / ((m + 1.0) * g - power)
         # e falls like 1/F, hence like T^-g.
-        return first - e * second, (power - m * g) * (first - e * second) + g * e * second, second / F
+        return leading - e * following, (power - m * g) * (leading - e * following) + g * e * following, following / F
 
     load_factor = -2.0 * strength * T**2
     w_factor = -problem.compliance * (1.0 - k) * strength * T ** (1.0 - k)
@@ -90,10 +90,10 @@ def tail_of(problem: Problem, T: float, displacement: float) -> Tail:
 
 
 def tail_errors(problem: Problem, T: float, displacement: float) -> tuple[Array, Array]:
-    """Errors of the closed tail: of its load, its displacement and its energy.
+    """Errors of load, displacement and energy of the closed tail.
 
-    The closed forms are compared with quadrature of the law itself, on the undeformed punch, over the next radii;
-    behind them the closed forms are used again, and wrong by far less.
+    The closed forms are compared with quadrature of the law, on the undeformed punch, over the next radii; beyond,
+    the closed forms have a much smaller error.
 
     Parameters
     ----------
@@ -102,16 +102,16 @@ def tail_errors(problem: Problem, T: float, displacement: float) -> tuple[Array,
 
     Returns
     -------
-    known : ndarray, shape (3,)
-        Closed form less quadrature; the energy is by quadrature itself, and compared with a finer one.
+    computed : ndarray, shape (3,)
+        Closed form minus quadrature; the energy, which is by quadrature, is compared with a finer one.
     remainder : ndarray, shape (3,)
-        Bound on what is unknown behind the radii of the quadrature: the next term of the expansion, and what the shape
-        and the law deviate from powers.  That of the energy is the part that differs between states.
+        Bound on the error beyond the quadrature: the next term of the expansion, and the deviations of shape and law
+        from powers.  That of the energy is the part that differs between states.
 
     Examples
     --------
-    >>> known, remainder = tail_errors(Problem(n=2, k=0, mu=1), 1414.0, 0.5)
-    >>> bool(abs(known[0]) < 1e-15), bool(remainder[0] < 1e-6 * abs(known[0]))
+    >>> computed, remainder = tail_errors(Problem(n=2, k=0, mu=1), 1414.0, 0.5)
+    >>> bool(abs(computed[0]) < 1e-15), bool(remainder[0] < 1e-6 * abs(computed[0]))
     (True, True)
     """
     C, m = problem.law.decay
@@ -122,26 +122,26 @@ def tail_errors(problem: Problem, T: float, displacement: float) -> tuple[Array,
     t, weights = _quadrature(T, far, g)
     pressure = problem.law.traction(problem.punch.height(t) - displacement)
     share = 1.0 if problem.response is None else problem.response.far(T)
-    near = np.array(
+    quadrature = np.array(
         [
             2.0 * float((weights * t) @ pressure),
             problem.compliance * share * (1.0 - k) * float((weights * t**-k) @ pressure),
         ]
     )
-    first, rest = tail_of(problem, T, displacement), tail_of(problem, far, displacement)
-    known = np.array([first.load - rest.load, first.displacement - rest.displacement]) - near
+    closed, beyond = tail_of(problem, T, displacement), tail_of(problem, far, displacement)
+    computed = np.array([closed.load - beyond.load, closed.displacement - beyond.displacement]) - quadrature
     of_energy = tail_energy(problem, T, displacement) - _tail_energy(problem, T, displacement, 2)
 
     relative, _ = _deviations(problem, far, displacement)
-    remainder = np.array([abs(rest.load), abs(rest.displacement)]) * relative
+    remainder = np.array([abs(beyond.load), abs(beyond.displacement)]) * relative
     farthest = _farthest(problem)
     relative, e = _deviations(problem, farthest, displacement)
     work = abs(tail_of(problem, farthest, displacement).load * (displacement + problem.law.singular_gap))
-    return np.append(known, of_energy), np.append(remainder, work * (relative + m * abs(e)))
+    return np.append(computed, of_energy), np.append(remainder, work * (relative + m * abs(e)))
 
 
 def _deviations(problem: Problem, far: float, displacement: float) -> tuple[float, float]:
-    """Relative error of the closed forms beyond a radius, and the expansion's small number there."""
+    """Relative error of the closed forms beyond a radius, and the small parameter of the expansion there."""
     C, m = problem.law.decay
     g = problem.punch.growth
     F = _height(problem, far)
@@ -156,8 +156,8 @@ def _deviations(problem: Problem, far: float, displacement: float) -> tuple[floa
 def tail_energy(problem: Problem, T: float, displacement: float) -> float:
     """int e(H) 2 r dr beyond the radius T on the undeformed punch.
 
-    Its finite part when the integral diverges: the constant left out is the same for all states of a problem, wherever
-    their meshes end, because the closed form takes the power of the punch at one radius for all of them.
+    The finite part if the integral diverges: the omitted constant is the same for all states of a problem, wherever
+    their meshes end, because the power of the punch is taken at one radius for all of them.
 
     Parameters
     ----------
@@ -168,7 +168,7 @@ def tail_energy(problem: Problem, T: float, displacement: float) -> float:
 
 
 def _tail_energy(problem: Problem, T: float, displacement: float, cuts: int) -> float:
-    """The same, with each piece of the quadrature cut into so many."""
+    """The same, with each piece of the quadrature divided by `cuts`."""
     C, m = problem.law.decay
     if C == 0.0 or _height(problem, T) > _ZERO:
         return 0.0
@@ -179,7 +179,7 @@ def _tail_energy(problem: Problem, T: float, displacement: float, cuts: int) -> 
     def leading(f: Array) -> Array:
         return -C / (m - 1.0) * f ** (1.0 - m) * (1.0 - (m - 1.0) * shift / f)
 
-    # The law on the shape less the first terms on a power of the radius, from T to where the shape is one.
+    # The law on the shape minus the leading terms on a power of the radius, from T to where the shape is a power.
     t, weights = _quadrature(T, far, g, cuts)
     exact = problem.law.energy(problem.punch.height(t) - displacement)
     deviation = 2.0 * float((weights * t) @ (exact - leading(power * t**g)))
@@ -206,7 +206,7 @@ def _log_ratio(growth: float) -> float:
 
 
 def _farthest(problem: Problem) -> float:
-    """Radius at which the shape of the punch counts as a power for the energy of all states."""
+    """Radius beyond which the energy takes the punch for a power of the radius."""
     return float(_FARTHEST ** (1.0 / problem.punch.growth))
 
 

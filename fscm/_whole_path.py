@@ -8,7 +8,7 @@ from functools import partial
 
 from fscm._adaptivity import end_radius
 from fscm._arc_length import Point
-from fscm._branches import SURPRISE
+from fscm._branches import LARGEST_DEVIATION
 from fscm._completeness import completed
 from fscm._continuation import Tracking, equilibrium_path
 from fscm._edge_width import log_edge_width
@@ -22,16 +22,16 @@ from fscm.punch import PowerPunch, kinks_of
 
 __all__ = ["MAX_POINTS", "bracketing_path", "path_by_any_mesh", "path_end", "path_until"]
 
-# Measured: at most 120 points of a bracketing path for n >= 1, but 300 to 750 at n = 0.67.  Each keeps its matrices:
-# 2 MB on such meshes.
+#: Largest number of points of a path.  Measured: at most 120 of a bracketing path for n >= 1, but 300 to 750 at
+#: n = 0.67.  Each takes 2 MB on such meshes.
 MAX_POINTS = 1500
-# Decimal logarithm of the width of the cohesive edge, in units of the first radius, from which on a mesh of fixed scale
-# resolves it on its way.  Measured: all punches with kinks, whose mesh is bent by each kink that a moving mesh passes.
+# Decimal logarithm of the width of the cohesive edge, in units of the initial radius, above which a mesh of fixed scale
+# resolves it along the path.
 _WIDE = -1.5
-# Mesh of a path that the coarser one loses.  Measured: 4 of 700 problems, all with k > 0.78 and mu > 2.
+# Mesh for a path that fails on the coarser one.  Measured: 4 of 700 problems, all with k > 0.78 and mu > 2.
 _FINER = Mesh(10, 1e-4)
-# Measured: two of a hundred random punches, a ring and waves, need the last one where two branches come close.
-_FIXED, _CAREFUL = Tracking(follow=False), Tracking(False, 0.1 * SURPRISE, 0.2)
+# Measured: two of a hundred random punches, a ring and waves, need _CAREFUL, because two branches come close.
+_FIXED, _CAREFUL = Tracking(follow=False), Tracking(False, 0.1 * LARGEST_DEVIATION, 0.2)
 
 
 def path_until(
@@ -53,7 +53,7 @@ def path_until(
     problem, order, tolerance, longest_step, start_gap, end_height, tracking
         As for `equilibrium_path`.
     ended : callable
-        State -> bool; called once for each state, in their order.
+        State -> bool; called once for each state in their order.
     end : str
         Name of the end in the message of `NotConverged`.
     most : int
@@ -71,10 +71,10 @@ def path_until(
             return points
         if len(points) > most:
             break
-    last = points[-1].state
+    reached = points[-1].state
     raise NotConverged(
         f"the path of {problem} has not reached {end} in {most} steps: the last is at "
-        f"delta = {last.displacement:.6g}, P = {last.load:.6g}"
+        f"delta = {reached.displacement:.6g}, P = {reached.load:.6g}"
     )
 
 
@@ -89,10 +89,10 @@ def path_by_any_mesh(
     end_height: float = Meshes.end_height,
     complete: Callable[[list[Point]], list[Point]] | None = None,
 ) -> list[Point]:
-    """Points of the path as of `path_until`, between which no turning point hides, by a moving mesh or a fixed one.
+    """The points of `path_until`, completed, on a moving or a fixed mesh.
 
-    The mesh that follows the edge is the first choice, but for a punch with kinks.  A mesh of fixed scale is tried
-    where the edge is wide.
+    A mesh that follows the edge is preferred, except for a punch with kinks.  A mesh of fixed scale is tried if the
+    edge is wide.
 
     Parameters
     ----------
@@ -101,27 +101,27 @@ def path_by_any_mesh(
     meshes : sequence of Mesh
         Tried one after the other.
     ended : callable
-        () -> the condition of the end of a new path.
+        () -> condition that ends a new path.
     complete : callable, optional
-        Puts points where turning points may hide; by default `fscm._completeness.completed`.
+        Inserts points where turning points may be missed; by default `fscm._completeness.completed`.
 
     Raises
     ------
     RingsForm
         When the surface comes into contact in rings, or may do so and no mesh reaches the end.
     NotConverged
-        With the reason of the first choice on the last mesh.
+        With the reason of the preferred choice on the last mesh.
     """
     choices = [Tracking()]
     if not isinstance(problem.punch, PowerPunch) and log_edge_width(problem) > _WIDE:
         choices = [_FIXED, Tracking(), _CAREFUL] if kinks_of(problem.punch) else [Tracking(), _FIXED, _CAREFUL]
     for order, tolerance in meshes:
-        whole = partial(completed, tolerance=tolerance) if complete is None else complete
+        finish = partial(completed, tolerance=tolerance) if complete is None else complete
         errors = []
         for tracking in choices:
-            known = ended(), end, most, longest_step, start_gap, end_height, tracking
+            arguments = ended(), end, most, longest_step, start_gap, end_height, tracking
             try:
-                return whole(path_until(problem, order, tolerance, *known))
+                return finish(path_until(problem, order, tolerance, *arguments))
             except RingsForm:
                 raise
             except NotConverged as error:
@@ -135,8 +135,7 @@ def path_by_any_mesh(
 def bracketing_path(problem: Problem, meshes: Meshes) -> list[Point]:
     """The coarse path from far separation to a compressive load.
 
-    Under a power-law punch turning points may hide between its points; no other path is told from a wrong one without
-    the test for them, so that it is complete.
+    It is completed, except for a power-law punch, between whose points turning points may be missed.
     """
     end = partial(path_end, problem, meshes.end_height)
     complete = list if isinstance(problem.punch, PowerPunch) else None
@@ -146,7 +145,7 @@ def bracketing_path(problem: Problem, meshes: Meshes) -> list[Point]:
 
 
 def path_end(problem: Problem, end_height: float) -> PathEnd:
-    """The end of a path behind which no state carries tension; for one path only, since it keeps its largest delta."""
+    """Condition that ends one path, beyond which no state carries tension; it stores the largest delta."""
     displacement = displacement_of_compression(problem, end_radius(problem, end_height))
     if displacement == math.inf:
         raise NotConverged(

@@ -1,4 +1,4 @@
-"""Path, events and quantities of one problem, computed once each when they are needed."""
+"""Path, events and quantities of one problem, computed on demand."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ from fscm.stability import stable_sections
 
 __all__ = ["EVENTS", "EXTREMAL", "Analysis"]
 
-# Extremes of load or displacement that differ by less than this, relative to 1 + |f|, are compared on the finest mesh.
+# Extremes of load or displacement that differ by less than this, relative to 1 + |f|, are compared on the value mesh.
 _NEAR = 1e-2
-# Path that is traced again where the usual one, which resolves 3e-3 of a load of at least 1, leads to no event.
-# Measured: a tall asperity with a force of 2.9e-3, which is the same to 3e-13 down to a tolerance of 1e-7.
+# Mesh of a second path where the usual one, which resolves 3e-3 of a load of at least 1, leads to no event.  Measured:
+# a tall asperity with a force of 2.9e-3, which is the same to 3e-13 down to a tolerance of 1e-7.
 _FINER_PATH = Mesh(8, 1e-4)
 
 
@@ -46,7 +46,7 @@ class Analysis:
     problem : Problem
         With 0 <= k < 1.
     accuracy : float or str
-        Relative error that is requested, or its name in `ACCURACIES` (see `solve`).
+        Requested relative error, or its name in `ACCURACIES` (see `solve`).
 
     Raises
     ------
@@ -71,19 +71,19 @@ class Analysis:
         self._pairs: dict[str, EventPair] = {}
         self._jumps: dict[str, list[tuple[EventPair, EventPair]]] = {}
         self._parts: dict[tuple[str, str], Parts] = {}
-        # The finer mesh of one event at a time: it holds several square matrices.
-        self._last: tuple[str, EventErrors] | None = None
+        # Of one event at a time: it holds several square matrices.
+        self._latest_errors: tuple[str, EventErrors] | None = None
         self._fold_errors: dict[str, tuple[Errors, Errors]] = {}
 
     @cached_property
     @one_thread()
     def points(self) -> list[Point]:
-        """The coarse path from far separation to its end; no turning point of load or displacement is left out."""
+        """The coarse path from far separation to its end, with all turning points of load and displacement."""
         return completed(self._traced, self.meshes.path.tolerance)
 
     @cached_property
     def _traced(self) -> list[Point]:
-        """The coarse path, on which turning points may hide."""
+        """The coarse path, on which turning points may be missed."""
         return bracketing_path(self.problem, self.meshes)
 
     @cached_property
@@ -107,7 +107,7 @@ class Analysis:
         maxima = events.brackets(self.points, events.displacement_fold, rising=False)
         if maxima:
             return maxima, events.brackets(self.points, events.displacement_fold, rising=True)
-        # The two folds may hide between neighbouring points: look where the displacement is slowest.
+        # The two folds may be between neighbouring points, where the rate of displacement is least.
         before, at, after, rate = events.slowest(self.points)
         if rate < 0.0:
             return [(before, at)], [(at, after)]
@@ -124,29 +124,34 @@ class Analysis:
         """The branches that are stable under prescribed displacement, from separation into contact."""
         maxima, minima = self._folds
         if len(maxima) == len(minima) == 1:
-            return [Branch(high=maxima[0], largest=0.0), Branch(low=minima[0], least=0.0)]  # any displacements will do
+            return [Branch(high=maxima[0], largest=0.0), Branch(low=minima[0], least=0.0)]  # no displacement is needed
         turns = [i for i, fold in enumerate(self.folds) if fold.quantity == "displacement"]
         if [self.folds[i].maximum for i in turns] != [j % 2 == 0 for j in range(len(maxima) + len(minima))]:
             raise NotConverged(f"the turning points of the displacement on the path of {self.problem} do not alternate")
         sections = stable_sections(self.points[0], [fold.quantity for fold in self.folds])
         places = [self.folds[i].displacement for i in turns]
-        found = []
+        branches = []
         for j, start in enumerate([-1, *turns[1::2]]):
             if sections[start + 1][0]:
                 low = (minima[j - 1], places[2 * j - 1]) if j else (None, -math.inf)
                 high = (maxima[j], places[2 * j]) if j < len(maxima) else (None, math.inf)
-                found.append(Branch(low[0], high[0], low[1], high[1]))
-        if len(found) < 2:
+                branches.append(Branch(low[0], high[0], low[1], high[1]))
+        if len(branches) < 2:
             raise NotConverged(f"no part of the path of {self.problem} in contact was found to be stable")
-        return self._told_apart(found)
+        return self._with_accurate_ends(branches)
 
-    def _told_apart(self, branches: list[Branch]) -> list[Branch]:
-        """Branches whose ends are close to each other, with the displacements of the finest mesh there."""
-        known = [place for branch in branches for place in (branch.least, branch.largest) if math.isfinite(place)]
+    def _with_accurate_ends(self, branches: list[Branch]) -> list[Branch]:
+        """The branches, with the displacements of the value mesh at ends that are close to each other."""
+        ends = [
+            displacement
+            for branch in branches
+            for displacement in (branch.least, branch.largest)
+            if math.isfinite(displacement)
+        ]
 
-        def at(bracket: Bracket | None, place: float) -> float:
-            if bracket is None or sum(abs(place - other) < _NEAR * (1.0 + abs(place)) for other in known) == 1:
-                return place
+        def at(bracket: Bracket | None, displacement: float) -> float:
+            if bracket is None or sum(abs(displacement - end) < _NEAR * (1.0 + abs(displacement)) for end in ends) == 1:
+                return displacement
             return self._pair(bracket, events.displacement_fold).value.displacement
 
         return [
@@ -158,7 +163,7 @@ class Analysis:
         points = None if "_traced" in self.__dict__ else pull_off_path(self.problem, self.meshes)
         if points is None:
             points = events.with_minima(self._traced)
-        # A minimum that is less deep than the load of some point is not looked for.
+        # A minimum above the load of some point is not of interest.
         below = min(point.state.load for point in points)
         below += _NEAR * (1.0 + abs(below))
         points = completed(points, self.meshes.path.tolerance, below, ("load",))
@@ -170,18 +175,18 @@ class Analysis:
             return minima[0]
         located = [(events.locate(*pair, events.load_fold), pair) for pair in minima]
         least = min(state.load for state, _ in located)
-        near = [(state, pair) for state, pair in located if state.load - least < _NEAR * (1.0 + abs(least))]
-        if len(near) > 1:  # the coarse path does not tell which of them is the deepest
+        close = [(state, pair) for state, pair in located if state.load - least < _NEAR * (1.0 + abs(least))]
+        if len(close) > 1:  # the coarse path does not decide which of them is the deepest
             value = *self.meshes.value, self.meshes.end_height
-            near = [(events.sharpen(state, events.load_fold, *value), pair) for state, pair in near]
-        return min(near, key=lambda found: found[0].load)[1]
+            close = [(events.sharpen(state, events.load_fold, *value), pair) for state, pair in close]
+        return min(close, key=lambda candidate: candidate[0].load)[1]
 
     def _last_zero_load(self) -> Bracket:
         return events.crossings(self.points, events.zero_load, events.load_fold)[-1]
 
     @one_thread()
     def event(self, name: str) -> EventPair:
-        """The state at one of `EVENTS`, on the value mesh, and on the check mesh when that is read.
+        """The state at one of `EVENTS` on the value mesh, and on the check mesh on demand.
 
         Parameters
         ----------
@@ -196,7 +201,7 @@ class Analysis:
         NoSuchEvent
             When the path has no such point.
         NotConverged
-            When it has, but it was not reached.
+            When it has one that was not reached.
         ValueError
             For an unknown name.
 
@@ -238,12 +243,12 @@ class Analysis:
         return self._parts[event, functional]
 
     def _errors(self, event: str) -> EventErrors:
-        if self._last is None or self._last[0] != event:
+        if self._latest_errors is None or self._latest_errors[0] != event:
             errors = EventErrors(self.event(event).value)
-            self._last = event, errors
+            self._latest_errors = event, errors
             if event in _NAMED:
                 self._fold_errors[event] = errors.at_fold()
-        return self._last[1]
+        return self._latest_errors[1]
 
     @one_thread()
     def jump_parts(self, jump: str) -> Parts:
@@ -262,7 +267,7 @@ class Analysis:
                 if jump not in self._fold_errors:
                     self._errors(jump)
                 errors = self._fold_errors[jump]
-            # The errors of two jumps may cancel by accident, so their sizes are added.
+            # The errors of two jumps may cancel by accident: their sizes are added.
             parts = parts.plus(energy_of_jump(*errors, fold.value, landing.value))
         return parts
 
@@ -289,11 +294,11 @@ class Analysis:
 
     def _all_jumps(self, event: str) -> list[tuple[EventPair, EventPair]]:
         jumps = jumps_between(self._branches, event == "jump_in")
-        named, found = jumps[_NAMED[event]][0], []
+        named, pairs = jumps[_NAMED[event]][0], []
         for bracket, branch in jumps:
             fold = self.event(event) if bracket is named else self._pair(bracket, events.displacement_fold)
-            found.append((fold, self._landing(event, fold, branch)))
-        return found
+            pairs.append((fold, self._landing(event, fold, branch)))
+        return pairs
 
     def _landing(self, event: str, fold: EventPair, branch: Branch) -> EventPair:
         """State on a branch in which a jump from a fold lands."""
@@ -302,11 +307,11 @@ class Analysis:
             return lambda state, rates: state.displacement - displacement
 
         condition = at(fold.value.displacement)
-        # A fold that hides between neighbouring points is none of them.
+        # A fold between neighbouring points is not among them.
         places = {id(point): i for i, point in enumerate(self.points)}
-        first = 0 if branch.low is None else places.get(id(branch.low[0]), 0)
-        last = len(places) if branch.high is None else places.get(id(branch.high[1]), len(places))
-        crossings = events.crossings(self.points[first : last + 1], condition, events.displacement_fold)
+        start = 0 if branch.low is None else places.get(id(branch.low[0]), 0)
+        stop = len(places) if branch.high is None else places.get(id(branch.high[1]), len(places))
+        crossings = events.crossings(self.points[start : stop + 1], condition, events.displacement_fold)
         rising = [pair for pair in crossings if condition(pair[0].state, pair[0].rates) < 0.0]
         if not rising:
             raise NotConverged(
@@ -328,31 +333,33 @@ class Analysis:
         row = quantity_named(quantity)
         start = time.perf_counter()
         try:
-            found = row.compute(self)
+            solution = row.compute(self)
         except RingsForm:
             raise
         except NotConverged:
             if self.meshes.path.tolerance <= _FINER_PATH.tolerance:
                 raise
             return self._on_finer_path.solution(quantity)
-        if found.u_num > self.meshes.requested * abs(found.value):
-            found = row.compute(self._finer)
+        if solution.u_num > self.meshes.recompute_above * abs(solution.value):
+            solution = row.compute(self._finer)
         if self._alternatives:
-            # What the smoothing of a law changes is as uncertain as its data.
-            change = max(abs(other.solution(quantity).value - found.value) for other in self._alternatives)
-            found = replace(found, parts=found.parts.plus(Parts(law=change)))
-        if found.u_num > self.meshes.asked * abs(found.value):
+            # Uncertainty by the smoothing of a law.
+            change = max(
+                abs(alternative.solution(quantity).value - solution.value) for alternative in self._alternatives
+            )
+            solution = replace(solution, parts=solution.parts.plus(Parts(law=change)))
+        if solution.u_num > self.meshes.warn_above * abs(solution.value):
             warnings.warn(
-                f"accuracy = {self.meshes.asked:g} is not reached for the {quantity} of {self.problem}: "
-                f"its bound is {found.u_num / abs(found.value):.1e} of it, mostly from the {found.parts.largest}",
+                f"accuracy = {self.meshes.warn_above:g} is not reached for the {quantity} of {self.problem}: "
+                f"its bound is {solution.u_num / abs(solution.value):.1e} of it, mainly of {solution.parts.largest}",
                 AccuracyWarning,
                 stacklevel=2,
             )
-        return replace(found, seconds=time.perf_counter() - start)
+        return replace(solution, seconds=time.perf_counter() - start)
 
     @cached_property
     def _on_finer_path(self) -> Analysis:
-        """The problem with a path whose brackets hold for loads that are small beside 1, such as of an asperity."""
+        """The problem with a path that also resolves loads much smaller than 1, such as of an asperity."""
         return Analysis(self.problem, replace(self.meshes, path=_FINER_PATH))
 
     @cached_property
@@ -362,13 +369,13 @@ class Analysis:
 
     @cached_property
     def _alternatives(self) -> list[Analysis]:
-        """The problem with the other laws that the data of a smoothed one allow."""
-        found = []
+        """The problem with the alternatives of a smoothed law."""
+        analyses = []
         for law in getattr(self.problem.law, "alternatives", ()):
-            other = Analysis(replace(self.problem, law=law), self.meshes)
-            other._alternatives = []
-            found.append(other)
-        return found
+            analysis = Analysis(replace(self.problem, law=law), self.meshes)
+            analysis._alternatives = []
+            analyses.append(analysis)
+        return analyses
 
 
 # Bracket and condition of each event.
@@ -378,10 +385,10 @@ _EVENTS: dict[str, tuple[Callable[[Analysis], Bracket], Condition]] = {
     "jump_out": (lambda analysis: jumps_between(analysis._branches, inward=False)[-1][0], events.displacement_fold),
     "zero_load": (Analysis._last_zero_load, events.zero_load),
 }
-#: The functional that is extreme at an event; none: the load is prescribed.
+#: The functional that is extreme at an event; None if the load is prescribed.
 EXTREMAL = {"pull_off": "load", "jump_in": "displacement", "jump_out": "displacement", "zero_load": None}
-# Which of the jumps of an approach or a retreat is the event: the first one into contact, the last one out of it.
+# Index of the event among the jumps of an approach or a retreat: the first one into contact, the last one out of it.
 _NAMED = {"jump_in": 0, "jump_out": -1}
 
-#: Points of the equilibrium path that have names.
+#: Named points of the equilibrium path.
 EVENTS = tuple(_EVENTS)

@@ -1,7 +1,7 @@
 """Critical Tabor number, at which the two folds of the displacement merge and hysteresis begins.
 
-At given n and k the smallest rate of displacement along the path, d(delta)/d(parameter), falls with the Tabor
-number; it is zero at the critical one.  The rate is exact, so the root is as sharp as the path itself.
+At fixed n and k the smallest rate of displacement along the path, d(delta)/d(parameter), decreases with the Tabor
+number; it is zero at the critical one.  The rate is exact, so that the root is as accurate as the path.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ from fscm.solution import Parts, Solution
 
 __all__ = ["critical_tabor_number"]
 
-# Where the search begins, and how it widens; critical Tabor numbers of power-law punches are near 0.7.
+# Start of the search, its growth and its limit; critical Tabor numbers of power-law punches are near 0.7.
 _FIRST_GUESS, _WIDEN, _WIDEST = 0.75, 1.25, 30.0
-# Tolerance of log mu on the coarse mesh, where the root only picks the mesh.
+# Tolerance of log mu on the coarse mesh, which only selects the mesh.
 _COARSE_ROOT_TOLERANCE = 1e-3
 _FIRST_SECANT_STEP, _SECANT_STEPS, _TOLERANCE = 1e-4, 15, 1e-9
 # Spacing of the three rates in the continuation parameter; measured: halving it moves mu by at most 4e-11
@@ -39,7 +39,7 @@ _VERTEX_TOLERANCE = 1e-4
 
 
 def _coarse_root(problem: Problem, meshes: Meshes) -> State:
-    """State where the displacement is slowest, at about the critical Tabor number."""
+    """State with the least rate of displacement, at about the critical Tabor number."""
     states: dict[float, State] = {}
 
     def rate(log_mu: float) -> float:
@@ -79,7 +79,7 @@ def _least_rate(state: State) -> tuple[State, float, float]:
     rate : float
         Value at the vertex.
     step : float
-        How far the vertex was, in the continuation parameter.
+        Distance of the vertex in the continuation parameter.
     """
     rates = rates_of(state)
     x = parameter_of(state)
@@ -91,7 +91,7 @@ def _least_rate(state: State) -> tuple[State, float, float]:
 
 
 def _on_mesh(state: State) -> tuple[float, State, float]:
-    """Root in mu of the least rate on the mesh of a state, by the secant method; the state; derivative of the rate."""
+    """Root in mu of the least rate on the mesh of a state, by the secant method, the state, and the slope in mu."""
     mu = state.disc.problem.mu
     state, rate, _ = _least_rate(state)
     step, slope = _FIRST_SECANT_STEP * mu, 0.0
@@ -111,7 +111,7 @@ def _on_mesh(state: State) -> tuple[float, State, float]:
 def _bounds(state: State, slope: float) -> Parts:
     """Bounds on the error of the root: the error of the rate over its derivative by mu.
 
-    The rate is least, so that it does not change, to first order, with the place along the path.
+    The rate is at a minimum along the path, so that it does not change, to first order, with its location.
     """
     rate = EventErrors(state).rate("displacement")
     # The vertex of the parabola adds the difference of two rates, times its distance over twice their spacing.

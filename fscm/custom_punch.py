@@ -1,4 +1,4 @@
-"""Axisymmetric punch given as a function, which is checked when the punch is built."""
+"""Axisymmetric punch given as a function."""
 
 from __future__ import annotations
 
@@ -13,17 +13,16 @@ from fscm._validation import real_number
 
 __all__ = ["CustomPunch"]
 
-# The tail beyond a height of 1e8 carries less than 1e-8 of any load integral that the surface law lets
-# converge well (m g - 2 >= 1), so the stated growth has to have set in there.
+# Height at which the shape has to grow as stated: the tail beyond carries less than 1e-8 of any load integral with
+# m g - 2 >= 1.
 _FAR_HEIGHT = 1e8
-# A tail exponent off by 1 % changes that part by about 1 %.  A mixture r^2 + r misses its limit by 1e-4
-# there.
+# An exponent off by 1 % changes that part by about 1 %.  The exponent of r^2 + r is off by 1e-4 there.
 _GROWTH_TOLERANCE = 1e-2
-# Doublings of the radius allowed to reach _FAR_HEIGHT: enough for r^0.17, which a 12th-power tail admits.
+# Largest number of doublings of the radius up to _FAR_HEIGHT: enough for r^0.17, which a 12th-power tail admits.
 _DOUBLINGS = 160
-# A tip that is not at zero shifts the meaning of the displacement; rounding in f may leave this much.
+# Largest height of the tip, by rounding in f: the displacement is measured from there.
 _TIP_TOLERANCE = 1e-12
-# Radii below the transverse length at which the function is tried as well.
+# Small radii at which the function is evaluated as a check.
 _SMALL_RADII = 2.0 ** -np.arange(40.0, 0.0, -1.0)
 # Ridders' extrapolation: steps h = _FIRST_STEP r / _RATIO^i.  At order 10 a power of r is exact to rounding
 # from r / 32 on; 19 reductions resolve features 1e-5 of r wide, beyond which rounding in f dominates
@@ -34,8 +33,8 @@ _RATIO = (1.0 + math.sqrt(5.0)) / 2.0
 _REDUCTIONS = 19
 # Columns of the extrapolation table: order 2 * 5 = 10 balances truncation and rounding near 1e-12.
 _COLUMNS = 5
-# A stated derivative is compared where the finest differences still resolve features 1e-4 of a length wide;
-# the tolerance is far above their error and far below any slip of the pen.
+# Radii at which a stated derivative is compared with differences; the tolerance is far above their error, and far below
+# that of a wrong formula.
 _COMPARED_RADII = 2.0 ** np.arange(-8.0, 4.0)
 _DERIVATIVE_TOLERANCE = 1e-3
 # Stands in for r = 0, where only one side exists: there the slope is the secant over this radius.
@@ -58,9 +57,8 @@ class _InUnits:
 class CustomPunch:
     """Any axisymmetric punch f(r), given as a function of an array of radii.
 
-    The function is tried at construction: it has to accept arrays, vanish at r = 0, stay finite, and grow
-    like r^growth far away.  Hashable; picklable when the functions are (module-level functions are, lambdas
-    are not).
+    The function is checked at construction: it has to accept arrays, vanish at r = 0, stay finite, and grow like
+    r^growth far away.  Hashable; picklable if the functions are (module-level functions are, lambdas are not).
 
     Parameters
     ----------
@@ -77,7 +75,7 @@ class CustomPunch:
     Raises
     ------
     ValueError
-        When the function breaks one of these promises, or `derivative` is not the derivative.
+        When a check fails, or `derivative` is not the derivative.
 
     Examples
     --------
@@ -104,7 +102,7 @@ class CustomPunch:
             self._check_derivative()
 
     def scaled(self, radius: float, height: float) -> CustomPunch:
-        """The shape in a unit of radii and one of heights, tried again in these units."""
+        """The shape in a unit of radii and one of heights, checked again in these units."""
         derivative = None if self.derivative is None else _InUnits(self.derivative, radius, height / radius)
         kinks = [r / radius for r in self.kinks]
         return CustomPunch(_InUnits(self.function, radius, height), self.growth, derivative, kinks)
@@ -120,10 +118,10 @@ class CustomPunch:
         return self._extrapolated_slope(np.asarray(r, float))
 
     def _extrapolated_slope(self, r: Array) -> Array:
-        """Ridders' method at every r: of all extrapolates of central differences, the most settled one."""
+        """Ridders' method at every r: the extrapolate of central differences with the smallest estimated error."""
         flat = np.maximum(r.ravel(), _TIP_RADIUS)
         steps = _FIRST_STEP * flat * _RATIO ** -np.arange(float(_REDUCTIONS))[:, None]
-        # The step that is really taken, free of the rounding of r + h.
+        # The actual step, free of the rounding of r + h.
         right, left = flat + steps, flat - steps
         row = (self.height(right) - self.height(left)) / (right - left)
         best, error = row[0].copy(), np.full(flat.shape, np.inf)
@@ -156,7 +154,7 @@ class CustomPunch:
             radii.append(2.0 * radii[-1])
             heights.append(float(self.height(np.array(radii[-1:]))[0]))
         far = np.array(heights[-3:])
-        # The loop ensures a positive height of the last point only.
+        # Only the height of the last point is positive for certain.
         local = np.diff(np.log2(np.maximum(far, np.finfo(float).tiny)))
         if not np.all(np.abs(local - self.growth) <= _GROWTH_TOLERANCE * max(1.0, self.growth)):
             raise ValueError(
@@ -165,14 +163,14 @@ class CustomPunch:
             )
 
     def _check_derivative(self) -> None:
-        """Refuse a derivative that is not the one of f: a slip there would only slow Newton down, unseen."""
+        """Raise ValueError for a wrong derivative, which would only slow down convergence."""
         r = _COMPARED_RADII
-        given, found = self.slope(r), self._extrapolated_slope(r)
-        scale = np.maximum(np.abs(found), np.abs(self.height(r)) / r)
-        worst = int(np.argmax(np.abs(given - found) / np.maximum(scale, np.finfo(float).tiny)))
-        if abs(given[worst] - found[worst]) > _DERIVATIVE_TOLERANCE * scale[worst]:
+        stated, numerical = self.slope(r), self._extrapolated_slope(r)
+        scale = np.maximum(np.abs(numerical), np.abs(self.height(r)) / r)
+        worst = int(np.argmax(np.abs(stated - numerical) / np.maximum(scale, np.finfo(float).tiny)))
+        if abs(stated[worst] - numerical[worst]) > _DERIVATIVE_TOLERANCE * scale[worst]:
             raise ValueError(
-                f"derivative = {given[worst]:g} at r = {r[worst]:g} is not the slope of f, {found[worst]:g}"
+                f"derivative = {stated[worst]:g} at r = {r[worst]:g} is not the slope of f, {numerical[worst]:g}"
             )
 
 

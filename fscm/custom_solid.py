@@ -14,7 +14,7 @@ from fscm.solids import ELASTIC, POSITIVE, elastic_ratio
 
 __all__ = ["CustomSolid"]
 
-# Depths, in units of the length, at which a function of the user is checked, besides the surface.
+# Depths below the surface, in units of the length, at which the functions are checked.
 _CHECKED = np.geomspace(1e-6, 1e6, 25)
 
 
@@ -31,8 +31,8 @@ class CustomSolid:
     length : float
         A depth over which they change, > 0.
     interfaces : sequence of float, optional
-        Depths > 0 at which E or nu or a derivative of them jumps.  Layers thinner than a twentieth of their depth are
-        found for certain only if their ends are named here.
+        Depths > 0 at which E or nu or a derivative of them jumps.  Layers thinner than a twentieth of their depth may
+        be missed unless their interfaces are given here.
 
     Examples
     --------

@@ -42,7 +42,7 @@ class OutsideAtlas(ValueError):
 
 
 class AccuracyWarning(UserWarning):
-    """The bound of a value is larger than the accuracy that was asked for; the message says which one was reached.
+    """The bound of a value exceeds the requested accuracy; the message has the accuracy reached.
 
     Examples
     --------

@@ -50,10 +50,10 @@ class Cycle:
 def displacement_cycle(path: EquilibriumPath) -> Cycle:
     """The cycle under displacement control.
 
-    A jump lands on the next stable part of the path, farther in (on approach) or out (on retreat), that has its
-    displacement.  A part on which the displacement rises is stable unless `stable_under_displacement` denies it.  The
-    load after a jump is a cubic between the points of the path; `u_landing` adds up the error of the path and the
-    distance of that cubic from the straight line, which is less exact.
+    A jump lands on the next stable section of the path, farther in (on approach) or out (on retreat), that contains its
+    displacement.  A section with rising displacement is stable unless `stable_under_displacement` is False.  The load
+    after a jump is interpolated by a cubic; `u_landing` is the error of the path plus the distance of that cubic from
+    the less accurate straight line.
 
     Raises
     ------
@@ -74,7 +74,7 @@ def displacement_cycle(path: EquilibriumPath) -> Cycle:
     errors = path.u_displacement, path.u_load
     stable = path.stable_under_displacement if path.stable_under_displacement.size else np.ones(curve.shape[1], bool)
     loading, jumps_in, u_in = _recorded(curve, stable, errors, "the displacement of jump-in", "max_load")
-    # A retreat is an approach of the curve turned by half a circle.
+    # A retreat is an approach along the curve rotated by 180 degrees.
     turned, jumps_out, u_out = _recorded(
         -curve[:, ::-1], stable[::-1], errors, "the displacement of jump-out", "start_gap"
     )
@@ -87,15 +87,15 @@ def _recorded(
     """Columns of the curve that are recorded while the displacement rises, the jumps, and `u_landing`."""
     d = curve[0]
     rising = np.diff(d) > 0.0
-    stretches: list[Array] = []
+    segments: list[Array] = []
     jumps: list[Array] = []
     i, uncertainty = 0, 0.0
     while True:
         falls = np.flatnonzero(~rising[i:])
         if not falls.size:
-            return np.hstack([*stretches, curve[:, i:]]), jumps, uncertainty
+            return np.hstack([*segments, curve[:, i:]]), jumps, uncertainty
         top = i + int(falls[0])
-        # The fold at the end of a stable part is not marked as stable.
+        # The fold at the end of a stable section is not marked as stable.
         held = stable[top:-1] | stable[top + 1 :]
         after = np.flatnonzero((d[top:-1] <= d[top]) & (d[top + 1 :] > d[top]) & held)
         if not after.size:
@@ -105,26 +105,26 @@ def _recorded(
                 f"the path ends at delta = {end:.6g} and does not contain {event}, {level:.6g}, on the other branch: "
                 f"trace it with a larger {argument}"
             )
-        last = top + int(after[0])
-        landing, curved, slope = _at(curve, d[top], last)
-        # The displacement of the fold is wrong by as much as that of the branch.
+        column = top + int(after[0])
+        landing, curved, slope = _at(curve, d[top], column)
+        # The displacement of the fold has the error of that of the branch.
         uncertainty = max(uncertainty, curved + errors[1] + 2.0 * slope * errors[0])
-        stretches += [curve[:, i : top + 1], landing]
+        segments += [curve[:, i : top + 1], landing]
         jumps.append(np.hstack([curve[:, [top]], landing]))
-        i = last + 1
+        i = column + 1
 
 
 def _at(curve: Array, displacement: float, column: int) -> tuple[Array, float, float]:
-    """Column (delta, P) between a column and the next, interpolated on the part where delta rises around them.
+    """Column (delta, P) interpolated between a column and the next, within the section of rising delta around them.
 
     Also the distance of P from the straight line, and the size of the slope dP/d(delta).
     """
-    first, last = column, column + 2
-    while first > 0 and curve[0, first - 1] < curve[0, first]:
-        first -= 1
-    while last < curve.shape[1] and curve[0, last] > curve[0, last - 1]:
-        last += 1
-    cubic = scipy.interpolate.PchipInterpolator(*curve[:, first:last])
+    start, stop = column, column + 2
+    while start > 0 and curve[0, start - 1] < curve[0, start]:
+        start -= 1
+    while stop < curve.shape[1] and curve[0, stop] > curve[0, stop - 1]:
+        stop += 1
+    cubic = scipy.interpolate.PchipInterpolator(*curve[:, start:stop])
     load = float(cubic(displacement))
     straight = float(np.interp(displacement, *curve[:, column : column + 2]))
     return np.array([[displacement], [load]]), abs(load - straight), abs(float(cubic(displacement, 1)))

@@ -71,7 +71,7 @@ def edge_radius(state: State) -> float:
     if state.follows_edge:
         return float(state.scale)
     inside = np.flatnonzero(state.gap < problem.law.peak_gap)
-    # On a power law the mesh follows the edge soon after it appears.
+    # For a power law the mesh follows the edge soon after it appears.
     if isinstance(problem.punch, PowerPunch) or not inside.size:
         return math.nan
     low, high = mesh.nodes[inside[-1] : inside[-1] + 2]
@@ -80,16 +80,16 @@ def edge_radius(state: State) -> float:
 
 
 def folds_between(a: Point, b: Point) -> list[tuple[State, str, bool]]:
-    """State, quantity, and whether it is a maximum, of the folds between neighbouring points of one stretch."""
-    found = []
+    """State, quantity, and whether it is a maximum, of the folds between neighbouring points of one segment."""
+    located = []
     for quantity, condition in _FOLDS.items():
         before, after = condition(a.state, a.rates), condition(b.state, b.rates)
         if before * after < 0.0:
-            found.append((events.locate(a, b, condition), quantity, before > 0.0))
-    direction = a.state.sense
-    return sorted(found, key=lambda item: direction * parameter_of(item[0]))
+            located.append((events.locate(a, b, condition), quantity, before > 0.0))
+    direction = a.state.orientation
+    return sorted(located, key=lambda item: direction * parameter_of(item[0]))
 
 
 def folds_of(points: Sequence[Point]) -> tuple[Fold, ...]:
     """The folds of a path that is complete (see `fscm._completeness`)."""
-    return tuple(fold_at(*fold) for a, b in pairwise(points) if a.stretch == b.stretch for fold in folds_between(a, b))
+    return tuple(fold_at(*fold) for a, b in pairwise(points) if a.segment == b.segment for fold in folds_between(a, b))

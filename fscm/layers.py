@@ -53,7 +53,7 @@ class Layers:
         )
         if not thickness or not len(E) == len(nu) == len(thickness) + 1:
             raise ValueError(
-                f"{len(E)} moduli, {len(nu)} ratios and {len(thickness)} thicknesses are no layers on a substrate: "
+                f"{len(E)} moduli, {len(nu)} ratios and {len(thickness)} thicknesses do not fit layers on a substrate: "
                 "E and nu have one entry more than thickness, the last is the substrate"
             )
         for name, value in (("E", E), ("nu", nu), ("thickness", thickness)):

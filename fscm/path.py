@@ -28,12 +28,12 @@ __all__ = ["EquilibriumPath", "trace"]
 
 Mask: TypeAlias = NDArray[np.bool_]
 
-# Curves are drawn and integrated: their points are closer than those of the path that brackets events.
+# Curves are drawn and integrated: shorter steps than on the path that brackets events.
 _LONGEST_STEP = 0.15
-# Of every so many points the errors are computed; the largest bounds hold for all, since meshes change little.
+# The errors are computed at every _CHECK_EVERY-th point; the largest bounds hold for all, since meshes change little.
 _CHECK_EVERY = 12
 _MAX_POINTS = 5000
-# Degrees: a broken line that turns by less at each point is drawn as a curve.
+# Degrees by which a polygon may turn at each point to look like a curve.
 _LARGEST_TURN = 5.0
 
 
@@ -54,8 +54,8 @@ class EquilibriumPath:
     folds : tuple of Fold
         All turning points of load and displacement, in the order of the path.
     stable_under_displacement, stable_under_load : ndarray of bool
-        Whether the state can be held when its displacement, or its load, is prescribed; False at the folds where this
-        ends.  See `fscm.stability`.
+        Whether the state is stable at prescribed displacement, or load; False at the folds where stability ends.  See
+        `fscm.stability`.
 
     Examples
     --------
@@ -110,11 +110,10 @@ def trace(
     problem : Problem
         With 0 <= k < 1.
     accuracy : float or str
-        Relative error that is requested, or its name (see `solve`); `u_displacement` and `u_load` bound the error
-        that was reached.
+        Requested relative error, or its name (see `solve`); `u_displacement` and `u_load` bound the actual error.
     max_load : float, optional
         The path ends in contact at this load, after the deepest pull-off; by default where the compression equals
-        the largest tension.  A punch that is no power law is followed until no later state can carry tension.
+        the largest tension.  For a punch that is not a power law it goes on until no later state carries tension.
     start_gap : float, optional
         Central gap at the far end; by default (10 + 5 mu) z0.
     longest_step : float
@@ -122,7 +121,7 @@ def trace(
         interpolation.
     largest_turn : float
         Degrees, above 0: equilibrium states are added until the tangent of load over displacement turns by less from
-        point to point, in a square picture of the part with tension; 180 adds none.
+        point to point, in a square plot of the part with tension; 180 adds none.
 
     Raises
     ------
@@ -183,14 +182,14 @@ def _largest_errors(states: list[State]) -> tuple[float, float]:
     largest = np.zeros(2)
     for state in states:
         errors = EventErrors(state)
-        found = [errors.on_path(functional).total for functional in ("displacement", "load")]
-        largest = np.maximum(largest, found)
+        totals = [errors.on_path(functional).total for functional in ("displacement", "load")]
+        largest = np.maximum(largest, totals)
     return float(largest[0]), float(largest[1])
 
 
-def _stable(first: Point, states: list[State], folds: list[tuple[State, str, bool]]) -> tuple[Mask, Mask]:
+def _stable(start: Point, states: list[State], folds: list[tuple[State, str, bool]]) -> tuple[Mask, Mask]:
     """Whether each state is stable under displacement and under load; a fold is so if both of its sections are."""
-    sections = stable_sections(first, [quantity for _, quantity, _ in folds])
+    sections = stable_sections(start, [quantity for _, quantity, _ in folds])
     marks = np.empty((2, len(states)), np.bool_)
     number = 0
     for i, state in enumerate(states):
@@ -213,17 +212,17 @@ def _up_to(states: list[State], load: float) -> list[State]:
 
 
 def _with_events(points: list[Point]) -> tuple[list[State], list[tuple[State, str, bool]]]:
-    """States of the path with the folds and the zero of the load put in, each state once; and the folds alone."""
+    """States of the path, each once, with the folds and the zero of the load inserted; and the folds alone."""
     states, folds = [points[0].state], []
     for a, b in pairwise(points):
-        if a.stretch != b.stretch:
+        if a.segment != b.segment:
             states[-1] = b.state  # the same state on the mesh that follows the edge
             continue
         between = folds_between(a, b)
         folds += between
         zeros = events.crossings([a, b], events.zero_load, events.load_fold)
         added = [fold[0] for fold in between] + [events.locate(*bracket, events.zero_load) for bracket in zeros]
-        direction = a.state.sense
+        direction = a.state.orientation
         states += sorted(added, key=lambda state: direction * parameter_of(state))
         states.append(b.state)
     return states, folds

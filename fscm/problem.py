@@ -25,11 +25,11 @@ __all__ = ["Problem"]
 # m * growth has to exceed this for the load integral of p ~ r^(-m growth) times r dr to converge.
 _LOAD_INTEGRAL = 2.0
 
-# The surface of a steeper punch rises by the largest double within a few contact radii: 10^300 overflows nearly.
+# Steeper punches overflow within a few contact radii: 10^300 is near the largest double.
 _LARGEST_N = 300.0
 
-# Range of M = 2 mu^((2n+k-1)/n).  Below, the solid is rigid to every digit of a double, with fourteen more to spare;
-# above, the cohesive edge, of a relative width 1 / M or less, is as narrow as the rounding of a radius.
+# Range of M = 2 mu^((2n+k-1)/n).  Below, the solid is rigid to every digit of a double; above, the cohesive edge, of a
+# relative width of at most 1 / M, is as narrow as the rounding of a radius.
 _LEAST_M, _LARGEST_M = 1e-30, 1e15
 
 
@@ -45,7 +45,7 @@ class Problem:
     ----------
     solid : Solid
         `PowerLaw`, `Homogeneous`, `OffsetPowerLaw`, `Exponential`, `Coating`, `Layers`, `TabulatedModulus`,
-        `CustomSolid`, or a `GradedHalfSpace` of one's own.
+        `CustomSolid`, or your own `GradedHalfSpace`.
     punch : PunchShape
         Shape of the punch; of a dimensionless problem the power law r^n / n by default.
     law : SurfaceLaw
@@ -58,8 +58,8 @@ class Problem:
     mu : float
         Generalised Tabor number (Eq. 29), > 0 and such that 1e-30 <= M <= 1e15 (see `compliance`).
     graded : GradedHalfSpace, optional
-        A solid that is no power law, with depths in (Q z0)^(1/n).  Then k = 0, and mu is that of the surface, of
-        E(0) / (1 - nu(0)^2).
+        A solid that is not a power law, with depths in (Q z0)^(1/n).  Then k = 0, and mu is that of the surface, with
+        the modulus E(0) / (1 - nu(0)^2).
 
     Attributes
     ----------
@@ -135,7 +135,7 @@ class Problem:
             )
 
     def _pose(self, n: Any, k: Any, mu: Any, punch: Any, law: Any, graded: Any) -> None:
-        """Check and set what a dimensionless problem has."""
+        """Check and set the attributes of a dimensionless problem."""
         inf = math.inf
         n = real_number("shape index n", n, low=0.0, high=inf, reason="f = r^n / n must grow with r")
         k = real_number(
@@ -229,7 +229,7 @@ class Problem:
         return f"Problem({', '.join(f'{name}={getattr(self, name)!r}' for name in names)})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Made again from its parts: units are no plain data."""
+        """Rebuilt from its parts: units cannot be pickled."""
         if self.solid is not None:
             return Problem, (self.solid, self.punch, self.law)
         return Problem, (self.n, self.k, self.mu, self.punch, self.law, self.graded)
@@ -292,7 +292,7 @@ class Problem:
 
     @property
     def response(self) -> Any:
-        """`fscm.graded.GradedResponse`, what distinguishes the solid from a power law; None for a power law."""
+        """`fscm.graded.GradedResponse` of a graded solid; None for a power law."""
         if self.graded is None:
             return None
         # Imported here: a power law does not need it.

@@ -27,8 +27,8 @@ __all__ = [
     "unit_of_radii",
 ]
 
-# Least radius at which the unit of the radii of a shape of one's own is looked for, and how often the interval is
-# halved: the choice of the unit changes no result.
+# Least radius in the search for the unit of radii of a custom shape, and number of bisections: the choice of the unit
+# changes no result.
 _NEAREST, _HALVINGS = 1e-30, 20
 
 
@@ -259,7 +259,7 @@ class PowerSum:
 
 @dataclass(frozen=True, slots=True)
 class ScaledPunch:
-    """A shape of one's own in another unit of radii and one of heights.
+    """A custom shape in other units of radii and of heights.
 
     Parameters
     ----------

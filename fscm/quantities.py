@@ -46,7 +46,7 @@ class Quantity:
     kind : str
         "load", "displacement", "gap", "energy" or "number": its unit, see `Problem.units`.
     needs : tuple of str
-        Events of the path that have to exist.
+        Events of the path that must exist.
     compute : callable
         Analysis -> Solution, without its time.
     """
@@ -94,7 +94,7 @@ class AtEvent(Quantity):
 
 
 def _hysteresis_energy(analysis: Analysis) -> Solution:
-    """Energy lost in all jumps of a cycle: by how much the energy drops at constant displacement."""
+    """Energy lost in all jumps of a cycle: the drops of energy at constant displacement."""
     value, parts, pairs = 0.0, Parts(), []
     for name in ("jump_in", "jump_out"):
         for fold, landing in analysis.jumps(name):
@@ -104,6 +104,7 @@ def _hysteresis_energy(analysis: Analysis) -> Solution:
     return solution_of(value, parts, pairs)
 
 
+#: Rows by name: how each quantity is computed from the equilibrium path.
 TABLE: dict[str, Quantity] = {
     "pull_off_force": AtEvent.of("load", "pull_off", "load", -1.0),
     "pull_off_displacement": AtEvent.of("displacement", "pull_off", "displacement"),

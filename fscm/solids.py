@@ -1,8 +1,8 @@
 """Solids: half-spaces whose modulus is a function of the depth, in any consistent units.
 
-A power law E0 (z/c0)^k, with its special case of one modulus, has an exact response.  Every other solid has the modulus
-E(z) and Poisson's ratio nu(z), the depths at which they jump or have a kink, and a length over which they change; its
-modulus at the surface is positive.
+The response of a power law E0 (z/c0)^k, with the homogeneous solid as a special case, is exact.  Every other solid has
+the modulus E(z) and Poisson's ratio nu(z), the depths at which they jump or have a kink, and a length over which they
+change; its modulus at the surface is positive.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ __all__ = [
     "elastic_ratio",
 ]
 
-ELASTIC = "the solid is elastic, and incompressible at 0.5"
-POSITIVE = "it is a positive quantity"
+#: Reasons of a refused Poisson's ratio, and of a refused number that is not positive.
+ELASTIC, POSITIVE = "the solid is elastic, and incompressible at 0.5", "it is a positive quantity"
 
 
 @runtime_checkable
@@ -45,7 +45,7 @@ class GradedHalfSpace(Protocol):
     """
 
     def __hash__(self) -> int:
-        """The response of a solid is kept by it."""
+        """Key of the cached response."""
         ...
 
     @property
@@ -55,7 +55,7 @@ class GradedHalfSpace(Protocol):
 
     @property
     def interfaces(self) -> tuple[float, ...]:
-        """Depths at which E(z), nu(z) or a derivative of them jumps, and of layers that are thin beside their depth."""
+        """Depths at which E(z), nu(z) or a derivative of them jumps, and those of thin layers."""
         ...
 
     def modulus(self, z: Array) -> Array:
@@ -346,7 +346,7 @@ class Coating:
         ends = (self.thickness - self.transition, self.thickness, self.thickness + self.transition)
         return tuple(sorted({z for z in ends if z > 0.0}))
 
-    def _between(self, z: Array, first: float, last: float) -> Array:
+    def _between(self, z: Array, coating: float, substrate: float) -> Array:
         x = np.asarray(z, float) - self.thickness
         with np.errstate(over="ignore"):
             # (1 - tanh x)/2 without its cancellation
@@ -355,7 +355,7 @@ class Coating:
                 if self.transition == 0.0
                 else 1.0 / (1.0 + np.exp(2.0 * x / self.transition))
             )
-        return last + (first - last) * share
+        return substrate + (coating - substrate) * share
 
     def modulus(self, z: Array) -> Array:
         """E(z)."""

@@ -31,9 +31,9 @@ def solve(problem: Problem, quantity: str, accuracy: Accuracy = "default") -> So
     quantity : str
         One of `QUANTITIES`.
     accuracy : float or str
-        Relative error that is requested, between 1e-10 and 1e-4, or its name in `ACCURACIES`.  It chooses the meshes:
-        it is reached nearly always, and `u_num` bounds the error in any case.  Where `u_num` exceeds a request above
-        1e-8, the value is computed again at the default.  The Gibson solid is solved to rounding.
+        Requested relative error, between 1e-10 and 1e-4, or its name in `ACCURACIES`.  It selects the meshes: it is
+        reached nearly always, and `u_num` bounds the error in any case.  If `u_num` exceeds a request above 1e-8, the
+        value is computed again at the default.  The Gibson solid is exact to rounding.
 
     Returns
     -------
@@ -71,7 +71,7 @@ def solve(problem: Problem, quantity: str, accuracy: Accuracy = "default") -> So
 def solve_together(
     problem: Problem, quantities: Iterable[str] = QUANTITIES, accuracy: Accuracy = "default"
 ) -> dict[str, Solution | NoSuchEvent]:
-    """Compute several quantities; those of one path share it.
+    """Compute several quantities on one path.
 
     Parameters
     ----------
@@ -99,10 +99,10 @@ def solve_together(
     """
     units = {name: problem.units[quantity_named(name).kind] for name in quantities}
     model = _model(problem.dimensionless, accuracy)
-    found: dict[str, Solution | NoSuchEvent] = {}
+    solutions: dict[str, Solution | NoSuchEvent] = {}
     for name, unit in units.items():
         try:
-            found[name] = model.solution(name).times(unit)
+            solutions[name] = model.solution(name).times(unit)
         except NoSuchEvent as missing:
-            found[name] = missing
-    return found
+            solutions[name] = missing
+    return solutions

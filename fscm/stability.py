@@ -6,16 +6,16 @@ variation of the energy is
 
     int v K_m^{-1} v  -  int p'(H) (v - e)^2,        e = 0 unless m = 0 and the load is prescribed.
 
-*Prescribed displacement.*  p' > 0 beyond the gap of largest tension, where the attraction grows as the gap closes:
-only there the surface loses energy.  The part of the other terms that it cancels at most is the largest eigenvalue
-of (1 + K_m p'_-)^{-1} K_m p'_+ , p' = p'_+ - p'_-; the margin is 1 less this part, positive when the state is stable.
+*Prescribed displacement.*  p' > 0 beyond the gap of largest tension, where the attraction grows as the gap closes: only
+there the second variation is reduced, at most by the share of the other terms that is the largest eigenvalue of
+(1 + K_m p'_-)^{-1} K_m p'_+ , p' = p'_+ - p'_-.  The margin is 1 minus this share, positive for a stable state.
 
-*Prescribed load.*  If the surface follows, the energy is U(delta) - P delta, so that the load adds one unstable
-direction when dP/d(delta) < 0.  A state is stable if it is so under prescribed displacement and dP/d(delta) > 0.
+*Prescribed load.*  With the surface in equilibrium the energy is U(delta) - P delta, so that the load adds one unstable
+direction if dP/d(delta) < 0.  A state is stable if it is so under prescribed displacement and dP/d(delta) > 0.
 
-*m > 0.*  K_m^{-1} is a fractional power (1-k)/2 of the Laplacian, whose heat kernel in the sector m is positive and
-falls with m.  By Trotter's formula so does that of K_m^{-1} - p'(H(r)): the margin rises with m, and no state that is
-stable for m = 0 is unstable for another m, whatever the law, the punch and the gradient.
+*m > 0.*  K_m^{-1} is the fractional power (1-k)/2 of the Laplacian, whose heat kernel in the sector m is positive and
+decreases with m.  By Trotter's formula so does that of K_m^{-1} - p'(H(r)): the margin increases with m, and no state
+that is stable for m = 0 is unstable for another m, whatever the law, the punch and the gradient.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ from fscm.errors import NotConverged
 
 __all__ = ["Stability", "margins", "stability_of", "stable_sections"]
 
-# Modes cos(m theta) of a state.
+#: Modes cos(m theta) of a state.
 MODES = (0, 1, 2, 3, 4)
-# Largest number of unstable directions that is told apart at the first state of a path.
+# Largest number of unstable directions that is counted at the initial state of a path.
 _MOST = 6
 
 
@@ -49,8 +49,8 @@ class Stability:
     Attributes
     ----------
     margins : tuple of float
-        For m = 0, ..., 4 the smallest second variation of the energy under prescribed displacement, as a part of its
-        stiffening terms: at most 1, 0 at a fold of the displacement, negative when the state is unstable.
+        For m = 0, ..., 4 the smallest second variation of the energy under prescribed displacement, relative to its
+        stiffening terms: at most 1, 0 at a fold of the displacement, negative for an unstable state.
     stiffness : float
         dP/d(delta) along the path, in the units of the problem.
 
@@ -68,12 +68,12 @@ class Stability:
 
     @property
     def under_displacement(self) -> bool:
-        """Whether the state is stable when the displacement is prescribed."""
+        """Whether the state is stable under prescribed displacement."""
         return min(self.margins) > 0.0
 
     @property
     def under_load(self) -> bool:
-        """Whether the state is stable when the load is prescribed."""
+        """Whether the state is stable under prescribed load."""
         return self.under_displacement and self.stiffness > 0.0
 
 
@@ -131,17 +131,17 @@ def stability_of(state: State) -> Stability:
     return Stability(tuple(float(margins(state, m)[0]) for m in MODES), float(stiffness))
 
 
-def stable_sections(first: Point, folds: Sequence[str]) -> list[tuple[bool, bool]]:
+def stable_sections(start: Point, folds: Sequence[str]) -> list[tuple[bool, bool]]:
     """Whether the sections of a path between its folds are stable, under displacement and under load.
 
-    Unstable directions are counted at the first state.  From section to section dP/d(delta) changes its sign.  The
-    unstable directions under prescribed load are those under prescribed displacement and one more where
-    dP/d(delta) < 0; a fold of the displacement does not change the former, and a fold of the load not the latter.
+    Unstable directions are counted at the initial state.  At each fold dP/d(delta) changes its sign.  The unstable
+    directions under prescribed load are those under prescribed displacement and one more if dP/d(delta) < 0; a fold of
+    the displacement does not change the former, and a fold of the load not the latter.
 
     Parameters
     ----------
-    first : Point
-        Of the path.
+    start : Point
+        The initial point of the path.
     folds : sequence of str
         "displacement" or "load", in the order of the path.
 
@@ -150,8 +150,8 @@ def stable_sections(first: Point, folds: Sequence[str]) -> list[tuple[bool, bool
     list of (bool, bool)
         One pair more than folds.
     """
-    unstable = int(np.count_nonzero(margins(first.state, 0, _MOST) <= 0.0))
-    rising = first.rates.load * first.rates.displacement > 0.0
+    unstable = int(np.count_nonzero(margins(start.state, 0, _MOST) <= 0.0))
+    rising = start.rates.load * start.rates.displacement > 0.0
     sections = [(unstable == 0, unstable == 0 and rising)]
     for fold in folds:
         if fold == "displacement":

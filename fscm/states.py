@@ -29,13 +29,13 @@ _FUNCTIONALS: dict[str, Callable[[State], float]] = {
     "load": lambda state: state.load,
 }
 _KINDS = {"central_gap": "gap", "displacement": "displacement", "load": "load"}
-# Zero where the control is extreme along the path.
+# Conditions that are zero where the control is extreme along the path.
 _FOLDS: dict[str, events.Condition] = {
     "central_gap": lambda state, rates: rates.central_gap,
     "displacement": events.displacement_fold,
     "load": events.load_fold,
 }
-# An extreme this close to the value, relative to 1 + |value|, is solved for on the finest mesh first.
+# An extreme this close to the value, relative to 1 + |value|, is first solved on the value mesh.
 _NEAR = 1e-2
 # Step of the continuation parameter for the curvature at an extreme.
 _SPACING = 1e-4
@@ -89,7 +89,7 @@ class EquilibriumState:
         Bounds on the error of each of the three, by name and cause: ``parts["load"]["mesh"]``.  That of the control
         bounds how well its value is met.
 
-    Only a stable state can be held in an experiment, so that an unstable branch is never reached.
+    Only stable states are observed in an experiment.
 
     Examples
     --------
@@ -112,18 +112,18 @@ class EquilibriumState:
     @cached_property
     @one_thread()
     def stability(self) -> Stability:
-        """Stability against cos(m theta), m = 0, ..., 4, computed when it is asked for."""
-        found = stability_of(self._state)
-        return replace(found, stiffness=found.stiffness * self._units["stiffness"])
+        """Stability against cos(m theta), m = 0, ..., 4, computed on demand."""
+        stability = stability_of(self._state)
+        return replace(stability, stiffness=stability.stiffness * self._units["stiffness"])
 
     @property
     def stable_under_displacement(self) -> bool:
-        """Whether the state can be held at its displacement; the punch cannot tilt or shift."""
+        """Whether the state is stable at prescribed displacement; the punch cannot tilt or shift."""
         return self.stability.under_displacement
 
     @property
     def stable_under_load(self) -> bool:
-        """Whether the state can be held at its load; the punch can move along its axis only."""
+        """Whether the state is stable at prescribed load; the punch can move along its axis only."""
         return self.stability.under_load
 
 
@@ -136,11 +136,11 @@ def equilibria(problem: Problem, control: str, value: float, accuracy: Accuracy 
     problem : Problem
         With 0 <= k < 1.
     control : str
-        "central_gap" (one state), "displacement" or "load" (up to three, more near the nucleus of contact).
+        "central_gap" (one state), "displacement" or "load" (up to three, more at contact initiation).
     value : float
         In the units of the problem.
     accuracy : float or str
-        Relative error that is requested, or its name (see `solve`).
+        Requested relative error, or its name (see `solve`).
 
     Returns
     -------
@@ -183,21 +183,23 @@ def equilibria(problem: Problem, control: str, value: float, accuracy: Accuracy 
     end = f"the {control} {value:g}"
     points = path_by_any_mesh(problem, [meshes.path], ending, end, start_gap=start_gap, end_height=meshes.end_height)
     fold = _FOLDS[control]
-    found: list[EquilibriumState] = []
+    states: list[EquilibriumState] = []
     for a, b in pairwise(points):
-        if a.stretch != b.stretch:
+        if a.segment != b.segment:
             continue
-        near = _near_extreme(a, b, condition, fold, meshes)
-        if near is None:
-            near = [events.locate(*bracket, condition) for bracket in events.crossings([a, b], condition, fold)]
-        found += [_solved(coarse, control, value, condition, meshes, units) for coarse in near]
-    return found
+        coarse_states = _near_extreme(a, b, condition, fold, meshes)
+        if coarse_states is None:
+            coarse_states = [
+                events.locate(*bracket, condition) for bracket in events.crossings([a, b], condition, fold)
+            ]
+        states += [_solved(coarse, control, value, condition, meshes, units) for coarse in coarse_states]
+    return states
 
 
 def _near_extreme(
     a: Point, b: Point, condition: events.Condition, fold: events.Condition, meshes: Meshes
 ) -> list[State] | None:
-    """States next to an extreme that is so close to the value that the coarse path does not decide; else None."""
+    """States next to an extreme that is too close to the value for the coarse path to decide; else None."""
     before, after = fold(a.state, a.rates), fold(b.state, b.rates)
     ends = condition(a.state, a.rates), condition(b.state, b.rates)
     if before * after >= 0.0 or ends[0] * ends[1] < 0.0 or before * ends[0] > 0.0:
@@ -218,7 +220,7 @@ def _near_extreme(
     distance = math.sqrt(2.0 * abs(missing / curvature))
     if distance < _SPACING**2:
         return [extreme]
-    along = extreme.sense
+    along = extreme.orientation
     return [events.moved(extreme, rates, x + side * along * distance) for side in (-1.0, 1.0)]
 
 
@@ -231,9 +233,9 @@ def _solved(
     values = {name: float(of_state(state)) * units[_KINDS[name]] for name, of_state in _FUNCTIONALS.items()}
     return EquilibriumState(
         **values,
-        u_num=max(each.total for each in parts.values()),
+        u_num=max(bounds.total for bounds in parts.values()),
         profile=radial_field(state).in_units(units),
-        parts={name: each.times(units[_KINDS[name]]) for name, each in parts.items()},
+        parts={name: bounds.times(units[_KINDS[name]]) for name, bounds in parts.items()},
         _state=state,
         _units=units,
     )
@@ -254,7 +256,7 @@ def profile(problem: Problem, event: str = "pull_off", accuracy: Accuracy = "def
         With 0 <= k < 1.
     event : str
     accuracy : float or str
-        Relative error that is requested, or its name (see `solve`).
+        Requested relative error, or its name (see `solve`).
 
     Raises
     ------

@@ -1,8 +1,7 @@
 """Surface law through data points of traction against gap, from molecular dynamics or an experiment.
 
-Between the points a quintic interpolating spline (four continuous derivatives); beyond the last one a
-power-law tail p = -C (H - t)^-m; below the first one a wall p = c + A (H - s)^-9.  Both join with value,
-slope and curvature.
+A quintic interpolating spline between the points (four continuous derivatives), a power-law tail p = -C (H - t)^-m
+beyond them, and a wall p = c + A (H - s)^-9 below them.  Value, slope and curvature are continuous at both ends.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from fscm._validation import real_number
 
 __all__ = ["TabulatedLaw"]
 
-# A quintic spline needs six points; four more so that wall, well and tail each have some.
+# A quintic spline needs six points; four more for wall, well and tail.
 _FEWEST_POINTS = 10
 # Repulsion between half-spaces of atoms with an r^-12 pair potential (Eq. 10).
 _WALL_EXPONENT = 9.0
@@ -54,9 +53,9 @@ class TabulatedLaw:
     work : float, optional
         Work of adhesion: the tractions are multiplied so that they have it.  By default they are taken as they are.
     smoothing : float, optional
-        Relative standard error of the tractions, below 0.1.  Above 0 the law is a smooth curve that leaves the points
-        by about this error, and not the one through all of them: for noisy data, or fewer than about 40 points.  What
-        the choice matters is a part of the `u_num` of every solution (see `alternatives`).
+        Relative standard error of the tractions, below 0.1.  Above 0 the law is a smooth curve through the points
+        within about this error, instead of an interpolating one: for noisy data, or fewer than about 40 points.  The
+        effect of this choice is a part of the `u_num` of every solution (see `alternatives`).
 
     Raises
     ------
@@ -138,7 +137,7 @@ class TabulatedLaw:
 
     @property
     def alternatives(self) -> tuple[TabulatedLaw, ...]:
-        """Laws that the data allow as well: half and twice the smoothing, every other point; none without smoothing.
+        """Other laws for the same data: half and twice the smoothing, every other point; none without smoothing.
 
         Examples
         --------
@@ -199,20 +198,20 @@ class TabulatedLaw:
     def energy(self, H: Array) -> Array:
         """Integral of p from H to infinity, exact for the spline, the wall and the tail."""
         H = np.asarray(H, float) / self.z0
-        first, last = self._spline.x[0], self._spline.x[-1]
-        inside = np.clip(H, first, last)
-        beyond = -_tail_derivative(np.maximum(H, last), self._tail, -1)
-        below = _wall_derivative(first, self._wall, -1) - _wall_derivative(np.minimum(H, first), self._wall, -1)
-        return np.asarray((self._integral(last) - self._integral(inside) + beyond + below) * self.work_of_adhesion)
+        lowest, highest = self._spline.x[0], self._spline.x[-1]
+        inside = np.clip(H, lowest, highest)
+        beyond = -_tail_derivative(np.maximum(H, highest), self._tail, -1)
+        below = _wall_derivative(lowest, self._wall, -1) - _wall_derivative(np.minimum(H, lowest), self._wall, -1)
+        return np.asarray((self._integral(highest) - self._integral(inside) + beyond + below) * self.work_of_adhesion)
 
     def _joined(self, H: Array, order: int) -> Array:
         """Derivative of the dimensionless traction."""
         H = np.asarray(H, float) / self.z0
-        first, last = self._spline.x[0], self._spline.x[-1]
-        inside = self._spline(np.clip(H, first, last), order)
-        below = _wall_derivative(np.minimum(H, first), self._wall, order)
-        beyond = _tail_derivative(np.maximum(H, last), self._tail, order)
-        return np.where(first > H, below, np.where(last < H, beyond, inside))
+        lowest, highest = self._spline.x[0], self._spline.x[-1]
+        inside = self._spline(np.clip(H, lowest, highest), order)
+        below = _wall_derivative(np.minimum(H, lowest), self._wall, order)
+        beyond = _tail_derivative(np.maximum(H, highest), self._tail, order)
+        return np.where(lowest > H, below, np.where(highest < H, beyond, inside))
 
 
 def _quintic(gap: Array, p: Array, *ends: tuple[float, float]) -> scipy.interpolate.PPoly:
@@ -244,7 +243,7 @@ def _tail_derivative(H: Array | float, tail: tuple[float, float, float], order: 
 
 
 def _checked_points(gaps: Sequence[float], tractions: Sequence[float]) -> tuple[Array, Array]:
-    """Return the data as arrays, or refuse what cannot be the points of a surface law."""
+    """The data as arrays; ValueError if they cannot be points of a surface law."""
     try:
         gap, p = np.array(gaps), np.array(tractions)
     except ValueError as error:
@@ -322,10 +321,10 @@ def _fitted_tail(gap: Array, p: Array, wall: float, exponent: float | None) -> t
 
 
 def _checked_shape(spline: scipy.interpolate.PPoly, gap: Array, p: Array) -> float:
-    """Return the gap of the largest tension; refuse a spline with waves that the data do not have."""
+    """Gap of the largest tension; ValueError for a spline with oscillations that the data do not have."""
     extrema = spline.derivative().roots(discontinuity=False, extrapolate=False)
     extrema = extrema[(extrema > gap[0]) & (extrema < gap[-1])]
-    # A curve that ends without slope has its last root beside the end, by rounding.
+    # A curve whose slope vanishes at the end has a root next to it, by rounding.
     ending = (extrema > gap[-2]) & (np.abs(spline(extrema) - p[-1]) <= _ROUNDOFF * np.abs(p).max())
     extrema = extrema[~ending]
     steps = np.diff(p)

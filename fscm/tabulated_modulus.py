@@ -62,12 +62,12 @@ class TabulatedModulus:
                     f"depths[{i}] = {depths[i]:g} is not above depths[{i - 1}] = {depths[i - 1]:g}: they ascend"
                 )
         if not isinstance(self.nu, float | int):
-            found = tuple(elastic_ratio(f"nu[{i}]", value) for i, value in enumerate(self.nu))
-            if len(found) != len(depths):
+            ratios = tuple(elastic_ratio(f"nu[{i}]", value) for i, value in enumerate(self.nu))
+            if len(ratios) != len(depths):
                 raise ValueError(
-                    f"{len(found)} values of nu do not fit {len(depths)} depths: one for each, or one number"
+                    f"{len(ratios)} values of nu do not fit {len(depths)} depths: one for each, or one number"
                 )
-            nu: float | tuple[float, ...] = found
+            nu: float | tuple[float, ...] = ratios
         else:
             nu = elastic_ratio("nu", self.nu)
         for name, value in (("depths", depths), ("moduli", moduli), ("nu", nu)):

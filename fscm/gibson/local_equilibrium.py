@@ -1,4 +1,4 @@
-"""Gaps in equilibrium at one point of the Gibson solid: at a level, at the folds and at a front.
+"""Equilibrium gaps at one point of the Gibson solid: at a level, at the folds and at a front.
 
 The Gibson solid moves only where it is pressed.  With the level u = f(r) - delta and the compliance M, the gap obeys
 F(H) = H - M p(H) = u and costs the energy e(u) = M p^2 / 2 + U(H) per area, de/du = -p.
@@ -20,7 +20,7 @@ __all__ = ["Front", "LocalEquilibrium", "root"]
 
 # Relative accuracy of roots: brentq takes no less than 4 eps.
 _ROOT = 4.0 * sys.float_info.epsilon
-# Roots at zero (the equilibrium gap) are not sought below this; M p is then settled to 16 M times as much.
+# Absolute accuracy of roots, for that at zero (the equilibrium gap): M p is then exact to 16 M times as much.
 _ROOT_FLOOR = 1e-20
 
 
@@ -54,7 +54,7 @@ class Front:
 
 
 class LocalEquilibrium:
-    """Gaps in equilibrium at a level, for one law and compliance.
+    """Equilibrium gaps at a level, for one law and compliance.
 
     Parameters
     ----------
@@ -117,8 +117,8 @@ class LocalEquilibrium:
         far = self._steepest + 1.0
         while stability(far) < 0.0:
             far = self._steepest + 2.0 * (far - self._steepest)
-        near = root(stability, self.law.peak_gap, self._steepest)
-        return near, root(stability, self._steepest, far)
+        inner = root(stability, self.law.peak_gap, self._steepest)
+        return inner, root(stability, self._steepest, far)
 
     def near(self, level: float) -> float:
         """Gap on the near side of the folds (or the only gap) at a level."""

@@ -1,22 +1,21 @@
 """Self-consistent model of the Gibson solid, k = 1 and nu = 1/2, in closed algebraic form.
 
-For k -> 1 the primitive Phi_k is a step, and the surface moves only where it is pressed, w = M p with
+For k -> 1 the primitive Phi_k is a step, and the deformation is local, w = M p with
 M = 2 mu^2.  With u = f(r) - delta, Eq. 28 reads
 
     F(H) = H - M p(H) = u,        e(u) = M p^2 / 2 + U(H),        de/du = -p,
 
-U being the energy of the surface law and e the energy per area.  Up to the critical Tabor number F is
-monotone and u has one gap.  Beyond it a range of u has two stable gaps, and the profile may hold a front at
-which it changes from one to the other.  A front is at rest where both sides have the same energy e
-(Maxwell's rule); this is what Griffith's balance of the crack-like edge of a solid with k < 1 becomes as its
-width tends to zero, not a spinodal snap at each point by itself.  The equilibrium path then has
+U being the energy of the surface law and e the energy per area.  Up to the critical Tabor number F is monotone, and one
+gap belongs to u.  Beyond it there are two stable gaps in a range of u, and the profile may have a front at which it
+changes from one to the other.  A front is in equilibrium where both sides have the same energy e (Maxwell's rule): the
+limit of Griffith's balance at the crack-like edge of a solid with k < 1 as its width tends to zero, not a spinodal
+instability of each point separately.  The equilibrium path then has
 
     an open branch, all gaps on the far side, from infinite separation to the fold A of F (jump in);
     a contact branch, near side inside a front of level u = u_M, from radius 0 at delta = -u_M (jump out B).
 
-Between A and B the path leads through the unstable germ of a contact, which shrinks to the axis as k -> 1: it
-carries no load, so its load-displacement curve runs back along the open branch; its central gap is not
-computed.
+Between A and B the path leads through an unstable small contact, which shrinks to the axis as k -> 1: it carries no
+load, so that the load-displacement curve returns along the open branch; its central gap is not computed.
 """
 
 from __future__ import annotations
@@ -40,13 +39,11 @@ from fscm.solution import Parts, Solution
 __all__ = ["GibsonSolid"]
 
 _EPS = sys.float_info.epsilon
-# Tolerance of the quadrature; its own estimate of the error goes into u_num.
+# Tolerance of the quadrature; its error estimate enters u_num.
 _QUADRATURE = 1e-13
-# Rounding shared by all results, in units of eps (1 + M) |value|; measured worst 3 against the closed forms
-# of n = 2.
+# Rounding of all results, in units of eps (1 + M) |value|; measured worst 3 against the closed forms of n = 2.
 _ROUNDING = 16.0
-# Steps of the search for extremes of the load, in units of 1 + |delta|, and the farthest separation looked
-# at.
+# Step of the search for extremes of the load, in units of 1 + |delta|, its largest number, and the largest separation.
 _SEARCH_STEP, _SEARCH_STEPS, _FARTHEST = 0.05, 2000, 10.0
 
 Number = tuple[float, float]
@@ -80,9 +77,6 @@ class GibsonSolid:
         self.problem = problem
         self._local = LocalEquilibrium(problem.law, problem.compliance)
 
-    # -- the load
-    # ----------------------------------------------------------------------------------------------
-
     def _area(self, height: float, order: int = 0) -> float:
         """r^2 at which the punch has a height, (n f)^(2/n), or its derivative."""
         n = self.problem.n
@@ -92,9 +86,8 @@ class GibsonSolid:
     def _sum(self, delta: float, contact: bool, order: int) -> Number:
         """Return P (order 0) or dP/d(delta) (order 1), with the error of the quadrature.
 
-        P is the integral of p d(r^2).
-        By parts, P = [p r^2] - integral of r^2 dp over the gaps of the profile; the bracket is the jump at
-        the front.
+        P is the integral of p d(r^2).  By parts, P = [p r^2] - integral of r^2 dp over the gaps of the profile; the
+        bracket is the jump at the front.
         """
         front = self._local.front if contact else None
         center = self._local.near(-delta) if contact else self._local.far(-delta)
@@ -104,7 +97,7 @@ class GibsonSolid:
             jump = self._local.traction(front.near) - self._local.traction(front.far)
             total = self._area(front.level + delta, order) * jump
         for a, b in ends:
-            # The well, of unit width, is kept apart from the tail.
+            # The well, of unit width, and the tail separately.
             pieces = [(a, a + 1.0), (a + 1.0, b)] if math.isinf(b) else [(a, b)]
             for c, d in pieces:
                 value, wrong = _integral(
@@ -119,8 +112,8 @@ class GibsonSolid:
         Raises
         ------
         ValueError
-            For a central gap between the two branches, where only the unstable germ of a contact would be,
-            or below the singularity of the law.
+            For a central gap between the two branches, that of an unstable small contact, or below the singularity of
+            the law.
 
         Examples
         --------
@@ -161,36 +154,33 @@ class GibsonSolid:
             )
         return central_gap <= self._local.front.near
 
-    # -- events
-    # ------------------------------------------------------------------------------------------------
-
     @cached_property
     def _pull_off(self) -> tuple[float, bool]:
         """Displacement of the smallest load and whether it is on the contact branch."""
-        found = []
+        candidates = []
         for contact in (True, False) if self._local.front else (True,):
             start = -self._local.front.level if self._local.front and contact else -_FARTHEST
             stop = -self._local.level(self._local.folds[1]) if self._local.folds and not contact else math.inf
             if not contact:
                 start = stop - _FARTHEST
-            found += [(self._sum(x, contact, 0)[0], x, contact) for x in self._extremes(start, stop, contact)]
-        _, delta, contact = min(found)
+            candidates += [(self._sum(x, contact, 0)[0], x, contact) for x in self._extremes(start, stop, contact)]
+        _, delta, contact = min(candidates)
         return delta, contact
 
     def _extremes(self, start: float, stop: float, contact: bool) -> list[float]:
         """Minima of the load on a branch, and its ends; ends early at a rising compressive load."""
-        here, rate, found = start, self._sum(start, contact, 1)[0], [start]
+        delta, rate, minima = start, self._sum(start, contact, 1)[0], [start]
         for _ in range(_SEARCH_STEPS):
-            ahead = min(here + _SEARCH_STEP * (1.0 + abs(here)), stop)
+            ahead = min(delta + _SEARCH_STEP * (1.0 + abs(delta)), stop)
             slope = self._sum(ahead, contact, 1)[0]
             if rate < 0.0 <= slope:
-                found.append(root(lambda x: self._sum(x, contact, 1)[0], here, ahead))
-            here, rate = ahead, slope
-            if here >= stop:
-                return [*found, stop]
-            if rate > 0.0 and self._sum(here, contact, 0)[0] > 0.0:
-                return found
-        raise NotConverged(f"no compressive load up to delta = {here:g} for {self.problem}")
+                minima.append(root(lambda x: self._sum(x, contact, 1)[0], delta, ahead))
+            delta, rate = ahead, slope
+            if delta >= stop:
+                return [*minima, stop]
+            if rate > 0.0 and self._sum(delta, contact, 0)[0] > 0.0:
+                return minima
+        raise NotConverged(f"no compressive load up to delta = {delta:g} for {self.problem}")
 
     @one_thread()
     def solution(self, quantity: str) -> Solution:
@@ -205,8 +195,7 @@ class GibsonSolid:
         Raises
         ------
         NoSuchEvent
-            For a jump below the critical Tabor number, and for jump_out_gap, which has no limit as k -> 1
-            here.
+            For a jump below the critical Tabor number, and for jump_out_gap, which has no limit as k -> 1.
         ValueError
             For an unknown quantity.
         """
@@ -266,15 +255,15 @@ class GibsonSolid:
 
     def _jump_out_gap(self) -> Number:
         self._hysteretic()
-        raise NoSuchEvent("jump_out_gap has no value at k = 1: the germ of contact at the jump shrinks to the axis")
+        raise NoSuchEvent("jump_out_gap has no value at k = 1: the contact at the jump shrinks to the axis")
 
     def _critical_tabor_number(self) -> Number:
         return math.sqrt(0.5 / self._local.steepness), 0.0
 
     def _hysteresis_energy(self) -> Number:
-        """Energy of the open profile at A less that of the contact profile there, integral of r^2 [p] du.
+        """Energy of the open profile at A minus that of the contact profile there, integral of r^2 [p] du.
 
-        At B, and at the front, the two sides have the same energy: nothing is lost in the jump out.
+        At B, and at the front, both sides have the same energy: no energy is lost in the jump out.
         """
         A, front = self._hysteretic()
         level = self._local.level(A)

@@ -1,4 +1,4 @@
-"""Solids whose modulus is any function of the depth: their surface compliance and their response to a ring."""
+"""Solids with any E(z) and nu(z): surface compliance and response to a ring of pressure."""
 
 from fscm.graded.kernel import GradedKernel
 from fscm.graded.response import GradedResponse, response_of

@@ -1,4 +1,4 @@
-"""Depths between which the elastic constants of a solid are polynomials to rounding."""
+"""Division of the depth into intervals on which the elastic constants are polynomials to rounding."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from fscm.solids import GradedHalfSpace
 
 __all__ = ["resolved_depths"]
 
-# Degree of the polynomials, and how small the last two coefficients of log E and nu have to be: what is left is below
-# the error of the integration.
+# Degree of the polynomials, and largest size of the last two coefficients of log E and nu: the remainder is below the
+# error of the integration.
 _DEGREE, _LEFT = 10, 1e-11
 # First depth of the geometric division, in units of the length of the solid, and its ratio.
 _FIRST, _RATIO = 1.0 / 64.0, 2.0
-# A part that is shorter than this share of its depth is a jump that the solid has not named.
+# An interval shorter than this share of its depth is a jump that is not among the interfaces of the solid.
 _SHORTEST = 1e-9
 
 
 def resolved_depths(solid: GradedHalfSpace, deepest: float) -> Array:
-    """Ends of the parts from the surface to a depth, ascending.
+    """Ends of the intervals from the surface to a depth, ascending.
 
     Raises
     ------
@@ -37,9 +37,9 @@ def resolved_depths(solid: GradedHalfSpace, deepest: float) -> Array:
     >>> 3.0 in resolved_depths(sharp, 10.0)
     True
     """
-    first = min(_FIRST * solid.length, deepest)
-    count = max(1, math.ceil(math.log(deepest / first) / math.log(_RATIO)))
-    ends = np.concatenate([[0.0], np.geomspace(first, deepest, count + 1)[:-1], [deepest], solid.interfaces])
+    shallowest = min(_FIRST * solid.length, deepest)
+    count = max(1, math.ceil(math.log(deepest / shallowest) / math.log(_RATIO)))
+    ends = np.concatenate([[0.0], np.geomspace(shallowest, deepest, count + 1)[:-1], [deepest], solid.interfaces])
     ends = np.unique(ends[ends <= deepest])
     nodes = chebyshev.chebpts1(_DEGREE + 1)
     to_modes = np.linalg.inv(chebyshev.chebvander(nodes, _DEGREE))

@@ -8,8 +8,8 @@ stresses xi T J1(xi r), xi S J0(xi r) on the plane z, all of them functions of x
 a = nu/(1-nu), E* = E/(1-nu^2), 1/L = (1+nu)(1-2nu)/(E(1-nu)), 1/G = 2(1+nu)/E: finite also at nu = 1/2.  The solution
 that decays downwards has (U, W) = Q (T, S), a Riccati equation for the 2x2 matrix Q, and xi C = -Q_22 at x = 0.
 
-Each step integrates the linear equations from (U, W, T, S) = (Q, 1) by Gauss collocation, all xi at once, and takes Q
-anew.  Upwards the wanted solution grows, so that every error dies out, and the steps end where the constants change.
+Each step integrates the linear equations from (U, W, T, S) = (Q, 1) by Gauss collocation, for all xi at once, and
+recomputes Q.  Upwards the decaying solution grows, so that errors are damped.  Steps end where the constants change.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from fscm.solids import GradedHalfSpace
 
 __all__ = ["START", "compliance"]
 
-#: Depth of the first state, in 1/xi: what is below changes C by exp(-2 START) = 1e-20.
+#: Depth of the initial state, in 1/xi: the solid below changes C by exp(-2 START) = 1e-20.
 START = 24.0
 # Longest step, and stages of the collocation: the error of a step is below 1e-15 (order 12).
 _STEP, _STAGES = 0.75, 6
@@ -34,11 +34,11 @@ _STEP, _STAGES = 0.75, 6
 
 @lru_cache(maxsize=4)
 def _collocation(stages: int) -> tuple[Array, Array, Array]:
-    """Places, weights and matrix of the Gauss collocation on [0, 1]."""
+    """Nodes, weights and matrix of the Gauss collocation on [0, 1]."""
     rule = gauss_rule(stages)
     c = rule.nodes
     powers = np.arange(stages)
-    # Through Legendre polynomials of few stages a Vandermonde matrix is good enough: condition 1e4.
+    # For so few stages a Vandermonde matrix is accurate enough: condition 1e4.
     integrals = c[:, None] ** (powers + 1) / (powers + 1)
     return c, rule.weights, integrals @ np.linalg.inv(c[:, None] ** powers)
 
@@ -46,7 +46,7 @@ def _collocation(stages: int) -> tuple[Array, Array, Array]:
 def _stages(
     E: Array, nu: Array, h: Array, displacement: Array, stress: Array
 ) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
-    """Both states at the end of a step, from those at its start, and the constants at its stages.
+    """Both states at the end of a step, from those at its start and the constants at its stages.
 
     The rates of (U, S) follow from (W, T), and those of (W, T) from (U, S): one of the two is eliminated.
 
@@ -94,7 +94,7 @@ def _homogeneous(E: Array, nu: Array) -> Array:
 
 
 def _steps(solid: GradedHalfSpace, xi: Array, longest: float) -> Array:
-    """Ends of the steps of every xi from the depth upwards, shape (most steps + 1, len(xi)); the last ones are zero."""
+    """Ends of the steps of each xi from the depth upwards, shape (most steps + 1, len(xi)), padded with zeros."""
     depths = resolved_depths(solid, START / float(np.min(xi)))
     columns = []
     for x in xi:
@@ -118,7 +118,7 @@ def compliance(solid: GradedHalfSpace, xi: Array, refinement: int = 1) -> Array:
     xi : ndarray, shape (n,)
         Wave numbers, > 0, of the inverse unit of the depths.
     refinement : int
-        Number by which every step is divided: the change is the error of the steps without it.
+        Number by which every step is divided: the change is the error of the undivided steps.
 
     Returns
     -------
@@ -142,9 +142,9 @@ def compliance(solid: GradedHalfSpace, xi: Array, refinement: int = 1) -> Array:
     Q = _homogeneous(solid.modulus(z), solid.poisson(z))
     for start, stop in pairwise(steps):
         active = np.flatnonzero(start > stop)
-        for part in range(refinement):
+        for substep in range(refinement):
             h = (stop - start)[active] / refinement
-            x = start[active] + part * h
+            x = start[active] + substep * h
             z = ((x[:, None] + h[:, None] * c) / xi[active, None]).ravel()
             E, nu = (values.reshape(len(active), _STAGES) for values in (solid.modulus(z), solid.poisson(z)))
             identity = np.broadcast_to(np.eye(2), (len(active), 2, 2))

@@ -5,11 +5,11 @@ With E* = E/(1-nu^2) at the surface,
     D(xi) = xi C(xi) E*/2 = 1 - Re sum_j a_j exp(-xi d_j).
 
 Each exponential is a ring at the depth d_j (`fscm.graded.kernel`).  Depths are real, or complex with an argument of 45
-degrees.  Real ones alone do not do: a stiff layer on a soft solid bends, D ~ 1/(1 + (xi/xi_0)^3), whose poles at
+degrees.  Real ones do not suffice: a stiff layer on a soft solid bends, D ~ 1/(1 + (xi/xi_0)^3), whose poles at
 xi_0 exp(+-i pi/3) have positive real parts, so that its Laplace transform grows, and strengths of 1e9 cancel.  On rays
-between 30 and 90 degrees the transform decays; that of a stiff layer on a thin soft one with something stiff below,
+between 30 and 90 degrees the transform decays; that of a stiff layer on a thin soft one with a stiff solid below,
 D ~ xi/(1 + (xi/xi_0)^4), does not grow at 45 degrees.  The depths are fixed; the a_j are the least-squares solution at
-many xi.  The error is measured there and in the middles between them.
+many xi.  The error is measured there and at midpoints between them.
 """
 
 from __future__ import annotations
@@ -27,28 +27,28 @@ from fscm.solids import GradedHalfSpace, contact_modulus
 
 __all__ = ["Images", "images_of"]
 
-# Wave numbers of the fit: first and last, in units of the inverse of the deepest and of the shallowest change of the
-# constants, their number for each decade, and the larger one between these factors of the same.
+# Wave numbers of the fit: least and largest, in units of the inverse of the deepest and of the shallowest change of the
+# constants, and their number for each decade: _MANY from _AFTER to _BEFORE times these inverses, else _WAVES.
 _LOW, _HIGH, _WAVES, _MANY, _AFTER, _BEFORE = 1e-10, 1e13, 10, 40, 0.01, 500.0
-# Longest wave, in units of the deepest change, and number for each decade at which the largest compliance is sought; at
-# longer ones it is that of the substrate.
+# Least wave number, in units of the inverse of the deepest change, and number for each decade of those at which the
+# largest compliance is sought; at longer waves it is that of the substrate.
 _SOFTEST, _FEW = 1e-6, 4
-# Depths of the images: from _SHALLOW of the inverse of the last wave number to _DEEP of that of the first; so many real
-# ones for each decade, and more from _FROM of the shallowest to _TO of the deepest change, where the complex ones are,
-# from _FROM_COMPLEX of the shallowest on.  Measured: error 1e-11 of D or less on sharp and smooth coatings with
-# contrasts of 1e-4 to 1e4, 1e-10 on three layers stiff, soft, stiff, 3e-8 on five.  A ray of 55 degrees has 4e-10
-# there, but the error on a modulus that rises 1000 times is then more between the waves than at them.
+# Depths of the images, from _SHALLOW times the inverse of the largest wave number to _DEEP times that of the least:
+# _SPARSE real ones for each decade, and _DENSE from _FROM times the shallowest to _TO times the deepest change, where
+# the complex ones are, from _FROM_COMPLEX times the shallowest on.  Measured: error 1e-11 of D or less on sharp and
+# smooth coatings with contrasts of 1e-4 to 1e4, 1e-10 on three layers stiff, soft, stiff, 3e-8 on five.  A ray of 55
+# degrees has 4e-10 there, but the error for a modulus that rises 1000 times is then larger between the waves.
 _SHALLOW, _DEEP, _SPARSE, _DENSE, _FROM, _TO = 10.0, 10.0, 7, 10, 0.05, 30.0
 _FROM_COMPLEX, _COMPLEX, _RAY = 0.3, 20, cmath.exp(0.25j * math.pi)
-# Errors count relative to D, but not to a smaller one than this, and singular values below this share are left out.
+# Errors are relative to D, or to _RELATIVE where D is smaller; smaller singular values than this share are omitted.
 _RELATIVE, _SINGULAR = 1e-4, 3e-15
-# Longest distance that the images serve, in units of the deepest change, and its product with the first wave number:
-# with 1e-4 the kernel of E ~ (z + z_s)^0.2 at a tenth of that distance was wrong by 1e-8, with 1e-6 by 1e-10.
+# Longest distance for which the images hold, in units of the deepest change, and its product with the least wave
+# number: with 1e-4 the kernel of E ~ (z + z_s)^0.2 at a tenth of that distance was wrong by 1e-8, with 1e-6 by 1e-10.
 _LONGEST, _REACH = 1e6, 1e-6
-# At the start of the range nothing holds the sum between its waves: this factor is left out of what counts.
+# The sum is not controlled at the least wave numbers: those within this factor are omitted from the result.
 _MARGIN = 10.0
-# Between the waves where it is measured the error is at most this many times the one there; every so many of them the
-# compliance is computed again with half the steps.
+# Bound of the error between the waves, in units of that measured there; at every _EVERY-th wave the compliance is also
+# computed with half the step length.
 _BETWEEN, _EVERY = 2.0, 12
 # Rounding of each term of the sum.
 _ROUNDOFF = 2.0**-53
@@ -60,10 +60,10 @@ def _spaced(low: float, high: float, density: float) -> Array:
 
 
 def _changes(solid: GradedHalfSpace) -> tuple[float, float]:
-    """Shallowest and deepest place at which the constants change; of a stiff layer the length over which it bends.
+    """Shallowest and deepest change of the constants; the deepest is at least the length over which a layer bends.
 
-    That length grows with the third root of the largest compliance: at the longest waves on a soft solid, between them
-    and the thickness on a soft layer that has something stiff below.
+    That length grows with the third root of the largest compliance: at the longest waves on a soft solid, or at shorter
+    ones on a soft layer with a stiff solid below.
     """
     depths = [solid.length, *solid.interfaces]
     shallow, deep = min(depths), max(depths)
@@ -81,7 +81,7 @@ class Images:
     depths, strengths : ndarray, shape (m,), complex
         d_j and a_j.
     waves : ndarray, shape (n,)
-        Wave numbers at which the error is known, ascending.
+        Wave numbers at which the error is measured, ascending.
     values : ndarray, shape (n,)
         D there.
     errors : ndarray, shape (n,)
@@ -101,7 +101,7 @@ class Images:
 
     @cached_property
     def relative(self) -> float:
-        """Largest error relative to D, or to 1e-4 where D is below."""
+        """Largest error relative to D, or to 1e-4 where D is smaller."""
         return float(np.max(self.errors / np.maximum(self.values, _RELATIVE)))
 
     @cached_property
@@ -112,23 +112,22 @@ class Images:
     def error(self, xi: Array) -> Array:
         """Bound of the error of D at any xi > 0, shape of `xi`.
 
-        Between two waves the largest one of both and their neighbours, doubled: both may be small by chance.  Beyond
-        the last wave 1 - D falls like 1/xi; before the first one both the solid and the images change by less than they
-        do over the decade behind it.
+        Between two waves twice the largest error at both and their neighbours.  Beyond the largest wave number 1 - D
+        falls like 1/xi; below the least one both the solid and the images change by less than over the next decade.
         """
         xi = np.asarray(xi, float)
         i = np.clip(np.searchsorted(self.waves, xi), 1, len(self.waves) - 1)
         around = np.pad(self.errors, 1, mode="edge")
-        found = _BETWEEN * np.maximum.reduce([around[i - 1], around[i], around[i + 1], around[i + 2]])
-        last = _BETWEEN * (abs(1.0 - self.values[-1]) + self.errors[-1]) * self.waves[-1] / xi
+        between = _BETWEEN * np.maximum.reduce([around[i - 1], around[i], around[i + 1], around[i + 2]])
+        beyond = _BETWEEN * (abs(1.0 - self.values[-1]) + self.errors[-1]) * self.waves[-1] / xi
         decade = int(np.searchsorted(self.waves, 10.0 * self.waves[0]))
-        first = _BETWEEN * (abs(self.values[decade] - self.values[0]) + self.errors[0])
-        return np.where(xi > self.waves[-1], last, np.where(xi < self.waves[0], first, found))
+        before = _BETWEEN * (abs(self.values[decade] - self.values[0]) + self.errors[0])
+        return np.where(xi > self.waves[-1], beyond, np.where(xi < self.waves[0], before, between))
 
 
 @lru_cache(maxsize=32)
 def images_of(solid: GradedHalfSpace, longest: float | None = None) -> Images:
-    """The images of a solid, made once.
+    """The images of a solid, cached.
 
     Parameters
     ----------
@@ -162,12 +161,12 @@ def images_of(solid: GradedHalfSpace, longest: float | None = None) -> Images:
     solved = np.linalg.lstsq(matrix[::2], right[::2], rcond=_SINGULAR)[0]
     strengths = solved[: len(depths)].astype(complex)
     strengths.imag[len(real) :] = solved[len(depths) :]
-    some = slice(None, None, _EVERY)
-    steps = np.abs(scale * compliance(solid, waves[some], 2) - values[some])
-    # The error of the steps varies slowly: the largest of the neighbours.
+    sampled = slice(None, None, _EVERY)
+    steps = np.abs(scale * compliance(solid, waves[sampled], 2) - values[sampled])
+    # The error of the steps varies slowly: that of the neighbours bounds it.
     around = np.maximum.reduce([steps, np.append(steps[1:], 0.0), np.append(0.0, steps[:-1])])
     errors = np.abs(1.0 - columns @ solved - values) + np.repeat(around, _EVERY)[: len(waves)]
     errors += _ROUNDOFF * (np.abs(columns) @ np.abs(solved))
-    kept = waves >= _MARGIN * low
+    served = waves >= _MARGIN * low
     order = np.argsort(np.abs(depths))
-    return Images(depths[order], strengths[order], waves[kept], values[kept], errors[kept])
+    return Images(depths[order], strengths[order], waves[served], values[served], errors[served])

@@ -18,11 +18,11 @@ from fscm.solids import GradedHalfSpace
 
 __all__ = ["GradedKernel", "image_ring", "image_sum"]
 
-# Points of the sum that bounds the error, for each decade of the wave number, and decades beyond the waves of the fit.
+# Points of the bound of the error for each decade of the wave number, and decades beyond the waves of the fit.
 _POINTS, _DECADES = 40, 6
-# Pairs of radii that are evaluated at a time: their products with the images take 4 MB.
+# Pairs of radii evaluated together: their products with the images take 4 MB.
 _CHUNK = 1000
-# Difference of both means, relative to them, below which the next one is their limit to rounding.
+# Relative difference of both means below which the next one is exact to rounding.
 _EQUAL = 1e-8
 # |J0(x)| <= min(1, sqrt(_BESSEL / x)).
 _BESSEL = 2.0 / np.pi
@@ -48,7 +48,7 @@ def _complex_ring(total: Array, distance: Array, depth: ComplexArray) -> Complex
 
 
 def _mean(a: ComplexArray, b: ComplexArray) -> ComplexArray:
-    """Arithmetic-geometric mean of numbers with arguments from 0 to pi/4: so are all means."""
+    """Arithmetic-geometric mean of numbers with arguments from 0 to pi/4, which all means keep."""
     while np.any(np.abs(a - b) > _EQUAL * np.abs(a)):
         a, b = 0.5 * (a + b), np.sqrt(a * b)
     return 0.5 * (a + b)
@@ -89,8 +89,8 @@ class GradedKernel:
         total, distance = np.broadcast_arrays(np.asarray(total, float), np.asarray(distance, float))
         out, A, B = np.empty(total.size), total.ravel(), distance.ravel()
         for i in range(0, len(out), _CHUNK):
-            part = slice(i, i + _CHUNK)
-            out[part] = image_sum(A[part, None], B[part, None], self.images.depths, self.images.strengths)
+            chunk = slice(i, i + _CHUNK)
+            out[chunk] = image_sum(A[chunk, None], B[chunk, None], self.images.depths, self.images.strengths)
         return out.reshape(total.shape)
 
     def response(self, r: Array, t: Array, distance: Array | None = None) -> Array:
@@ -110,10 +110,10 @@ class GradedKernel:
         True
         """
         r, t = np.broadcast_arrays(np.asarray(r, float), np.asarray(t, float))
-        first, last = self.images.waves[0], self.images.waves[-1]
-        count = int(np.log10(last / first) + 2 * _DECADES) * _POINTS
-        xi = np.geomspace(first * 10.0**-_DECADES, last * 10.0**_DECADES, count)
-        # d(xi) = xi d(log xi); behind the last wave the integrand falls like xi^-2 at least.
+        low, high = self.images.waves[0], self.images.waves[-1]
+        count = int(np.log10(high / low) + 2 * _DECADES) * _POINTS
+        xi = np.geomspace(low * 10.0**-_DECADES, high * 10.0**_DECADES, count)
+        # d(xi) = xi d(log xi); beyond the largest wave number the integrand falls at least like xi^-2.
         weights = self.images.error(xi) * xi * np.log(xi[1] / xi[0])
 
         def envelope(x: Array) -> Array:

@@ -1,8 +1,8 @@
 r"""Table of the images of a ring: polynomials on patches of the logarithms of r + t and abs(r - t).
 
-The sum of the images depends on the solid, on A = r + t and on B = abs(r - t) alone.  In log A and log B it is analytic
-in a strip of half-width pi/4, whatever the depths are, so that a polynomial of fixed degree on each patch of fixed size
-follows it.  The patches are made when they are first needed.
+The sum of the images depends only on the solid, on A = r + t and on B = abs(r - t).  In log A and log B it is analytic
+in a strip of half-width pi/4, whatever the depths are, so that a polynomial of fixed degree approximates it on each
+patch of fixed size.  Patches are computed on demand.
 """
 
 from __future__ import annotations
@@ -18,30 +18,30 @@ from fscm.graded.kernel import image_ring, image_sum
 
 __all__ = ["ImageTable"]
 
-# Degree and size of a patch: the singularities are at a distance of pi/4 or more, so that they fall like 4.7^-m.
+# Degree and size of a patch: singularities are at a distance of pi/4 or more, so that coefficients fall like 4.7^-m.
 _DEGREE, _SIZE = 15, math.log(2.0)
-# Distances below this share of the length of the solid count as this one.
+# Least distance, in units of the length of the solid.
 _LEAST = 1e-11
-# Patches of shorter distances, down to zero, are one where A is larger by so many patches: the polynomial is in B
-# there.  The shallow images follow B down to the length over which the modulus changes at the surface, so that these
-# distances begin where the polynomial follows them to _ERROR: at the first of these numbers, or by steps lower.
+# Where A is larger than B by _APART patches, all patches of short distances, down to zero, are joined to one with a
+# polynomial in B.  The shallow images depend on B down to the length over which the modulus changes at the surface:
+# the short distances begin where the polynomial is accurate to _ERROR, at the patch _SHORT, or by steps _LOWER lower.
 _SHORT, _APART, _LOWER, _LOWEST = -14, 4, 4, -50
-# Images shallower than this share of B, or deeper than A over this share, are joined: what their expansion in the
-# square of the ratio leaves is the fourth power of it.
+# Images shallower than this share of B, or deeper than A over this share, are lumped: the error of their expansion in
+# the square of the ratio is its fourth power.
 _FAR = 7e-4
-# Error of the table: its own, relative to the largest D, at least 1, and rounding and what is left out for each unit
-# of the strengths of the images.  Measured worst 7e-14 over coatings with contrasts of 1e-4 to 1e4.  The coefficients
-# fall by factors of 5, so that the last ones are above what is left out.
+# Error of the table, relative to the largest D, at least 1, and rounding and truncation for each unit of the strengths
+# of the images.  Measured worst 7e-14 over coatings with contrasts of 1e-4 to 1e4.  The coefficients fall by factors of
+# 5, so that the last ones exceed the truncation error.
 _ERROR, _PER_STRENGTH = 2e-13, 2e-15
-# On the joined patches the shallowest images are shallower than the first node, and the coefficients do not show it:
-# the polynomial is compared with the sum at so many distances, from this share of the longest one on.  The largest
-# difference counts so many times: measured at most 1.05 times it between them (offset power laws, k = 0.4 and 0.8).
+# On the joined patches images may be shallower than the smallest node, which the coefficients do not show: the
+# polynomial is compared with the sum at _COMPARED distances, from the share _FROM of the longest one on.  The error is
+# _OF_COMPARED times the largest difference: measured at most 1.05 times (offset power laws, k = 0.4 and 0.8).
 _COMPARED, _FROM, _OF_COMPARED = 25, 1e-8, 2.0
-# Numbers of the patches in each direction: a pair of them is one integer.
+# Range of the index of a patch in each direction: a pair of indices is one integer.
 _MOST = 256
-# Number of those that are joined.
+# Index of the joined patches.
 _JOINED = 0
-# Points whose polynomials are evaluated together: they take 1 MB.
+# Points evaluated together: their polynomials take 1 MB.
 _AT_A_TIME = 2048
 
 
@@ -74,9 +74,9 @@ class ImageTable:
 
     @property
     def error(self) -> float:
-        """Bound of the error of all values so far."""
-        own = _ERROR * self._images.largest + _PER_STRENGTH * float(np.sum(np.abs(self._images.strengths)))
-        return own + self._worst
+        """Bound of the error of all values computed so far."""
+        fit_error = _ERROR * self._images.largest + _PER_STRENGTH * float(np.sum(np.abs(self._images.strengths)))
+        return fit_error + self._worst
 
     @property
     def _short(self) -> float:
@@ -105,29 +105,29 @@ class ImageTable:
         return self._patches[key]
 
     def _compared(self, c: Array, i: int) -> float:
-        """Bound on what the polynomials of a joined patch leave out."""
+        """Bound on the error of the polynomials of a joined patch."""
         A = np.array([self._length * math.exp((i - _MOST // 2 + 0.5) * _SIZE)])[:, None]
         share = np.append(0.0, np.geomspace(_FROM, 1.0, _COMPARED))
         B = np.maximum(self._short * share, _LEAST * self._length)[None, :]
-        found = chebyshev.chebval2d(np.zeros_like(share), 2.0 * B[0] / self._short - 1.0, c)
-        return _OF_COMPARED * float(np.max(np.abs(found - (A * self._sum(A, B))[0])))
+        polynomial = chebyshev.chebval2d(np.zeros_like(share), 2.0 * B[0] / self._short - 1.0, c)
+        return _OF_COMPARED * float(np.max(np.abs(polynomial - (A * self._sum(A, B))[0])))
 
     def _sum(self, A: Array, B: Array) -> Array:
-        """Sum of a_j f(d_j); images that are shallow or deep beside the patch are joined."""
+        """Sum of a_j f(d_j), with images much shallower or deeper than the patch lumped."""
         d, a = self._images.depths, self._images.strengths
         size = np.abs(d)
         shallow = size < _FAR * float(np.min(np.minimum(A, B)))
         deep = size > float(np.max(np.maximum(A, B))) / _FAR
-        near = ~(shallow | deep)
-        total = image_sum(A[..., None], B[..., None], d[near], a[near])
+        separate = ~(shallow | deep)
+        total = image_sum(A[..., None], B[..., None], d[separate], a[separate])
         if shallow.any():
-            zero, first = np.zeros(()), size[shallow][-1]
+            zero, scale = np.zeros(()), size[shallow][-1]
             at_zero = image_ring(A, B, zero)
-            slope = (image_ring(A, B, first) - at_zero) / first**2
+            slope = (image_ring(A, B, scale) - at_zero) / scale**2
             total += a[shallow].sum().real * at_zero + (a[shallow] @ d[shallow] ** 2).real * slope
         if deep.any():
-            last = size[deep][0]
-            slope = (last * image_ring(A, B, last) - 1.0) * last**2
+            scale = size[deep][0]
+            slope = (scale * image_ring(A, B, scale) - 1.0) * scale**2
             total += (a[deep] / d[deep]).sum().real + (a[deep] / d[deep] ** 3).sum().real * slope
         return total
 
@@ -137,8 +137,8 @@ class ImageTable:
         x = np.log(A / self._length) / _SIZE + _MOST // 2
         y = np.log(B / self._length) / _SIZE + _MOST // 2
         i, j = np.floor(x), np.floor(y)
-        first = self._first_short + _MOST // 2
-        short = (j < first) & (i >= first + _APART)
+        shortest = self._first_short + _MOST // 2
+        short = (j < shortest) & (i >= shortest + _APART)
         j[short] = _JOINED
         y[short] = _JOINED + B[short] / self._short
         keys = (i * _MOST + j).astype(np.uint16)
@@ -149,25 +149,25 @@ class ImageTable:
         ends = np.append(starts[1:], len(keys))
         sums, count = np.empty((2, len(x))), _DEGREE + 1
         work = np.empty((4, count, _AT_A_TIME))
-        for first in range(0, len(x), _AT_A_TIME):
-            last = min(first + _AT_A_TIME, len(x))
-            X, Y, rows = work[0, :, : last - first], work[1, :, : last - first], work[2:, :, : last - first]
-            _polynomials(x[first:last], X)
-            _polynomials(y[first:last], Y)
-            patches = np.searchsorted(ends, first, side="right"), np.searchsorted(starts, last)
-            for one in range(int(patches[0]), int(patches[1])):
-                part = slice(max(int(starts[one]), first) - first, min(int(ends[one]), last) - first)
-                c = self._patch(int(keys[starts[one]]))
-                rows[..., part] = (c.reshape(count, -1).T @ X[:, part]).reshape(2, count, -1)
+        for shortest in range(0, len(x), _AT_A_TIME):
+            last = min(shortest + _AT_A_TIME, len(x))
+            X, Y, rows = work[0, :, : last - shortest], work[1, :, : last - shortest], work[2:, :, : last - shortest]
+            _polynomials(x[shortest:last], X)
+            _polynomials(y[shortest:last], Y)
+            patches = np.searchsorted(ends, shortest, side="right"), np.searchsorted(starts, last)
+            for patch in range(int(patches[0]), int(patches[1])):
+                columns = slice(max(int(starts[patch]), shortest) - shortest, min(int(ends[patch]), last) - shortest)
+                c = self._patch(int(keys[starts[patch]]))
+                rows[..., columns] = (c.reshape(count, -1).T @ X[:, columns]).reshape(2, count, -1)
             rows *= Y
-            rows.sum(axis=1, out=sums[:, first:last])
-        found = np.empty((2, len(x)))
-        found[:, order] = sums
-        return found[0], found[1]
+            rows.sum(axis=1, out=sums[:, shortest:last])
+        results = np.empty((2, len(x)))
+        results[:, order] = sums
+        return results[0], results[1]
 
 
 def _last(coefficients: Array) -> tuple[float, float]:
-    """Largest of the last two coefficients of each polynomial in log A, and of each in B."""
+    """Largest of the last two coefficients in log A, and in log B or B."""
     size = np.abs(coefficients)
     return float(np.max(size[-2:])), float(np.max(size[:-2, -2:]))
 

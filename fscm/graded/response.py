@@ -1,4 +1,4 @@
-"""What distinguishes the response of a solid of any E(z) and nu(z) from that of its surface."""
+"""Difference of the response of a graded solid from that of a homogeneous one with the constants of its surface."""
 
 from __future__ import annotations
 
@@ -16,20 +16,19 @@ from fscm.solids import GradedHalfSpace
 
 __all__ = ["GradedResponse", "response_of"]
 
-# The images serve distances up to this one, in the unit of the radii: the pressure farther out is that of the tail.
+# Longest distance for which the images hold, in the unit of the radii: the pressure farther out is that of the tail.
 _LONGEST = 1e6
 # Wave numbers for each decade where the error of the kernel is summed.
 _POINTS = 12
 # Decades beyond the waves of the fit.
 _BEYOND = 4
 _BESSEL = 2.0 / math.pi
-# Largest change of log c for which the response is moved by its rate: that changes by as much, less than the table's
-# error.
+# Largest change of log c for which the response is updated by its rate: the error is below that of the table.
 _SAME = 1e-12
 
 
 class GradedResponse:
-    """What distinguishes the response of a graded solid from that of its surface.
+    """Difference of the response of a graded solid from that of a homogeneous one with the constants of its surface.
 
     Parameters
     ----------
@@ -48,12 +47,12 @@ class GradedResponse:
         return self.kernel.images.largest
 
     def remainder(
-        self, mesh: PanelMesh, c: float, known: tuple[PanelMesh, float, Remainder] | None = None
+        self, mesh: PanelMesh, c: float, reusable: tuple[PanelMesh, float, Remainder] | None = None
     ) -> Remainder:
-        """R(c) of `fscm.graded.panels`; what is known of another mesh at the same c is kept."""
+        """R(c) of `fscm.graded.panels`; that on another mesh at the same c is reused."""
         previous = None
-        if known is not None and abs(math.log(c / known[1])) <= _SAME:
-            previous = known[0], known[2].moved(math.log(c / known[1]))
+        if reusable is not None and abs(math.log(c / reusable[1])) <= _SAME:
+            previous = reusable[0], reusable[2].moved(math.log(c / reusable[1]))
         return remainder(self._table, self._length, mesh, c, previous)
 
     def far(self, radius: float) -> float:
@@ -61,10 +60,10 @@ class GradedResponse:
         return float(self.kernel.response(np.zeros(1), np.array([radius]))[0])
 
     def error(self, mesh: PanelMesh, c: float, pressure: Array) -> tuple[Array, float]:
-        """Bound of the error of (W p) at the nodes and on the axis by the kernel, from the sizes of the pressures."""
+        """Bound of the error of W p at the nodes and on the axis by the kernel, from the sizes of the pressures."""
         images = self.kernel.images
-        first, last = images.waves[0] * 10.0**-_BEYOND, images.waves[-1] * 10.0**_BEYOND
-        xi = np.geomspace(first, last, int(math.log10(last / first) * _POINTS))
+        low, high = images.waves[0] * 10.0**-_BEYOND, images.waves[-1] * 10.0**_BEYOND
+        xi = np.geomspace(low, high, int(math.log10(high / low) * _POINTS))
         weights = images.error(xi) * xi * math.log(xi[1] / xi[0])
         # W = (1/c) G, and the radii are c s.
         bessel = np.sqrt(np.minimum(1.0, _BESSEL / (c * mesh.nodes[:, None] * xi)))
@@ -77,5 +76,5 @@ class GradedResponse:
 
 @lru_cache(maxsize=8)
 def response_of(solid: GradedHalfSpace) -> GradedResponse:
-    """The response of a solid, made once."""
+    """The response of a solid, cached."""
     return GradedResponse(solid)

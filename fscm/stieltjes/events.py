@@ -16,8 +16,8 @@ from fscm.stieltjes.scheme import CentralGapRates, StieltjesScheme, StieltjesSta
 
 __all__ = ["find_event"]
 
-# Central gap of an event; load and displacement are stationary in it, or known to 100 times this at zero
-# load.
+# Tolerance of the central gap of an event; load and displacement are stationary there, or exact to 100 times this at
+# zero load.
 _EVENT_TOLERANCE = 1e-11
 _SIMPLE_FOLDS = (0, 2)
 
@@ -38,8 +38,8 @@ def find_event(scheme: StieltjesScheme, name: str) -> StieltjesState:
     NoSuchEvent
         When the path, which ends at `scheme.last_gap` or `scheme.last_load`, does not contain it.
     NotConverged
-        When the path or the search fails, or the displacement has neither no fold nor two: then the cohesive
-        edge is narrower than the segments and pins to them, or the path ends before contact.
+        When the path or the search fails, or the displacement does not have 0 or 2 folds: then the cohesive edge is
+        narrower than the segments and pins to them, or the path ends before contact.
     ValueError
         For an unknown name.
 
@@ -85,15 +85,15 @@ def _between(
     scheme: StieltjesScheme, a: StieltjesState, b: StieltjesState, measure: Callable[[StieltjesState], float]
 ) -> StieltjesState:
     """State between two others at which a measure vanishes."""
-    known = {s.central_gap: s for s in (a, b)}
+    states = {s.central_gap: s for s in (a, b)}
 
     def at(gap: float) -> StieltjesState:
-        if gap not in known:
-            nearest = min(known, key=lambda other: abs(other - gap))
-            known[gap] = scheme.solve(gap, known[nearest].gap)
-        return known[gap]
+        if gap not in states:
+            nearest = min(states, key=lambda central_gap: abs(central_gap - gap))
+            states[gap] = scheme.solve(gap, states[nearest].gap)
+        return states[gap]
 
-    low, high = sorted(known)
+    low, high = sorted(states)
     if measure(a) * measure(b) > 0.0:
         raise NotConverged(
             f"between the central gaps {low:g} and {high:g} the path turns more than once: use a smaller gap_step"
@@ -103,7 +103,7 @@ def _between(
 
 @dataclass(frozen=True)
 class _Event:
-    """How an event is told along the path.
+    """How an event is identified along the path.
 
     Attributes
     ----------

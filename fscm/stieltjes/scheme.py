@@ -1,9 +1,9 @@
 """The Stieltjes scheme (Sec. 2.4, Eqs. 34-39): uniform segments, Riemann-Stieltjes sums, central gap control.
 
-Kept as in the paper, as a second discretisation and as the baseline of comparisons: N uniform segments up to
-f(r_max) = 50 with nothing beyond, tractions at the mean of neighbouring gaps, Newton's method from the
-previous solution.  Only what the paper leaves open is added: the step of the central gap is halved where
-Newton's method fails, and where that does not help either there is an error, not a number.
+As in the paper, as a second discretisation and as the baseline of comparisons: N uniform segments up to f(r_max) = 50
+with nothing beyond, tractions at the mean of neighbouring gaps, Newton's method from the previous solution.  Only what
+the paper leaves open is added: the step of the central gap is halved if Newton's method fails; if that does not help,
+there is an exception instead of a number.
 """
 
 from __future__ import annotations
@@ -26,15 +26,15 @@ __all__ = ["CentralGapRates", "StieltjesScheme", "StieltjesState"]
 
 # Stopping rule of the paper: max |H_new / H_old - 1| < 1e-6.
 _TOLERANCE = 1e-6
-# The rule of the paper divides by gaps that cross zero.  A change below this is accepted whatever it is divided
-# by; it is the rounding of M p for M up to 100 at |dp/dH| = 16.
+# The rule of the paper divides by gaps that cross zero.  An absolute change below this is always accepted; it is the
+# rounding of M p for M up to 100 at |dp/dH| = 16.
 _SMALLEST_CHANGE = 1e-12
 # Newton converges quadratically from a neighbouring solution: 3 to 6 iterations were seen.
 _ITERATIONS = 30
-# In contact the displacement moves by 40 (mu = 1, k = 0) and far more for each unit of the central gap, and
-# the paper does not state its step: it is halved at most this often.
+# In contact the displacement changes by 40 (mu = 1, k = 0) and far more per unit of the central gap, and the paper does
+# not state its step: largest number of halvings.
 _HALVINGS = 12
-# Rows of the table evaluated at once, to bound the memory of the temporaries.
+# Rows of the table evaluated together, to bound the memory of temporaries.
 _BLOCK = 200
 
 
@@ -43,10 +43,10 @@ def _psi_table(k: float, segments: int) -> Array:
     """i^(1-k) [Psi_k(j/i) - Psi_k((j-1)/i)], i, j = 1..N: for uniform segments it depends on k and N only."""
     table = np.empty((segments, segments))
     j = np.arange(segments + 1.0)
-    for first in range(0, segments, _BLOCK):
-        i = np.arange(first + 1.0, min(first + _BLOCK, segments) + 1.0)[:, None]
+    for start in range(0, segments, _BLOCK):
+        i = np.arange(start + 1.0, min(start + _BLOCK, segments) + 1.0)[:, None]
         # j - i is exact, j/i - 1 is not.
-        table[first : first + _BLOCK] = i ** (1.0 - k) * np.diff(Psi(k, j / i, (j - i) / i), axis=1)
+        table[start : start + _BLOCK] = i ** (1.0 - k) * np.diff(Psi(k, j / i, (j - i) / i), axis=1)
     table.flags.writeable = False
     return table
 
@@ -105,8 +105,7 @@ class StieltjesScheme:
         Central gaps where the path begins and ends.  The paper has "say 10" and "say -0.1"; a path that ends at -0.1
         does not reach the pull-off of a cone on a stiff solid.
     last_load : float
-        The path also ends at the first load above this: compressed much farther, the contact leaves the
-        domain.
+        The path also ends at the first load above this: at a larger compression the contact would leave the domain.
 
     Raises
     ------
@@ -193,7 +192,7 @@ class StieltjesScheme:
         for iteration in range(1, _ITERATIONS + 1):
             p, matrix = self._linearised(central_gap, H)
             residual = H - central_gap - self._height - self._front * (_psi_table(self.problem.k, self.segments) @ p)
-            # A singular matrix or an overflow shows in the iterate, which is checked.
+            # A singular matrix or an overflow makes an iterate that fails the check below.
             new = H - scipy.linalg.lu_solve(
                 scipy.linalg.lu_factor(matrix, check_finite=False), residual, check_finite=False
             )
@@ -251,9 +250,9 @@ class StieltjesScheme:
         states = [self.solve(self.first_gap)]
         step = self.gap_step
         while states[-1].central_gap > self.last_gap and states[-1].load <= self.last_load:
-            here = states[-1]
+            state = states[-1]
             try:
-                states.append(self.solve(max(here.central_gap - step, self.last_gap), here.gap))
+                states.append(self.solve(max(state.central_gap - step, self.last_gap), state.gap))
             except NotConverged:
                 step *= 0.5
                 if step < self.gap_step * 0.5**_HALVINGS:

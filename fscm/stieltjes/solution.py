@@ -17,10 +17,9 @@ from fscm.stieltjes.scheme import StieltjesScheme, StieltjesState
 
 __all__ = ["STIELTJES_QUANTITIES", "stieltjes_solution"]
 
-# From N/2 to N segments the error falls fourfold, so the difference is three times the error at N where the
-# edge is resolved, and the tail is known to first order; the factor covers coarser meshes.  Measured worst
-# error / u_num is 0.65 over n = 1 to 5, k = 0, 0.3, 0.6, mu = 0.2, 0.8, 1.4 on 160 segments, wherever it
-# converges.
+# From N/2 to N segments the error falls fourfold, so that the difference is three times the error at N if the edge is
+# resolved; the factor covers coarser meshes.  Measured worst error / u_num is 0.65 over n = 1 to 5, k = 0, 0.3, 0.6,
+# mu = 0.2, 0.8, 1.4 on 160 segments, wherever it converges.
 _SAFETY = 2.0
 
 #: The quantities at one event of the path.
@@ -31,8 +30,8 @@ STIELTJES_QUANTITIES = {name: row for name, row in TABLE.items() if isinstance(r
 def stieltjes_solution(problem: Problem, quantity: str, segments: int = 2500, **settings: float) -> Solution:
     """One quantity from the Stieltjes scheme, with its numerical uncertainty.
 
-    The uncertainty is the difference to half as many segments with a safety factor, and what the traction
-    beyond f(r_max) would have added to load and displacement.
+    The uncertainty is the difference to half as many segments, and the contribution of the traction beyond f(r_max),
+    both with a safety factor.
 
     Parameters
     ----------
@@ -89,5 +88,5 @@ def _tail(scheme: StieltjesScheme, state: StieltjesState, exponent: float) -> fl
         gap = problem.punch.height(r) + shift
         return float((problem.law.traction(gap) * exponent * r**exponent)[0])
 
-    # In log r the integrand decays exponentially; where f has grown by e^60 nothing is left of it.
+    # In log r the integrand decays exponentially; it is negligible where f has grown by e^60.
     return abs(float(scipy.integrate.quad(density, 0.0, 60.0 / problem.punch.growth, limit=200)[0]))

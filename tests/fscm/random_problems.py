@@ -80,7 +80,7 @@ def _thinned(path: Iterator[Point], end: Callable[[State], bool]) -> list[Point]
 
 
 def _signs(point: Point) -> tuple[object, ...]:
-    return point.stretch, point.rates.load < 0.0, point.rates.displacement < 0.0, point.state.load < 0.0
+    return point.segment, point.rates.load < 0.0, point.rates.displacement < 0.0, point.state.load < 0.0
 
 
 def rows_of(problem: Problem) -> Iterator[tuple[object, ...]]:

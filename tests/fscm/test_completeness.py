@@ -44,7 +44,7 @@ def test_the_path_behind_an_asperity_is_passed_once(asperity: Analysis) -> None:
     assert turns[1].displacement == pytest.approx(7.06167, abs=1e-4)
     # Neither the load nor the displacement is stationary where the mesh changes over to another edge.
     for a, b in pairwise(asperity.points):
-        if a.stretch != b.stretch:
+        if a.segment != b.segment:
             assert b.state.load == pytest.approx(a.state.load, rel=1e-4)
             assert b.state.displacement == pytest.approx(a.state.displacement, rel=1e-4)
 
@@ -116,13 +116,13 @@ def test_steps_over_a_pair_of_folds_are_found() -> None:
     """A path with all points near its two folds left out is completed again."""
     points = analysis_of(Problem(2, 0.4, 1.0)).points
     turn = [i for i, (a, b) in enumerate(pairwise(points)) if a.rates.displacement * b.rates.displacement < 0.0]
-    # The folds of this problem lie on two stretches; those of k = 0.6, mu = 3 on one.
+    # The folds of this problem lie on two segments; those of k = 0.6, mu = 3 on one.
     assert len(turn) == 2
     full = analysis_of(Problem(2, 0.6, 3.0)).points
     signs = [point.rates.displacement > 0.0 for point in full]
     down = signs.index(False)
     up = down + signs[down:].index(True)
-    assert full[down - 1].stretch == full[up].stretch
+    assert full[down - 1].segment == full[up].segment
     found = completed([*full[:down], *full[up:]], 1e-4)
     assert sum(p.rates.displacement < 0.0 for p in found) > sum(p.rates.displacement < 0.0 for p in full[up:])
 
@@ -136,7 +136,7 @@ def test_the_folds_of_a_path_are_those_of_one_with_short_steps() -> None:
         name
         for a, b in pairwise(points)
         for name in ("load", "displacement")
-        if a.stretch == b.stretch and getattr(a.rates, name) * getattr(b.rates, name) < 0.0
+        if a.segment == b.segment and getattr(a.rates, name) * getattr(b.rates, name) < 0.0
     ]
     found = [fold.quantity for fold in analysis_of(problem).folds]
     assert sorted(found) == sorted(brute)
@@ -239,9 +239,9 @@ def test_two_jumps_on_one_approach() -> None:
 
 def test_a_path_without_end_is_cut_by_its_stretches() -> None:
     """The stretch of a point tells its continuation parameter: 0 apart, 1 in contact of a power law."""
-    stretches = []
+    segments = []
     for point in equilibrium_path(Problem(2, 0.4, 1.0), 8, 1e-3):
-        stretches.append((point.stretch, point.state.follows_edge))
+        segments.append((point.segment, point.state.follows_edge))
         if point.state.follows_edge and point.state.load > 0.0:
             break
-    assert set(stretches) == {(0, False), (1, True)}
+    assert set(segments) == {(0, False), (1, True)}

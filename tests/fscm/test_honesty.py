@@ -159,7 +159,7 @@ def test_a_smaller_number_is_a_finer_mesh() -> None:
     problem = Problem(2, 0.4, 1.0)
     sizes = [Analysis(problem, x).solution("pull_off_force").size for x in (1e-4, "quick", "default", 1e-9, "fine")]
     assert sizes == sorted(set(sizes))
-    assert Meshes.of("default") == replace(Meshes.of(1e-8), asked=math.inf) == Meshes()
+    assert Meshes.of("default") == replace(Meshes.of(1e-8), warn_above=math.inf) == Meshes()
 
 
 @pytest.mark.parametrize("accuracy", [0.0, 1e-11, 1e-3, 1, math.nan, "best", None, True])

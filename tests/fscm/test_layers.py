@@ -131,7 +131,7 @@ def test_an_accuracy_that_is_not_reached_is_said():
         warnings.simplefilter("error")
         force = analysis.solution("pull_off_force")
     assert force.u_num < 1e-6 * force.value
-    asked = replace(analysis.meshes, asked=1e-10)
+    asked = replace(analysis.meshes, warn_above=1e-10)
     analysis.meshes, reached = asked, analysis.meshes
     try:
         with pytest.warns(AccuracyWarning, match="accuracy = 1e-10 is not reached .* kernel"):

@@ -44,10 +44,10 @@ def test_distances_from_the_origin_are_exact() -> None:
     mesh = PanelMesh(ends, 5, origin=1.0)
     assert mesh.starts[0] == 0.0
     assert mesh.lengths[2:4] == pytest.approx([1e-20, 2e-20], rel=1e-14)
-    values = np.where((mesh.places > 0.0) & (mesh.places < 1e-20), 1e20 * mesh.places, 0.0)
-    assert mesh.evaluate_places(values, np.array([0.25e-20]))[0] == pytest.approx(0.25, rel=1e-12)
+    values = np.where((mesh.node_offsets > 0.0) & (mesh.node_offsets < 1e-20), 1e20 * mesh.node_offsets, 0.0)
+    assert mesh.evaluate_at_offsets(values, np.array([0.25e-20]))[0] == pytest.approx(0.25, rel=1e-12)
     finer = PanelMesh(np.insert(ends, 3, 0.5e-20), 5, origin=1.0)
-    np.testing.assert_allclose(mesh.transfer(values, finer)[10:20], 1e20 * finer.places[10:20], rtol=1e-12)
+    np.testing.assert_allclose(mesh.transfer(values, finer)[10:20], 1e20 * finer.node_offsets[10:20], rtol=1e-12)
     coarse, seen = PanelMesh(np.array([0.0, 0.5, 3.0]), 5), mesh.nodes**2
     np.testing.assert_allclose(coarse.transfer(coarse.nodes**2, mesh), seen, rtol=1e-12, atol=1e-15)
 
