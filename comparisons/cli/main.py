@@ -4,138 +4,124 @@ Results go to stdout, progress and messages to stderr.  Exit status: 0 done and 
 fails, 2 wrong input, 3 a gate is inconclusive, 4 a computation or an output failed (as on a full disk), a gate is in
 error, or there was nothing to judge (and, as shells have it, 130 after Ctrl-C, 141 when the reader of a pipe went
 away, and 143 after SIGTERM).
+
+A command is a module in `comparisons.cli.commands` with its `OPTIONS`, the `EXAMPLES` of its help, and a function
+`call` that returns the exit status.  A library such as click would not shorten it: none has options with several values
+(``--model jkr dmt``), and the help must not import what a command needs.
 """
 
 from __future__ import annotations
 
 import argparse
 import logging
+import re
 import sys
+import textwrap
 from collections.abc import Collection, Sequence
+from contextlib import nullcontext
 from importlib import import_module
 from typing import Any, NoReturn
 
-from comparisons.cli.help_text import HelpFormatter, description_of, examples_text
-from comparisons.console.exit_status import guarded
+from comparisons.console.exit_status import FAILED, guarded
 
 __all__ = ["main"]
 
-#: Command -> its module in `comparisons.cli.commands`, and its line of the help.  A module is imported when its
-#: command is called, so that the help does not wait for the libraries of all commands.
+#: Command -> its line of the help.  Its module is imported when it is called.
 _COMMANDS = {
-    "run": ("run", "compute the standing cases and judge them"),
-    "judge": ("judge", "judge stored results again without computing"),
-    "report": ("report", "write a run as one HTML page"),
-    "leaderboard": ("leaderboard", "write any number of runs as one sortable HTML table"),
-    "paper": ("paper", "compute the figures and numbers of the paper again"),
-    "sweep": ("sweep", "compute grids of one's own"),
-    "compare": ("compare", "compare models with a reference in cases of one's own: one table, one figure"),
-    "merge": ("merge", "put the shards of a sweep into one folder"),
-    "solve": ("solve", "compute one quantity of one problem by one model"),
-    "curve": ("curve", "compute curves or surfaces at pull-off, as CSV and as a plot"),
-    "describe": ("describe", "Tabor number, pull-off force and admissible models of a problem file"),
-    "fem": ("fem", "write fields of the finite elements (vtu, picture), print their verification and solver tables"),
-    "list": ("listing", "list the models, quantities, cases or gates"),
-    "check-model": ("check_model", "check that an external model keeps the contract"),
-    "new-model": ("new_model", "write a template for a model of your own"),
-    "cite": ("cite", "print how to cite fscm-bench and what a run used, as text or BibTeX"),
-    "bench": ("bench", "measure error, time and memory of the solvers on this machine, as ratios"),
+    "run": "compute the standing cases and judge them",
+    "judge": "judge stored results again without computing, by the gates of the run or others",
+    "report": "write a run as one HTML page that needs no other file",
+    "leaderboard": "write any number of runs as one sortable HTML table",
+    "paper": "compute the figures and numbers of the paper again",
+    "sweep": "compute grids of one's own, without gates",
+    "compare": "compare models with a reference in cases of one's own: one table, one figure",
+    "merge": "put the shards of a sweep into one folder",
+    "solve": "compute one quantity of one problem by one model",
+    "curve": "compute curves or surfaces at pull-off, as CSV and as a plot",
+    "describe": "Tabor number, pull-off force and admissible models of a problem file",
+    "fem": "write fields of the finite elements (vtu, picture), print their verification and solver tables",
+    "list": "list the models, quantities, cases or gates",
+    "check-model": "check that an external model keeps the contract",
+    "new-model": "write a template for a model of your own: a package with a test and a CI workflow",
+    "cite": "print how to cite fscm-bench and what a run used, as text or BibTeX",
+    "bench": "measure error, time and memory of the solvers on this machine, as ratios",
 }
 
-
-class _Parser(argparse.ArgumentParser):
-    """A parser whose errors are one sentence, without the usage."""
-
-    def error(self, message: str) -> NoReturn:
-        raise ValueError(f"{message}; see {self.prog} --help")
-
-    def _print_message(self, message: str, file: Any = None) -> None:
-        # The help and the version; the method of argparse is silent when they cannot be written.
-        print(message, end="", file=file or sys.stderr)
-
-
-class _Version(argparse.Action):
-    """The option --version; the version is read when it is asked for."""
-
-    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> None:
-        from comparisons.runs.environment import version_text
-
-        print(f"fscm-bench {version_text()}")
-        parser.exit()
-
-
-class _Completion(argparse.Action):
-    """The option --print-completion."""
-
-    def __call__(self, parser: argparse.ArgumentParser, _: argparse.Namespace, shell: Any, *__: Any) -> None:
-        from comparisons.cli.completion import completion_script
-
-        print(completion_script(_parser(list(_COMMANDS)), shell), end="")
-        parser.exit()
-
-
-#: The end of the help.
-_EXIT_STATUS = (
-    "Exit status: 0 done and every gate passes, 1 a gate fails, 2 wrong input, 3 inconclusive, 4 a computation or an "
-    "output failed, a gate is in error, or no gate was evaluated."
-)
 _EXAMPLES = (
     "fscm-bench run",
     "fscm-bench solve --model fscm --quantity pull_off_force --n 2 --k 0.4 --mu 1",
     "fscm-bench COMMAND --help",
 )
+_EXIT_STATUS = """
+Exit status: 0 done and every gate passes, 1 a gate fails, 2 wrong input,
+3 inconclusive, 4 a computation or an output failed, a gate is in error, or no
+gate was evaluated."""
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser whose errors are one sentence, without the usage, and whose help keeps the lines of examples."""
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings, formatter_class=argparse.RawDescriptionHelpFormatter)
+        # The pattern of argparse does not know -1e-3, which it takes for an option.
+        self._negative_number_matcher = re.compile(r"-(\d|\.\d|inf|nan)")
+
+    def error(self, message: str) -> NoReturn:
+        raise ValueError(f"{message}; see {self.prog} --help")
+
+    def _print_message(self, message: str, file: Any = None) -> None:
+        # The help; the method of argparse is silent when it cannot be written.
+        print(message, end="", file=file or sys.stderr)
+
+
+class _Print(argparse.Action):
+    """An option that prints what the function `const` makes of its value."""
+
+    def __call__(self, parser: argparse.ArgumentParser, _: Any, value: Any, __: Any = None) -> None:
+        print(self.const(value), end="")
+        parser.exit()
+
+
+def _version(_: object) -> str:
+    from comparisons.runs.environment import version_text
+
+    return f"fscm-bench {version_text()}\n"
+
+
+def _completion(shell: str) -> str:
+    from comparisons.cli.completion import completion_script
+
+    return completion_script(_parser(list(_COMMANDS)), shell)
+
+
+def _examples(commands: Sequence[str]) -> str:
+    return "\n  ".join(["example:" if len(commands) == 1 else "examples:", *commands])
 
 
 def _parser(called: Collection[str], program: str = "fscm-bench") -> argparse.ArgumentParser:
-    """The parser, with the arguments of the commands that are called."""
+    """The parser, with the options of the commands that are called."""
     parser = _Parser(
         prog=program,
-        description="How wrong is a model of adhesive contact of graded materials, and how certain is that error?",
-        epilog=f"{examples_text(_EXAMPLES)}\n\n{_EXIT_STATUS}",
-        formatter_class=HelpFormatter,
+        description="How wrong is a model of adhesive contact, and how certain is that error?",
+        epilog=f"{_examples(_EXAMPLES)}\n{_EXIT_STATUS}",
     )
-    parser.add_argument("--version", action=_Version, nargs=0, help="print the version and, if known, the commit")
+    shells = "print the script that completes commands in bash, zsh or tcsh"
     parser.add_argument(
-        "--print-completion",
-        metavar="SHELL",
-        action=_Completion,
-        help="print the script that completes commands in bash, zsh or tcsh",
+        "--version", action=_Print, const=_version, nargs=0, help="print the version and, if known, the commit"
     )
+    parser.add_argument("--print-completion", metavar="SHELL", action=_Print, const=_completion, help=shells)
     parsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for name, (module_name, text) in _COMMANDS.items():
-        command = parsers.add_parser(name, help=text, formatter_class=HelpFormatter)
+    for name, text in _COMMANDS.items():
+        command = parsers.add_parser(name, help=text, description=textwrap.fill(f"{text[0].upper()}{text[1:]}."))
         if name in called:
+            # `list` would hide the type of Python.
+            module_name = "listing" if name == "list" else name.replace("-", "_")
             module = import_module(f"comparisons.cli.commands.{module_name}")
-            command.description = description_of(module.__doc__)
-            command.epilog = examples_text(module.EXAMPLES)
-            module.add(command)
+            command.epilog = _examples(module.EXAMPLES)
             command.set_defaults(call=module.call)
+            for names, settings in module.OPTIONS:
+                command.add_argument(*names, **settings)
     return parser
-
-
-def _keep_negative_numbers(arguments: Sequence[str]) -> list[str]:
-    """Join ``--k -1e-3`` into ``--k=-1e-3``: argparse takes some negative numbers for options.
-
-    Examples
-    --------
-    >>> _keep_negative_numbers(["solve", "--k", "-1e-3", "--n", "2"])
-    ['solve', '--k=-1e-3', '--n', '2']
-    """
-    joined: list[str] = []
-    for argument in arguments:
-        if joined and joined[-1].startswith("--") and "=" not in joined[-1] and _is_negative(argument):
-            joined[-1] += f"={argument}"
-        else:
-            joined.append(argument)
-    return joined
-
-
-def _is_negative(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return text.startswith("-")
 
 
 def main(arguments: Sequence[str] | None = None, program: str = "fscm-bench") -> int:
@@ -158,13 +144,20 @@ def main(arguments: Sequence[str] | None = None, program: str = "fscm-bench") ->
 
 def _call(arguments: Sequence[str], program: str) -> int:
     called = [text for text in arguments if not text.startswith("-")][:1]
-    args = _parser(called, program).parse_args(_keep_negative_numbers(arguments))
+    args = _parser(called, program).parse_args(arguments)
     # Not needed for the help.
     from threadpoolctl import threadpool_limits
+
+    from comparisons.console.progress import log, quiet
+    from comparisons.model import ComputationFailed
 
     # Embedding a font in a PDF, it remarks on the date in the font's file.
     logging.getLogger("fontTools").setLevel(logging.ERROR)
     # One thread for BLAS: processes share the work, and sums come in the same order every time.
-    with threadpool_limits(1):
-        status: int = args.call(args)
+    with threadpool_limits(1), quiet() if getattr(args, "quiet", False) else nullcontext():
+        try:
+            status: int = args.call(args)
+        except ComputationFailed as failure:
+            log(str(failure))
+            return FAILED
     return status

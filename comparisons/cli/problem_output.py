@@ -10,7 +10,8 @@ import json
 
 import pandas as pd
 
-from comparisons.cli.options import FAILED, OK, for_terminal
+from comparisons.cli.screen import print_lines
+from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
 from comparisons.model import Model
 from comparisons.problem_file.description import ProblemFile
@@ -45,8 +46,10 @@ def solve_file(args: argparse.Namespace) -> int:
     model = model_for(problem, args.model)
     with waiting(f"{args.model}, {problem.label}"):
         found = evaluate_problem(problem, model, args.quantity)
-    shown = _FORMATS[args.format](found)
-    print(for_terminal(shown.splitlines()) if args.format == "text" else shown, end="")
+    if args.format == "text":
+        print_lines(_lines(found))
+    else:
+        print({"json": _json, "csv": _csv}[args.format](found), end="")
     return FAILED if found.status == "failed" else OK
 
 
@@ -79,7 +82,7 @@ def _csv(found: PhysicalValue) -> str:
     return text.getvalue()
 
 
-def _text(found: PhysicalValue) -> str:
+def _lines(found: PhysicalValue) -> list[str]:
     quantity = QUANTITIES[found.quantity]
     lines = [f"{found.model}: {found.quantity} of {found.problem['file']}"]
     if found.value is None or found.u_num is None:
@@ -92,10 +95,7 @@ def _text(found: PhysicalValue) -> str:
         lines.append(f"  dimensionless: {number} {scaled['unit']}")
     if found.value is not None and found.reason:
         lines.append(f"  {found.reason}")
-    return "\n".join(lines) + "\n"
-
-
-_FORMATS = {"text": _text, "json": _json, "csv": _csv}
+    return lines
 
 
 class InSI:

@@ -1,1 +1,1 @@
-"""Commands of the command line, one module each: `add` declares the arguments, `call` runs the command."""
+"""Commands of the command line, one module each: its `OPTIONS`, its `EXAMPLES`, and `call`, which runs it."""

@@ -4,31 +4,29 @@ from __future__ import annotations
 
 import argparse
 
-from comparisons.cli.options import FAILED, FAILS, OK, output
-from comparisons.cli.verdict_screen import print_lines
-from comparisons.console.folding import folded
+from comparisons.cli.options import option
+from comparisons.cli.screen import print_lines
+from comparisons.console.exit_status import FAILED, FAILS, OK
 from comparisons.console.progress import waiting
 from comparisons.external.contract_checks import examine
-from comparisons.external.evaluations import SKIPPED, Finding
+from comparisons.external.evaluations import SKIPPED
 from comparisons.external.model_source import load_model
 from comparisons.registry import MODELS
 
-__all__ = ["EXAMPLES", "add", "call"]
+__all__ = ["EXAMPLES", "OPTIONS", "call"]
 
-#: Examples of the help.
 EXAMPLES = ("fscm-bench check-model my_model.py:MyModel",)
 
-#: Columns of the status, the longest of which is "not checked".
-_STATUS = len(SKIPPED)
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments."""
-    parser.add_argument(
+OPTIONS = (
+    option(
         "spec",
         metavar="SPEC",
         help="name of an installed model, FILE.py:CLASS, ./PROGRAM, or a folder with a model.toml",
-    )
+    ),
+)
+
+#: Columns of the status, the longest of which is "not checked".
+_STATUS = len(SKIPPED)
 
 
 def call(args: argparse.Namespace) -> int:
@@ -40,14 +38,6 @@ def call(args: argparse.Namespace) -> int:
         raise ValueError(f"the name {model.name} belongs to a model of fscm-bench: choose another name")
     with waiting(f"checking {model.name}"):
         findings = examine(model)
-    print_lines(line for finding in findings for line in _lines(finding, output().width))
-    found = {finding.status for finding in findings}
-    if "failed" in found:
-        return FAILED
-    return FAILS if "wrong" in found else OK
-
-
-def _lines(finding: Finding, width: int) -> list[str]:
-    lead = f"{finding.status:{_STATUS}}  "
-    first, *others = folded(f"{finding.check}: {finding.text}", width - len(lead))
-    return [lead + first, *(" " * len(lead) + line for line in others)]
+    print_lines(f"{finding.status:{_STATUS}}  {finding.check}: {finding.text}" for finding in findings)
+    statuses = {finding.status for finding in findings}
+    return FAILED if "failed" in statuses else FAILS if "wrong" in statuses else OK

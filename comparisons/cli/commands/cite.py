@@ -7,34 +7,32 @@ from pathlib import Path
 
 import pandas as pd
 
-from comparisons.cli.options import OK
+from comparisons.cli.options import file, option
+from comparisons.console.exit_status import OK
 from comparisons.console.printable import printable
 from comparisons.output.citation import as_bibtex, as_text, methods, works
 from comparisons.runs.environment import version_text
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import check_files, read_record
 
-__all__ = ["EXAMPLES", "add", "call"]
+__all__ = ["EXAMPLES", "OPTIONS", "call"]
 
-#: Examples of the help.
 EXAMPLES = ("fscm-bench cite", "fscm-bench cite --format bibtex results/runs/TIME")
 
-
-def add(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments."""
-    parser.add_argument(
+OPTIONS = (
+    file(
         "folder",
         metavar="DIR",
-        type=Path,
         nargs="?",
         help="folder of a finished run, sweep or comparison: the versions and models that it used, too",
-    )
-    parser.add_argument(
+    ),
+    option(
         "--format",
         choices=("text", "bibtex"),
         default="text",
         help="text has a paragraph for the section Methods and the list of references (default: text)",
-    )
+    ),
+)
 
 
 def call(args: argparse.Namespace) -> int:
@@ -45,8 +43,8 @@ def call(args: argparse.Namespace) -> int:
         record = read_record(folder.record)
         check_files(record, args.folder)
         paragraph = methods(record, _references(folder.parquet(folder.kappa)))
-    found = works("" if record else version_text(), record)
-    print(printable(as_bibtex(found) if args.format == "bibtex" else as_text(found, paragraph)), end="")
+    cited = works("" if record else version_text(), record)
+    print(printable(as_bibtex(cited) if args.format == "bibtex" else as_text(cited, paragraph)), end="")
     return OK
 
 
@@ -56,4 +54,4 @@ def _references(table: Path) -> dict[str, float]:
         return {}
     rows = pd.read_parquet(table, columns=["reference", "reference_value", "u_reference"])
     relative = rows["u_reference"] / rows["reference_value"].abs()
-    return {str(name): float(part.max()) for name, part in relative.groupby(rows["reference"])}
+    return {str(name): float(bounds.max()) for name, bounds in relative.groupby(rows["reference"])}

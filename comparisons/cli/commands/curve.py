@@ -8,7 +8,8 @@ from typing import Protocol
 
 import pandas as pd
 
-from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case_or_file, case_of
+from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, case_of, file, option, several
+from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, waiting
 from comparisons.model import ComputationFailed, Model, NotApplicable
 from comparisons.output.figures import curves
@@ -19,37 +20,27 @@ from comparisons.runs.atomic_files import atomic, writable_file
 from comparisons.runs.cases import Case
 from comparisons.runs.csv_format import csv_text
 
-__all__ = ["EXAMPLES", "add", "call"]
+__all__ = ["EXAMPLES", "OPTIONS", "call"]
 
-#: Examples of the help.
 EXAMPLES = (
     "fscm-bench curve --model fscm jkr --n 2 --k 0.4 --mu 3 --plot curve.png --csv curve.csv",
     "fscm-bench curve --model fscm fem --problem pad.toml --plot pad.png",
 )
 
 
-def add(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments."""
-    parser.add_argument(
-        "--model",
-        metavar="SPEC",
-        nargs="+",
-        action="extend",
-        required=True,
-        help=MODEL_SPEC,
-    )
-    parser.add_argument(
+OPTIONS = (
+    several("--model", metavar="SPEC", required=True, help=MODEL_SPEC),
+    option(
         "--quantity",
         metavar="NAME",
         choices=tuple(CURVES),
         default="force_curve",
         help=f"what to draw: {', '.join(CURVES)} (default: force_curve)",
-    )
-    add_case_or_file(parser)
-    parser.add_argument(
-        "--csv", metavar="FILE", type=Path, help="write the points here; by default, and with -, to stdout"
-    )
-    parser.add_argument("--plot", metavar="FILE", type=Path, help="draw the curves here (.png, .pdf or .svg)")
+    ),
+    *CASE_OR_FILE,
+    file("--csv", help="write the points here; by default, and with -, to stdout"),
+    file("--plot", help="draw the curves here (.png, .pdf or .svg)"),
+)
 
 
 def call(args: argparse.Namespace) -> int:
@@ -69,8 +60,8 @@ def call(args: argparse.Namespace) -> int:
     found, status = _evaluated(models, case)
     table = case.table(_table(found, args.quantity))
     if file_of_points:
-        with atomic(file_of_points) as file:
-            file.write(csv_text(table).encode())
+        with atomic(file_of_points) as written:
+            written.write(csv_text(table).encode())
     if args.plot:
         save(curves.draw(found, case.axes, case.label), args.plot)
     if to_stdout:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import asdict
-from pathlib import Path
 
 import pandas as pd
 
 import fem_reference
-from comparisons.cli.options import FAILED, OK, add_case, case_of, number, output
+from comparisons.cli.options import CASE, case_of, file, number, option
+from comparisons.cli.screen import output
+from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, waiting
-from comparisons.model import ComputationFailed, NotApplicable
+from comparisons.model import NotApplicable
 from comparisons.models.fem_model import FiniteElements
 from comparisons.output.style import picture_path, save
 from comparisons.output.terminal import rich_table
@@ -19,40 +20,36 @@ from comparisons.runs.atomic_files import writable_file, writing
 from fem_reference import export
 from fem_reference.verification import FULL_STUDY, QUICK_STUDY, elastic_checks, solver_table
 
-__all__ = ["EXAMPLES", "add", "call"]
+__all__ = ["EXAMPLES", "OPTIONS", "call"]
 
-#: Examples of the help.
 EXAMPLES = (
     "fscm-bench fem --n 2 --k 0.4 --mu 1 --vtu body.vtu --plot body.png",
     "fscm-bench fem --verify",
 )
 
-_ERRORS = {"error": ".1e", "limit": ".2g"}
-_STUDY = {"residual": ".0e", "setup_seconds": ".2f", "solve_seconds": ".2f", "megabytes": ".0f"} | {
-    "direct_seconds": ".2f",
-    "direct_megabytes": ".0f",
-    "agreement": ".0e",
-}
-# The picture shows this many contact radii, and its largest displacement as this share of them.
-_SHOWN, _SHARE = 2.0, 0.15
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments."""
-    add_case(parser, required=False)
-    parser.add_argument("--nu", type=number, default=0.3, help="Poisson's ratio, in [0, 0.5) (default: %(default)s)")
-    parser.add_argument(
+OPTIONS = (
+    *CASE,
+    option("--nu", type=number, default=0.3, help="Poisson's ratio, in [0, 0.5) (default: %(default)s)"),
+    option(
         "--event",
         default="pull_off",
         metavar="EVENT",
         choices=fem_reference.EVENTS,
         help=f"the event whose state is shown: {', '.join(fem_reference.EVENTS)} (default: %(default)s)",
-    )
-    parser.add_argument("--vtu", metavar="FILE", type=Path, help="write mesh, displacement and stresses here")
-    parser.add_argument("--plot", metavar="FILE", type=Path, help="draw the deformed body here")
-    parser.add_argument("--verify", action="store_true", help="print the checks against exact solutions")
-    parser.add_argument("--solver", action="store_true", help="print the table of the linear solvers")
-    parser.add_argument("--full", action="store_true", help="all checks and sizes (long)")
+    ),
+    file("--vtu", help="write mesh, displacement and stresses here"),
+    file("--plot", help="draw the deformed body here"),
+    option("--verify", action="store_true", help="print the checks against exact solutions"),
+    option("--solver", action="store_true", help="print the table of the linear solvers"),
+    option("--full", action="store_true", help="all checks and sizes (long)"),
+)
+
+_FORMATS = {"error": ".1e", "limit": ".2g", "residual": ".0e", "agreement": ".0e"} | {
+    **dict.fromkeys(("setup_seconds", "solve_seconds", "direct_seconds"), ".2f"),
+    **dict.fromkeys(("megabytes", "direct_megabytes"), ".0f"),
+}
+# The picture extends to so many contact radii, and its largest displacement is this share of that.
+_EXTENT, _SHARE = 2.0, 0.15
 
 
 def call(args: argparse.Namespace) -> int:
@@ -63,23 +60,19 @@ def call(args: argparse.Namespace) -> int:
     if args.verify:
         with waiting("verification"):
             checks = elastic_checks(args.full)
-        rows = [asdict(check) | {"passed": check.passed} for check in checks]
-        output().print(rich_table(pd.DataFrame(rows), "verification of the finite elements", _ERRORS))
-        if not all(check.passed for check in checks):
+        rows = pd.DataFrame(asdict(check) | {"passed": check.passed} for check in checks)
+        output().print(rich_table(rows, "verification of the finite elements", _FORMATS))
+        if not rows["passed"].all():
             status = FAILED
     if args.solver:
         with waiting("linear solvers"):
-            table = solver_table(FULL_STUDY if args.full else QUICK_STUDY)
-        rows = [asdict(row) for row in table]
-        output().print(rich_table(pd.DataFrame(rows), "conjugate gradients with pyamg beside a direct solve", _STUDY))
+            rows = pd.DataFrame(map(asdict, solver_table(FULL_STUDY if args.full else QUICK_STUDY)))
+        output().print(rich_table(rows, "conjugate gradients with pyamg beside a direct solve", _FORMATS))
     return status
 
 
 def _fields(args: argparse.Namespace) -> int:
     """Write the state of an event as vtu and picture."""
-    missing = [f"--{name}" for name in ("n", "k", "mu") if getattr(args, name) is None]
-    if missing:
-        raise ValueError(f"--vtu and --plot need a case; give {', '.join(missing)} too")
     case = case_of(args)
     if args.vtu:
         if args.vtu.suffix != ".vtu":
@@ -93,26 +86,21 @@ def _fields(args: argparse.Namespace) -> int:
     except NotApplicable as refusal:
         log(f"not-applicable: {refusal}")
         return OK
-    except ComputationFailed as failure:
-        log(f"failed: {failure}")
-        return FAILED
-    size = FiniteElements.shape_parameter(case.n)
+    punch = f"a punch with Q = {FiniteElements.shape_parameter(case.n):.4g} z0^(n-1)"
     if args.vtu:
         with writing(args.vtu):
             export.write_vtu(field, args.vtu)
-        log(f"{args.vtu}: lengths in z0, stresses in dgamma/z0, for a punch with Q = {size:.4g} z0^(n-1)")
+        log(f"{args.vtu}: lengths in z0, stresses in dgamma/z0, for {punch}")
     if args.plot:
-        shown = _SHOWN * radius
-        inside = (field.points < shown).all(axis=1)
-        largest = float(abs(field.displacement[inside]).max())
+        extent = _EXTENT * radius
+        inside = (field.points < extent).all(axis=1)
         # One digit, since the figure states it.
-        magnification = float(f"{_SHARE * shown / largest:.1g}")
-        figure = export.draw(field, shown, magnification)
-        axes = figure.axes[0]
-        axes.set_xlabel(f"radius $r / z_0$ of a punch with $Q$ = {size:.4g} $z_0^{{n-1}}$")
-        axes.set_ylabel(f"depth $z / z_0$, displacement and gap magnified {magnification:g} times")
-        event = args.event.replace("_", "-")
-        axes.set_title(rf"{event} at $n$ = {case.n:g}, $k$ = {case.k:g}, $\mu$ = {case.mu:g}, $\nu$ = {args.nu:g}")
-        figure.axes[1].set_ylabel(r"axial stress $\sigma_{zz} z_0 / \Delta\gamma$, tension positive")
+        magnification = float(f"{_SHARE * extent / float(abs(field.displacement[inside]).max()):.1g}")
+        figure = export.draw(field, extent, magnification)
+        section, scale = figure.axes[:2]
+        section.set_xlabel(f"radius / z0, {punch}")
+        section.set_ylabel(f"depth / z0, displacement and gap magnified {magnification:g} times")
+        section.set_title(f"{args.event.replace('_', '-')} at {case.label}, nu = {args.nu:g}")
+        scale.set_ylabel("axial stress z0 / dgamma, tension positive")
         save(figure, args.plot)
     return OK

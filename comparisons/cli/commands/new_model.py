@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from shlex import quote
 
-from comparisons.cli.options import OK
+from comparisons.cli.options import file
+from comparisons.console.exit_status import OK
 from comparisons.console.progress import log
 from comparisons.external.template import write_template
 from comparisons.registry import MODELS
 
-__all__ = ["EXAMPLES", "add", "call"]
+__all__ = ["EXAMPLES", "OPTIONS", "call"]
 
-#: Examples of the help.
 EXAMPLES = ("fscm-bench new-model my-model",)
 
-
-def add(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments."""
-    parser.add_argument("folder", metavar="DIR", type=Path, help="new folder; the model gets its name, e.g. my-model")
+OPTIONS = (file("folder", metavar="DIR", help="new folder; the model gets its name, e.g. my-model"),)
 
 
 def call(args: argparse.Namespace) -> int:

@@ -6,57 +6,43 @@ import argparse
 from collections import Counter
 from pathlib import Path
 
-from comparisons.cli.options import FAILED, OK, add_jobs, add_retry_failed, output
+from comparisons.cli.options import JOBS, RETRY_FAILED, file, several
+from comparisons.cli.screen import output
+from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log
-from comparisons.model import ComputationFailed
 from comparisons.paper.registry import NAMES
 from comparisons.pipeline.figures import make_figures
 
-__all__ = ["EXAMPLES", "add", "call"]
+__all__ = ["EXAMPLES", "OPTIONS", "call"]
 
-#: Examples of the help.
 EXAMPLES = ("fscm-bench paper --figure 16 --out results/paper",)
 
-
-def add(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments."""
-    parser.add_argument(
-        "--figure",
-        "--only",
-        metavar="N",
-        nargs="+",
-        action="extend",
-        help=f"only these of {', '.join(NAMES)} (default: all)",
-    )
-    add_jobs(parser)
-    parser.add_argument(
+OPTIONS = (
+    several("--figure", "--only", metavar="N", help=f"only these of {', '.join(NAMES)} (default: all)"),
+    JOBS,
+    file(
         "--out",
         metavar="DIR",
-        type=Path,
         default=Path("results", "runs", "paper"),
         help="folder for the files (default: %(default)s); resumed if it has some results",
-    )
-    add_retry_failed(parser)
+    ),
+    RETRY_FAILED,
+)
 
 
 def call(args: argparse.Namespace) -> int:
     """Compute what is missing, write the figures, print their files; return the exit status."""
-    try:
-        finished = make_figures(args.figure, args.out, jobs=args.jobs, retry_failed=args.retry_failed)
-    except ComputationFailed as failure:
-        log(str(failure))
-        return FAILED
+    finished = make_figures(args.figure, args.out, jobs=args.jobs, retry_failed=args.retry_failed)
     console = output()
-    for one in finished.figures:
-        figure = one.figure
-        if one.failure:
-            log(f"{figure.stem}: {one.failure}")
+    for written in finished.figures:
+        figure = written.figure
+        if written.failure:
+            log(f"{figure.stem}: {written.failure}")
             continue
-        kinds = Counter(path.suffix[1:] for path in one.files)
-        console.print(
-            f"{figure.stem}: {figure.title} ({', '.join(f'{count} {kind}' for kind, count in kinds.items())})"
-        )
+        kinds = Counter(path.suffix[1:] for path in written.files)
+        files = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
+        console.print(f"{figure.stem}: {figure.title} ({files})")
         if figure.shown:
-            console.print(figure.shown(one.tables))
+            console.print(figure.shown(written.tables))
     console.print(f"written to {finished.folder}")
     return FAILED if finished.failures else OK

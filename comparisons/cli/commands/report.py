@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from comparisons.cli.options import OK
+from comparisons.cli.options import file
+from comparisons.console.exit_status import OK
 from comparisons.console.progress import log
 from comparisons.data.file_names import CALLS, JOURNAL, LOCK, RECORD, RUN_FILES
 from comparisons.output.report.page import make_page
@@ -15,16 +16,14 @@ from comparisons.runs.atomic_files import atomic, writable_file
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import read_record
 
-__all__ = ["EXAMPLES", "add", "call"]
+__all__ = ["EXAMPLES", "OPTIONS", "call"]
 
-#: Examples of the help.
 EXAMPLES = ("fscm-bench report results/mine --out report.html",)
 
-
-def add(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments."""
-    parser.add_argument("folder", metavar="DIR", type=Path, help="folder of a finished run")
-    parser.add_argument("--out", metavar="FILE", type=Path, help="the page (default: DIR/report.html)")
+OPTIONS = (
+    file("folder", metavar="DIR", help="folder of a finished run"),
+    file("--out", help="the page (default: DIR/report.html)"),
+)
 
 
 def call(args: argparse.Namespace) -> int:
@@ -32,8 +31,8 @@ def call(args: argparse.Namespace) -> int:
     page = make_page(read_folder(args.folder))
     path = _page_path(args.folder, args.out)
     text = render(page)
-    with atomic(path) as file:
-        file.write(text.encode())
+    with atomic(path) as written:
+        written.write(text.encode())
     log(f"the report is {path}")
     return OK
 

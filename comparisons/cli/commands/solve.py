@@ -5,7 +5,9 @@ from __future__ import annotations
 import argparse
 import json
 
-from comparisons.cli.options import FAILED, MODEL_SPEC, OK, add_case_or_file, case_of, for_terminal
+from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, case_of, option
+from comparisons.cli.screen import print_lines
+from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
 from comparisons.numerics.number_text import case_text, short
 from comparisons.quantities import QUANTITIES
@@ -14,9 +16,8 @@ from comparisons.runs.cases import Case
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
-__all__ = ["EXAMPLES", "add", "call"]
+__all__ = ["EXAMPLES", "OPTIONS", "call"]
 
-#: Examples of the help.
 EXAMPLES = (
     "fscm-bench solve --model fscm --quantity pull_off_force --n 2 --k 0.4 --mu 1",
     "fscm-bench solve --model jkr --quantity jump_out_gap --n 2 --k 0 --mu 2 --format json",
@@ -24,14 +25,17 @@ EXAMPLES = (
 )
 
 
-def add(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments."""
-    parser.add_argument("--model", metavar="SPEC", required=True, help=MODEL_SPEC)
-    parser.add_argument("--quantity", metavar="NAME", required=True, help="see: fscm-bench list quantities")
-    add_case_or_file(parser)
-    parser.add_argument(
-        "--format", choices=tuple(_FORMATS), default="text", help="json and csv have every digit (default: %(default)s)"
-    )
+OPTIONS = (
+    option("--model", metavar="SPEC", required=True, help=MODEL_SPEC),
+    option("--quantity", metavar="NAME", required=True, help="see: fscm-bench list quantities"),
+    *CASE_OR_FILE,
+    option(
+        "--format",
+        choices=("text", "json", "csv"),
+        default="text",
+        help="json and csv have every digit (default: %(default)s)",
+    ),
+)
 
 
 def call(args: argparse.Namespace) -> int:
@@ -47,8 +51,10 @@ def call(args: argparse.Namespace) -> int:
     model = create(args.model, case.nu)
     with waiting(f"{args.model}, {case.label}"):
         row = evaluate(model, args.quantity, case)
-    shown = _FORMATS[args.format](row)
-    print(for_terminal(shown.splitlines()) if args.format == "text" else shown, end="")
+    if args.format == "text":
+        print_lines(_lines(row))
+    else:
+        print({"json": _json, "csv": _csv}[args.format](row), end="")
     return FAILED if row.status == "failed" else OK
 
 
@@ -80,7 +86,7 @@ def _csv(row: Row) -> str:
     return csv_text(frame([row]))
 
 
-def _text(row: Row) -> str:
+def _lines(row: Row) -> list[str]:
     quantity = QUANTITIES[row.quantity]
     lines = [f"{row.model}: {row.quantity} at {case_text(_case(row))}"]
     if row.value is None or row.u_num is None:
@@ -93,7 +99,4 @@ def _text(row: Row) -> str:
         from comparisons.models.maugis_parameter import maugis_parameter
 
         lines.append(f"  Maugis's lambda = {maugis_parameter(row.mu):.4g} with the strength 16 sqrt(3)/27 dgamma / z0")
-    return "\n".join(lines) + "\n"
-
-
-_FORMATS = {"text": _text, "json": _json, "csv": _csv}
+    return lines

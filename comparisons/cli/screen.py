@@ -1,0 +1,37 @@
+"""Output of the commands on stdout: lines and tables, folded on a terminal and whole in a file."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable
+from typing import Any
+
+from comparisons.console.exit_status import writing_stdout
+from comparisons.console.folding import hanging
+from comparisons.console.printable import printable
+from comparisons.console.safe_console import SafeConsole
+
+__all__ = ["output", "print_lines"]
+
+#: Columns of a table when stdout is no terminal: the same text in every log and file.
+_WIDTH = 80
+
+
+class _Output(SafeConsole):
+    def print(self, *objects: Any, **options: Any) -> None:
+        # A word that is longer than a line, as a path, continues in the next one; rich would cut it.
+        with writing_stdout():
+            super().print(*objects, **{"crop": False, **options})
+
+
+def output() -> SafeConsole:
+    """Return the console for results: stdout with the columns of the terminal, or 80 where it is none."""
+    return _Output(width=None if sys.stdout.isatty() else _WIDTH, highlight=False, markup=False)
+
+
+def print_lines(lines: Iterable[str]) -> None:
+    """Print lines; on a terminal they are folded between words, in a file they are whole."""
+    if sys.stdout.isatty():
+        width = output().width
+        lines = [folded for line in lines for folded in hanging(line, width)]
+    print(printable("\n".join(lines)))
