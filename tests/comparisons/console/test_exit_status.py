@@ -258,7 +258,7 @@ def test_a_summary_page_that_cannot_be_written_is_found_before_computing(
     small_grid, tmp_path, monkeypatch, capsys, arguments
 ):
     computed = []
-    monkeypatch.setattr("comparisons.pipeline.results.complete", computed.append)
+    monkeypatch.setattr("comparisons.pipeline.run.complete", computed.append)
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(tmp_path))
     folder = ["--out", str(tmp_path / "out")] if arguments[0] == "run" else [str(tmp_path / "out")]
     assert main([*arguments, *folder]) == FAILED
