@@ -14,15 +14,6 @@ PACKAGES = ("fscm", "fem_reference", "comparisons")
 
 #: Texts on data of the solvers that have none in their modules: place and name -> text.
 TEXTS = {
-    "fscm.interpolation.cells.Cells": "Numbers of the cells of n, of k and, but for the critical Tabor number, of mu.",
-    "fscm.interpolation.components.COMPONENTS": "Every series of the atlas, by name.",
-    "fscm.interpolation.components.QUANTITIES": "Of which series the value of each quantity is composed.",
-    "fscm.interpolation.coordinates.LEAST_MU": "Smallest Tabor number of the atlas.",
-    "fscm.interpolation.coordinates.MOST_MU": "Largest Tabor number of the atlas.",
-    "fscm.interpolation.forms.FORMS": "Smooth forms of quantities, to which series are fitted, by name.",
-    "fscm.quantities.TABLE": "How each quantity is found on the equilibrium path, by name.",
-    "fscm.solution.FLOOR": "Part of a bound that two meshes share: rounding and quadrature, relative to 1 + |value|.",
-    "fscm.solution.SAFETY": "Factor on the difference of two meshes in the bound on a curve or a field.",
     "fem_reference.verification.checks.EXPONENTS": "Gradient exponents k of the checks.",
     "fem_reference.verification.checks.POISSON": "Poisson's ratios of the checks.",
     "fem_reference.verification.checks.RING": "Mesh for a load on the line r = 1, by which w is singular.",

@@ -1,1 +1,1 @@
-"""Atlas of the FSCM: Chebyshev series in n, k and mu, their bounds, and the fit of both to a table of nodes."""
+"""Atlas of the FSCM: Chebyshev series in n, k and mu with their bounds, and the commands that fit them to nodes."""

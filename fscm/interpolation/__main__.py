@@ -1,4 +1,4 @@
-"""Commands that make the atlas: design of a sweep, table of its nodes, fit.
+"""Commands that make the data of the atlas (see docs/atlas.md).
 
 python -m fscm.interpolation design SWEEP.toml LOWER UPPER CRITICAL
 python -m fscm.interpolation collect NODES.csv RESULTS.csv...
@@ -7,68 +7,63 @@ python -m fscm.interpolation fit NODES.csv
 
 from __future__ import annotations
 
-import math
-import sys
-from collections.abc import Callable
-from importlib.resources import files
+import argparse
+from collections.abc import Sequence
 from pathlib import Path
 
-from fscm.interpolation.atlas import atlas
-from fscm.interpolation.building import build, layouts
-from fscm.interpolation.components import CRITICAL
+import pandas as pd
+
+from fscm.interpolation.building import build, layouts, write
 from fscm.interpolation.design import critical_nodes, lower_nodes, sweep_text, upper_nodes
-from fscm.interpolation.nodes import Nodes, collected
-from fscm.interpolation.storage import write
 
-__all__ = ["main"]
+__all__ = ["collect", "main", "nodes_in"]
 
-
-def design(path: str, lower: str, upper: str, critical: str) -> None:
-    """Write a sweep file with numbers of nodes in the two patches and in the plane (n, k)."""
-
-    def known(n: float, k: float) -> float:
-        return float(atlas(n, k, 1.0, CRITICAL).value)
-
-    above = upper_nodes(int(upper), known)
-    text = sweep_text(critical_nodes(int(critical)), [*lower_nodes(int(lower)), *above], above)
-    Path(path).write_text(text, encoding="utf-8")
+_PARAMETERS = ["n", "k", "mu"]
 
 
-def collect(path: str, *results: str) -> None:
-    """Write the table of nodes of the results of sweeps."""
-    collected(Path(result) for result in results).write(Path(path))
+def nodes_in(path: Path) -> pd.DataFrame:
+    """The table of nodes in a file."""
+    return pd.read_csv(path, dtype=str).astype(float)  # every digit
 
 
-def fit(path: str) -> None:
-    """Fit the series to a table of nodes, write them into the package, and print the deviations."""
-    folder = Path(str(files("fscm.interpolation") / "data"))
-    found = build(Nodes.read(Path(path)), layouts(folder / "layouts.json"))
-    write(folder, found)
-    for name, row in found.record.items():
-        print(name, row)
+def collect(path: Path, results: Sequence[Path]) -> None:
+    """Write the table of nodes from the tables `results.csv` of sweeps with the model `fscm`."""
+    rows = pd.concat([pd.read_csv(result, dtype=str) for result in results])
+    rows = rows[rows["model"] == "fscm"].astype(dict.fromkeys([*_PARAMETERS, "value", "u_num"], float))
+    rows.loc[rows["status"] != "ok", ["value", "u_num"]] = float("nan")
+    latest = rows.groupby([*_PARAMETERS, "quantity"])[["value", "u_num"]].last().unstack("quantity")
+    table = pd.DataFrame(index=latest.index)
+    for name in latest["value"].columns:
+        table[name] = latest["value", name]
+        table[f"u_{name}"] = latest["u_num", name].map("{:.1e}".format, na_action="ignore")
+    table.dropna(axis=1, how="all").to_csv(path)
 
 
-# Function, and the least and the largest number of its arguments.
-_COMMANDS: dict[str, tuple[Callable[..., None], int, float]] = {
-    "design": (design, 4, 4),
-    "collect": (collect, 2, math.inf),
-    "fit": (fit, 1, 1),
-}
-
-
-def main(arguments: list[str]) -> int:
-    """Run a command; return the exit status."""
-    name, *others = arguments or [""]
-    if name not in _COMMANDS or not _COMMANDS[name][1] <= len(others) <= _COMMANDS[name][2]:
-        print(f"usage: one of\n{(__doc__ or '').partition(chr(10) * 2)[2]}", file=sys.stderr)
-        return 2
-    try:
-        _COMMANDS[name][0](*others)
-    except (OSError, ValueError) as error:
-        print(error, file=sys.stderr)
-        return 2
-    return 0
+def main(arguments: list[str] | None = None) -> None:
+    """Run a command."""
+    parser = argparse.ArgumentParser(prog="python -m fscm.interpolation", description="Make the data of the atlas.")
+    commands = parser.add_subparsers(dest="command", required=True)
+    design = commands.add_parser("design", help="write a sweep file with these numbers of nodes")
+    design.add_argument("path", type=Path)
+    for name in ("lower", "upper", "critical"):
+        design.add_argument(name, type=int)
+    collected = commands.add_parser("collect", help="write the table of nodes from the results of sweeps")
+    collected.add_argument("path", type=Path)
+    collected.add_argument("results", type=Path, nargs="+")
+    commands.add_parser("fit", help="fit the series to a table of nodes").add_argument("path", type=Path)
+    options = parser.parse_args(arguments)
+    if options.command == "design":
+        above = upper_nodes(options.upper)
+        text = sweep_text(critical_nodes(options.critical), [*lower_nodes(options.lower), *above], above)
+        options.path.write_text(text, encoding="utf-8")
+    elif options.command == "collect":
+        collect(options.path, options.results)
+    else:
+        data = build(nodes_in(options.path), layouts())
+        write(data)
+        for name, row in data.record.items():
+            print(name, row)
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    main()

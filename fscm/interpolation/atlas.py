@@ -10,13 +10,12 @@ from numpy.typing import ArrayLike
 
 from fscm._typing import Array
 from fscm.errors import NoSuchEvent, OutsideAtlas
-from fscm.interpolation.cells import cells_of, plane_cells
 from fscm.interpolation.components import COMPONENTS, CRITICAL, QUANTITIES, RELATIVE, Composition
-from fscm.interpolation.coordinates import BOX, LEAST_MU, MOST_MU, seam
-from fscm.interpolation.forms import FORMS, Place, critical_of_smooth
+from fscm.interpolation.coordinates import BOX, MOST_MU, cells_of, patch_ends, plane_cells, seam
+from fscm.interpolation.forms import FORMS, Points, critical_of_smooth
 from fscm.interpolation.storage import Stored, stored
 
-__all__ = ["ATLAS_QUANTITIES", "AtlasValue", "atlas", "value_of_component", "value_of_composition"]
+__all__ = ["ATLAS_QUANTITIES", "AtlasValue", "atlas"]
 
 #: Quantities of the atlas.
 ATLAS_QUANTITIES = (*QUANTITIES, CRITICAL)
@@ -55,7 +54,7 @@ def atlas(n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str, *, missing: 
     quantity : str
         One of `ATLAS_QUANTITIES`.
     missing : str
-        What happens where the quantity does not exist, below the critical Tabor number: "raise" an error, or "nan".
+        Where the quantity does not exist, below the critical Tabor number: "raise" an error, or return "nan".
 
     Returns
     -------
@@ -92,8 +91,8 @@ def atlas(n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str, *, missing: 
     flat = tuple(np.ascontiguousarray(grid, dtype=float).ravel() for grid in grids)
     value, bound = _evaluated(stored(), flat[0], flat[1], flat[2], quantity)
     if missing == "raise" and np.isnan(value).any():
-        first = int(np.flatnonzero(np.isnan(value))[0])
-        at = tuple(values[first : first + 1] for values in flat)
+        i = int(np.flatnonzero(np.isnan(value))[0])
+        at = tuple(values[i : i + 1] for values in flat)
         raise NoSuchEvent(
             f"there is no jump at n = {at[0][0]:g}, k = {at[1][0]:g}, mu = {at[2][0]:g}: jumps exist above the "
             f"critical Tabor number {_critical(stored(), at[0], at[1])[0][0]:.6g}"
@@ -105,16 +104,16 @@ def atlas(n: ArrayLike, k: ArrayLike, mu: ArrayLike, quantity: str, *, missing: 
 
 def _inside(name: str, values: ArrayLike) -> Array:
     low, high = BOX[name]
-    found = np.asarray(values)
-    if found.dtype.kind not in "iuf":
+    array = np.asarray(values)
+    if array.dtype.kind not in "iuf":
         raise ValueError(f"{name} = {values!r} is not a real number, nor an array of them")
-    outside = found[~((found >= low) & (found <= high))]
+    outside = array[~((array >= low) & (array <= high))]
     if outside.size:
         raise OutsideAtlas(
             f"{name} = {outside.flat[0]:g} is outside [{low:g}, {high:g}], the range of the atlas; "
             "fscm.solve has a wider one"
         )
-    return found
+    return array
 
 
 def _evaluated(data: Stored, n: Array, k: Array, mu: Array, quantity: str) -> tuple[Array, Array]:
@@ -125,13 +124,13 @@ def _evaluated(data: Stored, n: Array, k: Array, mu: Array, quantity: str) -> tu
     composition = QUANTITIES[quantity]
     value, bound = np.full(n.shape, math.nan), np.full(n.shape, math.nan)
     upper = mu > critical if composition.jumps else mu >= seam(n)
-    for chosen, is_upper in ((upper, True), (~upper, False)):
-        if chosen.any() and (is_upper or not composition.jumps):
-            of_patch = n[chosen], k[chosen], mu[chosen], critical[chosen]
-            value[chosen], cusp = value_of_composition(data, composition, is_upper, *of_patch, u_critical[chosen])
+    for mask, is_upper in ((upper, True), (~upper, False)):
+        if mask.any() and (is_upper or not composition.jumps):
+            of_patch = n[mask], k[mask], mu[mask], critical[mask]
+            value[mask], cusp = _value_of_composition(data, composition, is_upper, *of_patch, u_critical[mask])
             of_cell = data.bounds[quantity, "upper" if is_upper else "lower"]
-            scale = np.abs(value[chosen]) + (0.0 if quantity in RELATIVE else 1.0)
-            bound[chosen] = of_cell[cells_of(is_upper, *of_patch)] * scale + cusp
+            scale = np.abs(value[mask]) + (0.0 if quantity in RELATIVE else 1.0)
+            bound[mask] = of_cell[cells_of(is_upper, *of_patch)] * scale + cusp
     return value, bound
 
 
@@ -142,7 +141,7 @@ def _critical(data: Stored, n: Array, k: Array) -> tuple[Array, Array]:
     return value, data.bounds[CRITICAL, "plane"][plane_cells(n, k)] * value
 
 
-def value_of_composition(
+def _value_of_composition(
     data: Stored,
     composition: Composition,
     upper: bool,
@@ -152,29 +151,28 @@ def value_of_composition(
     critical: Array,
     u_critical: Array,
 ) -> tuple[Array, Array]:
-    """Values, and the bound on what the error of the critical Tabor number changes at the cusp."""
+    """Values, and the bound on their change at the cusp by the error of the critical Tabor number."""
     name = composition.upper if upper else composition.lower
-    value, cusp = value_of_component(data, name, n, k, mu, critical, u_critical)
+    value, cusp = _value_of_component(data, name, n, k, mu, critical, u_critical)
     if composition.difference:
-        difference, its_cusp = value_of_component(data, composition.difference, n, k, mu, critical, u_critical)
+        difference, its_cusp = _value_of_component(data, composition.difference, n, k, mu, critical, u_critical)
         value, cusp = value - difference, cusp + its_cusp
     return value, cusp
 
 
-def value_of_component(
+def _value_of_component(
     data: Stored, name: str, n: Array, k: Array, mu: Array, critical: Array, u_critical: Array
 ) -> tuple[Array, Array]:
     """Values of a component, and the bound at the cusp."""
     component, coordinates = COMPONENTS[name], data.coordinates[name]
-    low, high = (critical, MOST_MU) if component.upper else (LEAST_MU, seam(n))
-    part = coordinates.part(n, k, mu, low, high)
-    form, at = FORMS[component.form], Place(n, k, mu, part)
-    smooth = data.series[name](coordinates.cube(n, k, part))
+    share = coordinates.share(n, k, mu, *patch_ends(component.upper, n, critical))
+    form, at = FORMS[component.form], Points(n, k, mu, share)
+    smooth = data.series[name](coordinates.cube(n, k, share))
     value = form.value(smooth, at)
     if component.form not in _POWERS:
         return value, np.zeros(n.shape)
     # ln(1 + c M') is convex in ln mu: w grows most slowly, by its mean rate or less, at the critical Tabor number.
     moved = 2.0 * u_critical / (critical * np.log(MOST_MU / critical))
     power = _POWERS[component.form]
-    change = (part + moved) ** power - np.maximum(part - moved, 0.0) ** power
-    return value, np.abs(value) / np.maximum(part, 1e-300) ** power * change
+    change = (share + moved) ** power - np.maximum(share - moved, 0.0) ** power
+    return value, np.abs(value) / np.maximum(share, 1e-300) ** power * change

@@ -1,8 +1,8 @@
-"""Table of the components of the atlas: what is expanded, where, in which form; and the quantities they make up."""
+"""Components of the atlas, each expanded in a series, and the quantities that consist of them."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 __all__ = ["COMPONENTS", "CRITICAL", "FOLD_GAPS", "QUANTITIES", "RELATIVE", "Component", "Composition"]
 
@@ -12,8 +12,7 @@ CRITICAL = "critical_tabor_number"
 RELATIVE = ("pull_off_force", "zero_load_displacement", CRITICAL)
 
 
-@dataclass(frozen=True)
-class Component:
+class Component(NamedTuple):
     """A function that one series expands.
 
     Attributes
@@ -22,24 +21,23 @@ class Component:
         Whether its patch reaches from the critical Tabor number to 10, or from 0.01 to the seam.
     form : str
         Of `fscm.interpolation.forms.FORMS`.
-    first, second : str
-        Quantities.  The component is the first one, less the second one if there is one.
+    quantity, subtracted : str
+        The component is the first quantity, minus the second if there is one.
     """
 
     upper: bool
     form: str
-    first: str
-    second: str = ""
+    quantity: str
+    subtracted: str = ""
 
 
-@dataclass(frozen=True)
-class Composition:
-    """How a quantity is put together.
+class Composition(NamedTuple):
+    """Components of a quantity.
 
     Attributes
     ----------
     lower, upper, difference : str
-        Names of components; empty where there is none.  The difference is subtracted from the upper one.
+        Names of components, or empty.  The difference is subtracted from the upper one.
     """
 
     lower: str
@@ -52,11 +50,12 @@ class Composition:
         return not self.lower
 
 
-_IN_D, _OUT_D, _IN_G, _OUT_G = (f"jump_{way}_{what}" for what in ("displacement", "gap") for way in ("in", "out"))
+_IN_D, _OUT_D, _IN_G, _OUT_G = (f"jump_{way}_{name}" for name in ("displacement", "gap") for way in ("in", "out"))
 
 #: Central gaps of the two folds that merge at the critical Tabor number.
 FOLD_GAPS = (_IN_G, _OUT_G)
 
+#: Every series of the atlas, by name.
 COMPONENTS: dict[str, Component] = {
     "pull_off_force.lower": Component(False, "force", "pull_off_force"),
     "pull_off_force.upper": Component(True, "force", "pull_off_force"),
@@ -71,6 +70,7 @@ COMPONENTS: dict[str, Component] = {
     "hysteresis_energy.upper": Component(True, "quarter", "hysteresis_energy"),
 }
 
+#: The series of which each quantity consists.
 QUANTITIES: dict[str, Composition] = {
     name: Composition(f"{name}.lower", f"{name}.upper")
     for name in ("pull_off_force", "pull_off_displacement", "zero_load_displacement")

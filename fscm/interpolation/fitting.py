@@ -8,32 +8,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from pandas import DataFrame
 
 from fscm._typing import Array
 from fscm.interpolation.components import COMPONENTS, CRITICAL, FOLD_GAPS, RELATIVE, Component
-from fscm.interpolation.coordinates import LEAST_MU, MOST_MU, Coordinates, seam
-from fscm.interpolation.forms import FORMS, Place, critical_of_smooth, smooth_of_critical
-from fscm.interpolation.nodes import Nodes
+from fscm.interpolation.coordinates import Coordinates, patch_ends, seam
+from fscm.interpolation.forms import FORMS, Points, critical_of_smooth, smooth_of_critical
 from fscm.interpolation.series import Series, degrees_within, design_matrix
 
-__all__ = ["Fit", "Layout", "fit_component", "fit_critical", "least_squares", "nodes_of"]
+__all__ = ["Fit", "Layout", "fit_component", "fit_critical", "least_squares", "usable_nodes"]
 
 # Terms for each node; rates at which coefficients may fall; squared noise of the nodes, relative to the series.
 _TERMS, _RATES, _RIDGE = 1.6, (0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2), 1e-11
-# A node whose relative bound is larger counts less.
+# Relative bound of a node above which it has a smaller weight.
 _NOISE = 1e-7
 # Near the critical Tabor number the solver may find one fold twice: then the gaps differ by rounding only.
 _DISTINCT = 1e-6
-# Step of a smooth form for the change of its value.
+# Step of a smooth form for the slope of its value.
 _STEP = 1e-6
 
 
-@dataclass(frozen=True)
-class Layout:
+class Layout(NamedTuple):
     """Coordinates of a component and proportions of its degrees.
 
     Attributes
@@ -50,8 +49,7 @@ class Layout:
     power: float
 
 
-@dataclass(frozen=True)
-class Fit:
+class Fit(NamedTuple):
     """A series, and the deviations of values at its nodes, each without that node.
 
     Attributes
@@ -70,13 +68,11 @@ class Fit:
 
 
 def least_squares(cube: Array, smooth: Array, weight: Array, layout: Layout) -> Fit:
-    """Regularised least squares: the deviations from each node are smallest for the best of several rates.
+    """Regularised least squares, with the rate for which the deviations are smallest.
 
-    The rates are tried from the smallest one, as long as the deviations become smaller.
-
-    The series has more terms than there are nodes.  Of those that pass the nodes, to their noise, it is the one whose
-    coefficients are smallest when each is divided by exp(-rate * degree).  So it uses every node, and the terms of
-    high degree stay as small as those of a smooth function are.
+    The rates are tried in ascending order, as long as the deviations decrease.  The series has more terms than there
+    are nodes.  Of those that pass the nodes, within their noise, it is the one with the smallest coefficients divided
+    by exp(-rate * degree): it uses every node, and its terms of high degree are as small as those of a smooth function.
 
     Parameters
     ----------
@@ -122,64 +118,58 @@ def least_squares(cube: Array, smooth: Array, weight: Array, layout: Layout) -> 
 
 
 def _sizes(shape: tuple[float, ...]) -> Iterator[tuple[int, ...]]:
-    known: set[tuple[int, ...]] = set()
-    for size in np.arange(2.0, 400.0, 0.5) / max(shape):
-        largest = tuple(max(1, round(size * one)) for one in shape)
-        if largest not in known:
-            known.add(largest)
-            yield largest
+    """Largest degrees in ascending order, each once."""
+    rounded = (np.maximum(1, np.round(size * np.array(shape))) for size in np.arange(2.0, 400.0, 0.5) / max(shape))
+    return iter(dict.fromkeys(tuple(row.astype(int).tolist()) for row in rounded))
 
 
-def nodes_of(name: str, nodes: Nodes, critical: Array) -> NDArray[np.bool_]:
-    """Which nodes a component is fitted to."""
-    component = COMPONENTS[name]
-    value, _ = _component_values(component, nodes)
+def usable_nodes(name: str, nodes: DataFrame, critical: Array) -> NDArray[np.bool_]:
+    """Mask of the nodes to which a component is fitted."""
+    component, mu = COMPONENTS[name], nodes["mu"].to_numpy()
     # Nodes are rounded, so that one at the seam may be above it.
-    inside = nodes.mu > critical if component.upper else nodes.mu <= seam(nodes.n) * (1.0 + 1e-5)
-    usable = np.logical_and(inside, np.isfinite(value))
-    if component.first.startswith(("jump", "hysteresis")):
-        with np.errstate(invalid="ignore"):
-            usable &= nodes.values[FOLD_GAPS[0]] - nodes.values[FOLD_GAPS[1]] > _DISTINCT
-    return usable
+    inside = mu > critical if component.upper else mu <= seam(nodes["n"].to_numpy()) * (1.0 + 1e-5)
+    usable = np.logical_and(inside, np.isfinite(_values(component, nodes)[0]))
+    if component.quantity.startswith(("jump", "hysteresis")):
+        usable &= (nodes[FOLD_GAPS[0]] - nodes[FOLD_GAPS[1]] > _DISTINCT).to_numpy()
+    return np.asarray(usable, bool)
 
 
-def _component_values(component: Component, nodes: Nodes) -> tuple[Array, Array]:
-    value, bound = nodes.values[component.first], nodes.bounds[component.first]
-    if component.second:
-        value = value - nodes.values[component.second]
-        bound = bound + nodes.bounds[component.second]
+def _values(component: Component, nodes: DataFrame) -> tuple[Array, Array]:
+    """Values of a component at the nodes, and their bounds."""
+    value, bound = (nodes[f"{u}{component.quantity}"].to_numpy() for u in ("", "u_"))
+    if component.subtracted:
+        value = value - nodes[component.subtracted].to_numpy()
+        bound = bound + nodes[f"u_{component.subtracted}"].to_numpy()
     return value, bound
 
 
-def fit_component(name: str, layout: Layout, nodes: Nodes, critical: Array) -> Fit:
+def fit_component(name: str, layout: Layout, nodes: DataFrame, critical: Array) -> Fit:
     """Fit a component to nodes that all have its value; the deviations are those of the value.
 
     Parameters
     ----------
     name : str
     layout : Layout
-    nodes : Nodes
+    nodes : DataFrame
     critical : ndarray
         Critical Tabor numbers of the atlas at the nodes.
     """
-    component = COMPONENTS[name]
-    form, coordinates = FORMS[component.form], layout.coordinates
-    value, bound = _component_values(component, nodes)
-    low, high = (critical, MOST_MU) if component.upper else (LEAST_MU, seam(nodes.n))
-    part = coordinates.part(nodes.n, nodes.k, nodes.mu, low, high)
-    at = Place(nodes.n, nodes.k, nodes.mu, part)
+    component, coordinates = COMPONENTS[name], layout.coordinates
+    form, n, k, mu = FORMS[component.form], *(nodes[name].to_numpy() for name in ("n", "k", "mu"))
+    value, bound = _values(component, nodes)
+    share = coordinates.share(n, k, mu, *patch_ends(component.upper, n, critical))
+    at = Points(n, k, mu, share)
     smooth = form.smooth(value, at)
-    scale = np.abs(value) + (0.0 if component.first in RELATIVE else 1.0)
+    scale = np.abs(value) + (0.0 if component.quantity in RELATIVE else 1.0)
     slope = (form.value(smooth + _STEP, at) - form.value(smooth - _STEP, at)) / (2.0 * _STEP)
     weight = np.abs(slope) / scale / np.hypot(1.0, bound / scale / _NOISE)
-    fit = least_squares(coordinates.cube(nodes.n, nodes.k, part), smooth, weight, layout)
-    return Fit(fit.series, value - form.value(smooth - fit.deviations, at), fit.terms, fit.rate)
+    fit = least_squares(coordinates.cube(n, k, share), smooth, weight, layout)
+    return fit._replace(deviations=value - form.value(smooth - fit.deviations, at))
 
 
-def fit_critical(layout: Layout, nodes: Nodes) -> Fit:
+def fit_critical(layout: Layout, nodes: DataFrame) -> Fit:
     """Fit the critical Tabor number; the deviations are those of the value."""
-    value = nodes.values[CRITICAL]
-    smooth = smooth_of_critical(nodes.n, nodes.k, value)
-    plane = layout.coordinates.plane(nodes.n, nodes.k)
-    fit = least_squares(plane, smooth, np.ones(len(value)), layout)
-    return Fit(fit.series, value - critical_of_smooth(nodes.n, nodes.k, smooth - fit.deviations), fit.terms, fit.rate)
+    n, k, value = (nodes[name].to_numpy() for name in ("n", "k", CRITICAL))
+    smooth = smooth_of_critical(n, k, value)
+    fit = least_squares(layout.coordinates.plane(n, k), smooth, np.ones(len(value)), layout)
+    return fit._replace(deviations=value - critical_of_smooth(n, k, smooth - fit.deviations))

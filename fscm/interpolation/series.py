@@ -6,31 +6,15 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebvander
 from numpy.typing import NDArray
 
 from fscm._typing import Array
 
-__all__ = ["Series", "basis", "degrees_within", "design_matrix"]
+__all__ = ["Series", "degrees_within", "design_matrix"]
 
-# Points that are evaluated together: their values of the basis stay in the cache of the processor.
+# Points evaluated together: their basis functions fit into the cache of the processor.
 _CHUNK = 4096
-
-
-def basis(x: Array, degree: int) -> Array:
-    """Chebyshev polynomials T_0 ... T_degree at points, shape (m, degree + 1).
-
-    Examples
-    --------
-    >>> basis(np.array([0.5]), 3).tolist()
-    [[1.0, 0.5, -0.5, -1.0]]
-    """
-    found = np.empty((degree + 1, len(x)))
-    found[0] = 1.0
-    if degree:
-        found[1] = x
-    for i in range(2, degree + 1):
-        found[i] = 2.0 * x * found[i - 1] - found[i - 2]
-    return found.T
 
 
 def degrees_within(largest: tuple[int, ...], power: float) -> NDArray[np.int_]:
@@ -47,10 +31,10 @@ def degrees_within(largest: tuple[int, ...], power: float) -> NDArray[np.int_]:
 
 def design_matrix(cube: Array, degrees: NDArray[np.int_]) -> Array:
     """Values of the terms of a series at points, shape (m, terms)."""
-    found = np.ones((len(cube), len(degrees)))
+    terms = np.ones((len(cube), len(degrees)))
     for axis, of_axis in enumerate(degrees.T):
-        found *= basis(cube[:, axis], int(of_axis.max()))[:, of_axis]
-    return found
+        terms *= chebvander(cube[:, axis], int(of_axis.max()))[:, of_axis]
+    return terms
 
 
 @dataclass(frozen=True)
@@ -80,15 +64,13 @@ class Series:
 
     def __call__(self, cube: Array) -> Array:
         """Values at points of shape (m, dimensions)."""
-        found = np.empty(len(cube))
-        for start in range(0, len(cube), _CHUNK):
-            found[start : start + _CHUNK] = self._chunk(cube[start : start + _CHUNK])
-        return found
+        chunks = [self._chunk(cube[start : start + _CHUNK]) for start in range(0, len(cube), _CHUNK)]
+        return np.concatenate([np.empty(0), *chunks])
 
     def _chunk(self, cube: Array) -> Array:
         c = self.coefficients
-        left = basis(cube[:, 0], c.shape[0] - 1) @ c.reshape(c.shape[0], -1)
+        left = chebvander(cube[:, 0], c.shape[0] - 1) @ c.reshape(c.shape[0], -1)
         for axis in range(1, c.ndim):
             left = left.reshape(len(cube), c.shape[axis], -1)
-            left = np.einsum("mi,mij->mj", basis(cube[:, axis], c.shape[axis] - 1), left)
+            left = np.einsum("mi,mij->mj", chebvander(cube[:, axis], c.shape[axis] - 1), left)
         return left.reshape(len(cube))
