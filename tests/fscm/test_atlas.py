@@ -32,8 +32,7 @@ AGREE = 1e-6
 #: Deviation of a series from the nodes to which it is fitted, relative to the bound.  Measured: at most 0.085.
 PASSED = 0.15
 #: Measured median of bound / error at the random problems, and its admissible range for another fit.  With a bound of
-#: at least 2 or 6 times the largest deviation, instead of 3 times, the medians become 0.67 to 0.79, or 1.9 to 2, times as
-#: large.
+#: at least 2 or 6 times the largest deviation, instead of 3 times, it is 0.67 to 0.79, or 1.9 to 2, times as large.
 RATIO = {
     "pull_off_force": 166,
     "pull_off_displacement": 162,
