@@ -11,12 +11,13 @@ import numpy as np
 from scipy import sparse
 from skfem import Basis
 
-from fem_reference._elastic.condensed_elements import CondensedElements
+from fem_reference._elastic.condensed_elements import CondensedElements, condensed_elements
 from fem_reference._elastic.dof_ordering import both_components, line_unknowns, reversal_signs
-from fem_reference._elastic.elasticity import Body, condensed_stiffness
+from fem_reference._elastic.elasticity import Body
 from fem_reference._elastic.exterior import exterior_stiffness
 from fem_reference._elastic.mapping import InteriorChart
 from fem_reference._elastic.mesh import Grid, MeshSpec
+from fem_reference._elastic.tensor_elements import numbering, tensor_stiffness
 from fem_reference._typing import Array, Index
 from fem_reference.modulus import Modulus
 from fem_reference.poisson import PoissonRatio
@@ -91,8 +92,10 @@ def assemble_half_space(grid: Grid, modulus: Modulus, nu: float | PoissonRatio, 
     mesh = grid.quads()
     layer = float(grid.z[1])
     body = Body(mesh, InteriorChart(layer, modulus.surface_exponent), modulus, nu, order)
-    touching = np.flatnonzero(mesh.p[1][mesh.t].max(axis=0) <= layer)
-    elements, basis = condensed_stiffness(body, touching)
+    basis = numbering(mesh, order)
+    inside = 2 * int(basis.interior_dofs.shape[0])
+    parts = tensor_stiffness(grid, basis, modulus, nu, order)
+    elements = condensed_elements(parts, mesh.nelements, inside, 2 * basis.N)
     side = line_unknowns(basis, 0, grid.extent)
     bottom = line_unknowns(basis, 1, grid.extent, reverse=True)
     nz, nr, edges = grid.z.size - 1, grid.r.size - 1, order - 1

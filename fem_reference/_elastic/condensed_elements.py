@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
+from scipy.linalg.lapack import dpotrf, dtrtrs
 
 from fem_reference._elastic.scaling import unit_scaling
 from fem_reference._typing import Array, Index
@@ -102,27 +103,17 @@ def condensed_elements(
                 np.empty((elements, count, sides)),
                 size,
             )
-        # The stiffness across a thin element is larger by many powers of ten than that along it.
-        scale = unit_scaling(np.einsum("eii->ei", K)[:, sides:, None])
-        block = scale * K[:, sides:, sides:] * np.swapaxes(scale, 1, 2)
-        root, half = _eliminated(block, scale * K[:, sides:, :sides])
-        # The upper triangle has another order of elimination, so that its rounding is another.
-        _, reversed_coupling = _eliminated(
-            np.swapaxes(block, 1, 2)[:, ::-1, ::-1], (scale * np.swapaxes(K[:, :sides, sides:], 1, 2))[:, ::-1]
-        )
         result.sides[which], result.inside[which] = rows[:, :sides], rows[:, sides:]
-        result.cholesky[which], result.coupling[which] = root / scale, half
-        lower, upper = np.swapaxes(half, 1, 2) @ half, np.swapaxes(reversed_coupling, 1, 2) @ reversed_coupling
-        result.stiffness[which] = K[:, :sides, :sides] - np.tril(lower) - np.triu(upper, 1)
+        # The stiffness across a thin element is larger by many powers of ten than that along it.
+        scales = unit_scaling(np.einsum("eii->ei", K)[:, sides:])
+        for element, matrix, scale in zip(which, K, scales, strict=True):
+            # With Y of L Y = C the product C' B^-1 C is Y' Y: formed with B^-1 C it would lose ten times as much.
+            L, failed = dpotrf(scale[:, None] * matrix[sides:, sides:] * scale, lower=1, clean=1)
+            if failed:
+                raise NotConverged("an element is not positive definite; check modulus, mesh and nu")
+            Y, _ = dtrtrs(L, scale[:, None] * matrix[sides:, :sides], lower=1)
+            result.cholesky[element], result.coupling[element] = L / scale[:, None], Y
+            result.stiffness[element] = matrix[:sides, :sides] - Y.T @ Y
     if result is None:
         raise ValueError("there is no element to condense")
     return result
-
-
-def _eliminated(blocks: Array, couplings: Array) -> tuple[Array, Array]:
-    """L of B = L L' and Y of L Y = C, so that C' B^-1 C is Y' Y: formed with B^-1 C it would lose ten times as much."""
-    try:
-        roots = np.linalg.cholesky(blocks)
-    except np.linalg.LinAlgError as error:
-        raise NotConverged("an element is not positive definite; check modulus, mesh and nu") from error
-    return np.asarray(roots, float), np.asarray(np.linalg.solve(roots, couplings), float)

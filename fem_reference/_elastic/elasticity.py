@@ -28,7 +28,7 @@ from fem_reference._typing import Array, Index
 from fem_reference.modulus import Modulus
 from fem_reference.poisson import PoissonRatio, check_poisson, poisson_at
 
-__all__ = ["Body", "condensed_stiffness", "element_places", "gauss_product", "stiffness"]
+__all__ = ["Body", "condensed_stiffness", "element_places", "gauss_product", "lame_parameters", "stiffness"]
 
 
 #: Gauss points a direction beyond the order p: r and E(z) are no polynomials of low degree.
@@ -99,18 +99,27 @@ def gauss_product(count: int, depth_count: int, power: int = 1) -> tuple[Array, 
     return np.array([np.tile(x, depth_count), np.repeat(y, count)]), np.outer(wy, wx).ravel()
 
 
+def lame_parameters(modulus: Modulus, nu: float | PoissonRatio, z: Array) -> tuple[Array, Array]:
+    """Lame's constants lambda and mu at depths.
+
+    Raises
+    ------
+    ValueError
+        If the modulus is not positive, or Poisson's ratio outside its range.
+    """
+    E, ratio = modulus(z), poisson_at(nu, z)
+    if not np.all(E > 0):
+        raise ValueError("the modulus is not positive everywhere: a soft layer of zero stiffness has no solution")
+    if not np.all((ratio >= 0) & (ratio < 0.5)):
+        raise ValueError("Poisson's ratio is not in [0, 0.5) everywhere: displacement elements cannot keep the volume")
+    return E * ratio / ((1.0 + ratio) * (1.0 - 2.0 * ratio)), E / (2.0 * (1.0 + ratio))
+
+
 def _element_matrices(body: Body, basis: Basis, chunk: slice) -> Array:
     """Stiffness of some elements, shape (elements, 2 n, 2 n) with n functions and interleaved components."""
     r, z = np.asarray(basis.global_coordinates())[:, chunk]
-    E = body.modulus(z)
-    if not np.all(E > 0):
-        raise ValueError("the modulus is not positive everywhere: a soft layer of zero stiffness has no solution")
-    nu = poisson_at(body.nu, z)
-    if not np.all((nu >= 0) & (nu < 0.5)):
-        raise ValueError("Poisson's ratio is not in [0, 0.5) everywhere: displacement elements cannot keep the volume")
     measure = (r * basis.dx[chunk])[..., None]
-    lame = (E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)))[..., None] * measure
-    shear = (E / (2.0 * (1.0 + nu)))[..., None] * measure
+    lame, shear = (constant[..., None] * measure for constant in lame_parameters(body.modulus, body.nu, z))
     # A radial function strains by `radial` (rr), `hoop` and `axial` (rz); an axial one by `axial` (zz)
     # and `radial` (rz).
     radial = np.stack([f[0].grad[0][chunk] for f in basis.basis], axis=-1)

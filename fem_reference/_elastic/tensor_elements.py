@@ -1,0 +1,155 @@
+"""Stiffness of the elements of a tensor-product mesh, as sums of products of matrices along r and along z.
+
+The modulus depends on the depth only and the weight r on the radius only, so that every integral over an element is a
+product of two integrals along its sides.  Functions, numbering and degree are those of scikit-fem's `ElementQuadP`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+
+import numpy as np
+from skfem import Basis, ElementQuadP, MeshQuad
+
+from fem_reference._elastic.dof_ordering import both_components
+from fem_reference._elastic.elasticity import (
+    CHUNK,
+    EXTRA_POINTS,
+    FIRST_LAYER_POINTS,
+    element_places,
+    lame_parameters,
+)
+from fem_reference._elastic.gauss import unit_gauss
+from fem_reference._elastic.line_functions import line_functions, line_slopes
+from fem_reference._elastic.mapping import graded_depth
+from fem_reference._elastic.mesh import Grid
+from fem_reference._typing import Array, Index
+from fem_reference.modulus import Modulus
+from fem_reference.poisson import PoissonRatio
+
+__all__ = ["numbering", "tensor_stiffness"]
+
+
+def numbering(mesh: MeshQuad, order: int) -> Basis:
+    """Return scikit-fem's numbering of the functions; its one quadrature point is not used."""
+    point = np.full((2, 1), 0.5), np.ones(1)
+    return Basis(mesh, ElementQuadP(order), quadrature=point, disable_doflocs=True)
+
+
+@lru_cache(maxsize=8)
+def _factors(order: int) -> tuple[Index, Index]:
+    """Degrees of both factors of each function of an element, along its first and its second reference axis."""
+    edge, inner = range(2, order + 1), range(2, order + 1)
+    pairs = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    pairs += [(i, 0) for i in edge] + [(1, i) for i in edge] + [(i, 1) for i in edge] + [(0, i) for i in edge]
+    pairs += [(i, j) for i in inner for j in inner]
+    x, y = np.array(pairs, np.intp).T
+    return x, y
+
+
+def _along(points: Array, order: int) -> tuple[Array, Array]:
+    """Functions and slopes on the unit interval, shape (q, order + 1)."""
+    ends = np.array([0.0, 1.0])
+    return line_functions(ends, order, points), line_slopes(ends, order, points)
+
+
+def _integrals(left: Array, weight: Array, right: Array) -> Array:
+    """Integrals of the products of functions on each element, shape (e, n, n); `weight` has the shape (e, q)."""
+    return np.asarray(np.swapaxes(left, -1, -2) @ (weight[:, :, None] * right))
+
+
+def _radial(nodes: Array, order: int) -> dict[str, Array]:
+    """Matrices along r of every column; d marks a derivative."""
+    x, w = unit_gauss(order + EXTRA_POINTS)
+    N, slope = _along(x, order)
+    h = np.diff(nodes)[:, None]
+    r, weight = nodes[:-1, None] + h * x, h * w
+    dN = slope / h[:, :, None]
+    return {
+        "N r N": _integrals(N, weight * r, N),
+        "dN r dN + N/r N": _integrals(dN, weight * r, dN) + _integrals(N, weight / r, N),
+        "dN r dN": _integrals(dN, weight * r, dN),
+        "dN N + N dN": _integrals(dN, weight, N) + _integrals(N, weight, dN),
+        "(dN r + N) N": _integrals(dN, weight * r, N) + _integrals(N, weight, N),
+        "N r dN": _integrals(N, weight * r, dN),
+    }
+
+
+def _depth(nodes: Array, modulus: Modulus, nu: float | PoissonRatio, order: int) -> dict[str, Array]:
+    """Matrices along z of every row, weighted with lambda, mu or stiff = lambda + 2 mu; d marks a derivative."""
+    rows: list[dict[str, Array]] = []
+    x, w = unit_gauss(order + EXTRA_POINTS)
+    u, wu = unit_gauss(FIRST_LAYER_POINTS)
+    for part, points, weights in ((nodes[:2], u**3, 3.0 * u**2 * wu), (nodes[1:], x, w)):
+        Z, slope = _along(points, order)
+        h = np.diff(part)[:, None]
+        z, stretch = graded_depth(part[:-1, None] + h * points, float(nodes[1]), modulus.surface_exponent)
+        measure, dZ = h * weights * stretch, slope / (h * stretch)[:, :, None]
+        lame, shear = lame_parameters(modulus, nu, z)
+        lame, shear = lame * measure, shear * measure
+        stiff = lame + 2.0 * shear
+        rows.append(
+            {
+                "Z stiff Z": _integrals(Z, stiff, Z),
+                "Z lambda Z": _integrals(Z, lame, Z),
+                "Z mu Z": _integrals(Z, shear, Z),
+                "dZ mu dZ": _integrals(dZ, shear, dZ),
+                "dZ stiff dZ": _integrals(dZ, stiff, dZ),
+                "Z lambda dZ": _integrals(Z, lame, dZ),
+                "dZ mu Z": _integrals(dZ, shear, Z),
+            }
+        )
+    first, below = rows
+    return {name: np.concatenate([first[name], below[name]]) for name in first}
+
+
+#: Blocks of an element, radial or axial rows and columns, as pairs of a matrix along r and one along z.
+BLOCKS = {
+    (0, 0): (("dN r dN + N/r N", "Z stiff Z"), ("dN N + N dN", "Z lambda Z"), ("N r N", "dZ mu dZ")),
+    (0, 1): (("(dN r + N) N", "Z lambda dZ"), ("N r dN", "dZ mu Z")),
+    (1, 1): (("N r N", "dZ stiff dZ"), ("dN r dN", "Z mu Z")),
+}
+
+
+def tensor_stiffness(
+    grid: Grid, basis: Basis, modulus: Modulus, nu: float | PoissonRatio, order: int
+) -> Iterator[tuple[Index, Index, Array]]:
+    """Numbers, rows and stiffness of some elements at a time: shapes (e,), (e, 2 n) and (e, 2 n, 2 n).
+
+    Parameters
+    ----------
+    grid : Grid
+        The mesh; its first layer has the graded chart.
+    basis : skfem.Basis
+        As `numbering` returns it.
+    modulus, nu
+        E(z), and the Poisson ratio.
+    order : int
+        Degree of the elements.
+
+    Raises
+    ------
+    ValueError
+        If the modulus is not positive, or Poisson's ratio outside its range.
+    """
+    mesh = basis.mesh
+    # The first reference axis goes from the first corner to the second.
+    down = bool(mesh.p[0, mesh.t[0, 0]] == mesh.p[0, mesh.t[1, 0]])
+    along_r, along_z = _factors(order)[::-1] if down else _factors(order)
+    radial = {name: M[:, along_r[:, None], along_r] for name, M in _radial(grid.r, order).items()}
+    depth = {name: M[:, along_z[:, None], along_z] for name, M in _depth(grid.z, modulus, nu, order).items()}
+    columns, layers = element_places(mesh)
+    rows = both_components(np.asarray(basis.element_dofs)).T
+    size = rows.shape[1]
+    for start in range(0, rows.shape[0], CHUNK):
+        chunk = np.arange(start, min(start + CHUNK, rows.shape[0]))
+        column, layer = columns[chunk], layers[chunk]
+        K = np.empty((chunk.size, size, size))
+        for (i, j), pairs in BLOCKS.items():
+            block = K[:, i::2, j::2]
+            np.multiply(radial[pairs[0][0]][column], depth[pairs[0][1]][layer], out=block)
+            for name_r, name_z in pairs[1:]:
+                block += radial[name_r][column] * depth[name_z][layer]
+        K[:, 1::2, 0::2] = np.swapaxes(K[:, 0::2, 1::2], 1, 2)
+        yield chunk, rows[chunk], K
