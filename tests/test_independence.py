@@ -36,7 +36,7 @@ ALLOWED = {
     "comparisons.paper.figures.fig08_jumps": ("fscm",),
     # Measure a solver at every accuracy, the others beside it, and the linear solvers inside the finite elements.
     "comparisons.bench.pull_off": ("fscm", "fem_reference"),
-    "comparisons.bench.linear_systems": ("fem_reference",),
+    "comparisons.bench.elements": ("fem_reference",),
     # Pose the problem of a file to each solver: any solid, punch and law.
     "comparisons.problem_file.dimensionless": ("fscm",),
     "comparisons.problem_file.finite_elements": ("fem_reference",),

@@ -10,12 +10,11 @@ from __future__ import annotations
 import math
 from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
-from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-__all__ = ["INSTALL", "PullOff", "installed", "pull_off", "versions"]
+__all__ = ["INSTALL", "installed", "pull_off", "versions"]
 
 #: What is printed where the package is not installed.
 INSTALL = 'adhesion is not installed: pip install "fscm-bench[bench]"'
@@ -23,8 +22,9 @@ INSTALL = 'adhesion is not installed: pip install "fscm-bench[bench]"'
 _MODULES = ("Adhesion", "ContactMechanics", "SurfaceTopography")
 _DISTRIBUTIONS = ("adhesion", "ContactMechanics", "SurfaceTopography", "NuMPI", "muGrid")
 
-#: The displacement is sought in this distance of the one that is known, to this tolerance.  The load has a minimum
-#: there: with a tolerance of 1e-5 the force changes by at most 1.2e-6 (measured on 64 x 64 pixels, mu = 0.1 to 1).
+#: The displacement is sought within this distance of the one that `fscm` has, to this tolerance.  The load has a
+#: minimum there: with a tolerance of 1e-5 the force changes by at most 1.2e-6 (measured on 64 x 64 pixels, mu = 0.1 to
+#: 1).
 _AROUND, _TOLERANCE = 0.1, 3e-3
 
 #: Largest force on a pixel that is out of equilibrium, in units of its area.  With a thousandth of it the force at
@@ -36,14 +36,6 @@ _GRADIENT = 1e-4
 _MINIMISER = {"ftol": 0.0, "maxcor": 20, "maxiter": 10_000, "maxfun": 20_000}
 
 
-class PullOff(NamedTuple):
-    """A pull-off force and the evaluations of the energy that it took."""
-
-    force: float
-    displacement: float
-    evaluations: int
-
-
 def installed() -> bool:
     """Whether the package can be imported."""
     return all(find_spec(name) is not None for name in _MODULES)
@@ -51,17 +43,17 @@ def installed() -> bool:
 
 def versions() -> dict[str, str]:
     """Return the versions of the package and of those below it, as far as they are installed."""
-    found = {}
+    numbers = {}
     for name in _DISTRIBUTIONS:
         try:
-            found[name] = version(name)
+            numbers[name] = version(name)
         except PackageNotFoundError:
             continue
-    return found
+    return numbers
 
 
-def pull_off(mu: float, half_width: float, points: int, displacement: float) -> PullOff:
-    """Return the largest tension on the parabola, n = 2, k = 0.
+def pull_off(mu: float, half_width: float, points: int, displacement: float) -> tuple[float, int]:
+    """Return the largest tension on the parabola, n = 2, k = 0, and the evaluations of the energy that it took.
 
     Parameters
     ----------
@@ -79,10 +71,9 @@ def pull_off(mu: float, half_width: float, points: int, displacement: float) -> 
     from ContactMechanics import FreeFFTElasticHalfSpace
     from SurfaceTopography import Topography
 
-    side = 2.0 * half_width
-    pixel = side / points
-    place = (np.arange(points) + 0.5) * pixel - half_width
-    sphere = Topography(-0.5 * (place[:, None] ** 2 + place[None, :] ** 2), (side, side))
+    side, pixel = 2.0 * half_width, 2.0 * half_width / points
+    x = (np.arange(points) + 0.5) * pixel - half_width
+    sphere = Topography(-0.5 * (x[:, None] ** 2 + x[None, :] ** 2), (side, side))
     half_space = FreeFFTElasticHalfSpace((points, points), mu**-1.5, (side, side))
     system = SmoothContactSystem(half_space, Lj82(1.0, 1.0), sphere)
     options = {**_MINIMISER, "gtol": _GRADIENT * pixel**2}
@@ -91,13 +82,13 @@ def pull_off(mu: float, half_width: float, points: int, displacement: float) -> 
 
     def load(delta: float) -> float:
         nonlocal evaluations
-        start = states[min(states, key=lambda known: abs(known - delta))] if states else None
+        start = states[min(states, key=lambda other: abs(other - delta))] if states else None
         # The package measures the gap from the singularity of the law, which is 1 below H = 0.
-        found = system.minimize_proxy(offset=delta - 1.0, initial_displacements=start, options=options)
-        evaluations += int(found.nfev)
+        state = system.minimize_proxy(offset=delta - 1.0, initial_displacements=start, options=options)
+        evaluations += int(state.nfev)
         states[delta] = system.disp.copy()
         return float(system.compute_normal_force()) / math.pi
 
     ends = (displacement - _AROUND, displacement + _AROUND)
     least = minimize_scalar(load, bounds=ends, method="bounded", options={"xatol": _TOLERANCE})
-    return PullOff(-float(least.fun), float(least.x), evaluations)
+    return -float(least.fun), evaluations

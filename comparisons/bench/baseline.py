@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from comparisons.bench.registry import chosen
+from comparisons.bench.run import parts_of
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.folder import RunFolder
 
@@ -31,7 +31,7 @@ def renew(folder: Path, target: Path = BENCH_BASELINE) -> list[Path]:
     stored = RunFolder(folder)
     record = stored.bench
     content = json.loads(record.read_text(encoding="utf-8"))
-    sources = [record, stored.bench_summary, *(path for part in chosen(None) for path in part.files(folder))]
+    sources = [record, stored.bench_summary, *(path for part in parts_of(None) for path in part.files(folder))]
     if missing := [path.name for path in sources if not path.is_file()]:
         raise ValueError(
             f"{folder} lacks {', '.join(missing)}: renew the baseline from the folder of a `fscm-bench bench` without "

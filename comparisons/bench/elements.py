@@ -6,128 +6,175 @@
 
 from __future__ import annotations
 
-from typing import Any
+import time
+from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
+from scipy import linalg
 
-from comparisons.bench.linear_systems import METHODS, measure
-from comparisons.bench.part import Item, Part
-from comparisons.output.style import COLOURS, MARKERS, lettered, styled
+from comparisons.bench.drawing import Panel, lines
+from comparisons.bench.measuring import memory, reset_peak
+from comparisons.bench.part import Numbers, Part, Settings
+from fem_reference._elastic.assembly import HalfSpace, assemble_half_space
+from fem_reference._elastic.condensation import condensed
+from fem_reference._elastic.mesh import MeshSpec
+from fem_reference._elastic.trace import trace_of
+from fem_reference._linear.linear_solver import solve_cg, solve_direct
+from fem_reference._linear.preconditioner import ElasticPreconditioner
+from fem_reference._typing import Array
+from fem_reference.modulus import PowerLawModulus
+from fem_reference.verification.load_vectors import smooth_load
+from fem_reference.verification.solver_study import LOAD_RADIUS
 
-__all__ = ["ELEMENTS", "draw", "items", "summary", "table"]
+__all__ = ["ELEMENTS", "METHODS"]
 
-#: Mesh densities, with the seconds that one method takes; from 1e4 to 2e5 unknowns, then 5e5.
-_DENSITIES = {0.9: 1.0, 0.45: 3.0, 0.3: 7.0, 0.22: 18.0}
-_LARGE = {0.14: 60.0}
-_MATERIAL, _CORNERS = (0.4, 0.25), ((0.0, 0.0), (0.8, 0.45))
-#: Fewest unknowns in the figure.
-_LEAST_SHOWN = 1e4
-_LABELS = {"pyamg": "whole, pyamg", "direct": "whole, direct", "condensed": "condensed"}
+#: Mesh densities, from 1e4 to 2e5 unknowns; the last, 5e5, with `full` only.
+_DENSITIES = (0.9, 0.45, 0.3, 0.22, 0.14)
+#: k and nu; the first in every run.
+_MATERIALS = ((0.4, 0.25), (0.0, 0.0), (0.8, 0.45))
+
+#: Width of the edge, depth of the first layer and extent of the mesh, in units of the edge radius, as in the study of
+#: the linear solver; degree of the elements.
+_EDGE, _ORDER = (1e-3, 1e-4, 128.0), 4
 
 
-def items(full: bool) -> list[Item]:
+def plan(full: bool) -> list[Settings]:
     """Return all methods at every size; with `full` up to 5e5 unknowns and for three materials."""
-    densities = {**_DENSITIES, **(_LARGE if full else {})}
     return [
-        Item({"method": method, "density": density, "k": k, "nu": nu}, seconds)
-        for k, nu in (_MATERIAL, *(_CORNERS if full else ()))
-        for density, seconds in densities.items()
+        {"method": method, "density": density, "k": k, "nu": nu}
+        for k, nu in (_MATERIALS if full else _MATERIALS[:1])
+        for density in (_DENSITIES if full else _DENSITIES[:-1])
         for method in METHODS
     ]
 
 
-def table(rows: pd.DataFrame) -> pd.DataFrame:
+#: Returns the displacement of the surface under a load, and numbers; it reads the clock after its set-up.
+_Method = Callable[[HalfSpace, Array], tuple[Array, Numbers]]
+
+
+def measure(settings: Settings) -> Numbers:
+    """Assemble a system, solve it, and return unknowns, iterations, CPU times and memory.
+
+    ``megabytes`` is the peak of the memory while it is solved, less the memory that was in use before: matrix and mesh.
+
+    Parameters
+    ----------
+    settings : dict
+        ``method`` (of `METHODS`), ``density`` of the mesh, ``k`` and ``nu``; ``shape`` of the mesh where it is not
+        that of the study.
+    """
+    method = METHODS[settings["method"]]
+    # The first factorisation and the first set-up of pyamg import modules.
+    _solve(method, MeshSpec(0.5, 0.05, 32.0, 1.5, _ORDER), settings)
+    return _solve(method, MeshSpec(*settings.get("shape", _EDGE), settings["density"], _ORDER), settings)
+
+
+def _solve(method: _Method, spec: MeshSpec, settings: Settings) -> Numbers:
+    begin = time.process_time()
+    grid = spec.grid()
+    half_space = assemble_half_space(grid, PowerLawModulus(1.0, 1.0, settings["k"]), settings["nu"], _ORDER)
+    load = np.zeros(half_space.matrix.shape[0])
+    load[half_space.surface] = smooth_load(lambda r: np.exp(-((r / LOAD_RADIUS) ** 2)))(trace_of(grid, _ORDER))
+    assembly = time.process_time() - begin
+    before = memory()
+    reset_peak()
+    surface, numbers = method(half_space, load)
+    peak = memory("VmHWM")
+    return {
+        "unknowns": half_space.unknowns,
+        **numbers,
+        "assembly_seconds": assembly,
+        "megabytes": None if before is None or peak is None else peak - before,
+        "displacement": float(surface[0]),
+    }
+
+
+def _numbers(iterations: int, residual: float, begin: float, ready: float) -> Numbers:
+    times = {"setup_seconds": ready - begin, "solve_seconds": time.process_time() - ready}
+    return {"iterations": iterations, "residual": residual, **times}
+
+
+def _by_pyamg(half_space: HalfSpace, load: Array) -> tuple[Array, Numbers]:
+    begin = time.process_time()
+    preconditioner = ElasticPreconditioner(half_space)
+    ready = time.process_time()
+    solution = solve_cg(half_space, load, preconditioner)
+    return solution.solution[half_space.surface], _numbers(solution.iterations, solution.residual, begin, ready)
+
+
+def _direct(half_space: HalfSpace, load: Array) -> tuple[Array, Numbers]:
+    begin = time.process_time()
+    solution = solve_direct(half_space, load)
+    return solution.solution[half_space.surface], _numbers(0, solution.residual, begin, begin)
+
+
+def _condensed(half_space: HalfSpace, load: Array) -> tuple[Array, Numbers]:
+    begin = time.process_time()
+    stiffness, _ = condensed(half_space)
+    ready = time.process_time()
+    forces = load[half_space.surface]
+    surface = linalg.cho_solve(linalg.cho_factor(stiffness), forces)
+    residual = float(np.linalg.norm(stiffness @ surface - forces) / np.linalg.norm(forces))
+    return surface, _numbers(0, residual, begin, ready)
+
+
+#: Name -> the method: "direct" factorises and solves at once, which is all in ``solve_seconds``.
+METHODS: dict[str, _Method] = {"pyamg": _by_pyamg, "direct": _direct, "condensed": _condensed}
+
+
+def ratios(rows: pd.DataFrame) -> pd.DataFrame:
     """Add the whole time, its ratio and that of memory to those of "pyamg", and the disagreement with "direct".
 
     The disagreement is the relative difference of the displacements under the centre of the load.
     """
-    rows = rows.copy()
-    if "solve_seconds" not in rows:
-        return rows
-    rows["seconds"] = rows["setup_seconds"] + rows["solve_seconds"]
+    rows = rows.assign(seconds=rows["setup_seconds"] + rows["solve_seconds"])
     system = ["density", "k", "nu"]
 
-    def of(method: str, name: str) -> Any:
+    def of(method: str, name: str) -> Array:
         values = rows[(rows["method"] == method) & (rows["status"] == "ok")].set_index(system)[name]
-        return values.reindex(pd.MultiIndex.from_frame(rows[system])).to_numpy(float)
+        return np.asarray(values.reindex(pd.MultiIndex.from_frame(rows[system])), float)
 
-    rows["ratio"] = rows["seconds"] / of("pyamg", "seconds")
-    rows["memory_ratio"] = rows["megabytes"] / of("pyamg", "megabytes")
     direct = of("direct", "displacement")
-    rows["disagreement"] = np.abs(rows["displacement"] - direct) / np.abs(direct)
-    return rows
+    return rows.assign(
+        ratio=rows["seconds"] / of("pyamg", "seconds"),
+        memory_ratio=rows["megabytes"] / of("pyamg", "megabytes"),
+        disagreement=np.abs(rows["displacement"] - direct) / np.abs(direct),
+    )
 
 
-def draw(table: pd.DataFrame) -> Figure:
+def _of_every_run(rows: pd.DataFrame) -> pd.DataFrame:
+    """Rows of the material that every run has."""
+    k, nu = _MATERIALS[0]
+    return rows[(rows["k"] == k) & (rows["nu"] == nu)].sort_values("unknowns")
+
+
+def draw(rows: pd.DataFrame) -> Figure:
     """Draw iterations, time and memory against unknowns, for the material that every run has."""
-    k, nu = _MATERIAL
-    rows = table[(table["k"] == k) & (table["nu"] == nu) & (table["status"] == "ok")].sort_values("unknowns")
-    with styled():
-        figure = Figure(figsize=(11.0, 3.7), layout="constrained")
-        iterations, seconds, memory = figure.subplots(1, 3)
-        for place, (method, label) in enumerate(_LABELS.items()):
-            one = rows[rows["method"] == method]
-            line: dict[str, Any] = {"color": COLOURS[place], "marker": MARKERS[place], "ms": 5, "label": label}
-            seconds.loglog(one["unknowns"], one["seconds"], **line)
-            memory.loglog(one["unknowns"], one["megabytes"], **line)
-            if method == "pyamg":
-                iterations.semilogx(one["unknowns"], one["iterations"], **line)
-        iterations.set_ylim(0.0, None)
-        for axes, letter, label in (
-            (iterations, "a", "iterations to a residual of 1e-10"),
-            (seconds, "b", "CPU time: set-up and solution (s)"),
-            (memory, "c", "memory beside the matrix, peak (MB)"),
-        ):
-            lettered(axes, letter)
-            axes.set_xlabel("unknowns")
-            axes.set_ylabel(label)
-            axes.xaxis.set_minor_formatter(NullFormatter())
-            axes.set_xlim(0.8 * _LEAST_SHOWN, max(1.3 * rows["unknowns"].max(), 2.0 * _LEAST_SHOWN))
-        seconds.legend(loc="best")
-        figure.suptitle(
-            rf"Linear systems of the finite elements, $k$ = {k:g}, $\nu$ = {nu:g}, edge of a thousandth of its radius",
-            fontsize=10,
+    labels = {
+        "iterations": "iterations to a residual of 1e-10",
+        "seconds": "CPU time: set-up and solution (s)",
+        "megabytes": "memory beside the matrix, peak (MB)",
+    }
+    panels = [
+        Panel(
+            _of_every_run(rows), "unknowns", name, "method", ("unknowns", label), "x" if name == "iterations" else "xy"
         )
-    return figure
-
-
-def summary(table: pd.DataFrame) -> list[str]:
-    """Return time and memory of the other methods over those of "pyamg", and the growth of its iterations."""
-    k, nu = _MATERIAL
-    ok = table[(table["status"] == "ok") & (table["k"] == k) & (table["nu"] == nu)].sort_values("unknowns")
-    lines = [f"{'unknowns':>18}  {'direct/pyamg':>14}{'condensed/pyamg':>17}{'memory direct/pyamg':>21}"]
-    for unknowns, rows in ok.groupby("unknowns"):
-        by = rows.set_index("method")
-
-        def ratio(method: str, name: str, by: pd.DataFrame = by) -> str:
-            return f"{by[name][method]:.2f}" if method in by.index else "-"
-
-        lines.append(
-            f"{unknowns:>18.0f}  {ratio('direct', 'ratio'):>14}{ratio('condensed', 'ratio'):>17}"
-            f"{ratio('direct', 'memory_ratio'):>21}"
-        )
-    iterations = table.loc[(table["method"] == "pyamg") & (table["status"] == "ok")]
-    growth = [
-        float(one["iterations"].iloc[-1] / one["iterations"].iloc[0])
-        for _, one in iterations.sort_values("unknowns").groupby(["k", "nu"])
+        for name, label in labels.items()
     ]
-    if growth:
-        lines.append(
-            f"  iterations of pyamg: at most {iterations['iterations'].max():.0f}; "
-            f"most / least unknowns: {max(growth):.2f} times as many"
-        )
-    return lines
+    k, nu = _MATERIALS[0]
+    return lines(panels, rf"Linear systems of the finite elements, $k$ = {k:g}, $\nu$ = {nu:g}", len(panels))
 
 
-ELEMENTS = Part(
-    "elements",
-    "iterations, CPU time and memory of the linear solvers of the finite elements",
-    items,
-    measure,
-    table,
-    draw,
-    summary,
-)
+def summary(rows: pd.DataFrame) -> list[str]:
+    """Return time and memory of the other methods over those of "pyamg", and the iterations of that."""
+    others = _of_every_run(rows[rows["method"] != "pyamg"])
+    table = others.pivot_table(index="unknowns", columns="method", values=["ratio", "memory_ratio"])
+    table.columns = pd.Index([f"{name.removesuffix('_ratio')} {method}" for name, method in table.columns])
+    iterations = rows.loc[rows["method"] == "pyamg", "iterations"].max()
+    text = table.to_string(float_format="%.2f").splitlines() if len(table) else []
+    return ["time and memory over those of pyamg:", *text, f"  iterations of pyamg: at most {iterations:.0f}"]
+
+
+ELEMENTS = Part("elements", "time and memory of the linear solvers of fem", plan, measure, ratios, draw, summary)

@@ -60,17 +60,16 @@ def _problem(settings: Settings, repetition: int = 0) -> Problem:
     return Problem(settings["n"], settings["k"], settings["mu"] * (1.0 + _APART * repetition))
 
 
+def _numbers(value: float, u_num: float | None, unknowns: int, seconds: float) -> Numbers:
+    return {"value": value, "u_num": u_num, "unknowns": unknowns, "cpu_seconds": seconds}
+
+
 def solved(settings: Settings) -> Numbers:
     """Solve a problem by `fscm` at an accuracy."""
     accuracy = settings["accuracy"]
     fscm.solve(_problem({**settings, "mu": _WARM * settings["mu"]}), "pull_off_force", accuracy)
     solution, seconds = cpu_seconds(lambda i: fscm.solve(_problem(settings, i), "pull_off_force", accuracy))
-    return {
-        "value": solution.value,
-        "u_num": solution.u_num,
-        "unknowns": solution.size,
-        "cpu_seconds": seconds,
-    }
+    return _numbers(solution.value, solution.u_num, solution.size, seconds)
 
 
 def _elements(settings: Settings) -> Numbers:
@@ -88,12 +87,7 @@ def _elements(settings: Settings) -> Numbers:
         return fem_reference.solve(body, "pull_off_force", accuracy), physical.units["load"]
 
     (solution, unit), seconds = cpu_seconds(solve)
-    return {
-        "value": solution.value / unit,
-        "u_num": solution.u_num / unit,
-        "unknowns": solution.size,
-        "cpu_seconds": seconds,
-    }
+    return _numbers(solution.value / unit, solution.u_num / unit, solution.size, seconds)
 
 
 def _stieltjes(settings: Settings) -> Numbers:
@@ -101,7 +95,7 @@ def _stieltjes(settings: Settings) -> Numbers:
     segments = settings["segments"]
     StieltjesScheme(_problem(settings), segments).solve(10.0)
     event, seconds = cpu_seconds(lambda i: find_event(StieltjesScheme(_problem(settings, i), segments), "pull_off"))
-    return {"value": -event.load, "u_num": None, "unknowns": segments, "cpu_seconds": seconds}
+    return _numbers(-event.load, None, segments, seconds)
 
 
 def _fft(settings: Settings) -> Numbers:
@@ -110,14 +104,10 @@ def _fft(settings: Settings) -> Numbers:
     displacement = fscm.solve(_problem(settings), "pull_off_displacement").value
     # The first call imports the package.
     adhesion_package.pull_off(mu, half_width, 8, displacement)
-    found, seconds = cpu_seconds(lambda _: adhesion_package.pull_off(mu, half_width, points, displacement))
-    return {
-        "value": found.force,
-        "u_num": None,
-        "unknowns": points**2,
-        "cpu_seconds": seconds,
-        "evaluations": found.evaluations,
-    }
+    (force, evaluations), seconds = cpu_seconds(
+        lambda _: adhesion_package.pull_off(mu, half_width, points, displacement)
+    )
+    return _numbers(force, None, points**2, seconds) | {"evaluations": evaluations}
 
 
 _MODELS = {"fscm": solved, "fem": _elements, "fscm-stieltjes": _stieltjes, "adhesion": _fft}

@@ -1,23 +1,25 @@
 """A run of the benchmark: what is measured, stored, written and printed.
 
-Each finished measurement is in the journal of the folder before the next one begins, so that a run that is stopped can
+Each finished measurement is in the store of the folder before the next one begins, so that a run that is stopped can
 be resumed; each keeps the record of the machine that made it.
 """
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
 from comparisons.bench import adhesion_package
-from comparisons.bench.measuring import made
-from comparisons.bench.part import Item, Measurement, Part, Settings, table_of
-from comparisons.bench.registry import chosen
+from comparisons.bench.cold_starts import COLD_STARTS
+from comparisons.bench.elements import ELEMENTS
+from comparisons.bench.growth import GROWTH
+from comparisons.bench.measuring import measured
+from comparisons.bench.part import Measurement, Part, key, table_of
+from comparisons.bench.two_workers import WORKERS
+from comparisons.bench.work_precision import WORK_PRECISION
 from comparisons.console.progress import counting, note
 from comparisons.output.style import save
 from comparisons.runs.atomic_files import atomic, prepare_folder, write_json
@@ -27,7 +29,29 @@ from comparisons.runs.environment import environment, fingerprint
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.store import Store, alone_in
 
-__all__ = ["FinishedBench", "run_bench"]
+__all__ = ["PARTS", "FinishedBench", "parts_of", "run_bench"]
+
+#: Parts by name, in the order in which they are measured: the shortest first.
+PARTS = {part.name: part for part in (GROWTH, COLD_STARTS, WORKERS, ELEMENTS, WORK_PRECISION)}
+
+
+def parts_of(names: Iterable[str] | None) -> list[Part]:
+    """Return the parts of some names, all by default.
+
+    Raises
+    ------
+    ValueError
+        For a name that no part has.
+
+    Examples
+    --------
+    >>> [part.name for part in parts_of(["growth"])]
+    ['growth']
+    """
+    requested = set(PARTS if names is None else names)
+    if unknown := sorted(requested - set(PARTS)):
+        raise ValueError(f"there is no part {', '.join(unknown)}; the parts are {', '.join(PARTS)}")
+    return [part for name, part in PARTS.items() if name in requested]
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,9 +87,9 @@ def run_bench(
     Parameters
     ----------
     folder : Path
-        For journal, tables, figures and record; made if it does not exist.
+        For store, tables, figures and record; made if it does not exist.
     only : sequence of str, optional
-        Names of parts (`comparisons.bench.registry.PARTS`); all by default.
+        Names of parts (`PARTS`); all by default.
     full : bool
         Whether the sizes that take long are measured, too.
     again : bool
@@ -78,122 +102,62 @@ def run_bench(
     ValueError
         For an unknown part, or a folder that cannot be used.
     """
-    parts = chosen(only)
+    parts = parts_of(only)
     prepare_folder(folder)
     with alone_in(folder):
         path = RunFolder(folder).measurements
         if again:
             path.unlink(missing_ok=True)
-        journal: Store[Measurement] = Store(path, fingerprint(), _read, _write)
+        store: Store[Measurement] = Store(path, fingerprint(), dict, dict)
         if retry_failed:
-            journal.drop(lambda one: one.status != "ok")
-        with journal.kept():
-            _measure(parts, full, journal)
-        return _written(folder, parts, journal, {"only": only and list(only), "full": full})
+            store.drop(lambda measurement: measurement["status"] != "ok")
+        with store.kept():
+            _measure(parts, full, store)
+        return _written(folder, parts, store, {"only": only and list(only), "full": full})
 
 
-def _read(content: dict[str, Any]) -> Measurement:
-    return Measurement(**content)
-
-
-def _write(one: Measurement) -> dict[str, Any]:
-    return {
-        "part": one.part,
-        "settings": one.settings,
-        "numbers": one.numbers,
-        "status": one.status,
-        "reason": one.reason,
-    }
-
-
-def _key(part: str, settings: Settings) -> tuple[str, tuple[tuple[str, Any], ...]]:
-    return part, tuple(sorted((name, str(value)) for name, value in settings.items()))
-
-
-def _measure(parts: Sequence[Part], full: bool, journal: Store[Measurement]) -> None:
-    """Make the measurements that the journal lacks, part by part."""
-    known = {_key(one.part, one.settings) for one in journal.items}
-    missing = {
-        part.name: [item for item in part.items(full) if _key(part.name, item.settings) not in known] for part in parts
-    }
-    pending = [item for some in missing.values() for item in some]
-    left = _TimeLeft(pending)
-    if known:
-        note(f"{len(known)} measurements are stored already, {len(pending)} are missing")
-    with counting("measurements", len(pending)) as count:
-        for part in parts:
-            if missing[part.name]:
-                note(f"{part.name}: {len(missing[part.name])} measurements")
-            for item in missing[part.name]:
-                journal.add(made(part, item.settings))
-                count(left.after(item))
-
-
-class _TimeLeft:
-    """An estimate that only falls, from the seconds that the items state and the speed so far."""
-
-    def __init__(self, items: Sequence[Item], clock: Callable[[], float] = time.perf_counter) -> None:
-        self._whole = self._pending = sum(item.seconds for item in items)
-        self._clock, self._started = clock, clock()
-        self._left = float("inf")
-
-    def after(self, item: Item) -> float:
-        """Return the seconds left when one more item is finished."""
-        self._pending -= item.seconds
-        speed = (self._clock() - self._started) / (self._whole - self._pending)
-        self._left = min(self._left, max(self._pending, 0.0) * speed)
-        return self._left
+def _measure(parts: Sequence[Part], full: bool, store: Store[Measurement]) -> None:
+    """Make the measurements that the store lacks, part by part."""
+    stored = {(row["part"], key(row["settings"])) for row in store.items}
+    missing = [
+        (part, settings) for part in parts for settings in part.plan(full) if (part.name, key(settings)) not in stored
+    ]
+    note(f"{len(missing)} measurements" + (f", {len(stored)} are stored" if stored else ""))
+    with counting("measurements", len(missing)) as count:
+        for part, settings in missing:
+            store.add(measured(part, settings))
+            count()
 
 
 def _written(
-    folder: Path, parts: Sequence[Part], journal: Store[Measurement], arguments: dict[str, Any]
+    folder: Path, parts: Sequence[Part], store: Store[Measurement], arguments: dict[str, object]
 ) -> FinishedBench:
     """Write the tables and figures of the parts and the record of all that is stored; return what is printed."""
-    tables, lines, failures = {}, [], []
-    for part in parts:
-        stored = _ordered(part, [one for one in journal.items if one.part == part.name])
-        failures += [one for one in stored if one.status != "ok"]
-        if not stored:
-            continue
-        tables[part.name] = table = part.table(table_of(stored))
-        table_file, figure_file = part.files(folder)
-        with atomic(table_file) as file:
-            file.write(csv_text(_with_short_settings(table, stored)).encode())
-        if (table["status"] == "ok").any():
-            save(part.draw(table), figure_file)
-            lines += part.summary(table)
     record = environment()
-    write_json(
-        {
-            "arguments": arguments,
-            **record,
-            "optional": adhesion_package.versions(),
-            "parts": journal.parts(),
-            "failures": len([one for one in journal.items if one.status != "ok"]),
-        },
-        RunFolder(folder).bench,
-    )
     machine = record["machine"]
-    head = [f"{machine['cpu']}, {machine['cores']} cores; ratios of one run on it:"[:80]]
+    summary = [f"{machine['cpu']}, {machine['cores']} cores; ratios of one run on it:"[:80]]
+    tables, failures = {}, []
+    for part in parts:
+        rows = [row for row in store.items if row["part"] == part.name]
+        failures += [row for row in rows if row["status"] != "ok"]
+        tables[part.name] = table = table_of(part, rows)
+        table_file, figure_file = part.files(folder)
+        # Settings as short as they can be exactly: 1e-05, not 1.0000000000000001e-05.
+        settings = {name: table[name].map(_short) for name in {name for row in rows for name in row["settings"]}}
+        with atomic(table_file) as file:
+            file.write(csv_text(table.assign(**settings)).encode())
+        finished = table[table["status"] == "ok"]
+        if len(finished):
+            save(part.draw(finished), figure_file)
+            summary += part.summary(finished)
+    content = {"arguments": arguments, **record, "optional": adhesion_package.versions(), "parts": store.parts()}
+    content["failures"] = sum(row["status"] != "ok" for row in store.items)
+    write_json(content, RunFolder(folder).bench)
     with atomic(RunFolder(folder).bench_summary) as file:
-        file.write("".join(f"{line}\n" for line in head + lines).encode())
+        file.write("".join(f"{line}\n" for line in summary).encode())
     write_data_package(folder, [part.files(folder)[0].name for part in parts])
-    return FinishedBench(folder, tables, head + lines, failures)
+    return FinishedBench(folder, tables, summary, failures)
 
 
-def _with_short_settings(table: pd.DataFrame, stored: Sequence[Measurement]) -> pd.DataFrame:
-    """Write settings as short as they can be exactly: 1e-05, not 1.0000000000000001e-05."""
-    settings = {name for one in stored for name in one.settings}
-    return table.assign(
-        **{
-            name: table[name].map(lambda value: repr(value) if isinstance(value, float) and value == value else value)
-            for name in table.columns
-            if name in settings
-        }
-    )
-
-
-def _ordered(part: Part, stored: Sequence[Measurement]) -> list[Measurement]:
-    """Measurements in the order of the part, whatever the order in which they were made."""
-    order = {_key(part.name, item.settings): place for place, item in enumerate(part.items(True))}
-    return sorted(stored, key=lambda one: order.get(_key(part.name, one.settings), len(order)))
+def _short(value: object) -> object:
+    return repr(value) if isinstance(value, float) and value == value else value

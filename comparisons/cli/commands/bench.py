@@ -6,8 +6,7 @@ import argparse
 from pathlib import Path
 
 from comparisons.bench.part import Measurement
-from comparisons.bench.registry import PARTS
-from comparisons.bench.run import run_bench
+from comparisons.bench.run import PARTS, run_bench
 from comparisons.cli.options import QUIET, file, option, several
 from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, OK
@@ -48,5 +47,5 @@ def call(args: argparse.Namespace) -> int:
 
 
 def _sentence(failure: Measurement) -> str:
-    settings = ", ".join(f"{name} = {value}" for name, value in failure.settings.items())
-    return f"{failure.part} ({settings}): failed: {failure.reason}"
+    settings = ", ".join(f"{name} = {value}" for name, value in failure["settings"].items())
+    return f"{failure['part']} ({settings}): failed: {failure['reason']}"

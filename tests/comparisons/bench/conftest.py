@@ -5,8 +5,8 @@ import dataclasses
 import pytest
 from matplotlib.figure import Figure
 
-from comparisons.bench import registry
-from comparisons.bench.part import Item, Part
+from comparisons.bench import run
+from comparisons.bench.part import Part
 
 
 def counted(settings):
@@ -24,9 +24,9 @@ def drawn(table):
 TINY = Part(
     "tiny",
     "a part for tests",
-    lambda full: [Item({"size": size}) for size in ((1, 2, 8) if full else (1, 2))],
+    lambda full: [{"size": size} for size in ((1, 2, 8) if full else (1, 2))],
     counted,
-    lambda rows: rows.assign(ratio=rows.get("cpu_seconds", 0.0)),
+    lambda rows: rows.assign(ratio=rows["cpu_seconds"]),
     drawn,
     lambda table: [f"{len(table)} sizes"],
     own_process=False,
@@ -35,12 +35,10 @@ TINY = Part(
 
 @pytest.fixture
 def tiny(monkeypatch):
-    """The only part is the tiny one; returns a function that gives it other items or another measurement."""
+    """The only part is the tiny one; returns a function that gives it another plan or another measurement."""
 
     def change(**changed):
-        part = dataclasses.replace(TINY, **changed)
-        monkeypatch.setattr(registry, "PARTS", {"tiny": part})
-        return part
+        monkeypatch.setattr(run, "PARTS", {"tiny": dataclasses.replace(TINY, **changed)})
 
     change()
     return change

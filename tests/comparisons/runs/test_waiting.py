@@ -1,6 +1,8 @@
 """Order in which processes get the items that wait."""
 
-from comparisons.bench.timed_tasks import EXPONENTS, exponent, sweep
+from comparisons.bench.two_workers import _EXPONENTS as EXPONENTS
+from comparisons.bench.two_workers import _exponent as exponent
+from comparisons.bench.two_workers import _sweep as sweep
 from comparisons.runs import waiting as waiting_module
 from comparisons.runs.waiting import Waiting
 
