@@ -87,7 +87,7 @@ def ratios(rows: pd.DataFrame) -> pd.DataFrame:
 
 def _named(rows: pd.DataFrame) -> pd.DataFrame:
     """Rows whose commands are without the parameters of the case."""
-    return rows.assign(command=rows["command"].str.partition(" --n")[0])
+    return rows.assign(command=rows["command"].map(lambda command: command.partition(" --n")[0]))
 
 
 def draw(rows: pd.DataFrame) -> Figure:
