@@ -1,6 +1,5 @@
 """Closed forms, the judge, tables, figures and the command line.
 
-The folders are layers, in the order of `LAYERS`: a module imports from its own layer and from those before it.
 The names below are loaded when they are first used, so that ``import comparisons`` takes no time.
 
 Examples
@@ -18,25 +17,6 @@ from importlib import import_module
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
-
-#: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
-LAYERS = (
-    ("model", "quantities", "console"),
-    ("data", "numerics", "domain"),
-    ("models", "external"),
-    ("registry",),
-    ("problem_file",),
-    ("runs",),
-    ("judging",),
-    ("output",),
-    ("paper",),
-    ("pipeline",),
-    ("bench", "graded_agreement"),
-    ("baseline",),
-    ("cli", "pytest_entry", "build_step"),
-    ("__main__",),
-    ("start_entry",),
-)
 
 #: Public name -> the module that defines it.
 _EXPORTS = {
@@ -59,7 +39,7 @@ _EXPORTS = {
     "judge_folder": "comparisons.pipeline.judgement",
 }
 
-__all__ = ["LAYERS", *_EXPORTS]
+__all__ = [*_EXPORTS]
 
 
 def __getattr__(name: str) -> Any:

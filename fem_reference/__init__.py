@@ -10,29 +10,4 @@ The public names are listed in `__init__.pyi`; a module is loaded when one of it
 
 import lazy_loader
 
-#: Modules and folders, from the first layer to the last; `tests/test_independence.py` checks every import.
-LAYERS = (
-    ("_typing", "_threads", "_validation", "errors"),
-    (
-        "modulus",
-        "coating",
-        "poisson",
-        "depth_profiles",
-        "modulus_checks",
-        "punch",
-        "profiles",
-        "laws",
-        "tabulated_law",
-        "layers",
-        "solids",
-        "problem",
-        "accuracy",
-    ),
-    ("_elastic",),
-    ("_linear",),
-    ("_contact",),
-    ("quantities", "result", "solution", "states", "export"),
-    ("verification",),
-)
-
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

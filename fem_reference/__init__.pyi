@@ -34,5 +34,3 @@ from .states import (
     trace as trace,
 )
 from .tabulated_law import TabulatedLaw as TabulatedLaw
-
-LAYERS: tuple[tuple[str, ...], ...]

@@ -43,5 +43,3 @@ from .states import (
 )
 from .tabulated_law import TabulatedLaw as TabulatedLaw
 from .tabulated_modulus import TabulatedModulus as TabulatedModulus
-
-LAYERS: tuple[tuple[str, ...], ...]

@@ -30,14 +30,14 @@ FOLDER = "_generated/api"
 
 @cache
 def exported(package: str) -> list[str]:
-    """Public names of a package itself, without the list of its layers.
+    """Public names of a package itself.
 
     Examples
     --------
     >>> "solve" in exported("fscm")
     True
     """
-    return sorted(set(import_module(package).__all__) - {"LAYERS"}, key=str.lower)
+    return sorted(set(import_module(package).__all__), key=str.lower)
 
 
 def modules(package: str) -> list[str]:
@@ -83,11 +83,7 @@ def names_of(module: str) -> list[str]:
     names = public_names(path / "__init__.py" if path.is_dir() else path.with_suffix(".py"))
     # A name that the package has is on its page.
     there, here = import_module(package), import_module(module)
-    return [
-        name
-        for name in names
-        if not (name in exported(package) and getattr(there, name) is getattr(here, name)) and name != "LAYERS"
-    ]
+    return [name for name in names if not (name in exported(package) and getattr(there, name) is getattr(here, name))]
 
 
 def pages() -> Iterator[tuple[str, str]]:

@@ -61,7 +61,7 @@ def test_examples_of_an_extension(name):
 
 @pytest.mark.parametrize("package", [fscm, fem_reference, comparisons], ids=lambda package: package.__name__)
 def test_every_name_of_a_package_is_in_the_reference(package, reference):
-    names = {f"{package.__name__}.{name}" for name in package.__all__} - {f"{package.__name__}.LAYERS"}
+    names = {f"{package.__name__}.{name}" for name in package.__all__}
     assert len(names) > 10
     assert names - documented(reference) == set()
 
@@ -82,9 +82,7 @@ def test_every_name_of_a_public_module_is_in_the_reference(package, reference):
         f"{module}.{name}"
         for module in public(package)
         for name in getattr(import_module(module), "__all__", ())
-        if f"{module}.{name}" not in found
-        and name != "LAYERS"
-        and id(getattr(import_module(module), name)) not in objects
+        if f"{module}.{name}" not in found and id(getattr(import_module(module), name)) not in objects
     ]
     assert missing == []
 

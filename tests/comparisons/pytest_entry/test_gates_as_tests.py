@@ -177,7 +177,7 @@ def test_it_costs_nothing_in_other_projects(pytester):
 
         def test_the_package_of_the_project_is_its_own():
             import comparisons
-            assert not hasattr(comparisons, "LAYERS")
+            assert not hasattr(comparisons, "create")
         """
     )
     pytester.runpytest_subprocess("-p", PLUGIN).assert_outcomes(passed=2)
