@@ -9,7 +9,7 @@ from .errors import (
 from .laws import LennardJones as LennardJones, Mie as Mie, SurfaceLaw as SurfaceLaw
 from .modulus import Interface as Interface
 from .problem import Problem as Problem
-from .profiles import MeasuredPunch as MeasuredPunch, PowerSum as PowerSum, RoundedCone as RoundedCone
+from .profiles import Ball as Ball, MeasuredPunch as MeasuredPunch, PowerSum as PowerSum, RoundedCone as RoundedCone
 from .punch import CustomPunch as CustomPunch, PowerPunch as PowerPunch, Punch as Punch
 from .quantities import CRITICAL_MODULUS as CRITICAL_MODULUS, LOSSES as LOSSES, QUANTITIES as QUANTITIES
 from .result import Solution as Solution

@@ -1,4 +1,4 @@
-"""Other shapes of rigid punches: a rounded cone, a sum of powers, and a measured profile."""
+"""Other shapes of rigid punches: a ball, a rounded cone, a sum of powers, and a measured profile."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ import numpy as np
 from fem_reference._typing import Array
 from fem_reference._validation import check_positive
 
-__all__ = ["MeasuredPunch", "PowerSum", "RoundedCone"]
+__all__ = ["Ball", "MeasuredPunch", "PowerSum", "RoundedCone"]
+
+#: Share of the radius of a ball up to which its shape is a sphere.
+SPHERICAL = 0.95
 
 #: Relative change of the slope at a point of a profile below which there is no kink.
 STRAIGHT = 1e-12
@@ -26,6 +29,59 @@ def _tuple_of(name: str, values: Sequence[float]) -> tuple[float, ...]:
     if column.ndim != 1 or not np.all(np.isfinite(column)):
         raise ValueError(f"{name} = {values!r} is no column of finite numbers")
     return tuple(column.tolist())
+
+
+@dataclass(frozen=True, slots=True)
+class Ball:
+    """f(r) = R - sqrt(R^2 - r^2), a sphere whose paraboloid is `PowerPunch(2, R)`.
+
+    At 0.95 R the Taylor polynomial of second degree takes over, so that the shape rises without bound.  A contact that
+    reaches that radius is refused.
+
+    Parameters
+    ----------
+    R : float
+        Radius of the sphere.
+
+    Raises
+    ------
+    ValueError
+        If the radius is not positive and finite.
+
+    Examples
+    --------
+    >>> ball = Ball(R=5.0)
+    >>> ball.height(np.array([3.0, 4.0])), float(ball.slope(np.array(4.0)).round(12))
+    (array([1., 2.]), 1.333333333333)
+    """
+
+    R: float
+
+    def __post_init__(self) -> None:
+        check_positive("radius R of a ball", self.R)
+
+    @property
+    def reach(self) -> float:
+        """Radius up to which the shape is a sphere."""
+        return SPHERICAL * self.R
+
+    def _taylor(self) -> tuple[float, float, float]:
+        """Height and its two derivatives at the reach."""
+        root = math.sqrt(1.0 - SPHERICAL**2)
+        return self.R * (1.0 - root), SPHERICAL / root, 1.0 / (self.R * root**3)
+
+    def height(self, r: Array) -> Array:
+        """f(r), shape of `r`; r^2 over a sum does not cancel at the tip."""
+        x = np.asarray(r, float)
+        s, d, (height, slope, curvature) = np.minimum(x, self.reach), x - self.reach, self._taylor()
+        sphere = s * s / (self.R + np.sqrt(self.R**2 - s * s))
+        return np.where(d <= 0, sphere, height + d * (slope + 0.5 * curvature * d))
+
+    def slope(self, r: Array) -> Array:
+        """df/dr, shape of `r`."""
+        x = np.asarray(r, float)
+        s, d, (_, slope, curvature) = np.minimum(x, self.reach), x - self.reach, self._taylor()
+        return np.where(d <= 0, s / np.sqrt(self.R**2 - s * s), slope + curvature * d)
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,15 @@ from fem_reference._typing import Array
 from fem_reference._validation import check_positive
 from fem_reference.errors import NotConverged
 
-__all__ = ["CustomPunch", "PowerPunch", "Punch", "check_without_asperities", "kinks_of", "radius_at_height"]
+__all__ = [
+    "CustomPunch",
+    "PowerPunch",
+    "Punch",
+    "check_contact",
+    "check_without_asperities",
+    "kinks_of",
+    "radius_at_height",
+]
 
 #: Radii in equal ratios at which the shape of a punch is examined: forty in a factor of two over 22 decades.
 RADII = 3000
@@ -133,6 +141,26 @@ def kinks_of(punch: Punch) -> tuple[float, ...]:
     ()
     """
     return tuple(sorted(getattr(punch, "kinks", ())))
+
+
+def check_contact(punch: Punch, edge_radius: float) -> None:
+    """Refuse a contact beyond the radius up to which the shape is the stated one: the attribute `reach` of a ball.
+
+    Raises
+    ------
+    NotConverged
+        If the contact is larger.
+
+    Examples
+    --------
+    >>> check_contact(PowerPunch(n=2.0, Q=1.0), 7.0)
+    """
+    reach = getattr(punch, "reach", math.inf)
+    if edge_radius > reach:
+        raise NotConverged(
+            f"the ball is smaller than the contact: it is a sphere up to r = {reach:.4g}, and the contact edge is at "
+            f"r = {edge_radius:.4g}"
+        )
 
 
 def check_without_asperities(punch: Punch, lowest: float, highest: float) -> None:

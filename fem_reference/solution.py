@@ -23,6 +23,7 @@ from fem_reference._threads import one_thread
 from fem_reference.accuracy import Level, coarser_accuracy
 from fem_reference.errors import AccuracyWarning, NoSuchEvent, NotConverged
 from fem_reference.problem import Problem
+from fem_reference.punch import check_contact
 from fem_reference.quantities import (
     CRITICAL_MODULUS,
     QUANTITIES,
@@ -285,6 +286,9 @@ def _solution(row: Quantity, meshes: EventsOnMeshes, level: Level) -> Solution:
     """Evaluate a quantity on the condensed system of all meshes."""
     declared = row.order or level.order
     estimate = meshes.estimate(row.functional, declared)
+    for event in row.events:
+        point = meshes.path.at(event)
+        check_contact(point.branch.contact.punch, point.edge_radius)
     return Solution(
         estimate.values[-1],
         math.fsum(estimate.parts.values()),

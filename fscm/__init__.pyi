@@ -23,7 +23,13 @@ from .layers import Layers as Layers
 from .measured_punch import MeasuredPunch as MeasuredPunch
 from .path import EquilibriumPath as EquilibriumPath, trace as trace
 from .problem import Problem as Problem
-from .punch import PowerPunch as PowerPunch, PowerSum as PowerSum, PunchShape as PunchShape, RoundedCone as RoundedCone
+from .punch import (
+    Ball as Ball,
+    PowerPunch as PowerPunch,
+    PowerSum as PowerSum,
+    PunchShape as PunchShape,
+    RoundedCone as RoundedCone,
+)
 from .solution import Solution as Solution
 from .solids import (
     Coating as Coating,

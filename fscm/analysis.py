@@ -22,9 +22,9 @@ from fscm._surface_rings import RingsForm
 from fscm._threads import one_thread
 from fscm._whole_path import bracketing_path
 from fscm.errors import AccuracyWarning, NoSuchEvent, NotConverged
-from fscm.folds import Fold, folds_of
+from fscm.folds import Fold, edge_radius, folds_of
 from fscm.problem import Problem
-from fscm.punch import PowerPunch
+from fscm.punch import PowerPunch, check_reach
 from fscm.quantities import quantity_named
 from fscm.solution import EventPair, Parts, Solution
 from fscm.stability import stable_sections
@@ -221,7 +221,9 @@ class Analysis:
     def _pair(self, bracket: Bracket, condition: Condition) -> EventPair:
         end = self.meshes.end_height
         check = partial(events.sharpened, bracket, condition, *self.meshes.check, end)
-        return EventPair(events.sharpened(bracket, condition, *self.meshes.value, end), check)
+        value = events.sharpened(bracket, condition, *self.meshes.value, end)
+        check_reach(self.problem.punch, edge_radius(value))
+        return EventPair(value, check)
 
     @one_thread()
     def parts(self, event: str, functional: str) -> Parts:

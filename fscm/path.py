@@ -22,6 +22,7 @@ from fscm._validation import real_number
 from fscm._whole_path import path_by_any_mesh, path_end
 from fscm.folds import Fold, edge_radius, fold_at, folds_between
 from fscm.problem import Problem
+from fscm.punch import check_reach
 from fscm.stability import stable_sections
 
 __all__ = ["EquilibriumPath", "trace"]
@@ -163,6 +164,7 @@ def trace(
     if max_load is not None and max_load <= 0.0:
         states = _up_to(states, max_load)
         folds = [fold for fold in folds if any(fold[0] is state for state in states)]
+    check_reach(problem.punch, edge_radius(states[-1]))
     u_displacement, u_load = _largest_errors(states[::_CHECK_EVERY])
     return EquilibriumPath(
         np.array([s.central_gap for s in states]),

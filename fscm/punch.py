@@ -15,13 +15,16 @@ import numpy as np
 
 from fscm._typing import Array
 from fscm._validation import real_number
+from fscm.errors import NotConverged
 
 __all__ = [
+    "Ball",
     "PowerPunch",
     "PowerSum",
     "PunchShape",
     "RoundedCone",
     "ScaledPunch",
+    "check_reach",
     "kinks_of",
     "scaled_punch",
     "unit_of_radii",
@@ -30,6 +33,10 @@ __all__ = [
 # Least radius in the search for the unit of radii of a custom shape, and number of bisections: the choice of the unit
 # changes no result.
 _NEAREST, _HALVINGS = 1e-30, 20
+
+
+# Radius, in units of that of a ball, up to which its profile is the sphere.
+_REACH = 0.95
 
 
 @runtime_checkable
@@ -116,6 +123,71 @@ class PowerPunch:
         """df/dr = r^(n-1) / Q, infinite at r = 0 for n < 1 and where no double holds it."""
         with np.errstate(divide="ignore", over="ignore"):
             return np.asarray(r, float) ** (self.n - 1.0) / self.Q
+
+
+@dataclass(frozen=True, slots=True)
+class Ball:
+    """A true sphere f(r) = R - sqrt(R^2 - r^2); `PowerPunch(2, R)` is the paraboloid of the same tip.
+
+    Beyond 0.95 R a parabola in r continues height, slope and curvature, because a punch has to rise without bound; a
+    contact that reaches so far is refused.  What faces each other beyond carries 1e-5 of the load for R = 200 z0.
+
+    Parameters
+    ----------
+    R : float
+        Radius, a length > 0.
+
+    Raises
+    ------
+    ValueError
+        When the radius is not a positive finite number.
+
+    Examples
+    --------
+    >>> Ball(R=5.0).height(np.array([0.0, 3.0, 4.0]))
+    array([0., 1., 2.])
+    """
+
+    R: float
+
+    def __post_init__(self) -> None:
+        R = real_number("radius R", self.R, low=0.0, high=math.inf, reason="it is a positive quantity")
+        object.__setattr__(self, "R", R)
+
+    def unit_of_radii(self, z0: float) -> tuple[float, float]:
+        """n and Q of the paraboloid of the tip."""
+        return 2.0, self.R
+
+    @property
+    def reach(self) -> float:
+        """Largest radius of a contact."""
+        return _REACH * self.R
+
+    @property
+    def growth(self) -> float:
+        """A parabola at infinity."""
+        return 2.0
+
+    def _inside(self, r: Array) -> tuple[Array, Array, Array]:
+        """Radii on the sphere, distances beyond it, and sqrt(R^2 - r^2)."""
+        inside = np.minimum(r, self.reach)
+        return inside, r - inside, np.sqrt((self.R - inside) * (self.R + inside))
+
+    def height(self, r: Array) -> Array:
+        """f(r), in the form without cancellation at the tip."""
+        inside, beyond, root = self._inside(np.asarray(r, float))
+        return inside * (inside / (self.R + root)) + beyond * (inside / root + 0.5 * self.R**2 / root**3 * beyond)
+
+    def slope(self, r: Array) -> Array:
+        """df/dr = r / sqrt(R^2 - r^2) on the sphere.
+
+        Examples
+        --------
+        >>> float(Ball(R=5.0).slope(np.array(3.0)))
+        0.75
+        """
+        inside, beyond, root = self._inside(np.asarray(r, float))
+        return inside / root + self.R**2 / root**3 * beyond
 
 
 @dataclass(frozen=True, slots=True)
@@ -287,6 +359,11 @@ class ScaledPunch:
         """Those of the shape."""
         return tuple(r / self.radius for r in kinks_of(self.punch))
 
+    @property
+    def reach(self) -> float:
+        """That of the shape, infinite if it has none."""
+        return float(getattr(self.punch, "reach", math.inf)) / self.radius
+
     def height(self, r: Array) -> Array:
         """f(r)."""
         return self.punch.height(np.asarray(r, float) * self.radius) / self.height_unit
@@ -294,6 +371,21 @@ class ScaledPunch:
     def slope(self, r: Array) -> Array:
         """df/dr."""
         return self.punch.slope(np.asarray(r, float) * self.radius) * (self.radius / self.height_unit)
+
+
+def check_reach(punch: PunchShape, radius: float) -> None:
+    """Raise NotConverged if a contact of this radius is beyond the attribute `reach` of a punch, if it has one.
+
+    Examples
+    --------
+    >>> check_reach(Ball(R=1.0), 0.5)
+    """
+    reach = getattr(punch, "reach", math.inf)
+    if radius > reach:
+        raise NotConverged(
+            f"the ball is smaller than the contact, whose radius is {radius / reach * _REACH:.2g} R: the model needs a "
+            f"contact within {_REACH:g} R"
+        )
 
 
 def scaled_punch(punch: PunchShape, radius: float, height: float) -> PunchShape:

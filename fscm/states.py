@@ -17,7 +17,9 @@ from fscm._threads import one_thread
 from fscm._typing import Array
 from fscm._whole_path import path_by_any_mesh, path_end
 from fscm.analysis import Analysis
+from fscm.folds import edge_radius
 from fscm.problem import Problem
+from fscm.punch import check_reach
 from fscm.solution import Parts
 from fscm.stability import Stability, stability_of
 
@@ -228,6 +230,7 @@ def _solved(
     coarse: State, control: str, value: float, condition: events.Condition, meshes: Meshes, units: Mapping[str, float]
 ) -> EquilibriumState:
     state = events.sharpen(coarse, condition, *meshes.value)
+    check_reach(state.disc.problem.punch, edge_radius(state))
     errors = EventErrors(state)
     parts = {name: errors.prescribed(name, control, value) for name in _FUNCTIONALS}
     values = {name: float(of_state(state)) * units[_KINDS[name]] for name, of_state in _FUNCTIONALS.items()}

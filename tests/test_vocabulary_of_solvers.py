@@ -11,7 +11,7 @@ from tests.layered_jkr import Stack, minima_with_error
 
 NAMES = (
     *("PowerLaw", "Homogeneous", "OffsetPowerLaw", "Exponential", "Coating", "Layers", "TabulatedModulus"),
-    *("CustomSolid", "PowerPunch", "RoundedCone", "PowerSum", "MeasuredPunch", "CustomPunch"),
+    *("CustomSolid", "Ball", "PowerPunch", "RoundedCone", "PowerSum", "MeasuredPunch", "CustomPunch"),
     *("LennardJones", "Mie", "TabulatedLaw"),
 )
 #: Arguments that one of them has besides, after the shared ones.

@@ -25,6 +25,7 @@ _DIGITS = 6
 _DISTANCE = 5e-4
 # Factor of the compliance in the coordinate of the even lower nodes.
 _C = 20.0
+#: A node (n, k, mu).
 Node = tuple[float, ...]
 
 

@@ -22,8 +22,9 @@ from fscm.interpolation.series import Series
 
 __all__ = ["BOUNDS", "COEFFICIENTS", "FOLDER", "LAYOUTS", "RECORD", "Stored", "coordinates_of", "data_digest", "stored"]
 
-#: Folder of the data, and its files.
+#: Folder of the data.
 FOLDER = Path(str(files("fscm.interpolation") / "data"))
+#: Files of the data: layouts of the components, a record of their fit, coefficients and bounds.
 LAYOUTS, RECORD, COEFFICIENTS, BOUNDS = (
     FOLDER / name for name in ("layouts.json", "record.json", "coefficients.csv", "bounds.csv")
 )
