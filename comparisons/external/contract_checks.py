@@ -6,24 +6,23 @@ A check that fails names a defect for the author to find; it is no verdict on ho
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
 
 from comparisons.external.data_model import DataModel
-from comparisons.external.evaluations import (
-    FAILED,
-    OK,
-    SKIPPED,
-    WRONG,
-    AnyExternalModel,
-    Evaluations,
-    Finding,
-    Key,
-)
-from comparisons.external.limit_checks import check_calibration, check_limits
 from comparisons.external.physical_model import SCALES
-from comparisons.model import ComputationFailed, NotApplicable
+from comparisons.external.process_model import ExternalModel
+from comparisons.model import ComputationFailed, NotApplicable, Result
 from comparisons.quantities import QUANTITIES
+from fscm.problem import Problem
 
-__all__ = ["examine"]
+__all__ = ["FAILED", "OK", "SKIPPED", "WRONG", "AnyExternalModel", "Evaluations", "Finding", "Key", "examine"]
+
+#: A model of the user: a class or program, or a table of data.
+AnyExternalModel = ExternalModel | DataModel
+
+#: Statuses of findings: the rule is kept or broken, could not be computed, or was not checked.
+OK, WRONG, FAILED, SKIPPED = "ok", "wrong", "failed", "not checked"
 
 #: Shape, gradient and Tabor number of the cases that are evaluated; the first two for every quantity.
 _CASES = (
@@ -45,6 +44,67 @@ _MOST_ROWS = 1000
 _SCALING = 1e-8
 
 
+class Key(NamedTuple):
+    """A quantity in a case.
+
+    Examples
+    --------
+    >>> str(Key("pull_off_force", 2.0, 0.4, 1.0))
+    'pull_off_force at n = 2, k = 0.4, mu = 1'
+    """
+
+    quantity: str
+    n: float
+    k: float
+    mu: float
+
+    def __str__(self) -> str:
+        return f"{self.quantity} at n = {self.n:g}, k = {self.k:g}, mu = {self.mu:g}"
+
+    def problem(self) -> Problem:
+        """Return the case as a problem."""
+        return Problem(self.n, self.k, self.mu)
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """The outcome of one check: the rule, one of the statuses above, and the reason or the extent of the check."""
+
+    check: str
+    status: str
+    text: str
+
+
+class Evaluations:
+    """Results of a model; each case is evaluated once.
+
+    Attributes
+    ----------
+    model : ExternalModel or DataModel
+    results : dict of Key to Result
+        The cases that have a value.
+    refusals, failures : dict of Key to str
+        Reasons where the model is not applicable, and of the computations that failed.
+    """
+
+    def __init__(self, model: AnyExternalModel) -> None:
+        self.model = model
+        self.results: dict[Key, Result] = {}
+        self.refusals: dict[Key, str] = {}
+        self.failures: dict[Key, str] = {}
+
+    def get(self, key: Key) -> Result | None:
+        """Return the result, or None where the model is not applicable or fails."""
+        if key not in self.results | self.refusals | self.failures:
+            try:
+                self.results[key] = self.model.evaluate(key.problem(), key.quantity)
+            except NotApplicable as refusal:
+                self.refusals[key] = str(refusal)
+            except ComputationFailed as failure:
+                self.failures[key] = str(failure)
+        return self.results.get(key)
+
+
 def examine(model: AnyExternalModel) -> list[Finding]:
     """Return the findings of all checks.
 
@@ -53,19 +113,21 @@ def examine(model: AnyExternalModel) -> list[Finding]:
     model : ExternalModel or DataModel
         As `comparisons.external.model_source.load_model` returns it.
     """
+    from comparisons.external.limit_checks import check_calibration, check_limits
+
     done = Evaluations(model)
     for key in _keys(model):
         done.get(key)
     # First, because they evaluate further cases, which the other checks include.
     sizes = [*check_limits(done), check_calibration(done)]
-    return [
-        Finding("has version, citation and domain", *_texts(model)),
-        Finding("gives finite numbers", *_finite(done)),
-        Finding("keeps the sign rules", *_signs(done)),
-        Finding("gives the same result again", *_repeated(done)),
-        Finding("does not depend on units", *_units(done)),
-        *sizes,
-    ]
+    checks = {
+        "has version, citation and domain": _texts,
+        "gives finite numbers": _finite,
+        "keeps the sign rules": _signs,
+        "gives the same result again": _repeated,
+        "does not depend on units": _units,
+    }
+    return [*(Finding(name, *check(done)) for name, check in checks.items()), *sizes]
 
 
 def _keys(model: AnyExternalModel) -> Iterator[Key]:
@@ -77,14 +139,15 @@ def _keys(model: AnyExternalModel) -> Iterator[Key]:
             yield Key(quantity, *case)
 
 
-def _texts(model: AnyExternalModel) -> tuple[str, str]:
+def _texts(done: Evaluations) -> tuple[str, str]:
+    model = done.model
     if missing := [name for name in ("version", "citation", "domain") if not getattr(model, name).strip()]:
         return WRONG, f"{', '.join(missing)} is empty, but readers cite it"
     return OK, f"{model.name} {model.version}; {model.citation}; {model.domain}; hashed: {model.hashed}"
 
 
 def _finite(done: Evaluations) -> tuple[str, str]:
-    values, refused, failed = len(done.results), len(done.refused), len(done.failures)
+    values, refused, failed = len(done.results), len(done.refusals), len(done.failures)
     for key, reason in done.failures.items():
         return FAILED, f"{failed} of {values + refused + failed} evaluations failed, the first is {key}: {reason}"
     if not values:
@@ -97,7 +160,7 @@ def _signs(done: Evaluations) -> tuple[str, str]:
         row = QUANTITIES[key.quantity]
         if not row.admits(result.value):
             return WRONG, f"{key} is {result.value:g}, but it is: {row.meaning}, {row.sign}"
-    return _kept(done, f"{len(done.results)} values")
+    return _kept(done, "values")
 
 
 def _repeated(done: Evaluations) -> tuple[str, str]:
@@ -114,7 +177,7 @@ def _repeated(done: Evaluations) -> tuple[str, str]:
                 f"{key} is {first.value!r} the first time and {later} in a new process with the "
                 "evaluations in the opposite order: a random number, a clock, or something kept between evaluations"
             )
-    return _kept(done, f"{len(done.results)} values are the same to the last bit in a new process")
+    return _kept(done, "values are the same to the last bit in a new process")
 
 
 def _units(done: Evaluations) -> tuple[str, str]:
@@ -133,8 +196,8 @@ def _units(done: Evaluations) -> tuple[str, str]:
                     "for the same problem in other units: a wrong power of a modulus, a length or a work of "
                     "adhesion, or a constant that has a unit"
                 )
-    return _kept(done, f"{len(done.results)} values in {len(SCALES)} systems of units")
+    return _kept(done, f"values in {len(SCALES)} systems of units")
 
 
 def _kept(done: Evaluations, text: str) -> tuple[str, str]:
-    return (OK, text) if done.results else (SKIPPED, "there is no value")
+    return (OK, f"{len(done.results)} {text}") if done.results else (SKIPPED, "there is no value")

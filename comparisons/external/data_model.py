@@ -1,35 +1,16 @@
 """Predictions as data: a folder with `model.toml` and a CSV, judged without the execution of any code.
 
-For codes that cannot be shipped and for measurements:
-
-    name = "my-abaqus"                       # letters, digits, ".", "_", "-"
-    version = "2026-03"
-    author = "A. Author"
-    doi = "10.1000/xyz"                      # or "none"
-    licence = "CC-BY-4.0"                    # SPDX
-    domain = "n = 2, k = 0, 0.1 <= mu <= 2"
-    predictions = "predictions.csv"          # beside this file
-    sha256 = "..."                           # of that file: sha256sum predictions.csv
-    limits = []                              # optional: "rigid", "jkr"
-    [units]                                  # as fscm-bench list quantities has them
-    pull_off_force = "pi Q^(2/n) dgamma z0^(2/n-1)"
-    [[covers]]                               # a product of lists; several are allowed
-    quantities = ["pull_off_force"]
-    n = [2]
-    k = [0]
-    mu = [0.1, 1, 2]
-
-Types, patterns and keys are in `comparisons/data/model.schema.json`.  The CSV has the columns quantity, n, k, mu,
-value, u_num and one row for each case that is covered, no other.  `u_num` bounds the numerical error of the value (for
-a measurement, its uncertainty).
+For codes that cannot be shipped and for measurements. The form of `model.toml` is in docs/judge_your_model.md and
+`comparisons/data/model.schema.json`. The CSV has the columns quantity, n, k, mu, value, u_num and one row for each case
+that is covered, no other. `u_num` bounds the numerical error of the value (for a measurement, its uncertainty).
 """
 
 from __future__ import annotations
 
 import csv
 import hashlib
-import io
 import math
+from collections.abc import Iterator
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -55,7 +36,6 @@ MANIFEST = "model.toml"
 Key = tuple[str, float, float, float]
 
 _COLUMNS = ["quantity", "n", "k", "mu", "value", "u_num"]
-_COVERS = ("quantities", "n", "k", "mu")
 _MOST_CASES = 1_000_000
 
 #: So many cases more than the CSV has lines are still built: the sentence then names the first that is missing.
@@ -87,22 +67,16 @@ class DataModel:
     def __init__(self, folder: Path) -> None:
         try:
             manifest = _manifest(folder)
-            content = _content(folder, manifest["predictions"])
-            digest = hashlib.sha256(content).hexdigest()
-            if digest != manifest["sha256"].lower():
-                raise ValueError(
-                    f"{manifest['predictions']} has the SHA-256 {digest}, but {MANIFEST} states "
-                    f"{manifest['sha256']}: one of the two files was changed"
-                )
+            content = _content(folder, manifest)
             covered = _covered_cases(manifest, len(content.splitlines()))
-            self.rows = _rows(content, manifest["predictions"], covered)
+            self.rows = _rows(folder / manifest["predictions"], covered)
         except ValueError as error:
             raise ValueError(f"{one_line(str(folder), 200)}: {one_line(str(error))}") from None
         except OSError as error:
             raise ValueError(f"{one_line(str(folder), 200)}: it cannot be read ({error.strerror})") from None
         self.name, self.domain = manifest["name"], manifest["domain"]
         self.limits = tuple(one_line(limit, 60) for limit in manifest.get("limits", []))
-        self.version = f"{manifest['version']} ({digest[:12]})"
+        self.version = f"{manifest['version']} ({manifest['sha256'].lower()[:12]})"
         source = "" if manifest["doi"] == "none" else f", doi:{manifest['doi']}"
         self.citation = f"{manifest['author']}{source} ({manifest['licence']})"
         self.hashed = f"the predictions, a CSV with {len(self.rows)} rows"
@@ -129,28 +103,40 @@ def _manifest(folder: Path) -> dict[str, Any]:
         if isinstance(value, str) and value != one_line(value):
             raise ValueError(f"{MANIFEST}: {name} must be one line of 1 to 500 printable characters")
     model_name(manifest["name"])
-    for table in manifest["covers"]:
-        for quantity in table["quantities"]:
-            known_name("quantity", quantity, QUANTITIES, f"{MANIFEST}: [[covers]]")
-    _check_units(manifest["units"], {quantity for table in manifest["covers"] for quantity in table["quantities"]})
-    return manifest
-
-
-def _check_units(units: dict[str, str], quantities: set[str]) -> None:
-    if units.keys() != quantities:
+    quantities = {quantity for table in manifest["covers"] for quantity in table["quantities"]}
+    for quantity in quantities:
+        known_name("quantity", quantity, QUANTITIES, f"{MANIFEST}: [[covers]]")
+    if manifest["units"].keys() != quantities:
         raise ValueError(f"{MANIFEST}: [units] must have exactly {', '.join(sorted(quantities))}")
-    for name, unit in units.items():
+    for name, unit in manifest["units"].items():
         if unit != QUANTITIES[name].unit:
             raise ValueError(
                 f'{MANIFEST}: {name} has the unit "{unit}" but is compared in "{QUANTITIES[name].unit}": '
                 "divide the values by that"
             )
+    return manifest
+
+
+def _content(folder: Path, manifest: dict[str, Any]) -> bytes:
+    name = manifest["predictions"]
+    path = path_inside(folder, name)
+    if not path.is_file():
+        raise ValueError(f"there is no file {name}")
+    content = read_bytes(path, LARGEST_TABLE)
+    digest = hashlib.sha256(content).hexdigest()
+    if digest != manifest["sha256"].lower():
+        raise ValueError(
+            f"{name} has the SHA-256 {digest}, but {MANIFEST} states {manifest['sha256']}: one of the two files was "
+            "changed"
+        )
+    return content
 
 
 def _covered_cases(manifest: dict[str, Any], lines: int) -> set[Key]:
     """Return the cases that the [[covers]] tables promise, for a CSV with so many lines."""
     # Nothing is built before it is known how many cases there are: a short file can promise very many.
-    lists = [[list(dict.fromkeys(table[name])) for name in _COVERS] for table in manifest["covers"]]
+    names = ("quantities", "n", "k", "mu")
+    lists = [[list(dict.fromkeys(table[name])) for name in names] for table in manifest["covers"]]
     sizes = [math.prod(map(len, columns)) for columns in lists]
     if sum(sizes) > _MOST_CASES or max(sizes) > lines + _NAMED_MISSING:
         raise ValueError(
@@ -164,37 +150,14 @@ def _covered_cases(manifest: dict[str, Any], lines: int) -> set[Key]:
     return keys
 
 
-def _content(folder: Path, name: str) -> bytes:
-    try:
-        path = path_inside(folder, name)
-    except ValueError:
-        raise ValueError(f"{name} is not in the folder of {MANIFEST}") from None
-    if not path.is_file():
-        raise ValueError(f"there is no file {name}")
-    return read_bytes(path, LARGEST_TABLE)
-
-
-def _rows(content: bytes, file: str, covered: set[Key]) -> dict[Key, tuple[float, float]]:
-    try:
-        text = content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = error.object.count(b"\n", 0, error.start) + 1
-        raise ValueError(f"{file}, line {line}: byte 0x{error.object[error.start]:02x} is not UTF-8 text") from None
-    # strict: a quotation mark that is not closed is an error, not the rest of the file.
-    reader = csv.reader(io.StringIO(text, newline=""), strict=True)
+def _rows(path: Path, covered: set[Key]) -> dict[Key, tuple[float, float]]:
     rows: dict[Key, tuple[float, float]] = {}
-    try:
-        if next(reader, []) != _COLUMNS:
-            raise ValueError(f"the first line must be {','.join(_COLUMNS)}")
-        for cells in filter(None, reader):
-            key, prediction = _row(cells)
-            if key not in covered:
-                raise ValueError(f"{_label(key)} is not among the cases that [[covers]] promises")
-            if key in rows:
-                raise ValueError(f"{_label(key)} has a second row")
-            rows[key] = prediction
-    except (ValueError, csv.Error) as error:
-        raise ValueError(f"{file}, line {reader.line_num}: {error}") from None
+    file = path.name
+    for line, (key, prediction) in _predictions(path):
+        if key not in covered or key in rows:
+            why = "has a second row" if key in rows else "is not among the cases that [[covers]] promises"
+            raise ValueError(f"{file}, line {line}: {_label(key)} {why}")
+        rows[key] = prediction
     if missing := sorted(covered - rows.keys()):
         raise ValueError(
             f"{file}: {len(missing)} of {len(covered)} rows that [[covers]] promises are missing, the first is "
@@ -203,23 +166,37 @@ def _rows(content: bytes, file: str, covered: set[Key]) -> dict[Key, tuple[float
     return rows
 
 
+def _predictions(path: Path) -> Iterator[tuple[int, tuple[Key, tuple[float, float]]]]:
+    """Yield the rows of a CSV, each with its line."""
+    text = read_text(path, "the predictions", LARGEST_TABLE)
+    # strict: a quotation mark that is not closed is an error, not the rest of the file.
+    reader = csv.reader(text.splitlines(keepends=True), strict=True)
+    try:
+        if next(reader, []) != _COLUMNS:
+            raise ValueError(f"the first line must be {','.join(_COLUMNS)}")
+        for cells in filter(None, reader):
+            yield reader.line_num, _row(cells)
+    except (ValueError, csv.Error) as error:
+        raise ValueError(f"{path.name}, line {reader.line_num}: {error}") from None
+
+
 def _row(cells: list[str]) -> tuple[Key, tuple[float, float]]:
     if len(cells) != len(_COLUMNS):
         raise ValueError(f"{len(cells)} cells, not {len(_COLUMNS)}")
-    n, k, mu, value, u_num = (_number(cell, name) for cell, name in zip(cells[1:], _COLUMNS[1:], strict=True))
+    n, k, mu, value, u_num = map(_number, _COLUMNS[1:], cells[1:])
     if u_num < 0:
         raise ValueError(f"u_num = {u_num:g} is outside [0, inf): it bounds an error")
     return (cells[0], n, k, mu), (value, u_num)
 
 
-def _number(cell: str, name: str) -> float:
+def _number(name: str, cell: str) -> float:
     try:
         # Python reads 1_0 as ten; in a CSV it is a misprint.
         number = float(cell.replace("_", "?"))
     except ValueError:
-        raise ValueError(f"{name} = {one_line(repr(cell), 40)} is not a number") from None
+        number = math.nan
     if not math.isfinite(number):
-        raise ValueError(f"{name} = {number} is not a finite number")
+        raise ValueError(f"{name} = {one_line(repr(cell), 40)} is not a finite number")
     return number
 
 

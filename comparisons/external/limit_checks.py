@@ -7,27 +7,22 @@ They are no verdict on how good the model is.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
-from comparisons.external.evaluations import OK, SKIPPED, WRONG, Evaluations, Finding, Key
+from comparisons.external.contract_checks import OK, SKIPPED, WRONG, Evaluations, Finding, Key
 from comparisons.models.bradley import rigid_pull_off
 from comparisons.models.jkr import JKR
 from comparisons.quantities import QUANTITIES
 from fscm.problem import Problem
 
-__all__ = ["LIMITS", "check_calibration", "check_limits"]
+__all__ = ["check_calibration", "check_limits"]
 
 _QUANTITY = "pull_off_force"
 
-
-#: Name of the limit in `limits` of a model -> its name in a sentence, Tabor numbers towards it, the force there.
-LIMITS: dict[str, tuple[str, tuple[float, ...], Callable[[Problem], float]]] = {
-    "rigid": ("Bradley, mu -> 0", (0.1, 0.01, 0.001), lambda problem: rigid_pull_off(problem.n).value),
-    "jkr": (
-        "JKR, mu -> infinity",
-        (2.0, 5.0, 10.0, 30.0, 100.0),
-        lambda problem: JKR().evaluate(problem, _QUANTITY).value,
-    ),
+#: Name of the limit in `limits` of a model -> its name in a sentence, Tabor numbers towards it.
+_LIMITS = {
+    "rigid": ("Bradley, mu -> 0", (0.1, 0.01, 0.001)),
+    "jkr": ("JKR, mu -> infinity", (2.0, 5.0, 10.0, 30.0, 100.0)),
 }
 _LIMIT_CASES = ((2.0, 0.0), (2.0, 0.4), (1.0, 0.2), (5.0, 0.6))
 #: The approach to a limit is a power of mu that differs between models; at the ends of the lists above those
@@ -54,33 +49,36 @@ def check_limits(evaluations: Evaluations) -> Iterator[Finding]:
     """Compare the model with every limit that its author states."""
     stated = evaluations.model.limits
     if not stated:
-        yield Finding("is right in the limits it states", SKIPPED, f"it states none (limits = {', '.join(LIMITS)})")
+        yield Finding("is right in the limits it states", SKIPPED, f"it states none (limits = {', '.join(_LIMITS)})")
     for name in stated:
-        check = f"is right in the limit {name}"
-        if name in LIMITS:
-            yield Finding(check, *_in_limit(evaluations, *LIMITS[name]))
-        else:
-            yield Finding(check, WRONG, f"no such limit is known; known are {', '.join(LIMITS)}")
+        finding = (
+            _in_limit(evaluations, name)
+            if name in _LIMITS
+            else (WRONG, f"no such limit is known; known are {', '.join(_LIMITS)}")
+        )
+        yield Finding(f"is right in the limit {name}", *finding)
 
 
-def _in_limit(
-    evaluations: Evaluations, label: str, tabor_numbers: tuple[float, ...], value: Callable[[Problem], float]
-) -> tuple[str, str]:
+def _in_limit(evaluations: Evaluations, name: str) -> tuple[str, str]:
+    label, tabor_numbers = _LIMITS[name]
     parts = []
     for n, k in _LIMIT_CASES:
         results = {mu: evaluations.get(Key(_QUANTITY, n, k, mu)) for mu in tabor_numbers}
-        errors = {mu: result.value / value(Problem(n, k, mu)) - 1.0 for mu, result in results.items() if result}
+        errors = [(mu, result.value / _limit(name, n, k) - 1.0) for mu, result in results.items() if result]
         if not errors:
             continue
-        first, *_, last = (*errors, *errors)
-        if abs(errors[last]) > _LIMIT_TOLERANCE or abs(errors[last]) > abs(errors[first]) + _STANDSTILL:
+        (first_mu, first), (last_mu, last) = errors[0], errors[-1]
+        if abs(last) > _LIMIT_TOLERANCE or abs(last) > abs(first) + _STANDSTILL:
             return WRONG, (
-                f"the pull-off force at n = {n:g}, k = {k:g} is {_percent(errors[first])} off {label} at mu = "
-                f"{first:g} and {_percent(errors[last])} at mu = {last:g}: it must come nearer, to "
-                f"{_percent(_LIMIT_TOLERANCE)} at least"
+                f"the pull-off force at n = {n:g}, k = {k:g} is {_percent(first)} off {label} at mu = {first_mu:g} and "
+                f"{_percent(last)} at mu = {last_mu:g}: it must come nearer, to {_percent(_LIMIT_TOLERANCE)} at least"
             )
-        parts.append(f"{_percent(errors[last])} at n = {n:g}, k = {k:g}, mu = {last:g}")
+        parts.append(f"{_percent(last)} at n = {n:g}, k = {k:g}, mu = {last_mu:g}")
     return (OK, f"off {label} by {'; '.join(parts)}") if parts else (SKIPPED, f"it has no value towards {label}")
+
+
+def _limit(name: str, n: float, k: float) -> float:
+    return (rigid_pull_off(n) if name == "rigid" else JKR().evaluate(Problem(n, k, 1.0), _QUANTITY)).value
 
 
 def check_calibration(evaluations: Evaluations) -> Finding:

@@ -9,9 +9,8 @@ The limits are environment variables, so that they reach every process of a run:
 from __future__ import annotations
 
 import os
-import time
 
-__all__ = ["MEMORY_LIMIT", "TIME_LIMIT", "cpu_seconds_from_now", "limit_memory_and_files", "limit_of_environment"]
+__all__ = ["MEMORY_LIMIT", "TIME_LIMIT", "limit_memory_and_files", "limit_of_environment"]
 
 #: Names of the environment variables.
 TIME_LIMIT, MEMORY_LIMIT = "FSCM_BENCH_TIME_LIMIT", "FSCM_BENCH_MEMORY_LIMIT"
@@ -19,9 +18,6 @@ _DEFAULTS = {TIME_LIMIT: 60.0, MEMORY_LIMIT: 4096.0}
 
 #: Bytes of one file in the scratch folder.
 _LARGEST_FILE = 256_000_000
-
-#: The parent ends an evaluation by the clock; the limit of processor time is for what survives the parent.
-_GRACE = 10.0
 
 
 def limit_of_environment(name: str) -> float:
@@ -48,26 +44,15 @@ def limit_of_environment(name: str) -> float:
 
 
 def limit_memory_and_files(megabytes: float) -> None:
-    """Bind this process, for good (a superuser could raise the limits again)."""
+    """Limit this process and its children, for good (a superuser could raise the limits again)."""
     import resource  # Not on Windows, where models that are code are refused before this.
 
-    for kind, value in (
-        (resource.RLIMIT_AS, int(1e6 * megabytes)),
-        (resource.RLIMIT_FSIZE, _LARGEST_FILE),
-        (resource.RLIMIT_CORE, 0),
-    ):
-        value = _at_most(value, resource.getrlimit(kind)[1])
+    limits = {
+        resource.RLIMIT_AS: int(1e6 * megabytes),
+        resource.RLIMIT_FSIZE: _LARGEST_FILE,
+        resource.RLIMIT_CORE: 0,
+    }
+    for kind, value in limits.items():
+        hard = resource.getrlimit(kind)[1]
+        value = value if hard < 0 else min(value, hard)
         resource.setrlimit(kind, (value, value))
-
-
-def cpu_seconds_from_now(seconds: float) -> None:
-    """Set the limit of processor time of this process far above the time of one evaluation from now on."""
-    import resource
-
-    allowed = int(time.process_time() + (seconds + _GRACE) * (os.cpu_count() or 1)) + 1
-    _, hard = resource.getrlimit(resource.RLIMIT_CPU)
-    resource.setrlimit(resource.RLIMIT_CPU, (_at_most(allowed, hard), hard))
-
-
-def _at_most(value: int, hard: int) -> int:
-    return value if hard < 0 else min(value, hard)

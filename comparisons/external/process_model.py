@@ -7,8 +7,8 @@ import time
 from dataclasses import replace
 from typing import Any
 
-from comparisons.external.child import Child
-from comparisons.external.replies import curve_of, result_of
+from comparisons.external.child import Child, Overdue
+from comparisons.external.replies import Description, curve_of, described, result_of
 from comparisons.external.text_rules import one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from comparisons.quantities import QUANTITIES
@@ -16,11 +16,14 @@ from fscm.laws import LennardJones
 from fscm.problem import Problem
 from fscm.punch import PowerPunch
 
-__all__ = ["ExternalModel", "ExternalModelWithCurve", "connect"]
+__all__ = ["PATIENCE", "ExternalModel", "ExternalModelWithCurve", "connect", "contradiction"]
+
+#: Requests in a row that may run out of time; later ones are not sent, because a run of hundreds must end.
+PATIENCE = 3
 
 
 class ExternalModel:
-    """A model in a process of its own.
+    """A model in a process of its own, which is started again after it had to be ended.
 
     Attributes
     ----------
@@ -38,14 +41,14 @@ class ExternalModel:
         Whether it is a program, and no class of Python.
     """
 
-    def __init__(self, child: Child, is_program: bool) -> None:
-        self._child = child
-        stated = child.description
+    def __init__(self, source: dict[str, Any], child: Child, stated: Description) -> None:
+        self._source, self._child = source, child
+        self._refusal, self._overdue = "", 0
         self.name, self.version = stated.name, stated.version
         self.citation, self.domain = stated.citation, stated.domain
         self.hashed, self.limits = stated.hashed, stated.limits
         self.physical, self.applies_to = stated.physical, stated.applies_to
-        self.is_program = is_program
+        self.is_program = source["kind"] == "program"
 
     def evaluate(self, problem: Problem, quantity: str, *, scales: int = 0) -> Result:
         """Return the quantity, or raise `NotApplicable` or `ComputationFailed`; nothing else."""
@@ -60,10 +63,32 @@ class ExternalModel:
         """End the process; the next request starts a new one."""
         self._child.close()
 
-    def _reply(self, request: dict[str, Any], problem: Problem) -> dict[str, Any]:
+    def _reply(self, request: dict[str, Any], problem: Problem) -> bytes:
         if problem.punch != PowerPunch(problem.n) or problem.law != LennardJones():
             raise NotApplicable("external models are evaluated for the power-law punch and the 9-3 law alone")
-        return self._child.request({**request, "n": problem.n, "k": problem.k, "mu": problem.mu})
+        if self._refusal:
+            raise ComputationFailed(self._refusal)
+        try:
+            if self._child.has_ended():
+                self._start_again()
+            reply = self._child.exchange({**request, "n": problem.n, "k": problem.k, "mu": problem.mu})
+        except Overdue:
+            self._overdue += 1
+            if self._overdue >= PATIENCE:
+                self._refusal = f"not evaluated: it ran out of time {PATIENCE} times in a row"
+            raise
+        # Only the reply to a case shows that the model can be in time; loading it again does not.
+        self._overdue = 0
+        return reply
+
+    def _start_again(self) -> None:
+        self.close()
+        self._child, again = _started(self._source)
+        before, now = (self.name, self.version), (again.name, again.version)
+        if now != before:
+            self.close()
+            self._refusal = contradiction(before, now)
+            raise ComputationFailed(self._refusal)
 
 
 class ExternalModelWithCurve(ExternalModel):
@@ -84,9 +109,37 @@ def connect(source: dict[str, Any], spec: str, poisson_ratio: float | None = Non
     """
     if os.name != "posix":
         raise ValueError("models that are code are run on Linux and macOS only; predictions as data everywhere")
+    source = source | {"poisson_ratio": poisson_ratio}
     try:
-        child = Child(source | {"poisson_ratio": poisson_ratio})
+        child, stated = _started(source)
     except (ComputationFailed, NotApplicable) as failure:
         raise ValueError(f"the model {one_line(spec, 200)} cannot be loaded: {one_line(str(failure))}") from None
-    cls = ExternalModelWithCurve if child.description.has_curve else ExternalModel
-    return cls(child, source["kind"] == "program")
+    return (ExternalModelWithCurve if stated.has_curve else ExternalModel)(source, child, stated)
+
+
+def contradiction(before: tuple[str, str], now: tuple[str, str]) -> str:
+    """Return the sentence for a model whose name, version or files are not the same in a later process.
+
+    Parameters
+    ----------
+    before, now : tuple of str
+        Its name and version; the version ends in a digest of its files.
+
+    Examples
+    --------
+    >>> contradiction(("mine", "1 (ab)"), ("mine", "1 (cd)"))
+    "the model's files changed after it was loaded: it is mine 1 (cd) in a later process, and was mine 1 (ab)"
+    """
+    same = before[0] == now[0] and before[1].rpartition(" (")[0] == now[1].rpartition(" (")[0]
+    what = "files" if same else "name or version"
+    later = f"it is {' '.join(now)} in a later process, and was {' '.join(before)}"
+    return one_line(f"the model's {what} changed after it was loaded: {later}")
+
+
+def _started(source: dict[str, Any]) -> tuple[Child, Description]:
+    child = Child(source)
+    try:
+        return child, described(child.exchange({"request": "describe"}), source)
+    except BaseException:
+        child.close()
+        raise

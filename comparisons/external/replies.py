@@ -1,7 +1,6 @@
-"""Replies of the process of a model: descriptions, results and curves, each with one sentence for an error.
+"""Replies of the process of a model, checked by ``comparisons/data/reply.schema.json``.
 
-The worker turns what a model returns into these; the parent reads all of them again, since a model can write to the
-pipe in place of the worker.
+The parent checks all of them, since a model in Python can write to the pipe in place of the worker.
 """
 
 from __future__ import annotations
@@ -11,21 +10,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
 
+import numpy as np
+from numpy.typing import NDArray
+
+from comparisons.data.validation import validated
 from comparisons.domain import Domain
 from comparisons.external.fingerprint import fingerprint
-from comparisons.external.reply_checks import column, count, kind, real
-from comparisons.external.text_rules import TEXTS, model_name, one_line
+from comparisons.external.text_rules import model_name, one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 
-__all__ = ["Description", "curve_of", "described", "parsed", "result_of"]
+__all__ = ["Description", "curve_of", "described", "result_of"]
 
-#: What a model states of itself.
-_STATED = {*TEXTS, "limits", "applies_to", "files", "curve"}
-#: What the worker finds out of a model in Python.
-_OF_WORKER = {"digest", "hashed", "physical"}
-
-#: Status of a reply -> the exception that it means.
-_STATUSES = {"ok": Exception, "not-applicable": NotApplicable, "failed": ComputationFailed}
+#: Status of a reply without a result -> the exception that it means.
+_REFUSALS = {"not-applicable": NotApplicable, "failed": ComputationFailed}
 
 #: Digits of the digest that are kept in the version of a model.
 _DIGEST = 12
@@ -46,21 +43,75 @@ class Description:
     has_curve: bool
 
 
-def parsed(line: bytes, default: dict[str, Any]) -> dict[str, Any]:
-    """Return the JSON object of a line, with a status.
+def described(line: bytes, source: dict[str, Any]) -> Description:
+    """Return what the reply to the request ``describe`` states.
 
     Parameters
     ----------
     line : bytes
-    default : dict
-        What it has where the line states nothing else.
+    source : dict
+        Of the model. The worker of a model in Python adds where its files are.
+
+    Raises
+    ------
+    comparisons.model.ComputationFailed
+        If it does not describe a model; the sentence has the reason.
+    """
+    reply = {"status": "ok"} | _parsed(line)
+    of_worker = {} if source["kind"] == "program" else reply.pop("python", {})
+    _check("describe", reply)
+    try:
+        file = Path(source.get("file", ""))
+        roots = of_worker.pop("roots", {str(file.parent): str(file)})
+        digest, hashed = fingerprint(
+            {Path(root): Path(loaded) for root, loaded in roots.items()},
+            reply.get("files", []),
+            [Path(path) for path in of_worker.get("loaded", [])],
+        )
+        domain = reply.get("applies_to")
+        return Description(
+            model_name(reply["name"]),
+            f"{one_line(reply['version'], 60)} ({digest[:_DIGEST]})",
+            one_line(reply["citation"]),
+            one_line(reply["domain"]),
+            tuple(one_line(limit, 60) for limit in reply.get("limits", [])),
+            None if domain is None else Domain.of(domain),
+            hashed,
+            bool(of_worker.get("physical")),
+            reply.get("curve", False),
+        )
+    except (ValueError, TypeError, AttributeError) as error:
+        raise ComputationFailed(one_line(str(error))) from None
+
+
+def result_of(line: bytes) -> Result:
+    """Return the result that a reply has, or raise what its status means.
 
     Examples
     --------
-    >>> parsed(b"1.7", {})
+    >>> result_of(b'{"status": "ok", "value": 1.5, "unum": 0}')
     Traceback (most recent call last):
-    comparisons.model.ComputationFailed: its process wrote '1.7', which is not one JSON object in one line
+    comparisons.model.ComputationFailed: the reply of the model: evaluate: unknown key 'unum': did you mean u_num?
     """
+    reply = _parsed(line)
+    _check("evaluate", reply)
+    counts = {name: int(reply.get(name, 0)) for name in ("size", "iterations")}
+    return Result(float(reply["value"]), float(reply["u_num"]), residual=float(reply.get("residual", 0.0)), **counts)
+
+
+def curve_of(line: bytes) -> Curve:
+    """Return the curve that a reply has, or raise what its status means."""
+    reply = _parsed(line)
+    _check("curve", reply)
+    columns = {name: _column(name, reply[name]) for name in ("displacement", "load")}
+    columns |= {one_line(name, 60): _column(name, values) for name, values in reply.get("columns", {}).items()}
+    if len(set(map(len, columns.values()))) != 1:
+        listed = ", ".join(f"{name} {len(values)}" for name, values in columns.items())
+        raise ComputationFailed(f"the columns of the curve have different lengths: {listed}")
+    return Curve(columns.pop("displacement"), columns.pop("load"), columns)
+
+
+def _parsed(line: bytes) -> dict[str, Any]:
     try:
         reply = json.loads(line.decode(), parse_constant=_refuse_constant)
     except (ValueError, RecursionError):
@@ -68,11 +119,6 @@ def parsed(line: bytes, default: dict[str, Any]) -> dict[str, Any]:
     if not isinstance(reply, dict):
         shown = one_line(repr(line[:200].decode(errors="replace").strip()), 80)
         raise ComputationFailed(f"its process wrote {shown}, which is not one JSON object in one line")
-    reply = default | reply
-    if reply.get("status") not in [*_STATUSES]:
-        raise ComputationFailed(
-            f"the model gave {kind(reply.get('status'))} as status, which is none of {', '.join(_STATUSES)}"
-        )
     return reply
 
 
@@ -80,86 +126,27 @@ def _refuse_constant(name: str) -> NoReturn:
     raise ComputationFailed(f"its process wrote {name}, which is not a finite number, and which JSON does not have")
 
 
-def _outcome(reply: dict[str, Any], known: set[str], needed: tuple[str, ...]) -> dict[str, Any]:
-    """Return a reply that has a result, with known keys and those that it needs; raise what another status means."""
-    if reply["status"] != "ok":
+def _check(request: str, reply: dict[str, Any]) -> None:
+    """Raise what the status of a reply means, or the first thing that is wrong in its other keys, which stay."""
+    status = reply.pop("status", None)
+    if isinstance(status, str) and status in _REFUSALS:
         reason = reply.get("reason", "")
-        text = one_line(reason) if isinstance(reason, str) else ""
-        raise _STATUSES[reply["status"]](text or "the model gave no reason")
-    if unknown := sorted(reply.keys() - known - {"status"}):
-        raise ComputationFailed(f"the model gave the unknown key {one_line(repr(unknown[0]), 60)}")
-    if missing := [name for name in needed if name not in reply]:
-        raise ComputationFailed(f"the reply of the model has no {', '.join(missing)}")
-    return reply
-
-
-def described(reply: dict[str, Any], source: dict[str, Any]) -> Description:
-    """Return what the reply to the request ``describe`` states.
-
-    Parameters
-    ----------
-    reply : dict
-    source : dict
-        Of the model; the files of a program are hashed here.
-
-    Raises
-    ------
-    comparisons.model.ComputationFailed
-        If it does not describe a model; the sentence has the reason.
-    """
-    program = source["kind"] == "program"
-    reply = _outcome(reply, _STATED if program else _STATED | _OF_WORKER, TEXTS)
-    for name in TEXTS:
-        if not isinstance(reply[name], str):
-            raise ComputationFailed(f"the model gave {kind(reply[name])} as {name}, which is not a text")
-    limits = reply.get("limits", [])
-    if not isinstance(limits, list) or not all(isinstance(limit, str) for limit in limits):
+        raise _REFUSALS[status](one_line(str(reason)) or "the model gave no reason")
+    if status != "ok":
         raise ComputationFailed(
-            f'limits = {kind(limits)} is not a list of texts such as ("jkr",): it names where the model is exact'
+            f"the reply of the model: status = {one_line(repr(status), 60)} must be ok, {' or '.join(_REFUSALS)}"
         )
-    if program:
-        file = Path(source["file"])
-        digest, hashed = fingerprint({file.parent: file}, reply.get("files", ()), skip=source["skip"])
-    else:
-        digest, hashed = str(reply.get("digest")), str(reply.get("hashed"))
-    domain = reply.get("applies_to")
     try:
-        return Description(
-            model_name(reply["name"]),
-            f"{one_line(reply['version'], 60)} ({one_line(digest)[:_DIGEST]})",
-            one_line(reply["citation"]),
-            one_line(reply["domain"]),
-            tuple(one_line(limit, 60) for limit in limits),
-            None if domain is None else Domain.of(domain),
-            one_line(hashed),
-            bool(reply.get("physical")),
-            reply.get("curve") is True,
-        )
-    except (ValueError, TypeError) as error:
+        validated({request: reply}, "reply", "the reply of the model")
+    except ValueError as error:
         raise ComputationFailed(one_line(str(error))) from None
 
 
-def result_of(reply: dict[str, Any]) -> Result:
-    """Return the result that a reply has."""
-    reply = _outcome(reply, {"value", "u_num", "size", "iterations", "residual"}, ("value", "u_num"))
-    return Result(
-        real("value", reply["value"]),
-        real("u_num", reply["u_num"]),
-        size=count("size", reply.get("size", 0)),
-        iterations=count("iterations", reply.get("iterations", 0)),
-        residual=real("residual", reply.get("residual", 0.0)),
-    )
-
-
-def curve_of(reply: dict[str, Any]) -> Curve:
-    """Return the curve that a reply has."""
-    reply = _outcome(reply, {"displacement", "load", "columns"}, ("displacement", "load"))
-    more = reply.get("columns", {})
-    if not isinstance(more, dict):
-        raise ComputationFailed(f"the model gave {kind(more)} as columns, which is not a table of columns")
-    columns = {name: column(name, reply[name]) for name in ("displacement", "load")}
-    columns |= {one_line(name, 60): column(name, values) for name, values in more.items()}
-    if len(set(map(len, columns.values()))) != 1:
-        listed = ", ".join(f"{name} {len(values)}" for name, values in columns.items())
-        raise ComputationFailed(f"the columns of the curve have different lengths: {listed}")
-    return Curve(columns.pop("displacement"), columns.pop("load"), columns)
+def _column(name: str, values: list[Any]) -> NDArray[np.float64]:
+    try:
+        column = np.asarray(values)
+    except ValueError:  # lists of different lengths
+        column = np.empty((0, 0))
+    if column.ndim != 1 or column.dtype.kind not in "fiu" or not np.isfinite(column).all():
+        raise ComputationFailed(f"column {one_line(name, 60)} of the curve is not a list of finite real numbers")
+    return column.astype(float)

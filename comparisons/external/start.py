@@ -13,10 +13,10 @@ from typing import Any
 from comparisons.external.landlock import write_only_in
 from comparisons.external.limits import limit_memory_and_files
 
-__all__ = ["READY", "start"]
+__all__ = ["start"]
 
 #: What the process writes before it reads its first request.
-READY = b"ready\n"
+_READY = b"ready\n"
 
 
 def start(order: dict[str, Any]) -> None:
@@ -25,25 +25,26 @@ def start(order: dict[str, Any]) -> None:
     Parameters
     ----------
     order : dict
-        ``source`` of the model, ``scratch`` folder, ``megabytes`` and ``seconds``.
+        ``source`` of the model, ``scratch`` folder and ``megabytes``.
     """
+    source, megabytes = order["source"], order["megabytes"]
     # Landlock binds the calling thread and those this thread starts later: it comes before NumPy's libraries.
     write_only_in(order["scratch"])
-    if order["source"]["kind"] == "program":
-        _become(order["source"]["file"], order["megabytes"])
+    if source["kind"] == "program":
+        limit_memory_and_files(megabytes)
+        os.write(1, _READY)
+        _become(source["file"])
     from comparisons.external.worker import serve
 
-    limit_memory_and_files(order["megabytes"])
-    os.write(1, READY)
-    serve(order["source"], order["megabytes"], order["seconds"])
-
-
-def _become(program: str, megabytes: float) -> None:
     limit_memory_and_files(megabytes)
+    os.write(1, _READY)
+    serve(source, megabytes)
+
+
+def _become(program: str) -> None:
     # Python ignores these two, and the program would inherit that.
     for number in (signal.SIGPIPE, signal.SIGXFSZ):
         signal.signal(number, signal.SIG_DFL)
-    os.write(1, READY)
     try:
         os.execv(program, [program])
     except OSError as error:

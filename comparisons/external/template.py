@@ -57,40 +57,31 @@ def write_template(folder: Path, reserved: Collection[str] = ()) -> tuple[list[P
     name = model_name(Path(os.path.realpath(folder)).name)
     module = name.replace("-", "_").replace(".", "_").lower()
     cls = "".join(part.title() for part in module.split("_"))
-    if why := _unusable(name, module, cls, reserved):
-        raise ValueError(f"the folder's name {name} {why}; choose another")
+    taken = _SHADOWED | sys.stdlib_module_names | {model.replace("-", "_") for model in reserved}
+    hidden = module in taken or cls in _IMPORTED
+    if hidden or not module.isidentifier() or {module, cls} & set(keyword.kwlist) or not name[-1].isalnum():
+        raise ValueError(
+            f"the folder's name {name} cannot be that of a model: a module {module} with a class {cls} cannot be "
+            "imported or installed, or hides another; choose another name"
+        )
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise ValueError(f"{folder} exists and is not an empty folder")
-    words = {"MODEL": name, "MODULE": module, "CLASS": cls}
-    written = []
     try:
-        for source, place in _PLACES.items():
-            text = files("comparisons.external").joinpath("template_files", source).read_text(encoding="utf-8")
-            target = folder / place.replace("MODULE", module)
-            target.parent.mkdir(parents=True, exist_ok=True)
-            for word, meaning in words.items():
-                text = text.replace(f"@{word}@", meaning)
-            target.write_text(text, encoding="utf-8")
-            written.append(target)
+        written = [
+            _written(folder, *place, {"MODEL": name, "MODULE": module, "CLASS": cls}) for place in _PLACES.items()
+        ]
     except OSError as error:
         if full_disk(error):
             raise OSError(f"{folder} cannot be written ({error.strerror})") from error
         raise ValueError(f"{folder} cannot be written ({error.strerror})") from None
-    return written, f"{folder / module}.py:{words['CLASS']}"
+    return written, f"{folder / module}.py:{cls}"
 
 
-def _unusable(name: str, module: str, cls: str, reserved: Collection[str]) -> str:
-    """Return why a package of that name would not work; nothing if it would."""
-    if module in {model.replace("-", "_") for model in reserved}:
-        return "is that of a model of fscm-bench"
-    if not name[-1].isalnum():
-        return "ends in a sign: no package can be installed under it"
-    if not module.isidentifier():
-        return "begins with a digit: no Python module can be called that"
-    if keyword.iskeyword(module) or keyword.iskeyword(cls):
-        return "is a word of the Python language"
-    if module in _SHADOWED | sys.stdlib_module_names:
-        return f"would make a module {module}.py, which hides another of that name"
-    if cls in _IMPORTED:
-        return f"would make a class {cls}, which hides what the template imports"
-    return ""
+def _written(folder: Path, source: str, target: str, words: dict[str, str]) -> Path:
+    text = files("comparisons.external").joinpath("template_files", source).read_text(encoding="utf-8")
+    path = folder / target.replace("MODULE", words["MODULE"])
+    path.parent.mkdir(parents=True, exist_ok=True)
+    for word, meaning in words.items():
+        text = text.replace(f"@{word}@", meaning)
+    path.write_text(text, encoding="utf-8")
+    return path

@@ -1,6 +1,6 @@
 """Program of the process of a model in Python, which loads the model and evaluates it, one JSON object a line.
 
-It has the protocol of a program in any language (docs/judge_your_model.md).  Before any code of the model runs, stdin,
+It has the protocol of a program in any language (docs/judge_your_model.md). Before any code of the model runs, stdin,
 stdout and stderr are redirected to the null device, so a model may print what it likes.
 """
 
@@ -8,44 +8,41 @@ from __future__ import annotations
 
 import inspect
 import json
+import numbers
 import os
 import sys
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from contextlib import suppress
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from comparisons.domain import declared_domain
-from comparisons.external.fingerprint import fingerprint, imported_files, roots_of
-from comparisons.external.limits import cpu_seconds_from_now
+from comparisons.external.fingerprint import SITES
 from comparisons.external.physical_model import InUnits, PhysicalModel
-from comparisons.external.reply_checks import column, count, kind, real
 from comparisons.external.text_rules import TEXTS, one_line
 from comparisons.model import ComputationFailed, Curve, NotApplicable, Result
 from fscm.problem import Problem
 
-__all__ = ["check_methods", "serve"]
+__all__ = ["serve"]
 
-_OURS = Path(__file__).resolve().parent.parent
-
-#: Arguments of each method that is called.
-_ARGUMENTS = {
-    "evaluate": ("problem", "quantity"),
-    "evaluate_physical": ("problem", "quantity"),
-    "curve": ("problem",),
-}
+#: Packages of this program, which has a version of its own.
+_OURS = ("comparisons", "fscm", "fem_reference")
+_FOLDER = Path(__file__).resolve().parents[1]
 
 
-def serve(source: dict[str, Any], megabytes: float, seconds: float) -> None:
+def serve(source: dict[str, Any], megabytes: float) -> None:
     """Serve requests until there are no more.
 
     Parameters
     ----------
     source : dict
         How the model is found.
-    megabytes, seconds : float
-        Its limits.
+    megabytes : float
+        Its limit of memory.
     """
     requests, replies = os.fdopen(os.dup(0), "r", encoding="utf-8"), os.fdopen(os.dup(1), "w", encoding="utf-8")
     null = os.open(os.devnull, os.O_RDWR)
@@ -56,41 +53,75 @@ def serve(source: dict[str, Any], megabytes: float, seconds: float) -> None:
         request = json.loads(line)
         loading = request["request"] == "describe"
         try:
-            cpu_seconds_from_now(seconds)
             if loading:
                 model, files = _loaded(source)
-                reply = _description(model, files, source)
+                reply = _description(model, files)
             else:
                 reply = {"evaluate": _evaluated, "curve": _curve}[request["request"]](model, request, source)
-            text = json.dumps({"status": "ok"} | reply, allow_nan=False)
+            text = _encoded({"status": "ok"} | reply)
         except NotApplicable as refusal:
-            text = json.dumps({"status": "not-applicable", "reason": _words(refusal)})
+            text = json.dumps({"status": "not-applicable", "reason": _text_of(refusal)})
         except BaseException as error:
             text = json.dumps({"status": "failed", "reason": _explain(error, megabytes, loading)})
         replies.write(text + "\n")
         replies.flush()
 
 
+def _encoded(reply: dict[str, Any]) -> str:
+    try:
+        return json.dumps(reply, allow_nan=False, default=_plain)
+    except ValueError:
+        raise ComputationFailed("the model gave a number that is not finite") from None
+
+
+def _plain(value: object) -> object:
+    """Return a number or an array of NumPy as JSON has it."""
+    if isinstance(value, np.ndarray) and value.ndim > 0:
+        return value.tolist()
+    if isinstance(value, numbers.Real) and not isinstance(value, np.bool_):
+        return float(value)
+    raise ComputationFailed(f"the model gave {_kind(value)} in place of a real number, a text or a list")
+
+
+def _kind(value: object) -> str:
+    return one_line(f"an object of type {type(value).__name__}", 80)
+
+
 def _loaded(source: dict[str, Any]) -> tuple[Any, dict[str, Any]]:
-    """Return the model, and where its files are."""
-    installed: list[Path] = []
+    """Return the model, and where its files are: folders with the file that was loaded in each, and other files."""
+    roots: dict[str, str] = {}
+    installed: Iterable[str] = ()
     if source["kind"] == "file":
         file = Path(source["file"])
-        made, module = _load_file(file, source["attribute"]), file.stem
+        made = _attribute_of_file(file, source["attribute"])
+        roots[str(file.parent)] = str(file)
     else:
         # It takes a tenth of the start of a process, and a file does not need it.
         from importlib.metadata import entry_points
 
-        (found,) = {entry for entry in entry_points(group=source["group"]) if entry.name == source["name"]}
-        made, module = found.load(), found.module
-        listed = found.dist.files if found.dist else None
-        installed = [Path(str(path.locate())).resolve() for path in listed or ()]
+        (entry,) = {entry for entry in entry_points(group=source["group"]) if entry.name == source["name"]}
+        made = entry.load()
+        roots |= _root_of(entry.module)
+        installed = (os.path.realpath(path.locate()) for path in (entry.dist.files if entry.dist else None) or ())
     model = made() if callable(made) else made
-    defined = (made if isinstance(made, type) else type(model)).__module__
-    return model, {"roots": roots_of((module, defined)), "installed": installed, "imported": imported_files()}
+    roots = _root_of((made if isinstance(made, type) else type(model)).__module__) | roots
+    modules = (os.path.realpath(getattr(module, "__file__", None) or "/") for module in list(sys.modules.values()))
+    imported = (name for name in modules if not any(f"/{site}/" in name for site in SITES))
+    return model, {"roots": roots, "loaded": sorted({*installed, *imported})}
 
 
-def _load_file(file: Path, attribute: str) -> Any:
+def _root_of(module: str) -> dict[str, str]:
+    """Return the folder of a module or of its package, and its file; nothing for one of Python or of this program."""
+    top = module.partition(".")[0]
+    file = getattr(sys.modules.get(module), "__file__", None)
+    if file is None or top in sys.stdlib_module_names or top in _OURS:
+        return {}
+    # A namespace package has no file of its own.
+    package = getattr(sys.modules[top], "__file__", None) or file
+    return {os.path.dirname(os.path.realpath(package)): os.path.realpath(file)}
+
+
+def _attribute_of_file(file: Path, attribute: str) -> Any:
     """Return what a file defines under a name; modules beside the file can be imported by it."""
     sys.path.insert(0, str(file.parent))
     spec = spec_from_file_location(file.stem, file)
@@ -105,73 +136,40 @@ def _load_file(file: Path, attribute: str) -> Any:
     return getattr(module, attribute)
 
 
-def _description(model: Any, files: dict[str, Any], source: dict[str, Any]) -> dict[str, Any]:
+def _description(model: Any, files: dict[str, Any]) -> dict[str, Any]:
     if missing := [name for name in TEXTS if not hasattr(model, name)]:
         raise ComputationFailed(f"the model has no {', '.join(missing)}; it needs {', '.join(TEXTS)}")
-    limits = getattr(model, "limits", ())
     domain = declared_domain(model)
     physical = isinstance(model, PhysicalModel)
-    check_methods(model, physical)
-    digest, hashed = fingerprint(**files, declared=getattr(model, "files", ()), skip=source["skip"])
+    _check_methods(model, physical)
+    limits = getattr(model, "limits", ())
     return {
         **{name: str(getattr(model, name)) for name in TEXTS},
-        "limits": [*limits] if isinstance(limits, tuple | list | set | frozenset) else limits,
+        "limits": sorted(limits) if isinstance(limits, set | frozenset) else limits,
+        "files": getattr(model, "files", ()),
         "applies_to": None if domain is None else domain.as_json(),
         "curve": callable(getattr(model, "curve", None)),
-        "physical": physical,
-        "digest": digest,
-        "hashed": hashed,
+        "python": files | {"physical": physical},
     }
 
 
-def check_methods(model: Any, physical: bool) -> None:
-    """Refuse a model without a method that is called, or with one that takes other arguments.
-
-    Parameters
-    ----------
-    model : object
-    physical : bool
-        Whether `evaluate_physical` is called in place of `evaluate`.
-
-    Raises
-    ------
-    TypeError
-        If there is no method `evaluate`.
-    ComputationFailed
-        If a method takes other arguments; the sentence has its place in the model's file.
-
-    Examples
-    --------
-    >>> class Mine:
-    ...     def evaluate(self, problem): ...
-    >>> check_methods(Mine(), physical=False)
-    Traceback (most recent call last):
-    ...
-    comparisons.model.ComputationFailed: Mine.evaluate(problem) ... is called as evaluate(problem, quantity): ...
-    """
-    if not physical and not callable(getattr(model, "evaluate", None)):
-        raise TypeError("the model has no method evaluate(problem, quantity)")
-    for name in ("evaluate_physical" if physical else "evaluate", "curve"):
+def _check_methods(model: Any, physical: bool) -> None:
+    """Refuse a model without a method that is called, or with one that takes other arguments."""
+    called = {"evaluate_physical" if physical else "evaluate": ("problem", "quantity"), "curve": ("problem",)}
+    for name, arguments in called.items():
         method = getattr(model, name, None)
-        if callable(method):
-            _check_arguments(method, name)
-
-
-def _check_arguments(method: Any, name: str) -> None:
-    try:
-        signature = inspect.signature(method)
-    except (TypeError, ValueError):  # of a compiled method nothing is known
-        return
-    arguments = ", ".join(_ARGUMENTS[name])
-    try:
-        signature.bind(*_ARGUMENTS[name])
-    except TypeError:
-        code = getattr(inspect.unwrap(method), "__code__", None)
-        place = "" if code is None else f" in line {code.co_firstlineno} of {Path(code.co_filename).name}"
-        title = one_line(f"{getattr(method, '__qualname__', name)}{signature}", 120)
-        raise ComputationFailed(
-            f"{title}{place} is called as {name}({arguments}): write def {name}(self, {arguments})"
-        ) from None
+        call = f"{name}({', '.join(arguments)})"
+        if not callable(method) and name != "curve":
+            raise ComputationFailed(f"the model has no method {call}")
+        with suppress(ValueError):  # of a compiled method nothing is known
+            signature = inspect.signature(method) if callable(method) else None
+            try:
+                _ = signature and signature.bind(*arguments)
+            except TypeError:
+                code = getattr(inspect.unwrap(method), "__code__", None)
+                line = f" in line {code.co_firstlineno} of {Path(code.co_filename).name}" if code else ""
+                title = one_line(f"{getattr(method, '__qualname__', name)}{signature}", 120)
+                raise ComputationFailed(f"{title}{line} is called as {call}: let it take these arguments") from None
 
 
 def _evaluated(model: Any, request: dict[str, Any], source: dict[str, Any]) -> dict[str, Any]:
@@ -179,21 +177,15 @@ def _evaluated(model: Any, request: dict[str, Any], source: dict[str, Any]) -> d
         model = InUnits(model, source["poisson_ratio"], request.get("scales", 0))
     result = model.evaluate(_problem(request), request["quantity"])
     if not isinstance(result, Result):
-        raise ComputationFailed(f"the model returned {kind(result)}, which is not a comparisons.model.Result")
-    return {
-        **{name: real(name, getattr(result, name)) for name in ("value", "u_num", "residual")},
-        **{name: count(name, getattr(result, name)) for name in ("size", "iterations")},
-    }
+        raise ComputationFailed(f"the model returned {_kind(result)}, which is not a comparisons.model.Result")
+    return {name: getattr(result, name) for name in ("value", "u_num", "residual", "size", "iterations")}
 
 
 def _curve(model: Any, request: dict[str, Any], _: dict[str, Any]) -> dict[str, Any]:
     curve = model.curve(_problem(request))
     if not isinstance(curve, Curve):
-        raise ComputationFailed(f"the model returned {kind(curve)}, which is not a comparisons.model.Curve")
-    return {
-        **{name: column(name, getattr(curve, name)).tolist() for name in ("displacement", "load")},
-        "columns": {str(name): column(str(name), values).tolist() for name, values in curve.columns.items()},
-    }
+        raise ComputationFailed(f"the model returned {_kind(curve)}, which is not a comparisons.model.Curve")
+    return {name: getattr(curve, name) for name in ("displacement", "load", "columns")}
 
 
 def _problem(request: dict[str, Any]) -> Problem:
@@ -202,10 +194,10 @@ def _problem(request: dict[str, Any]) -> Problem:
 
 def _is_of_model(filename: str) -> bool:
     """Whether a line of a traceback is code of the model, not of this program."""
-    return not filename.startswith("<") and not Path(filename).is_relative_to(_OURS)
+    return not filename.startswith("<") and not Path(filename).is_relative_to(_FOLDER)
 
 
-def _words(thing: object, by: Callable[[object], str] = str) -> str:
+def _text_of(thing: object, by: Callable[[object], str] = str) -> str:
     """Return the text of an exception; its class may be of the model, and the conversion may fail."""
     try:
         return one_line(by(thing))
@@ -216,19 +208,15 @@ def _words(thing: object, by: Callable[[object], str] = str) -> str:
 def _explain(error: BaseException, megabytes: float, loading: bool) -> str:
     """Return one line about a failure: the text of a `ComputationFailed`, else the error and its place in the code."""
     if isinstance(error, ComputationFailed):
-        return _words(error)
-    name = type(error).__name__
+        return _text_of(error)
     if isinstance(error, MemoryError):
         return f"MemoryError: the model needs more than its {megabytes:g} MB"
     if isinstance(error, SystemExit):
-        return f"SystemExit: the model called sys.exit({one_line(_words(error.code, repr), 60)})"
-    if isinstance(error, SyntaxError) and error.lineno and error.filename and _is_of_model(error.filename):
-        # It has no frame of its own: the place is in the exception.
-        return one_line(f"{name} in line {error.lineno} of {Path(error.filename).name}: {error.msg}")
-    every = traceback.extract_tb(error.__traceback__)
+        return f"SystemExit: the model called sys.exit({one_line(_text_of(error.code, repr), 60)})"
     # The place in the author's code, where for instance a Result was made of a text.
-    frames = [frame for frame in every if _is_of_model(frame.filename)] or every
+    frames = traceback.extract_tb(error.__traceback__)
+    frames = [frame for frame in frames if _is_of_model(frame.filename)] or frames
     place = f" in {frames[-1].name}, line {frames[-1].lineno} of {Path(frames[-1].filename).name}" if frames else ""
     # Loading a model involves no case.
     hint = " (a case outside the domain is NotApplicable)" if isinstance(error, ValueError) and not loading else ""
-    return one_line(f"{name}{place}: {_words(error)}{hint}")
+    return one_line(f"{type(error).__name__}{place}: {_text_of(error)}{hint}")

@@ -15,7 +15,7 @@ from traceback import extract_tb
 from typing import Any
 
 from comparisons.domain import declared_domain
-from comparisons.external.identity import contradiction
+from comparisons.external.process_model import contradiction
 from comparisons.model import ComputationFailed, Model, NotApplicable, Result
 from comparisons.problem_file.evaluation import (
     SI_UNITS,

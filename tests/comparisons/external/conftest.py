@@ -2,6 +2,7 @@
 
 import hashlib
 import shutil
+import time
 import tomllib
 from pathlib import Path
 
@@ -10,12 +11,41 @@ import pytest
 from comparisons.external.model_source import GROUP, close_models
 from comparisons.pipeline import finished_run, inputs
 from comparisons.quantities import QUANTITIES
+from comparisons.registry import create
 from comparisons.runs.cases import Case, load_grids
+from comparisons.runs.tasks import evaluate
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "double_hertz"
 FORCE = ["--quantity", "pull_off_force", "--n", "2", "--k", "0", "--mu", "1"]
-CASE = Case(2, 0.4, 1)
 GOOD = "return Result(1.5, 1e-9)"
+
+
+def row_of(model, mu=1, k=0.4, n=2, quantity="pull_off_force"):
+    """The row of one evaluation."""
+    return evaluate(model, quantity, Case(n, k, mu))
+
+
+def opened(spec):
+    """The model in a new process."""
+    close_models()
+    return create(str(spec))
+
+
+def comes_true(condition):
+    """Whether a condition holds within a minute."""
+    for _ in range(3000):
+        if condition():
+            return True
+        time.sleep(0.02)
+    return False
+
+
+def has_ended(process):
+    """Whether a process is gone, or a zombie that has not been reaped yet."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
+    except OSError:
+        return True
 
 
 @pytest.fixture(autouse=True)

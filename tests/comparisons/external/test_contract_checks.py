@@ -1,13 +1,19 @@
 """Checks of the contract: every defect is found and named, and a right model passes."""
 
 import csv
+import math
+from types import SimpleNamespace
 
 import pytest
 
 from comparisons.cli.main import main
 from comparisons.external.contract_checks import examine
 from comparisons.external.data_model import DataModel
+from comparisons.external.physical_model import SCALES, InUnits
+from comparisons.model import Result
+from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
+from fscm.problem import Problem
 
 from .conftest import EXAMPLE, ROWS
 
@@ -103,6 +109,20 @@ def test_a_model_of_physical_quantities_does_not_depend_on_units(write_model, fo
 def test_units_are_checked_of_physical_models_alone(write_model, write_data):
     for spec in (write_model(RIGHT), str(write_data())):
         assert found(spec)["does not depend on units"].status == "not checked"
+
+
+@pytest.mark.parametrize("scales", range(len(SCALES)))
+def test_a_result_and_its_bound_are_in_the_same_unit(scales):
+    for quantity, row in QUANTITIES.items():
+        problems = []
+        model = SimpleNamespace(
+            evaluate_physical=lambda problem, _, problems=problems: problems.append(problem) or Result(6, 2)
+        )
+        result = InUnits(model, scales=scales).evaluate(Problem(2.0, 0.4, 1.0), quantity)
+        unit = 1.0 if row.scale == "number" else problems[0].scales[row.scale]
+        assert math.isclose(result.value * unit, 6.0, rel_tol=1e-14)
+        assert math.isclose(result.u_num * unit, 2.0, rel_tol=1e-14)
+    assert QUANTITIES["critical_tabor_number"].scale == "number"
 
 
 def test_poissons_ratio_reaches_a_physical_model(write_model, capsys):

@@ -1,22 +1,21 @@
 """Defects of a model: each costs the rows of this model, with a reason, and nothing else."""
 
 import os
-import time
-from pathlib import Path
+import signal
+import subprocess
+import sys
 
 import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.external.child import PATIENCE
+from comparisons.external.process_model import PATIENCE
 from comparisons.external.replies import result_of
 from comparisons.external.text_rules import model_name
 from comparisons.model import ComputationFailed
 from comparisons.registry import create
-from comparisons.runs.cases import Case
-from comparisons.runs.tasks import evaluate
 
-from .conftest import CASE, FORCE, GOOD
+from .conftest import FORCE, GOOD, comes_true, has_ended, row_of
 
 #: What `evaluate` does, and words of the reason that its row gives.
 NONSENSE = [
@@ -28,11 +27,12 @@ NONSENSE = [
     ("return Result(1.0, -1.0)", "u_num = -1"),
     ("return Result('1.5', 0.0)", "must be real number, not str"),
     ("return Result(np.array([1.0, 2.0]), 0.0)", "TypeError in evaluate"),
-    ("return Result(np.array(1.5), 0.0)", "an array of shape ()"),
-    ("return Result(True, 0.0)", "bool True"),
-    ("return Result(1.5, 0.0, size=10**30)", "as size"),
-    ("return Result(1.5, 0.0, iterations=-1)", "as iterations"),
-    ("return '<b>1.5</b>'", "str '<b>1.5</b>', which is not a comparisons.model.Result"),
+    ("return Result(np.array(1.5), 0.0)", "type ndarray"),
+    ("return Result(True, 0.0)", "value = true"),
+    ("return Result(1.5, 0.0, size=10**30)", "size = "),
+    ("return Result(1.5, 0.0, iterations=-1)", "iterations = -1"),
+    ("return Result(1.5, 0.0, residual=float('inf'))", "not finite"),
+    ("return '<b>1.5</b>'", "type str, which is not a comparisons.model.Result"),
     ("raise ComputationFailed('no\\x1b[31m root\\nfound')", "no[31m root found"),
     ("raise type('Odd', (Exception,), {'__str__': lambda self: 1 / 0})", "__str__ raises ZeroDivisionError"),
     ("sys.exit(type('Odd', (), {'__repr__': lambda self: 1 / 0})())", "__repr__ raises ZeroDivisionError"),
@@ -44,7 +44,7 @@ NONSENSE = [
     ("os.kill(os.getpid(), 40)", "was killed by signal 40"),
     (
         "for fd in range(3, 200):\n    with suppress(OSError):\n        os.write(fd, b'{}\\n')",
-        "None as status|more than one line",
+        "status = None|more than one",
     ),
     ("os.closerange(0, 100)\nreturn Result(1.0, 0.0)", "ended with exit status"),
     ("[os.fork() for _ in range(3)]\nos._exit(7)", "ended with exit status 7"),
@@ -52,49 +52,52 @@ NONSENSE = [
 ]
 
 
-def test_a_defect_is_a_failed_row_with_a_reason_and_the_next_one_is_right(write_model):
-    """The Tabor number is the number of the defect."""
+def by_tabor_number(bodies):
+    """A body of `evaluate` that does the first of some things at mu = 1, the second at mu = 2, and is right at 0.5."""
     cases = [
         f"if problem.mu == {number}:\n" + "".join(f"    {line}\n" for line in body.splitlines())
-        for number, (body, _) in enumerate(NONSENSE, 1)
+        for number, body in enumerate(bodies, 1)
     ]
-    model = create(write_model("".join(cases) + "print('{}' * 9999)\nos.write(1, b'x')\n" + GOOD))
+    return "".join(cases) + "print('{}' * 9999)\nos.write(1, b'x')\n" + GOOD
+
+
+def test_a_defect_is_a_failed_row_with_a_reason_and_the_next_one_is_right(write_model):
+    model = create(write_model(by_tabor_number(body for body, _ in NONSENSE)))
     for number, (body, sentence) in enumerate(NONSENSE, 1):
-        row = evaluate(model, "pull_off_force", Case(2, 0, number))
+        row = row_of(model, number)
         assert (row.status, row.value, row.model) == ("failed", None, "stranger"), body
-        assert any(words in row.reason for words in sentence.split("|")), body
+        assert any(words in row.reason for words in sentence.split("|")), (body, row.reason)
         assert row.reason.isprintable()
-        row = evaluate(model, "pull_off_force", Case(2, 0, 0.5))
-        if row.status != "ok":
-            # What it had written too much is noticed here, and costs one result more.
-            assert "more than one line" in row.reason
-            row = evaluate(model, "pull_off_force", Case(2, 0, 0.5))
-        assert row.value == 1.5, body
+        if row_of(model, 0.5).status != "ok":
+            # What it had written too much is noticed by the next request.
+            assert "more than one line" in sentence
+        assert row_of(model, 0.5).value == 1.5, body
 
 
-@pytest.mark.parametrize("reply", [{"size": 2**63}, {"value": None}, {"u_num": 10**400}, {"mine": 1}])
-def test_a_process_that_writes_a_reply_of_its_own_is_not_believed(reply):
+@pytest.mark.parametrize(
+    "key", ['"size": 1e19', '"value": null', '"u_num": 1' + "0" * 400, '"mine": 1', '"value": NaN']
+)
+def test_a_process_that_writes_a_reply_of_its_own_is_not_believed(key):
     with pytest.raises(ComputationFailed):
-        result_of({"status": "ok", "value": 1.5, "u_num": 0.0} | reply)
+        result_of(f'{{"status": "ok", "value": 1.5, "u_num": 0.0, {key}}}'.encode())
 
 
 def test_one_that_loops_for_ever_is_ended_and_evaluated_no_more(write_model, monkeypatch):
     monkeypatch.setenv("FSCM_BENCH_TIME_LIMIT", "0.3")
     model = create(write_model("while True:\n    pass"))
-    reasons = [evaluate(model, "pull_off_force", CASE).reason for _ in range(PATIENCE + 1)]
+    reasons = [row_of(model).reason for _ in range(PATIENCE + 1)]
     assert all("within 0.3 s (FSCM_BENCH_TIME_LIMIT)" in reason for reason in reasons[:PATIENCE])
     assert reasons[-1].startswith("not evaluated: it ran out of time")
 
 
 def test_one_that_allocates_without_bound_runs_into_its_limit(write_model, monkeypatch):
     monkeypatch.setenv("FSCM_BENCH_MEMORY_LIMIT", "1500")
-    model = create(write_model("kept = []\nwhile True:\n    kept.append(bytearray(50_000_000))"))
-    row = evaluate(model, "pull_off_force", CASE)
+    row = row_of(create(write_model("kept = []\nwhile True:\n    kept.append(bytearray(50_000_000))")))
     assert row.status == "failed"
     assert "1500 MB" in row.reason
 
 
-@pytest.mark.parametrize("limit", ["0", "-1", "inf", "much"])
+@pytest.mark.parametrize("limit", ["0", "inf", "much"])
 @pytest.mark.parametrize("name", ["FSCM_BENCH_TIME_LIMIT", "FSCM_BENCH_MEMORY_LIMIT"])
 def test_a_limit_that_is_none_is_wrong_input(write_model, monkeypatch, capsys, name, limit):
     monkeypatch.setenv(name, limit)
@@ -103,8 +106,7 @@ def test_a_limit_that_is_none_is_wrong_input(write_model, monkeypatch, capsys, n
 
 
 def test_a_refusal_whose_text_cannot_be_had_is_a_refusal(write_model):
-    odd = create(write_model("raise type('Odd', (NotApplicable,), {'__str__': lambda self: 1 / 0})"))
-    row = evaluate(odd, "pull_off_force", CASE)
+    row = row_of(create(write_model("raise type('Odd', (NotApplicable,), {'__str__': lambda self: 1 / 0})")))
     assert row.status == "not-applicable"
     assert "__str__ raises ZeroDivisionError" in row.reason
 
@@ -113,35 +115,19 @@ def test_it_does_not_see_our_environment_and_its_children_end_with_it(write_mode
     monkeypatch.setenv("SOME_TOKEN", "secret")
     body = "if 'SOME_TOKEN' in os.environ:\n    return None\nchild = os.fork()\nif child == 0:\n    time.sleep(1000)\n"
     model = create(write_model(f"{body}return Result(float(child), 0.0)"))
-    grandchild = int(evaluate(model, "pull_off_force", CASE).value)
+    grandchild = int(row_of(model).value)
     assert not has_ended(grandchild)
     model.close()
     assert comes_true(lambda: has_ended(grandchild))
 
 
-def has_ended(process):
-    """Whether a process is gone, or a zombie that has not been reaped yet."""
-    try:
-        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
-    except OSError:
-        return True
-
-
-def comes_true(condition):
-    """Whether a condition holds within a minute; a loaded machine needs a part of it."""
-    for _ in range(3000):
-        if condition():
-            return True
-        time.sleep(0.02)
-    return False
-
-
 CURVES = [
     ("np.arange(3.0), np.arange(4.0)", "displacement 3, load 4"),
-    ("np.arange(3.0), np.array([0, 1j, 2])", "complex128"),
+    ("np.arange(3.0), np.array([0, 1j, 2])", "type complex"),
     ("np.arange(3.0), np.array([0, np.nan, 2])", "not finite"),
-    ("[], []", "not 1 to"),
-    ("np.ones((2, 2)), np.ones((2, 2))", "shape (2, 2)"),
+    ("[], []", "displacement = [] must be"),
+    ("np.ones((2, 2)), np.ones((2, 2))", "column displacement"),
+    ("[1, 2], [1, 'b']", "column load"),
 ]
 
 
@@ -151,7 +137,7 @@ def test_a_nonsense_curve_is_refused(write_model, capsys):
         for number, (curve, _) in enumerate(CURVES, 1)
     )
     spec = write_model(more=f"def curve(self, problem):\n{curves}    return 'curve'")
-    for number, (_, sentence) in enumerate([*CURVES, ("", "str 'curve'")], 1):
+    for number, (_, sentence) in enumerate([*CURVES, ("", "type str")], 1):
         assert main(["curve", "--model", spec, "jkr", "--n", "2", "--k", "0", "--mu", str(number)]) == 4
         shown = capsys.readouterr()
         assert sentence in shown.err
@@ -165,21 +151,28 @@ def test_a_name_that_could_do_harm_is_refused(name):
         model_name(name)
 
 
+LOADED = "class Model: name = version = citation = domain = 'x'; evaluate = max; "
+
+
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
         ("import no_such_module_at_all", "no_such_module_at_all"),
-        ("x = 1\ndef f(:", "SyntaxError in line 2 of stranger.py"),
+        ("x = 1\ndef f(:", "stranger.py, line 2"),
         ("import os; os._exit(5)", "exit status 5"),
         ("import sys; sys.exit()", "sys.exit(None)"),
         ("x = 1", "does not define Model"),
         ("class Model: name = 'x'", "no version, citation, domain"),
-        ("class Model: name = version = citation = domain = 'x'", "evaluate"),
-        ("class Model: name = version = citation = domain = '<b>'; evaluate = max", "letters, digits"),
-        ("class Model: name = version = citation = domain = 'jkr'; evaluate = max", "a model of fscm-bench"),
-        ("class Model: name = version = citation = domain = 'x'; evaluate = max; limits = 'jkr'", "limits"),
-        ("class Model: name = version = citation = domain = 'x'; evaluate = max; limits = max", "limits|JSON"),
-        ("class Model: name = version = citation = domain = 'x'; evaluate = max; applies_to = 1", "applies_to"),
+        (LOADED.replace("evaluate = max;", ""), "evaluate"),
+        (LOADED.replace("'x'", "'<b>'"), "letters, digits"),
+        (LOADED.replace("'x'", "'jkr'"), "a model of fscm-bench"),
+        (LOADED + "limits = 'jkr'", "limits"),
+        (LOADED + "limits = max", "type builtin"),
+        (LOADED + "applies_to = 1", "applies_to"),
+        *(
+            (LOADED + f"files = {files}", "files")
+            for files in ('"a.csv"', "(1,)", '("a",)', '("/etc/passwd",)', '("\\0",)')
+        ),
         ("class Model:\n    def __init__(self):\n        raise ValueError('no such table')", "no such table"),
         ("class Model:\n    def __init__(self, radius):\n        pass", "radius"),
     ],
@@ -188,7 +181,7 @@ def test_one_that_cannot_be_loaded_is_wrong_input(tmp_path, capsys, text, senten
     (tmp_path / "stranger.py").write_text(text)
     assert main(["solve", "--model", f"{tmp_path / 'stranger.py'}:Model", *FORCE]) == 2
     shown = capsys.readouterr()
-    assert any(words in shown.err for words in sentence.split("|"))
+    assert sentence in shown.err
     assert "NotApplicable" not in shown.err
     assert shown.err.count("\n") == 1
     assert shown.out == ""
@@ -211,3 +204,76 @@ def test_a_run_completes_the_others_and_its_files_are_its_own(write_model, few_c
     assert by_model == {"bradley": {"ok"}, "good": {"ok"}, "leaver": {"failed"}, "looper": {"failed"}}
     assert table.loc[table["model"] == "good", "value"].tolist() == [1.5] * 4
     assert os.path.getsize(out / "results.csv") > 500
+
+
+LANDLOCK = "import sys; from comparisons.external.landlock import write_only_in; sys.exit(write_only_in(sys.argv[1]))"
+
+#: The value is the number of actions that are possible elsewhere, and that of a file there which is read.
+ELSEWHERE = """
+old, new = Path({folder!r}, "old"), Path({folder!r}, "new")
+Path("here").write_text("x")
+Path(os.devnull).write_text("x")
+done = []
+def tried(action):
+    with suppress(OSError):
+        action()
+        done.append(action)
+for action in (lambda: old.open("a").write("1"), old.unlink, new.touch, new.mkdir, lambda: os.rename("here", new),
+               lambda: os.symlink("here", new)):
+    tried(action)
+os.system(f"echo x > {{new}}")
+thread = threading.Thread(target=tried, args=(new.touch,))
+thread.start()
+thread.join()
+return Result(len(done) + float(old.read_text()), 0.0)
+"""
+
+
+def test_only_the_scratch_folder_is_writable(write_model, tmp_path):
+    if subprocess.run([sys.executable, "-c", LANDLOCK, str(tmp_path)], check=False).returncode != 1:
+        pytest.skip("this kernel has no Landlock")
+    folder = tmp_path / "elsewhere"
+    folder.mkdir()
+    (folder / "old").write_text("0.5")
+    row = row_of(create(write_model(ELSEWHERE.format(folder=str(folder)))))
+    assert (row.reason, row.value) == ("", 0.5)
+    assert [path.name for path in folder.iterdir()] == ["old"]
+
+
+#: Loads a model, prints the id of its process, and is then busy with a case of it.
+PARENT = """
+import sys
+from comparisons.registry import create
+from fscm.problem import Problem
+model = create(sys.argv[1])
+print(model.citation, flush=True)
+model.evaluate(Problem(2, 0, 1), "pull_off_force")
+"""
+
+
+@pytest.mark.parametrize(
+    ("number", "start"),
+    [
+        (signal.SIGTERM, "os.chdir({own!r})"),
+        (signal.SIGINT, "os.mkdir('a', 0o700)\n    os.chmod('a', 0)"),
+        (signal.SIGKILL, "os.mkdir('a')\n    os.chdir('a')\n    os.rmdir('../a')"),
+        (signal.SIGKILL, "os.symlink({own!r}, 'a')\n    os._exit = os.kill = shutil.rmtree = lambda *_, **__: None"),
+    ],
+)
+def test_process_and_scratch_folder_end_with_the_parent_and_other_files_stay(write_model, tmp_path, number, start):
+    own = tmp_path / "own"
+    own.mkdir()
+    (own / "thesis.tex").write_text("1")
+    more = f"citation = property(lambda self: str(os.getpid()))\ndef __init__(self):\n    {start.format(own=str(own))}"
+    spec = write_model("while True:\n    pass", more=more)
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    command = [sys.executable, "-c", PARENT, spec]
+    environment = os.environ | {"TMPDIR": str(temporary)}
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, env=environment) as parent:
+        child = int(parent.stdout.readline())
+        assert list(temporary.iterdir())
+        parent.send_signal(number)
+    assert comes_true(lambda: has_ended(child))
+    assert comes_true(lambda: not list(temporary.iterdir()))
+    assert (own / "thesis.tex").read_text() == "1"

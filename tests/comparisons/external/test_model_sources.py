@@ -1,21 +1,23 @@
-"""One model from three sources (package, file, data), with the same results; and what names no model."""
+"""One model from four sources (package, file, program, data), with the same results; and what names no model."""
 
 import csv
+import re
+from pathlib import Path
 
 import pytest
 
 from comparisons.cli.main import main
 from comparisons.external.model_source import close_models, load_model, source_of
-from comparisons.external.worker import check_methods
-from comparisons.model import HasCurve, Model
+from comparisons.model import ComputationFailed, HasCurve, Model, NotApplicable
 from comparisons.registry import create
-from comparisons.runs.cases import Case
-from comparisons.runs.tasks import evaluate
+from fscm.problem import Problem
 
-from .conftest import EXAMPLE, GATE
+from .conftest import EXAMPLE, GATE, comes_true, has_ended, row_of
 
+ROOT = Path(__file__).resolve().parents[3]
 FILE_SOURCE = f"{EXAMPLE / 'double_hertz.py'}:DoubleHertz"
 QUANTITY = "pull_off_force"
+CASE = Problem(2, 0.4, 1)
 
 
 @pytest.fixture
@@ -24,31 +26,24 @@ def data_source(write_data):
     model = create(FILE_SOURCE)
     rows = []
     for k, mu in ((0, 0.1), (0, 1), (0.4, 0.1), (0.4, 1)):
-        result = model.evaluate(Case(2, k, mu).problem(), QUANTITY)
+        result = model.evaluate(Problem(2, k, mu), QUANTITY)
         rows.append(f"{QUANTITY},2,{k},{mu},{result.value!r},{result.u_num!r}")
     return str(write_data(rows, change={'"measured"': '"double-hertz"'}))
 
 
-@pytest.fixture
-def once(few_cases, tmp_path):
-    """Return a function that runs a model and returns the status and the rows, without what differs by its nature."""
+def test_all_sources_give_the_same_rows_and_verdicts(data_source, installed_example, few_cases, tmp_path):
     (tmp_path / "gates.toml").write_text(GATE.replace("0.1", "0.5"))
-    options = ["--jobs", "1", "--gates", str(tmp_path / "gates.toml")]
-
-    def go(spec, out):
-        status = main(["run", *options, "--out", str(tmp_path / out), "--model", spec])
-        rows = csv.DictReader((tmp_path / out / "results.csv").read_text().splitlines())
-        return status, [{name: row[name] for name in row if name not in {"model_version", "seconds"}} for row in rows]
-
-    return go
-
-
-def test_all_sources_give_the_same_rows_and_verdicts(data_source, installed_example, once, tmp_path):
-    tables = [once(spec, str(number)) for number, spec in enumerate((installed_example, FILE_SOURCE, data_source))]
+    tables, verdicts = [], []
+    for number, spec in enumerate((installed_example, FILE_SOURCE, data_source)):
+        out = tmp_path / str(number)
+        gates = str(tmp_path / "gates.toml")
+        assert main(["run", "--jobs", "1", "--gates", gates, "--out", str(out), "--model", spec]) == 0
+        rows = csv.DictReader((out / "results.csv").read_text().splitlines())
+        # Without what differs by its nature.
+        tables.append([{name: row[name] for name in row if name not in {"model_version", "seconds"}} for row in rows])
+        verdicts.append((out / "verdicts.csv").read_text())
     assert tables[0] == tables[1] == tables[2]
-    assert tables[0][0] == 0
-    assert [row["status"] for row in tables[0][1]] == ["ok"] * 8
-    verdicts = [(tmp_path / str(number) / "verdicts.csv").read_text() for number in range(3)]
+    assert [row["status"] for row in tables[0]] == ["ok"] * 8
     assert verdicts[0] == verdicts[1] == verdicts[2]
     assert verdicts[0].count("PASS") == 4
 
@@ -57,23 +52,15 @@ def test_the_installed_example_keeps_the_contract_is_listed_and_has_a_curve(inst
     model = create(installed_example)
     assert isinstance(model, Model)
     assert isinstance(model, HasCurve)
-    for quantity, case in ((QUANTITY, Case(1, 0, 1)), ("jump_out_displacement", Case(2, 0, 0.1))):
-        assert evaluate(model, quantity, case).status == "not-applicable"
+    assert row_of(model, n=1, k=0).status == "not-applicable"
+    assert row_of(model, 0.1, k=0, quantity="jump_out_displacement").status == "not-applicable"
     assert main(["list", "models"]) == 0
     assert "installed by double-hertz" in capsys.readouterr().out
     assert main(["curve", "--model", installed_example, "jkr", "--n", "2", "--k", "0.4", "--mu", "1"]) == 0
     rows = csv.DictReader(capsys.readouterr().out.splitlines())
     # The curve's own minimum, on 201 points, against the pull-off force of the same model.
     least = min(float(row["load"]) for row in rows if row["model"] == "double-hertz")
-    assert -least == pytest.approx(evaluate(model, QUANTITY, Case(2, 0.4, 1)).value, rel=1e-3)
-
-
-def test_a_run_goes_on_and_notices_that_a_model_changed(write_model, once, capsys):
-    for value, computed in ((1.5, 4), (1.5, 0), (1.6, 4)):
-        close_models()
-        _, rows = once(write_model(f"return Result({value}, 0.0)"), "out")
-        assert f"{computed} computations" in capsys.readouterr().err
-        assert [float(row["value"]) for row in rows if row["model"] == "stranger"] == [value] * 4
+    assert -least == pytest.approx(row_of(model).value, rel=1e-3)
 
 
 def test_two_models_of_one_name_are_refused(data_source, capsys):
@@ -97,13 +84,13 @@ def test_a_folder_and_an_installed_model_of_its_name_are_told_apart(
 
 
 @pytest.mark.parametrize("mode", [0o644, 0o755])
-def test_a_bare_table_is_told_how_to_be_data(tmp_path, monkeypatch, mode):
+@pytest.mark.parametrize("spec", ["mine.csv", "./mine.csv"])
+def test_a_bare_table_is_told_how_to_be_data(tmp_path, monkeypatch, mode, spec):
     """With and without a separator in the SPEC, and on a file system that marks every file as executable."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.csv").touch(mode)
-    for spec in ("mine.csv", "./mine.csv"):
-        with pytest.raises(ValueError, match=rf"{spec} is a table .* model\.toml"):
-            source_of(spec)
+    with pytest.raises(ValueError, match=rf"{spec} is a table .* model\.toml"):
+        source_of(spec)
 
 
 @pytest.mark.parametrize("spec", ["", " \t", "./nothing", "nothing.py:Model", "model.py:2", "./model.py"])
@@ -124,14 +111,163 @@ def test_what_names_no_model_is_refused_in_one_sentence(tmp_path, monkeypatch, c
         ("def evaluate(self, *, problem, quantity): ...", "evaluate(problem, quantity)"),
         ("def evaluate_physical(self, problem): ...", "evaluate_physical(problem, quantity)"),
         ("def curve(self): ...", "curve(problem)"),
+        ("def evaluate(self, case, name, accuracy=None): ...", ""),
+        ("evaluate = property(lambda self: max)", ""),
     ],
 )
 def test_methods_that_take_other_arguments_are_refused_with_their_line(write_model, method, called):
+    spec = write_model(more=method)
+    if not called:
+        assert load_model(spec).name == "stranger"
+        return
     with pytest.raises(ValueError, match=r"in line \d+ of stranger\.py is called as ") as refusal:
-        load_model(write_model(more=method))
+        load_model(spec)
     assert called in str(refusal.value)
 
 
-def test_any_names_and_defaults_will_do_and_a_compiled_method_too(write_model):
-    assert load_model(write_model(more="def evaluate(self, case, name, accuracy=None): ...")).name == "stranger"
-    check_methods(type("Compiled", (), {"evaluate": property(lambda self: max)})(), physical=False)
+PROGRAM = ROOT / "tests" / "examples" / "program" / "jkr.sh"
+DESCRIBE = '{"name": "mine", "version": "1", "citation": "A. Author", "domain": "n = 2"}'
+#: Replies to the first request, and then does with every other one what the test states.
+SCRIPT = """#!/bin/sh
+read -r request
+echo '{describe}'
+while read -r request; do
+{body}
+done
+"""
+
+
+@pytest.fixture
+def write_program(tmp_path):
+    """Return a function that writes a shell script and returns its SPEC."""
+
+    def write(body, describe=DESCRIBE, text=None):
+        file = tmp_path / "program"
+        file.write_text(text or SCRIPT.format(describe=describe, body=body), encoding="utf-8")
+        file.chmod(0o755)
+        return str(file)
+
+    return write
+
+
+def ok(value="1.7", more=""):
+    return f"""echo '{{"status": "ok", "value": {value}, "u_num": 1e-15{more}}}'"""
+
+
+def test_the_program_of_the_document_has_the_values_of_jkr_and_keeps_the_contract(capsys):
+    document = (ROOT / "docs" / "judge_your_model.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"^```sh\n(#!/bin/sh\n.*?)^```", document, flags=re.MULTILINE | re.DOTALL)
+    assert blocks == [PROGRAM.read_text(encoding="utf-8")]
+    model = create(str(PROGRAM))
+    assert abs(row_of(model).value - row_of(create("jkr")).value) <= 1e-15
+    assert str(model.applies_to) == "pull_off_force for n = 2, 0 <= k <= 0.9, mu >= 0.01"
+    assert row_of(model, n=1, k=0).reason == "the model is for n = 2"
+    assert not isinstance(model, HasCurve)
+    assert main(["check-model", str(PROGRAM)]) == 0
+    assert "hashed: all files in program" in " ".join(capsys.readouterr().out.split())
+
+
+def test_counts_and_a_curve_of_a_program(write_program):
+    body = f"""case $request in
+*evaluate*) {ok(more=', "size": 12.0, "iterations": 3, "residual": 1e-12')} ;;
+*) echo '{{"status": "ok", "displacement": [-1, 0], "load": [-0.5, 0.2], "columns": {{"contact_radius": [0.1, 1]}}}}' ;;
+esac"""
+    model = create(write_program(body, DESCRIBE[:-1] + ', "curve": true, "limits": ["jkr"]}'))
+    result = model.evaluate(CASE, QUANTITY)
+    assert (result.size, result.iterations, result.residual) == (12, 3, 1e-12)
+    curve = model.curve(CASE)
+    assert curve.load.tolist() == [-0.5, 0.2]
+    assert curve.columns["contact_radius"].tolist() == [0.1, 1.0]
+    assert model.limits == ("jkr",)
+
+
+#: What a program does instead of a reply, and the sentence about it.
+DEFECTS = (
+    ("echo 'cannot open table' >&2; exit 3", "exit status 3 instead of a reply; .*: cannot open table"),
+    ("kill -9 $$", "was killed by signal 9"),
+    ("exec 1>&-; sleep 60", "closed its standard output"),
+    ("echo 1.7", "wrote '1.7', which is not one JSON object"),
+    ("echo", "wrote '', which is not one JSON object"),
+    ("printf '\\377\\n'", "which is not one JSON object"),
+    (ok("NaN"), "wrote NaN, which is not a finite number"),
+    (ok("1e999"), "value = inf must be a finite"),
+    (ok('"1.7"'), "value = '1.7' must be a finite real number"),
+    (ok(more=', "size": -1'), "size = -1 must be"),
+    (ok(more=', "unum": 1'), "unknown key 'unum'"),
+    ("""echo '{"status": "ok", "value": 1.7}'""", "u_num missing"),
+    ("""echo '{"value": 1.7, "u_num": 0}'""", "status = None"),
+    ("""echo '{"status": []}'""", "status = "),
+    ("""echo '{"status": "failed", "reason": "no root"}'""", "^no root$"),
+    ("""echo '{"status": "failed"}'""", "no reason"),
+    (f"{ok()}; {ok()}", "more than one line for"),
+    ("head -c 2000000 /dev/zero | tr '\\0' '['; echo", "which is not one JSON object"),
+    ("yes | tr -d '\\n'", "wrote 200 MB without the end of a line"),
+)
+
+
+def test_a_defect_of_a_program_is_one_sentence_and_costs_one_result(write_program):
+    """The defect depends on the Tabor number; after it the program is started again."""
+    cases = [f"*'\"mu\": {number}.0'*)\n{body}\n;;" for number, (body, _) in enumerate(DEFECTS, 1)]
+    model = create(write_program("\n".join(["case $request in", *cases, f"*)\n{ok()}\n;; esac"])))
+    for number, (_, sentence) in enumerate(DEFECTS, 1):
+        # What is too much after a reply is seen at the next request.
+        with pytest.raises(ComputationFailed, match=sentence):
+            [model.evaluate(Problem(2, 0, mu), QUANTITY) for mu in (number, 0.5)]
+        assert model.evaluate(Problem(2, 0, 0.5), QUANTITY).value == 1.7
+
+
+def test_a_program_that_is_too_slow_or_keeps_its_line_is_ended(write_program, monkeypatch):
+    monkeypatch.setenv("FSCM_BENCH_TIME_LIMIT", "1.5")
+    with pytest.raises(ComputationFailed, match=r"within 1.5 s \(FSCM_BENCH_TIME_LIMIT\) .* must flush"):
+        create(write_program("sleep 60")).evaluate(CASE, QUANTITY)
+    close_models()
+    with pytest.raises(ValueError, match=r"cannot be loaded: .* must flush its standard output"):
+        create(write_program("", text="#!/bin/sh\nread -r request\nprintf '{}'\nsleep 60\n"))
+
+
+@pytest.mark.parametrize(
+    ("describe", "sentence"),
+    [
+        ("{}", "name, version, citation, domain missing"),
+        (DESCRIBE.replace('"1"', "1"), "version = 1 must be a text"),
+        (DESCRIBE.replace('"mine"', '"two words"'), "'two words' is not 1 to 64 letters"),
+        (DESCRIBE[:-1] + ', "limits": "jkr"}', "limits = 'jkr'"),
+        (DESCRIBE[:-1] + ', "applies_to": {"n": [2, 2]}}', "applies_to: quantities = None is not a list"),
+        (DESCRIBE[:-1] + ', "applies_to": {"quantities": [["a"]]}}', "cannot be loaded"),
+        (DESCRIBE[:-1] + ', "python": {}}', "unknown key 'python'"),
+        (DESCRIBE[:-1] + ', "files": ["none.csv"]}', "there is no such file or folder beside the model"),
+    ],
+)
+def test_a_program_that_describes_no_model_cannot_be_loaded(write_program, describe, sentence):
+    with pytest.raises(ValueError, match=re.escape(sentence)):
+        create(write_program(ok(), describe))
+
+
+def test_what_is_no_program_is_wrong_input(write_program):
+    with pytest.raises(ValueError, match=r"cannot be started .*whose first line"):
+        create(write_program("", text="no program\n"))
+
+
+def test_a_program_has_the_limits_of_other_models_and_ends_with_it(write_program, tmp_path, monkeypatch):
+    """It writes in the scratch folder, and not beside itself; its memory is limited; it sees no token of ours."""
+    target = tmp_path / "written"
+    body = f"""
+free=yes; (echo x > {target}) 2>/dev/null || free=no
+scratch=no; (echo x > here) && scratch=yes
+printf '{{"status": "not-applicable", "reason": "%s %s %s %s %s"}}\\n' $$ $free $scratch $(ulimit -v) "$SECRET_TOKEN"
+"""
+    monkeypatch.setenv("SECRET_TOKEN", "secret")
+    with pytest.raises(NotApplicable) as refusal:
+        create(write_program(body)).evaluate(CASE, QUANTITY)
+    process, free, scratch, kilobytes, *token = str(refusal.value).split()
+    assert (scratch, int(kilobytes), token) == ("yes", 4_096_000_000 // 1024, [])
+    assert (free == "no") == (not target.exists())
+    assert not has_ended(process)
+    close_models()
+    assert comes_true(lambda: has_ended(process))
+
+
+def test_a_changed_program_has_another_version(write_program):
+    version = create(write_program(ok())).version
+    close_models()
+    assert create(write_program(ok("1.8"))).version != version

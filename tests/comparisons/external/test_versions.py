@@ -1,0 +1,278 @@
+"""Version of a model: changed by every file that its numbers depend on; rows of another version are never used."""
+
+import os
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from comparisons.cli.main import main
+from comparisons.external import fingerprint as module
+from comparisons.external.model_source import GROUP, close_models
+from comparisons.registry import ExternalIdentity, create, identify
+from comparisons.runs.cases import Case
+from comparisons.runs.record import read_record
+from comparisons.runs.tables import read_table
+from comparisons.runs.tasks import Task, evaluate_task
+
+from .conftest import GATE, GOOD, opened, row_of
+
+READS = """
+text = Path({folder!r}, "table.csv").read_text()
+import late
+return Result(float(text) + late.VALUE, 0.0)
+"""
+
+
+@pytest.fixture
+def folder(tmp_path, write_model):
+    """A folder with a model that reads a table and imports a module late, and a program beside them."""
+    (tmp_path / "table.csv").write_text("1.5")
+    (tmp_path / "late.py").write_text("VALUE = 0.0\n")
+    (tmp_path / "solver").write_bytes(b"\x7fELF\x00")
+    (tmp_path / "data").mkdir()
+    (tmp_path / "data" / "points.npy").write_bytes(b"\x93NUMPY")
+    write_model(READS.format(folder=str(tmp_path)))
+    return tmp_path
+
+
+def of_folder(folder):
+    return opened(f"{folder / 'stranger.py'}:Model")
+
+
+def test_every_file_of_a_small_folder_counts(folder):
+    versions = [of_folder(folder).version]
+    assert "all files in" in of_folder(folder).hashed
+    assert "5 files" in of_folder(folder).hashed
+    for changed in ("late.py", "solver", "data/points.npy", "stranger.py", "new.dat"):
+        with (folder / changed).open("ab") as file:
+            file.write(b"\n#")
+        versions.append(of_folder(folder).version)
+    (folder / "table.csv").write_text("1.6")
+    row = row_of(of_folder(folder))
+    assert row.value == 1.6
+    assert len({*versions, row.model_version}) == 7
+
+
+#: What is beside a model without being its own.
+OTHERS = (
+    *("venv/pyvenv.cfg", "old/run.json", "old/kappa.csv", ".hidden", "stranger.pyc", "run.log", "stranger.py~"),
+    *(f"{name}/file" for name in (".git", "__pycache__", "results", "stranger.egg-info", "fscm-bench-abc")),
+)
+
+
+def test_what_a_run_an_editor_or_git_writes_does_not_count(folder):
+    before = of_folder(folder)
+    for name in OTHERS:
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(name)
+    (folder / "link").symlink_to(folder)
+    os.mkfifo(folder / "pipe")
+    # As in ``fscm-bench run --model stranger.py:Model > output.txt``.
+    kept = os.dup(1)
+    with (folder / "output.txt").open("w") as file:
+        os.dup2(file.fileno(), 1)
+    try:
+        after = of_folder(folder)
+    finally:
+        os.dup2(kept, 1)
+        os.close(kept)
+    assert (after.version, after.hashed) == (before.version, before.hashed)
+
+
+@pytest.mark.parametrize(
+    "enlarge",
+    [
+        lambda folder: [(folder / f"{number}.dat").touch() for number in range(module.MOST_FILES)],
+        lambda folder: os.truncate(folder / "solver", module.MOST_BYTES),
+        lambda folder: folder.chmod(0o1777),  # the folder for temporary files
+    ],
+)
+def test_of_a_large_or_shared_folder_what_is_imported_or_declared_counts(folder, write_model, enlarge):
+    enlarge(folder)
+    write_model(f"import late\n{GOOD}", more="import late")
+    before = of_folder(folder)
+    assert "the imported modules in" in before.hashed
+    (folder / "table.csv").write_text("1.6")
+    assert of_folder(folder).version == before.version
+    (folder / "late.py").write_text("VALUE = 1.0\n")
+    assert of_folder(folder).version != before.version
+    write_model(more='files = ("table.csv", "data/", "results/fit.csv")')
+    (folder / "results").mkdir()
+    (folder / "results" / "fit.csv").write_text("1")
+    versions = [of_folder(folder).version]
+    for changed in ("table.csv", "data/points.npy", "results/fit.csv"):
+        (folder / changed).write_text("1.7")
+        versions.append(of_folder(folder).version)
+    assert len(set(versions)) == 4
+
+
+def test_a_file_may_have_the_name_of_a_module_of_python(folder, write_model):
+    spec = write_model(name="statistics")
+    before = opened(spec).version
+    (folder / "table.csv").write_text("2")
+    assert opened(spec).version != before
+
+
+@pytest.fixture
+def site(tmp_path, monkeypatch):
+    """An installed package with a table in it, and a module of another package beside it."""
+    site = tmp_path / "site-packages"
+    for name, text in {
+        "stranger/__init__.py": "",
+        "stranger/table.csv": "1.5",
+        "stranger/model.py": "import other\nclass Model:\n"
+        '    name, version, citation, domain = "stranger", "1", "none", "tests"\n'
+        "    def evaluate(self, problem, quantity): ...\n",
+        "other.py": "",
+        "stranger-1.dist-info/METADATA": "Metadata-Version: 2.1\nName: stranger\nVersion: 1\n",
+        "stranger-1.dist-info/entry_points.txt": f"[{GROUP}]\nstranger = stranger.model:Model\n",
+    }.items():
+        (site / name).parent.mkdir(parents=True, exist_ok=True)
+        (site / name).write_text(text)
+    monkeypatch.syspath_prepend(site)
+    return site
+
+
+def test_every_file_of_an_installed_package_counts_and_none_beside_it(site):
+    before = opened("stranger").version
+    (site / "other.py").write_text("x = 1")
+    assert opened("stranger").version == before
+    (site / "stranger" / "table.csv").write_text("1.6")
+    assert opened("stranger").version != before
+
+
+def test_of_a_single_installed_module_what_its_package_lists_counts(site):
+    """A distribution of modules without a package: its record lists its files."""
+    (site / "stranger" / "model.py").rename(site / "model.py")
+    (site / "table.csv").write_text("1")
+    (site / "stranger-1.dist-info" / "entry_points.txt").write_text(f"[{GROUP}]\nstranger = model:Model\n")
+    (site / "stranger-1.dist-info" / "RECORD").write_text("model.py,,\ntable.csv,,\nstranger-1.dist-info/METADATA,,\n")
+    before = opened("stranger")
+    assert "2 files" in before.hashed
+    (site / "other.py").write_text("x = 1")
+    assert opened("stranger").version == before.version
+    (site / "table.csv").write_text("2")
+    assert opened("stranger").version != before.version
+
+
+def test_a_run_goes_on_with_a_model_that_names_itself_by_its_process(write_model, few_cases, tmp_path):
+    specs = [write_model(name="good"), write_model(more="name = f'stranger-{os.getpid()}'")]
+    # With two processes each of them opens the model again.
+    assert main(["run", "--jobs", "2", "--out", str(tmp_path / "out"), "--model", *specs]) == 4
+    table = pd.read_csv(tmp_path / "out" / "results.csv", dtype=str)
+    strange = table[table["model"].str.startswith("stranger")]
+    assert strange["model"].nunique() == strange["model_version"].nunique() == 1
+    assert strange["status"].tolist() == ["failed"] * 4
+    assert strange["reason"].str.contains("name or version changed").all()
+    assert table.loc[table["model"] == "good", "status"].tolist() == ["ok"] * 4
+
+
+@pytest.mark.parametrize("more", ["name = 'jkr'", "name = '<b>'", "version = os.urandom(8).hex()"])
+def test_a_row_is_of_the_model_that_the_run_opened(write_model, more):
+    before = ExternalIdentity("stranger", "1 (0)", write_model(more=more), "A. Author", "tests")
+    row = evaluate_task(Task("stranger", "pull_off_force", Case(2, 0, 1), before))
+    assert (row.model, row.model_version, row.status) == ("stranger", "1 (0)", "failed")
+
+
+def test_a_process_that_had_to_be_started_again_is_compared_with_the_one_before(write_model, tmp_path):
+    by_process = create(
+        write_model(f"if problem.mu == 7:\n    os._exit(1)\n{GOOD}", more="version = os.urandom(8).hex()")
+    )
+    rows = [row_of(by_process, mu) for mu in (1, 7, 1, 1)]
+    assert [row.status for row in rows] == ["ok", "failed", "failed", "failed"]
+    assert "exit status 1" in rows[1].reason
+    assert "name or version changed" in rows[2].reason == rows[3].reason
+    (tmp_path / "table.csv").write_text("1")
+    model = create(write_model(name="other"))
+    model.close()
+    (tmp_path / "table.csv").write_text("2")
+    row = row_of(model)
+    assert row.status == "failed"
+    assert row.reason.startswith("the model's files changed")
+
+
+PAD = Path(__file__).parents[3] / "docs" / "examples" / "problems" / "graded_pad.toml"
+
+
+@pytest.fixture
+def once(write_model, few_cases, tmp_path, tmp_path_factory, capsys):
+    """Return a function that writes the data the model reads, computes, and returns status and messages.
+
+    The data are not in the folder of the model, whose digest would show the change.
+    """
+    (tmp_path / "gates.toml").write_text(GATE)
+    data = tmp_path_factory.mktemp("elsewhere") / "data.txt"
+
+    def go(text, command=("run", "--gates", str(tmp_path / "gates.toml"))):
+        data.write_text(text)
+        close_models()
+        spec = write_model(f"return Result(float(Path({str(data)!r}).read_text()), 0.0)")
+        capsys.readouterr()
+        status = main([*command, "--jobs", "1", "--out", str(tmp_path / "out"), "--model", spec, "jkr"])
+        return status, capsys.readouterr().err
+
+    return go
+
+
+def values(folder):
+    table = read_table(folder / "out" / "results.parquet")
+    return table.loc[table["model"] == "stranger", "value"].tolist()
+
+
+def again(folder):
+    return read_record(folder / "out" / "run.json").get("evaluated_again", {"models": {}})["models"].get("stranger")
+
+
+def test_an_old_pass_does_not_stand_when_the_data_have_changed(once, tmp_path):
+    once("2.0")
+    assert again(tmp_path) is None
+    _, messages = once("2.0")
+    assert "0 computations" in messages
+    assert again(tmp_path)["same"]
+    assert len(again(tmp_path)["tasks"]) == 3
+    status, messages = once("2.5")
+    assert status == 1
+    assert "stranger has changed" in messages
+    assert values(tmp_path) == [2.5] * 4
+    assert not again(tmp_path)["same"]
+    # The rows that were not trusted are gone for good.
+    assert "0 computations" in once("2.5")[1]
+    status, messages = once("two")
+    assert status == 4
+    assert "is failed" in messages
+    assert 2.5 not in values(tmp_path)
+    once("2.0")
+    assert values(tmp_path) == [2.0] * 4
+
+
+def test_old_rows_of_a_sweep_over_a_problem_file_do_not_stand(once, tmp_path):
+    sweep = ["sweep", "--problem", str(PAD), "--vary", "punch.R=1:4:4 um", "--quantity", "pull_off_force"]
+    assert once("2.0", sweep)[0] == 0
+    before = values(tmp_path)
+    assert "0 computations" in once("2.0", sweep)[1]
+    status, messages = once("3.0", sweep)
+    assert status == 0
+    # All of this model, and none of the other.
+    assert "4 are stored" in messages
+    assert values(tmp_path) == pytest.approx([1.5 * value for value in before])
+
+
+def test_rows_of_another_version_are_not_used(write_model, few_cases, tmp_path):
+    vary = ["--vary", "punch.R=1:4:4 um", "--quantity", "pull_off_force"]
+    for command in (["run"], ["sweep", "--problem", str(PAD), *vary]):
+        out = tmp_path / command[0]
+        for value in (1.5, 1.6):
+            close_models()
+            spec = write_model(f"return Result({value}, 0.0)")
+            main([*command, "--jobs", "1", "--out", str(out), "--model", spec, "bradley"])
+            rows = read_table(out / "results.parquet")
+            column = "value" if command == ["run"] else "dimensionless_value"
+            assert rows.loc[rows["model"] == "stranger", column].tolist() == pytest.approx([value] * 4)
+
+
+def test_what_was_hashed_is_passed_on_and_a_class_of_python_has_no_files(folder):
+    spec = f"{folder / 'stranger.py'}:Model"
+    _, external = identify([spec, "jkr"])
+    assert external["stranger"].hashed == create(spec).hashed
+    assert module.fingerprint({})[1].startswith("nothing")
