@@ -4,8 +4,8 @@ The names below are loaded when they are first used, so that ``import comparison
 
 Examples
 --------
->>> from comparisons import Case, create, evaluate
->>> evaluate(create("bradley"), "pull_off_force", Case(n=2, k=0.4, mu=1)).value
+>>> from comparisons import Problem, evaluate
+>>> evaluate("bradley", "pull_off_force", Problem.dimensionless(n=2, k=0.4, mu=1)).value
 2.0
 """
 
@@ -28,9 +28,7 @@ _EXPORTS = {
     "PhysicalModel": "comparisons.external.physical_model",
     "QUANTITIES": "comparisons.quantities",
     "create": "comparisons.registry",
-    "load_problem": "comparisons.problem_file.reading",
-    "evaluate_problem": "comparisons.problem_file.evaluation",
-    "Case": "comparisons.runs.cases",
+    "Problem": "comparisons.problem",
     "evaluate": "comparisons.runs.tasks",
     "errors": "comparisons.pipeline.errors",
     "compare": "comparisons.pipeline.compare",

@@ -33,12 +33,12 @@ from comparisons.data.file_names import (
     RESULTS,
 )
 from comparisons.paper import baseline as paper_baseline
+from comparisons.problem import PARAMETERS
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.committed import committed
 from comparisons.runs.csv_format import csv_text, read_csv
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import check_files, read_record
-from comparisons.runs.rows import PARAMETERS
 from comparisons.runs.tables import read_table
 
 __all__ = [

@@ -46,7 +46,7 @@ class Range:
     quantities: tuple[str, ...]
     limits: tuple[tuple[str, float, float], ...]
 
-    def within(self, case: Mapping[str, float | None]) -> bool:
+    def within(self, case: Mapping[str, Any]) -> bool:
         """Whether a case is inside; a parameter that is None in the case is not restricted."""
         values = ((case.get(name), low, high) for name, low, high in self.limits)
         return all(value is None or low <= value <= high for value, low, high in values)
@@ -119,7 +119,7 @@ class Domain:
         """Return the tables that have a quantity."""
         return [table for table in self.tables if quantity in table.quantities]
 
-    def contains(self, quantity: str, case: Mapping[str, float | None]) -> bool:
+    def contains(self, quantity: str, case: Mapping[str, Any]) -> bool:
         """Whether a quantity is promised in a case.
 
         Parameters

@@ -1,6 +1,6 @@
 """The contract of every model: its methods, its results and its two exceptions.
 
-Data flow: a `fscm.problem.Problem` and the name of a quantity go in, a `Result` comes out.  A model that
+Data flow: a `comparisons.Problem` and the name of a quantity go in, a `Result` comes out.  A model that
 does not define the quantity raises `NotApplicable` with one sentence; a computation that did not converge
 raises `ComputationFailed`.  No model returns an unconverged number.
 """
@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fscm.problem import Problem
+if TYPE_CHECKING:
+    from comparisons.problem.problem import Problem
 
 __all__ = [
     "ComputationFailed",
@@ -159,6 +160,7 @@ class Model(Protocol):
 
     Examples
     --------
+    >>> from comparisons.problem import Problem
     >>> class Rigid:
     ...     name, version, citation, domain = "rigid", "1", "Bradley (1932)", "n = 2, mu -> 0"
     ...
@@ -168,7 +170,7 @@ class Model(Protocol):
     ...         return Result(value=2.0, u_num=0.0)
     >>> isinstance(Rigid(), Model)
     True
-    >>> Rigid().evaluate(Problem(n=2, k=0, mu=1e-3), "pull_off_force").value
+    >>> Rigid().evaluate(Problem.dimensionless(n=2, k=0, mu=1e-3), "pull_off_force").value
     2.0
     """
 

@@ -28,8 +28,8 @@ LONG = {
     "comparisons.paper.studies.graded_equivalent",
     "comparisons.paper.studies.graded_routes",
     "comparisons.paper.studies.layered_adhesion",
-    "comparisons.problem_file.elastic_energy",
-    "comparisons.problem_file.equivalent_power_law",
+    "comparisons.problem.elastic_energy",
+    "comparisons.description.equivalent_power_law",
     "fem_reference.verification.element_checks",
 }
 

@@ -34,14 +34,13 @@ ALLOWED = {
     "comparisons.bench.pull_off": ("fscm", "fem_reference"),
     "comparisons.bench.elements": ("fem_reference",),
     # Pose the problem of a file to each solver: any solid, punch and law.
-    "comparisons.problem_file.dimensionless": ("fscm",),
-    "comparisons.problem_file.finite_elements": ("fem_reference",),
+    "comparisons.problem.problem": ("fscm",),
     # The pressure at the pull-off force and the surface compliance of a solid, which are no quantities of a model.
-    "comparisons.problem_file.elastic_energy": ("fscm",),
+    "comparisons.problem.elastic_energy": ("fscm",),
     # Checks the parts of a file before the whole.
-    "comparisons.problem_file.consistency": ("fscm",),
+    "comparisons.problem.consistency": ("fscm",),
     # Derivatives of a value, which are no quantity of a model.
-    "comparisons.problem_file.propagation": ("fscm",),
+    "comparisons.description.propagation": ("fscm",),
     # Solves the same graded solids by both.
     "comparisons.graded_agreement.solving": ("fscm", "fem_reference"),
     # Changes one ingredient of the Stieltjes scheme at a time.
@@ -114,12 +113,12 @@ LAYERS = {
         ("verification",),
     ),
     "comparisons": (
-        ("model", "quantities", "console"),
-        ("data", "numerics", "domain"),
+        ("console", "data", "numerics"),
+        ("model", "quantities", "domain", "problem"),
         ("models", "external"),
         ("registry",),
-        ("problem_file",),
         ("runs",),
+        ("description",),
         ("judging",),
         ("output",),
         ("paper",),

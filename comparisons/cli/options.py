@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from comparisons.runs.cases import Case
+from comparisons.problem import PARAMETERS, Problem
 from comparisons.runs.workers import usable_cores
 
 __all__ = [
@@ -19,10 +19,10 @@ __all__ = [
     "RETRY_FAILED",
     "VERBOSE",
     "Option",
-    "case_of",
     "file",
     "number",
     "option",
+    "problem_of",
     "several",
 ]
 
@@ -91,10 +91,14 @@ RETRY_FAILED = option(
 )
 
 
-def case_of(args: argparse.Namespace) -> Case:
-    """Return the case of the arguments; `ValueError` if it is inadmissible or not complete."""
-    missing = [f"--{name}" for name in ("n", "k", "mu") if getattr(args, name) is None]
-    if missing:
+def problem_of(args: argparse.Namespace) -> Problem:
+    """Return the problem of the arguments; `ValueError` if it is inadmissible, not complete or stated twice."""
+    numbers: dict[str, Any] = {name: getattr(args, name, None) for name in PARAMETERS}
+    if getattr(args, "problem", None) is not None:
+        if twice := [f"--{name}" for name, number in numbers.items() if number is not None]:
+            raise ValueError(f"{', '.join(twice)} and --problem exclude each other: the file states the whole problem")
+        return Problem.load(args.problem)
+    if missing := [f"--{name}" for name in PARAMETERS[:3] if numbers[name] is None]:
         instead = "; or give a file with --problem FILE" if "problem" in args else ""
         raise ValueError(f"the following arguments are required: {', '.join(missing)}{instead}")
-    return Case(args.n, args.k, args.mu, getattr(args, "nu", None))
+    return Problem.dimensionless(**numbers)

@@ -13,8 +13,8 @@ from comparisons.external.data_model import DataModel
 from comparisons.external.physical_model import SCALES
 from comparisons.external.process_model import ExternalModel
 from comparisons.model import ComputationFailed, NotApplicable, Result
+from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
-from fscm.problem import Problem
 
 __all__ = ["FAILED", "OK", "SKIPPED", "WRONG", "AnyExternalModel", "Evaluations", "Finding", "Key", "examine"]
 
@@ -63,7 +63,7 @@ class Key(NamedTuple):
 
     def problem(self) -> Problem:
         """Return the case as a problem."""
-        return Problem(self.n, self.k, self.mu)
+        return Problem.dimensionless(self.n, self.k, self.mu)
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,10 +22,8 @@ from comparisons.data.validation import known_name, validated
 from comparisons.domain import Domain
 from comparisons.external.text_rules import model_name, one_line
 from comparisons.model import NotApplicable, Result
+from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
-from fscm.laws import LennardJones
-from fscm.problem import Problem
-from fscm.punch import PowerPunch
 
 __all__ = ["MANIFEST", "DataModel"]
 
@@ -84,8 +82,7 @@ class DataModel:
     def evaluate(self, problem: Problem, quantity: str, *, scales: int = 0) -> Result:
         """Return the prediction, or raise `NotApplicable` for a case that the submission does not cover."""
         key = (quantity, problem.n, problem.k, problem.mu)
-        default = problem.punch == PowerPunch(problem.n) and problem.law == LennardJones()
-        if not default or key not in self.rows:
+        if key not in self.rows:
             raise NotApplicable("the submission does not cover this case")
         return Result(*self.rows[key])
 
@@ -143,7 +140,7 @@ def _covered_cases(manifest: dict[str, Any], lines: int) -> set[Key]:
             f"{MANIFEST}: the [[covers]] tables promise {sum(sizes)} cases, but the predictions have {lines} "
             f"lines, and at most {_MOST_CASES} cases are read: each case needs a row"
         )
-    promised = ((quantity, Problem(*case)) for columns in lists for quantity, *case in product(*columns))
+    promised = ((quantity, Problem.dimensionless(*case)) for columns in lists for quantity, *case in product(*columns))
     keys = {(quantity, problem.n, problem.k, problem.mu) for quantity, problem in promised}
     if not keys:
         raise ValueError(f"{MANIFEST}: [[covers]] has no case")

@@ -12,8 +12,8 @@ from collections.abc import Iterator
 from comparisons.external.contract_checks import OK, SKIPPED, WRONG, Evaluations, Finding, Key
 from comparisons.models.bradley import rigid_pull_off
 from comparisons.models.jkr import JKR
+from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
-from fscm.problem import Problem
 
 __all__ = ["check_calibration", "check_limits"]
 
@@ -78,7 +78,7 @@ def _in_limit(evaluations: Evaluations, name: str) -> tuple[str, str]:
 
 
 def _limit(name: str, n: float, k: float) -> float:
-    return (rigid_pull_off(n) if name == "rigid" else JKR().evaluate(Problem(n, k, 1.0), _QUANTITY)).value
+    return (rigid_pull_off(n) if name == "rigid" else JKR().evaluate(Problem.dimensionless(n, k, 1.0), _QUANTITY)).value
 
 
 def check_calibration(evaluations: Evaluations) -> Finding:

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from types import MappingProxyType
 
-from comparisons.problem_file.description import ProblemFile, Section
-from comparisons.problem_file.dimensionless import dimensionless_problem
+from comparisons.problem import Problem, Section
 
 __all__ = ["CASES", "MU", "PUNCHES", "QUANTITIES", "SOLIDS", "AgreementCase"]
 
@@ -74,9 +72,8 @@ class AgreementCase:
 
     Examples
     --------
-    >>> from comparisons.problem_file.dimensionless import dimensionless_problem
-    >>> problem, units = dimensionless_problem(AgreementCase("table-4", "cone", 3.0).problem)
-    >>> round(problem.mu, 12), round(units["radius"], 12)
+    >>> problem = AgreementCase("table-4", "cone", 3.0).problem
+    >>> round(problem.posed.mu, 12), round(problem.units["radius"], 12)
     (3.0, 1.0)
     """
 
@@ -85,17 +82,17 @@ class AgreementCase:
     mu: float
 
     @property
-    def problem(self) -> ProblemFile:
+    def problem(self) -> Problem:
         """The problem of a file: unit length of the punch and unit range of the law."""
         n = PUNCHES[self.punch]
         unit = self._problem(n, 1.0)
         # The Tabor number is a power of the work of adhesion over the modulus.
-        at_one = dimensionless_problem(unit)[0].mu
+        at_one = unit.posed.mu
         return self._problem(n, (self.mu / at_one) ** ((2.0 * n - 1.0) / n))
 
-    def _problem(self, n: float, work: float) -> ProblemFile:
+    def _problem(self, n: float, work: float) -> Problem:
         law = Section("lennard-jones-9-3", {"work_of_adhesion": work, "z0": 1.0})
-        return ProblemFile(Path(self.solid), SOLIDS[self.solid], Section("power-law", {"n": n, "Q": 1.0}), law)
+        return Problem(SOLIDS[self.solid], Section("power-law", {"n": n, "Q": 1.0}), law)
 
 
 #: All of them, in an order in which every part of the list has all kinds of solid.

@@ -10,8 +10,6 @@ import fem_reference
 import fscm
 from comparisons.graded_agreement.cases import QUANTITIES, AgreementCase
 from comparisons.model import ComputationFailed
-from comparisons.problem_file.dimensionless import dimensionless_problem
-from comparisons.problem_file.finite_elements import body_of
 from comparisons.runs.code_files import code_in, files_digest
 
 __all__ = ["ACCURACY", "finite_elements", "finite_elements_digest", "integral_equation", "integral_equation_digest"]
@@ -23,8 +21,8 @@ _ROOT = Path(__file__).resolve().parents[2]
 #: What poses the problems.
 _POSED = ("graded_agreement/cases.py", "graded_agreement/solving.py")
 _FILES = {
-    "fscm": ("problem_file/dimensionless.py",),
-    "fem_reference": ("problem_file/dimensionless.py", "problem_file/finite_elements.py"),
+    "fscm": ("problem/problem.py",),
+    "fem_reference": ("problem/problem.py"),
 }
 
 
@@ -45,7 +43,7 @@ def integral_equation(solid: str, punch: str, mu: float) -> dict[str, Any]:
     >>> round(force, 4)
     1.6201
     """
-    problem, _ = dimensionless_problem(AgreementCase(solid, punch, mu).problem)
+    problem = AgreementCase(solid, punch, mu).problem.posed
     try:
         found = fscm.solve_together(problem, QUANTITIES)
     except fscm.NotConverged as failure:
@@ -56,9 +54,9 @@ def integral_equation(solid: str, punch: str, mu: float) -> dict[str, Any]:
 def finite_elements(solid: str, punch: str, mu: float) -> dict[str, Any]:
     """Return the events of a case by the finite elements, in the same units."""
     problem = AgreementCase(solid, punch, mu).problem
-    _, scales = dimensionless_problem(problem)
+    scales = problem.units
     try:
-        found = fem_reference.solve_together(body_of(problem), QUANTITIES, ACCURACY)
+        found = fem_reference.solve_together(problem.build(fem_reference), QUANTITIES, ACCURACY)
     except fem_reference.NotConverged as failure:
         raise ComputationFailed(str(failure)) from failure
     units = {name: scales["load" if name.endswith("force") else "displacement"] for name in QUANTITIES}

@@ -16,7 +16,7 @@ import pandas as pd
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.judge import Judged, verdict_table
-from comparisons.runs.rows import PARAMETERS
+from comparisons.problem import PARAMETERS
 
 __all__ = [
     "CARD",

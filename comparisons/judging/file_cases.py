@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from difflib import get_close_matches
 from typing import Any
 
-from comparisons.problem_file.description import ProblemFile
-from comparisons.problem_file.kinds import SECTIONS, kinds
-from comparisons.problem_file.source import shown
-from comparisons.problem_file.units import NotAValue, in_si
-from comparisons.runs.rows import PARAMETERS
+from comparisons.problem import PARAMETERS
+from comparisons.problem.kinds import SECTIONS, kinds
+from comparisons.problem.source import shown
+from comparisons.problem.units import NotAValue, in_si
 
 __all__ = ["in_si_units", "matches"]
 
@@ -33,29 +32,18 @@ def in_si_units(cases: Mapping[str, Any], where: str) -> dict[str, Any]:
     return {name: value if name in plain else _checked(name, value, where) for name, value in cases.items()}
 
 
-def matches(cases: Mapping[str, Any], names: Iterable[str], problem: ProblemFile) -> bool:
-    """Whether a problem has the words of some keys, and values inside their ranges; not if it has no such key."""
-    return all(_matches(cases[name], _value(problem, name)) for name in names)
+def matches(wanted: Any, value: Any) -> bool:
+    """Whether a value of a problem is a word, or inside a range; not if the problem has no such value.
 
-
-def _matches(wanted: Any, value: Any) -> bool:
+    Examples
+    --------
+    >>> matches([0.0, 1.0], 0.4), matches("coating", "coating"), matches([0.0, 1.0], None)
+    (True, True, False)
+    """
     if isinstance(wanted, str):
         return bool(value == wanted)
     low, high = wanted
     return isinstance(value, float | int) and low <= value <= high
-
-
-def _value(problem: ProblemFile, name: str) -> Any:
-    """The value of a key; ``thickness.2`` is the second entry of a list."""
-    section_name, _, key = name.partition(".")
-    section = getattr(problem, section_name)
-    if key == "kind":
-        return section.kind
-    key, _, number = key.partition(".")
-    value = section.get(key)
-    if number and isinstance(value, tuple) and 1 <= int(number) <= len(value):
-        return value[int(number) - 1]
-    return None if number else value
 
 
 def _known() -> dict[str, str | None]:

@@ -20,8 +20,9 @@ from comparisons.judging.fresh_points import REACH, Sample, sample
 from comparisons.judging.fresh_problems import case_of_label, fresh_problems
 from comparisons.judging.gates import GIVEN, Gate
 from comparisons.judging.selection import cases_of, relevant
+from comparisons.problem import Problem
 from comparisons.registry import ExternalIdentity, create
-from comparisons.runs.cases import TIERS, Case, Grid, order_of
+from comparisons.runs.cases import TIERS, Grid
 from comparisons.runs.tasks import Task, plan
 
 __all__ = ["RANDOM", "FreshCases", "Part", "Undrawn", "draw"]
@@ -171,15 +172,17 @@ def draw(
         domain = domains.get(gate.candidate)
         every = cases_of(gate, grids, models)
         own_seed = [seed, crc32(f"{gate.id} {gate.candidate}".encode())]
-        if of_files := [case for case in every if case.file is not None]:
+        if of_files := [case for case in every if not case.is_dimensionless]:
             if problems := fresh_problems(of_files, count, own_seed):
                 parts.append(_part(gate, gate.candidate, gate.reference, problems))
             else:
                 undrawn.append(Undrawn(gate.id, gate.candidate, gate.quantity, _NO_RANGE))
-        standing = [case for case in every if case.file is None]
+        standing = [case for case in every if case.is_dimensionless]
         if of_files and not standing:
             continue
-        known = [case for grid in grids if gate.quantity in grid.quantities for case in grid.cases if case.file is None]
+        known = [
+            case for grid in grids if gate.quantity in grid.quantities for case in grid.cases if case.is_dimensionless
+        ]
         drawn = sample(gate, domain, standing, known, count, own_seed)
         if drawn is None:
             passed_over += 1
@@ -190,26 +193,22 @@ def draw(
             )
         elif not drawn.cases:
             log(f"{gate.id} has no fresh cases: the domain of {gate.candidate} has none that it can be judged in")
-        by_reference: dict[str, list[Case]] = {}
+        by_reference: dict[str, list[Problem]] = {}
         for case in drawn.cases:
             by_reference.setdefault(_reference(gate, case), []).append(case)
-        parts += [
-            _part(gate, gate.candidate, name, tuple(sorted(own, key=order_of)))
-            for name, own in sorted(by_reference.items())
-        ]
+        parts += [_part(gate, gate.candidate, name, tuple(sorted(own))) for name, own in sorted(by_reference.items())]
     if passed_over:
         log(f"{passed_over} gates have no fresh cases: of curves, with a rival or a reference_at, or of single cases")
     return FreshCases(count, seed, tuple(parts), tuple(undrawn))
 
 
-def _as_json(case: Case) -> list[float] | str:
-    return [case.n, case.k, case.mu] if case.file is None else case.file.label
+def _as_json(case: Problem) -> list[float] | str:
+    return [case.n, case.k, case.mu] if case.is_dimensionless else case.name
 
 
-def _of_json(cases: Iterable[list[float] | str], folder: Path) -> tuple[Case, ...]:
+def _of_json(cases: Iterable[list[float] | str], folder: Path) -> tuple[Problem, ...]:
     return tuple(
-        case_of_label(case, folder) if isinstance(case, str) else Case(n=case[0], k=case[1], mu=case[2])
-        for case in cases
+        case_of_label(case, folder) if isinstance(case, str) else Problem.dimensionless(*case[:3]) for case in cases
     )
 
 
@@ -221,7 +220,7 @@ def _no_room(name: str, drawn: Sample, standing: int) -> str:
     )
 
 
-def _part(gate: Gate, candidate: str, reference: str, cases: tuple[Case, ...]) -> Part:
+def _part(gate: Gate, candidate: str, reference: str, cases: tuple[Problem, ...]) -> Part:
     least = _ATLAS_BOUND if reference == _ATLAS else 0.0
     fresh = replace(
         gate,
@@ -241,7 +240,7 @@ def _part(gate: Gate, candidate: str, reference: str, cases: tuple[Case, ...]) -
     return Part(fresh, grid)
 
 
-def _reference(gate: Gate, case: Case) -> str:
+def _reference(gate: Gate, case: Problem) -> str:
     """Return the reference of a fresh case."""
     width = min(abs(limit) for limit in (gate.lower, gate.upper) if math.isfinite(limit))
     if gate.reference != _FSCM or gate.candidate == _ATLAS or gate.metric == "en" or width < _WIDER * _ATLAS_BOUND:

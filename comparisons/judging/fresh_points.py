@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from comparisons.domain import Domain
 from comparisons.judging.gates import Gate
-from comparisons.runs.cases import Case
+from comparisons.problem import Problem
 from comparisons.runs.parameter_sets import latin_hypercube
 
 __all__ = ["REACH", "Sample", "sample"]
@@ -39,12 +39,17 @@ _Box = dict[str, tuple[float, float]]
 class Sample:
     """Fresh cases, and the standing cases in parts of the domain that have no room for fresh ones."""
 
-    cases: tuple[Case, ...]
-    untested: frozenset[Case]
+    cases: tuple[Problem, ...]
+    untested: frozenset[Problem]
 
 
 def sample(
-    gate: Gate, domain: Domain | None, standing: Sequence[Case], known: Sequence[Case], count: int, seed: list[int]
+    gate: Gate,
+    domain: Domain | None,
+    standing: Sequence[Problem],
+    known: Sequence[Problem],
+    count: int,
+    seed: list[int],
 ) -> Sample | None:
     """Draw cases for a gate from the domain of a model, or from between the standing cases if it declares none.
 
@@ -52,9 +57,9 @@ def sample(
     ----------
     gate : Gate
     domain : Domain or None
-    standing : sequence of Case
+    standing : sequence of Problem
         Of the gate.
-    known : sequence of Case
+    known : sequence of Problem
         The cases that fresh ones are apart from.
     count : int
     seed : list of int
@@ -80,7 +85,7 @@ def sample(
             )
             for table in tables
         ]
-    cases: list[Case] = []
+    cases: list[Problem] = []
     untested = {case for case in standing if domain is None or domain.contains(gate.quantity, case.parameters)}
     for number, ((box, promised), share) in enumerate(zip(boxes, _shares(boxes, count, seed), strict=True)):
         points = _points(box, max(share, 1), known, [*seed, number])
@@ -89,7 +94,7 @@ def sample(
     return Sample(tuple(dict.fromkeys(cases)), frozenset(untested))
 
 
-def _hull(cases: Sequence[Case]) -> _Box:
+def _hull(cases: Sequence[Problem]) -> _Box:
     values = {name: [getattr(case, name) for case in cases] for name in REACH}
     return {name: (min(found), max(found)) for name, found in values.items()}
 
@@ -100,39 +105,39 @@ def _limited(box: Mapping[str, tuple[float, float]], gate: Gate) -> _Box:
     return {name: (max(low for low, _ in ends), min(high for _, high in ends)) for name, ends in limits.items()}
 
 
-def _shares(boxes: Sequence[tuple[_Box, list[Case]]], count: int, seed: list[int]) -> list[int]:
+def _shares(boxes: Sequence[tuple[_Box, list[Problem]]], count: int, seed: list[int]) -> list[int]:
     """Return how many cases each box gets: the more, the more standing cases it has; by systematic sampling."""
     weights = np.cumsum([0, *(1 + len(promised) for _, promised in boxes)])
     shifted = np.floor(np.random.default_rng(seed).random() + count * weights / max(weights[-1], 1))
     return [int(share) for share in np.diff(shifted)]
 
 
-def _points(box: _Box, count: int, known: Sequence[Case], seed: list[int]) -> list[Case]:
+def _points(box: _Box, count: int, known: Sequence[Problem], seed: list[int]) -> list[Problem]:
     """Return fresh cases of a box, fewer than `count` if it has hardly any."""
-    points: list[Case] = []
+    points: list[Problem] = []
     if any(low > high for low, high in box.values()) or not _has_room(box, known, seed):
         return points
     for attempt in range(_ATTEMPTS):
         table = {"count": count - len(points), "seed": [*seed, attempt], **box}
-        drawn = [Case(*point) for point in latin_hypercube(table, "fresh cases")]
+        drawn = [Problem.dimensionless(*point) for point in latin_hypercube(table, "fresh cases")]
         points += [case for case, apart in zip(drawn, _are_apart(drawn, known), strict=True) if apart]
         if len(points) == count:
             break
     return points
 
 
-def _has_room(box: _Box, known: Sequence[Case], seed: list[int]) -> bool:
+def _has_room(box: _Box, known: Sequence[Problem], seed: list[int]) -> bool:
     drawn = latin_hypercube({"count": _DRAWN, "seed": [*seed, _ATTEMPTS], **box}, "fresh cases")
-    return float(np.mean(_are_apart([Case(*point) for point in drawn], known))) >= _ROOM
+    return float(np.mean(_are_apart([Problem.dimensionless(*point) for point in drawn], known))) >= _ROOM
 
 
-def _are_apart(cases: Sequence[Case], known: Sequence[Case]) -> NDArray[np.bool_]:
+def _are_apart(cases: Sequence[Problem], known: Sequence[Problem]) -> NDArray[np.bool_]:
     distances = np.abs(_coordinates(cases)[:, None] - _coordinates(known)) / np.diff(_coordinates(_CORNERS), axis=0)
     return np.asarray((distances.max(axis=2) >= _APART).all(axis=1))
 
 
-def _coordinates(cases: Sequence[Case]) -> NDArray[np.float64]:
+def _coordinates(cases: Sequence[Problem]) -> NDArray[np.float64]:
     return np.array([(case.n, case.k, math.log(case.mu)) for case in cases])
 
 
-_CORNERS = tuple(Case(*corner) for corner in zip(*REACH.values(), strict=True))
+_CORNERS = tuple(Problem.dimensionless(*corner) for corner in zip(*REACH.values(), strict=True))

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from comparisons.data.contained_paths import path_inside
-from comparisons.problem_file.variation import parse_variation, problems_of
+from comparisons.problem import Problem
+from comparisons.problem.problem import split_name
+from comparisons.problem.variation import parse_variation, problems_of
 from comparisons.runs.case_columns import unit_in
-from comparisons.runs.cases import Case, FileProblem, order_of
-from comparisons.runs.rows import split_label
 
 __all__ = ["case_of_label", "fresh_problems"]
 
@@ -25,7 +25,7 @@ _ATTEMPTS = 64
 _DIGITS = 6
 
 
-def fresh_problems(standing: Sequence[Case], count: int, seed: list[int]) -> tuple[Case, ...]:
+def fresh_problems(standing: Sequence[Problem], count: int, seed: list[int]) -> tuple[Problem, ...]:
     """Draw cases for a gate on problem files, the same number of each file.
 
     A key with numbers is drawn between the smallest and the largest one, in their logarithm where all are positive; a
@@ -33,50 +33,50 @@ def fresh_problems(standing: Sequence[Case], count: int, seed: list[int]) -> tup
 
     Parameters
     ----------
-    standing : sequence of Case
+    standing : sequence of Problem
         Of the gate, each of a problem file.
     count : int
     seed : list of int
 
     Returns
     -------
-    tuple of Case
+    tuple of Problem
         None of a file whose standing cases have no key with two numbers, and as many fewer.
     """
-    of_file: dict[tuple[str, ...], list[FileProblem]] = {}
+    of_file: dict[tuple[str, ...], list[Problem]] = {}
     for case in standing:
-        if case.file is not None:
-            of_file.setdefault((split_label(case.file.label)[0], *case.file.parameters), []).append(case.file)
-    drawn: list[Case] = []
+        if not case.is_dimensionless:
+            of_file.setdefault((split_name(case.name)[0], *case.parameters), []).append(case)
+    drawn: list[Problem] = []
     for number, (key, problems) in enumerate(sorted(of_file.items())):
         share = (count * (number + 1)) // len(of_file) - (count * number) // len(of_file)
         drawn += _drawn(problems, list(key[1:]), share, np.random.default_rng([*seed, number]))
-    return tuple(sorted(dict.fromkeys(drawn), key=order_of))
+    return tuple(sorted(dict.fromkeys(drawn)))
 
 
-def case_of_label(label: str, folder: Path) -> Case:
-    """Return the case of a label, as that of `comparisons.runs.cases.FileProblem`, from a problem file in a folder.
+def case_of_label(label: str, folder: Path) -> Problem:
+    """Return the case of a label, as that of `comparisons.Problem`, from a problem file in a folder.
 
     Raises
     ------
     ValueError
         One sentence, if the file or the problem is not admissible.
     """
-    name, *texts = split_label(label)
+    name, *texts = split_name(label)
     return _case(path_inside(folder, name), name, texts)
 
 
-def _case(path: Path, name: str, texts: Sequence[str]) -> Case:
-    (varied,) = problems_of(path, [parse_variation(text) for text in texts])
-    return Case.of_file(FileProblem.of(name, varied))
+def _case(path: Path, name: str, texts: Sequence[str]) -> Problem:
+    (problem,) = problems_of(path, [parse_variation(text) for text in texts], name)
+    return problem
 
 
-def _drawn(problems: list[FileProblem], keys: list[str], count: int, generator: np.random.Generator) -> list[Case]:
+def _drawn(problems: list[Problem], keys: list[str], count: int, generator: np.random.Generator) -> list[Problem]:
     ends = {key: _ends(problems, key) for key in keys}
-    drawn: list[Case] = []
+    drawn: list[Problem] = []
     if all(end is None for end in ends.values()):
         return drawn
-    name, path = split_label(problems[0].label)[0], problems[0].content.path
+    name, path = split_name(problems[0].name)[0], problems[0].path or Path()
     for _ in range(_ATTEMPTS * count):
         like = problems[int(generator.integers(len(problems)))]
         values = {key: _value(like, key, ends[key], float(generator.random())) for key in keys}
@@ -92,14 +92,14 @@ def _drawn(problems: list[FileProblem], keys: list[str], count: int, generator: 
     return drawn
 
 
-def _ends(problems: list[FileProblem], key: str) -> tuple[float, float] | None:
+def _ends(problems: list[Problem], key: str) -> tuple[float, float] | None:
     """The smallest and the largest number of a key, None if it has not two."""
     values = [one.parameters[key] for one in problems]
     numbers = [value for value in values if not isinstance(value, str)]
     return (min(numbers), max(numbers)) if len(set(numbers)) > 1 else None
 
 
-def _value(like: FileProblem, key: str, ends: tuple[float, float] | None, share: float) -> float | str:
+def _value(like: Problem, key: str, ends: tuple[float, float] | None, share: float) -> float | str:
     if ends is None:
         return like.parameters[key]
     low, high = ends
@@ -108,7 +108,7 @@ def _value(like: FileProblem, key: str, ends: tuple[float, float] | None, share:
 
 
 def _is_apart(
-    values: Mapping[str, float | str], known: FileProblem, ends: Mapping[str, tuple[float, float] | None]
+    values: Mapping[str, float | str], known: Problem, ends: Mapping[str, tuple[float, float] | None]
 ) -> bool:
     for key, value in values.items():
         there, range_of = known.parameters[key], ends[key]

@@ -8,8 +8,7 @@ import unicodedata
 from typing import TYPE_CHECKING
 
 from comparisons.numerics.number_text import exact
-from comparisons.runs.cases import Case
-from comparisons.runs.rows import PARAMETERS
+from comparisons.problem import PARAMETERS, Problem
 
 if TYPE_CHECKING:
     from comparisons.judging.gates import Gate
@@ -101,7 +100,7 @@ def check_numbers(gate: Gate, where: str) -> None:
         if not math.isfinite(value):
             raise ValueError(f"{where}: reference_at.{name} = {value!r} must be a finite number")
     try:
-        Case(2.0, 0.0, 1.0).at(gate.reference_at)
+        Problem.dimensionless(2.0, 0.0, 1.0).at(gate.reference_at)
     except ValueError as refusal:
         raise ValueError(f"{where}: reference_at: {refusal}") from None
 

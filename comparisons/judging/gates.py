@@ -17,10 +17,10 @@ from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, label, validated
 from comparisons.judging.file_cases import in_si_units, matches
 from comparisons.judging.gate_checks import check_compared, check_numbers, plain_text
+from comparisons.problem import Problem
 from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.registry import MODELS
-from comparisons.runs.cases import TIERS, Case, Grid
-from comparisons.runs.rows import PARAMETERS
+from comparisons.runs.cases import TIERS, Grid
 
 __all__ = ["GIVEN", "METRICS", "Gate", "gates_text", "load_gates", "of_tier"]
 
@@ -113,30 +113,23 @@ class Gate:
     min_coverage: float | None = None
     expected_failure: str | None = None
 
-    def selects(self, grid: Grid, case: Case) -> bool:
+    def selects(self, grid: Grid, case: Problem) -> bool:
         """Whether a case of a grid is one of the gate's; tags name grids, or properties of them.
 
         Examples
         --------
         >>> gate = load_gates(gates_text())[0]
-        >>> gate.selects(Grid("a", "A", "quick", "b", (), (), ()), Case(2, 0, 1))
+        >>> gate.selects(Grid("a", "A", "quick", "b", (), (), ()), Problem.dimensionless(2, 0, 1))
         False
         """
         tags = self.cases.get("tags")
         if tags is not None and not {grid.id, *grid.tags} & set(tags):
             return False
-        if case.file is not None and self.reference_at:
+        if not case.is_dimensionless and self.reference_at:
             return False
-        if not all(self._within(name, getattr(case, name)) for name in PARAMETERS if name in self.cases):
-            return False
-        of_file = [name for name in self.cases if "." in name]
-        return not of_file or (case.file is not None and matches(self.cases, of_file, case.file.content))
+        return all(matches(wanted, case[name]) for name, wanted in self.cases.items() if name != "tags")
 
-    def _within(self, name: str, value: float | None) -> bool:
-        low, high = self.cases[name]
-        return value is not None and low <= value <= high
-
-    def reference_case(self, case: Case) -> Case:
+    def reference_case(self, case: Problem) -> Problem:
         """Return the case in which the reference is taken."""
         return case.at(self.reference_at)
 

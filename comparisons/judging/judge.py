@@ -18,10 +18,11 @@ from comparisons.judging.metrics import CaseError, case_error, reference_range
 from comparisons.judging.selection import cases_of, key_of, names_in, relevant
 from comparisons.judging.stored_results import StoredResults, UnusableResult, stored_curves, stored_numbers
 from comparisons.numerics.number_text import exact
+from comparisons.problem import Problem
 from comparisons.runs.case_columns import without_empty_problem
-from comparisons.runs.cases import Case, Grid
+from comparisons.runs.cases import Grid
 from comparisons.runs.rows import Key
-from comparisons.runs.tasks import Task, case_for
+from comparisons.runs.tasks import Task, problem_for
 
 __all__ = ["NO_EVENT", "OUTSIDE", "Judged", "judge", "verdict_table"]
 
@@ -133,7 +134,7 @@ def _planned(gates: Collection[Gate], grids: Sequence[Grid], models: Sequence[st
         for grid in grids
         for model in candidates.intersection((grid.reference, *(models or grid.models)))
         for quantity in quantities.intersection(grid.quantities)
-        for case in (case_for(model, declared) for declared in grid.cases)
+        for case in (problem_for(model, declared) for declared in grid.cases)
     }
 
 
@@ -174,14 +175,14 @@ def _refusal(gate: Gate, judged: Sequence[Judged]) -> str:
     )
 
 
-def _judge_case(gate: Gate, case: Case, results: StoredResults, scale: float, domain: Domain | None) -> Judged:
-    own, key = case_for(gate.candidate, case), key_of(gate.candidate, gate, case)
-    inside = domain is None or own.file is not None or domain.contains(gate.quantity, own.parameters)
+def _judge_case(gate: Gate, case: Problem, results: StoredResults, scale: float, domain: Domain | None) -> Judged:
+    own, key = problem_for(gate.candidate, case), key_of(gate.candidate, gate, case)
+    inside = domain is None or not own.is_dimensionless or domain.contains(gate.quantity, own.parameters)
     status = results.status(key) if inside else OUTSIDE
-    if domain is not None and (domain.is_list or own.file is not None) and status == "not-applicable":
+    if domain is not None and (domain.is_list or not own.is_dimensionless) and status == "not-applicable":
         status = OUTSIDE
-    one = replace(_whole(gate, ""), n=case.n, k=case.k, mu=case.mu, nu=own.nu, status=status)
-    one = replace(one, problem=case.label_of_file)
+    n, k, mu, nu, name = own.key
+    one = replace(_whole(gate, ""), n=n, k=k, mu=mu, nu=nu, problem=name, status=status)
     try:
         if domain is not None and not inside:
             raise UnusableResult(Verdict.NOT_APPLICABLE, domain.refusal(gate.quantity))

@@ -12,7 +12,7 @@ from comparisons.judging.selection import key_of
 from comparisons.judging.stored_results import StoredResults, UnusableResult
 from comparisons.numerics.bounds import combined
 from comparisons.numerics.kappa import relative_difference
-from comparisons.runs.cases import Case
+from comparisons.problem import Problem
 
 __all__ = ["CaseError", "case_error", "reference_range"]
 
@@ -41,7 +41,7 @@ class CaseError:
     facts: dict[str, Any]
 
 
-def case_error(gate: Gate, case: Case, results: StoredResults, scale: float) -> CaseError:
+def case_error(gate: Gate, case: Problem, results: StoredResults, scale: float) -> CaseError:
     """Return the error of the gate's candidate in a case.
 
     Parameters
@@ -85,7 +85,7 @@ def case_error(gate: Gate, case: Case, results: StoredResults, scale: float) -> 
     return CaseError(error, combined(*shares.values()), u_num / unit, u_reference / unit, shares, facts)
 
 
-def reference_range(gate: Gate, cases: Iterable[Case], results: StoredResults) -> float:
+def reference_range(gate: Gate, cases: Iterable[Problem], results: StoredResults) -> float:
     """Return the range of the reference over the cases; 0 where it has none or the metric needs none."""
     values = []
     for case in cases if gate.metric == "range-relative" else []:
@@ -106,7 +106,7 @@ def _normalised(value: float, u_num: float, reference: float, u_reference: float
     return CaseError((value - reference) / bound, 0.0, u_num / unit, u_reference / unit, {}, facts)
 
 
-def _distance(gate: Gate, case: Case, results: StoredResults) -> CaseError:
+def _distance(gate: Gate, case: Problem, results: StoredResults) -> CaseError:
     # Gates of numbers do not wait for SciPy's interpolation.
     from comparisons.numerics.curve_distance import curve_distance
 

@@ -8,9 +8,10 @@ from dataclasses import replace
 from comparisons.console.progress import log
 from comparisons.domain import Domain
 from comparisons.judging.gates import GIVEN, Gate, load_gates, of_tier
-from comparisons.runs.cases import Case, Grid, order_of
+from comparisons.problem import Problem
+from comparisons.runs.cases import Grid
 from comparisons.runs.rows import Key
-from comparisons.runs.tasks import Task, case_for, plan
+from comparisons.runs.tasks import Task, plan, problem_for
 
 __all__ = ["cases_of", "key_of", "load_user_gates", "names_in", "needed_keys", "relevant", "skipped_gates"]
 
@@ -37,7 +38,7 @@ def relevant(gates: Iterable[Gate], grids: Sequence[Grid], models: Sequence[str]
     return chosen
 
 
-def cases_of(gate: Gate, grids: Sequence[Grid], models: Collection[str] | None) -> list[Case]:
+def cases_of(gate: Gate, grids: Sequence[Grid], models: Collection[str] | None) -> list[Problem]:
     """Return the cases that the candidate of a gate computes and the gate selects, sorted."""
     chosen = {
         case
@@ -47,12 +48,12 @@ def cases_of(gate: Gate, grids: Sequence[Grid], models: Collection[str] | None) 
         for case in grid.cases
         if gate.selects(grid, case)
     }
-    return sorted(chosen, key=order_of)
+    return sorted(chosen)
 
 
-def key_of(model: str, gate: Gate, case: Case) -> Key:
+def key_of(model: str, gate: Gate, case: Problem) -> Key:
     """Return the key of the result of a model that a gate uses in a case."""
-    own = case_for(model, case)
+    own = problem_for(model, case)
     return Task(model, gate.quantity, own).key
 
 

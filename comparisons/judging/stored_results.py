@@ -11,8 +11,9 @@ import numpy as np
 import pandas as pd
 
 from comparisons.judging.decision import Verdict
+from comparisons.problem import PARAMETERS
 from comparisons.runs.case_columns import with_problem
-from comparisons.runs.rows import CASE, PARAMETERS, Key, none_if_nan
+from comparisons.runs.rows import CASE, Key, none_if_nan
 
 __all__ = ["StoredResults", "UnusableResult", "stored_curves", "stored_numbers"]
 

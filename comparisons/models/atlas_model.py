@@ -6,11 +6,9 @@ from typing import Any, ClassVar
 
 import fscm
 from comparisons.model import Curve, NotApplicable, Result
+from comparisons.problem import Problem
 from fscm.interpolation.coordinates import BOX
 from fscm.interpolation.storage import data_digest
-from fscm.laws import LennardJones
-from fscm.problem import Problem
-from fscm.punch import PowerPunch
 
 __all__ = ["Atlas"]
 
@@ -22,7 +20,7 @@ class Atlas:
 
     Examples
     --------
-    >>> result = Atlas().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
+    >>> result = Atlas().evaluate(Problem.dimensionless(n=2, k=0.4, mu=1.0), "pull_off_force")
     >>> abs(result.value - 1.78848171) <= result.u_num
     True
     """
@@ -44,8 +42,6 @@ class Atlas:
         """Return the quantity, or raise as in `comparisons.model.Model`."""
         if quantity not in fscm.ATLAS_QUANTITIES:
             raise NotApplicable(f"the atlas does not contain {quantity}")
-        if problem.punch != PowerPunch(problem.n) or problem.law != LennardJones():
-            raise NotApplicable("the atlas is for the power-law punch and the Lennard-Jones 9-3 law")
         try:
             value, bound = fscm.atlas(problem.n, problem.k, problem.mu, quantity)
         except (fscm.OutsideAtlas, fscm.NoSuchEvent) as reason:

@@ -18,7 +18,7 @@ from scipy.special import beta
 
 from comparisons.model import Curve
 from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, ClosedForm, Estimate, monomial
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 __all__ = ["Bradley", "rigid_load", "rigid_pull_off"]
 
@@ -68,7 +68,7 @@ class Bradley(ClosedForm):
 
     Examples
     --------
-    >>> Bradley().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force").value
+    >>> Bradley().evaluate(Problem.dimensionless(n=2, k=0.4, mu=1.0), "pull_off_force").value
     2.0
     """
 

@@ -15,7 +15,7 @@ from comparisons.model import Curve, NotApplicable
 from comparisons.models.closed_form import FACTOR_ROUNDING, Estimate
 from comparisons.models.homogeneous_sphere import HomogeneousSphere
 from comparisons.models.maugis_parameter import maugis_parameter
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 __all__ = ["CarpickOgletreeSalmeron"]
 
@@ -29,7 +29,7 @@ class CarpickOgletreeSalmeron(HomogeneousSphere):
 
     Examples
     --------
-    >>> round(CarpickOgletreeSalmeron().evaluate(Problem(n=2, k=0, mu=1.0), "pull_off_force").value, 6)
+    >>> round(CarpickOgletreeSalmeron().evaluate(Problem.dimensionless(n=2, k=0, mu=1.0), "pull_off_force").value, 6)
     1.583961
     """
 

@@ -17,7 +17,7 @@ from comparisons.models.cohesive_events import STATE_ROUNDING, CohesiveEvents, E
 from comparisons.models.cohesive_profiles import PROFILE_ROUNDING, CohesiveProfiles, cohesive_profiles
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 __all__ = ["CohesiveModel"]
 
@@ -47,7 +47,7 @@ class CohesiveModel(ClosedForm):
     --------
     >>> from comparisons.models.maugis_dugdale import MaugisDugdaleImproved
     >>> model = MaugisDugdaleImproved()
-    >>> isinstance(model, CohesiveModel), round(model.cohesive_stress(Problem(n=2, k=0, mu=1)), 3)
+    >>> isinstance(model, CohesiveModel), round(model.cohesive_stress(Problem.dimensionless(n=2, k=0, mu=1)), 3)
     (True, 0.588)
     """
 

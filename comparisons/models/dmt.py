@@ -18,7 +18,7 @@ from comparisons.model import Curve
 from comparisons.models.closed_form import FACTOR_ROUNDING, ClosedForm, Estimate, monomial
 from comparisons.models.cohesive_stress import eta
 from comparisons.models.graded_punch import GradedPunch
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 __all__ = ["DMT", "dmt_pull_off"]
 
@@ -43,7 +43,7 @@ class DMT(ClosedForm):
 
     Examples
     --------
-    >>> round(DMT().evaluate(Problem(n=5, k=0.4, mu=0.1), "pull_off_force").value, 3)
+    >>> round(DMT().evaluate(Problem.dimensionless(n=5, k=0.4, mu=0.1), "pull_off_force").value, 3)
     1.669
     """
 

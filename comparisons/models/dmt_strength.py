@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH
 from comparisons.models.dmt import DMT
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 __all__ = ["DMTStrength"]
 
@@ -24,7 +24,7 @@ class DMTStrength(DMT):
 
     Examples
     --------
-    >>> round(DMTStrength().evaluate(Problem(n=1, k=0.4, mu=0.1), "pull_off_force").value, 4)   # 1 / 1.0264
+    >>> round(DMTStrength().evaluate(Problem.dimensionless(n=1, k=0.4, mu=0.1), "pull_off_force").value, 4)
     0.9743
     """
 

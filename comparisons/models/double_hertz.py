@@ -14,7 +14,7 @@ from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_model import CohesiveModel
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH
 from comparisons.models.double_hertz_contact import DoubleHertzContact
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 __all__ = ["DoubleHertz"]
 
@@ -26,7 +26,7 @@ class DoubleHertz(CohesiveModel):
 
     Examples
     --------
-    >>> round(DoubleHertz().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force").value, 8)
+    >>> round(DoubleHertz().evaluate(Problem.dimensionless(n=2, k=0.4, mu=1.0), "pull_off_force").value, 8)
     1.75097087
     """
 

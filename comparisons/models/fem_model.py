@@ -1,12 +1,13 @@
-"""The finite elements as a model of dimensionless problems.
+"""The finite elements as a model.
 
 `fem_reference` solves physical problems and contains no Tabor number.  Here a dimensionless problem becomes a
-physical one by Eqs. 7, 24 and 29, and its result is scaled back by Eqs. 25 and 31; so where the two references
+physical one by Eqs. 7, 24 and 29, and every result is scaled back by Eqs. 25 and 31; so where the two references
 agree, those equations are right as well.  No scale is 1 and no two are equal: a wrong power of one shows.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -16,11 +17,10 @@ from comparisons.model import Curve, NotApplicable, RadialField, Result
 from comparisons.models.solver import result_of, translated
 from comparisons.numerics.curve_distance import mesh_difference
 from comparisons.numerics.grid_convergence import three_grids
+from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 from comparisons.quantities.points import near
-from fscm.laws import LennardJones
-from fscm.problem import Problem
-from fscm.punch import PowerPunch
+from fscm.problem import Problem as PosedProblem
 
 if TYPE_CHECKING:
     from fem_reference import export
@@ -41,16 +41,16 @@ _SCALES = {"c0": 3.0, "Q": 2.0, "work_of_adhesion": 0.7, "z0": 0.25}
 
 
 class FiniteElements:
-    """The package `fem_reference`, evaluated for dimensionless problems.
+    """The package `fem_reference`.
 
     Parameters
     ----------
     poisson_ratio : float
-        In [0, 0.5); the dimensionless result depends on it by numerical errors only.
+        Of a dimensionless problem, in [0, 0.5); its result depends on it by numerical errors only.
 
     Examples
     --------
-    >>> FiniteElements().evaluate(Problem(n=2, k=0.95, mu=1.0), "pull_off_force")
+    >>> FiniteElements().evaluate(Problem.dimensionless(n=2, k=0.95, mu=1.0), "pull_off_force")
     Traceback (most recent call last):
     comparisons.model.NotApplicable: the finite elements need k <= 0.9, not k = 0.95: ...
     """
@@ -69,20 +69,20 @@ class FiniteElements:
             return self._critical_tabor_number(problem)
         if quantity not in fem_reference.QUANTITIES:
             raise NotApplicable(f"the finite elements do not compute {quantity}")
-        physical, body = self._physical(problem)
+        units, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             solution = fem_reference.solve(body, quantity)
-        return result_of(_audited(solution), unit=physical.units[QUANTITIES[quantity].scale])
+        return result_of(_audited(solution), unit=units[QUANTITIES[quantity].scale])
 
     def _critical_tabor_number(self, problem: Problem) -> Result:
         """Return the Tabor number of the modulus at which jumps begin; that of the problem is not used."""
-        physical, body = self._physical(replace(problem, mu=1.0))
+        physical = self._scaled(Problem.dimensionless(problem.n, problem.k, 1.0))
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
-            solution = _audited(fem_reference.solve(body, fem_reference.CRITICAL_MODULUS))
+            solution = _audited(fem_reference.solve(self._body(physical), fem_reference.CRITICAL_MODULUS))
 
         def tabor_number(E0: float) -> float:
             solid: Any = physical.solid
-            return Problem(replace(solid, E0=E0), physical.punch, physical.law).mu
+            return PosedProblem(replace(solid, E0=E0), physical.punch, physical.law).mu
 
         value = tabor_number(solution.value)
         # Eq. 29 is steeper at the lower end of the bound of the modulus.
@@ -91,15 +91,15 @@ class FiniteElements:
 
     def curve(self, problem: Problem) -> Curve:
         """Return the equilibrium path from far away into compression, on the condensed surface."""
-        physical, body = self._physical(problem)
+        units, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             coarse, path = (fem_reference.trace(body, level) for level in _LEVELS)
         return Curve(
-            displacement=path.displacement / physical.units["displacement"],
-            load=path.load / physical.units["load"],
+            displacement=path.displacement / units["displacement"],
+            load=path.load / units["load"],
             columns={
-                "central_gap": path.central_gap / physical.units["gap"],
-                "edge_radius": path.edge_radius / physical.units["radius"],
+                "central_gap": path.central_gap / units["gap"],
+                "edge_radius": path.edge_radius / units["radius"],
             },
             u_distance=mesh_difference(coarse.displacement, coarse.load, path.displacement, path.load),
         )
@@ -116,11 +116,10 @@ class FiniteElements:
         """
         from fem_reference import export  # loads Matplotlib
 
-        physical, body = self._physical(problem)
+        units, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             spec, point = fem_reference.event_state(body, event)
             raw = export.contact_field(body.solid, spec, point)
-        units = physical.units
         field = raw.in_units_of(units["displacement"], units["traction"])
         return field, point.edge_radius / units["displacement"]
 
@@ -140,14 +139,14 @@ class FiniteElements:
         return _surface_at_pull_off(self._poisson_ratio, problem)
 
     def _surface_at_pull_off(self, problem: Problem) -> RadialField:
-        physical, body = self._physical(problem)
+        units, body = self._physical(problem)
         with translated(fem_reference.NoSuchEvent, fem_reference.NotConverged):
             found = [fem_reference.profile(body, accuracy=level) for level in _LEVELS]
         (radius, pressure, gap), fine = (
             (
-                profile.radius / physical.units["radius"],
-                profile.pressure / physical.units["traction"],
-                profile.gap / physical.units["gap"],
+                profile.radius / units["radius"],
+                profile.pressure / units["traction"],
+                profile.gap / units["gap"],
             )
             for profile in found
         )
@@ -158,7 +157,17 @@ class FiniteElements:
             mesh_difference(*near(gap, radius, gap), *near(fine_gap, fine_radius, fine_gap)),
         )
 
-    def _physical(self, problem: Problem) -> tuple[Problem, fem_reference.Problem]:
+    def _physical(self, problem: Problem) -> tuple[Mapping[str, float], fem_reference.Problem]:
+        """The units of the results, and the problem of the solver."""
+        if problem.is_dimensionless:
+            scaled = self._scaled(problem)
+            return scaled.units, self._body(scaled)
+        try:
+            return problem.units, problem.build(fem_reference)
+        except ValueError as error:
+            raise NotApplicable(f"the finite elements do not take this problem: {error}") from None
+
+    def _scaled(self, problem: Problem) -> PosedProblem:
         if problem.n < 1.0:
             raise NotApplicable(f"the finite elements need n >= 1, not n = {problem.n:g}: a cusp has no finite slope")
         if problem.k > LARGEST_K:
@@ -166,17 +175,16 @@ class FiniteElements:
                 f"the finite elements need k <= {LARGEST_K:g}, not k = {problem.k:g}: towards the Gibson solid the "
                 "contact has an edge too narrow for their mesh"
             )
-        if problem.punch != PowerPunch(problem.n) or problem.law != LennardJones():
-            raise NotApplicable("this adapter to the finite elements is for the power-law punch and the 9-3 law alone")
-        nu = self._poisson_ratio
-        physical = problem.in_units(nu=nu, **_SCALES)
+        return problem.posed.in_units(nu=self._poisson_ratio, **_SCALES)
+
+    @staticmethod
+    def _body(physical: PosedProblem) -> fem_reference.Problem:
         solid: Any = physical.solid
-        body = fem_reference.Problem(
-            fem_reference.PowerLaw(E0=solid.E0, c0=solid.c0, k=solid.k, nu=nu),
-            fem_reference.PowerPunch(n=problem.n, Q=_SCALES["Q"]),
+        return fem_reference.Problem(
+            fem_reference.PowerLaw(E0=solid.E0, c0=solid.c0, k=solid.k, nu=solid.nu),
+            fem_reference.PowerPunch(n=physical.n, Q=_SCALES["Q"]),
             fem_reference.LennardJones(work_of_adhesion=_SCALES["work_of_adhesion"], z0=_SCALES["z0"]),
         )
-        return physical, body
 
 
 def _audited(solution: fem_reference.Solution) -> fem_reference.Solution:

@@ -11,8 +11,8 @@ from comparisons.model import Curve, NotApplicable, RadialField, Result
 from comparisons.models.gibson_limit import gibson_curve, gibson_profile
 from comparisons.models.solver import result_of, translated
 from comparisons.numerics.curve_distance import mesh_difference
+from comparisons.problem import Problem
 from comparisons.quantities.points import near
-from fscm.problem import Problem
 from fscm.states import radial_field
 
 __all__ = ["FullSelfConsistent"]
@@ -29,7 +29,7 @@ class FullSelfConsistent:
 
     Examples
     --------
-    >>> result = FullSelfConsistent().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
+    >>> result = FullSelfConsistent().evaluate(Problem.dimensionless(n=2, k=0.4, mu=1.0), "pull_off_force")
     >>> round(result.value, 8)
     1.78848171
     """
@@ -44,14 +44,14 @@ class FullSelfConsistent:
         if quantity not in fscm.QUANTITIES:
             raise NotApplicable(f"the FSCM does not compute {quantity}")
         with translated(fscm.NoSuchEvent, fscm.NotConverged):
-            return result_of(fscm.solve(problem.dimensionless, quantity))
+            return result_of(fscm.solve(problem.posed, quantity))
 
     def curve(self, problem: Problem) -> Curve:
         """Return the whole equilibrium path, from far away into contact."""
         with translated(fscm.NoSuchEvent, fscm.NotConverged):
-            if problem.k == 1.0:
-                return gibson_curve(problem)
-            path = fscm.trace(problem.dimensionless, longest_step=_STEP)
+            if problem.posed.k == 1.0:
+                return gibson_curve(problem.posed)
+            path = fscm.trace(problem.posed, longest_step=_STEP)
         columns = {
             "central_gap": path.central_gap,
             "edge_radius": path.edge_radius,
@@ -65,9 +65,9 @@ class FullSelfConsistent:
     def pull_off_profile(self, problem: Problem) -> RadialField:
         """Return the surface where P is smallest, and as its uncertainty the distance of the two meshes."""
         with translated(fscm.NoSuchEvent, fscm.NotConverged):
-            if problem.k == 1.0:
-                return gibson_profile(problem)
-            event = fscm.Analysis(problem).event("pull_off")
+            if problem.posed.k == 1.0:
+                return gibson_profile(problem.posed)
+            event = fscm.Analysis(problem.posed).event("pull_off")
         check, value = radial_field(event.check), radial_field(event.value)
         return RadialField(
             value.radius,

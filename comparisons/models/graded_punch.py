@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import beta
 
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 __all__ = ["GradedPunch", "Scales"]
 

@@ -13,7 +13,7 @@ from typing import ClassVar
 from comparisons.model import NotApplicable
 from comparisons.models.closed_form import ClosedForm
 from comparisons.models.maugis_parameter import maugis_parameter
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 __all__ = ["HomogeneousSphere", "transition_parameter"]
 
@@ -35,7 +35,7 @@ class HomogeneousSphere(ClosedForm):
     Examples
     --------
     >>> from comparisons.models.schwarz import Schwarz
-    >>> Schwarz().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force")
+    >>> Schwarz().evaluate(Problem.dimensionless(n=2, k=0.4, mu=1.0), "pull_off_force")
     Traceback (most recent call last):
     comparisons.model.NotApplicable: schwarz is for n = 2 and k = 0, a sphere on a homogeneous solid, not for k = 0.4
     """

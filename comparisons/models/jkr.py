@@ -17,7 +17,7 @@ import numpy as np
 from comparisons.model import Curve
 from comparisons.models.closed_form import EPS, ClosedForm, Estimate, monomial
 from comparisons.models.graded_punch import GradedPunch
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 __all__ = ["JKR"]
 
@@ -31,7 +31,7 @@ class JKR(ClosedForm):
 
     Examples
     --------
-    >>> round(JKR().evaluate(Problem(n=2, k=0.0, mu=1.0), "pull_off_force").value, 14)
+    >>> round(JKR().evaluate(Problem.dimensionless(n=2, k=0.0, mu=1.0), "pull_off_force").value, 14)
     1.5
     """
 

@@ -27,7 +27,7 @@ from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, ClosedForm, Est
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.models.semi_rigid import SemiRigid, attraction_coefficient
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 __all__ = ["JumpAsymptotes"]
 
@@ -39,7 +39,7 @@ class JumpAsymptotes(ClosedForm):
 
     Examples
     --------
-    >>> round(JumpAsymptotes().evaluate(Problem(n=2, k=0.0, mu=5.0), "hysteresis_energy").value, 6)
+    >>> round(JumpAsymptotes().evaluate(Problem.dimensionless(n=2, k=0.0, mu=5.0), "hysteresis_energy").value, 6)
     4.462498
     """
 

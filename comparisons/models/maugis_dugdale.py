@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 from comparisons.models.cohesive_model import CohesiveModel
 from comparisons.models.cohesive_stress import THEORETICAL_STRENGTH, eta
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 __all__ = ["MaugisDugdaleImproved", "MaugisDugdaleOriginal"]
 
@@ -22,7 +22,7 @@ class MaugisDugdaleOriginal(CohesiveModel):
 
     Examples
     --------
-    >>> round(MaugisDugdaleOriginal().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force").value, 8)
+    >>> round(MaugisDugdaleOriginal().evaluate(Problem.dimensionless(n=2, k=0.4, mu=1.0), "pull_off_force").value, 8)
     1.7304517
     """
 
@@ -40,7 +40,7 @@ class MaugisDugdaleImproved(CohesiveModel):
 
     Examples
     --------
-    >>> round(MaugisDugdaleImproved().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force").value, 8)
+    >>> round(MaugisDugdaleImproved().evaluate(Problem.dimensionless(n=2, k=0.4, mu=1.0), "pull_off_force").value, 8)
     1.78527591
     """
 

@@ -8,7 +8,7 @@ alone enters here, is the same.
 from __future__ import annotations
 
 from comparisons.models.cohesive_model import CohesiveModel
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 __all__ = ["MaugisDugdaleJin"]
 
@@ -20,7 +20,7 @@ class MaugisDugdaleJin(CohesiveModel):
 
     Examples
     --------
-    >>> round(MaugisDugdaleJin().evaluate(Problem(n=2, k=0.4, mu=1.0), "pull_off_force").value, 8)
+    >>> round(MaugisDugdaleJin().evaluate(Problem.dimensionless(n=2, k=0.4, mu=1.0), "pull_off_force").value, 8)
     1.73229032
     """
 

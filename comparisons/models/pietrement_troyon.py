@@ -21,7 +21,7 @@ import numpy as np
 from comparisons.model import Curve, NotApplicable
 from comparisons.models.closed_form import FACTOR_ROUNDING, Estimate
 from comparisons.models.homogeneous_sphere import HomogeneousSphere, transition_parameter
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 __all__ = ["PietrementTroyon"]
 
@@ -39,7 +39,7 @@ class PietrementTroyon(HomogeneousSphere):
 
     Examples
     --------
-    >>> round(PietrementTroyon().evaluate(Problem(n=2, k=0, mu=1.0), "pull_off_force").value, 6)
+    >>> round(PietrementTroyon().evaluate(Problem.dimensionless(n=2, k=0, mu=1.0), "pull_off_force").value, 6)
     1.593884
     """
 

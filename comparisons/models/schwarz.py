@@ -21,7 +21,7 @@ from comparisons.models.closed_form import EPS, FACTOR_ROUNDING, Estimate
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.homogeneous_sphere import HomogeneousSphere, transition_parameter
 from comparisons.models.jkr import JKR
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 __all__ = ["Schwarz", "short_range_share"]
 
@@ -46,7 +46,7 @@ class Schwarz(HomogeneousSphere):
 
     Examples
     --------
-    >>> round(Schwarz().evaluate(Problem(n=2, k=0, mu=1.0), "pull_off_force").value, 6)
+    >>> round(Schwarz().evaluate(Problem.dimensionless(n=2, k=0, mu=1.0), "pull_off_force").value, 6)
     1.719118
     """
 

@@ -19,7 +19,7 @@ from scipy.special import beta, gamma
 from comparisons.model import Curve, NotApplicable
 from comparisons.models.bradley import rigid_load
 from comparisons.models.closed_form import EPS, ClosedForm, Estimate, monomial
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 __all__ = ["SemiRigid", "attraction_coefficient", "jump_in_coefficient"]
 
@@ -69,7 +69,7 @@ class SemiRigid(ClosedForm):
 
     Examples
     --------
-    >>> problem = Problem(n=2, k=0.0, mu=1.0)
+    >>> problem = Problem.dimensionless(n=2, k=0.0, mu=1.0)
     >>> value = SemiRigid().evaluate(problem, "jump_in_displacement").value
     >>> bool(np.isclose(value, 1 - 1.4 * (5 * np.pi / np.sqrt(2)) ** (2 / 7), rtol=1e-14))
     True

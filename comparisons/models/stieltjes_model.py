@@ -6,8 +6,8 @@ from typing import ClassVar
 
 from comparisons.model import Curve, NotApplicable, Result
 from comparisons.models.solver import result_of, translated
+from comparisons.problem import Problem
 from fscm.errors import NoSuchEvent, NotConverged
-from fscm.problem import Problem
 from fscm.stieltjes import STIELTJES_QUANTITIES, StieltjesScheme, stieltjes_solution
 
 __all__ = ["CoarseStieltjesModel", "StieltjesModel"]
@@ -25,7 +25,7 @@ class StieltjesModel:
 
     Examples
     --------
-    >>> result = StieltjesModel(segments=200).evaluate(Problem(n=2, k=0.4, mu=0.5), "pull_off_force")
+    >>> result = StieltjesModel(segments=200).evaluate(Problem.dimensionless(n=2, k=0.4, mu=0.5), "pull_off_force")
     >>> abs(result.value - 1.86628026) < result.u_num
     True
     """
@@ -44,13 +44,13 @@ class StieltjesModel:
             raise NotApplicable(f"the Stieltjes scheme is for points of the path, not for {quantity}")
         _check(problem)
         with translated(NoSuchEvent, NotConverged):
-            return result_of(stieltjes_solution(problem, quantity, self._segments))
+            return result_of(stieltjes_solution(problem.posed, quantity, self._segments))
 
     def curve(self, problem: Problem) -> Curve:
         """Return the path from a central gap of 10 to the first compressive load, at the latest to a gap of -0.4."""
         _check(problem)
         with translated(NoSuchEvent, NotConverged):
-            central_gap, displacement, load = StieltjesScheme(problem, self._segments).curve()
+            central_gap, displacement, load = StieltjesScheme(problem.posed, self._segments).curve()
         return Curve(displacement=displacement, load=load, columns={"central_gap": central_gap})
 
 

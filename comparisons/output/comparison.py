@@ -25,10 +25,11 @@ from comparisons.output.table import (
     words,
 )
 from comparisons.output.terminal import rich_table
+from comparisons.problem import PARAMETERS
 from comparisons.runs.case_columns import keys_in, with_problem, without_empty_problem
 from comparisons.runs.cases import Grid
-from comparisons.runs.rows import CASE, PARAMETERS
-from comparisons.runs.tasks import Task, case_for
+from comparisons.runs.rows import CASE
+from comparisons.runs.tasks import Task, problem_for
 
 __all__ = [
     "COLUMNS",
@@ -83,14 +84,14 @@ def comparison_table(results: pd.DataFrame, grids: Iterable[Grid], models: Seque
     stored = dict(zip(keys_in(results), columns, strict=True))
 
     def found(model: str, quantity: str, case: Any) -> tuple[str, float, float, str]:
-        return stored[Task(model, quantity, case_for(model, case)).key]
+        return stored[Task(model, quantity, problem_for(model, case)).key]
 
     rows: dict[tuple[Any, ...], list[Any]] = {}
     for grid in grids:
         for quantity in grid.quantities:
             for case in grid.cases:
                 status, reference, u_reference, why = found(grid.reference, quantity, case)
-                parameters = [case.n, case.k, case.mu, np.nan if case.nu is None else case.nu, case.label_of_file]
+                parameters = [np.nan if entry is None else entry for entry in case.key]
                 for model in models or grid.models:
                     if model == grid.reference:
                         continue

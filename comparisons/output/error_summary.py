@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from comparisons.problem import PARAMETERS
 from comparisons.runs.case_columns import with_problem, without_empty_problem
-from comparisons.runs.rows import CASE, PARAMETERS
+from comparisons.runs.rows import CASE
 
 __all__ = ["SUMMARY_COLUMNS", "error_summary"]
 

@@ -13,8 +13,9 @@ from comparisons.judging.card_gates import overall
 from comparisons.judging.decision import Verdict
 from comparisons.judging.summary import coverage
 from comparisons.numerics.number_text import limits_text
+from comparisons.problem import PARAMETERS
 from comparisons.runs.case_columns import keys_in
-from comparisons.runs.rows import PARAMETERS, Key
+from comparisons.runs.rows import Key
 
 __all__ = ["evaluation_seconds", "junit", "numbers_text"]
 

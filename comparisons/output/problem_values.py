@@ -8,7 +8,7 @@ import pandas as pd
 from rich.console import RenderableType
 
 from comparisons.output.terminal import rich_table
-from comparisons.problem_file.units import si_text
+from comparisons.problem.units import si_text
 from comparisons.runs.case_columns import unit_in, varied_of
 
 __all__ = ["key_text", "values_of_problems"]

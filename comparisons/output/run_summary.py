@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import pandas as pd
 from rich.console import RenderableType
 
-from comparisons.numerics.number_text import case_text, exact
+from comparisons.numerics.number_text import exact
 from comparisons.output.gate_sentence import counted
 from comparisons.output.table import Cell, Column, numbers, percents, short_percent, texts_of, values, words
 from comparisons.output.tables import worst_rows
@@ -175,8 +175,7 @@ def failure_lines(failures: Sequence[Row]) -> Iterator[str]:
     []
     """
     for row in failures[:_FAILURES]:
-        place = case_text({"n": row.n, "k": row.k, "mu": row.mu, "problem": row.problem})
-        yield f"{row.model}: {row.quantity} at {place}: {row.reason}"
+        yield f"{row.model}: {row.quantity} at {row.label}: {row.reason}"
     if len(failures) > _FAILURES:
         yield f"{len(failures) - _FAILURES} more computations failed; the tables have their reasons"
 

@@ -17,9 +17,9 @@ import pandas as pd
 from comparisons.judging.decision import Verdict
 from comparisons.judging.summary import coverage_text
 from comparisons.numerics.number_text import error_text, exact, limits_text, percent_text, value_text
+from comparisons.problem import PARAMETERS
 from comparisons.quantities import title_of
 from comparisons.runs.csv_format import csv_text
-from comparisons.runs.rows import PARAMETERS
 
 __all__ = [
     "CASE_LABELS",

@@ -18,10 +18,12 @@ from comparisons.output.junit import junit
 from comparisons.output.latex import latex
 from comparisons.output.markdown import markdown
 from comparisons.output.table import CASE_LABELS, COLUMNS, Cell, Column, chosen, table_of, texts_of
+from comparisons.problem import PARAMETERS
+from comparisons.problem.problem import split_name
 from comparisons.quantities import CURVES
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.folder import RunFolder
-from comparisons.runs.rows import PARAMETERS, Key, split_label
+from comparisons.runs.rows import Key
 from comparisons.runs.tables import write_table
 
 __all__ = ["GATE_COLUMNS", "WORST_CASES", "command", "write_verdicts"]
@@ -59,7 +61,7 @@ def command(row: Mapping[str, Any], specs: Mapping[str, str]) -> str:
 
 
 def _command_of_file(row: Mapping[str, Any], specs: Mapping[str, str]) -> str:
-    file, *varied = split_label(row["problem"])
+    file, *varied = split_name(row["problem"])
     model = shlex.quote(specs.get(row["candidate"], row["candidate"]))
     vary = "".join(f" --vary {shlex.quote(one)}" for one in varied)
     quoted = shlex.quote(file)

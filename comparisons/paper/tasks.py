@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from comparisons.model import ComputationFailed, HasCurve, HasProfile, NotApplicable
+from comparisons.problem import Problem
 from comparisons.quantities.points import FARTHEST_GAP
 from comparisons.registry import create
-from comparisons.runs.cases import Case
 from comparisons.runs.tasks import evaluate
 
 __all__ = ["curve", "profile", "quantity"]
@@ -45,10 +45,12 @@ def quantity(model: str, name: str, n: float, k: float, mu: float) -> Json:
     >>> quantity("bradley", "jump_in_gap", 2, 0.4, 1)["status"]
     'not-applicable'
     """
-    return {"value": None, "u_num": None} | _with_status(lambda: _quantity(model, name, Case(n, k, mu)))
+    return {"value": None, "u_num": None} | _with_status(
+        lambda: _quantity(model, name, Problem.dimensionless(n, k, mu))
+    )
 
 
-def _quantity(model: str, name: str, case: Case) -> Json:
+def _quantity(model: str, name: str, case: Problem) -> Json:
     row = evaluate(create(model), name, case)
     return {"value": row.value, "u_num": row.u_num, "status": row.status, "reason": row.reason}
 
@@ -69,14 +71,14 @@ def curve(model: str, n: float, k: float, mu: float) -> Json:
     >>> found["status"], found["displacement"][0], sorted(found["columns"])
     ('ok', 0.0, ['contact_radius'])
     """
-    return _with_status(lambda: _curve(model, Case(n, k, mu)))
+    return _with_status(lambda: _curve(model, Problem.dimensionless(n, k, mu)))
 
 
-def _curve(model: str, case: Case) -> Json:
+def _curve(model: str, case: Problem) -> Json:
     tracing = create(model)
     if not isinstance(tracing, HasCurve):
         raise NotApplicable(f"{model} has no force-displacement curve")
-    found = tracing.curve(case.problem())
+    found = tracing.curve(case)
     return {
         "displacement": _numbers(found.displacement),
         "load": _numbers(found.load),
@@ -101,14 +103,14 @@ def profile(model: str, n: float, k: float, mu: float) -> Json:
     >>> profile("bradley", 2, 0.4, 1)["reason"]
     'bradley has no profile at pull-off'
     """
-    return _with_status(lambda: _profile(model, Case(n, k, mu)))
+    return _with_status(lambda: _profile(model, Problem.dimensionless(n, k, mu)))
 
 
-def _profile(model: str, case: Case) -> Json:
+def _profile(model: str, case: Problem) -> Json:
     tracing = create(model)
     if not isinstance(tracing, HasProfile):
         raise NotApplicable(f"{model} has no profile at pull-off")
-    found = tracing.pull_off_profile(case.problem())
+    found = tracing.pull_off_profile(case)
     near = found.gap <= FARTHEST_GAP
     shapes: Mapping[str, NDArray[np.float64]] = {
         "radius": found.radius,

@@ -8,9 +8,9 @@ import pandas as pd
 
 from comparisons.model import Model
 from comparisons.output.tables import relative_error
+from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
-from comparisons.runs.cases import Case
 from comparisons.runs.frames import frame
 from comparisons.runs.tasks import evaluate
 
@@ -18,7 +18,7 @@ __all__ = ["errors"]
 
 
 def errors(
-    models: Iterable[Model | str], cases: Iterable[Case], quantity: str = "pull_off_force", reference: str = "fscm"
+    models: Iterable[Model | str], cases: Iterable[Problem], quantity: str = "pull_off_force", reference: str = "fscm"
 ) -> pd.DataFrame:
     """Return kappa = (model - reference) / abs(reference) of every model in every case, with its uncertainty.
 
@@ -26,7 +26,7 @@ def errors(
     ----------
     models : iterable of Model or str
         Models, or the names of models; the reference may be one of them.
-    cases : iterable of Case
+    cases : iterable of Problem
     quantity : str
         A key of `comparisons.quantities.QUANTITIES`.
     reference : str
@@ -44,7 +44,7 @@ def errors(
 
     Examples
     --------
-    >>> table = errors(["jkr"], [Case(n=2, k=0, mu=1)], reference="bradley")
+    >>> table = errors(["jkr"], [Problem.dimensionless(n=2, k=0, mu=1)], reference="bradley")
     >>> table["kappa"].round(6).tolist()
     [-0.25]
     """

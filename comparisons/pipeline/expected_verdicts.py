@@ -22,7 +22,7 @@ from comparisons.pipeline.run import run
 from comparisons.registry import identify
 from comparisons.runs.atomic_files import prepare_folder
 from comparisons.runs.case_columns import keys_in, with_problem
-from comparisons.runs.tasks import case_for
+from comparisons.runs.tasks import problem_for
 
 __all__ = ["ExpectedVerdict", "expected_verdicts", "found_verdicts"]
 
@@ -62,10 +62,9 @@ def expected_verdicts(gates: Path, models: Sequence[str], cases: str | Path = "q
     loaded = load_cases(cases, names)
     for gate in relevant(read_gates(gates, loaded, names).gates, loaded.grids, names):
         for case in cases_of(gate, loaded.grids, names):
-            own = case_for(gate.candidate, case)
-            parameters = " ".join(f"{name}={exact(value)}" for name, value in own.parameters.items())
+            own = problem_for(gate.candidate, case)
             key = (gate.id, *key_of(gate.candidate, gate, case))
-            place = case.label_of_file or parameters
+            place = case.name or " ".join(f"{name}={exact(value)}" for name, value in own.numbers.items())
             yield ExpectedVerdict(key, f"{gate.id}[{gate.candidate} {place}]", gate.requirement)
 
 

@@ -87,7 +87,7 @@ def write_run(
     judgement: Judgement | None = None
     cards: dict[str, Any] = {}
     if rules is not None:
-        cards = make_cards(external, rows, completed.parts, {task.key: task.case for task in inputs.plan()})
+        cards = make_cards(external, rows, completed.parts, {task.key: task.problem for task in inputs.plan()})
         judgement = judge_and_write(target, inputs, tables.results, tables.curves, cards)
     stale = {GRID_TEXT} if rules is not None else {GATES_TEXT, *VERDICT_FILES}
     _remove_stale(target, {*stale, *COMPARISON_FILES}, texts)

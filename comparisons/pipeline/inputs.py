@@ -16,12 +16,12 @@ from comparisons.domain import Domain, declared_domain
 from comparisons.judging.fresh_cases import FreshCases
 from comparisons.judging.gates import Gate, gates_text, load_gates, of_tier
 from comparisons.judging.selection import cases_of, load_user_gates, needed_keys
-from comparisons.problem_file.evaluation import REFERENCES
-from comparisons.problem_file.reading import load_problem
-from comparisons.problem_file.variation import Variation, parse_variations, problems_of
+from comparisons.problem import Problem
+from comparisons.problem.evaluation import REFERENCES
+from comparisons.problem.variation import Variation, parse_variations, problems_of
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import MODELS, ExternalIdentity, create
-from comparisons.runs.cases import TIERS, Case, FileProblem, Grid, cases_text, grids, grids_for, load_grids, order_of
+from comparisons.runs.cases import TIERS, Grid, cases_text, grids, grids_for, load_grids
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.rows import Key
 from comparisons.runs.tasks import Task, plan
@@ -199,9 +199,9 @@ def cases_of_problem(problem: Path, vary: Sequence[str], models: Sequence[str], 
     problem : Path
         A problem file.
     vary : sequence of str
-        ``SECTION.KEY=VALUES``, as of `comparisons.problem_file.variation.parse_variation`.
+        ``SECTION.KEY=VALUES``, as of `comparisons.problem.variation.parse_variation`.
     models : sequence of str
-        Names; the first of `comparisons.problem_file.evaluation.REFERENCES` among them is the reference, if one is.
+        Names; the first of `comparisons.problem.evaluation.REFERENCES` among them is the reference, if one is.
     quantities : sequence of str
         Of `comparisons.QUANTITIES`.
 
@@ -213,9 +213,9 @@ def cases_of_problem(problem: Path, vary: Sequence[str], models: Sequence[str], 
     for quantity in quantities:
         known_name("quantity", quantity, tuple(QUANTITIES), "--quantity")
     chosen = parse_variations(vary)
-    load_problem(problem)
+    Problem.load(problem)
     try:
-        found = {Case.of_file(FileProblem.of(problem.name, varied)) for varied in problems_of(problem, chosen)}
+        found = set(problems_of(problem, chosen))
     except ValueError as error:
         raise ValueError(f"--vary {error}") from None
     reference = next((name for name in REFERENCES if name in models), "")
@@ -227,7 +227,7 @@ def cases_of_problem(problem: Path, vary: Sequence[str], models: Sequence[str], 
         # Models from outside are given beside the grid, as for every other.
         models=tuple(name for name in models if name in MODELS) or (REFERENCES[0],),
         quantities=tuple(quantities),
-        cases=tuple(sorted(found, key=order_of)),
+        cases=tuple(sorted(found)),
         problem=problem.name,
     )
     return Cases([grid], None, _text_of(grid, chosen), str(problem), _files([grid], problem.parent))
@@ -266,8 +266,7 @@ def _files(grids: Iterable[Grid], folder: Path) -> dict[str, bytes]:
             continue
         contents[PurePath(grid.problem).as_posix()] = read_bytes(path_inside(folder, grid.problem), LARGEST_TEXT)
         for case in grid.cases:
-            assert case.file is not None
-            for name in case.file.content.tables:
+            for name in case.tables:
                 place = PurePath(grid.problem).parent / name
                 contents[place.as_posix()] = read_bytes(path_inside(folder, str(place)), LARGEST_TABLE)
     return contents

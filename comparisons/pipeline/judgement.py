@@ -24,13 +24,14 @@ from comparisons.judging.summary import COVERAGE, summarise
 from comparisons.output.junit import evaluation_seconds
 from comparisons.output.verdicts import write_verdicts
 from comparisons.pipeline.inputs import RunInputs, names_of_inputs, read_gates, stored_cases
+from comparisons.problem import PARAMETERS
 from comparisons.registry import ExternalIdentity
 from comparisons.runs.atomic_files import atomic
 from comparisons.runs.case_columns import keys_in
 from comparisons.runs.environment import fingerprint
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import check_files, read_record, warn_of_other_code, write_record
-from comparisons.runs.rows import PARAMETERS, Key
+from comparisons.runs.rows import Key
 from comparisons.runs.tables import read_table
 from comparisons.runs.tasks import plan
 

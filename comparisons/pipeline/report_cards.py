@@ -12,10 +12,10 @@ from comparisons.console.progress import note, waiting
 from comparisons.external.contract_checks import AnyExternalModel, examine
 from comparisons.external.data_model import DataModel
 from comparisons.external.model_source import load_again
+from comparisons.problem import Problem
 from comparisons.registry import ExternalIdentity
-from comparisons.runs.cases import Case
 from comparisons.runs.environment import computing_environment
-from comparisons.runs.rows import CASE, Key, Row
+from comparisons.runs.rows import Key, Row
 from comparisons.runs.tasks import evaluate
 
 __all__ = ["AGAIN", "make_cards"]
@@ -33,7 +33,7 @@ def make_cards(
     external: Mapping[str, ExternalIdentity],
     rows: Sequence[Row],
     parts: Sequence[Mapping[str, Any]],
-    cases: Mapping[Key, Case],
+    cases: Mapping[Key, Problem],
 ) -> dict[str, Any]:
     """Return the report card of each external model, as the record of the run holds it.
 
@@ -44,7 +44,7 @@ def make_cards(
         Of the run.
     parts : sequence of mapping
         The commands that computed them, with their environments.
-    cases : mapping of Key to Case
+    cases : mapping of Key to Problem
         The case of each row, by its key.
     """
     here = computing_environment()
@@ -58,7 +58,7 @@ def make_cards(
     return cards
 
 
-def _card(identity: ExternalIdentity, rows: Sequence[Row], exact: bool, cases: Mapping[Key, Case]) -> dict[str, Any]:
+def _card(identity: ExternalIdentity, rows: Sequence[Row], exact: bool, cases: Mapping[Key, Problem]) -> dict[str, Any]:
     model = load_again(identity.spec)
     try:
         if isinstance(model, DataModel):
@@ -82,7 +82,7 @@ def _repeated(
     model: AnyExternalModel,
     rows: Sequence[Row],
     exact: bool,
-    cases: Mapping[Key, Case],
+    cases: Mapping[Key, Problem],
 ) -> dict[str, Any]:
     """Evaluate some results again, the last first; the seed of the choice is nothing that a model can know."""
     seed = SystemRandom().randrange(2**32)
@@ -91,7 +91,7 @@ def _repeated(
     for row in reversed(_chosen(rows, seed)):
         again = evaluate(model, row.quantity, cases[row.key])
         allowed = 0.0 if exact else (row.u_num or 0.0) + (again.u_num or 0.0)
-        facts = {key: getattr(row, key) for key in ("quantity", *CASE)}
+        facts = {"quantity": row.quantity, **row.numbers, "problem": row.problem}
         repeated.append({**facts, "first": row.value, "again": again.value, "allowed": allowed})
         if again.value is None or row.value is None or abs(again.value - row.value) > allowed:
             changed.append(row)
@@ -113,7 +113,7 @@ def _chosen(rows: Sequence[Row], seed: int) -> list[Row]:
     return [rows[number] for number in sorted(chosen)]
 
 
-def _cause(identity: ExternalIdentity, quantity: str, case: Case) -> str:
+def _cause(identity: ExternalIdentity, quantity: str, case: Problem) -> str:
     """Return why a result changes: it is evaluated as the first one of two new processes."""
     values = []
     for _ in range(2):

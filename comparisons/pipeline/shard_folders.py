@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 from comparisons.data.validation import known_name
-from comparisons.numerics.number_text import case_text
 from comparisons.registry import MODELS
 from comparisons.runs.folder import RunFolder
 from comparisons.runs.record import read_record
@@ -107,5 +106,4 @@ def take_rows(folder: Path, journal: Store[Row], usable: Callable[[Iterable[Row]
 
 
 def _place(row: Row) -> str:
-    case = {"n": row.n, "k": row.k, "mu": row.mu, "problem": row.problem}
-    return f"{row.quantity} of {row.model} at {case_text(case)}"
+    return f"{row.quantity} of {row.model} at {row.label}"

@@ -18,8 +18,8 @@ __all__ = [
     "title_of",
 ]
 
-_DISPLACEMENT = Axis("displacement", "δ", "z0", "displacement", "δ / z₀", r"\delta / z_0")
-_RADIUS = Axis("radius", "r", "(Q z0)^(1/n)", "radius", "r / (Q z₀)^(1/n)", r"r / (Q z_0)^{1/n}")
+_DISPLACEMENT = Axis("displacement", "δ", "z0", "displacement", "δ / z₀", r"\delta / z_0", "displacement")
+_RADIUS = Axis("radius", "r", "(Q z0)^(1/n)", "radius", "r / (Q z₀)^(1/n)", r"r / (Q z_0)^{1/n}", "radius")
 _LOAD = Axis(
     "load",
     "P",
@@ -27,6 +27,7 @@ _LOAD = Axis(
     "load",
     "P / (π Q^(2/n) Δγ z₀^(2/n−1))",
     r"P / (\pi Q^{2/n} \Delta\gamma z_0^{2/n-1})",
+    "load",
     "tension negative",
 )
 _PRESSURE = Axis(
@@ -36,9 +37,10 @@ _PRESSURE = Axis(
     "pressure at pull-off",
     "p z₀ / Δγ",
     r"p z_0 / \Delta\gamma",
+    "traction",
     "tension negative",
 )
-_GAP = Axis("gap", "H", "z0", "gap at pull-off", "H / z₀", "H / z_0")
+_GAP = Axis("gap", "H", "z0", "gap at pull-off", "H / z₀", "H / z_0", "gap")
 
 #: Every scalar, by name: symbol, title, meaning and scale.
 QUANTITIES: dict[str, ScalarQuantity] = {

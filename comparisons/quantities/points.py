@@ -6,12 +6,16 @@ scaled by the range of the curve (see `comparisons.numerics.curve_distance`).
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 
 from comparisons.model import HasCurve, HasProfile, Model, NotApplicable, RadialField
 from comparisons.quantities.quantity import Points
-from fscm.problem import Problem
+
+if TYPE_CHECKING:
+    from comparisons.problem.problem import Problem
 
 __all__ = ["FARTHEST_GAP", "force_curve", "near", "pull_off_gap", "pull_off_pressure"]
 
@@ -26,8 +30,9 @@ def force_curve(model: Model, problem: Problem) -> Points:
 
     Examples
     --------
+    >>> from comparisons.problem import Problem
     >>> from comparisons.registry import create
-    >>> round(min(force_curve(create("bradley"), Problem(n=2, k=0, mu=0.1)).y), 3)
+    >>> round(min(force_curve(create("bradley"), Problem.dimensionless(n=2, k=0, mu=0.1)).y), 3)
     -2.0
     """
     if not isinstance(model, HasCurve):

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from comparisons.model import Model, Result
-from fscm.problem import Problem
+
+if TYPE_CHECKING:
+    from comparisons.problem.problem import Problem
 
 __all__ = ["Axis", "CurveQuantity", "Kind", "Points", "Quantity", "ScalarQuantity"]
 
@@ -33,25 +35,37 @@ class Quantity:
 
 @dataclass(frozen=True, slots=True)
 class _Scale:
-    """Unit, sign rule, and that rule as a test of a value."""
+    """Unit, that in SI, sign rule, and that rule as a test of a value."""
 
     unit: str
+    si_unit: str
     sign: str
     admits: Callable[[float], bool]
 
 
 #: The scales of `fscm.Problem.units`.
 _SCALES = {
-    "load": _Scale("pi Q^(2/n) dgamma z0^(2/n-1)", "positive, though the load is a tension", lambda value: value > 0.0),
-    "energy": _Scale("pi Q^(2/n) dgamma z0^(2/n)", "never negative", lambda value: value >= 0.0),
+    "load": _Scale(
+        "pi Q^(2/n) dgamma z0^(2/n-1)", "N", "positive, though the load is a tension", lambda value: value > 0.0
+    ),
+    "energy": _Scale("pi Q^(2/n) dgamma z0^(2/n)", "J", "never negative", lambda value: value >= 0.0),
     "displacement": _Scale(
         "z0",
+        "m",
         "positive towards the half-space, zero where the undeformed gap at r = 0 is zero",
         lambda value: True,
     ),
-    "gap": _Scale("z0", "zero at the equilibrium distance of two flat surfaces, above -1", lambda value: value > -1.0),
-    "number": _Scale("1", "positive", lambda value: value > 0.0),
+    "gap": _Scale(
+        "z0", "m", "zero at the equilibrium distance of two flat surfaces, above -1", lambda value: value > -1.0
+    ),
+    "number": _Scale("1", "1", "positive", lambda value: value > 0.0),
 }
+
+#: Units in SI of the scales of axes and columns.
+_SI_UNITS = {"displacement": "m", "gap": "m", "radius": "m", "load": "N", "traction": "Pa"}
+
+#: Scales of the columns that a curve may have.
+_COLUMNS = {"central_gap": "gap", "edge_radius": "radius", "contact_radius": "radius", "cohesive_radius": "radius"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,6 +94,11 @@ class ScalarQuantity(Quantity):
         return _SCALES[self.scale].unit
 
     @property
+    def si_unit(self) -> str:
+        """The unit in SI."""
+        return _SCALES[self.scale].si_unit
+
+    @property
     def sign(self) -> str:
         """The positive direction, and the place of zero."""
         return _SCALES[self.scale].sign
@@ -97,6 +116,11 @@ class ScalarQuantity(Quantity):
         """Return the value of a model, or raise `NotApplicable` or `ComputationFailed`."""
         return model.evaluate(problem, self.name)
 
+    def in_units(self, result: Result, units: Mapping[str, float]) -> Result:
+        """Return a dimensionless result in the units of a problem."""
+        unit = units[self.scale]
+        return replace(result, value=result.value * unit, u_num=result.u_num * unit)
+
 
 @dataclass(frozen=True, slots=True)
 class Axis:
@@ -111,7 +135,9 @@ class Axis:
     title : str
         Its name in a sentence.
     formula, mathtext : str
-        The dimensionless variable in Unicode, and as mathematics of Matplotlib.
+        The dimensionless variable in Unicode, and as mathematics of Matplotlib, which begins with the symbol.
+    scale : str
+        Of `fscm.Problem.units`.
     sign : str
         Meaning of a negative value, where it needs one.
     """
@@ -122,7 +148,15 @@ class Axis:
     title: str
     formula: str
     mathtext: str
+    scale: str
     sign: str = ""
+
+    @property
+    def in_si(self) -> Axis:
+        """The same axis in SI."""
+        unit = _SI_UNITS[self.scale]
+        symbol = self.mathtext.partition(" ")[0]
+        return replace(self, mathtext=rf"{symbol}\ \mathrm{{({unit})}}", unit=unit)
 
     @property
     def label(self) -> str:
@@ -142,7 +176,7 @@ class Axis:
 
 @dataclass(frozen=True, slots=True)
 class Points:
-    """Points in the order of the curve, dimensionless, and the bound on their distance from it.
+    """Points in the order of the curve, in the units of the problem, and the bound on their distance from it.
 
     `columns` holds what else a model knows at these points; it is shown and not stored.
     """
@@ -174,6 +208,35 @@ class CurveQuantity(Quantity):
     def unit(self) -> str:
         """The units of both axes."""
         return f"{self.x.unit}; {self.y.unit}"
+
+    @property
+    def si_unit(self) -> str:
+        """The units of both axes in SI."""
+        return self.in_si.unit
+
+    @property
+    def in_si(self) -> CurveQuantity:
+        r"""The same curve with axes in SI.
+
+        Examples
+        --------
+        >>> from comparisons.quantities import CURVES
+        >>> CURVES["force_curve"].in_si.x.figure_label, CURVES["force_curve"].si_unit
+        ('displacement $\\delta\\ \\mathrm{(m)}$', 'm; N')
+        """
+        return replace(self, x=self.x.in_si, y=self.y.in_si)
+
+    @property
+    def columns_in_si(self) -> dict[str, str]:
+        """The columns of points in SI, with their units: ``displacement [m]``."""
+        scales = {self.x.name: self.x.scale, self.y.name: self.y.scale, **_COLUMNS}
+        return {name: f"{name} [{_SI_UNITS[scale]}]" for name, scale in scales.items()}
+
+    def in_units(self, points: Points, units: Mapping[str, float]) -> Points:
+        """Return dimensionless points in the units of a problem."""
+        x, y = units[self.x.scale], units[self.y.scale]
+        columns = {name: values * units.get(_COLUMNS.get(name, ""), 1.0) for name, values in points.columns.items()}
+        return Points([a * x for a in points.x], [b * y for b in points.y], points.u_distance, columns)
 
     @property
     def sign(self) -> str:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import pandas as pd
 
-from comparisons.problem_file.kinds import SECTIONS
-from comparisons.runs.rows import CASE, PARAMETERS, Key, none_if_nan, split_label
+from comparisons.problem import PARAMETERS
+from comparisons.problem.kinds import SECTIONS
+from comparisons.problem.problem import split_name
+from comparisons.runs.rows import CASE, DIMENSIONLESS, Key, none_if_nan
 
-__all__ = ["DIMENSIONLESS", "in_case_order", "keys_in", "unit_in", "varied_of", "with_problem", "without_empty_problem"]
-
-#: Columns of the value of a problem of a file in the units of the paper.
-DIMENSIONLESS = ("dimensionless_value", "dimensionless_u_num", "dimensionless_unit")
+__all__ = ["in_case_order", "keys_in", "unit_in", "varied_of", "with_problem", "without_empty_problem"]
 
 
 def keys_in(table: pd.DataFrame) -> list[Key]:
@@ -86,6 +85,6 @@ def in_case_order(table: pd.DataFrame, *first: str) -> pd.DataFrame:
     [5e-09, 1e-08]
     """
     ordered = with_problem(table)
-    ordered = ordered.assign(_file=[split_label(label)[0] for label in ordered["problem"]])
+    ordered = ordered.assign(_file=[split_name(label)[0] for label in ordered["problem"]])
     order = [*first, *PARAMETERS, "_file", *varied_of(table), "problem"]
     return ordered.sort_values(order, ignore_index=True)[list(table.columns)]

@@ -8,9 +8,8 @@ The form of the file is checked by ``comparisons/data/cases.schema.json``.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
 from pathlib import Path
@@ -19,26 +18,20 @@ from typing import Any
 from comparisons.data.contained_paths import path_inside
 from comparisons.data.toml_text import parse
 from comparisons.data.validation import known_name, label, validated
-from comparisons.problem_file.description import ProblemFile
-from comparisons.problem_file.dimensionless import dimensionless_problem
-from comparisons.problem_file.variation import Variation, Varied, problems_of
+from comparisons.problem import PARAMETERS, Problem
+from comparisons.problem.variation import Variation, problems_of
 from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS
-from comparisons.runs.parameter_sets import FORMS, NAMES, parameter_sets
-from comparisons.runs.rows import Row, joined_label
-from fscm.problem import Problem
+from comparisons.runs.parameter_sets import FORMS, parameter_sets
 
 __all__ = [
     "TIERS",
     "VERIFICATION",
-    "Case",
-    "FileProblem",
     "Grid",
     "cases_text",
     "grids",
     "grids_for",
     "load_grids",
-    "order_of",
 ]
 
 #: A tier holds its own grids and those of every tier before it.
@@ -47,139 +40,6 @@ TIERS = ("quick", "full")
 #: Grids with this tag verify the references themselves.  A run with --model does not compute them, and they are not in
 #: its tables of errors.
 VERIFICATION = "verification"
-
-
-@dataclass(frozen=True, slots=True)
-class FileProblem:
-    """The problem of a file, in SI.
-
-    Attributes
-    ----------
-    label : str
-        The name of the file, and the values of the keys that are varied.
-    digest : str
-        SHA-256 of the content.
-    content : ProblemFile
-    parameters : mapping of str to float or str
-        The varied keys in SI, by the names of their columns.
-    """
-
-    label: str
-    digest: str
-    content: ProblemFile = field(compare=False, repr=False)
-    parameters: Mapping[str, float | str] = field(compare=False, repr=False)
-
-    @classmethod
-    def of(cls, name: str, varied: Varied) -> FileProblem:
-        """Return the problem of a file of that name with values of some keys."""
-        problem = varied.problem
-        return cls(joined_label(name, varied.texts), problem.digest, problem, varied.parameters)
-
-
-@dataclass(frozen=True, slots=True)
-class Case:
-    """One problem: dimensionless with the default punch and surface law, or that of a file.
-
-    Parameters
-    ----------
-    n, k, mu : float
-        Shape index, gradient exponent and Tabor number (see `fscm.problem.Problem`).
-    nu : float, optional
-        Poisson's ratio in [0, 0.5), for models that solve the physical problem; None leaves it to them.
-    file : FileProblem, optional
-        The problem of a file, in place of n, k and mu, which are then NaN.
-
-    Raises
-    ------
-    ValueError
-        With the value, the admissible range and the reason.
-
-    Examples
-    --------
-    >>> Case(2, 0.4, 1.0).label
-    'n = 2, k = 0.4, mu = 1'
-    """
-
-    n: float
-    k: float
-    mu: float
-    nu: float | None = None
-    file: FileProblem | None = None
-
-    def __post_init__(self) -> None:
-        if self.file is not None:
-            return
-        for name in ("n", "k", "mu"):
-            object.__setattr__(self, name, float(getattr(self, name)))
-        if self.nu is not None and not 0 <= self.nu < 0.5:
-            raise ValueError(
-                f"Poisson's ratio nu = {self.nu:g} is not in [0, 0.5): "
-                "at 0.5 the solid is incompressible and displacements alone do not give the stress"
-            )
-        self.problem()
-
-    @classmethod
-    def of_file(cls, file: FileProblem) -> Case:
-        """Return the case of the problem of a file.
-
-        Raises
-        ------
-        ValueError
-            If it is outside of what the full self-consistent model admits.
-        """
-        dimensionless_problem(file.content)
-        return cls(math.nan, math.nan, math.nan, None, file)
-
-    @classmethod
-    def of_row(cls, row: Row) -> Case:
-        """Return the dimensionless case of a row; `ValueError` for one of a file."""
-        if row.n is None or row.k is None or row.mu is None:
-            raise ValueError(f"the row of {row.problem} has no n, k and mu")
-        return cls(row.n, row.k, row.mu, row.nu)
-
-    def at(self, parameters: Mapping[str, float]) -> Case:
-        """Return the case with other values of some parameters.
-
-        Examples
-        --------
-        >>> Case(2, 0.4, 1.0).at({"k": 1.0}).label
-        'n = 2, k = 1, mu = 1'
-        """
-        values: dict[str, Any] = {**self.parameters, **parameters}
-        return Case(**values) if parameters else self
-
-    @property
-    def label_of_file(self) -> str:
-        """The label of the problem of a file; empty for another case."""
-        return "" if self.file is None else self.file.label
-
-    def problem(self) -> Problem:
-        """Return the dimensionless problem as the models take it."""
-        return Problem(n=self.n, k=self.k, mu=self.mu)
-
-    @property
-    def parameters(self) -> dict[str, float]:
-        """The parameters by name, without Poisson's ratio if it is None."""
-        parameters = {"n": self.n, "k": self.k, "mu": self.mu}
-        parameters = {name: value for name, value in parameters.items() if not math.isnan(value)}
-        return parameters if self.nu is None else {**parameters, "nu": self.nu}
-
-    @property
-    def label(self) -> str:
-        """The parameters in one line for people."""
-        return self.label_of_file or ", ".join(f"{name} = {value:g}" for name, value in self.parameters.items())
-
-
-def order_of(case: Case) -> tuple[float, ...] | tuple[float | str, ...]:
-    """Return what cases are sorted by: n, k, mu and nu, those of files after the others.
-
-    Examples
-    --------
-    >>> [case.mu for case in sorted([Case(2, 0, 3), Case(2, 0, 1)], key=order_of)]
-    [1.0, 3.0]
-    """
-    numbers = (case.n, case.k, case.mu, -1.0 if case.nu is None else case.nu)
-    return (*(math.inf if math.isnan(number) else number for number in numbers), case.label_of_file)
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,7 +60,7 @@ class Grid:
         The candidates.
     quantities : tuple of str
         Quantities that every model computes.
-    cases : tuple of Case
+    cases : tuple of Problem
         Sorted, without duplicates.
     tags : tuple of str
         Names that gates select several grids by.
@@ -220,7 +80,7 @@ class Grid:
     reference: str
     models: tuple[str, ...]
     quantities: tuple[str, ...]
-    cases: tuple[Case, ...]
+    cases: tuple[Problem, ...]
     tags: tuple[str, ...] = ()
     problem: str = ""
 
@@ -241,13 +101,13 @@ def _grid(table: dict[str, Any], where: str, tier: str | None, folder: Path | No
         reference=table.get("reference", ""),
         models=tuple(table["models"]),
         quantities=tuple(table["quantities"]),
-        cases=tuple(sorted(_cases(table, where, folder), key=order_of)),
+        cases=tuple(sorted(_cases(table, where, folder))),
         tags=tuple(table.get("tags", ())),
         problem=table.get("problem", ""),
     )
 
 
-def _cases(table: dict[str, Any], where: str, folder: Path | None) -> set[Case]:
+def _cases(table: dict[str, Any], where: str, folder: Path | None) -> set[Problem]:
     """Return the cases of a grid, each once; refuse one that is not admissible, and so the ends of a range."""
     if "problem" in table:
         return _cases_of_file(table, where, folder)
@@ -255,15 +115,15 @@ def _cases(table: dict[str, Any], where: str, folder: Path | None) -> set[Case]:
     ends = table.get("latin_hypercube", {})
     try:
         for end in (0, 1) if ends else ():
-            Case(*(ends[name][end] for name in NAMES if name in ends))
-        return {Case(*values) for values in points}
+            Problem.dimensionless(*(ends[name][end] for name in PARAMETERS if name in ends))
+        return {Problem.dimensionless(*values) for values in points}
     except ValueError as refusal:
         raise ValueError(f"{where}: {refusal}") from None
 
 
-def _cases_of_file(table: dict[str, Any], where: str, folder: Path | None) -> set[Case]:
+def _cases_of_file(table: dict[str, Any], where: str, folder: Path | None) -> set[Problem]:
     """Return the cases of a problem file, which is in a folder, for every combination of values of its keys."""
-    others = [name for name in (*NAMES, "cases", "latin_hypercube") if name in table]
+    others = [name for name in (*PARAMETERS, "cases", "latin_hypercube") if name in table]
     if others:
         raise ValueError(f"{where}: it has problem and {', '.join(others)} together; state the cases once: {FORMS}")
     name = table["problem"]
@@ -274,7 +134,7 @@ def _cases_of_file(table: dict[str, Any], where: str, folder: Path | None) -> se
         )
     try:
         chosen = [Variation.of_values(key, values) for key, values in table.get("vary", {}).items()]
-        return {Case.of_file(FileProblem.of(name, varied)) for varied in problems_of(path_inside(folder, name), chosen)}
+        return set(problems_of(path_inside(folder, name), chosen, name))
     except ValueError as refusal:
         raise ValueError(f"{where}: {refusal}") from None
 

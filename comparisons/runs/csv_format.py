@@ -10,7 +10,7 @@ from typing import Any
 
 import pandas as pd
 
-from comparisons.runs.rows import PARAMETERS
+from comparisons.problem import PARAMETERS
 
 __all__ = ["csv_text", "plain_text", "read_csv"]
 

@@ -41,8 +41,8 @@ def _single(batch: list[Task]) -> list[list[Task]]:
 
 def _solid_of(batch: list[Task]) -> tuple[str, float | str]:
     """Model and exponent, or problem of a file: the fast solver stores tables for each exponent."""
-    case = batch[0].case
-    return batch[0].model, case.label_of_file or case.k
+    problem = batch[0].problem
+    return batch[0].model, problem.name or problem.k
 
 
 def compute_with_environment(
@@ -70,8 +70,9 @@ def compute_with_environment(
 
     Examples
     --------
-    >>> from comparisons.runs.cases import Case
-    >>> ((row, environment),) = compute_with_environment([Task("bradley", "pull_off_force", Case(2, 0, 1))], 1)
+    >>> from comparisons.problem import Problem
+    >>> task = Task("bradley", "pull_off_force", Problem.dimensionless(2, 0, 1))
+    >>> ((row, environment),) = compute_with_environment([task], 1)
     >>> row.value, "cpu" in environment
     (2.0, True)
     """

@@ -9,10 +9,11 @@ from typing import Any
 import pandas as pd
 import pyarrow as pa
 
-from comparisons.runs.case_columns import in_case_order, varied_of, with_problem, without_empty_problem
-from comparisons.runs.rows import CASE, Row
+from comparisons.problem import PARAMETERS
+from comparisons.runs.case_columns import in_case_order, varied_of, without_empty_problem
+from comparisons.runs.rows import Row
 
-__all__ = ["COLUMNS", "CURVE_COLUMNS", "curve_frame", "frame", "rows_of", "typed"]
+__all__ = ["COLUMNS", "CURVE_COLUMNS", "curve_frame", "frame", "typed"]
 
 _TEXT, _REAL, _COUNT = pa.string(), pa.float64(), pa.int64()
 
@@ -63,8 +64,6 @@ CURVE_COLUMNS = pa.schema(
     ]
 )
 
-_ORDER = ["quantity", "model", *CASE]
-
 
 def frame(rows: Iterable[Row]) -> pd.DataFrame:
     """Return the rows as a sorted pandas table with the columns of `COLUMNS`.
@@ -86,7 +85,9 @@ def curve_frame(rows: Iterable[Row]) -> pd.DataFrame:
 
 
 def _sorted(records: list[dict[str, Any]], schema: pa.Schema, *first: str) -> pd.DataFrame:
-    varied = {name: value for record in records for name, value in record["parameters"].items()}
+    varied = {
+        name: value for record in records for name, value in record["parameters"].items() if name not in PARAMETERS
+    }
     place = schema.get_field_index("problem") + 1
     for name, value in reversed(varied.items()):
         schema = schema.insert(place, pa.field(name, _TEXT if isinstance(value, str) else _REAL))
@@ -98,32 +99,3 @@ def typed(table: pd.DataFrame, schema: pa.Schema) -> pa.Schema:
     """Return the types of the columns of a table: those of a schema, and of its varied keys."""
     others = pa.Schema.from_pandas(table[varied_of(table)], preserve_index=False)
     return pa.schema([(schema if name in schema.names else others).field(name) for name in table.columns])
-
-
-def rows_of(results: pd.DataFrame, curves: pd.DataFrame) -> list[Row]:
-    """Return the rows of which `frame` and `curve_frame` have made tables.
-
-    Examples
-    --------
-    >>> row = Row("mine", "1", "pull_off_force", 2, 0, 1, None, 1.5, 1e-15, "load", "ok", "", None, None, 0.0, 0.1)
-    >>> rows_of(frame([row]), curve_frame([])) == [row]
-    True
-    """
-    results, curves = (with_problem(table) for table in (results, curves))
-    given = [name for name in COLUMNS.names if name in results]
-    rows = [Row(**_typed(record, COLUMNS)) for record in results[given].to_dict("records")]
-    whole = [name for name in CURVE_COLUMNS.names if name not in ("point", "x", "y", "u_distance")]
-    for _, points in curves.groupby(_ORDER, sort=False, dropna=False):
-        points = points.sort_values("point")
-        first = _typed(points[whole].to_dict("records")[0], CURVE_COLUMNS)
-        found = None
-        if first["status"] == "ok":
-            found = points["x"].tolist(), points["y"].tolist(), float(points["u_distance"].iloc[0])
-        rows.append(Row(**first, value=None, u_num=None, size=None, iterations=None, residual=None, points=found))
-    return rows
-
-
-def _typed(record: dict[Any, Any], schema: pa.Schema) -> dict[str, Any]:
-    """Return the entries of a row, None for those that are not there, and counts as integers."""
-    types = {_TEXT: str, _REAL: float, _COUNT: int}
-    return {name: None if pd.isna(value) else types[schema.field(name).type](value) for name, value in record.items()}

@@ -9,15 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.runs.rows import PARAMETERS
+from comparisons.problem import PARAMETERS
 
-__all__ = ["FORMS", "NAMES", "Point", "latin_hypercube", "parameter_sets"]
+__all__ = ["FORMS", "Point", "latin_hypercube", "parameter_sets"]
 
 #: n, k, mu and nu, the last None if it is not prescribed.
 Point = tuple[float, float, float, float | None]
-
-#: Parameters of a case; nu is optional.
-NAMES = PARAMETERS
 
 #: Ways in which a grid states its cases.
 FORMS = (
@@ -54,7 +51,7 @@ def parameter_sets(table: Mapping[str, Any], where: str) -> list[Point]:
     >>> parameter_sets({"cases": [{"n": 2, "k": 0, "mu": 1, "nu": 0.3}]}, "grid a")
     [(2, 0, 1, 0.3)]
     """
-    lists = [name for name in NAMES if name in table]
+    lists = [name for name in PARAMETERS if name in table]
     stated = [", ".join(lists)] if lists else []
     stated += [name for name in ("cases", "latin_hypercube") if name in table]
     if len(stated) != 1:
@@ -64,9 +61,9 @@ def parameter_sets(table: Mapping[str, Any], where: str) -> list[Point]:
         return [(case["n"], case["k"], case["mu"], case.get("nu")) for case in table["cases"]]
     if "latin_hypercube" in table:
         return latin_hypercube(table["latin_hypercube"], f"{where}: latin_hypercube")
-    if missing := [name for name in NAMES[:3] if name not in lists]:
+    if missing := [name for name in PARAMETERS[:3] if name not in lists]:
         raise ValueError(f"{where}: {', '.join(missing)} missing; lists of cases are n, k, mu and perhaps nu")
-    columns = [*(table[name] for name in NAMES[:3]), table.get("nu", [None])]
+    columns = [*(table[name] for name in PARAMETERS[:3]), table.get("nu", [None])]
     if (count := prod(map(len, columns))) > _MOST_CASES:
         raise ValueError(f"{where}: the lists have {count} combinations, more than {_MOST_CASES}; give shorter lists")
     return list(product(*columns))
@@ -98,7 +95,7 @@ def latin_hypercube(table: Mapping[str, Any], where: str) -> list[Point]:
     # It takes a second to import, and a product of lists does not need it.
     from scipy.stats import qmc
 
-    names = [name for name in NAMES if name in table]
+    names = [name for name in PARAMETERS if name in table]
     for name in names:
         low, high = table[name]
         if not (np.isfinite([low, high]).all() and low <= high):

@@ -43,9 +43,10 @@ def chosen(tasks: Iterable[Task], seed: int) -> list[Task]:
 
     Examples
     --------
-    >>> from comparisons.runs.cases import Case
+    >>> from comparisons.problem import Problem
     >>> from comparisons.runs.tasks import Task
-    >>> tasks = [Task("mine", name, Case(2, 0, mu)) for name in ("pull_off_force", "jump_in_gap") for mu in (1, 2, 3)]
+    >>> spheres = [Problem.dimensionless(2, 0, mu) for mu in (1, 2, 3)]
+    >>> tasks = [Task("mine", name, sphere) for name in ("pull_off_force", "jump_in_gap") for sphere in spheres]
     >>> len(chosen(tasks, 1)), len({task.quantity for task in chosen(tasks, 1)})
     (3, 2)
     """

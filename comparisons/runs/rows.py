@@ -3,45 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
 
-__all__ = ["CASE", "PARAMETERS", "Key", "Row", "joined_label", "none_if_nan", "split_label"]
+from comparisons.numerics.number_text import case_text
+from comparisons.problem import PARAMETERS
 
-#: Dimensionless parameters of a case; nu is optional.
-PARAMETERS = ("n", "k", "mu", "nu")
+__all__ = ["CASE", "DIMENSIONLESS", "Key", "Row", "none_if_nan"]
 
-#: Columns that identify a case: its parameters, and the label of the problem of a file (empty for another case).
+#: Columns that identify a problem: n, k, mu, nu and its name (empty for a dimensionless one).
 CASE = (*PARAMETERS, "problem")
+
+#: Columns of the value of the problem of a file in the units of the paper.
+DIMENSIONLESS = ("dimensionless_value", "dimensionless_u_num", "dimensionless_unit")
 
 #: What identifies an evaluation: model, quantity, and the columns of `CASE`.
 Key = tuple[str, str, float | None, float | None, float | None, float | None, str]
-
-
-#: Between the name of a problem file and the values of its keys.
-_BETWEEN = "; "
-
-
-def joined_label(name: str, texts: Iterable[str]) -> str:
-    """Return the label of a problem: the name of its file, and the values of its keys.
-
-    Examples
-    --------
-    >>> joined_label("pad.toml", ["solid.thickness=12 nm"])
-    'pad.toml; solid.thickness=12 nm'
-    """
-    return _BETWEEN.join([name, *texts])
-
-
-def split_label(label: str) -> list[str]:
-    """Return the name of the file of a label, and the values of its keys.
-
-    Examples
-    --------
-    >>> split_label("pad.toml; solid.thickness=12 nm")
-    ['pad.toml', 'solid.thickness=12 nm']
-    """
-    return label.split(_BETWEEN)
 
 
 def none_if_nan(number: float | None) -> float | None:
@@ -51,32 +29,27 @@ def none_if_nan(number: float | None) -> float | None:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """The result of one evaluation: of one quantity, by one model, in one case.
+    """The result of one evaluation: of one quantity, by one model, for one problem.
 
     Attributes
     ----------
     model, model_version, quantity : str
         Names, as in `comparisons.registry` and `comparisons.quantities`.
-    n, k, mu : float or None
-        The problem; None for one of a file that has no such form.
-    nu : float or None
-        Poisson's ratio, if one was prescribed.
+    problem, digest, parameters
+        Name, digest and parameters of the problem, as of `comparisons.Problem`.
     value, u_num : float or None
         The result and its numerical uncertainty, in `unit`; None unless `status` is ``"ok"``.
     unit : str
-        The scale of the dimensionless value.
+        In SI for the problem of a file.
     status : str
         ``"ok"``, ``"not-applicable"`` or ``"failed"``.
     reason : str
-        One sentence when there is no value, or when the value depends on a reference; else empty.
-    size, iterations, residual
-        Of the discrete problem; None when there is no value.
-    seconds : float
-        Wall-clock time: what the model states, or else the duration of the call.
-    problem, digest : str
-        Label and SHA-256 of the problem of a file (`comparisons.runs.cases.FileProblem`), else empty.
-    parameters : dict of str to float or str
-        The varied keys of that file in SI, by the names of their columns.
+        One sentence where there is no value, or on what the value depends on besides.
+    size, iterations, residual, seconds, observed_order
+        As of `comparisons.model.Result`.
+    points : tuple of (list of float, list of float, float), or None
+        Of a curve or a field: horizontal values, vertical values, and the bound on their distance from the
+        exact curve (see `comparisons.quantities.points`).
     dimensionless_value, dimensionless_u_num : float or None
         Of the problem of a file, in `dimensionless_unit`, where the units of the paper are defined.
     dimensionless_unit : str
@@ -85,10 +58,9 @@ class Row:
     model: str
     model_version: str
     quantity: str
-    n: float | None
-    k: float | None
-    mu: float | None
-    nu: float | None
+    problem: str
+    digest: str
+    parameters: Mapping[str, float | str]
     value: float | None
     u_num: float | None
     unit: str
@@ -100,14 +72,22 @@ class Row:
     seconds: float
     observed_order: float | None = None
     points: tuple[list[float], list[float], float] | None = None
-    problem: str = ""
-    digest: str = ""
-    parameters: Mapping[str, float | str] = field(default_factory=dict)
     dimensionless_value: float | None = None
     dimensionless_u_num: float | None = None
     dimensionless_unit: str = ""
 
     @property
+    def numbers(self) -> dict[str, Any]:
+        """Values of n, k, mu and nu, None where they are no parameters of the problem."""
+        return {name: self.parameters.get(name) for name in PARAMETERS}
+
+    @property
+    def label(self) -> str:
+        """The problem in one line for people."""
+        return self.problem or case_text(self.parameters)
+
+    @property
     def key(self) -> Key:
         """What identifies the evaluation; a run makes each once."""
-        return self.model, self.quantity, self.n, self.k, self.mu, self.nu, self.problem
+        n, k, mu, nu = self.numbers.values()
+        return self.model, self.quantity, n, k, mu, nu, self.problem

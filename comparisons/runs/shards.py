@@ -62,10 +62,11 @@ class Shard:
 
         Examples
         --------
-        >>> from comparisons.runs.cases import Case
+        >>> from comparisons.problem import Problem
         >>> from comparisons.runs.tasks import Task
-        >>> tasks = [Task(model, "pull_off_force", Case(2, 0, mu)) for mu in (4, 3, 2, 1) for model in ("fscm", "jkr")]
-        >>> [(task.model, task.case.mu) for task in Shard(2, 2).of(tasks)]
+        >>> spheres = [Problem.dimensionless(2, 0, mu) for mu in (4, 3, 2, 1)]
+        >>> tasks = [Task(model, "pull_off_force", sphere) for sphere in spheres for model in ("fscm", "jkr")]
+        >>> [(task.model, task.problem.mu) for task in Shard(2, 2).of(tasks)]
         [('fscm', 3.0), ('jkr', 3.0), ('fscm', 1.0), ('jkr', 1.0)]
         """
         planned = list(tasks)

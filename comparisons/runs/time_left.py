@@ -31,9 +31,9 @@ class TimeLeft:
 
     Examples
     --------
-    >>> from comparisons.runs.cases import Case
+    >>> from comparisons.problem import Problem
     >>> from comparisons.runs.tasks import Task, evaluate_task
-    >>> tasks = [Task("jkr", "pull_off_force", Case(2, 0, mu)) for mu in (1, 2)]
+    >>> tasks = [Task("jkr", "pull_off_force", Problem.dimensionless(2, 0, mu)) for mu in (1, 2)]
     >>> left = TimeLeft(tasks)
     >>> left.after(evaluate_task(tasks[0])) > 0, left.after(evaluate_task(tasks[1]))
     (True, 0.0)

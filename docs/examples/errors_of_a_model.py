@@ -3,9 +3,9 @@
 python docs/examples/errors_of_a_model.py
 """
 
-from comparisons import Case, errors
+from comparisons import Problem, errors
 
-cases = [Case(n=2, k=0.4, mu=mu) for mu in (0.1, 0.3, 1.0, 3.0)]
+cases = [Problem.dimensionless(n=2, k=0.4, mu=mu) for mu in (0.1, 0.3, 1.0, 3.0)]
 table = errors(["jkr", "md-improved"], cases, quantity="pull_off_force", reference="fscm")
 
 columns = ["model", "mu", "value", "reference_value", "u_reference", "kappa", "u_kappa"]

@@ -8,10 +8,10 @@ Relative error of the pull-off force of five models. The reference is the atlas,
 import matplotlib.pyplot as plt
 import numpy as np
 
-from comparisons import Case, errors
+from comparisons import Problem, errors
 
 models = ["bradley", "dmt", "jkr", "md-original", "md-improved"]
-cases = [Case(n=2, k=0.4, mu=mu) for mu in np.geomspace(0.01, 10, 25)]
+cases = [Problem.dimensionless(n=2, k=0.4, mu=mu) for mu in np.geomspace(0.01, 10, 25)]
 table = errors(models, cases, reference="atlas")
 figure, axes = plt.subplots(layout="constrained")
 for name, rows in table.groupby("model", sort=False):

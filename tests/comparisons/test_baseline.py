@@ -13,8 +13,8 @@ from comparisons.runs.csv_format import read_csv
 from comparisons.runs.environment import computing_environment, environment
 from comparisons.runs.frames import curve_frame, frame
 from comparisons.runs.record import read_record, write_record
-from comparisons.runs.rows import Row
 from comparisons.runs.tables import write_curves, write_results
+from tests.comparisons.rows import row as made_row
 
 COMMITTED = Path(__file__).parents[2] / BASELINE
 FROM_QUICK = {
@@ -35,25 +35,7 @@ EVENTS = (
 
 
 def row(**more):
-    common = {
-        "model": "fscm",
-        "model_version": "1",
-        "quantity": "pull_off_force",
-        "n": 2.0,
-        "k": 0.4,
-        "mu": 1.0,
-        "nu": None,
-        "value": None,
-        "u_num": None,
-        "unit": "",
-        "status": "ok",
-        "reason": "",
-        "size": 1,
-        "iterations": 1,
-        "residual": 0.0,
-        "seconds": 7.0,
-    }
-    return Row(**{**common, **more})
+    return made_row(**({"model": "fscm", "value": None, "u_num": None, "unit": "", "seconds": 7.0} | more))
 
 
 def made_up(folder, tier, model=None):

@@ -11,9 +11,10 @@ from comparisons.judging.judge import judge
 from comparisons.judging.selection import needed_keys
 from comparisons.judging.summary import summarise
 from comparisons.pipeline.inputs import load_cases, read_gates
+from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import MODELS, create
-from comparisons.runs.cases import Case, load_grids
+from comparisons.runs.cases import load_grids
 from comparisons.runs.frames import frame
 from comparisons.runs.parameter_sets import latin_hypercube
 from comparisons.runs.tasks import Task, evaluate, evaluate_task
@@ -77,7 +78,7 @@ def test_a_model_has_a_value_everywhere_in_the_domain_that_it_declares(name):
             name: [max(low, table.ends(name)[0]), min(high, table.ends(name)[1])] for name, (low, high) in BOX.items()
         }
         for point in latin_hypercube({"count": 8, "seed": 5, **box}, "the test"):
-            case = Case(*point)
+            case = Problem.dimensionless(*point)
             for quantity in set(table.quantities) & set(QUANTITIES):
                 row = evaluate(model, quantity, case)
                 expected = {"ok", "not-applicable"} if quantity in MAY_BE_MISSING else {"ok"}
@@ -87,11 +88,11 @@ def test_a_model_has_a_value_everywhere_in_the_domain_that_it_declares(name):
 def test_a_model_is_not_evaluated_outside_its_domain(toys, monkeypatch):
     model = create("ten-percent")
     monkeypatch.setattr(type(model), "applies_to", {**FORCE, "n": [2, 2]}, raising=False)
-    assert evaluate_task(Task("ten-percent", "pull_off_force", Case(2, 0, 1))).value == 2.2
-    row = evaluate_task(Task("ten-percent", "pull_off_force", Case(1, 0, 1)))
+    assert evaluate_task(Task("ten-percent", "pull_off_force", Problem.dimensionless(2, 0, 1))).value == 2.2
+    row = evaluate_task(Task("ten-percent", "pull_off_force", Problem.dimensionless(1, 0, 1)))
     assert (row.status, row.value) == ("not-applicable", None)
     assert row.reason == "outside the domain that the model declares: pull_off_force for n = 2"
-    row = evaluate_task(Task("ten-percent", "jump_in_gap", Case(2, 0, 1)))
+    row = evaluate_task(Task("ten-percent", "jump_in_gap", Problem.dimensionless(2, 0, 1)))
     assert row.reason == "outside the domain that the model declares: it has no jump_in_gap"
 
 

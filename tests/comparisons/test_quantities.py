@@ -8,11 +8,11 @@ import pytest
 
 import comparisons
 from comparisons.model import NotApplicable
+from comparisons.problem import Problem
 from comparisons.quantities import ALL_QUANTITIES, CURVES, QUANTITIES, Kind, title_of
 from comparisons.registry import create
-from fscm.problem import Problem
 
-PROBLEM = Problem(n=2, k=0, mu=0.3)
+PROBLEM = Problem.dimensionless(n=2, k=0, mu=0.3)
 
 
 def test_numbers_and_curves_are_the_rows_of_one_registry():
@@ -24,7 +24,7 @@ def test_numbers_and_curves_are_the_rows_of_one_registry():
 
 
 def test_the_scales_are_those_of_a_physical_problem():
-    scales = PROBLEM.in_units(c0=1.0, nu=0.3, Q=1.0, work_of_adhesion=1.0, z0=1.0).units
+    scales = PROBLEM.posed.in_units(c0=1.0, nu=0.3, Q=1.0, work_of_adhesion=1.0, z0=1.0).units
     assert {row.scale for row in QUANTITIES.values()} <= set(scales)
 
 

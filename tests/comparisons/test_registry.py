@@ -8,8 +8,8 @@ import pytest
 
 from comparisons import registry
 from comparisons.model import HasCurve, Model
+from comparisons.problem import Problem
 from comparisons.registry import MODELS, create, declared_models
-from comparisons.runs.cases import Case
 from comparisons.runs.tasks import evaluate
 
 #: Models that take more than a second a value; their own tests evaluate them.
@@ -29,7 +29,7 @@ def test_a_model_has_its_texts(name):
 
 @pytest.mark.parametrize("name", sorted(MODELS.keys() - SLOW))
 def test_a_model_gives_the_pull_off_force_or_the_reason_why_not(name):
-    row = evaluate(create(name), "pull_off_force", Case(2, 0.4, 1))
+    row = evaluate(create(name), "pull_off_force", Problem.dimensionless(2, 0.4, 1))
     assert row.status in {"ok", "not-applicable"}
     if row.status == "ok":
         # Between the rigid limit 2 and the JKR limit 1.7, a little more where a model is wrong.

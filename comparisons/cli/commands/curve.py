@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import Protocol
+from typing import cast
 
 import pandas as pd
 
-from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, case_of, file, option, several
+from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, file, option, problem_of, several
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, waiting
 from comparisons.model import ComputationFailed, Model, NotApplicable
 from comparisons.output.figures import curves
 from comparisons.output.style import picture_path, save
-from comparisons.quantities import CURVES, CurveQuantity, Points
+from comparisons.problem import Problem
+from comparisons.problem.evaluation import evaluated
+from comparisons.quantities import CURVES, Points
 from comparisons.registry import create, identify
 from comparisons.runs.atomic_files import atomic, writable_file
-from comparisons.runs.cases import Case
 from comparisons.runs.csv_format import csv_text
 
 __all__ = ["EXAMPLES", "OPTIONS", "call"]
@@ -45,10 +46,10 @@ OPTIONS = (
 
 def call(args: argparse.Namespace) -> int:
     """Trace, write, draw; return the exit status."""
-    case = _request(args)
+    problem = problem_of(args)
     # All that can be wrong with the request is found out before anything is computed.
     names, external = identify(args.model)
-    models = {name: create(external[name].spec if name in external else name, case.nu) for name in names}
+    models = {name: create(external[name].spec if name in external else name, problem.nu) for name in names}
     to_stdout = args.csv == Path("-") or not (args.csv or args.plot)
     file_of_points = None if to_stdout else args.csv
     if file_of_points:
@@ -57,65 +58,28 @@ def call(args: argparse.Namespace) -> int:
         writable_file(picture_path(args.plot))
     if file_of_points and args.plot and file_of_points.resolve() == args.plot.resolve():
         raise ValueError(f"--csv and --plot are both {args.plot}: one would replace the other; give two files")
-    found, status = _evaluated(models, case)
-    table = case.table(_table(found, args.quantity))
+    found, status = _evaluated(models, args.quantity, problem)
+    table, quantity = _table(found, args.quantity), CURVES[args.quantity]
+    if problem.name:
+        table, quantity = table.rename(columns=quantity.columns_in_si), quantity.in_si
     if file_of_points:
         with atomic(file_of_points) as written:
             written.write(csv_text(table).encode())
     if args.plot:
-        save(curves.draw(found, case.axes, case.label), args.plot)
+        save(curves.draw(found, quantity, problem.label), args.plot)
     if to_stdout:
         print(csv_text(table), end="")
     return status
 
 
-def _request(args: argparse.Namespace) -> _Request:
-    if args.problem is None:
-        return _Dimensionless(case_of(args), args.quantity)
-    # Imported here: a dimensionless problem does not need it.
-    from comparisons.cli.problem_output import InSI, problem_of
-
-    return InSI(problem_of(args), args.quantity)
-
-
-class _Request(Protocol):
-    """What is drawn: a curve of a dimensionless problem, or of the problem of a file."""
-
-    nu: float | None
-    label: str
-    axes: CurveQuantity
-
-    def points(self, model: Model) -> Points:
-        """Return the points of a model, or raise `NotApplicable` or `ComputationFailed`."""
-        ...
-
-    def table(self, table: pd.DataFrame) -> pd.DataFrame:
-        """Return the table of points as it is written."""
-        ...
-
-
-class _Dimensionless:
-    """A curve of a dimensionless problem."""
-
-    def __init__(self, case: Case, quantity: str) -> None:
-        self._case = case
-        self.nu, self.label, self.axes = case.nu, case.label, CURVES[quantity]
-
-    def points(self, model: Model) -> Points:
-        return self.axes.evaluate(model, self._case.problem())
-
-    def table(self, table: pd.DataFrame) -> pd.DataFrame:
-        return table
-
-
-def _evaluated(models: dict[str, Model], case: _Request) -> tuple[dict[str, Points], int]:
+def _evaluated(models: dict[str, Model], quantity: str, problem: Problem) -> tuple[dict[str, Points], int]:
     """Return the points of the models that have them, and the exit status; the others are named on stderr."""
     found: dict[str, Points] = {}
     status = OK
     for name, model in models.items():
         try:
-            with waiting(f"{name}, {case.label}"):
-                found[name] = case.points(model)
+            with waiting(f"{name}, {problem.label}"):
+                found[name] = cast(Points, evaluated(problem, model, quantity))
         except NotApplicable as refusal:
             log(f"{name}: not-applicable: {refusal}")
         except ComputationFailed as failure:

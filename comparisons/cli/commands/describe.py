@@ -9,12 +9,12 @@ from comparisons.cli.options import file, option
 from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
-from comparisons.problem_file import equivalent_text, profile_sensitivity
-from comparisons.problem_file.equivalent_power_law import equivalent_power_law
-from comparisons.problem_file.overview import overview_of
-from comparisons.problem_file.overview_text import content, lines
-from comparisons.problem_file.propagation_text import outcome_of
-from comparisons.problem_file.reading import load_problem
+from comparisons.description import equivalent_text, profile_sensitivity
+from comparisons.description.equivalent_power_law import equivalent_power_law
+from comparisons.description.overview import overview_of
+from comparisons.description.overview_text import content, lines
+from comparisons.description.propagation_text import outcome_of
+from comparisons.problem import Problem
 
 __all__ = ["EXAMPLES", "OPTIONS", "call"]
 
@@ -36,7 +36,7 @@ def call(args: argparse.Namespace) -> int:
     """Compute and print; return the exit status."""
     if args.quantity is not None and not args.uncertain:
         raise ValueError("--quantity is that of --uncertain; give both, or take solve for the value")
-    problem = load_problem(args.file)
+    problem = Problem.load(args.file)
     with waiting(problem.label):
         # First: it may refuse the file or the quantity.
         uncertain = outcome_of(problem, args.quantity or "pull_off_force") if args.uncertain else None

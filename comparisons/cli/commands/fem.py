@@ -8,7 +8,7 @@ from dataclasses import asdict
 import pandas as pd
 
 import fem_reference
-from comparisons.cli.options import CASE, case_of, file, number, option
+from comparisons.cli.options import CASE, file, number, option, problem_of
 from comparisons.cli.screen import output
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import log, waiting
@@ -73,7 +73,7 @@ def call(args: argparse.Namespace) -> int:
 
 def _fields(args: argparse.Namespace) -> int:
     """Write the state of an event as vtu and picture."""
-    case = case_of(args)
+    case = problem_of(args)
     if args.vtu:
         if args.vtu.suffix != ".vtu":
             raise ValueError(f"--vtu {args.vtu} does not end in .vtu, by which ParaView recognises the format")
@@ -82,7 +82,7 @@ def _fields(args: argparse.Namespace) -> int:
         writable_file(picture_path(args.plot))
     try:
         with waiting(f"fem, {case.label}"):
-            field, radius = FiniteElements(args.nu).field(case.problem(), args.event)
+            field, radius = FiniteElements(args.nu).field(case, args.event)
     except NotApplicable as refusal:
         log(f"not-applicable: {refusal}")
         return OK
@@ -100,7 +100,7 @@ def _fields(args: argparse.Namespace) -> int:
         section, scale = figure.axes[:2]
         section.set_xlabel(f"radius / z0, {punch}")
         section.set_ylabel(f"depth / z0, displacement and gap magnified {magnification:g} times")
-        section.set_title(f"{args.event.replace('_', '-')} at {case.label}, nu = {args.nu:g}")
+        section.set_title(f"{args.event.replace('_', '-')} at {case.label}")
         scale.set_ylabel("axial stress z0 / dgamma, tension positive")
         save(figure, args.plot)
     return OK

@@ -15,6 +15,7 @@ from comparisons.external.model_source import installed
 from comparisons.judging.gates import gates_text, load_gates
 from comparisons.numerics.number_text import limits_text
 from comparisons.output.terminal import records
+from comparisons.problem import PARAMETERS
 from comparisons.quantities import ALL_QUANTITIES
 from comparisons.registry import MODELS, create
 from comparisons.runs.cases import TIERS, grids
@@ -69,11 +70,11 @@ def _cases(exact: bool) -> pd.DataFrame:
     standing = grids(TIERS[-1])
     if exact:
         return pd.DataFrame(
-            {"grid": grid.id, "tier": grid.tier, "n": case.n, "k": case.k, "mu": case.mu, "nu": case.nu}
+            {"grid": grid.id, "tier": grid.tier, **{name: case[name] for name in PARAMETERS}}
             | {"reference": grid.reference, "models": " ".join(grid.models), "quantities": " ".join(grid.quantities)}
             for grid in standing
             for case in grid.cases
-        ).astype({"nu": float})
+        ).astype(dict.fromkeys(PARAMETERS, float))
     return pd.DataFrame(
         {"id": grid.id, "tier": grid.tier, "title": grid.title, "quantities": ", ".join(grid.quantities)}
         | {"reference": grid.reference, "models": ", ".join(grid.models), "cases": len(grid.cases)}

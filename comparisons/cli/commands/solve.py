@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import argparse
 import json
+from typing import Any
 
-from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, case_of, option
+from comparisons.cli.options import CASE_OR_FILE, MODEL_SPEC, option, problem_of
 from comparisons.cli.screen import print_lines
 from comparisons.console.exit_status import FAILED, OK
 from comparisons.console.progress import waiting
-from comparisons.numerics.number_text import case_text, short
+from comparisons.numerics.number_text import short
+from comparisons.problem import Problem
+from comparisons.problem.units import si_text
 from comparisons.quantities import QUANTITIES
-from comparisons.registry import create
-from comparisons.runs.cases import Case
 from comparisons.runs.rows import Row
 from comparisons.runs.tasks import evaluate
 
@@ -42,37 +43,22 @@ def call(args: argparse.Namespace) -> int:
     """Compute and print; return the exit status."""
     if args.quantity not in QUANTITIES:
         raise ValueError(f"unknown quantity {args.quantity!r}; the quantities are {', '.join(QUANTITIES)}")
-    if args.problem is not None:
-        # Imported here: a dimensionless problem does not need it.
-        from comparisons.cli.problem_output import solve_file
-
-        return solve_file(args)
-    case = case_of(args)
-    model = create(args.model, case.nu)
-    with waiting(f"{args.model}, {case.label}"):
-        row = evaluate(model, args.quantity, case)
+    problem = problem_of(args)
+    with waiting(f"{args.model}, {problem.label}"):
+        row = evaluate(args.model, args.quantity, problem)
     if args.format == "text":
-        print_lines(_lines(row))
+        print_lines(_lines(problem, row))
     else:
-        print({"json": _json, "csv": _csv}[args.format](row), end="")
+        print(_json(problem, row) if args.format == "json" else _csv(row), end="")
     return FAILED if row.status == "failed" else OK
 
 
-def _case(row: Row) -> dict[str, float]:
-    return Case.of_row(row).parameters
-
-
-def _json(row: Row) -> str:
-    content = {
-        "model": row.model,
-        "quantity": row.quantity,
-        "case": _case(row),
-        "value": row.value,
-        "u_num": row.u_num,
-        "status": row.status,
-        "unit": row.unit,
-        "seconds": row.seconds,
-    }
+def _json(problem: Problem, row: Row) -> str:
+    content: dict[str, Any] = {"model": row.model, "quantity": row.quantity}
+    content |= {"problem": problem.content} if problem.name else {"case": dict(problem.parameters)}
+    content |= {name: getattr(row, name) for name in ("value", "u_num", "status", "unit", "seconds")}
+    if row.dimensionless_unit:
+        content["dimensionless"] = {name: getattr(row, f"dimensionless_{name}") for name in ("value", "u_num", "unit")}
     if row.reason:
         content["reason"] = row.reason
     return json.dumps(content, allow_nan=False) + "\n"
@@ -86,17 +72,25 @@ def _csv(row: Row) -> str:
     return csv_text(frame([row]))
 
 
-def _lines(row: Row) -> list[str]:
+def _lines(problem: Problem, row: Row) -> list[str]:
     quantity = QUANTITIES[row.quantity]
-    lines = [f"{row.model}: {row.quantity} at {case_text(_case(row))}"]
+    lines = [f"{row.model}: {row.quantity} {'of' if problem.name else 'at'} {problem.label}"]
     if row.value is None or row.u_num is None:
         lines.append(f"  {row.status}: {row.reason}")
+    elif problem.name:
+        lines.append(f"  {quantity.symbol} = {si_text(row.value, row.u_num, row.unit)}  ({row.seconds:.2g} s)")
     else:
         unit = "" if quantity.unit == "1" else f" {quantity.unit}"
         lines.append(f"  {quantity.symbol} = {short(row.value, row.u_num)}{unit}  ({row.seconds:.2g} s)")
-    if (row.n, row.k) == (2.0, 0.0) and row.mu is not None:
+    if row.dimensionless_value is not None and row.dimensionless_u_num is not None:
+        scaled = si_text(row.dimensionless_value, row.dimensionless_u_num, "1")
+        lines.append(f"  dimensionless: {scaled} {row.dimensionless_unit}")
+    if row.value is not None and row.reason:
+        lines.append(f"  {row.reason}")
+    if (problem["n"], problem["k"]) == (2.0, 0.0):
         # Imported here: the other formats and problems do not need it.
         from comparisons.models.maugis_parameter import maugis_parameter
 
-        lines.append(f"  Maugis's lambda = {maugis_parameter(row.mu):.4g} with the strength 16 sqrt(3)/27 dgamma / z0")
+        parameter = maugis_parameter(problem.mu)
+        lines.append(f"  Maugis's lambda = {parameter:.4g} with the strength 16 sqrt(3)/27 dgamma / z0")
     return lines

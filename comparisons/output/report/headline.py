@@ -11,10 +11,11 @@ from comparisons.numerics.number_text import case_text, percent_text
 from comparisons.output.gate_sentence import gates_sentence
 from comparisons.output.report.stored_run import Stored
 from comparisons.output.tables import worst_rows
-from comparisons.problem_file.units import si_text
+from comparisons.problem.problem import split_name
+from comparisons.problem.units import si_text
 from comparisons.quantities import ALL_QUANTITIES, QUANTITIES, title_of
 from comparisons.runs.case_columns import with_problem
-from comparisons.runs.rows import CASE, split_label
+from comparisons.runs.rows import CASE
 
 __all__ = ["errors_of_models", "gates_of", "headline", "headline_of_errors", "headline_of_values"]
 
@@ -49,7 +50,7 @@ def headline_of_values(results: pd.DataFrame) -> str:
 
 
 def _keys(label: str) -> str:
-    file, *values = split_label(label)
+    file, *values = split_name(label)
     return ", ".join(values) or file
 
 

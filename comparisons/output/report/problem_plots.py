@@ -11,10 +11,10 @@ from comparisons.numerics.number_text import value_text
 from comparisons.output.problem_values import key_text
 from comparisons.output.report.plot import Control, Plot, Series, key
 from comparisons.output.table import Cell, Column, Row, Table, number, without_empty
-from comparisons.problem_file.units import prefixed_unit, si_text
+from comparisons.problem.problem import split_name
+from comparisons.problem.units import prefixed_unit, si_text
 from comparisons.quantities import QUANTITIES, title_of
 from comparisons.runs.case_columns import unit_in, varied_of
-from comparisons.runs.rows import split_label
 
 __all__ = ["ValuesOverKey", "plots"]
 
@@ -44,7 +44,7 @@ def plots(results: pd.DataFrame) -> list[ValuesOverKey]:
     if "problem" not in results:
         return []
     found: list[ValuesOverKey] = []
-    numbered = results.assign(line=range(len(results)), file=[split_label(label)[0] for label in results["problem"]])
+    numbered = results.assign(line=range(len(results)), file=[split_name(label)[0] for label in results["problem"]])
     known = numbered[(numbered["status"] == "ok") & (numbered["file"] != "")]
     for file, rows in known.groupby("file"):
         varied = [name for name in varied_of(rows) if rows[name].notna().any()]

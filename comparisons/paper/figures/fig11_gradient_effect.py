@@ -12,7 +12,7 @@ from comparisons.output.style import COLOURS, lettered
 from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import LABELS, level, one_a_value
 from comparisons.paper.paper_figure import PaperFigure, Plan, Tables
-from comparisons.runs.cases import Case
+from comparisons.problem import Problem
 
 __all__ = ["GRADIENT_EFFECT", "chi", "insensitive_regions", "largest_chi"]
 
@@ -42,7 +42,7 @@ def chi(n: float, k: float) -> float:
     >>> round(chi(2, 1.0), 12)
     0.333333333333
     """
-    graded, homogeneous = (JKR().evaluate(Case(n, x, 1.0).problem(), "pull_off_force").value for x in (k, 0.0))
+    graded, homogeneous = (JKR().evaluate(Problem.dimensionless(n, x, 1.0), "pull_off_force").value for x in (k, 0.0))
     return abs(graded / homogeneous - 1.0)
 
 

@@ -14,7 +14,7 @@ from comparisons.paper.cache import CachedCall
 from comparisons.paper.drawing import LABELS, by_model, legend_below, level, of_model
 from comparisons.paper.paper_figure import PaperFigure, Plan, Tables, lines_of
 from comparisons.paper.tasks import profile, quantity
-from comparisons.runs.cases import Case
+from comparisons.problem import Problem
 
 __all__ = ["SURFACE_MODELS", "cohesive_surface"]
 
@@ -43,7 +43,7 @@ def cohesive_surface(model: str, n: float, k: float, mu: float) -> dict[str, Any
     >>> round(found["contact_radius"], 3), round(found["cohesive_radius"], 3)
     (1.264, 2.054)
     """
-    found = _COHESIVE[model].profiles(Case(n, k, mu).problem())
+    found = _COHESIVE[model].profiles(Problem.dimensionless(n, k, mu))
     return {
         "contact_radius": found.contact_radius,
         "cohesive_radius": found.cohesive_radius,

@@ -33,8 +33,9 @@ from comparisons.paper.statements.numbers import (
 )
 from comparisons.paper.statements.trends import one_way, vanishes
 from comparisons.paper.values.scheme_ingredients import SEGMENTS, exact_force, scheme_force
-from comparisons.runs.cases import Case
-from fscm import LennardJones, PowerLaw, PowerPunch, Problem
+from comparisons.problem import Problem
+from fscm import LennardJones, PowerLaw, PowerPunch
+from fscm import Problem as PhysicalProblem
 
 __all__ = ["TESTS", "force_at"]
 
@@ -111,7 +112,7 @@ def tabor_numbers_equal(statement: PaperStatement) -> Comparisons:
     for n in statement.numbers("n"):
         for k, nu, relation, limit in ((0.0, 0.3, "<", equal), (1.0, 0.5, "<", equal), (0.4, 0.3, ">", apart)):
             solid, law = PowerLaw(E0=2.0, c0=3.0, k=k, nu=nu), LennardJones(work_of_adhesion=0.7, z0=0.25)
-            problem = Problem(solid, PowerPunch(n, Q=1.5), law)
+            problem = PhysicalProblem(solid, PowerPunch(n, Q=1.5), law)
             ratio = problem.mu / problem.tabor_number_jin
             what = f"|mu / mu_Jin - 1|, n = {n:g}, k = {k:g}, nu = {nu:g}"
             clause = f"{'equal' if relation == '<' else 'different'}, n = {n:g}, k = {k:g}"
@@ -123,7 +124,7 @@ def _coefficient(name: str, n: float, k: float) -> Number:
     if name == "C_in":
         value = jump_in_coefficient(n, k)
     else:
-        value = -JKR().evaluate(Case(n, k, 1.0).problem(), "jump_out_displacement").value
+        value = -JKR().evaluate(Problem.dimensionless(n, k, 1.0), "jump_out_displacement").value
     return _closed(value, f"{name}, n = {n:g}, k = {k:g}")
 
 
@@ -186,7 +187,7 @@ def force_at(n: float, k: float, mu: float, nu: float) -> dict[str, float]:
         If the finite elements refuse or fail.
     """
     try:
-        found = FiniteElements(nu).evaluate(Case(n, k, mu).problem(), _FORCE)
+        found = FiniteElements(nu).evaluate(Problem.dimensionless(n, k, mu), _FORCE)
     except NotApplicable as refusal:
         raise ComputationFailed(str(refusal)) from refusal
     return {"value": found.value, "u_num": found.u_num}

@@ -1,4 +1,4 @@
-"""Equivalent power laws of the solids of the study, by the rule of `comparisons.problem_file.equivalent_power_law`.
+"""Equivalent power laws of the solids of the study, by the rule of `comparisons.problem.equivalent_solid`.
 
 The rule weighs the compliance of the solid by the elastic energy at the pull-off force; the jumps and the energy of the
 table are those of the same power law.
@@ -6,13 +6,10 @@ table are those of the same power law.
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from comparisons.paper.studies.graded_routes import SCALES, Json, case_of, of_power_law
-from comparisons.problem_file.description import ProblemFile, Section
-from comparisons.problem_file.dimensionless import dimensionless_problem
-from comparisons.problem_file.elastic_energy import energy_spectrum
-from comparisons.problem_file.equivalent_power_law import least_wrong, power_law_of
+from comparisons.problem import Problem, Section
+from comparisons.problem.elastic_energy import energy_spectrum
+from comparisons.problem.equivalent_solid import least_wrong, power_law_of
 
 __all__ = ["equivalent_of", "of_equivalent"]
 
@@ -38,10 +35,10 @@ def equivalent_of(kind: str, parameter: float) -> tuple[float, float]:
     """
     punch = Section("sphere", {"R": SCALES["Q"]})
     law = Section("lennard-jones-9-3", {name: SCALES[name] for name in ("work_of_adhesion", "z0")})
-    problem = ProblemFile(Path(kind), case_of(kind, parameter).section, punch, law)
+    problem = Problem(case_of(kind, parameter).section, punch, law)
     spectrum = energy_spectrum(problem)
     k, _, _, surface = least_wrong(spectrum)
-    posed, _ = dimensionless_problem(power_law_of(problem, k, surface, spectrum))
+    posed = power_law_of(problem, k, surface, spectrum)
     return round(posed.k, _DIGITS), round(posed.mu, _DIGITS)
 
 

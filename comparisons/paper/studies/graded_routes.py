@@ -16,8 +16,8 @@ from typing import Any
 import fem_reference
 import fscm
 from comparisons.models.solver import translated
-from comparisons.problem_file.description import Section
-from comparisons.problem_file.kinds import kind_of
+from comparisons.problem import Section
+from comparisons.problem.kinds import kind_of
 from fscm import LennardJones, NoSuchEvent, NotConverged, PowerLaw, PowerPunch, Problem, solve_together
 
 __all__ = ["EVENTS", "QUANTITIES", "GradedCase", "by_elements", "by_fscm", "case_of", "number_of", "of_power_law"]

@@ -19,7 +19,7 @@ from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, Plan, Tables, calls_of, given, texts_of
 from comparisons.paper.tasks import quantity
 from comparisons.paper.values.causes import Repeated, frame, repeated
-from comparisons.runs.cases import Case
+from comparisons.problem import Problem
 from fscm.laws import LennardJones
 
 __all__ = ["PAPER_VALUES", "judged"]
@@ -56,15 +56,15 @@ def _farthest(values: Sequence[float], paper_value: PaperValue) -> Number:
 
 
 def _jump_out(paper_value: PaperValue) -> Number:
-    cases = [Case(n, 1.0, 1.0).problem() for n in _SHAPES]
+    cases = [Problem.dimensionless(n, 1.0, 1.0) for n in _SHAPES]
     return _farthest([-JKR().evaluate(case, "jump_out_displacement").value for case in cases], paper_value)
 
 
 def _exponent(paper_value: PaperValue) -> Number:
     """Slope of log(1 - displacement) over log(mu); the difference of two logarithms loses a digit."""
     low, high = (
-        math.log(1.0 - SemiRigid().evaluate(case.problem(), "jump_in_displacement").value)
-        for case in (Case(paper_value.n, paper_value.k, mu) for mu in (1.0, math.e**7))
+        math.log(1.0 - SemiRigid().evaluate(case, "jump_in_displacement").value)
+        for case in (Problem.dimensionless(paper_value.n, paper_value.k, mu) for mu in (1.0, math.e**7))
     )
     return _closed((high - low) / 7.0)
 

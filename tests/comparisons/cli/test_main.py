@@ -16,9 +16,10 @@ import pytest
 from comparisons import __main__ as start
 from comparisons.cli.main import main
 from comparisons.judging.gates import gates_text, load_gates
+from comparisons.problem import Problem
 from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.registry import MODELS, create
-from comparisons.runs.cases import Case, grids
+from comparisons.runs.cases import grids
 
 ROOT = Path(__file__).parents[3]
 CASE = ["--n", "2", "--k", "0.4", "--mu", "1"]
@@ -152,7 +153,7 @@ def test_every_list_has_a_form_for_people_and_two_for_programs(capsys, what):
     header, *rows = csv.reader(io.StringIO(shown["csv"]))
     assert [list(row) for row in objects] == [header] * len(rows)
     if what == "cases":
-        listed = [(row["grid"], Case(row["n"], row["k"], row["mu"], row["nu"])) for row in objects]
+        listed = [(row["grid"], Problem.dimensionless(row["n"], row["k"], row["mu"], row["nu"])) for row in objects]
         assert listed == [(grid.id, case) for grid in grids("full") for case in grid.cases]
         columns = [header.index(name) for name in ("n", "k", "mu")]
         assert [tuple(float(row[column]) for column in columns) for row in rows] == [
@@ -185,7 +186,7 @@ def test_curve_writes_and_draws_the_surface_at_pull_off(tmp_path, capsys, quanti
     # Numbers as texts first: the parser of pandas 2 loses the last bit.
     table = pd.read_csv(points, dtype=str).astype({"radius": float, y: float})
     assert list(table) == ["model", "radius", y]
-    expected = CURVES[quantity].evaluate(create("fscm"), Case(2, 0, 0.3).problem())
+    expected = CURVES[quantity].evaluate(create("fscm"), Problem.dimensionless(2, 0, 0.3))
     np.testing.assert_array_equal(table["radius"], expected.x)
     np.testing.assert_array_equal(table[y], expected.y)
     assert picture.read_bytes().startswith(b"\x89PNG")

@@ -10,7 +10,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.problem_file.variation import parse_variation, parse_variations, problems_of
+from comparisons.problem.variation import parse_variation, parse_variations, problems_of
 from comparisons.runs.csv_format import read_csv
 from comparisons.runs.record import read_record
 from comparisons.runs.tables import read_table

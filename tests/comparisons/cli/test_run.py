@@ -9,8 +9,9 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.data.file_names import VERDICT_FILES
+from comparisons.problem import Problem
 from comparisons.runs import computation as computing
-from comparisons.runs.cases import Case, load_grids
+from comparisons.runs.cases import load_grids
 from comparisons.runs.execution import compute, compute_with_environment
 from comparisons.runs.store import Store
 from comparisons.runs.tasks import Task, evaluate_task, plan
@@ -202,7 +203,7 @@ def test_every_question_is_planned_once_and_the_longest_first():
     grid = load_grids(STANDING)
     tasks = plan(grid + grid)
     assert len(tasks) == len(set(tasks)) == 2 * 8
-    assert [task.case.mu for task in tasks] == [1.0] * 8 + [0.5] * 8
+    assert [task.problem.mu for task in tasks] == [1.0] * 8 + [0.5] * 8
 
 
 def test_candidates_can_be_chosen_and_the_reference_stays():
@@ -219,7 +220,7 @@ def test_processes_give_the_rows_of_one_process():
 
 
 def test_a_row_names_the_case_and_the_work(toys):
-    row = evaluate_task(Task("exact", "pull_off_force", Case(2, 0.4, 1, 0.25)))
+    row = evaluate_task(Task("exact", "pull_off_force", Problem.dimensionless(2, 0.4, 1, 0.25)))
     assert (row.n, row.k, row.mu, row.nu) == (2, 0.4, 1, 0.25)
     assert (row.value, row.u_num, row.size, row.iterations, row.residual) == (2.0, 1e-9, 3, 2, 1e-12)
     assert (row.model_version, row.unit, row.status, row.reason) == (

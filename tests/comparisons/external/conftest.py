@@ -10,9 +10,10 @@ import pytest
 
 from comparisons.external.model_source import GROUP, close_models
 from comparisons.pipeline import finished_run, inputs
+from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
-from comparisons.runs.cases import Case, load_grids
+from comparisons.runs.cases import load_grids
 from comparisons.runs.tasks import evaluate
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "double_hertz"
@@ -22,7 +23,7 @@ GOOD = "return Result(1.5, 1e-9)"
 
 def row_of(model, mu=1, k=0.4, n=2, quantity="pull_off_force"):
     """The row of one evaluation."""
-    return evaluate(model, quantity, Case(n, k, mu))
+    return evaluate(model, quantity, Problem.dimensionless(n, k, mu))
 
 
 def opened(spec):

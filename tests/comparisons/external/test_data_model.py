@@ -74,7 +74,8 @@ TABLE = f'[[covers]]\nquantities = ["pull_off_force"]\nn = [{MANY}]\nk = [0, 0.4
 def test_what_is_wrong_is_refused_with_its_place(write_data, capsys, monkeypatch, wrong, sentence):
     folder = write_data(**wrong)
     built = []
-    monkeypatch.setattr(data_model, "Problem", lambda *case, real=data_model.Problem: built.append(case) or real(*case))
+    real = data_model.Problem.dimensionless
+    monkeypatch.setattr(data_model.Problem, "dimensionless", lambda *case: built.append(case) or real(*case))
     assert main(["solve", "--model", str(folder), *FORCE]) == 2
     shown = capsys.readouterr()
     assert sentence in shown.err

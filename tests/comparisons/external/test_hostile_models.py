@@ -244,10 +244,10 @@ def test_only_the_scratch_folder_is_writable(write_model, tmp_path):
 PARENT = """
 import sys
 from comparisons.registry import create
-from fscm.problem import Problem
+from comparisons.problem import Problem
 model = create(sys.argv[1])
 print(model.citation, flush=True)
-model.evaluate(Problem(2, 0, 1), "pull_off_force")
+model.evaluate(Problem.dimensionless(2, 0, 1), "pull_off_force")
 """
 
 

@@ -9,15 +9,15 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.external.model_source import close_models, load_model, source_of
 from comparisons.model import ComputationFailed, HasCurve, Model, NotApplicable
+from comparisons.problem import Problem
 from comparisons.registry import create
-from fscm.problem import Problem
 
 from .conftest import EXAMPLE, GATE, comes_true, has_ended, row_of
 
 ROOT = Path(__file__).resolve().parents[3]
 FILE_SOURCE = f"{EXAMPLE / 'double_hertz.py'}:DoubleHertz"
 QUANTITY = "pull_off_force"
-CASE = Problem(2, 0.4, 1)
+CASE = Problem.dimensionless(2, 0.4, 1)
 
 
 @pytest.fixture
@@ -26,7 +26,7 @@ def data_source(write_data):
     model = create(FILE_SOURCE)
     rows = []
     for k, mu in ((0, 0.1), (0, 1), (0.4, 0.1), (0.4, 1)):
-        result = model.evaluate(Problem(2, k, mu), QUANTITY)
+        result = model.evaluate(Problem.dimensionless(2, k, mu), QUANTITY)
         rows.append(f"{QUANTITY},2,{k},{mu},{result.value!r},{result.u_num!r}")
     return str(write_data(rows, change={'"measured"': '"double-hertz"'}))
 
@@ -212,8 +212,8 @@ def test_a_defect_of_a_program_is_one_sentence_and_costs_one_result(write_progra
     for number, (_, sentence) in enumerate(DEFECTS, 1):
         # What is too much after a reply is seen at the next request.
         with pytest.raises(ComputationFailed, match=sentence):
-            [model.evaluate(Problem(2, 0, mu), QUANTITY) for mu in (number, 0.5)]
-        assert model.evaluate(Problem(2, 0, 0.5), QUANTITY).value == 1.7
+            [model.evaluate(Problem.dimensionless(2, 0, mu), QUANTITY) for mu in (number, 0.5)]
+        assert model.evaluate(Problem.dimensionless(2, 0, 0.5), QUANTITY).value == 1.7
 
 
 def test_a_program_that_is_too_slow_or_keeps_its_line_is_ended(write_program, monkeypatch):

@@ -9,8 +9,8 @@ import pytest
 from comparisons.cli.main import main
 from comparisons.external import fingerprint as module
 from comparisons.external.model_source import GROUP, close_models
+from comparisons.problem import Problem
 from comparisons.registry import ExternalIdentity, create, identify
-from comparisons.runs.cases import Case
 from comparisons.runs.record import read_record
 from comparisons.runs.tables import read_table
 from comparisons.runs.tasks import Task, evaluate_task
@@ -171,7 +171,7 @@ def test_a_run_goes_on_with_a_model_that_names_itself_by_its_process(write_model
 @pytest.mark.parametrize("more", ["name = 'jkr'", "name = '<b>'", "version = os.urandom(8).hex()"])
 def test_a_row_is_of_the_model_that_the_run_opened(write_model, more):
     before = ExternalIdentity("stranger", "1 (0)", write_model(more=more), "A. Author", "tests")
-    row = evaluate_task(Task("stranger", "pull_off_force", Case(2, 0, 1), before))
+    row = evaluate_task(Task("stranger", "pull_off_force", Problem.dimensionless(2, 0, 1), before))
     assert (row.model, row.model_version, row.status) == ("stranger", "1 (0)", "failed")
 
 

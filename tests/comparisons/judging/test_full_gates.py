@@ -19,8 +19,8 @@ from comparisons.numerics.bounds import combined
 from comparisons.quantities import CURVES as CURVE_QUANTITIES
 from comparisons.runs.cases import VERIFICATION, grids
 from comparisons.runs.frames import curve_frame, frame
-from comparisons.runs.rows import Row
 from comparisons.runs.tasks import plan
+from tests.comparisons.rows import row
 
 ROOT = Path(__file__).parents[3]
 GRIDS = [grid for grid in grids("full") if grid.tier == "full" and VERIFICATION in grid.tags]
@@ -35,31 +35,16 @@ POINTS = {"fem": 15, "fscm": 45}
 
 def made_up(task):
     """One result for every task, by the case alone: two models agree on it."""
-    case = task.case
-    common = {
-        "model": task.model,
-        "model_version": "1",
-        "quantity": task.quantity,
-        "n": case.n,
-        "k": case.k,
-        "mu": case.mu,
-        "nu": case.nu,
-        "unit": "",
-        "status": "ok",
-        "reason": "",
-        "size": 1,
-        "iterations": 1,
-        "residual": 0.0,
-        "seconds": 0.0,
-    }
+    problem = task.problem
+    common = {"model": task.model, "quantity": task.quantity, "parameters": problem.parameters}
     if task.quantity not in CURVE_QUANTITIES:
-        return Row(value=case.n + case.k + case.mu, u_num=U_NUM, **common)
+        return row(value=problem.n + problem.k + problem.mu, u_num=U_NUM, **common)
     t = np.linspace(0.0, 1.0, POINTS[task.model])
-    return Row(value=None, u_num=None, points=(list(3.0 * t - 2.0), list(np.sin(3.0 * t)), U_DISTANCE), **common)
+    return row(value=None, u_num=None, points=(list(3.0 * t - 2.0), list(np.sin(3.0 * t)), U_DISTANCE), **common)
 
 
 RESULTS = [made_up(task) for task in plan(GRIDS)]
-ROWS = frame(row for row in RESULTS if not row.points)
+ROWS = frame(each for each in RESULTS if not each.points)
 CURVES = curve_frame(row for row in RESULTS if row.points)
 
 

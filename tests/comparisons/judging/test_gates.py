@@ -10,8 +10,9 @@ import pytest
 
 from comparisons.cli.main import main
 from comparisons.judging.gates import GIVEN, METRICS, Gate, gates_text, load_gates, of_tier
+from comparisons.problem import Problem
 from comparisons.registry import MODELS
-from comparisons.runs.cases import TIERS, Case, Grid, grids
+from comparisons.runs.cases import TIERS, Grid, grids
 
 GATE = """
 [[gate]]
@@ -47,25 +48,25 @@ def test_ranges_include_their_ends_and_tags_name_grids_or_properties():
     (gate,) = load_gates(GATE)
     blue, red = (Grid(id, "", "quick", "fscm", (), (), (), (tag,)) for id, tag in (("a", "blue"), ("b", "red")))
     by_id = Grid("blue", "", "quick", "fscm", (), (), ())
-    assert [gate.selects(blue, Case(n, 0, 1)) for n in (0.99, 1, 1.5, 2, 2.01)] == [
+    assert [gate.selects(blue, Problem.dimensionless(n, 0, 1)) for n in (0.99, 1, 1.5, 2, 2.01)] == [
         False,
         True,
         True,
         True,
         False,
     ]
-    assert [gate.selects(grid, Case(1, 0, 1)) for grid in (red, by_id)] == [False, True]
+    assert [gate.selects(grid, Problem.dimensionless(1, 0, 1)) for grid in (red, by_id)] == [False, True]
 
 
 def test_a_range_of_poissons_ratio_does_not_select_a_case_without_one():
     (gate,) = load_gates(GATE.replace('n = [1, 2], tags = ["blue"]', "nu = [0, 0.49]"))
     grid = Grid("a", "", "quick", "fscm", (), (), ())
-    assert [gate.selects(grid, Case(2, 0, 1, nu)) for nu in (None, 0.0, 0.3)] == [False, True, True]
+    assert [gate.selects(grid, Problem.dimensionless(2, 0, 1, nu)) for nu in (None, 0.0, 0.3)] == [False, True, True]
 
 
 def test_the_reference_may_be_taken_at_other_parameters():
     (gate,) = load_gates(GATE + "reference_at = { k = 1, nu = 0.25 }")
-    assert gate.reference_case(Case(2, 0.95, 0.5)) == Case(2, 1, 0.5, 0.25)
+    assert gate.reference_case(Problem.dimensionless(2, 0.95, 0.5)) == Problem.dimensionless(2, 1, 0.5, 0.25)
 
 
 @pytest.mark.parametrize(

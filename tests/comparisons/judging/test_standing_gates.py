@@ -16,7 +16,7 @@ import pytest
 
 from comparisons.baseline import BASELINE, drift, read_baseline
 from comparisons.cli.main import main
-from comparisons.cli.options import case_of
+from comparisons.cli.options import problem_of
 from comparisons.domain import Domain
 from comparisons.judging.decision import Verdict, roll_up
 from comparisons.judging.gates import GIVEN, gates_text, load_gates, of_tier
@@ -180,7 +180,7 @@ def test_the_command_that_is_shown_computes_the_case_of_the_gate(monkeypatch):
             name, args = called[-1]
             assert name == ("curve" if gate.quantity in CURVE_QUANTITIES else "solve")
             assert (args.model, args.quantity) == ([candidate] if name == "curve" else candidate, gate.quantity)
-            assert case_of(args) == case
+            assert problem_of(args) == case
     assert {args.quantity for name, args in called if name == "curve"} == set(CURVE_QUANTITIES)
     assert any(args.nu is not None for _, args in called)
 
@@ -371,7 +371,7 @@ def test_the_finite_elements_compute_what_is_committed():
     chosen = [
         task
         for task in plan(GRIDS)
-        if task.model == "fem" and task.case.n == 5 and task.quantity not in CURVE_QUANTITIES
+        if task.model == "fem" and task.problem.n == 5 and task.quantity not in CURVE_QUANTITIES
     ]
     found = drift(ROWS, frame(evaluate_task(task) for task in chosen))
     assert found.empty, found.to_string()

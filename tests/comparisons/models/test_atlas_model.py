@@ -8,24 +8,21 @@ import pytest
 
 import fscm
 from comparisons.model import NotApplicable
+from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 from comparisons.registry import create
-from comparisons.runs.cases import Case
 from comparisons.runs.tasks import evaluate
-from fscm.laws import Mie
-from fscm.problem import Problem
-from fscm.punch import RoundedCone
 
 
 @pytest.mark.parametrize("quantity", QUANTITIES)
 def test_a_result_is_that_of_the_function(quantity):
-    result = create("atlas").evaluate(Problem(n=2.5, k=0.3, mu=2.0), quantity)
+    result = create("atlas").evaluate(Problem.dimensionless(n=2.5, k=0.3, mu=2.0), quantity)
     assert (result.value, result.u_num) == fscm.atlas(2.5, 0.3, 2.0, quantity)
 
 
 @pytest.mark.parametrize("quantity", ["pull_off_force", "jump_out_displacement"])
 def test_the_reference_is_within_the_bound(quantity):
-    problem = Problem(n=2, k=0.4, mu=1.0)
+    problem = Problem.dimensionless(n=2, k=0.4, mu=1.0)
     atlas, reference = (create(name).evaluate(problem, quantity) for name in ("atlas", "fscm"))
     assert abs(atlas.value - reference.value) <= atlas.u_num + reference.u_num
 
@@ -39,27 +36,21 @@ def test_the_reference_is_within_the_bound(quantity):
     ],
 )
 def test_outside_its_box_it_is_not_applicable(n, k, mu, reason):
-    row = evaluate(create("atlas"), "pull_off_force", Case(n, k, mu))
+    row = evaluate(create("atlas"), "pull_off_force", Problem.dimensionless(n, k, mu))
     assert row.status == "not-applicable"
     with pytest.raises(NotApplicable, match=reason):
-        create("atlas").evaluate(Problem(n=n, k=k, mu=mu), "pull_off_force")
+        create("atlas").evaluate(Problem.dimensionless(n=n, k=k, mu=mu), "pull_off_force")
 
 
 def test_below_the_critical_tabor_number_a_jump_is_not_applicable():
-    row = evaluate(create("atlas"), "jump_in_gap", Case(2, 0, 0.3))
+    row = evaluate(create("atlas"), "jump_in_gap", Problem.dimensionless(2, 0, 0.3))
     assert row.status == "not-applicable"
     assert "critical Tabor number 0.69" in row.reason
 
 
-@pytest.mark.parametrize("other", [{"law": Mie(m=10, n=4)}, {"punch": RoundedCone(1.0)}], ids=["law", "punch"])
-def test_another_punch_or_law_is_not_applicable(other):
-    with pytest.raises(NotApplicable, match="the power-law punch and the Lennard-Jones 9-3 law"):
-        create("atlas").evaluate(Problem(n=1, k=0.2, mu=1.0, **other), "pull_off_force")
-
-
 def test_it_has_no_curve():
     with pytest.raises(NotApplicable, match="no force-displacement curve"):
-        create("atlas").curve(Problem(n=2, k=0.4, mu=1.0))
+        create("atlas").curve(Problem.dimensionless(n=2, k=0.4, mu=1.0))
 
 
 def test_another_fit_is_another_version():

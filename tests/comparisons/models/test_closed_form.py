@@ -13,9 +13,9 @@ from comparisons import create, registry
 from comparisons.model import Model, NotApplicable, Result
 from comparisons.models.closed_form import ClosedForm, monomial
 from comparisons.models.homogeneous_sphere import HomogeneousSphere
+from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 from fscm.laws import LennardJones
-from fscm.problem import Problem
 
 #: Every closed form of the registry, also one that is new.
 MODELS = {name: type(create(name)) for name in registry.MODELS if isinstance(create(name), ClosedForm)}
@@ -46,7 +46,7 @@ def gradient_of(model: ClosedForm) -> float:
 
 @pytest.mark.parametrize("quantity", QUANTITIES)
 def test_every_quantity_has_a_value_or_a_reason(model: ClosedForm, quantity: str) -> None:
-    problem = Problem(2, gradient_of(model), 5.0)  # at a small Tabor number some models lose their folds
+    problem = Problem.dimensionless(2, gradient_of(model), 5.0)  # at a small Tabor number some models lose their folds
     if not hasattr(model, quantity):
         with pytest.raises(NotApplicable, match=rf"^{model.name} does not define {quantity}: \w[^\n]+$"):
             model.evaluate(problem, quantity)
@@ -58,7 +58,7 @@ def test_every_quantity_has_a_value_or_a_reason(model: ClosedForm, quantity: str
 
 def test_unknown_quantity(model: ClosedForm) -> None:
     with pytest.raises(ValueError, match="'stickiness' is unknown"):
-        model.evaluate(Problem(2, 0, 1), "stickiness")
+        model.evaluate(Problem.dimensionless(2, 0, 1), "stickiness")
 
 
 @dataclass(frozen=True)
@@ -76,23 +76,8 @@ class OtherLaw(LennardJones):
     """A subclass may override anything, so it is another law."""
 
 
-@pytest.mark.parametrize(
-    "problem",
-    [
-        Problem(2, 0, 1, punch=Sinusoid()),
-        Problem(2, 0, 1, law=OtherLaw()),
-    ],
-    ids=["profile", "law"],
-)
-def test_refuses_other_profiles_and_laws(model: ClosedForm, problem: Problem) -> None:
-    with pytest.raises(NotApplicable, match="and for no other"):
-        model.evaluate(problem, "pull_off_force")
-    with pytest.raises(NotApplicable, match="and for no other"):
-        model.curve(problem)
-
-
 def test_curves_are_consistent(model: ClosedForm) -> None:
-    problem = Problem(2, gradient_of(model), 1.5)
+    problem = Problem.dimensionless(2, gradient_of(model), 1.5)
     if model.name in WITHOUT_CURVE:
         with pytest.raises(NotApplicable, match=rf"{model.name} has no[^\n]+$"):
             model.curve(problem)

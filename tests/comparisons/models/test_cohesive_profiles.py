@@ -15,7 +15,7 @@ from comparisons.models.cohesive_stress import eta
 from comparisons.models.double_hertz_contact import DoubleHertzContact
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 from .kernel_gap import integrate, kernel_gap
 
@@ -79,7 +79,7 @@ def test_homogeneous_sphere_pressure() -> None:
 @pytest.mark.parametrize("model", [MaugisDugdaleOriginal(), MaugisDugdaleImproved()], ids=lambda m: m.name)
 @pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.4, 1.0), (1.0, 0.0, 0.01), (5.0, 0.95, 5.0), (2.0, 1.0, 0.5)])
 def test_profiles_in_barred_variables(model: MaugisDugdaleOriginal, n: float, k: float, mu: float) -> None:
-    problem = Problem(n, k, mu)
+    problem = Problem.dimensionless(n, k, mu)
     profile = model.profiles(problem)
     r, p, H = profile.radius, profile.pressure, profile.gap
     a, c = profile.contact_radius, profile.cohesive_radius
@@ -98,7 +98,7 @@ def test_profiles_in_barred_variables(model: MaugisDugdaleOriginal, n: float, k:
 @pytest.mark.parametrize(("k", "mu", "reason"), [(1.0, 3.0, "no cohesive"), (0.999, 20.0, "width below")])
 def test_refuses_an_edge_without_width(k: float, mu: float, reason: str) -> None:
     with pytest.raises(NotApplicable, match=reason):
-        MaugisDugdaleOriginal().profiles(Problem(2, k, mu))
+        MaugisDugdaleOriginal().profiles(Problem.dimensionless(2, k, mu))
 
 
 @pytest.mark.parametrize("contact_type", [CohesiveContact, DoubleHertzContact])

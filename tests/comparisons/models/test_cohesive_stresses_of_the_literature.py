@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+import fscm
 from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.dmt import DMT
 from comparisons.models.dmt_strength import DMTStrength
@@ -14,8 +15,10 @@ from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
 from comparisons.models.maugis_dugdale_jin import MaugisDugdaleJin
+from comparisons.problem import Problem
 from fscm import LennardJones, PowerLaw, PowerPunch
-from fscm.problem import Problem
+
+contact = Problem.dimensionless
 
 
 @pytest.mark.parametrize(("n", "k", "nu"), [(2.0, 0.4, 0.3), (1.5, 0.2, 0.1), (5.0, 0.6, 0.45)])
@@ -26,16 +29,16 @@ def test_the_maugis_number_of_jin_is_his_tabor_number(n: float, k: float, nu: fl
     tabor = (Q ** (1 - k) * c0 ** (n * k) * dgamma**n / (modulus**n * z0 ** (2 * n + k - 1))) ** root
     maugis = sigma * (Q ** (1 - k) * c0 ** (n * k) * dgamma ** (1 - n - k) / modulus**n) ** root
     assert maugis == pytest.approx(tabor, rel=1e-13)
-    ours = Problem(PowerLaw(E0, c0, k, nu), PowerPunch(n, Q), LennardJones(dgamma, z0)).mu
+    ours = fscm.Problem(PowerLaw(E0, c0, k, nu), PowerPunch(n, Q), LennardJones(dgamma, z0)).mu
     assert not math.isclose(ours, tabor, rel_tol=1e-3)
     model = MaugisDugdaleJin()
-    assert model.cohesive_stress(Problem(n, k, ours)) == pytest.approx(maugis / tabor, rel=1e-13)
+    assert model.cohesive_stress(contact(n, k, ours)) == pytest.approx(maugis / tabor, rel=1e-13)
 
 
 @pytest.mark.parametrize(("n", "k", "mu"), [(1.0, 0.0, 0.1), (1.5, 0.4, 0.5), (5.0, 0.2, 0.3), (2.0, 0.6, 1.0)])
 def test_jin_lies_beside_the_original_towards_the_improved(n: float, k: float, mu: float) -> None:
     """1 lies between eta(n) and 1.026, and the pull-off force is monotonic in the stress."""
-    problem = Problem(n, k, mu)
+    problem = contact(n, k, mu)
     original, jin, improved = (
         model.evaluate(problem, "pull_off_force").value
         for model in (MaugisDugdaleOriginal(), MaugisDugdaleJin(), MaugisDugdaleImproved())
@@ -45,7 +48,7 @@ def test_jin_lies_beside_the_original_towards_the_improved(n: float, k: float, m
 
 @pytest.mark.parametrize(("n", "k"), [(1.0, 0.0), (2.0, 0.4), (5.0, 0.6)])
 def test_jin_tends_to_jkr_and_to_dmt_with_its_stress(n: float, k: float) -> None:
-    soft, stiff = Problem(n, k, 300.0), Problem(n, k, 1e-8)
+    soft, stiff = contact(n, k, 300.0), contact(n, k, 1e-8)
     jkr = JKR().evaluate(soft, "pull_off_force").value
     assert MaugisDugdaleJin().evaluate(soft, "pull_off_force").value == pytest.approx(jkr, rel=1e-4)
     # Eq. 75 with sigma_0 = 1.
@@ -54,7 +57,7 @@ def test_jin_tends_to_jkr_and_to_dmt_with_its_stress(n: float, k: float) -> None
 
 @pytest.mark.parametrize(("n", "k"), [(0.7, 0.4), (1.0, 0.0), (1.5, 0.4), (2.0, 0.0), (5.0, 0.2)])
 def test_dmt_strength_is_the_limit_of_the_original(n: float, k: float) -> None:
-    problem = Problem(n, k, 1e-9)
+    problem = contact(n, k, 1e-9)
     dmt, original = (m.evaluate(problem, "pull_off_force").value for m in (DMTStrength(), MaugisDugdaleOriginal()))
     assert dmt == pytest.approx(original, rel=1e-4)
     # The strength over the disc in which the undeformed gap r^n / n is below 1 / sigma_th.
@@ -64,14 +67,14 @@ def test_dmt_strength_is_the_limit_of_the_original(n: float, k: float) -> None:
 
 def test_dmt_strength_is_dmt_for_a_paraboloid() -> None:
     for quantity in ("pull_off_force", "zero_load_displacement"):
-        ours, other = (model.evaluate(Problem(2, 0.3, 0.7), quantity).value for model in (DMTStrength(), DMT()))
+        ours, other = (model.evaluate(contact(2, 0.3, 0.7), quantity).value for model in (DMTStrength(), DMT()))
         assert ours == pytest.approx(other, rel=1e-13)
 
 
 def test_curve_of_dmt_strength_is_the_limit_of_maugis_dugdale() -> None:
     """n = 5, where the strength decides: at a vanishing Tabor number the contact branches agree."""
     mu, n, k = 1e-6, 5.0, 0.2
-    problem, punch = Problem(n, k, mu), GradedPunch(n, k)
+    problem, punch = contact(n, k, mu), GradedPunch(n, k)
     scale = punch.scales(mu)
     state = CohesiveContact(punch, 16 * math.sqrt(3) / 27 * mu).at(np.linspace(-14.0, -1.0, 200))
     curve = DMTStrength().curve(problem)

@@ -11,13 +11,15 @@ from comparisons.models.cohesive_contact import CohesiveContact
 from comparisons.models.cohesive_stress import eta
 from comparisons.models.dmt import DMT, dmt_pull_off
 from comparisons.models.graded_punch import GradedPunch
-from fscm.problem import Problem
+from comparisons.problem import Problem
+
+contact = Problem.dimensionless
 
 
 @pytest.mark.parametrize("n", [0.8, 1.0, 1.5, 2.0, 5.0, 10.0])
 def test_pull_off_is_bradleys(n: float) -> None:
     """Eq. 74."""
-    problem = Problem(n, 0.4, 0.7)
+    problem = contact(n, 0.4, 0.7)
     dmt, bradley = (m.evaluate(problem, "pull_off_force") for m in (DMT(), Bradley()))
     assert dmt.value == pytest.approx(bradley.value, rel=1e-13)
     assert DMT().evaluate(problem, "pull_off_displacement").value == 0.0
@@ -26,12 +28,12 @@ def test_pull_off_is_bradleys(n: float) -> None:
 def test_homogeneous_sphere_is_hertz() -> None:
     """P = (4/3) E* a^3 / R - 2 pi R dgamma, delta = a^2 / R; E* = mu^(-3/2) for Q = z0 = dgamma = 1."""
     mu = 0.6
-    curve = DMT().curve(Problem(2, 0, mu))
+    curve = DMT().curve(contact(2, 0, mu))
     a = curve.columns["contact_radius"]
     np.testing.assert_allclose(curve.load, (4 / 3) * mu**-1.5 * a**3 / np.pi - 2, rtol=1e-13, atol=1e-13)
     np.testing.assert_allclose(curve.displacement, a**2, rtol=1e-14)
     zero = (1.5 * np.pi * mu**1.5) ** (2 / 3)
-    assert DMT().evaluate(Problem(2, 0, mu), "zero_load_displacement").value == pytest.approx(zero, rel=1e-13)
+    assert DMT().evaluate(contact(2, 0, mu), "zero_load_displacement").value == pytest.approx(zero, rel=1e-13)
 
 
 @pytest.mark.parametrize(("n", "k"), [(1.0, 0.2), (1.5, 0.0), (2.0, 0.4), (5.0, 0.6)])
@@ -39,7 +41,7 @@ def test_curve_is_the_limit_of_maugis_dugdale(n: float, k: float) -> None:
     """The difference vanishes like a positive power of mu: a thousandth of mu shrinks it manyfold."""
     errors = []
     for mu in (1e-3, 1e-6):
-        problem = Problem(n, k, mu)
+        problem = contact(n, k, mu)
         punch = GradedPunch.of(problem)
         scale = punch.scales(mu)
         state = CohesiveContact(punch, eta(n) * mu).at(np.linspace(-14.0, -1.0, 200))
@@ -57,11 +59,11 @@ def test_curve_is_the_limit_of_maugis_dugdale(n: float, k: float) -> None:
 
 @pytest.mark.parametrize(("n", "k", "mu"), [(1.0, 0.0, 0.2), (2.0, 0.4, 1.0), (5.0, 0.6, 3.0), (2.0, 1.0, 1.0)])
 def test_zero_load_lies_on_the_curve(n: float, k: float, mu: float) -> None:
-    curve = DMT().curve(Problem(n, k, mu))
+    curve = DMT().curve(contact(n, k, mu))
     # Interpolated in a^(n+k+1), in which the load is a straight line.
     a0 = np.interp(0.0, curve.load, curve.columns["contact_radius"] ** (n + k + 1)) ** (1 / (n + k + 1))
     expected = curve.displacement[-1] * (a0 / curve.columns["contact_radius"][-1]) ** n
-    assert DMT().evaluate(Problem(n, k, mu), "zero_load_displacement").value == pytest.approx(expected, rel=1e-12)
+    assert DMT().evaluate(contact(n, k, mu), "zero_load_displacement").value == pytest.approx(expected, rel=1e-12)
 
 
 @pytest.mark.parametrize(("n", "k"), [(1.0, 0.0), (2.0, 0.4), (5.0, 0.6)])
@@ -69,7 +71,7 @@ def test_the_zero_load_displacement_inherits_the_bound_of_the_adhesion(
     n: float, k: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It covers what an adhesion that is wrong by its bound changes, and little more."""
-    problem, model, relative = Problem(n, k, 0.7), DMT(), 1e-6
+    problem, model, relative = contact(n, k, 0.7), DMT(), 1e-6
     adhesion = model.pull_off_force(problem).value
 
     def found(factor: float) -> Estimate:
@@ -83,7 +85,7 @@ def test_the_zero_load_displacement_inherits_the_bound_of_the_adhesion(
 
 def test_the_zero_load_displacement_has_the_rounding_of_its_own_factors(monkeypatch: pytest.MonkeyPatch) -> None:
     """With an exact adhesion: that of the power n / (n + k + 1) and of two factors."""
-    problem, model = Problem(2.0, 0.4, 0.7), DMT()
+    problem, model = contact(2.0, 0.4, 0.7), DMT()
     monkeypatch.setattr(model, "pull_off_force", lambda _: Estimate(1.8, 0.0))
     result, power = model.zero_load_displacement(problem), 2.0 / 3.4
     least = 16.0 * 2.0**-52 * (1.0 + 2.0 * power)

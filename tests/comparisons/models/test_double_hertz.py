@@ -18,7 +18,7 @@ from comparisons.models.double_hertz_contact import DoubleHertzContact
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.models.maugis_dugdale import MaugisDugdaleOriginal
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 from .kernel_gap import integrate, kernel_gap
 
@@ -158,7 +158,7 @@ def test_slopes_are_derivatives_of_the_states(n: float, k: float, Lambda: float,
 @pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.4, 1.0), (1.0, 0.0, 0.3), (5.0, 0.2, 3.0), (2.0, 0.0, 5.0)])
 def test_error_bounds_hold_against_many_digits(n: float, k: float, mu: float) -> None:
     """Pull-off and fold by Newton's method on the derivative in 40 digits, from the events found."""
-    problem = Problem(n, k, mu)
+    problem = Problem.dimensionless(n, k, mu)
     Lambda = THEORETICAL_STRENGTH * mu
     events = CohesiveEvents.scan(DoubleHertzContact(GradedPunch(n, k), Lambda))
     scale = GradedPunch(n, k).scales(mu)
@@ -180,7 +180,7 @@ def test_error_bounds_hold_against_many_digits(n: float, k: float, mu: float) ->
 @pytest.mark.parametrize("n", [1.0, 2.0, 5.0])
 def test_tends_to_jkr(n: float, k: float) -> None:
     """The zone narrows as mu^(-2/(1-k)): at k = 0 and mu = 1000 its share is 1e-6 or less."""
-    problem = Problem(n, k, 1000.0)
+    problem = Problem.dimensionless(n, k, 1000.0)
     for quantity in EVENTS:
         ours, jkr = (model.evaluate(problem, quantity).value for model in (MODEL, JKR()))
         assert ours == pytest.approx(jkr, rel=2e-5)
@@ -192,7 +192,7 @@ def test_tends_to_its_rigid_limit(n: float, k: float) -> None:
     power = (1 + k) / 2
     c = float(mp.power(THEORETICAL_STRENGTH * mp.beta(n / 2, power + 1) / 2, -1.0 / n))
     rigid = THEORETICAL_STRENGTH * c**2 / (power + 1)
-    assert MODEL.evaluate(Problem(n, k, 1e-9), "pull_off_force").value == pytest.approx(rigid, rel=2e-4)
+    assert MODEL.evaluate(Problem.dimensionless(n, k, 1e-9), "pull_off_force").value == pytest.approx(rigid, rel=2e-4)
     if n == 2.0:
         assert rigid == pytest.approx(2.0, rel=1e-14)
 
@@ -204,7 +204,7 @@ def test_it_agrees_with_the_example_that_is_derived_apart(k: float, mu: float) -
     spec = spec_from_file_location("example_double_hertz", EXAMPLE)
     example = module_from_spec(spec)
     spec.loader.exec_module(example)
-    problem = Problem(2, k, mu)
+    problem = Problem.dimensionless(2, k, mu)
     for quantity in EVENTS if mu > 1 else EVENTS[:1]:
         ours, other = (model.evaluate(problem, quantity).value for model in (MODEL, example.DoubleHertz()))
         # The example finds extremes by a minimiser, their place to the root of rounding only.
@@ -214,26 +214,26 @@ def test_it_agrees_with_the_example_that_is_derived_apart(k: float, mu: float) -
 @pytest.mark.parametrize(("mu", "expected"), [(0.5, 2.0), (3.0, 2.0)])
 def test_paraboloid_on_a_gibson_solid(mu: float, expected: float) -> None:
     """Independent springs: the load is twice the work of adhesion; above Lambda = 1 the edge is JKR's."""
-    assert MODEL.evaluate(Problem(2, 1, mu), "pull_off_force").value == pytest.approx(expected, rel=1e-12)
+    assert MODEL.evaluate(Problem.dimensionless(2, 1, mu), "pull_off_force").value == pytest.approx(expected, rel=1e-12)
 
 
 def test_refusals() -> None:
     with pytest.raises(NotApplicable, match="no fold in contact"):
-        MODEL.evaluate(Problem(2, 0, 0.05), "jump_out_displacement")
+        MODEL.evaluate(Problem.dimensionless(2, 0, 0.05), "jump_out_displacement")
     with pytest.raises(NotApplicable, match="hold in contact only"):
-        MODEL.evaluate(Problem(2, 0, 1), "jump_in_displacement")
+        MODEL.evaluate(Problem.dimensionless(2, 0, 1), "jump_in_displacement")
     with pytest.raises(NotApplicable, match="no cohesive zone at k = 1"):
-        MODEL.pull_off_profile(Problem(2, 1, 3))
+        MODEL.pull_off_profile(Problem.dimensionless(2, 1, 3))
 
 
 @pytest.mark.parametrize(("n", "k", "mu"), [(2.0, 0.4, 1.0), (1.0, 0.0, 0.01), (5.0, 0.6, 3.0), (2.0, 1.0, 0.5)])
 @pytest.mark.parametrize("model", [MODEL, MaugisDugdaleOriginal()], ids=lambda m: m.name)
 def test_profile_reaches_the_gap_that_is_stored(model, n: float, k: float, mu: float) -> None:
-    profile = model.pull_off_profile(Problem(n, k, mu))
+    profile = model.pull_off_profile(Problem.dimensionless(n, k, mu))
     assert profile.gap[-1] >= 10.0
     assert np.all(np.diff(profile.radius) > 0)
     load = np.sum(np.diff(profile.radius**2) * 0.5 * (profile.pressure[1:] + profile.pressure[:-1]))
-    assert -load == pytest.approx(model.evaluate(Problem(n, k, mu), "pull_off_force").value, rel=2e-2)
+    assert -load == pytest.approx(model.evaluate(Problem.dimensionless(n, k, mu), "pull_off_force").value, rel=2e-2)
 
 
 @pytest.mark.parametrize(
@@ -245,6 +245,6 @@ def test_pull_off_is_the_lowest_of_a_dense_sample(n: float, k: float, mu: float)
     contact = DoubleHertzContact(punch, THEORETICAL_STRENGTH * mu)
     w = np.concatenate(([-np.inf], np.linspace(-12.0, 25.0, 8001)))
     lowest = float(contact.at(w).load.min()) * punch.scales(mu).load
-    found = -MODEL.evaluate(Problem(n, k, mu), "pull_off_force").value
+    found = -MODEL.evaluate(Problem.dimensionless(n, k, mu), "pull_off_force").value
     assert found <= lowest + 1e-12 * abs(lowest)
     assert found == pytest.approx(lowest, rel=1e-4)

@@ -12,11 +12,11 @@ import fscm
 from comparisons.models.fem_model import _LEVELS, _SCALES, FiniteElements, _audited
 from comparisons.models.fscm_model import FullSelfConsistent
 from comparisons.numerics.curve_distance import curve_distance, mesh_difference
+from comparisons.problem import Problem
 from comparisons.quantities import CURVES, QUANTITIES
 from comparisons.quantities.points import near
-from fscm.problem import Problem
 
-PROBLEM = Problem(n=2, k=0.4, mu=0.5)
+PROBLEM = Problem.dimensionless(n=2, k=0.4, mu=0.5)
 
 #: Largest distance as a fraction of the picture; measured 2e-7 (gap) and 2e-5 (pressure, whose reference is a spline
 #: between its nodes).
@@ -78,7 +78,7 @@ def test_the_critical_tabor_number_is_that_of_the_modulus_and_has_the_bound_of_i
     assert result.value + result.u_num == pytest.approx(tabor_number(11.4), rel=1e-14)
     assert result.value - result.u_num < tabor_number(12.6)
     # mu is ignored.
-    assert FiniteElements().evaluate(replace(PROBLEM, mu=1e-9), "critical_tabor_number") == result
+    assert FiniteElements().evaluate(PROBLEM.at({"mu": 1e-9}), "critical_tabor_number") == result
 
 
 @pytest.mark.heavy
@@ -101,4 +101,4 @@ def test_both_shapes_are_cut_at_the_same_gap():
     assert pressure.x == gap.x
     assert max(gap.y) <= 10 < max(model.pull_off_profile(PROBLEM).gap)
     # The gap determines the pressure (Eq. 9).
-    assert pressure.y == pytest.approx(PROBLEM.law.traction(np.array(gap.y)).tolist())
+    assert pressure.y == pytest.approx(PROBLEM.posed.law.traction(np.array(gap.y)).tolist())

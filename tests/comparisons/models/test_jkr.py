@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from comparisons.models.jkr import JKR
-from fscm.problem import Problem
+from comparisons.problem import Problem
+
+contact = Problem.dimensionless
 
 CASES = [
     (1.0, 0.0, 0.3),
@@ -45,7 +47,7 @@ def extreme(n: float, k: float, mu: float, which: int) -> mp.mpf:
 
 @pytest.mark.parametrize(("n", "k", "mu"), CASES)
 def test_events_are_the_extremes_of_the_printed_curve(n: float, k: float, mu: float) -> None:
-    problem, model = Problem(n, k, mu), JKR()
+    problem, model = contact(n, k, mu), JKR()
     delta, P = printed_curve(n, k, mu, extreme(n, k, mu, 1))
     assert model.evaluate(problem, "pull_off_force").value == pytest.approx(float(-P), rel=1e-13)
     assert model.evaluate(problem, "pull_off_displacement").value == pytest.approx(float(delta), rel=1e-12, abs=1e-13)
@@ -61,19 +63,19 @@ def test_zero_load_lies_on_the_printed_curve(n: float, k: float, mu: float) -> N
         start = extreme(n, k, mu, 1) * 1.5
         a = mp.exp(mp.findroot(lambda x: printed_curve(n, k, mu, mp.exp(x))[1], mp.log(start)))
         delta = printed_curve(n, k, mu, a)[0]
-    value = JKR().evaluate(Problem(n, k, mu), "zero_load_displacement").value
+    value = JKR().evaluate(contact(n, k, mu), "zero_load_displacement").value
     assert value == pytest.approx(float(delta), rel=1e-13)
 
 
 @pytest.mark.parametrize(("n", "k", "mu"), CASES)
 def test_curve_is_the_printed_curve(n: float, k: float, mu: float) -> None:
-    curve = JKR().curve(Problem(n, k, mu))
+    curve = JKR().curve(contact(n, k, mu))
     a = curve.columns["contact_radius"]
     for i in (0, 1, 100, 250, 400):
         delta, P = printed_curve(n, k, mu, mp.mpf(a[i]))
         assert curve.displacement[i] == pytest.approx(float(delta), rel=1e-11, abs=1e-12)
         assert curve.load[i] == pytest.approx(float(P), rel=1e-11, abs=1e-12)
-    force = JKR().evaluate(Problem(n, k, mu), "pull_off_force").value
+    force = JKR().evaluate(contact(n, k, mu), "pull_off_force").value
     assert -curve.load.min() == pytest.approx(force, rel=1e-3)
     assert curve.load[-1] >= force
 
@@ -86,13 +88,13 @@ def test_printed_closed_forms(n: float, k: float, mu: float) -> None:
     force = 2 * (2 * n + k - 1) / ((1 + k) * (n + k + 1)) * base ** (1 / (2 * n + k - 1)) * mu ** ((2 - n) / n)
     C_out = 0.5 * (2 * n + k - 1) * (2 * pi * (1 - k) / (n**2 * cos)) ** (n / (2 * n + k - 1))
     C_out *= ((1 - k) / B) ** ((1 - k) / (2 * n + k - 1))
-    assert JKR().evaluate(Problem(n, k, mu), "pull_off_force").value == pytest.approx(force, rel=1e-12)
-    assert JKR().evaluate(Problem(n, k, mu), "jump_out_displacement").value == pytest.approx(-C_out * mu, rel=1e-12)
+    assert JKR().evaluate(contact(n, k, mu), "pull_off_force").value == pytest.approx(force, rel=1e-12)
+    assert JKR().evaluate(contact(n, k, mu), "jump_out_displacement").value == pytest.approx(-C_out * mu, rel=1e-12)
 
 
 def chi(n: float, k: float) -> float:
     """Relative change of the pull-off force from the homogeneous material, percent (Eq. 58)."""
-    graded, homogeneous = (JKR().evaluate(Problem(n, x, 1.0), "pull_off_force").value for x in (k, 0.0))
+    graded, homogeneous = (JKR().evaluate(contact(n, x, 1.0), "pull_off_force").value for x in (k, 0.0))
     return 100 * abs(graded / homogeneous - 1)
 
 
@@ -104,7 +106,7 @@ def test_printed_sensitivity_to_the_gradient(n: float, printed: float) -> None:
 
 def test_sensitivity_in_the_gibson_limit() -> None:
     """k = 1, mu = 1: Eq. 51 is P = a^(n+2) / (2 (n+2)) - a^2, least at a^n = 4, -P_c = n/(n+2) 4^(2/n)."""
-    assert JKR().evaluate(Problem(1.5, 1.0, 1.0), "pull_off_force").value == pytest.approx(
+    assert JKR().evaluate(contact(1.5, 1.0, 1.0), "pull_off_force").value == pytest.approx(
         1.5 / 3.5 * 4 ** (4 / 3), rel=1e-14
     )
     assert chi(1.5, 1.0) == pytest.approx(40.886, abs=1e-3)
@@ -112,12 +114,12 @@ def test_sensitivity_in_the_gibson_limit() -> None:
 
 @pytest.mark.parametrize("n", [1.0, 1.5, 2.0, 5.0])
 def test_jump_out_coefficient_tends_to_two(n: float) -> None:
-    assert JKR().evaluate(Problem(n, 1.0, 3.0), "jump_out_displacement").value == pytest.approx(-6.0, rel=1e-14)
-    near = JKR().evaluate(Problem(n, 1 - 1e-9, 3.0), "jump_out_displacement").value
+    assert JKR().evaluate(contact(n, 1.0, 3.0), "jump_out_displacement").value == pytest.approx(-6.0, rel=1e-14)
+    near = JKR().evaluate(contact(n, 1 - 1e-9, 3.0), "jump_out_displacement").value
     assert near == pytest.approx(-6.0, rel=1e-7)
 
 
 @pytest.mark.parametrize("quantity", ["pull_off_force", "pull_off_displacement", "zero_load_displacement"])
 def test_gibson_limit_is_continuous(quantity: str) -> None:
-    limit, near = (JKR().evaluate(Problem(1.5, k, 2.0), quantity).value for k in (1.0, 1 - 1e-10))
+    limit, near = (JKR().evaluate(contact(1.5, k, 2.0), quantity).value for k in (1.0, 1 - 1e-10))
     assert near == pytest.approx(limit, rel=1e-8)

@@ -11,7 +11,7 @@ from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.models.jump_asymptotes import JumpAsymptotes
 from comparisons.models.semi_rigid import SemiRigid
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 MODEL = JumpAsymptotes()
 CASES = [
@@ -71,7 +71,7 @@ def cycle(problem: Problem) -> mp.mpf:
 
 @pytest.mark.parametrize(("n", "k", "mu"), CASES)
 def test_energy_is_the_quadrature_of_the_printed_branches(n: float, k: float, mu: float) -> None:
-    problem = Problem(n, k, mu)
+    problem = Problem.dimensionless(n, k, mu)
     result = MODEL.evaluate(problem, "hysteresis_energy")
     with mp.workdps(25):
         expected = cycle(problem)
@@ -81,7 +81,7 @@ def test_energy_is_the_quadrature_of_the_printed_branches(n: float, k: float, mu
 
 def test_error_bound_holds_against_many_digits() -> None:
     for n, k, mu in CASES[:3]:
-        problem = Problem(n, k, mu)
+        problem = Problem.dimensionless(n, k, mu)
         result = MODEL.evaluate(problem, "hysteresis_energy")
         with mp.workdps(30):
             # The folds are rounded, which is of second order; the quadrature is good to 20 digits.
@@ -90,7 +90,7 @@ def test_error_bound_holds_against_many_digits() -> None:
 
 def test_the_area_between_the_curves_of_both_models() -> None:
     """The polygon of the two curves, closed at the two jumps."""
-    problem = Problem(2, 0.4, 5.0)
+    problem = Problem.dimensionless(2, 0.4, 5.0)
     approach, contact = SemiRigid().curve(problem), JKR().curve(problem)
     far_x, far_y = (approach.columns[f"asymptotic_{name}"] for name in ("displacement", "load"))
     delta_in, delta_out = (
@@ -106,7 +106,7 @@ def test_the_area_between_the_curves_of_both_models() -> None:
 
 
 def test_it_has_the_jumps_of_the_two_models() -> None:
-    problem = Problem(2, 0.4, 5.0)
+    problem = Problem.dimensionless(2, 0.4, 5.0)
     for name, model in (
         ("jump_in_displacement", SemiRigid()),
         ("jump_in_gap", SemiRigid()),
@@ -118,8 +118,8 @@ def test_it_has_the_jumps_of_the_two_models() -> None:
 @pytest.mark.parametrize(
     ("problem", "reason"),
     [
-        (Problem(2, 0, 1), "is not above that of the jump-out, -1.6"),
-        (Problem(2, 0, 1e-3), "needs a positive one"),
+        (Problem.dimensionless(2, 0, 1), "is not above that of the jump-out, -1.6"),
+        (Problem.dimensionless(2, 0, 1e-3), "needs a positive one"),
     ],
 )
 def test_refusals(problem: Problem, reason: str) -> None:

@@ -18,7 +18,9 @@ from comparisons.models.dmt import dmt_pull_off
 from comparisons.models.graded_punch import GradedPunch
 from comparisons.models.jkr import JKR
 from comparisons.models.maugis_dugdale import MaugisDugdaleImproved, MaugisDugdaleOriginal
-from fscm.problem import Problem
+from comparisons.problem import Problem
+
+contact = Problem.dimensionless
 
 EVENTS = ("pull_off_force", "pull_off_displacement", "zero_load_displacement", "jump_out_displacement")
 
@@ -132,7 +134,7 @@ def test_homogeneous_sphere_is_maugis_1992(mu: float, m: float) -> None:
 def test_tends_to_jkr(n: float, k: float) -> None:
     punch, jkr = GradedPunch(n, k), JKR()
     events = CohesiveEvents.scan(CohesiveContact(punch, 3e3))
-    problem = Problem(n, k, 1.0)
+    problem = contact(n, k, 1.0)
     expected = [jkr.evaluate(problem, quantity).value for quantity in EVENTS]
     found = [
         -events.pull_off().load,
@@ -150,7 +152,7 @@ def test_tends_to_jkr(n: float, k: float) -> None:
 def test_tends_to_dmt(n: float, k: float) -> None:
     errors = []
     for mu in (1e-3, 1e-5):
-        result = MaugisDugdaleImproved().evaluate(Problem(n, k, mu), "pull_off_force")
+        result = MaugisDugdaleImproved().evaluate(contact(n, k, mu), "pull_off_force")
         errors.append(abs(result.value / dmt_pull_off(n, eta(n)).value - 1))
     assert errors[1] < 0.1 * errors[0] < 5e-3
 
@@ -177,7 +179,7 @@ LIGHT = 5
     ids=lambda value: getattr(value, "name", None),
 )
 def test_pull_off_is_the_lowest_of_a_dense_sample(model: MaugisDugdaleOriginal, n: float, k: float, mu: float) -> None:
-    problem = Problem(n, k, mu)
+    problem = contact(n, k, mu)
     result = model.evaluate(problem, "pull_off_force")
     punch = GradedPunch.of(problem)
     w = np.concatenate(([-np.inf], np.linspace(-40.0, 0.0, 2001), np.linspace(0.0, 70.0, 7001)))
@@ -206,7 +208,7 @@ def test_pull_off_is_the_lowest_of_a_dense_sample(model: MaugisDugdaleOriginal, 
 def test_error_bounds_hold_against_many_digits(n: float, k: float, mu: float) -> None:
     """dP/dw = 0 and P = 0 solved on the printed equations with many digits: L / a is 1e-30 at k = 0.95."""
     digits = 130 if k > 0.9 else 40
-    model, problem, punch = MaugisDugdaleImproved(), Problem(n, k, mu), GradedPunch(n, k)
+    model, problem, punch = MaugisDugdaleImproved(), contact(n, k, mu), GradedPunch(n, k)
     Lambda = eta(n) * mu
     events, scale = CohesiveEvents.scan(CohesiveContact(punch, Lambda)), punch.scales(mu)
     with mp.workdps(digits):
@@ -235,7 +237,7 @@ def test_error_bounds_hold_against_many_digits(n: float, k: float, mu: float) ->
 
 @pytest.mark.parametrize(("n", "k", "mu"), [(1.0, 0.0, 5.0), (2.0, 0.4, 3.0), (2.0, 0.0, 1.5), (5.0, 0.6, 3.0)])
 def test_fold_is_the_smallest_displacement(n: float, k: float, mu: float) -> None:
-    problem, model = Problem(n, k, mu), MaugisDugdaleImproved()
+    problem, model = contact(n, k, mu), MaugisDugdaleImproved()
     fold = model.evaluate(problem, "jump_out_displacement").value
     curve = model.curve(problem)
     assert fold <= curve.displacement.min() + 1e-12
@@ -243,7 +245,7 @@ def test_fold_is_the_smallest_displacement(n: float, k: float, mu: float) -> Non
 
 
 def test_no_fold_is_refused() -> None:
-    problem = Problem(2, 0.4, 0.05)
+    problem = contact(2, 0.4, 0.05)
     assert np.all(np.diff(MaugisDugdaleImproved().curve(problem).displacement) > 0)
     with pytest.raises(NotApplicable, match="no fold"):
         MaugisDugdaleImproved().evaluate(problem, "jump_out_displacement")
@@ -251,7 +253,7 @@ def test_no_fold_is_refused() -> None:
 
 @pytest.mark.parametrize(("n", "k", "mu"), [(1.0, 0.4, 1.0), (2.0, 0.4, 1.0), (5.0, 0.0, 0.01), (1.5, 0.95, 20.0)])
 def test_curve_passes_its_events(n: float, k: float, mu: float) -> None:
-    problem, model = Problem(n, k, mu), MaugisDugdaleOriginal()
+    problem, model = contact(n, k, mu), MaugisDugdaleOriginal()
     curve = model.curve(problem)
     force = model.evaluate(problem, "pull_off_force").value
     assert -curve.load.min() == pytest.approx(force, rel=1e-3)
@@ -269,7 +271,7 @@ def test_curve_passes_its_events(n: float, k: float, mu: float) -> None:
 @pytest.mark.parametrize("mu", [0.3, 3.0])
 @pytest.mark.parametrize("quantity", EVENTS[:3])
 def test_gibson_limit_is_continuous(n: float, mu: float, quantity: str) -> None:
-    limit, near = (MaugisDugdaleImproved().evaluate(Problem(n, k, mu), quantity).value for k in (1.0, 1 - 1e-7))
+    limit, near = (MaugisDugdaleImproved().evaluate(contact(n, k, mu), quantity).value for k in (1.0, 1 - 1e-7))
     assert near == pytest.approx(limit, rel=1e-5, abs=1e-6)
 
 
@@ -288,7 +290,7 @@ def test_gibson_contact_is_algebraic() -> None:
 def test_paraboloid_on_a_gibson_solid_has_one_pull_off_force() -> None:
     """n = 2, k = 1: Bradley, DMT and JKR agree on 2, so Maugis-Dugdale does at every Tabor number."""
     for mu in (1e-2, 0.5, 1.2, 1.9, 10.0):
-        result = MaugisDugdaleImproved().evaluate(Problem(2, 1.0, mu), "pull_off_force")
+        result = MaugisDugdaleImproved().evaluate(contact(2, 1.0, mu), "pull_off_force")
         assert abs(result.value - 2.0) <= result.u_num < 1e-11
 
 
@@ -301,9 +303,9 @@ def test_a_missed_minimum_is_not_passed_in_silence() -> None:
 
 
 def test_models_differ_in_the_stress_alone() -> None:
-    problem = Problem(2, 0.4, 1.0)
+    problem = contact(2, 0.4, 1.0)
     assert MaugisDugdaleOriginal().cohesive_stress(problem) == THEORETICAL_STRENGTH
     # sigma_0 mu is all that enters the tilde variables; for n = 2 the load scale is 1.
-    equivalent = Problem(2, 0.4, THEORETICAL_STRENGTH / eta(2.0))
+    equivalent = contact(2, 0.4, THEORETICAL_STRENGTH / eta(2.0))
     original = MaugisDugdaleOriginal().evaluate(problem, "pull_off_force").value
     assert MaugisDugdaleImproved().evaluate(equivalent, "pull_off_force").value == pytest.approx(original, rel=1e-13)

@@ -9,8 +9,10 @@ from scipy.optimize import minimize_scalar
 
 from comparisons.model import NotApplicable
 from comparisons.models.semi_rigid import SemiRigid, jump_in_coefficient
+from comparisons.problem import Problem
 from fscm.laws import LennardJones
-from fscm.problem import Problem
+
+contact = Problem.dimensionless
 
 CASES = [
     (1.0, 0.0, 2.0),
@@ -27,7 +29,7 @@ def central_deformation(problem: Problem, H0: float, traction) -> float:
     n, m = problem.n, 1.0 - problem.k
     value, _ = quad(lambda v: traction(H0 + v ** (n / m) / n), 0.0, 1.0, epsabs=1e-14, epsrel=1e-13, limit=400)
     far, _ = quad(lambda v: traction(H0 + v ** (-n / m) / n) / v**2, 0.0, 1.0, epsabs=1e-14, epsrel=1e-13, limit=400)
-    return problem.compliance * (value + far)
+    return problem.posed.compliance * (value + far)
 
 
 def full_law(H: float) -> float:
@@ -40,7 +42,7 @@ def attraction(H: float) -> float:
 
 @pytest.mark.parametrize(("n", "k", "mu"), CASES)
 def test_curve_is_the_quadrature(n: float, k: float, mu: float) -> None:
-    problem = Problem(n, k, mu)
+    problem = contact(n, k, mu)
     curve = SemiRigid().curve(problem)
     for i in (0, 200, 400):
         H0 = float(curve.columns["central_gap"][i])
@@ -70,7 +72,7 @@ def test_curve_is_the_quadrature(n: float, k: float, mu: float) -> None:
 @pytest.mark.parametrize(("n", "k", "mu"), CASES)
 def test_jump_in_is_the_fold_of_the_quadrature(n: float, k: float, mu: float) -> None:
     """Under approach the displacement has its largest value at the fold."""
-    problem = Problem(n, k, mu)
+    problem = contact(n, k, mu)
     found = minimize_scalar(
         lambda H0: H0 - central_deformation(problem, H0, attraction),
         bounds=(0.0, 20.0),
@@ -84,7 +86,7 @@ def test_jump_in_is_the_fold_of_the_quadrature(n: float, k: float, mu: float) ->
 @pytest.mark.parametrize("mu", [0.6, 1.0, 4.0])
 def test_equation_49(mu: float) -> None:
     expected = 1 - 7 / 5 * (5 * np.pi / np.sqrt(2)) ** (2 / 7) * mu ** (3 / 7)
-    assert SemiRigid().evaluate(Problem(2, 0, mu), "jump_in_displacement").value == pytest.approx(expected, rel=1e-13)
+    assert SemiRigid().evaluate(contact(2, 0, mu), "jump_in_displacement").value == pytest.approx(expected, rel=1e-13)
 
 
 @pytest.mark.parametrize("n", [1.0, 1.5, 2.0, 5.0])
@@ -95,7 +97,7 @@ def test_coefficient_tends_to_eight_thirds(n: float) -> None:
 
 def test_gibson_limit_is_the_local_spring() -> None:
     """k = 1: w = 2 mu^2 p(H0) pointwise, so delta = -H0 + 2 mu^2 p(H0)."""
-    problem = Problem(2, 1.0, 1.2)
+    problem = contact(2, 1.0, 1.2)
     curve = SemiRigid().curve(problem)
     H0 = curve.columns["central_gap"]
     np.testing.assert_allclose(curve.displacement, -H0 + 2 * 1.2**2 * LennardJones().traction(H0), rtol=1e-12)
@@ -103,4 +105,4 @@ def test_gibson_limit_is_the_local_spring() -> None:
 
 def test_refuses_a_jump_in_from_contact() -> None:
     with pytest.raises(NotApplicable, match="positive"):
-        SemiRigid().evaluate(Problem(2, 0, 0.05), "jump_in_displacement")
+        SemiRigid().evaluate(contact(2, 0, 0.05), "jump_in_displacement")

@@ -17,15 +17,17 @@ from comparisons.models.maugis_dugdale import MaugisDugdaleOriginal
 from comparisons.models.maugis_parameter import LAMBDA_OVER_MU, maugis_parameter
 from comparisons.models.pietrement_troyon import PietrementTroyon
 from comparisons.models.schwarz import Schwarz, short_range_share
+from comparisons.problem import Problem
 from fscm.laws import LennardJones
-from fscm.problem import Problem
+
+contact = Problem.dimensionless
 
 FORMULAS = [CarpickOgletreeSalmeron(), PietrementTroyon(), Schwarz()]
 MU = [0.01, 0.03, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 20.0]
 
 
 def value(model, mu: float, quantity: str = "pull_off_force") -> float:
-    return model.evaluate(Problem(2, 0, mu), quantity).value
+    return model.evaluate(contact(2, 0, mu), quantity).value
 
 
 def test_maugis_lambda_in_physical_units() -> None:
@@ -47,7 +49,7 @@ def test_alpha_solves_equation_10(alpha: float) -> None:
 @pytest.mark.parametrize("mu", MU)
 def test_carpick_ogletree_salmeron_as_printed(mu: float) -> None:
     x = 4.04 * maugis_parameter(mu) ** 1.4
-    result = CarpickOgletreeSalmeron().evaluate(Problem(2, 0, mu), "pull_off_force")
+    result = CarpickOgletreeSalmeron().evaluate(contact(2, 0, mu), "pull_off_force")
     assert abs(result.value - (7 / 4 - (x - 1) / (x + 1) / 4)) <= result.u_num
 
 
@@ -95,7 +97,7 @@ def test_pietrement_troyon_is_jkr_at_alpha_1() -> None:
 @pytest.mark.parametrize("model", FORMULAS[1:], ids=lambda model: model.name)
 @pytest.mark.parametrize("mu", [0.03, 0.5, 3.0])
 def test_curves_pass_their_events(model, mu: float) -> None:
-    curve = model.curve(Problem(2, 0, mu))
+    curve = model.curve(contact(2, 0, mu))
     lowest = int(np.argmin(curve.load))
     assert -curve.load[lowest] == pytest.approx(value(model, mu), rel=1e-4)
     assert curve.displacement[lowest] == pytest.approx(value(model, mu, "pull_off_displacement"), abs=0.02 * mu)
@@ -112,7 +114,7 @@ def test_schwarz_in_physical_units(mu: float) -> None:
     w1 = short_range_share(alpha) * dgamma
     assert critical == pytest.approx(-1.5 * math.pi * R * w1 - 2 * math.pi * R * (dgamma - w1), rel=1e-13)
     assert alpha**2 == pytest.approx(-(3 * critical + 6 * math.pi * R * dgamma) / critical, rel=1e-12)
-    curve = Schwarz().curve(Problem(2, 0, mu))
+    curve = Schwarz().curve(contact(2, 0, mu))
     a = curve.columns["contact_radius"] * math.sqrt(R * z0)
     load = (np.sqrt(a**3 * K / R) - alpha * math.sqrt(-critical)) ** 2 + critical
     displacement = a**2 / R - 4 * np.sqrt(math.pi * a / (3 * K) * (critical / (math.pi * R) + 2 * dgamma))
@@ -130,7 +132,7 @@ def test_schwarz_superposes_its_limits() -> None:
 
 
 @pytest.mark.parametrize("model", FORMULAS, ids=lambda model: model.name)
-@pytest.mark.parametrize(("problem", "reason"), [(Problem(2, 0.1, 1), "k = 0.1"), (Problem(3, 0, 1), "n = 3")])
+@pytest.mark.parametrize(("problem", "reason"), [(contact(2, 0.1, 1), "k = 0.1"), (contact(3, 0, 1), "n = 3")])
 def test_other_shapes_and_solids_are_refused(model, problem: Problem, reason: str) -> None:
     with pytest.raises(
         NotApplicable, match=f"is for n = 2 and k = 0, a sphere on a homogeneous solid, not for {reason}"
@@ -140,4 +142,4 @@ def test_other_shapes_and_solids_are_refused(model, problem: Problem, reason: st
 
 def test_a_fit_without_meaning_is_refused() -> None:
     with pytest.raises(NotApplicable, match=r"needs alpha >= 0\.01, below which its fit turns negative, but alpha = 0"):
-        PietrementTroyon().evaluate(Problem(2, 0, 1e-3), "zero_load_displacement")
+        PietrementTroyon().evaluate(contact(2, 0, 1e-3), "zero_load_displacement")

@@ -7,7 +7,7 @@ import pytest
 
 from comparisons.models.stieltjes_model import StieltjesModel
 from comparisons.numerics.grid_convergence import three_grids
-from fscm.problem import Problem
+from comparisons.problem import Problem
 
 # Celik et al., J. Fluids Eng. 130 (2008) 078001, Table 1: numbers of cells in two dimensions, and as printed
 # the values, p, the extrapolated value and the grid convergence index in percent.
@@ -102,7 +102,7 @@ def test_an_edge_singularity_decides_the_order_not_the_rule():
     "quantity", ["pull_off_force", pytest.param("zero_load_displacement", marks=pytest.mark.heavy)]
 )
 def test_the_bound_of_a_low_order_scheme_holds_against_a_finer_grid(quantity):
-    problem = Problem(n=3, k=0.2, mu=0.5)
+    problem = Problem.dimensionless(n=3, k=0.2, mu=0.5)
     # A ninth of the error of the finest grid; the time grows with the third power.
     reference = StieltjesModel(480).evaluate(problem, quantity).value
     segments = (40, 80, 160)

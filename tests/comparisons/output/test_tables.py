@@ -16,7 +16,8 @@ from comparisons.output.run_summary import every_error
 from comparisons.output.tables import largest, relative_error
 from comparisons.paper.cache import CachedCall
 from comparisons.paper.studies.error_grid import errors, errors_at
-from comparisons.runs.cases import Case, Grid
+from comparisons.problem import Problem
+from comparisons.runs.cases import Grid
 
 GATE = """
 [[gate]]
@@ -119,7 +120,7 @@ def test_one_sign_of_kappa_in_tables_gates_and_error_maps(value, reference):
     rows = pd.DataFrame([stored("jkr", 1, value, 1e-9, **case), stored("fscm", 1, reference, 1e-9, **case)])
     expected = (value - reference) / abs(reference)
     (kappa,) = relative_error(rows, "fscm")["kappa"]
-    grid = Grid("g", "", "quick", "fscm", ("jkr",), ("jump_out_displacement",), (Case(1.0, 0.4, 1),))
+    grid = Grid("g", "", "quick", "fscm", ("jkr",), ("jump_out_displacement",), (Problem.dimensionless(1.0, 0.4, 1),))
     (gate,) = load_gates(GATE)
     (judged,) = judge([gate], [grid], rows.assign(reason=""))["error"]
     call = CachedCall.of(errors_at, 1.0, 0.4, 1)

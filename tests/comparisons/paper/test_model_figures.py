@@ -11,8 +11,8 @@ from comparisons.paper.figures import fig14_16_pull_off_models as pull_off_model
 from comparisons.paper.figures import fig17_surface_models as surface_models
 from comparisons.paper.figures.fig11_gradient_effect import chi, insensitive_regions, largest_chi, over_gradients
 from comparisons.paper.figures.fig12_surface_laws import SURFACE_LAWS
+from comparisons.problem import Problem
 from comparisons.registry import create
-from comparisons.runs.cases import Case
 
 STRESSES = (("md-original", THEORETICAL_STRENGTH), ("md-improved", eta(2.0)))
 
@@ -77,7 +77,7 @@ def test_curves_reach_the_pull_off_force(tables_of, monkeypatch):
     table = tables_of(force_curve_models.FORCE_CURVE_MODELS)[""]
     assert (table["status"] == "ok").all()
     for model, part in table.groupby("model"):
-        force = create(model).evaluate(Case(2.0, 0.4, 1.0).problem(), "pull_off_force").value
+        force = create(model).evaluate(Problem.dimensionless(2.0, 0.4, 1.0), "pull_off_force").value
         assert -part["load"].min() == pytest.approx(force, abs=part["u_load"].iloc[0] + 1e-9)
 
 

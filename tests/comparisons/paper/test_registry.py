@@ -14,8 +14,8 @@ from comparisons.paper.cache import CachedCall, Results
 from comparisons.paper.paper_figure import PaperFigure, given, results_by
 from comparisons.paper.registry import FOLDERS, NAMES, paper_figures
 from comparisons.paper.tasks import curve, profile, quantity
+from comparisons.problem import Problem
 from comparisons.registry import create
-from fscm.problem import Problem
 
 ATTEMPTS = []
 
@@ -140,6 +140,6 @@ def test_quantity_curve_and_profile_are_those_of_the_model():
     # The edge is not defined before contact.
     assert path["columns"]["edge_radius"][0] is None
     assert path["columns"]["edge_radius"][-1] > 0
-    whole = create("fscm").pull_off_profile(Problem(2, 0.4, 0.5))
+    whole = create("fscm").pull_off_profile(Problem.dimensionless(2, 0.4, 0.5))
     assert max(shape["gap"]) <= 10
     assert shape["pressure"] == whole.pressure[: len(shape["pressure"])].tolist()

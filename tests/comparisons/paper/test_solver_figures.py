@@ -13,8 +13,8 @@ from comparisons.paper.figures.fig02_kernel_functions import _RATIOS, values
 from comparisons.paper.figures.fig05_07_pull_off_surfaces import surface
 from comparisons.paper.figures.fig08_jumps import jumps, near_critical
 from comparisons.paper.figures.fig09_jump_asymptotes import asymptotes, coefficients
+from comparisons.problem import Problem
 from comparisons.registry import create
-from fscm.problem import Problem
 
 STRENGTH = 16 * math.sqrt(3) / 27
 
@@ -59,11 +59,11 @@ def test_the_named_points_are_events_joined_by_vertical_jumps(s_tables):
     for start, end in (("A", "A'"), ("B", "B'")):
         u = points.loc[start, "u_displacement"] + points.loc[end, "u_displacement"]
         assert points.loc[start, "displacement"] == pytest.approx(points.loc[end, "displacement"], abs=u)
-    force = create("fscm").evaluate(Problem(2, 0.4, 3), "pull_off_force")
+    force = create("fscm").evaluate(Problem.dimensionless(2, 0.4, 3), "pull_off_force")
     assert -points.loc["C", "load"] == pytest.approx(force.value, abs=force.u_num)
     assert points.loc["D", "load"] == pytest.approx(0, abs=points.loc["D", "u_load"])
     # Sec. 3.1: JKR predicts the jump-out well; Fig. 9a shows it within its line.
-    jkr = create("jkr").evaluate(Problem(2, 0.4, 3), "jump_out_displacement").value
+    jkr = create("jkr").evaluate(Problem.dimensionless(2, 0.4, 3), "jump_out_displacement").value
     assert points.loc["B", "displacement"] == pytest.approx(jkr, rel=0.01)
 
 
@@ -116,7 +116,7 @@ def test_the_pressure_carries_the_pull_off_force_and_the_strength_is_reached():
     delta, found = surfaces(2, 0.4, 1.0)
     # p = -(8/3) (f + 1)^-3 beyond r = 6, where f is 18.
     load = np.trapezoid(found["pressure"], found["radius"] ** 2) - 8 / 3 / (18 + 1 - delta) ** 2
-    force = create("fscm").evaluate(Problem(2, 0.4, 1.0), "pull_off_force").value
+    force = create("fscm").evaluate(Problem.dimensionless(2, 0.4, 1.0), "pull_off_force").value
     assert -load == pytest.approx(force, abs=2e-3)
     assert found["pressure"].min() == pytest.approx(-STRENGTH, abs=1e-6)
 
@@ -143,7 +143,7 @@ def test_the_branches_part_as_at_a_cusp(critical):
 def test_jumps_are_the_quantities_of_the_model_and_there_is_none_below_the_critical_tabor_number():
     found, model = jumps(2.0, 0.0, 1.5), create("fscm")
     for name in ("jump_in_displacement", "jump_out_gap"):
-        result = model.evaluate(Problem(2, 0, 1.5), name)
+        result = model.evaluate(Problem.dimensionless(2, 0, 1.5), name)
         assert found[name] == pytest.approx(result.value, abs=result.u_num + found[f"u_{name}"])
     with pytest.raises(NotApplicable, match="monotonically"):
         jumps(2.0, 0.4, 0.7)

@@ -6,8 +6,7 @@ import pandas as pd
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.problem_file.dimensionless import dimensionless_problem
-from comparisons.problem_file.reading import load_problem
+from comparisons.problem.reading import load_problem
 
 PAD = """
 solid = {kind = "homogeneous", E = "2 MPa", nu = 0.4}
@@ -258,7 +257,7 @@ def with_model(run, tmp_path, text, cases=PADS):
 
 def test_a_model_that_knows_the_problems_by_heart_is_wrong_in_fresh_ones(run, tmp_path):
     stated = (problem_of(PAD.replace("2 MPa", E), tmp_path) for E in ("1 MPa", "2 MPa"))
-    known = [dimensionless_problem(problem)[0].mu for problem in stated]
+    known = [problem.mu for problem in stated]
     assert with_model(run, tmp_path, BY_HEART.replace("{known}", str(known))) == 1
     found = verdicts(tmp_path / "out")
     assert set(found.loc[found["gate"] == "PADS", "verdict"]) == {"PASS"}
@@ -306,7 +305,7 @@ def test_the_card_says_why_a_model_fails_on_problems_of_files(run, tmp_path):
 
 def test_problems_without_a_range_have_no_fresh_ones(run, tmp_path):
     cases = PADS.replace('vary = { "solid.E" = ["1 MPa", "2 MPa", "30 MPa"] }\n', "")
-    known = dimensionless_problem(problem_of(PAD, tmp_path))[0].mu
+    known = problem_of(PAD, tmp_path).mu
     assert with_model(run, tmp_path, BY_HEART.replace("{known}", f"[{known}]"), cases) == 3
     found = verdicts(tmp_path / "out")
     assert found.loc[found["gate"] == "PADS-RANDOM", "verdict"].tolist() == ["INCONCLUSIVE"]

@@ -22,8 +22,8 @@ from comparisons.output.table import table_of
 from comparisons.runs.cases import load_grids
 from comparisons.runs.frames import frame
 from comparisons.runs.record import check_files, read_record
-from comparisons.runs.rows import Row
 from comparisons.runs.tables import read_table
+from tests.comparisons.rows import row
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -137,9 +137,8 @@ def test_only_the_first_cases_are_printed(capsys):
 def test_a_reference_that_needs_no_poisson_ratio_is_found():
     """A case with nu: the finite elements get it, the FSCM does not."""
     grid = load_grids(GRID.replace('"exact"', '"fscm"').replace('"ten-percent"', '"fem"') + "nu = [0.25]", "quick")
-    case = {"unit": "", "reason": "", "model_version": "1", "size": 0, "iterations": 0, "residual": 0.0, "seconds": 0.0}
     rows = [
-        Row(model, quantity=quantity, n=2.0, k=k, mu=mu, nu=nu, value=value, u_num=0.0, status="ok", **case)
+        row(model, quantity, k=k, mu=mu, nu=nu, value=value, u_num=0.0)
         for model, nu, value in (("fem", 0.25, 1.1), ("fscm", None, 1.0))
         for quantity in ("pull_off_force", "zero_load_displacement")
         for k in (0.0, 0.4)
@@ -252,5 +251,5 @@ def test_the_printed_table_of_the_document_is_the_one_of_the_baseline():
     force = replace(grid[0], quantities=("pull_off_force",))
     table = comparison_table(known, [force], ["jkr", "md-improved"])
     (texts,) = wide(table)
-    for row in texts.itertuples(index=False):
-        assert "  ".join(row).split() in [line.split() for line in text.splitlines()]
+    for cells in texts.itertuples(index=False):
+        assert "  ".join(cells).split() in [line.split() for line in text.splitlines()]

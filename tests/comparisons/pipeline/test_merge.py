@@ -53,9 +53,9 @@ def test_every_task_is_in_one_shard(toys, total):
     assert sorted(tasks, key=str) == sorted(itertools.chain(*shards), key=str)
     assert max(map(len, shards)) - min(map(len, shards)) <= 2
     # The quantities of one model in one case stay together.
-    assert sum(len({(task.model, task.case) for task in shard}) for shard in shards) == 4 * 8
+    assert sum(len({(task.model, task.problem) for task in shard}) for shard in shards) == 4 * 8
     for model in {task.model for task in tasks}:
-        counts = [len({task.case for task in shard if task.model == model}) for shard in shards]
+        counts = [len({task.problem for task in shard if task.model == model}) for shard in shards]
         assert max(counts) - min(counts) <= 1
     # In every process the same, whatever the order of hashes.
     assert [Shard(number, total).of(list(tasks)) for number in range(1, total + 1)] == shards

@@ -6,7 +6,8 @@ from itertools import pairwise
 
 import pytest
 
-from comparisons.runs.cases import VERIFICATION, Case, grids, load_grids
+from comparisons.problem import Problem
+from comparisons.runs.cases import VERIFICATION, grids, load_grids
 
 GRID = """
 [[grid]]
@@ -24,7 +25,11 @@ mu = [1, 0.5, 1.0]
 
 def test_a_grid_is_the_sorted_product_without_duplicates():
     (grid,) = load_grids(GRID)
-    assert grid.cases[:3] == (Case(1, 0, 0.5), Case(1, 0, 1), Case(1, 0.4, 0.5))
+    assert grid.cases[:3] == (
+        Problem.dimensionless(1, 0, 0.5),
+        Problem.dimensionless(1, 0, 1),
+        Problem.dimensionless(1, 0.4, 0.5),
+    )
     assert len(grid.cases) == 2 * 2 * 2
 
 
@@ -62,7 +67,7 @@ mu = [0.01, 10]
 
 def test_a_list_of_cases_is_taken_as_it_is():
     (grid,) = load_grids(REST + "cases = [{n = 2, k = 0.4, mu = 3, nu = 0.3}, {n = 1, k = 0, mu = 1}]")
-    assert grid.cases == (Case(1, 0, 1), Case(2, 0.4, 3, 0.3))
+    assert grid.cases == (Problem.dimensionless(1, 0, 1), Problem.dimensionless(2, 0.4, 3, 0.3))
 
 
 def test_a_latin_hypercube_has_one_point_in_each_layer_and_the_same_again():
@@ -136,9 +141,9 @@ def test_the_full_tier_holds_the_quick_one():
 @pytest.mark.parametrize("nu", [-0.1, 0.5, math.nan, math.inf])
 def test_poissons_ratio_outside_its_range_is_refused(nu):
     with pytest.raises(ValueError, match=r"\[0, 0.5\)"):
-        Case(2, 0, 1, nu)
+        Problem.dimensionless(2, 0, 1, nu)
 
 
 def test_a_case_knows_the_parameters_it_was_given():
-    assert Case(2, 0, 1).parameters == {"n": 2.0, "k": 0.0, "mu": 1.0}
-    assert Case(2, 0, 1, 0.3).label == "n = 2, k = 0, mu = 1, nu = 0.3"
+    assert Problem.dimensionless(2, 0, 1).parameters == {"n": 2.0, "k": 0.0, "mu": 1.0}
+    assert Problem.dimensionless(2, 0, 1, 0.3).label == "n = 2, k = 0, mu = 1, nu = 0.3"

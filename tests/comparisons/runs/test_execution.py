@@ -5,14 +5,18 @@ from dataclasses import replace
 
 import pytest
 
+from comparisons.problem import Problem
 from comparisons.runs import execution
-from comparisons.runs.cases import Case
 from comparisons.runs.execution import compute_with_environment
 from comparisons.runs.tasks import Task, evaluate_task
 from comparisons.runs.time_left import TimeLeft
 from comparisons.runs.workers import LOST, processes
 
-TASKS = [Task("bradley", quantity, Case(2, 0, mu)) for mu in (2, 1) for quantity in ("pull_off_force", "jump_in_gap")]
+TASKS = [
+    Task("bradley", quantity, Problem.dimensionless(2, 0, mu))
+    for mu in (2, 1)
+    for quantity in ("pull_off_force", "jump_in_gap")
+]
 
 
 def elsewhere(environment, code):
@@ -51,9 +55,9 @@ def test_a_task_that_ends_its_process_costs_its_own_row():
 
 def test_the_time_left_only_falls_and_ends_at_zero():
     """Rows of two models, the cheap ones much cheaper than stated, and a machine that is slow for a while."""
-    cheap = [evaluate_task(Task("jkr", "pull_off_force", Case(2, 0, mu))) for mu in range(1, 21)]
-    tasks = [Task("jkr", "pull_off_force", Case(2, 0, mu)) for mu in range(1, 21)]
-    dear = [Task("fem", "pull_off_force", Case(2, 0, mu)) for mu in range(1, 6)]
+    cheap = [evaluate_task(Task("jkr", "pull_off_force", Problem.dimensionless(2, 0, mu))) for mu in range(1, 21)]
+    tasks = [Task("jkr", "pull_off_force", Problem.dimensionless(2, 0, mu)) for mu in range(1, 21)]
+    dear = [Task("fem", "pull_off_force", Problem.dimensionless(2, 0, mu)) for mu in range(1, 6)]
     time = [0.0]
     left = TimeLeft([*tasks, *dear], clock=lambda: time[0])
     seen = []
@@ -74,7 +78,11 @@ def test_the_time_left_only_falls_and_ends_at_zero():
 
 def test_the_first_of_many_tasks_give_no_estimate():
     """A closed form that ends at once while the first task of a solver is at work: the start of a run."""
-    tasks = [Task(model, "pull_off_force", Case(2, 0, mu)) for mu in range(1, 101) for model in ("jkr", "fscm")]
+    tasks = [
+        Task(model, "pull_off_force", Problem.dimensionless(2, 0, mu))
+        for mu in range(1, 101)
+        for model in ("jkr", "fscm")
+    ]
     row = evaluate_task(tasks[0])
     time = [2.0]
     left = TimeLeft(tasks, clock=lambda: time[0])
@@ -91,7 +99,7 @@ def test_the_first_of_many_tasks_give_no_estimate():
 def test_a_row_does_not_depend_on_what_its_process_computed_before():
     """Of the solver, which keeps meshes and paths: in one process, and each alone in the other order."""
     quantities = ("pull_off_force", "jump_out_displacement")
-    tasks = [Task("fscm", quantity, Case(2, 0.4, mu)) for mu in (1.5, 1) for quantity in quantities]
+    tasks = [Task("fscm", quantity, Problem.dimensionless(2, 0.4, mu)) for mu in (1.5, 1) for quantity in quantities]
     together = {row.key: replace(row, seconds=0) for row, _ in compute_with_environment(tasks, 1)}
     alone = {row.key: replace(row, seconds=0) for _, row in processes(evaluate_task, tasks[::-1], 2)}
     assert alone == together

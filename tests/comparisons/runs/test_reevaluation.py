@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
+from comparisons.problem import Problem
 from comparisons.runs import reevaluation
-from comparisons.runs.cases import Case
 from comparisons.runs.tasks import Task, evaluate_task
 
 
@@ -19,7 +19,7 @@ from comparisons.runs.tasks import Task, evaluate_task
     ],
 )
 def test_rows_agree_within_both_uncertainties(toys, change, agree):
-    row = evaluate_task(Task("exact", "pull_off_force", Case(2, 0, 1)))
+    row = evaluate_task(Task("exact", "pull_off_force", Problem.dimensionless(2, 0, 1)))
     assert reevaluation.same(row, replace(row, **change)) == agree
 
 
@@ -33,14 +33,14 @@ def test_rows_agree_within_both_uncertainties(toys, change, agree):
     ],
 )
 def test_curves_agree_point_by_point(toys, points, agree):
-    row = evaluate_task(Task("exact", "pull_off_force", Case(2, 0, 1)))
+    row = evaluate_task(Task("exact", "pull_off_force", Problem.dimensionless(2, 0, 1)))
     stored = replace(row, value=None, u_num=None, points=([0.0, 2.0], [1.0, 5.0], 1e-3))
     assert reevaluation.same(stored, replace(stored, points=points)) == agree
 
 
 @pytest.mark.parametrize(("stored", "now"), [("not-applicable", "failed"), ("failed", "not-applicable")])
 def test_a_refusal_that_has_become_a_failure_is_a_difference(toys, stored, now):
-    row = evaluate_task(Task("exact", "pull_off_force", Case(2, 0, 1)))
+    row = evaluate_task(Task("exact", "pull_off_force", Problem.dimensionless(2, 0, 1)))
     without = replace(row, status=stored, value=None, u_num=None)
     assert reevaluation.same(without, without)
     assert not reevaluation.same(without, replace(without, status=now))

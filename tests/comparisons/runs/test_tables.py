@@ -16,31 +16,8 @@ from comparisons.runs.atomic_files import atomic, prepare_folder, writable_file,
 from comparisons.runs.case_columns import DIMENSIONLESS
 from comparisons.runs.csv_format import csv_text, plain_text
 from comparisons.runs.frames import COLUMNS, frame
-from comparisons.runs.rows import Row
 from comparisons.runs.tables import write_results
-
-
-def row(model="jkr", mu=1.0, value=1.5, **other):
-    content = {
-        "model": model,
-        "model_version": "1",
-        "quantity": "pull_off_force",
-        "n": 2.0,
-        "k": 0.4,
-        "mu": mu,
-        "nu": None,
-        "value": value,
-        "u_num": 1e-15,
-        "unit": "1",
-        "status": "ok",
-        "reason": "",
-        "size": 0,
-        "iterations": 0,
-        "residual": 0.0,
-        "seconds": 0.25,
-    }
-    return Row(**(content | other))
-
+from tests.comparisons.rows import row
 
 REFUSED = {"value": None, "u_num": None, "size": None, "iterations": None, "residual": None}
 
@@ -99,9 +76,9 @@ def test_a_name_of_a_column_is_no_formula():
 
 def test_the_table_does_not_depend_on_the_order_of_completion(tmp_path):
     rows = [
-        row("jkr", 2.0),
-        row("dmt", 1.0, **REFUSED, status="not-applicable", reason='no, "not" here'),
-        row("jkr", 0.5),
+        row("jkr", mu=2.0),
+        row("dmt", mu=1.0, **REFUSED, status="not-applicable", reason='no, "not" here'),
+        row("jkr", mu=0.5),
     ]
     write_results(frame(rows), tmp_path / "a")
     write_results(frame(reversed(rows)), tmp_path / "b")

@@ -21,8 +21,8 @@ from comparisons.output.verdicts import GATE_COLUMNS, write_verdicts
 from comparisons.runs.environment import computing_environment, environment
 from comparisons.runs.frames import curve_frame, frame
 from comparisons.runs.record import read_record, write_record
-from comparisons.runs.rows import Row
 from comparisons.runs.tables import write_curves, write_results, write_table
+from tests.comparisons.rows import row as made_row
 
 from .browsing import ARGUMENTS, DESKTOP, PATIENCE, package, programs, show
 
@@ -34,26 +34,9 @@ LINE = "one\u2028two'\"&<b>"
 SPEC = "my models/it's.py:Model"
 
 
-def row(model, mu, value=None, *, n=2.0, k=0.4, quantity="pull_off_force", **other):
-    content = {
-        "model": model,
-        "model_version": f"1 {IMAGE}",
-        "quantity": quantity,
-        "n": n,
-        "k": k,
-        "mu": mu,
-        "nu": None,
-        "value": value,
-        "u_num": 1e-9,
-        "unit": "pi Q^(2/n) dgamma z0^(2/n-1)",
-        "status": "ok",
-        "reason": "",
-        "size": 0,
-        "iterations": 0,
-        "residual": 0.0,
-        "seconds": 0.25,
-    }
-    return Row(**(content | other))
+def row(model, mu, value=None, **other):
+    content = {"model_version": f"1 {IMAGE}", "u_num": 1e-9, "unit": "pi Q^(2/n) dgamma z0^(2/n-1)"}
+    return made_row(model, mu=mu, value=value, **(content | other))
 
 
 REFUSED = {"u_num": None, "size": None, "iterations": None, "residual": None}

@@ -6,14 +6,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from comparisons.description.equivalent_power_law import equivalent_power_law
 from comparisons.paper.baseline import PAPER_BASELINE
 from comparisons.paper.studies.graded_equivalent import equivalent_of
 from comparisons.paper.studies.graded_routes import OFFSET, by_elements, by_fscm, case_of, of_power_law
 from comparisons.paper.studies.graded_solids import SERIES
-from comparisons.problem_file.description import ProblemFile, Section
-from comparisons.problem_file.dimensionless import dimensionless_problem
-from comparisons.problem_file.equivalent_power_law import equivalent_power_law
-from comparisons.problem_file.evaluation import evaluate_problem
+from comparisons.problem import Problem, Section
+from comparisons.runs.tasks import evaluate
 
 TABLE = pd.read_csv(Path(__file__).parents[4] / PAPER_BASELINE / "graded_solids.csv")
 CASES = [(kind, parameter) for kind, (parameters, _) in SERIES.items() for parameter in parameters]
@@ -74,9 +73,9 @@ def test_the_equivalent_power_laws_are_those_of_the_rule_of_a_problem_file():
     """A file with the numbers of a case, by the command that describes it."""
     case = case_of("exponential", 2.0)
     law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.7, "z0": 0.25})
-    problem = ProblemFile(Path("pad.toml"), case.section, Section("sphere", {"R": 2.0}), law)
-    found = equivalent_power_law(problem, evaluate_problem(problem, "fscm", "pull_off_force"))
-    posed, _ = dimensionless_problem(found.problem)
+    problem = Problem(case.section, Section("sphere", {"R": 2.0}), law)
+    found = equivalent_power_law(problem, evaluate("fscm", "pull_off_force", problem))
+    posed = found.problem.posed
     stored = rows("exponential", 2.0).loc["pull_off_force"]
     # Six digits are stored.
     assert (posed.k, posed.mu) == pytest.approx((stored["power_law_k"], stored["power_law_mu"]), abs=2e-6)

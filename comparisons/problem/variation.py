@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from itertools import product
@@ -13,12 +13,12 @@ from typing import Any
 
 import numpy as np
 
-from comparisons.problem_file.description import ProblemFile
-from comparisons.problem_file.form import SECTIONS, unit_of
-from comparisons.problem_file.reading import document_of, problem_of
-from comparisons.problem_file.source import shown
+from comparisons.problem.form import SECTIONS, unit_of
+from comparisons.problem.problem import Problem
+from comparisons.problem.reading import document_of, problem_of
+from comparisons.problem.source import shown
 
-__all__ = ["Variation", "Varied", "parse_variation", "parse_variations", "problems_of"]
+__all__ = ["Variation", "parse_variation", "parse_variations", "problems_of"]
 
 #: Most problems of one variation, and most values of a range.
 _MOST = 100_000
@@ -129,24 +129,6 @@ def _value(part: str, unit: str) -> float | str:
     return f"{part.strip()} {unit}" if unit else float(part)
 
 
-@dataclass(frozen=True)
-class Varied:
-    """A problem of a variation.
-
-    Attributes
-    ----------
-    problem : ProblemFile
-    texts : tuple of str
-        The values of the varied keys as ``SECTION.KEY=VALUE``.
-    parameters : mapping of str to float or str
-        The values in SI, by the names of their columns: ``SECTION.KEY [UNIT]``.
-    """
-
-    problem: ProblemFile
-    texts: tuple[str, ...]
-    parameters: Mapping[str, float | str]
-
-
 def parse_variations(texts: Sequence[str]) -> list[Variation]:
     """Read several variations, as `parse_variation`; `ValueError` if one key is there twice."""
     chosen = [parse_variation(text) for text in texts]
@@ -157,8 +139,15 @@ def parse_variations(texts: Sequence[str]) -> list[Variation]:
     return chosen
 
 
-def problems_of(path: Path, chosen: Sequence[Variation]) -> Iterator[Varied]:
+def problems_of(path: Path, chosen: Sequence[Variation], name: str = "") -> Iterator[Problem]:
     """Yield the problem of a file for every combination of values.
+
+    Parameters
+    ----------
+    path : Path
+    chosen : sequence of Variation
+    name : str
+        Of the file, for the names of the problems; by default that of the path.
 
     Raises
     ------
@@ -178,7 +167,8 @@ def problems_of(path: Path, chosen: Sequence[Variation]) -> Iterator[Varied]:
             problem = problem_of(changed, source)
         except ValueError as error:
             raise ValueError(f"{', '.join(texts)}: {error}" if texts else str(error)) from None
-        yield Varied(problem, texts, {_column(problem, each): _varied_value(problem, each) for each in chosen})
+        parameters = {_column(problem, each): problem[each.name] for each in chosen}
+        yield problem.varied(name or path.name, texts, parameters)
 
 
 def _change(section: dict[str, Any], variation: Variation, value: float | str) -> None:
@@ -198,14 +188,7 @@ def _change(section: dict[str, Any], variation: Variation, value: float | str) -
     entries[int(number) - 1] = value
 
 
-def _varied_value(problem: ProblemFile, variation: Variation) -> float | str:
-    name, dot, number = variation.key.partition(".")
-    value: Any = getattr(problem, variation.section)[name]
-    entry: float | str = value[int(number) - 1] if dot else value
-    return entry
-
-
-def _column(problem: ProblemFile, variation: Variation) -> str:
+def _column(problem: Problem, variation: Variation) -> str:
     name = variation.key.partition(".")[0]
     unit = unit_of(variation.section, getattr(problem, variation.section).kind, name)
     return f"{variation.name} [{unit}]" if unit else variation.name

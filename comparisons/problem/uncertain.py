@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from comparisons.problem_file.units import NotAValue, in_si
+from comparisons.problem.units import NotAValue, in_si
 
 __all__ = ["Uncertainty", "is_uncertain", "uncertain_in_si"]
 

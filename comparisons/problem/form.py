@@ -7,10 +7,10 @@ from dataclasses import replace
 from difflib import get_close_matches
 from typing import Any
 
-from comparisons.problem_file.kinds import SECTIONS, Dimension, Key, Kind, kind_of, kinds
-from comparisons.problem_file.source import Source, shown
-from comparisons.problem_file.uncertain import Uncertainty, is_uncertain, uncertain_in_si
-from comparisons.problem_file.units import NotAValue, in_si
+from comparisons.problem.kinds import SECTIONS, Dimension, Key, Kind, kind_of, kinds
+from comparisons.problem.source import Source, shown
+from comparisons.problem.uncertain import Uncertainty, is_uncertain, uncertain_in_si
+from comparisons.problem.units import NotAValue, in_si
 
 __all__ = ["SECTIONS", "checked_section", "kinds", "limits_of", "unit_of"]
 

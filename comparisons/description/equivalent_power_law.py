@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from comparisons.description.overview import ModelError, model_errors
 from comparisons.model import ComputationFailed
 from comparisons.numerics.kappa import relative_difference, relative_uncertainty
-from comparisons.problem_file.description import ProblemFile
-from comparisons.problem_file.dimensionless import dimensionless_problem
-from comparisons.problem_file.elastic_energy import EnergySpectrum, energy_spectrum
-from comparisons.problem_file.equivalent_solid import LARGEST_DEVIATION, least_wrong, power_law_of
-from comparisons.problem_file.evaluation import PhysicalValue, evaluate_problem
-from comparisons.problem_file.overview import ModelError, model_errors
+from comparisons.problem.elastic_energy import EnergySpectrum, energy_spectrum
+from comparisons.problem.equivalent_solid import LARGEST_DEVIATION, least_wrong, power_law_of
+from comparisons.problem.problem import Problem
+from comparisons.runs.rows import Row
+from comparisons.runs.tasks import evaluate
 
 __all__ = [
     "EquivalentPowerLaw",
@@ -30,7 +30,7 @@ class EquivalentPowerLaw:
 
     Attributes
     ----------
-    problem : ProblemFile
+    problem : Problem
         That of the file with this power law as its solid.
     free_k : float
         The exponent of the fit without limits; k is the nearest one from 0 to `LARGEST_K`.
@@ -42,7 +42,7 @@ class EquivalentPowerLaw:
         With this power law.
     lengths : tuple of float
         From the shortest to the longest 1/xi of the fit, in m: nine tenths of the elastic energy are between.
-    force : PhysicalValue
+    force : Row
         Pull-off force with the power law: of the atlas in its range, and else of the FSCM.
     error, bound : float or None
         Relative error of this force and its bound; None where there is no force.
@@ -51,13 +51,13 @@ class EquivalentPowerLaw:
         none where they do not take the punch or the law.
     """
 
-    problem: ProblemFile
+    problem: Problem
     free_k: float
     deviation: float
     surface_deviation: float
     tabor_number: float
     lengths: tuple[float, float]
-    force: PhysicalValue
+    force: Row
     error: float | None
     bound: float | None
     closed_forms: tuple[ModelError, ...]
@@ -73,13 +73,13 @@ class EquivalentPowerLaw:
         return self.surface_deviation <= LARGEST_DEVIATION
 
 
-def equivalent_power_law(problem: ProblemFile, force: PhysicalValue) -> EquivalentPowerLaw | None:
+def equivalent_power_law(problem: Problem, force: Row) -> EquivalentPowerLaw | None:
     """Compute the equivalent power law of the solid of a problem.
 
     Parameters
     ----------
-    problem : ProblemFile
-    force : PhysicalValue
+    problem : Problem
+    force : Row
         Its pull-off force by the FSCM.
 
     Returns
@@ -89,15 +89,14 @@ def equivalent_power_law(problem: ProblemFile, force: PhysicalValue) -> Equivale
 
     Examples
     --------
-    >>> from pathlib import Path
     >>> solid = Section("exponential", {"E_surface": 1e9, "E_depth": 3e9, "length": 1e-8, "nu": 0.3})
     >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10})
-    >>> pad = ProblemFile(Path("pad.toml"), solid, Section("sphere", {"R": 1e-7}), law)
-    >>> found = equivalent_power_law(pad, evaluate_problem(pad, "fscm", "pull_off_force"))
+    >>> pad = Problem(solid, Section("sphere", {"R": 1e-7}), law)
+    >>> found = equivalent_power_law(pad, evaluate("fscm", "pull_off_force", pad))
     >>> 0.1 < found.problem.solid["k"] < 0.3, abs(found.error) < 0.02
     (True, True)
     """
-    if problem.power_law is not None or force.value is None or force.u_num is None:
+    if problem.has_power_law or force.value is None or force.u_num is None:
         return None
     try:
         spectrum = energy_spectrum(problem)
@@ -116,7 +115,7 @@ def equivalent_power_law(problem: ProblemFile, force: PhysicalValue) -> Equivale
         free_k=free_k,
         deviation=deviation,
         surface_deviation=_surface_deviation(problem, spectrum),
-        tabor_number=dimensionless_problem(similar)[0].mu,
+        tabor_number=similar.posed.mu,
         lengths=(last, first),
         force=found,
         error=error,
@@ -125,14 +124,14 @@ def equivalent_power_law(problem: ProblemFile, force: PhysicalValue) -> Equivale
     )
 
 
-def _surface_deviation(problem: ProblemFile, spectrum: EnergySpectrum) -> float:
-    solid = dimensionless_problem(problem)[0].graded
+def _surface_deviation(problem: Problem, spectrum: EnergySpectrum) -> float:
+    solid = problem.posed.graded
     E, nu = (float(of_depth(np.zeros(1))[0]) for of_depth in (solid.modulus, solid.poisson))  # type: ignore[union-attr]
     surface = 2.0 * (1.0 - nu**2) / E
     return float(np.sqrt(spectrum.shares @ np.log(spectrum.compliances / surface) ** 2))
 
 
-def _reference(problem: ProblemFile) -> PhysicalValue:
+def _reference(problem: Problem) -> Row:
     """The force of the atlas where it has the problem, and else that of the FSCM."""
-    found = evaluate_problem(problem, "atlas", "pull_off_force")
-    return found if found.status == "ok" else evaluate_problem(problem, "fscm", "pull_off_force")
+    found = evaluate("atlas", "pull_off_force", problem)
+    return found if found.status == "ok" else evaluate("fscm", "pull_off_force", problem)

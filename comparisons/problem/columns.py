@@ -11,8 +11,8 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from comparisons.data.input_files import LARGEST_TABLE, read_text
-from comparisons.problem_file.source import shown
-from comparisons.problem_file.units import NotAValue, check_size, unit_factor
+from comparisons.problem.source import shown
+from comparisons.problem.units import NotAValue, check_size, unit_factor
 
 __all__ = ["Column", "read_columns"]
 

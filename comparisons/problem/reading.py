@@ -12,12 +12,12 @@ from typing import Any
 
 from comparisons.data.input_files import read_text
 from comparisons.data.toml_text import parse
-from comparisons.problem_file.columns import read_columns
-from comparisons.problem_file.consistency import check_consistency
-from comparisons.problem_file.description import ProblemFile, Section
-from comparisons.problem_file.form import SECTIONS, checked_section
-from comparisons.problem_file.kinds import kind_of
-from comparisons.problem_file.source import Source, shown
+from comparisons.problem.columns import read_columns
+from comparisons.problem.consistency import check_consistency
+from comparisons.problem.form import SECTIONS, checked_section
+from comparisons.problem.kinds import kind_of
+from comparisons.problem.problem import Problem, Section
+from comparisons.problem.source import Source, shown
 
 __all__ = ["document_of", "load_problem", "problem_of"]
 
@@ -28,7 +28,7 @@ _FEWEST_SMOOTHED = 8
 _MANY_DIGITS = re.compile(rf"\d{{{sys.int_info.default_max_str_digits + 1},}}")
 
 
-def load_problem(path: str | os.PathLike[str]) -> ProblemFile:
+def load_problem(path: str | os.PathLike[str]) -> Problem:
     """Read a problem file.
 
     Parameters
@@ -38,7 +38,7 @@ def load_problem(path: str | os.PathLike[str]) -> ProblemFile:
 
     Returns
     -------
-    ProblemFile
+    Problem
         In SI units.
 
     Raises
@@ -72,7 +72,7 @@ def document_of(path: str | os.PathLike[str]) -> tuple[dict[str, Any], Source]:
     return _document(source), source
 
 
-def problem_of(document: Mapping[str, Any], source: Source) -> ProblemFile:
+def problem_of(document: Mapping[str, Any], source: Source) -> Problem:
     """Return the problem of the sections of a file.
 
     Raises
@@ -90,7 +90,7 @@ def problem_of(document: Mapping[str, Any], source: Source) -> ProblemFile:
         if name not in document:
             raise ValueError(f"{path}: the section [{name}] is missing; a problem file has {', '.join(SECTIONS)}")
     solid, punch, law = (_section(document, name, source) for name in SECTIONS)
-    problem = ProblemFile(path, solid, punch, law)
+    problem = Problem(solid, punch, law, name=path.name, path=path)
     check_consistency(problem, source)
     return problem
 

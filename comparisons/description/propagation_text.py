@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from comparisons.description.propagation import Contribution, Propagated, Range, propagated
 from comparisons.model import ComputationFailed, NotApplicable
-from comparisons.problem_file.description import ProblemFile
-from comparisons.problem_file.propagation import Contribution, Propagated, Range, propagated
-from comparisons.problem_file.units import si_text
+from comparisons.problem.problem import Problem
+from comparisons.problem.units import si_text
 
 __all__ = ["Outcome", "content", "lines", "outcome_of"]
 
@@ -31,7 +31,7 @@ class Outcome:
     failed: bool = False
 
 
-def outcome_of(problem: ProblemFile, quantity: str) -> Outcome:
+def outcome_of(problem: Problem, quantity: str) -> Outcome:
     """Propagate the uncertainties of a file; an event that does not exist, or is not reached, gives a reason.
 
     Raises

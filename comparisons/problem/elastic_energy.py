@@ -19,9 +19,8 @@ import scipy
 from numpy.typing import NDArray
 
 import fscm
-from comparisons.models.solver import translated
-from comparisons.problem_file.description import ProblemFile
-from comparisons.problem_file.dimensionless import dimensionless_problem
+from comparisons.model import ComputationFailed, NotApplicable
+from comparisons.problem.problem import Problem
 from fscm.graded.compliance import compliance
 
 __all__ = ["EnergySpectrum", "energy_spectrum"]
@@ -70,12 +69,12 @@ class EnergySpectrum:
         return float(np.exp(-np.interp(share, below, np.log(self.wave_numbers))))
 
 
-def energy_spectrum(problem: ProblemFile) -> EnergySpectrum:
+def energy_spectrum(problem: Problem) -> EnergySpectrum:
     """Return the elastic energy of a problem at its pull-off force by wave number.
 
     Parameters
     ----------
-    problem : ProblemFile
+    problem : Problem
         Its solid is no power law, whose compliance is one.
 
     Raises
@@ -87,25 +86,27 @@ def energy_spectrum(problem: ProblemFile) -> EnergySpectrum:
 
     Examples
     --------
-    >>> from pathlib import Path
-    >>> from comparisons.problem_file.description import Section
+    >>> from comparisons.problem import Problem, Section
     >>> solid = Section("exponential", {"E_surface": 1e9, "E_depth": 3e9, "length": 1e-7, "nu": 0.3})
     >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10})
-    >>> found = energy_spectrum(ProblemFile(Path("pad.toml"), solid, Section("sphere", {"R": 1e-7}), law))
+    >>> found = energy_spectrum(Problem(solid, Section("sphere", {"R": 1e-7}), law))
     >>> 3e-9 < found.length(0.5) < 3e-8  # the contact radius is 12 nm
     True
     """
-    posed, units = dimensionless_problem(problem)
+    posed, units = problem.posed, problem.units
     if posed.graded is None:
-        raise ValueError(f"{problem.path.name} has a {problem.solid.kind} solid, whose surface compliance is known")
-    with translated(fscm.NoSuchEvent, fscm.NotConverged):
+        raise ValueError(f"{problem.label} has a {problem.solid.kind} solid, whose surface compliance is known")
+    count = round(np.log10(_HIGHEST / _LOWEST)) * _POINTS + 1
+    try:
         # The shares need few digits.
         field = fscm.profile(posed, "pull_off", "quick")
-        radius = float(np.sum(np.abs(_moments(field.radius, field.pressure, 2))))
-        radius /= float(np.sum(np.abs(_moments(field.radius, field.pressure, 1))))
-        count = round(np.log10(_HIGHEST / _LOWEST)) * _POINTS + 1
-        xi = np.geomspace(_LOWEST, _HIGHEST, count) / radius
+        first, second = (float(np.sum(np.abs(_moments(field.radius, field.pressure, power)))) for power in (1, 2))
+        xi = np.geomspace(_LOWEST, _HIGHEST, count) / (second / first)
         values = compliance(posed.graded, xi)
+    except fscm.NoSuchEvent as reason:
+        raise NotApplicable(str(reason)) from reason
+    except fscm.NotConverged as failure:
+        raise ComputationFailed(str(failure)) from failure
     density = values * xi * _transform(field.radius, field.pressure, xi) ** 2
     scale = np.pi * units["traction"] ** 2 * units["radius"] ** 3
     energy = float(np.sum(density)) * np.log(xi[1] / xi[0]) * scale

@@ -2,7 +2,6 @@
 
 import json
 import math
-from dataclasses import replace
 from itertools import product
 from pathlib import Path
 from types import SimpleNamespace
@@ -13,16 +12,16 @@ from jsonschema import Draft202012Validator
 
 import fem_reference
 import fscm
-from comparisons import evaluate_problem, load_problem
 from comparisons.cli.main import main
 from comparisons.model import Result
-from comparisons.problem_file.dimensionless import dimensionless_problem
-from comparisons.problem_file.evaluation import model_for, points_of
-from comparisons.problem_file.finite_elements import body_of
-from comparisons.problem_file.kinds import kinds
-from comparisons.problem_file.punch_shapes import RoundedFlat, SmoothedProfile
-from comparisons.problem_file.schema import FILE, schema, schema_text
+from comparisons.problem.evaluation import evaluated
+from comparisons.problem.kinds import kinds
+from comparisons.problem.punch_shapes import RoundedFlat, SmoothedProfile
+from comparisons.problem.reading import load_problem
+from comparisons.problem.schema import FILE, schema, schema_text
 from comparisons.quantities import QUANTITIES
+from comparisons.registry import create
+from comparisons.runs.tasks import evaluate
 from tests.fem_reference.solved_together import COARSEST, pull_off_on_the_coarsest_mesh
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
@@ -85,8 +84,8 @@ def test_every_kind_of_the_schema_is_tested(section):
 @pytest.mark.parametrize(("solid", "punch", "law"), [*product(*SECTIONS.values())])
 def test_both_solvers_have_the_same_problem(solid, punch, law, written):
     found = written(solid=solid, punch=punch, law=law)
-    problem, units = dimensionless_problem(found)
-    body = body_of(found)
+    problem, units = found.posed, found.units
+    body = found.build(fem_reference)
     r = np.geomspace(1e-9, 1e-6, 30)
     heights = problem.punch.height(r / units["radius"]) * units["displacement"]
     assert np.allclose(heights, body.punch.height(r), rtol=1e-12, atol=0)
@@ -108,12 +107,12 @@ def test_the_force_of_the_power_law_is_that_of_the_physical_problem(written):
     solid, law = fscm.PowerLaw(1e9, 1e-7, 0.3, 0.3), fscm.LennardJones(0.05, 4e-10)
     physical = fscm.Problem(solid, fscm.PowerPunch(2.0, 1e-7), law)
     expected = fscm.solve(physical.dimensionless, "pull_off_force")
-    value = evaluate_problem(found, "fscm", "pull_off_force")
+    value = evaluate("fscm", "pull_off_force", found)
     assert value.status == "ok"
     assert value.unit == "N"
     assert math.isclose(value.value, expected.value * physical.units["load"], rel_tol=1e-12)
-    assert math.isclose(value.dimensionless["value"], expected.value, rel_tol=1e-12)
-    jkr = evaluate_problem(found, "jkr", "pull_off_force")
+    assert math.isclose(value.dimensionless_value, expected.value, rel_tol=1e-12)
+    jkr = evaluate("jkr", "pull_off_force", found)
     assert math.isclose(jkr.value, (3 + 0.3) / 2 * math.pi * 1e-7 * 0.05, rel_tol=1e-12)
 
 
@@ -122,13 +121,13 @@ def test_a_value_and_its_bound_are_in_the_same_unit(written, quantity):
     found = written(solid="power-law", punch="sphere", law="lennard-jones-9-3")
     model = SimpleNamespace(name="mine", version="1", evaluate=lambda problem, name: Result(6.0, 2.0))
     scale = QUANTITIES[quantity].scale
-    unit = 1.0 if scale == "number" else dimensionless_problem(found)[1][scale]
-    value = evaluate_problem(found, model, quantity)
+    unit = found.units[scale]
+    value = evaluate(model, quantity, found)
     assert math.isclose(value.value, 6.0 * unit, rel_tol=1e-14)
     assert math.isclose(value.u_num, 2.0 * unit, rel_tol=1e-14)
     if scale != "number":
-        assert math.isclose(value.dimensionless["value"], 6.0, rel_tol=1e-14)
-        assert math.isclose(value.dimensionless["u_num"], 2.0, rel_tol=1e-14)
+        assert math.isclose(value.dimensionless_value, 6.0, rel_tol=1e-14)
+        assert math.isclose(value.dimensionless_u_num, 2.0, rel_tol=1e-14)
 
 
 def test_a_model_is_not_evaluated_outside_its_domain(written):
@@ -138,7 +137,7 @@ def test_a_model_is_not_evaluated_outside_its_domain(written):
         model = SimpleNamespace(
             name="mine", version="1", applies_to=table, evaluate=lambda problem, name: Result(6.0, 2.0)
         )
-        assert evaluate_problem(found, model, "pull_off_force").status == status
+        assert evaluate(model, "pull_off_force", found).status == status
 
 
 def test_the_bound_of_the_finite_elements_is_that_of_their_solution(written, monkeypatch):
@@ -146,7 +145,7 @@ def test_the_bound_of_the_finite_elements_is_that_of_their_solution(written, mon
     family = (3.0, 2.0, 1.0), (2e-9,) * 3, {"mesh": 5e-12}
     solution = fem_reference.Solution(2e-9, 5e-12, 1, 1, 0.0, 0.1, 6.0, 6.0, *family)
     monkeypatch.setattr(fem_reference, "solve", lambda problem, quantity: solution)
-    value = evaluate_problem(found, "fem", "pull_off_force")
+    value = evaluate("fem", "pull_off_force", found)
     assert (value.value, value.u_num) == (2e-9, 5e-12)
 
 
@@ -155,24 +154,24 @@ def test_a_homogeneous_solid_and_a_cone_are_power_laws(written, tmp_path, model)
     """E and nu are those of k = 0; r/tan(70 deg) is r^n/(n Q) with n = 1 and Q = tan(70 deg)."""
     found = written(solid="homogeneous", punch="cone", law="lennard-jones-9-3")
     assert found.punch["half_angle"] == math.radians(70.0)
-    value = evaluate_problem(found, model, "pull_off_force")
+    value = evaluate(model, "pull_off_force", found)
     text = (tmp_path / "mine.toml").read_text()
     text = text.replace('kind = "homogeneous"\nE =', 'kind = "power-law"\nc0 = "3 um"\nk = 0\nE0 =')
     text = text.replace(
         'kind = "cone"\nhalf_angle = "70 deg"', f'kind = "power-law"\nn = 1\nQ = {math.tan(math.radians(70))!r}'
     )
     (tmp_path / "mine.toml").write_text(text)
-    same = evaluate_problem(load_problem(tmp_path / "mine.toml"), model, "pull_off_force")
+    same = evaluate(model, "pull_off_force", load_problem(tmp_path / "mine.toml"))
     assert value.status == same.status == "ok"
     assert math.isclose(value.value, same.value, rel_tol=1e-12)
-    assert value.dimensionless is not None
+    assert value.dimensionless_value is not None
 
 
 def test_the_force_of_a_rigid_cone_grows_with_the_square_of_the_tangent(written, tmp_path):
     """The radius where the gap has a value is z tan(half_angle)."""
     found = written(solid="homogeneous", punch="cone", law="lennard-jones-9-3")
-    cones = [replace(found, punch=found.punch.changed("half_angle", math.radians(angle))) for angle in (45, 60)]
-    forces = [evaluate_problem(cone, "bradley", "pull_off_force").value for cone in cones]
+    cones = [found.with_value("punch", "half_angle", math.radians(angle)) for angle in (45, 60)]
+    forces = [evaluate("bradley", "pull_off_force", cone).value for cone in cones]
     assert math.isclose(forces[1] / forces[0], 3.0, rel_tol=1e-12)
 
 
@@ -187,7 +186,7 @@ def on_the_coarsest_mesh(problem, quantity):
 
 
 def assert_both_references_agree(found, share):
-    values = [evaluate_problem(found, model, "pull_off_force") for model in ("fscm", "fem")]
+    values = [evaluate(model, "pull_off_force", found) for model in ("fscm", "fem")]
     assert [value.status for value in values] == ["ok", "ok"]
     difference = abs(values[0].value - values[1].value)
     assert difference <= values[0].u_num + values[1].u_num
@@ -206,10 +205,10 @@ def test_a_coated_solid_by_both_references_on_the_coarsest_mesh(monkeypatch):
 
 def test_what_a_coated_solid_does_not_have_is_not_applicable():
     found = load_problem(EXAMPLES / "coated_solid.toml")
-    refused = evaluate_problem(found, "atlas", "pull_off_force")
+    refused = evaluate("atlas", "pull_off_force", found)
     assert refused.status == "not-applicable"
     assert "a coating solid" in refused.reason
-    critical = evaluate_problem(found, "fscm", "critical_tabor_number")
+    critical = evaluate("fscm", "critical_tabor_number", found)
     assert critical.status == "not-applicable"
 
 
@@ -220,7 +219,7 @@ def test_a_rounded_flat_end_by_both_references(written, flat_radius, tmp_path):
     written(solid="power-law", punch="rounded-flat", law="lennard-jones-9-3")
     path = tmp_path / "mine.toml"
     path.write_text(path.read_text().replace("5 nm", flat_radius))
-    exact, value = (evaluate_problem(load_problem(path), model, "pull_off_force") for model in ("fscm", "fem"))
+    exact, value = (evaluate(model, "pull_off_force", load_problem(path)) for model in ("fscm", "fem"))
     assert abs(value.value - exact.value) <= value.u_num + exact.u_num
     assert value.u_num <= FEW_DIGITS * value.value
 
@@ -229,14 +228,14 @@ def test_what_the_finite_elements_do_not_take_is_not_applicable(written, tmp_pat
     written(solid="exponential", punch="sphere", law="mie")
     path = tmp_path / "mine.toml"
     path.write_text(path.read_text().replace("nu = 0.3", "nu = 0.5"))
-    value = evaluate_problem(load_problem(path), "fem", "pull_off_force")
+    value = evaluate("fem", "pull_off_force", load_problem(path))
     assert value.status == "not-applicable"
     assert "nu = 0.5" in value.reason
 
 
 def test_a_curve_is_in_si(written):
     found = written(solid="power-law", punch="sphere", law="lennard-jones-9-3")
-    points = points_of(found, model_for(found, "jkr"), "force_curve")
+    points = evaluated(found, create("jkr"), "force_curve")
     assert math.isclose(-min(points.y), 1.65 * math.pi * 1e-7 * 0.05, rel_tol=1e-3)
     assert 1e-11 < max(points.x) < 1e-7
 

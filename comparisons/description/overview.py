@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from comparisons.model import Model
-from comparisons.problem_file.description import ProblemFile
-from comparisons.problem_file.dimensionless import dimensionless_problem
-from comparisons.problem_file.evaluation import REFERENCES, PhysicalValue, evaluate_problem
+from comparisons.problem.evaluation import REFERENCES
+from comparisons.problem.problem import Problem
 from comparisons.registry import MODELS, create
+from comparisons.runs.rows import Row
+from comparisons.runs.tasks import evaluate
 
 __all__ = [
     "LIMITS",
@@ -59,16 +60,16 @@ class Overview:
         Generalised Tabor number (Eq. 29); of a solid that is no power law that with the modulus of its surface.
     critical_tabor_number : float or None
         Where jumps begin, for a problem of the paper in the range of the atlas.
-    force : PhysicalValue
+    force : Row
         Pull-off force of the FSCM, or of the atlas where it has the problem.
     errors : tuple of ModelError
         Of the closed forms that take the problem, smallest first.
     """
 
-    problem: ProblemFile
+    problem: Problem
     tabor_number: float
     critical_tabor_number: float | None
-    force: PhysicalValue
+    force: Row
     errors: tuple[ModelError, ...]
 
     @property
@@ -115,7 +116,7 @@ def recommended(overview: Overview, limit: float) -> str:
     return simplest_within(overview.errors, limit) or overview.force.model
 
 
-def overview_of(problem: ProblemFile) -> Overview:
+def overview_of(problem: Problem) -> Overview:
     """Compute the overview of a problem.
 
     Returns
@@ -125,44 +126,41 @@ def overview_of(problem: ProblemFile) -> Overview:
 
     Examples
     --------
-    >>> from pathlib import Path
-    >>> from comparisons.problem_file.description import Section
+    >>> from comparisons.problem import Problem, Section
     >>> solid = Section("power-law", {"E0": 70e9, "c0": 1.0, "k": 0.0, "nu": 0.2})
     >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 3e-10})
-    >>> overview = overview_of(ProblemFile(Path("silica.toml"), solid, Section("sphere", {"R": 1e-6}), law))
+    >>> overview = overview_of(Problem(solid, Section("sphere", {"R": 1e-6}), law))
     >>> overview.force.model, recommended(overview, 0.01)
     ('atlas', 'md-improved')
     """
-    posed, _ = dimensionless_problem(problem)
     force = _reference(problem)
-    return Overview(problem, posed.mu, _critical(problem), force, model_errors(problem, force))
+    return Overview(problem, problem.posed.mu, _critical(problem), force, model_errors(problem, force))
 
 
-def model_errors(problem: ProblemFile, force: PhysicalValue) -> tuple[ModelError, ...]:
+def model_errors(problem: Problem, force: Row) -> tuple[ModelError, ...]:
     """Return the errors of the closed forms that take a problem against a pull-off force, smallest first.
 
     Parameters
     ----------
-    problem : ProblemFile
+    problem : Problem
         For the closed forms.
-    force : PhysicalValue
+    force : Row
         Of this problem, or of another one that this one stands for.
 
     Examples
     --------
-    >>> from pathlib import Path
-    >>> from comparisons.problem_file.description import Section
+    >>> from comparisons.problem import Problem, Section
     >>> solid = Section("power-law", {"E0": 70e9, "c0": 1.0, "k": 0.0, "nu": 0.2})
     >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 3e-10})
-    >>> problem = ProblemFile(Path("silica.toml"), solid, Section("sphere", {"R": 1e-6}), law)
-    >>> errors = model_errors(problem, evaluate_problem(problem, "bradley", "pull_off_force"))
+    >>> problem = Problem(solid, Section("sphere", {"R": 1e-6}), law)
+    >>> errors = model_errors(problem, evaluate("bradley", "pull_off_force", problem))
     >>> {found.model: round(found.error, 9) for found in errors}["jkr"]
     -0.25
     """
     errors: list[ModelError] = []
     if problem.is_of_the_paper and force.value is not None and force.u_num is not None:
         for model in _closed_forms():
-            found = evaluate_problem(problem, model, "pull_off_force")
+            found = evaluate(model, "pull_off_force", problem)
             if found.value is not None and found.u_num is not None:
                 ratio = found.value / force.value
                 bound = (found.u_num + abs(ratio) * force.u_num) / (force.value - force.u_num)
@@ -170,20 +168,20 @@ def model_errors(problem: ProblemFile, force: PhysicalValue) -> tuple[ModelError
     return tuple(sorted(errors, key=lambda found: abs(found.error)))
 
 
-def _reference(problem: ProblemFile) -> PhysicalValue:
+def _reference(problem: Problem) -> Row:
     """The force of the atlas where it has the problem, and else that of the FSCM."""
     if problem.is_of_the_paper:
-        found = evaluate_problem(problem, "atlas", "pull_off_force")
+        found = evaluate("atlas", "pull_off_force", problem)
         if found.status == "ok":
             return found
-    return evaluate_problem(problem, "fscm", "pull_off_force")
+    return evaluate("fscm", "pull_off_force", problem)
 
 
 def _closed_forms() -> list[Model]:
     return [create(name) for name in MODELS if name not in REFERENCES]
 
 
-def _critical(problem: ProblemFile) -> float | None:
+def _critical(problem: Problem) -> float | None:
     if not problem.is_of_the_paper:
         return None
-    return evaluate_problem(problem, "atlas", "critical_tabor_number").value
+    return evaluate("atlas", "critical_tabor_number", problem).value

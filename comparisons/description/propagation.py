@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
+import fscm
 from comparisons.model import ComputationFailed, NotApplicable
-from comparisons.problem_file.description import ProblemFile
-from comparisons.problem_file.dimensionless import physical_problem
-from comparisons.problem_file.evaluation import SI_UNITS
-from comparisons.problem_file.form import SECTIONS, limits_of
-from comparisons.problem_file.uncertain import Uncertainty
+from comparisons.problem.form import limits_of
+from comparisons.problem.problem import Problem
+from comparisons.problem.uncertain import Uncertainty
 from comparisons.quantities import QUANTITIES
 from fscm import NoSuchEvent, NotConverged, ValueSensitivity, sensitivity
-from fscm.problem import Problem
 
 __all__ = ["Contribution", "Propagated", "Range", "propagated"]
 
@@ -105,12 +103,12 @@ class Propagated:
     range: Range | None
 
 
-def propagated(problem: ProblemFile, quantity: str = "pull_off_force") -> Propagated:
+def propagated(problem: Problem, quantity: str = "pull_off_force") -> Propagated:
     """Propagate the uncertainties of the values of a file to a quantity of the FSCM, by exact derivatives.
 
     Parameters
     ----------
-    problem : ProblemFile
+    problem : Problem
     quantity : str
         One of `fscm.SENSITIVE`.
 
@@ -127,21 +125,16 @@ def propagated(problem: ProblemFile, quantity: str = "pull_off_force") -> Propag
     --------
     The force on a rigid solid is proportional to radius and work of adhesion:
 
-    >>> from pathlib import Path
-    >>> from comparisons.problem_file.description import Section
+    >>> from comparisons.problem import Problem, Section
     >>> R = Section("sphere", {"R": 1e-6}, uncertain={"R": Uncertainty(3e-8, False, "1 +- 0.03 um")})
     >>> values, some = {"work_of_adhesion": 0.05, "z0": 3e-10}, Uncertainty(2e-3, False, "0.05 J/m^2 +- 4 %")
     >>> law = Section("lennard-jones-9-3", values, uncertain={"work_of_adhesion": some})
     >>> solid = Section("power-law", {"E0": 1e18, "c0": 1.0, "k": 0.0, "nu": 0.2})
-    >>> found = propagated(ProblemFile(Path("rigid.toml"), solid, R, law))
+    >>> found = propagated(Problem(solid, R, law))
     >>> round(found.standard_deviation / found.value, 6)
     0.05
     """
-    uncertain = [
-        (section, key, uncertainty)
-        for section in SECTIONS
-        for key, uncertainty in getattr(problem, section).uncertain.items()
-    ]
+    uncertain = [(*key, uncertainty) for key, uncertainty in problem.uncertain.items()]
     if not uncertain:
         raise ValueError(
             f'{problem.path}: no value has an uncertainty; write one as "2 +- 0.1 GPa", "2 GPa +- 5 %" or '
@@ -152,7 +145,7 @@ def propagated(problem: ProblemFile, quantity: str = "pull_off_force") -> Propag
         value, u_num, contributions = found
         deviations = [one.size for one in contributions if not one.uncertainty.is_interval]
         intervals = [one for one in contributions if one.uncertainty.is_interval]
-        unit = SI_UNITS[QUANTITIES[quantity].scale]
+        unit = QUANTITIES[quantity].si_unit
         deviation = math.hypot(*deviations) if deviations else None
         range_ = _range(problem, quantity, value, intervals) if intervals else None
         return Propagated(quantity, value, u_num, unit, contributions, deviation, range_)
@@ -162,19 +155,15 @@ def propagated(problem: ProblemFile, quantity: str = "pull_off_force") -> Propag
         raise ComputationFailed(str(failure)) from failure
 
 
-def _with(problem: ProblemFile, section: str, key: str, value: float) -> ProblemFile:
-    return replace(problem, **{section: getattr(problem, section).changed(key, value)})
-
-
-def _varied(problem: ProblemFile, section: str, key: str) -> Callable[[float], Problem]:
-    return lambda value: physical_problem(_with(problem, section, key, value))
+def _varied(problem: Problem, section: str, key: str) -> Callable[[float], fscm.Problem]:
+    return lambda value: problem.with_value(section, key, value).build(fscm)
 
 
 def _contributions(
-    problem: ProblemFile, quantity: str, uncertain: list[tuple[str, str, Uncertainty]]
+    problem: Problem, quantity: str, uncertain: list[tuple[str, str, Uncertainty]]
 ) -> tuple[float, float, tuple[Contribution, ...]]:
     """Value and bound of the quantity, and the contributions of uncertain values."""
-    solved: ValueSensitivity = sensitivity(physical_problem(problem), quantity)
+    solved: ValueSensitivity = sensitivity(problem.build(fscm), quantity)
     value, found = solved.solution.value, []
     for section, key, uncertainty in uncertain:
         part = getattr(problem, section)
@@ -189,7 +178,7 @@ def _contributions(
     return value, solved.solution.u_num, tuple(found)
 
 
-def _range(problem: ProblemFile, quantity: str, value: float, intervals: list[Contribution]) -> Range:
+def _range(problem: Problem, quantity: str, value: float, intervals: list[Contribution]) -> Range:
     """The range to first order, and the values and slopes where it ends."""
     half = sum(one.size for one in intervals)
     names = [(one.section, one.key, one.uncertainty) for one in intervals]
@@ -199,7 +188,7 @@ def _range(problem: ProblemFile, quantity: str, value: float, intervals: list[Co
             there = problem
             for one in intervals:
                 low, high = one.uncertainty.limits(one.value)
-                there = _with(there, one.section, one.key, high if side * one.slope > 0.0 else low)
+                there = there.with_value(one.section, one.key, high if side * one.slope > 0.0 else low)
             end, u_num, slopes = _contributions(there, quantity, names)
             ends.append(end + side * u_num)
             monotone &= all(a.slope * b.slope >= 0.0 for a, b in zip(slopes, intervals, strict=True))

@@ -11,15 +11,14 @@ import pytest
 
 import fscm
 from comparisons.cli.main import main
+from comparisons.description import equivalent_text
+from comparisons.description.equivalent_power_law import equivalent_power_law
 from comparisons.model import ComputationFailed
-from comparisons.problem_file import elastic_energy, equivalent_text
-from comparisons.problem_file.description import ProblemFile, Section
-from comparisons.problem_file.dimensionless import dimensionless_problem
-from comparisons.problem_file.elastic_energy import energy_spectrum
-from comparisons.problem_file.equivalent_power_law import equivalent_power_law
-from comparisons.problem_file.equivalent_solid import LARGEST_K, equivalent_solids, least_wrong
-from comparisons.problem_file.evaluation import evaluate_problem
-from comparisons.problem_file.reading import load_problem
+from comparisons.problem import Problem, Section, elastic_energy
+from comparisons.problem.elastic_energy import energy_spectrum
+from comparisons.problem.equivalent_solid import LARGEST_K, equivalent_solids, least_wrong
+from comparisons.problem.reading import load_problem
+from comparisons.runs.tasks import evaluate
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
 COATED = EXAMPLES / "coated_solid.toml"
@@ -43,11 +42,11 @@ def test_the_transform_of_a_straight_line_is_accurate_at_small_and_large_argumen
 def on(kind, values, columns=None):
     """A sphere of 100 nm on a solid."""
     law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10})
-    return ProblemFile(Path("pad.toml"), Section(kind, values, columns or {}), Section("sphere", {"R": 1e-7}), law)
+    return Problem(Section(kind, values, columns or {}), Section("sphere", {"R": 1e-7}), law)
 
 
 def equivalent(problem):
-    return equivalent_power_law(problem, evaluate_problem(problem, "fscm", "pull_off_force"))
+    return equivalent_power_law(problem, evaluate("fscm", "pull_off_force", problem))
 
 
 @pytest.mark.heavy
@@ -113,7 +112,7 @@ def test_the_error_is_that_of_both_solids_in_the_solver():
 def test_closed_forms_have_the_power_law_and_their_error_is_that_against_the_solid_itself():
     problem = load_problem(COATED)
     found = equivalent(problem)
-    force = evaluate_problem(problem, "fscm", "pull_off_force")
+    force = evaluate("fscm", "pull_off_force", problem)
     errors = {one.model: one for one in found.closed_forms}
     # Forces that need no model: of rigid spheres 2 pi R w for every solid, and of soft ones (3 + k)/2 pi R w.
     pull = math.pi * 1e-7 * 0.05
@@ -125,19 +124,19 @@ def test_closed_forms_have_the_power_law_and_their_error_is_that_against_the_sol
 
 def test_a_closed_form_has_the_value_of_the_equivalent_and_the_error_of_the_fit(monkeypatch):
     problem = load_problem(COATED)
-    found = evaluate_problem(problem, "jkr", "pull_off_force")
+    found = evaluate("jkr", "pull_off_force", problem)
     monkeypatch.setattr(elastic_energy, "_POINTS", 4 * elastic_energy._POINTS)
     fine, _ = equivalent_solids.__wrapped__(problem)
     force = (3.0 + fine.solid["k"]) / 2.0 * math.pi * 1e-7 * 0.05
     assert abs(found.value - force) < found.u_num < 2e-3 * force
     assert "equivalent power law" in found.reason
     # A model that solves the equations of a power law is no reference for another solid.
-    assert evaluate_problem(problem, "atlas", "pull_off_force").status == "not-applicable"
+    assert evaluate("atlas", "pull_off_force", problem).status == "not-applicable"
 
 
 def test_a_solid_that_no_power_law_stands_for():
     coating = {"E_coating": 1e10, "E_substrate": 1e7, "thickness": 10e-9, "transition": 0.0, "nu": 0.3}
-    found = evaluate_problem(on("coating", coating), "jkr", "pull_off_force")
+    found = evaluate("jkr", "pull_off_force", on("coating", coating))
     assert (found.status, found.value) == ("not-applicable", None)
     assert "no power law stands for" in found.reason
 
@@ -154,7 +153,7 @@ def test_closed_forms_that_do_not_take_the_punch_are_not_stated():
 
 def test_the_energy_is_the_work_of_the_pressure():
     problem = load_problem(COATED)
-    posed, units = dimensionless_problem(problem)
+    posed, units = problem.posed, problem.units
     field = fscm.profile(posed)
     work = math.pi * np.trapezoid(field.pressure * field.deformation * field.radius, field.radius)
     work *= units["traction"] * units["displacement"] * units["radius"] ** 2
@@ -165,7 +164,7 @@ def test_the_energy_is_the_work_of_the_pressure():
 
 def test_a_power_law_has_no_equivalent(capsys):
     problem = load_problem(EXAMPLES / "graded_pad.toml")
-    assert equivalent_power_law(problem, evaluate_problem(problem, "atlas", "pull_off_force")) is None
+    assert equivalent_power_law(problem, evaluate("atlas", "pull_off_force", problem)) is None
     with pytest.raises(ValueError, match="has a power-law solid"):
         energy_spectrum(problem)
     assert main(["describe", str(problem.path), "--format", "json"]) == 0
@@ -176,9 +175,9 @@ def test_without_a_pressure_there_is_no_equivalent(monkeypatch):
     def fails(problem):
         raise ComputationFailed("no state")
 
-    monkeypatch.setattr("comparisons.problem_file.equivalent_power_law.energy_spectrum", fails)
+    monkeypatch.setattr("comparisons.description.equivalent_power_law.energy_spectrum", fails)
     problem = load_problem(COATED)
-    assert equivalent_power_law(problem, evaluate_problem(problem, "fscm", "pull_off_force")) is None
+    assert equivalent_power_law(problem, evaluate("fscm", "pull_off_force", problem)) is None
 
 
 def test_describe_states_the_equivalent_and_its_error(capsys):

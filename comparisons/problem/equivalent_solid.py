@@ -8,14 +8,14 @@ This is the one rule for the equivalent power law of a solid.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
 from comparisons.model import NotApplicable
-from comparisons.problem_file.description import ProblemFile, Section
-from comparisons.problem_file.dimensionless import dimensionless_problem
-from comparisons.problem_file.elastic_energy import EnergySpectrum, energy_spectrum
+from comparisons.problem.elastic_energy import EnergySpectrum, energy_spectrum
+from comparisons.problem.problem import Problem, Section
 from fscm.solids import PowerLaw
 
 __all__ = ["LARGEST_DEVIATION", "LARGEST_K", "equivalent_solids", "least_wrong", "power_law_of"]
@@ -30,7 +30,7 @@ LARGEST_DEVIATION = 0.5
 
 
 @lru_cache(maxsize=64)
-def equivalent_solids(problem: ProblemFile) -> tuple[ProblemFile, ProblemFile]:
+def equivalent_solids(problem: Problem) -> tuple[Problem, Problem]:
     """Return a problem with the power law that stands for its solid, and with that of every second wave number.
 
     What a model gives for both differs by more than the first has an error: the fit converges with the second power of
@@ -85,14 +85,13 @@ def least_wrong(spectrum: EnergySpectrum) -> tuple[float, float, float, float]:
     return k, free_k, deviation, math.exp(mean)
 
 
-def power_law_of(problem: ProblemFile, k: float, compliance: float, spectrum: EnergySpectrum) -> ProblemFile:
+def power_law_of(problem: Problem, k: float, compliance: float, spectrum: EnergySpectrum) -> Problem:
     """Return the problem with the power law of a compliance.
 
     Its Poisson's ratio is that of the surface.  Its c0 is that of the file, or else the length 1/xi of the middle of
     the fit.
     """
-    posed, _ = dimensionless_problem(problem)
-    nu = float(posed.graded.poisson(np.zeros(1))[0])  # type: ignore[union-attr]
+    nu = float(problem.posed.graded.poisson(np.zeros(1))[0])  # type: ignore[union-attr]
     middle = math.exp(-float(spectrum.shares @ np.log(spectrum.wave_numbers)))
     c0 = problem.solid.get("c0", middle)
     # xi C = 2 b (1 - nu^2)/E0 (xi c0/2)^k Gamma((1-k)/2)/Gamma((1+k)/2)
@@ -100,4 +99,4 @@ def power_law_of(problem: ProblemFile, k: float, compliance: float, spectrum: En
     gamma = math.gamma((1.0 - k) / 2.0) / math.gamma((1.0 + k) / 2.0)
     E0 = 2.0 * b * (1.0 - nu**2) * (c0 / (2.0 * middle)) ** k * gamma / compliance
     solid = Section("power-law", {"E0": E0, "c0": c0, "k": k, "nu": nu})
-    return ProblemFile(problem.path, solid, problem.punch, problem.law)
+    return replace(problem, solid=solid)

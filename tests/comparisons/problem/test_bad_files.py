@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.problem_file.reading import load_problem
+from comparisons.problem.reading import load_problem
 
 GOOD = """\
 [solid]

@@ -1,6 +1,6 @@
 """The form of a problem file as a JSON schema, from the table of kinds.
 
-`python -m comparisons.problem_file.schema` writes `comparisons/data/problem.schema.json`.
+`python -m comparisons.problem.schema` writes `comparisons/data/problem.schema.json`.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from comparisons.problem_file.kinds import KINDS, SECTIONS, Dimension, Key, Kind
+from comparisons.problem.kinds import KINDS, SECTIONS, Dimension, Key, Kind
 
 __all__ = ["FILE", "schema", "schema_text"]
 

@@ -8,7 +8,7 @@ from functools import lru_cache
 from typing import Any
 
 from comparisons.numerics.number_text import short
-from comparisons.problem_file.source import shortened
+from comparisons.problem.source import shortened
 
 __all__ = ["NotAValue", "check_size", "in_si", "prefixed_unit", "si_text", "unit_factor"]
 
@@ -134,7 +134,7 @@ def check_size(value: float, unit: str) -> None:
     --------
     >>> check_size(1e300, "Pa")
     Traceback (most recent call last):
-    comparisons.problem_file.units.NotAValue: has a size outside 1e-20 to 1e+20 Pa
+    comparisons.problem.units.NotAValue: has a size outside 1e-20 to 1e+20 Pa
     """
     if value and not 1.0 / LARGEST_SIZE <= abs(value) <= LARGEST_SIZE:
         raise NotAValue(f"has a size outside {1.0 / LARGEST_SIZE:g} to {LARGEST_SIZE:g} {unit}")

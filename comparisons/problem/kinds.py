@@ -2,7 +2,7 @@
 
 A row has the keys of a kind with their dimensions, and a function that builds the kind from the classes of a solver.
 Both solvers have the same names and arguments, so that one function serves both.  The form of a file, its JSON schema
-(`comparisons.problem_file.schema`), the variation of keys and the uncertainties follow from this table.
+(`comparisons.problem.schema`), the variation of keys and the uncertainties follow from this table.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from functools import cached_property
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from comparisons.problem_file.columns import Column
-from comparisons.problem_file.punch_shapes import RoundedFlat, SmoothedProfile
+from comparisons.problem.columns import Column
+from comparisons.problem.punch_shapes import RoundedFlat, SmoothedProfile
 
 if TYPE_CHECKING:
-    from comparisons.problem_file.description import Section
+    from comparisons.problem.problem import Section
 
 __all__ = ["KINDS", "SECTIONS", "Dimension", "Key", "Kind", "kind_of", "kinds"]
 
@@ -124,8 +124,6 @@ class Kind:
         Of the table that the key `file` names.
     is_of_the_paper : bool
         Whether the problem of three numbers n, k and mu has it.
-    power_law : callable or None
-        Section -> the values of the kind power-law, of a solid that is one.
     lengths : str or None
         Of lists: which key is shorter by one than the others.
     """
@@ -137,7 +135,6 @@ class Kind:
     columns: Mapping[str, Column] = field(default_factory=dict)
     fewest_rows: int = 0
     is_of_the_paper: bool = False
-    power_law: Callable[[Section], dict[str, float]] | None = None
     lengths: str | None = None
 
     @cached_property
@@ -188,15 +185,12 @@ _SOLIDS = (
         (Key("E0", MODULUS), Key("c0", LENGTH), Key("k", EXPONENT), Key("nu", RATIO)),
         lambda solver, solid: solver.PowerLaw(solid["E0"], solid["c0"], solid["k"], solid["nu"]),
         is_of_the_paper=True,
-        power_law=lambda solid: dict(solid.values),
     ),
     Kind(
         "homogeneous",
         (Key("E", MODULUS), Key("nu", RATIO)),
         lambda solver, solid: solver.Homogeneous(solid["E"], solid["nu"]),
         is_of_the_paper=True,
-        # c0 has no effect for k = 0.
-        power_law=lambda solid: {"E0": solid["E"], "c0": 1.0, "k": 0.0, "nu": solid["nu"]},
     ),
     Kind(
         "offset-power-law",

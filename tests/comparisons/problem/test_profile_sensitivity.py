@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from comparisons.cli.main import main
-from comparisons.problem_file import profile_sensitivity as module
-from comparisons.problem_file.evaluation import PhysicalValue, evaluate_problem
-from comparisons.problem_file.reading import load_problem
+from comparisons.description import profile_sensitivity as module
+from comparisons.problem.reading import load_problem
+from comparisons.runs.tasks import evaluate
+from tests.comparisons.rows import row
 
 TEXT = """
 [solid]
@@ -44,7 +45,7 @@ def written(tmp_path):
 
 
 def force(problem):
-    return evaluate_problem(problem, "fscm", "pull_off_force")
+    return evaluate("fscm", "pull_off_force", problem)
 
 
 @pytest.mark.heavy
@@ -71,14 +72,13 @@ def test_the_changes_are_those_of_other_files(written, capsys):
 def counted(problem, monkeypatch, failing=None):
     """The changes without a computation; the value that fails is refused."""
 
-    def solved(other, model, quantity):
-        if failing in other.punch.values.values():
-            raise ValueError("not admissible")
-        return PhysicalValue(model, quantity, {}, 2.0, 0.0, "N", "ok", "", 0.0)
+    def solved(task):
+        if failing in task.problem.punch.values.values():
+            return row("fscm", value=None, u_num=None, status="failed", reason="not admissible")
+        return row("fscm", value=2.0, u_num=0.0)
 
-    monkeypatch.setattr(module, "evaluate_problem", solved)
-    base = PhysicalValue("fscm", "pull_off_force", {}, 1.0, 0.0, "N", "ok", "", 0.0)
-    return module.profile_sensitivity(problem, base)
+    monkeypatch.setattr(module, "evaluate_task", solved)
+    return module.profile_sensitivity(problem, row("fscm", value=1.0, u_num=0.0))
 
 
 def test_only_other_choices_are_computed(written, monkeypatch):
@@ -94,5 +94,5 @@ def test_a_failure_is_stated(written, monkeypatch):
 
 
 def test_without_a_force_there_are_no_changes(written):
-    failed = PhysicalValue("fscm", "pull_off_force", {}, None, None, "N", "failed", "no state", 0.0)
+    failed = row("fscm", value=None, u_num=None, status="failed")
     assert module.profile_sensitivity(written(""), failed) == []

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from comparisons.description.equivalent_power_law import EquivalentPowerLaw
+from comparisons.description.overview import LIMITS, Overview, recommended
 from comparisons.numerics.number_text import percent_text
-from comparisons.problem_file.equivalent_power_law import EquivalentPowerLaw
-from comparisons.problem_file.overview import LIMITS, Overview, recommended
-from comparisons.problem_file.units import si_text
+from comparisons.problem.units import si_text
 
 __all__ = ["content", "lines"]
 
@@ -16,7 +16,7 @@ def content(overview: Overview) -> dict[str, Any]:
     """Return the overview as an object of JSON; errors are fractions."""
     force = overview.force
     return {
-        "problem": overview.problem.parameters,
+        "problem": overview.problem.content,
         "tabor_number": overview.tabor_number,
         "critical_tabor_number": overview.critical_tabor_number,
         "regime": overview.regime,
@@ -37,7 +37,7 @@ def lines(overview: Overview, equivalent: EquivalentPowerLaw | None = None) -> l
     """Return the overview as lines of text; for a solid that is no power law with its equivalent, if it has one."""
     problem, force, critical = overview.problem, overview.force, overview.critical_tabor_number
     found = [
-        f"{problem.path.name}: {problem.solid.kind} solid, {problem.punch.kind} punch, {problem.law.kind} law",
+        f"{problem.name}: {problem.solid.kind} solid, {problem.punch.kind} punch, {problem.law.kind} law",
         f"  {_tabor_number(overview, equivalent)}",
     ]
     if critical is not None:
@@ -57,7 +57,7 @@ def lines(overview: Overview, equivalent: EquivalentPowerLaw | None = None) -> l
 
 def _tabor_number(overview: Overview, equivalent: EquivalentPowerLaw | None) -> str:
     """The Tabor number, where the modulus of the surface or a power law stands for the solid."""
-    if overview.problem.power_law is not None:
+    if overview.problem.has_power_law:
         return f"Tabor number {overview.tabor_number:.6g}"
     if equivalent is None:
         return "no Tabor number: the moduli that the contact meets are not known"

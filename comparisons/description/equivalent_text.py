@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from comparisons.description.equivalent_power_law import EquivalentPowerLaw
+from comparisons.description.overview import LIMITS, simplest_within
 from comparisons.numerics.number_text import percent_text
-from comparisons.problem_file.equivalent_power_law import EquivalentPowerLaw
-from comparisons.problem_file.overview import LIMITS, simplest_within
-from comparisons.problem_file.units import si_text
+from comparisons.problem.units import si_text
 
 __all__ = ["content", "lines"]
 

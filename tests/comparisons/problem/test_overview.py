@@ -8,11 +8,11 @@ import pytest
 
 import fscm
 from comparisons.cli.main import main
-from comparisons.problem_file import equivalent_text
-from comparisons.problem_file.description import ProblemFile, Section
-from comparisons.problem_file.equivalent_power_law import LARGEST_DEVIATION, equivalent_power_law
-from comparisons.problem_file.overview import REFERENCES, SIMPLEST_FIRST, ModelError, overview_of, simplest_within
-from comparisons.problem_file.overview_text import lines
+from comparisons.description import equivalent_text
+from comparisons.description.equivalent_power_law import LARGEST_DEVIATION, equivalent_power_law
+from comparisons.description.overview import REFERENCES, SIMPLEST_FIRST, ModelError, overview_of, simplest_within
+from comparisons.description.overview_text import lines
+from comparisons.problem import Problem, Section
 from comparisons.registry import MODELS
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
@@ -97,7 +97,7 @@ def test_the_order_of_the_recommendation(errors, simplest):
 )
 def test_a_tabor_number_is_printed_where_its_modulus_is_that_of_the_contact(coating, stands):
     law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10})
-    pad = ProblemFile(Path("pad.toml"), Section("coating", coating), Section("sphere", {"R": 1e-7}), law)
+    pad = Problem(Section("coating", coating), Section("sphere", {"R": 1e-7}), law)
     overview = overview_of(pad)
     equivalent = equivalent_power_law(pad, overview.force)
     printed = lines(overview, equivalent)

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from comparisons.numerics.kappa import relative_difference, relative_uncertainty
 from comparisons.numerics.number_text import percent_text
-from comparisons.problem_file.description import ProblemFile
-from comparisons.problem_file.evaluation import PhysicalValue, evaluate_problem
-from comparisons.problem_file.units import si_text
+from comparisons.problem.problem import Problem
+from comparisons.problem.units import si_text
+from comparisons.runs.rows import Row
+from comparisons.runs.tasks import Task, evaluate_task
 
 __all__ = ["GROWTHS", "ProfileChange", "content", "lines", "profile_sensitivity"]
 
@@ -35,7 +35,7 @@ class ProfileChange:
     change, bound : float or None
         Of the force; None unless the status is "ok".
     status, reason : str
-        As of `PhysicalValue`.
+        As of `Row`.
 
     Examples
     --------
@@ -51,13 +51,13 @@ class ProfileChange:
     reason: str
 
 
-def profile_sensitivity(problem: ProblemFile, force: PhysicalValue) -> list[ProfileChange]:
+def profile_sensitivity(problem: Problem, force: Row) -> list[ProfileChange]:
     """Compute the pull-off force by the FSCM with half and double the smoothing, and with other exponents of growth.
 
     Parameters
     ----------
-    problem : ProblemFile
-    force : PhysicalValue
+    problem : Problem
+    force : Row
         Its pull-off force.
 
     Returns
@@ -67,21 +67,20 @@ def profile_sensitivity(problem: ProblemFile, force: PhysicalValue) -> list[Prof
 
     Examples
     --------
-    >>> from pathlib import Path
-    >>> from comparisons.problem_file.description import Section
+    >>> from comparisons.problem import Problem, Section
     >>> solid = Section("power-law", {"E0": 70e9, "c0": 1.0, "k": 0.0, "nu": 0.2})
     >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 3e-10})
-    >>> sphere = ProblemFile(Path("silica.toml"), solid, Section("sphere", {"R": 1e-6}), law)
-    >>> profile_sensitivity(sphere, evaluate_problem(sphere, "atlas", "pull_off_force"))
+    >>> sphere = Problem(solid, Section("sphere", {"R": 1e-6}), law)
+    >>> profile_sensitivity(sphere, evaluate("atlas", "pull_off_force", sphere))
     []
     """
     if problem.punch.kind != "table" or force.value is None or force.u_num is None:
         return []
     found = []
     for key, value in _others(problem):
-        values = {**problem.punch.values, key: value}
-        other = dataclasses.replace(problem, punch=dataclasses.replace(problem.punch, values=values))
-        changed = _force(other)
+        other = problem.with_value("punch", key, value)
+        # A failure with its reason where the other shape is not admissible.
+        changed = evaluate_task(Task("fscm", "pull_off_force", other))
         change = bound = None
         if changed.value is not None and changed.u_num is not None:
             change = relative_difference(changed.value, force.value)
@@ -90,19 +89,11 @@ def profile_sensitivity(problem: ProblemFile, force: PhysicalValue) -> list[Prof
     return found
 
 
-def _others(problem: ProblemFile) -> Iterator[tuple[str, float]]:
+def _others(problem: Problem) -> Iterator[tuple[str, float]]:
     smoothing = problem.punch.get("smoothing")
     if smoothing is not None:
         yield from (("smoothing", factor * smoothing) for factor in _FACTORS)
     yield from (("growth", growth) for growth in GROWTHS if growth != problem.punch.get("growth", _GROWTH))
-
-
-def _force(problem: ProblemFile) -> PhysicalValue:
-    """The force, or a failure with its reason where the other shape is not admissible."""
-    try:
-        return evaluate_problem(problem, "fscm", "pull_off_force")
-    except ValueError as error:
-        return PhysicalValue("fscm", "pull_off_force", {}, None, None, "N", "failed", str(error), 0.0)
 
 
 def content(found: list[ProfileChange]) -> list[dict[str, Any]]:

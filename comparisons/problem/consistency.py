@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import fscm
-from comparisons.problem_file.description import ProblemFile
-from comparisons.problem_file.dimensionless import dimensionless_problem
-from comparisons.problem_file.kinds import kind_of
-from comparisons.problem_file.source import Source
+from comparisons.problem.kinds import kind_of
+from comparisons.problem.problem import Problem
+from comparisons.problem.source import Source
 from fscm.punch import unit_of_radii
 
 __all__ = ["check_consistency"]
@@ -16,7 +15,7 @@ __all__ = ["check_consistency"]
 _RATIOS = 1e-3, 1e12
 
 
-def check_consistency(problem: ProblemFile, source: Source) -> None:
+def check_consistency(problem: Problem, source: Source) -> None:
     """Refuse a problem whose parts do not fit together.
 
     Raises
@@ -44,14 +43,14 @@ def check_consistency(problem: ProblemFile, source: Source) -> None:
             f"outside [{low:g}, {high:g}]; check the units of both",
         )
     try:
-        found, units = dimensionless_problem(problem)
+        mu, reach = problem.posed.mu, problem.units["displacement"]
     except ValueError as error:
         raise ValueError(f"{source.path}: {error}; check the values and their units") from None
     if problem.punch.kind == "table":
         # At pull-off the height of the shape at the contact edge is about mu z0 (1.2 times that for a sphere, by JKR),
         # and the law reaches further by its own range.
         height = problem.punch.columns["height"][-1] - problem.punch.columns["height"][0]
-        needed = (1.0 + found.mu) * units["displacement"]
+        needed = (1.0 + mu) * reach
         if height < needed:
             raise source.refusal(
                 "punch",

@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
-from comparisons import evaluate_problem, load_problem
+from comparisons import evaluate
 from comparisons.cli.main import main
-from comparisons.problem_file.propagation import propagated
-from comparisons.problem_file.schema import schema
-from comparisons.problem_file.uncertain import is_uncertain, uncertain_in_si
-from comparisons.problem_file.units import NotAValue
+from comparisons.description.propagation import propagated
+from comparisons.problem.reading import load_problem
+from comparisons.problem.schema import schema
+from comparisons.problem.uncertain import is_uncertain, uncertain_in_si
+from comparisons.problem.units import NotAValue
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples" / "problems"
 
@@ -132,7 +133,7 @@ def test_the_schema_takes_uncertain_numbers():
 def test_the_value_is_that_without_uncertainty(tmp_path):
     found = read(tmp_path, PAD)
     assert found.solid.values == {"E0": 1e9, "c0": 1e-7, "k": 0.3, "nu": 0.3}
-    assert found.parameters["punch"] == {"kind": "sphere", "R": 1e-7}
+    assert found.content["punch"] == {"kind": "sphere", "R": 1e-7}
     assert list(found.law.uncertain) == ["work_of_adhesion", "z0"]
     middle = read(tmp_path, PAD.replace("1 GPa +- 0.05 GPa", "[0.9, 1.1] GPa"))
     assert middle.solid["E0"] == 1e9
@@ -158,10 +159,9 @@ def draws(problem, found, count, seed):
         there, change = problem, 0.0
         for one in found.contributions:
             shift = generator.normal() * one.uncertainty.size
-            section = getattr(there, one.section).changed(one.key, one.value + shift)
-            there = type(there)(**{**vars(there), one.section: section})
+            there = there.with_value(one.section, one.key, one.value + shift)
             change += one.slope * shift
-        exact.append(evaluate_problem(there, "fscm", found.quantity).value)
+        exact.append(evaluate("fscm", found.quantity, there).value)
         linear.append(found.value + change)
     return np.array(exact), np.array(linear)
 
@@ -204,8 +204,8 @@ def test_intervals_give_a_range(tmp_path):
     sign = next(one.slope for one in found.contributions if one.key == "E0") > 0.0
     ends = []
     for R, E0 in ((9.5e-8, 0.9e9 if sign else 1.1e9), (1.05e-7, 1.1e9 if sign else 0.9e9)):
-        there = type(problem)(problem.path, problem.solid.changed("E0", E0), problem.punch.changed("R", R), problem.law)
-        ends.append(evaluate_problem(there, "fscm", "pull_off_force").value)
+        there = problem.with_value("solid", "E0", E0).with_value("punch", "R", R)
+        ends.append(evaluate("fscm", "pull_off_force", there).value)
     assert np.allclose(found.range.solved, ends, rtol=1e-9)
     assert np.allclose([found.range.low, found.range.high], ends, rtol=SECOND_ORDER)
 

@@ -1,0 +1,98 @@
+"""Evaluation of a model for a problem, in the units of the problem: SI, or dimensionless."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from comparisons.domain import declared_domain
+from comparisons.model import Model, NotApplicable, Result
+from comparisons.problem.problem import Problem
+from comparisons.quantities import ALL_QUANTITIES, QUANTITIES, Points, ScalarQuantity
+
+__all__ = ["REFERENCES", "SOLVERS", "dimensionless_result", "evaluated", "unit_of"]
+
+#: Models that solve the equations; every other one is a closed form or another approximation.
+REFERENCES = ("fscm", "fem", "fscm-stieltjes", "fscm-stieltjes-400", "atlas")
+
+#: Those that take every solid, punch and law.
+SOLVERS = ("fscm", "fem")
+
+
+def unit_of(problem: Problem, quantity: str) -> str:
+    """Return the unit of a quantity of a problem.
+
+    Examples
+    --------
+    >>> unit_of(Problem.dimensionless(2, 0, 1), "jump_in_gap")
+    'z0'
+    """
+    row = ALL_QUANTITIES[quantity]
+    return row.unit if problem.is_dimensionless else row.si_unit
+
+
+def evaluated(problem: Problem, model: Model, quantity: str) -> Result | Points:
+    """Return a quantity by a model, in the units of the problem.
+
+    A scalar of a model that knows n, k and mu alone is that of the equivalent power law where the solid is another one.
+
+    Raises
+    ------
+    NotApplicable, ComputationFailed
+        As the model; also if it does not take the problem.
+
+    Examples
+    --------
+    >>> from comparisons.models.bradley import Bradley
+    >>> evaluated(Problem.dimensionless(2, 0, 1), Bradley(), "pull_off_force").value
+    2.0
+    """
+    row = ALL_QUANTITIES[quantity]
+    if quantity in QUANTITIES and model.name not in REFERENCES and problem.has_other_solid_alone:
+        return _with_equivalent_solid(problem, model, quantity)
+    _check(problem, model, quantity)
+    found = row.evaluate(model, problem)
+    if isinstance(row, ScalarQuantity):
+        assert isinstance(found, Result)
+        return row.in_units(found, problem.units)
+    assert isinstance(found, Points)
+    return row.in_units(found, problem.units)
+
+
+def _with_equivalent_solid(problem: Problem, model: Model, quantity: str) -> Result:
+    """Evaluate a model that knows n, k and mu alone with the power law that stands for the solid of a problem."""
+    # Imported here: other problems do not need the spectrum of the elastic energy.
+    from comparisons.problem.equivalent_solid import equivalent_solids
+
+    with_law, coarser = equivalent_solids(problem)
+    result, other = (evaluated(each, model, quantity) for each in (with_law, coarser))
+    assert isinstance(result, Result)
+    assert isinstance(other, Result)
+    return replace(
+        result,
+        u_num=result.u_num + abs(result.value - other.value),
+        reason=f"with the equivalent power law of the {problem.solid.kind} solid, k = {with_law.solid['k']:.4f}",
+    )
+
+
+def _check(problem: Problem, model: Model, quantity: str) -> None:
+    """Raise `NotApplicable` where a model does not take the parts of a problem, or is outside its domain."""
+    if problem.is_of_the_paper:
+        domain = declared_domain(model)
+        if domain is not None and not domain.contains(quantity, problem.numbers):
+            raise NotApplicable(domain.refusal(quantity))
+    elif model.name not in SOLVERS:
+        raise NotApplicable(
+            f"{model.name} takes a power-law or homogeneous solid, a sphere, cone or power-law punch and the 9-3 law; "
+            f"this problem has a {problem.solid.kind} solid, a {problem.punch.kind} punch and a {problem.law.kind} law"
+        )
+    elif quantity == "critical_tabor_number":
+        raise NotApplicable("the critical Tabor number is that of a power-law solid and punch with the 9-3 law")
+
+
+def dimensionless_result(problem: Problem, quantity: str, result: Result) -> tuple[float, float, str] | None:
+    """Return value, u_num and unit of a result in SI in the units of the paper; None where these are not defined."""
+    row = QUANTITIES[quantity]
+    if problem.is_dimensionless or row.scale == "number" or not problem.has_power_punch:
+        return None
+    unit = problem.units[row.scale]
+    return result.value / unit, result.u_num / unit, row.unit

@@ -1,0 +1,339 @@
+"""The one problem of a model: a solid, a punch and a law, dimensionless or in SI."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from hashlib import sha256
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import fscm
+from comparisons.model import NotApplicable
+from comparisons.numerics.number_text import case_text
+from comparisons.problem.kinds import SECTIONS, kind_of
+from comparisons.problem.uncertain import Uncertainty
+
+__all__ = ["PARAMETERS", "Problem", "Section", "split_name"]
+
+#: Parameters of a dimensionless problem; nu is optional.
+PARAMETERS = ("n", "k", "mu", "nu")
+
+#: Between the name of a problem file and the values of its keys.
+_BETWEEN = "; "
+
+
+@dataclass(frozen=True)
+class Section:
+    """The solid, the punch or the law of a problem.
+
+    Attributes
+    ----------
+    kind : str
+    values : mapping of str to float, tuple of float or str
+        Numbers in SI, lists of them, and the name of the file of a table.
+    columns : mapping of str to tuple of float
+        The columns of that file, in SI.
+    uncertain : mapping of str to Uncertainty
+        Of the values that have a standard deviation or an interval.
+
+    Examples
+    --------
+    >>> Section("sphere", {"R": 1e-6})["R"]
+    1e-06
+    """
+
+    kind: str
+    values: Mapping[str, Any]
+    columns: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    uncertain: Mapping[str, Uncertainty] = field(default_factory=dict)
+
+    def __getitem__(self, key: str) -> Any:
+        return self.values[key]
+
+    def get(self, key: str, default: Any = None) -> Any:
+        """Return a value, or the default where there is none."""
+        return self.values.get(key, default)
+
+    @property
+    def content(self) -> dict[str, Any]:
+        """The kind and the values, for output."""
+        return {"kind": self.kind, **self.values}
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Adhesive contact of a rigid punch with a half-space: what every model is evaluated for.
+
+    `Problem.dimensionless` and `Problem.load` make one.
+
+    Attributes
+    ----------
+    solid, punch, law : Section
+    parameters : mapping of str to float or str
+        The named values that a table shows: n, k, mu and perhaps nu of a dimensionless problem; the varied keys of a
+        file in SI, by the names of their columns.
+    name : str
+        The name of the file with the values of its varied keys; empty for a dimensionless problem.
+    path : Path, optional
+        The file that was read.
+    digest : str
+        SHA-256 of the content of a file, whose name does not matter; empty where the parameters say all.
+
+    Examples
+    --------
+    >>> problem = Problem.dimensionless(n=2, k=0.4, mu=1)
+    >>> problem.label, problem.solid.kind, problem.mu
+    ('n = 2, k = 0.4, mu = 1', 'power-law', 1.0)
+    """
+
+    solid: Section
+    punch: Section
+    law: Section
+    parameters: Mapping[str, float | str] = field(default_factory=dict)
+    name: str = ""
+    path: Path | None = None
+    digest: str = field(init=False, default="")
+
+    def __post_init__(self) -> None:
+        if not self.is_dimensionless:
+            content = [[part.kind, dict(part.values), dict(part.columns)] for part in self._sections.values()]
+            text = json.dumps(content, sort_keys=True, default=str)
+            object.__setattr__(self, "digest", sha256(text.encode()).hexdigest())
+
+    @classmethod
+    def dimensionless(cls, n: float, k: float, mu: float, nu: float | None = None) -> Problem:
+        """Return the problem of a power-law solid and punch with the 9-3 law.
+
+        Parameters
+        ----------
+        n, k, mu : float
+            Shape index, gradient exponent and Tabor number (see `fscm.Problem`).
+        nu : float, optional
+            Poisson's ratio in [0, 0.5), for models that solve the physical problem; None leaves it to them.
+
+        Raises
+        ------
+        ValueError
+            With the value, the admissible range and the reason.
+        """
+        if nu is not None and not 0 <= nu < 0.5:
+            raise ValueError(
+                f"Poisson's ratio nu = {nu:g} is not in [0, 0.5): "
+                "at 0.5 the solid is incompressible and displacements alone do not give the stress"
+            )
+        posed = fscm.Problem(float(n), float(k), float(mu))
+        numbers = {"n": posed.n, "k": posed.k, "mu": posed.mu} | ({} if nu is None else {"nu": float(nu)})
+        solid = Section("power-law", {name: numbers[name] for name in ("k", "nu") if name in numbers})
+        return cls(solid, Section("power-law", {"n": posed.n}), Section("lennard-jones-9-3", {}), numbers)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Problem:
+        """Read a problem file; see `comparisons.problem.reading.load_problem`."""
+        # Imported here: a dimensionless problem needs no reader of files.
+        from comparisons.problem.reading import load_problem
+
+        return load_problem(path)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Problem) and (self.digest, self.key) == (other.digest, other.key)
+
+    def __hash__(self) -> int:
+        return hash((self.digest, self.key))
+
+    def __lt__(self, other: Problem) -> bool:
+        return self._order < other._order
+
+    def __getitem__(self, key: str) -> Any:
+        """Return a parameter, or the value of a key as "solid.E0", None if there is none.
+
+        ``solid.kind`` is the kind of the solid, and ``solid.thickness.2`` the second entry of a list.
+        """
+        name, _, key_of_section = key.partition(".")
+        if not key_of_section:
+            return self.parameters.get(key)
+        section = self._sections[name]
+        key, _, number = key_of_section.partition(".")
+        value = section.content.get(key)
+        if number and isinstance(value, tuple) and 1 <= int(number) <= len(value):
+            return value[int(number) - 1]
+        return None if number else value
+
+    @property
+    def _sections(self) -> dict[str, Section]:
+        return {name: getattr(self, name) for name in SECTIONS}
+
+    @property
+    def _order(self) -> tuple[float | str, ...]:
+        """What problems are sorted by: n, k, mu and nu, those of files after the others."""
+        n, k, mu, nu = (self[name] for name in PARAMETERS)
+        numbers = (math.inf if number is None else number for number in (n, k, mu))
+        return *numbers, -1.0 if nu is None else nu, self.name
+
+    @property
+    def is_dimensionless(self) -> bool:
+        """Whether n, k and mu state the problem."""
+        return "mu" in self.parameters
+
+    @property
+    def label(self) -> str:
+        """The name, or else the parameters, in one line for people."""
+        return self.name or case_text(self.parameters)
+
+    @property
+    def content(self) -> dict[str, Any]:
+        """The content for output: the name of the file and the three sections."""
+        sections = {name: section.content for name, section in self._sections.items()}
+        return {"file": "" if self.path is None else self.path.name, **sections}
+
+    @property
+    def key(self) -> tuple[float | None, float | None, float | None, float | None, str]:
+        """The values of the columns of a table that identify a problem."""
+        n, k, mu, nu = (self[name] for name in PARAMETERS)
+        return n, k, mu, nu, self.name
+
+    @property
+    def tables(self) -> list[str]:
+        """The names of the files of its tables."""
+        return [section["file"] for section in self._sections.values() if "file" in section.values]
+
+    @property
+    def uncertain(self) -> dict[tuple[str, str], Uncertainty]:
+        """What is uncertain, by section and key."""
+        sections = self._sections.items()
+        return {(name, key): each for name, section in sections for key, each in section.uncertain.items()}
+
+    def _is_of_the_paper(self, *names: str) -> bool:
+        return all(kind_of(name, self._sections[name].kind).is_of_the_paper for name in names)
+
+    @property
+    def is_of_the_paper(self) -> bool:
+        """Whether it is the problem of three numbers n, k and mu, which every model takes."""
+        return self._is_of_the_paper(*SECTIONS)
+
+    @property
+    def has_power_punch(self) -> bool:
+        """Whether the punch is r^n / (n Q), so that the units of the paper are defined."""
+        return self._is_of_the_paper("punch")
+
+    @property
+    def has_power_law(self) -> bool:
+        """Whether the solid is E0 (z/c0)^k."""
+        return self._is_of_the_paper("solid")
+
+    @property
+    def has_other_solid_alone(self) -> bool:
+        """Whether only the solid keeps it from being the problem of three numbers."""
+        return not self.has_power_law and self._is_of_the_paper("punch", "law")
+
+    @property
+    def n(self) -> float:
+        """Shape index; `NotApplicable` where solid or punch is no power law, as for `k` and `mu`."""
+        return self._number("n")
+
+    @property
+    def k(self) -> float:
+        """Gradient exponent."""
+        return self._number("k")
+
+    @property
+    def mu(self) -> float:
+        """Generalised Tabor number (Eq. 29)."""
+        return self._number("mu")
+
+    @property
+    def nu(self) -> float | None:
+        """Poisson's ratio of a problem of the paper; None if a dimensionless one does not prescribe it."""
+        return self.solid.get("nu") if self.is_of_the_paper else None
+
+    def _number(self, name: str) -> float:
+        if not self._is_of_the_paper("solid", "punch"):
+            raise NotApplicable(
+                f"{self.label} has no {name}: its solid is of the kind {self.solid.kind} and its punch of the kind "
+                f"{self.punch.kind}; n, k and mu are those of power laws"
+            )
+        return float(getattr(self.posed, name))
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """Values of n, k, mu and nu, without nu if it is not prescribed."""
+        numbers = {"n": self.n, "k": self.k, "mu": self.mu}
+        return numbers if self.nu is None else {**numbers, "nu": self.nu}
+
+    def build(self, solver: ModuleType) -> Any:
+        """Return the physical problem of a solver, `fscm` or `fem_reference`, in SI.
+
+        Raises
+        ------
+        ValueError
+            If it is outside of what the solver admits.
+        """
+        return solver.Problem(*(kind_of(name, part.kind).build(solver, part) for name, part in self._sections.items()))
+
+    @property
+    def posed(self) -> fscm.Problem:
+        """The dimensionless problem of `fscm`.
+
+        Examples
+        --------
+        >>> solid = Section("power-law", {"E0": 70e9, "c0": 1.0, "k": 0.0, "nu": 0.2})
+        >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 3e-10})
+        >>> silica = Problem(solid, Section("sphere", {"R": 1e-6}), law)
+        >>> round(silica.posed.mu, 6), silica.units["displacement"]
+        (0.259204, 3e-10)
+        """
+        return _of_fscm(self).dimensionless
+
+    @property
+    def units(self) -> Mapping[str, float]:
+        """What a dimensionless value is multiplied by, by kind, as of `fscm.Problem.units`."""
+        return _of_fscm(self).units
+
+    def at(self, parameters: Mapping[str, float]) -> Problem:
+        """Return a dimensionless problem with other values of some parameters.
+
+        Examples
+        --------
+        >>> Problem.dimensionless(2, 0.4, 1.0).at({"k": 1.0}).label
+        'n = 2, k = 1, mu = 1'
+        """
+        values: dict[str, Any] = {**self.parameters, **parameters}
+        return Problem.dimensionless(**values) if parameters else self
+
+    def without_nu(self) -> Problem:
+        """Return a dimensionless problem without Poisson's ratio; any other is the same without a change."""
+        return Problem.dimensionless(self.n, self.k, self.mu) if "nu" in self.parameters else self
+
+    def with_value(self, section: str, key: str, value: float) -> Problem:
+        """Return the problem with another value of a key, in SI."""
+        part = self._sections[section]
+        changed: dict[str, Any] = {section: replace(part, values={**part.values, key: value})}
+        return replace(self, **changed)
+
+    def varied(self, name: str, texts: Iterable[str], parameters: Mapping[str, float | str]) -> Problem:
+        """Return the problem with the name of its file and the values of its varied keys."""
+        return replace(self, name=_BETWEEN.join([name, *texts]), parameters=parameters)
+
+
+@lru_cache(maxsize=1024)
+def _of_fscm(problem: Problem) -> fscm.Problem:
+    if problem.is_dimensionless:
+        return fscm.Problem(problem["n"], problem["k"], problem["mu"])
+    posed: fscm.Problem = problem.build(fscm)
+    return posed
+
+
+def split_name(name: str) -> list[str]:
+    """Return the name of the file, and the values of its varied keys, of the name of a problem.
+
+    Examples
+    --------
+    >>> split_name("pad.toml; solid.thickness=12 nm")
+    ['pad.toml', 'solid.thickness=12 nm']
+    """
+    return name.split(_BETWEEN)

@@ -1,1 +1,0 @@
-"""Problems in physical units, read from a file, and their values by each model."""
