@@ -89,6 +89,7 @@ def equivalent_power_law(problem: Problem, force: Row) -> EquivalentPowerLaw | N
 
     Examples
     --------
+    >>> from comparisons.problem import Section
     >>> solid = Section("exponential", {"E_surface": 1e9, "E_depth": 3e9, "length": 1e-8, "nu": 0.3})
     >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 4e-10})
     >>> pad = Problem(solid, Section("sphere", {"R": 1e-7}), law)

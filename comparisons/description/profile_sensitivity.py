@@ -67,7 +67,8 @@ def profile_sensitivity(problem: Problem, force: Row) -> list[ProfileChange]:
 
     Examples
     --------
-    >>> from comparisons.problem import Problem, Section
+    >>> from comparisons import evaluate
+    >>> from comparisons.problem import Section
     >>> solid = Section("power-law", {"E0": 70e9, "c0": 1.0, "k": 0.0, "nu": 0.2})
     >>> law = Section("lennard-jones-9-3", {"work_of_adhesion": 0.05, "z0": 3e-10})
     >>> sphere = Problem(solid, Section("sphere", {"R": 1e-6}), law)

@@ -85,7 +85,7 @@ def complete(grid, out, undisturbed):
     after = lines(out)
     assert after[: len(before)] == before
     entries = [json.loads(line)["entry"]["item"] for line in after[1:]]
-    keys = [tuple(entry[name] for name in ("model", "quantity", "n", "k", "mu")) for entry in entries]
+    keys = [(entry["model"], entry["quantity"], *entry["parameters"].values()) for entry in entries]
     assert len(set(keys)) == len(keys) == ROWS
     assert tables(out) == undisturbed
     record = json.loads((out / "run.json").read_text())

@@ -221,7 +221,7 @@ def test_processes_give_the_rows_of_one_process():
 
 def test_a_row_names_the_case_and_the_work(toys):
     row = evaluate_task(Task("exact", "pull_off_force", Problem.dimensionless(2, 0.4, 1, 0.25)))
-    assert (row.n, row.k, row.mu, row.nu) == (2, 0.4, 1, 0.25)
+    assert row.parameters == {"n": 2, "k": 0.4, "mu": 1, "nu": 0.25}
     assert (row.value, row.u_num, row.size, row.iterations, row.residual) == (2.0, 1e-9, 3, 2, 1e-12)
     assert (row.model_version, row.unit, row.status, row.reason) == (
         "7",

@@ -355,12 +355,11 @@ def test_the_code_computes_what_is_committed():
     tasks = plan(GRIDS)
     assert {task.key[:5] for task in tasks if task.quantity not in CURVE_QUANTITIES} == stored
     chosen = [t for t in tasks if t.model not in slow and t.quantity not in CURVE_QUANTITIES][::7]
-    chosen += [
-        t for t in tasks if t.model == "fscm" and t.quantity == "pull_off_force" and t.case.n == 5 and t.case.k == 0.2
-    ][::4]
-    chosen += [t for t in tasks if t.model == "fscm" and t.case.n == 2 and t.case.k == 1]
+    of_fscm = [t for t in tasks if t.model == "fscm"]
+    chosen += [t for t in of_fscm if t.quantity == "pull_off_force" and (t.problem.n, t.problem.k) == (5, 0.2)][::4]
+    chosen += [t for t in of_fscm if (t.problem.n, t.problem.k) == (2, 1)]
     # Soft: the path has shallow folds, of which the first is the jump.
-    chosen += [t for t in tasks if t.model == "fscm" and t.quantity == "jump_in_displacement" and t.case.mu == 5]
+    chosen += [t for t in of_fscm if t.quantity == "jump_in_displacement" and t.problem.mu == 5]
     chosen += [t for t in tasks if t.model == "fscm-stieltjes-400"][:1]
     found = drift(ROWS, frame(evaluate_task(task) for task in chosen))
     assert found.empty, found.to_string()

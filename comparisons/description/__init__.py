@@ -1,0 +1,1 @@
+"""Description of a problem: errors of the closed forms, equivalent power law, uncertainty."""
