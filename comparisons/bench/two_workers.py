@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from comparisons.bench.drawing import bars
 from comparisons.bench.part import Numbers, Part, Settings
-from comparisons.runs.cases import Case
+from comparisons.problem import Problem
 from comparisons.runs.tasks import Task, evaluate_task
 from comparisons.runs.workers import processes
 
@@ -42,13 +42,15 @@ def plan(full: bool) -> list[Settings]:
 
 def _sweep(model: str, cases: int) -> list[Task]:
     numbers = np.geomspace(*_MU, -(-cases // len(_EXPONENTS)))
-    tasks = [Task(model, "pull_off_force", Case(2.0, k, float(mu))) for mu in numbers for k in _EXPONENTS]
+    tasks = [
+        Task(model, "pull_off_force", Problem.dimensionless(2.0, k, float(mu))) for mu in numbers for k in _EXPONENTS
+    ]
     return tasks[:cases]
 
 
 def _exponent(task: Task) -> float:
     """Return what the tables of the solver depend on."""
-    return task.case.k
+    return task.problem.k
 
 
 #: Whether this process has evaluated a task.
