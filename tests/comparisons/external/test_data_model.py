@@ -75,7 +75,9 @@ def test_what_is_wrong_is_refused_with_its_place(write_data, capsys, monkeypatch
     folder = write_data(**wrong)
     built = []
     real = data_model.Problem.dimensionless
-    monkeypatch.setattr(data_model.Problem, "dimensionless", lambda *case: built.append(case) or real(*case))
+    monkeypatch.setattr(
+        data_model.Problem, "dimensionless", lambda *case, **numbers: built.append(case) or real(*case, **numbers)
+    )
     assert main(["solve", "--model", str(folder), *FORCE]) == 2
     shown = capsys.readouterr()
     assert sentence in shown.err
